@@ -1,0 +1,28 @@
+"""Names for the array types that every stage passes on, and the one ragged-array idiom.
+
+Ragged arrays (vertices of blocks, corners of faces, contact points of interfaces) are stored flat with
+a ``start`` array of n + 1 offsets: the items of row i are ``flat[start[i]:start[i + 1]]``.
+"""
+
+from __future__ import annotations
+
+from typing import TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+FloatArray: TypeAlias = NDArray[np.float64]
+IntArray: TypeAlias = NDArray[np.int64]
+BoolArray: TypeAlias = NDArray[np.bool_]
+
+
+def starts(counts: IntArray) -> IntArray:
+    """Offsets of a ragged array, (n + 1,), from the number of items of each row, (n,)."""
+    start = np.zeros(len(counts) + 1, dtype=np.int64)
+    np.cumsum(counts, out=start[1:])
+    return start
+
+
+def row_of_item(start: IntArray) -> IntArray:
+    """Row to which each item of a ragged array belongs, (n_items,)."""
+    return np.repeat(np.arange(len(start) - 1), np.diff(start))

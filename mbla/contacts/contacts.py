@@ -1,0 +1,77 @@
+"""Contacts as arrays: interfaces between bodies, and the contact points at their corners."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+from mbla.arrays import FloatArray, IntArray, row_of_item
+from mbla.errors import Notice
+
+
+@dataclass(frozen=True)
+class Contacts:
+    """Interfaces sorted by (body a, body b, position); body a < body b, but ground is always body a.
+
+    bodies       : (n_interfaces, 2)  bodies a and b; block index, or len(blocks) + index of a ground plane
+    normals      : (n_interfaces, 3)  unit, from a to b
+    areas        : (n_interfaces,) m2
+    centroids    : (n_interfaces, 3) m
+    gaps         : (n_interfaces,) m  greatest distance between the two faces over the interface, negative where they overlap
+    joints       : (n_interfaces,)    row of ``joint_names``
+    joint_names  : joint laws in use
+    point_start  : (n_interfaces + 1,) contact points of interface i are points[point_start[i]:point_start[i + 1]]
+    outline      : (n_interfaces,)    how many of them form the outer boundary, in order, counter-clockwise about the
+                   normal; the rest are corners of holes
+    points       : (n_points, 3) m
+    frames       : (n_points, 3, 3)   rows: normal, tangent 1, tangent 2; right-handed; the same for all points of an interface
+    point_areas  : (n_points,) m2     share of the interface area: sums to the area, first moment about the centroid zero
+    """
+
+    bodies: IntArray
+    normals: FloatArray
+    areas: FloatArray
+    centroids: FloatArray
+    gaps: FloatArray
+    joints: IntArray
+    joint_names: tuple[str, ...]
+    point_start: IntArray
+    outline: IntArray
+    points: FloatArray
+    frames: FloatArray
+    point_areas: FloatArray
+    report: ContactReport
+
+    def __len__(self) -> int:
+        return len(self.areas)
+
+    @cached_property
+    def interface_of_point(self) -> IntArray:
+        """(n_points,)."""
+        return row_of_item(self.point_start)
+
+
+@dataclass(frozen=True)
+class ContactReport:
+    """What the search saw besides the contacts it kept; blocks as body numbers.
+
+    slivers        : (n, 2) bodies of common surfaces dropped because they are thinner than the tolerance
+    sliver_widths  : (n,) relative to block size
+    near_misses    : (n, 2) bodies with opposite faces that miss each other by 1 to 10 times the tolerance
+    near_miss_gaps : (n,) relative to block size
+    overlaps       : (n, 2) blocks that share volume deeper than the tolerance
+    overlap_depths : (n,) relative to block size
+    isolated       : blocks without any contact
+    unsupported    : connected parts that reach no support, each a sorted array of blocks (blocks without contact included)
+    notices        : the above in words
+    """
+
+    slivers: IntArray
+    sliver_widths: FloatArray
+    near_misses: IntArray
+    near_miss_gaps: FloatArray
+    overlaps: IntArray
+    overlap_depths: FloatArray
+    isolated: IntArray
+    unsupported: tuple[IntArray, ...]
+    notices: tuple[Notice, ...]

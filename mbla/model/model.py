@@ -1,0 +1,94 @@
+"""The model: blocks, supports, joint laws and load cases, all as arrays in the deck's units."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from mbla.arrays import BoolArray, FloatArray, IntArray
+from mbla.deck.units import Units
+from mbla.errors import Notice
+from mbla.model.blocks import Blocks
+
+
+@dataclass(frozen=True)
+class Joint:
+    """Joint law; stresses in the deck's units (Pa), compressive strength inf where unlimited."""
+
+    name: str
+    friction: float
+    cohesion: float = 0.0
+    tensile_strength: float = 0.0
+    compressive_strength: float = np.inf
+    dilatancy: float = 0.0
+    """tangent of the dilatancy angle"""
+
+
+@dataclass(frozen=True)
+class Ground:
+    """Rigid ground behind a plane.
+
+    point, normal : (3,) a point on the plane; unit normal towards the structure
+    joint         : name of the joint law on it
+    blocks        : blocks that it may carry, sorted; None for all
+    label         : how messages call it (``ground z = 0``)
+    """
+
+    point: FloatArray
+    normal: FloatArray
+    joint: str
+    blocks: IntArray | None
+    label: str
+
+
+@dataclass(frozen=True)
+class LoadCase:
+    """Loads of one case on every block, about its centroid.
+
+    dead_load, live_load : (n_blocks, 6) force N and moment N m, also on fixed blocks (they go into the support)
+    dead_words, live_words : the loads in words, for the listing
+    """
+
+    name: str
+    dead_load: FloatArray
+    live_load: FloatArray
+    dead_words: tuple[str, ...]
+    live_words: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class Model:
+    """A structure and what acts on it.
+
+    Bodies are numbered: block b is body b, ground g is body len(blocks) + g.
+
+    fixed       : (n_blocks,) blocks that do not move
+    joints      : joint laws by name
+    load_cases  : in the order of the deck
+    notices     : repairs and remarks from building it
+    """
+
+    title: str
+    units: Units
+    blocks: Blocks
+    fixed: BoolArray
+    grounds: tuple[Ground, ...]
+    joints: dict[str, Joint]
+    load_cases: tuple[LoadCase, ...]
+    notices: tuple[Notice, ...]
+
+    @property
+    def free(self) -> IntArray:
+        """Blocks that can move, in order, (n_free,)."""
+        return np.flatnonzero(~self.fixed)
+
+    @property
+    def total_weight(self) -> float:
+        """Weight of all blocks under standard gravity, 9.81 m/s2, in the deck's unit of force."""
+        return float(self.blocks.masses.sum() * self.units.standard_gravity * self.units.force_per_mass_acceleration)
+
+    def body_name(self, body: int) -> str:
+        """Name of a block, or label of a ground plane."""
+        n_blocks = len(self.blocks)
+        return self.blocks.name(body) if body < n_blocks else self.grounds[body - n_blocks].label
