@@ -1,1 +1,1 @@
-
+"""The model stage: from a checked deck to blocks, supports and loads as arrays."""

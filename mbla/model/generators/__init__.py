@@ -1,1 +1,1 @@
-
+"""Generators: each turns an item of the deck into raw polyhedra."""

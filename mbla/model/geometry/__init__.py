@@ -1,1 +1,1 @@
-
+"""Geometry files: one reader per file, registered by extension."""

@@ -1,0 +1,228 @@
+"""Blocks from raw polyhedra: orient, measure, refuse what is no block."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from mbla.arrays import BoolArray, FloatArray, IntArray
+from mbla.errors import MblaError, Notice
+from mbla.model.blocks import Blocks
+from mbla.model.convexity import find_convex
+from mbla.model.defects import (
+    Defect,
+    Extents,
+    coordinate_defects,
+    corner_defects,
+    edge_defects,
+    find_extents,
+    mark,
+    planarity_defects,
+    size_defects,
+)
+from mbla.model.face_geometry import FaceGeometry, face_geometry
+from mbla.model.facets import find_facets
+from mbla.model.orientation import Edges, count_pieces, faces_to_turn, find_edges
+from mbla.model.polyhedra import Polyhedra, drop_unused_vertices, polyhedra_from_lists, take_polyhedra, turn_faces
+from mbla.model.self_intersection import intersection_defects
+from mbla.model.volumes import volumes_and_centroids
+
+NAMED = 5
+"""blocks that a notice names before it only counts them"""
+PLANAR = 1e-9
+"""departure of a corner from the plane of its face, relative to block size, that is rounding and not reported"""
+
+
+@dataclass(frozen=True)
+class Labels:
+    """What blocks are called and made of: ``groups`` (n,), ``group_indices`` (n,), ``densities`` (n,)."""
+
+    groups: tuple[str, ...]
+    group_indices: IntArray
+    densities: FloatArray
+
+    def name(self, block: int) -> str:
+        """As ``Blocks.name``."""
+        return f"{self.groups[block]}[{self.group_indices[block]}]"
+
+
+@dataclass(frozen=True)
+class BuiltBlocks:
+    """Blocks, and what was found on the way.
+
+    Where there are ``defects`` the blocks that have one carry meaningless measures.
+    """
+
+    blocks: Blocks
+    notices: tuple[Notice, ...]
+    defects: tuple[Defect, ...]
+
+
+def blocks_from_polyhedra(
+    vertex_lists: Sequence[Sequence[Sequence[float]] | FloatArray],
+    face_lists: Sequence[Sequence[Sequence[int]]],
+    groups: Sequence[str] | str = "block",
+    densities: Sequence[float] | float = 1.0,
+    tolerance: float = 1e-3,
+) -> Blocks:
+    """Blocks from a list of points and a list of faces (corners as indices from 0, any orientation) for each.
+
+    groups, densities : one for all, or one for each
+    tolerance : of planarity, relative to block size
+
+    Raises
+    ------
+    MblaError
+        for polyhedra that are open, not planar, degenerate or pass through themselves
+    """
+    polyhedra = polyhedra_from_lists(vertex_lists, face_lists)
+    names = (groups,) * len(polyhedra) if isinstance(groups, str) else tuple(groups)
+    density = np.broadcast_to(np.asarray(densities, dtype=np.float64), (len(polyhedra),)).copy()
+    built = build_blocks(polyhedra, Labels(names, indices_in_groups(names), density), tolerance)
+    if built.defects:
+        raise MblaError("\n".join(f"block {built.blocks.name(d.block)}: {d.message}" for d in built.defects))
+    return built.blocks
+
+
+def indices_in_groups(groups: Sequence[str]) -> IntArray:
+    """Position of each block in its group, from 0, (n,)."""
+    codes = np.unique(np.array(groups, dtype=np.str_), return_inverse=True)[1]
+    order = np.argsort(codes, kind="stable")
+    counts = np.bincount(codes)
+    indices = np.empty(len(codes), dtype=np.int64)
+    indices[order] = np.arange(len(codes)) - np.repeat(np.cumsum(counts) - counts, counts)
+    return indices
+
+
+def build_blocks(polyhedra: Polyhedra, labels: Labels, tolerance: float) -> BuiltBlocks:
+    """Blocks from polyhedra with faces in any orientation.
+
+    tolerance : of planarity and of facets, relative to block size
+
+    The checks follow each other, and a block that fails one is left out of the next: an open block has no volume to
+    judge. Everything is done for all blocks at once.
+    """
+    polyhedra, unused = drop_unused_vertices(polyhedra)
+    polyhedra, defects = _without_wild_coordinates(polyhedra)
+    extents = find_extents(polyhedra)
+    defects += _among_sound(defects, corner_defects(polyhedra, extents), len(polyhedra))
+    edges = find_edges(polyhedra)
+    polyhedra, turned, found = _oriented(polyhedra, edges)
+    defects += _among_sound(defects, found, len(polyhedra))
+    volumes, centroids = volumes_and_centroids(polyhedra)
+    faces = face_geometry(polyhedra)
+    sizes = np.cbrt(volumes)
+    defects += _among_sound(defects, size_defects(polyhedra, faces, volumes, extents), len(polyhedra))
+    defects += _among_sound(defects, planarity_defects(polyhedra, faces, sizes, tolerance), len(polyhedra))
+    sound = ~mark(defects, len(polyhedra))
+    convex = find_convex(polyhedra, faces, tolerance * sizes) & sound
+    defects += _self_intersections(polyhedra, np.flatnonzero(sound & ~convex))
+    facets = (
+        np.arange(len(polyhedra.block_of_face)) if defects else find_facets(polyhedra, edges, faces, tolerance * sizes)
+    )
+    blocks = Blocks(
+        vertices=polyhedra.vertices,
+        vertex_start=polyhedra.vertex_start,
+        loops=polyhedra.loops,
+        loop_start=polyhedra.loop_start,
+        face_start=polyhedra.face_start,
+        facet_of_face=facets,
+        face_normals=faces.normals,
+        convex=convex,
+        volumes=volumes,
+        centroids=centroids,
+        densities=labels.densities,
+        groups=labels.groups,
+        group_indices=labels.group_indices,
+    )
+    notices = (
+        *_unused_vertices(unused, labels),
+        *_turned_faces(polyhedra, turned, labels),
+        *_bent_faces(polyhedra, faces, sizes, extents, labels),
+    )
+    return BuiltBlocks(blocks, notices, tuple(sorted(defects, key=lambda defect: defect.block)))
+
+
+def _among_sound(defects: list[Defect], found: list[Defect], n_blocks: int) -> list[Defect]:
+    """Those of the defects found that are on blocks without an earlier one."""
+    marked = mark(defects, n_blocks)
+    return [defect for defect in found if not marked[defect.block]]
+
+
+def _without_wild_coordinates(polyhedra: Polyhedra) -> tuple[Polyhedra, list[Defect]]:
+    defects = coordinate_defects(polyhedra)
+    if not defects:
+        return polyhedra, defects
+    wild = mark(defects, len(polyhedra))[polyhedra.block_of_vertex]
+    return replace(polyhedra, vertices=np.where(wild[:, None], 0.0, polyhedra.vertices)), defects
+
+
+def _oriented(polyhedra: Polyhedra, edges: Edges) -> tuple[Polyhedra, BoolArray, list[Defect]]:
+    """The polyhedra with faces outwards, the faces turned for it (n_faces,), and what cannot be oriented."""
+    defects = edge_defects(polyhedra, edges)
+    pieces = count_pieces(polyhedra, edges)
+    defects += _among_sound(
+        defects,
+        [Defect(int(b), f"is {pieces[b]} separate pieces: each must be a block") for b in np.flatnonzero(pieces > 1)],
+        len(polyhedra),
+    )
+    turned, one_sided = faces_to_turn(polyhedra, edges)
+    message = "is one-sided: its faces cannot all be turned outwards"
+    defects += _among_sound(
+        defects, [Defect(int(block), message) for block in np.flatnonzero(one_sided)], len(polyhedra)
+    )
+    volumes, _ = volumes_and_centroids(turn_faces(polyhedra, turned))
+    turned = turned ^ (volumes < 0)[polyhedra.block_of_face]
+    return turn_faces(polyhedra, turned), turned, defects
+
+
+def _self_intersections(polyhedra: Polyhedra, blocks: IntArray) -> list[Defect]:
+    if not len(blocks):
+        return []
+    chosen = take_polyhedra(polyhedra, blocks)
+    extents: Extents = find_extents(chosen)
+    found = intersection_defects(chosen, find_edges(chosen), face_geometry(chosen), extents)
+    return [replace(defect, block=int(blocks[defect.block])) for defect in found]
+
+
+def _unused_vertices(unused: IntArray, labels: Labels) -> list[Notice]:
+    blocks = np.flatnonzero(unused)
+    if not len(blocks):
+        return []
+    words = f"{int(unused.sum())} vertices that no face uses were left out in {_blocks_in_words(blocks, labels)}"
+    return [Notice("notice", "vertices-unused", words)]
+
+
+def _turned_faces(polyhedra: Polyhedra, turned: BoolArray, labels: Labels) -> list[Notice]:
+    blocks = np.unique(polyhedra.block_of_face[turned])
+    if not len(blocks):
+        return []
+    words = f"{int(turned.sum())} faces were turned outwards in {_blocks_in_words(blocks, labels)}"
+    return [Notice("notice", "faces-turned-outwards", words)]
+
+
+def _bent_faces(
+    polyhedra: Polyhedra, faces: FaceGeometry, sizes: FloatArray, extents: Extents, labels: Labels
+) -> list[Notice]:
+    limit = np.maximum(PLANAR * sizes, 8 * extents.rounding)[polyhedra.block_of_face]
+    bent = np.flatnonzero(faces.deviations > limit)
+    if not len(bent):
+        return []
+    block = polyhedra.block_of_face[bent]
+    relative = faces.deviations[bent] / sizes[block]
+    worst = int(np.argmax(relative))
+    number = int(bent[worst] - polyhedra.face_start[block[worst]])
+    words = (
+        f"{len(bent)} faces of {_blocks_in_words(np.unique(block), labels)} are planar only within the tolerance; the "
+        f"worst, face {number} of {labels.name(int(block[worst]))}, by {relative[worst]:.2g} of the block size; each "
+        "is taken as the plane fitted to its corners"
+    )
+    return [Notice("notice", "faces-not-quite-planar", words)]
+
+
+def _blocks_in_words(blocks: IntArray, labels: Labels) -> str:
+    names = ", ".join(labels.name(int(block)) for block in blocks[:NAMED])
+    more = f" and {len(blocks) - NAMED} more" if len(blocks) > NAMED else ""
+    return f"{len(blocks)} block{'s' if len(blocks) > 1 else ''} ({names}{more})"

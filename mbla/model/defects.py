@@ -1,0 +1,187 @@
+"""What makes a polyhedron unfit to be a block, and the checks that need no orientation.
+
+Every limit is relative to the block: to the diagonal of its bounding box, and to the digits that its distance from
+the origin leaves. Thin blocks are blocks: a plate or a needle of slenderness 1e-4 passes.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from mbla.arrays import BoolArray, FloatArray, IntArray
+from mbla.model.face_geometry import FaceGeometry
+from mbla.model.orientation import Edges
+from mbla.model.polyhedra import Polyhedra
+from mbla.model.ragged import row_maxima, row_sums
+
+LARGEST_COORDINATE = 1e50
+"""beyond it volumes overflow"""
+SAME_POINT = 1e-9
+"""distance of two vertices, relative to the diagonal, at which they are one"""
+NO_AREA, NO_VOLUME = 1e-12, 1e-12
+"""area over diagonal squared, volume over diagonal cubed"""
+
+
+@dataclass(frozen=True)
+class Defect:
+    """One reason why a block is refused; ``face`` is the number of the face in its block, where it is about one."""
+
+    block: int
+    message: str
+    face: int | None = None
+
+
+@dataclass(frozen=True)
+class Extents:
+    """Measures of each polyhedron, (n,) length: ``diagonals`` of bounding boxes, ``rounding`` of the coordinates."""
+
+    diagonals: FloatArray
+    rounding: FloatArray
+
+
+def find_extents(polyhedra: Polyhedra) -> Extents:
+    """Bounding-box diagonals and rounding errors."""
+    start = polyhedra.vertex_start
+    local = polyhedra.local_vertices
+    spans = row_maxima(local, start) + row_maxima(-local, start)
+    greatest = row_maxima(np.abs(polyhedra.vertices).max(axis=1), start)
+    return Extents(np.linalg.norm(spans, axis=1), np.finfo(float).eps * greatest)
+
+
+def coordinate_defects(polyhedra: Polyhedra) -> list[Defect]:
+    """Coordinates that are not finite, or too large to compute with."""
+    with np.errstate(invalid="ignore"):
+        bad = ~(np.abs(polyhedra.vertices) <= LARGEST_COORDINATE).all(axis=1)
+    blocks, first = np.unique(polyhedra.block_of_vertex[bad], return_index=True)
+    rows = np.flatnonzero(bad)[first]
+    return [
+        Defect(
+            int(block),
+            f"vertex {row - polyhedra.vertex_start[block]} has a coordinate that is not finite "
+            f"or exceeds {LARGEST_COORDINATE:.0e}",
+        )
+        for block, row in zip(blocks, rows, strict=True)
+    ]
+
+
+def corner_defects(polyhedra: Polyhedra, extents: Extents) -> list[Defect]:
+    """Faces that pass a vertex twice, and vertices at the same place."""
+    defects = []
+    face, loops = polyhedra.face_of_corner, polyhedra.loops
+    keys = np.sort(face * len(polyhedra.vertices) + loops)
+    for key in _first_per_block(keys[1:][keys[1:] == keys[:-1]], polyhedra):
+        number, vertex = divmod(int(key), len(polyhedra.vertices))
+        block = int(polyhedra.block_of_face[number])
+        local = vertex - int(polyhedra.vertex_start[block])
+        at = number - int(polyhedra.face_start[block])
+        defects.append(Defect(block, f"face {at} passes vertex {local} twice", at))
+    for one, other in _coincident_vertices(polyhedra, extents):
+        block = int(polyhedra.block_of_vertex[one])
+        first = int(polyhedra.vertex_start[block])
+        defects.append(Defect(block, f"vertices {one - first} and {other - first} lie at the same place"))
+    return defects
+
+
+def _first_per_block(keys: IntArray, polyhedra: Polyhedra) -> IntArray:
+    blocks = polyhedra.block_of_face[keys // len(polyhedra.vertices)]
+    return keys[np.unique(blocks, return_index=True)[1]]
+
+
+def _coincident_vertices(polyhedra: Polyhedra, extents: Extents) -> list[tuple[int, int]]:
+    """One pair of vertices at the same place for each polyhedron that has any.
+
+    Vertices are compared on a grid of the width at which two are one, through a hash of its indices.
+    """
+    width = np.maximum(SAME_POINT * extents.diagonals, 4 * extents.rounding)
+    width = np.where(width > 0, width, 1.0)
+    block = polyhedra.block_of_vertex
+    cells = np.rint(polyhedra.local_vertices / width[block, None]).astype(np.int64)
+    cells = np.concatenate([cells, block[:, None]], axis=1)
+    multipliers = np.array([73856093, 19349663, 83492791, 2654435761], dtype=np.int64)
+    hashes = (cells * multipliers).sum(axis=1)
+    order = np.argsort(hashes, kind="stable")
+    equal = np.flatnonzero((cells[order[1:]] == cells[order[:-1]]).all(axis=1))
+    chosen = equal[np.unique(block[order[equal]], return_index=True)[1]]
+    return [(int(order[i]), int(order[i + 1])) for i in chosen]
+
+
+def edge_defects(polyhedra: Polyhedra, edges: Edges) -> list[Defect]:
+    """Polyhedra with edges that have one face, or more than two."""
+    defects = []
+    for block in np.unique(edges.block[edges.face_count != 2]).tolist():
+        rows = np.flatnonzero(edges.block == block)
+        crowded = rows[edges.face_count[rows] > 2]
+        lone = rows[edges.face_count[rows] == 1]
+        twice = _face_listed_twice(polyhedra, block) if len(crowded) else None
+        if twice is not None:
+            message = f"faces {twice[0]} and {twice[1]} have the same corners: each face is listed once"
+            defects.append(Defect(block, message, twice[1]))
+        elif len(crowded):
+            defects.append(Defect(block, f"{_edges_in_words(polyhedra, edges, block, crowded)} more than two faces"))
+        else:
+            face = int(edges.any_face[lone[0]] - polyhedra.face_start[block])
+            words = _edges_in_words(polyhedra, edges, block, lone)
+            defects.append(Defect(block, f"is not closed: {words} one face only, face {face}"))
+    return defects
+
+
+def _edges_in_words(polyhedra: Polyhedra, edges: Edges, block: int, rows: IntArray) -> str:
+    tail, head = edges.ends[rows[0]] - polyhedra.vertex_start[block]
+    first = f"the edge between vertices {tail} and {head}"
+    return f"{first} has" if len(rows) == 1 else f"{len(rows)} edges, first {first.replace('the edge', 'that')}, have"
+
+
+def _face_listed_twice(polyhedra: Polyhedra, block: int) -> tuple[int, int] | None:
+    seen: dict[frozenset[int], int] = {}
+    first = int(polyhedra.face_start[block])
+    for face in range(first, int(polyhedra.face_start[block + 1])):
+        corners = frozenset(polyhedra.loops[polyhedra.loop_start[face] : polyhedra.loop_start[face + 1]].tolist())
+        if corners in seen:
+            return seen[corners], face - first
+        seen[corners] = face - first
+    return None
+
+
+def size_defects(polyhedra: Polyhedra, faces: FaceGeometry, volumes: FloatArray, extents: Extents) -> list[Defect]:
+    """Faces without area and polyhedra without volume, beyond what rounding could make of them."""
+    defects = []
+    block = polyhedra.block_of_face
+    least = np.maximum(NO_AREA * extents.diagonals[block] ** 2, 2 * extents.rounding[block] * faces.perimeters)
+    flat = np.flatnonzero(faces.areas <= least)
+    blocks, first = np.unique(block[flat], return_index=True)
+    for number, face in zip(blocks.tolist(), (flat[first] - polyhedra.face_start[blocks]).tolist(), strict=True):
+        defects.append(Defect(number, f"face {face} has no area", face))
+    surfaces = row_sums(faces.areas, polyhedra.face_start)
+    least = np.maximum(NO_VOLUME * extents.diagonals**3, 2 * extents.rounding * surfaces)
+    empty = (np.abs(volumes) <= least) & ~np.isin(np.arange(len(polyhedra)), blocks)
+    return defects + [Defect(int(number), "has no volume") for number in np.flatnonzero(empty)]
+
+
+def planarity_defects(polyhedra: Polyhedra, faces: FaceGeometry, sizes: FloatArray, tolerance: float) -> list[Defect]:
+    """Polyhedra with faces whose corners leave their plane by more than the tolerance.
+
+    sizes : (n,) cube roots of the volumes; tolerance : relative to them
+    """
+    size = sizes[polyhedra.block_of_face]
+    bent = np.flatnonzero(faces.deviations > tolerance * size)
+    defects = []
+    for block in np.unique(polyhedra.block_of_face[bent]).tolist():
+        rows = bent[polyhedra.block_of_face[bent] == block]
+        worst = rows[np.argmax(faces.deviations[rows])]
+        face, deviation = int(worst - polyhedra.face_start[block]), faces.deviations[worst]
+        which = f"face {face} is" if len(rows) == 1 else f"{len(rows)} faces, most of all face {face}, are"
+        message = (
+            f"{which} not planar: corners leave the plane by {deviation:.3g}, {deviation / sizes[block]:.2%} of the "
+            f"block size; contacts.tolerance allows {tolerance:.2%}"
+        )
+        defects.append(Defect(block, message, face))
+    return defects
+
+
+def mark(defects: list[Defect], n_blocks: int) -> BoolArray:
+    """Blocks that have a defect, (n_blocks,)."""
+    marked = np.zeros(n_blocks, dtype=bool)
+    marked[[defect.block for defect in defects]] = True
+    return marked

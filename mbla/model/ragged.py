@@ -1,0 +1,62 @@
+"""Index arithmetic on ragged arrays (see :mod:`mbla.arrays`)."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from mbla.arrays import FloatArray, IntArray
+
+
+def ranges(first: IntArray, counts: IntArray) -> IntArray:
+    """Concatenated ranges first[i] ... first[i] + counts[i] - 1.
+
+    >>> ranges(np.array([5, 0]), np.array([2, 3])).tolist()
+    [5, 6, 0, 1, 2]
+    """
+    total = int(counts.sum())
+    before = np.cumsum(counts) - counts
+    return np.asarray(np.arange(total) + np.repeat(first - before, counts), dtype=np.int64)
+
+
+def items_of_rows(start: IntArray, rows: IntArray) -> IntArray:
+    """Positions in the flat array of all items of some rows, row by row."""
+    return ranges(start[rows], start[rows + 1] - start[rows])
+
+
+def next_item(start: IntArray) -> IntArray:
+    """For each item the position of its successor in the same row, cyclic; rows must not be empty."""
+    successor = np.arange(1, start[-1] + 1)
+    successor[start[1:] - 1] = start[:-1]
+    return successor
+
+
+def row_sums(values: FloatArray, start: IntArray) -> FloatArray:
+    """Sum of the items of each row, along the first axis; rows must not be empty."""
+    return np.add.reduceat(values, start[:-1], axis=0)
+
+
+def row_means(values: FloatArray, start: IntArray) -> FloatArray:
+    """Mean of the items of each row, (n_rows, k) from (n_items, k); rows must not be empty."""
+    return row_sums(values, start) / np.diff(start)[:, None]
+
+
+def row_maxima(values: FloatArray, start: IntArray) -> FloatArray:
+    """Largest item of each row, along the first axis; rows must not be empty."""
+    return np.maximum.reduceat(values, start[:-1], axis=0)
+
+
+def chunks(counts: IntArray, limit: int) -> list[slice]:
+    """Slices of consecutive rows that hold at most ``limit`` items each, or a single longer row.
+
+    >>> chunks(np.array([2, 2, 9, 1]), 4)
+    [slice(0, 2, None), slice(2, 3, None), slice(3, 4, None)]
+    """
+    ends = np.cumsum(counts)
+    slices = []
+    first = 0
+    while first < len(counts):
+        before = ends[first] - counts[first]
+        last = max(int(np.searchsorted(ends, before + limit, side="right")), first + 1)
+        slices.append(slice(first, last))
+        first = last
+    return slices
