@@ -2,12 +2,18 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from datetime import UTC, datetime
 
 from mbla.contacts.contacts import Contacts
 from mbla.errors import Notice
 from mbla.model.model import LoadCase, Model
 from mbla.solution.solution import Checks, Solution, Status
+
+
+def now() -> str:
+    """Date and time in UTC to the second, ISO 8601."""
+    return datetime.now(UTC).isoformat(timespec="seconds")
 
 
 @dataclass(frozen=True)
@@ -32,7 +38,14 @@ class CaseResult:
 
 @dataclass(frozen=True)
 class Results:
-    """A whole run; ``time`` holds seconds by stage (read, contacts, solve, write)."""
+    """A whole run.
+
+    provenance : versions and platform by name; ``mbla`` is the version of the program (see ``collect_provenance``)
+    settings   : the analysis settings in effect, by name
+    time       : seconds by stage (read, contacts, solve, write)
+    exit_code  : exit status of the run
+    created    : date of the run, UTC, ISO 8601
+    """
 
     deck: DeckRecord
     model: Model
@@ -43,3 +56,11 @@ class Results:
     settings: dict[str, str]
     time: dict[str, float]
     exit_code: int
+    created: str = field(default_factory=now)
+
+    def case(self, name: str) -> CaseResult:
+        """The case of that name; KeyError if there is none."""
+        for case in self.cases:
+            if case.load_case.name == name:
+                return case
+        raise KeyError(name)

@@ -1,0 +1,202 @@
+"""What forces and velocities say about whole interfaces, supports and blocks.
+
+Signs as in :mod:`mbla.solution.solution`: contact forces act on body b along the frame and on body a against it,
+compression positive; contact velocities are those of b relative to a, opening positive.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import IntEnum
+
+import numpy as np
+
+from mbla.arrays import BoolArray, FloatArray, IntArray
+from mbla.contacts.contacts import Contacts
+from mbla.model.model import LoadCase, Model
+from mbla.solution.solution import ContactMode, Mechanics
+
+MOVING = 1e-6
+"""share of the largest velocity from which a block counts as moving"""
+TWISTING = 0.5
+"""mean over largest tangential velocity below which a sliding interface is said to turn about its normal"""
+
+
+class InterfaceMode(IntEnum):
+    """What an interface does in the mechanism."""
+
+    STICK = 0
+    SLIDE = 1
+    OPEN = 2
+    HINGE = 3
+    """some of its points open, others stay closed"""
+    TWIST = 4
+    """it slides by turning about its normal"""
+
+
+def global_forces(contacts: Contacts, contact_forces: FloatArray) -> FloatArray:
+    """Force of each contact point on body b in global directions, (n_points, 3) N."""
+    return np.asarray(np.einsum("pi,pij->pj", contact_forces, contacts.frames))
+
+
+def sum_by_interface(contacts: Contacts, values: FloatArray) -> FloatArray:
+    """Sum over the points of each interface, (n_interfaces, ...) from (n_points, ...)."""
+    total = np.zeros((len(contacts), *values.shape[1:]))
+    np.add.at(total, contacts.interface_of_point, values)
+    return total
+
+
+def interface_resultants(contacts: Contacts, contact_forces: FloatArray) -> FloatArray:
+    """Force on body b and moment about the centroid of each interface, (n_interfaces, 6) N and N m."""
+    forces = global_forces(contacts, contact_forces)
+    arms = contacts.points - contacts.centroids[contacts.interface_of_point]
+    return sum_by_interface(contacts, np.hstack([forces, np.cross(arms, forces)]))
+
+
+def interface_modes(contacts: Contacts, mechanics: Mechanics) -> IntArray:
+    """InterfaceMode of each interface, (n_interfaces,)."""
+    n_points = np.diff(contacts.point_start)
+    n_open = sum_by_interface(contacts, (mechanics.modes == ContactMode.OPEN).astype(float))
+    n_slide = sum_by_interface(contacts, (mechanics.modes == ContactMode.SLIDE).astype(float))
+    tangential = mechanics.contact_velocities[:, 1:]
+    mean = np.linalg.norm(sum_by_interface(contacts, tangential), axis=1) / n_points
+    largest = np.zeros(len(contacts))
+    np.maximum.at(largest, contacts.interface_of_point, np.linalg.norm(tangential, axis=1))
+    modes = np.full(len(contacts), int(InterfaceMode.STICK), dtype=np.int64)
+    modes[n_slide > 0] = InterfaceMode.SLIDE
+    modes[(n_slide > 0) & (mean < TWISTING * largest)] = InterfaceMode.TWIST
+    modes[n_open > 0] = InterfaceMode.HINGE
+    modes[n_open == n_points] = InterfaceMode.OPEN
+    return modes
+
+
+def hinge_positions(contacts: Contacts, mechanics: Mechanics) -> FloatArray:
+    """Mean of the points that stay closed, (n_interfaces, 3) m; the centroid where none or all do."""
+    closed = (mechanics.modes != ContactMode.OPEN).astype(float)
+    count = sum_by_interface(contacts, closed)
+    total = sum_by_interface(contacts, closed[:, None] * contacts.points)
+    partly = (count > 0) & (count < np.diff(contacts.point_start))
+    return np.where(partly[:, None], total / np.maximum(count, 1.0)[:, None], contacts.centroids)
+
+
+def curvature_sides(model: Model, contacts: Contacts) -> FloatArray:
+    """Direction out of the curve where blocks form a chain, as in an arch, (n_interfaces, 3); zero elsewhere.
+
+    The joint between two voussoirs lies outside the line between their centroids by the rise of the curve there.
+    A joint at the end of a chain takes the direction of the next one.
+    """
+    n_bodies = len(model.blocks) + len(model.grounds)
+    degree = np.bincount(contacts.bodies.ravel(), minlength=n_bodies)
+    in_chain = np.zeros(n_bodies, dtype=bool)
+    in_chain[: len(model.blocks)] = ~model.fixed
+    in_chain &= degree == 2
+    inner = in_chain[contacts.bodies].all(axis=1)
+    outward = np.zeros((len(contacts), 3))
+    a, b = contacts.bodies[inner].T
+    chord = model.blocks.centroids[b] - model.blocks.centroids[a]
+    rise = contacts.centroids[inner] - (model.blocks.centroids[a] + model.blocks.centroids[b]) / 2
+    rise -= np.einsum("ij,ij->i", rise, chord)[:, None] / np.einsum("ij,ij->i", chord, chord)[:, None] * chord
+    curved = np.linalg.norm(rise, axis=1) > 1e-3 * np.linalg.norm(chord, axis=1)
+    outward[np.flatnonzero(inner)[curved]] = rise[curved]
+    for interface in np.flatnonzero(in_chain[contacts.bodies].sum(axis=1) == 1):  # the ends of chains, few
+        body = contacts.bodies[interface][in_chain[contacts.bodies[interface]]][0]
+        neighbours = np.flatnonzero((contacts.bodies == body).any(axis=1) & inner)
+        if len(neighbours):
+            outward[interface] = outward[neighbours[0]]
+    return outward
+
+
+def moving_blocks(mechanism: FloatArray, sizes: FloatArray) -> BoolArray:
+    """Blocks that move, (n_blocks,); rotations count with half the block size as arm.
+
+    mechanism : (n_blocks, 6) velocity and angular velocity
+    sizes     : (n_blocks,) m
+    """
+    speeds = np.linalg.norm(mechanism[:, :3], axis=1) + np.linalg.norm(mechanism[:, 3:], axis=1) * sizes / 2
+    largest = speeds.max(initial=0.0)
+    return np.asarray(speeds > MOVING * largest) if largest > 0 else np.zeros(len(speeds), dtype=bool)
+
+
+@dataclass(frozen=True)
+class Reaction:
+    """Force and moment about the origin with which one support acts on the structure, (6,) N and N m."""
+
+    support: str
+    wrench: FloatArray
+
+
+def support_reactions(model: Model, contacts: Contacts, contact_forces: FloatArray) -> tuple[Reaction, ...]:
+    """Reactions of the ground planes, and of the fixed blocks by group; those that touch nothing free are left out."""
+    forces = global_forces(contacts, contact_forces)
+    wrenches = sum_by_interface(contacts, np.hstack([forces, np.cross(contacts.points, forces)]))
+    n_blocks = len(model.blocks)
+    fixed = np.concatenate([model.fixed, np.ones(len(model.grounds), dtype=bool)])
+    support_a, support_b = fixed[contacts.bodies].T
+    only_one = support_a != support_b
+    body = np.where(support_a, contacts.bodies[:, 0], contacts.bodies[:, 1])[only_one]
+    onto_structure = np.where(support_a, 1.0, -1.0)[only_one, None] * wrenches[only_one]
+    labels = [f"{group} (fixed blocks)" for group in model.blocks.groups] + [ground.label for ground in model.grounds]
+    order = list(range(n_blocks, n_blocks + len(model.grounds))) + list(np.flatnonzero(model.fixed))
+    row: dict[str, int] = {}
+    for each in order:
+        row.setdefault(labels[each], len(row))
+    total = np.zeros((len(row), 6))
+    touched = np.zeros(len(row), dtype=bool)
+    rows = np.array([row[labels[each]] for each in body], dtype=np.int64)
+    np.add.at(total, rows, onto_structure)
+    touched[rows] = True
+    return tuple(Reaction(label, total[i]) for label, i in row.items() if touched[i])
+
+
+def load_on_structure(model: Model, load_case: LoadCase, load_factor: float) -> FloatArray:
+    """Dead load plus live load times the load factor on all free blocks, about the origin, (6,) N and N m."""
+    load = (load_case.dead_load + load_factor * load_case.live_load)[model.free]
+    moments = load[:, 3:] + np.cross(model.blocks.centroids[model.free], load[:, :3])
+    return np.concatenate([load[:, :3].sum(axis=0), moments.sum(axis=0)])
+
+
+@dataclass(frozen=True)
+class PowerShares:
+    """Where the power goes that the live load puts in, all with the mechanism scaled to unit live power.
+
+    live     : load factor times live load power
+    dead     : power of the dead load, negative where weights are lifted
+    friction : power dissipated by sliding under friction (tangential forces times sliding)
+    joints   : power dissipated in the joints by normal forces (cohesive opening, crushing; negative: dilatancy)
+    """
+
+    live: float
+    dead: float
+    friction: float
+    joints: float
+
+
+def power_shares(model: Model, load_case: LoadCase, mechanics: Mechanics) -> PowerShares:
+    """Powers of loads and joints in the mechanism."""
+    free = model.free
+    mechanism = mechanics.mechanism[free]
+    power = mechanics.contact_forces * mechanics.contact_velocities
+    return PowerShares(
+        live=float(mechanics.load_factor * np.sum(load_case.live_load[free] * mechanism)),
+        dead=float(np.sum(load_case.dead_load[free] * mechanism)),
+        friction=float(-power[:, 1:].sum()),
+        joints=float(-power[:, 0].sum()),
+    )
+
+
+def live_load_in_g(model: Model, load_case: LoadCase) -> float | None:
+    """Size of a live load that is one uniform acceleration, in g; None for any other live load.
+
+    Only then is the load factor an acceleration. A force that happens to be proportional to mass does not count: the
+    words of the deck decide first.
+    """
+    if not load_case.live_words or not all(word.startswith("acceleration") for word in load_case.live_words):
+        return None
+    loaded = np.any(load_case.live_load[:, :3] != 0, axis=1)
+    if not loaded.any():
+        return None
+    weights = model.blocks.masses[loaded] * model.units.standard_gravity * model.units.force_per_mass_acceleration
+    accelerations = load_case.live_load[loaded, :3] / weights[:, None]
+    spread = np.abs(accelerations - accelerations[0]).max()
+    size = float(np.linalg.norm(accelerations[0]))
+    return size if spread <= 1e-9 * size else None

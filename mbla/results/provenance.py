@@ -1,0 +1,21 @@
+"""What produced a result: versions of the program and of the libraries that its numbers depend on, and the platform."""
+
+from __future__ import annotations
+
+import platform
+from importlib.metadata import PackageNotFoundError, version
+
+from mbla import __version__
+
+LIBRARIES = ("numpy", "scipy", "clarabel", "shapely", "manifold3d", "meshio", "h5py", "pyyaml", "pydantic", "pint")
+
+
+def collect_provenance() -> dict[str, str]:
+    """Versions and platform by name, read from the installed packages without importing them."""
+    versions = {"mbla": __version__, "python": platform.python_version()}
+    for library in LIBRARIES:
+        try:
+            versions[library] = version(library)
+        except PackageNotFoundError:
+            versions[library] = "not installed"
+    return versions | {"platform": platform.platform(), "machine": platform.machine()}

@@ -1,0 +1,162 @@
+"""Results from the content of a result file: the way back from ``content``.
+
+The content has been checked against the layout already; what is checked here is what no table can say.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import fields
+from typing import Any, TypeVar, cast
+
+import numpy as np
+
+from mbla.contacts.contacts import ContactReport, Contacts
+from mbla.deck.units import KILOGRAMS, METRES, NEWTONS, Units
+from mbla.errors import Notice
+from mbla.model.blocks import Blocks
+from mbla.model.model import Ground, Joint, LoadCase, Model
+from mbla.results.content import (
+    BLOCK_ARRAYS,
+    CHECKED,
+    CONTACT_ARRAYS,
+    ITERATION_FIELDS,
+    MECHANICS_FIELDS,
+    PROGRAM_FIELDS,
+    REPORT_ARRAYS,
+    Content,
+)
+from mbla.results.results import CaseResult, DeckRecord, Results
+from mbla.solution.solution import Checks, ContactMode, IterationRecord, Mechanics, ProgramRecord, Solution, Status
+
+Record = TypeVar("Record", ProgramRecord, IterationRecord)
+
+
+def results_from(content: Content, attributes: dict[str, str | int]) -> Results:
+    """Results from content and root attributes; ValueError where they contradict themselves."""
+    get = cast("dict[str, Any]", content)
+    names = get["model/load_cases"]
+    load_cases = {name: _load_case(name, _part(get, f"cases/{name}/")) for name in names}
+    if len(load_cases) != len(names):
+        raise ValueError("two load cases of one name")
+    solved = [name for name in names if f"cases/{name}/status" in get]
+    return Results(
+        deck=DeckRecord(
+            name=get["deck/name"],
+            sources=tuple(zip(get["deck/source_names"], get["deck/source_texts"], strict=True)),
+            overrides=tuple(get["deck/overrides"]),
+            sha256=str(attributes["deck_sha256"]),
+        ),
+        model=_model(_part(get, "model/"), tuple(load_cases.values())),
+        contacts=_contacts(_part(get, "contacts/")),
+        cases=tuple(_case(load_cases[name], _part(get, f"cases/{name}/")) for name in solved),
+        notices=_notices(_part(get, "notices/")),
+        provenance=dict(zip(get["provenance/names"], get["provenance/values"], strict=True)),
+        settings=dict(zip(get["provenance/setting_names"], get["provenance/setting_values"], strict=True)),
+        time=dict(zip(get["provenance/stage_names"], get["provenance/stage_seconds"].tolist(), strict=True)),
+        exit_code=get["provenance/exit_code"],
+        created=str(attributes["created"]),
+    )
+
+
+def _part(content: dict[str, Any], prefix: str) -> dict[str, Any]:
+    return {path[len(prefix) :]: value for path, value in content.items() if path.startswith(prefix)}
+
+
+def _notices(get: dict[str, Any]) -> tuple[Notice, ...]:
+    if not set(get["severity"]) <= {"notice", "warning"}:
+        raise ValueError("severity of a notice")
+    return tuple(Notice(*row) for row in zip(get["severity"], get["identifier"], get["message"], strict=True))
+
+
+def _model(get: dict[str, Any], load_cases: tuple[LoadCase, ...]) -> Model:
+    length, force, mass = get["units"]
+    if length not in METRES or force not in NEWTONS or mass not in KILOGRAMS:
+        raise ValueError("units of the model")
+    names = get["group_names"]
+    groups = tuple(names[group] for group in get["groups"].tolist())
+    return Model(
+        title=get["title"],
+        units=Units(length, force, mass),
+        blocks=Blocks(**{name: get[name] for name in BLOCK_ARRAYS}, groups=groups),
+        fixed=get["fixed"],
+        grounds=_grounds(get),
+        joints=_joints(get),
+        load_cases=load_cases,
+        notices=_notices(_part(get, "notices/")),
+    )
+
+
+def _joints(get: dict[str, Any]) -> dict[str, Joint]:
+    columns = [get[field.name].tolist() for field in fields(Joint) if field.name != "name"]
+    return {row[0]: Joint(*row) for row in zip(get["joint_names"], *columns, strict=True)}
+
+
+def _grounds(get: dict[str, Any]) -> tuple[Ground, ...]:
+    selective = get["ground_selective"].tolist()
+    blocks = np.split(get["ground_blocks"], get["ground_start"][1:-1]) if selective else []
+    if not set(get["ground_joints"]) <= set(get["joint_names"]):
+        raise ValueError("joint law of a ground plane")
+    return tuple(
+        Ground(point, normal, joint, carried if chosen else None, label)
+        for point, normal, joint, carried, chosen, label in zip(
+            get["ground_points"],
+            get["ground_normals"],
+            get["ground_joints"],
+            blocks,
+            selective,
+            get["ground_labels"],
+            strict=True,
+        )
+    )
+
+
+def _contacts(get: dict[str, Any]) -> Contacts:
+    parts = len(get["report/unsupported_start"]) - 1
+    unsupported = np.split(get["report/unsupported_blocks"], get["report/unsupported_start"][1:-1]) if parts else []
+    report = ContactReport(
+        **{name: get[f"report/{name}"] for name in REPORT_ARRAYS},
+        unsupported=tuple(unsupported),
+        notices=_notices(_part(get, "notices/")),
+    )
+    if np.any((get["outline"] < 0) | (get["outline"] > np.diff(get["point_start"]))):
+        raise ValueError("outline of an interface")
+    arrays = {name: get[name] for name in CONTACT_ARRAYS}
+    return Contacts(**arrays, joint_names=tuple(get["joint_names"]), report=report)
+
+
+def _load_case(name: str, get: dict[str, Any]) -> LoadCase:
+    return LoadCase(name, get["dead_load"], get["live_load"], tuple(get["dead_words"]), tuple(get["live_words"]))
+
+
+def _case(load_case: LoadCase, get: dict[str, Any]) -> CaseResult:
+    mechanics = _mechanics(get) if "load_factor" in get else None
+    associative = _mechanics(_part(get, "associative/")) if "associative/load_factor" in get else None
+    if associative is None and get["flow_rule"] == "associative":
+        associative = mechanics
+    solution = Solution(
+        flow_rule=get["flow_rule"],
+        status=Status(get["claimed_status"]),
+        mechanics=mechanics,
+        associative=associative,
+        certificate=get.get("certificate"),
+        reason=get["reason"],
+        programs=_records(ProgramRecord, PROGRAM_FIELDS, _part(get, "programs/")),
+        iterations=_records(IterationRecord, ITERATION_FIELDS, _part(get, "iterations/")),
+        seconds=get["seconds"],
+    )
+    checks = Checks(**{name: get[name] for name in CHECKED}, verified=get["verified"], failures=tuple(get["failures"]))
+    return CaseResult(load_case, solution, checks, Status(get["status"]))
+
+
+def _mechanics(get: dict[str, Any]) -> Mechanics:
+    if not np.isin(get["modes"], [int(mode) for mode in ContactMode]).all():
+        raise ValueError("contact modes")
+    return Mechanics(**{name: get[name] for name in MECHANICS_FIELDS})
+
+
+def _records(kind: Callable[..., Record], names: tuple[str, ...], get: dict[str, Any]) -> tuple[Record, ...]:
+    columns = [get[name] if isinstance(get[name], list) else get[name].tolist() for name in names]
+    if "status" in names:
+        columns[names.index("status")] = [Status(value) for value in columns[names.index("status")]]
+    return tuple(kind(*row) for row in zip(*columns, strict=True))

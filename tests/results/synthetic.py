@@ -1,0 +1,201 @@
+"""Small results made by hand, exact where they claim to be: no reader, no search, no solver needed.
+
+A tower 1 x 1 x 2 on a fixed base and a flat brick 1 x 1 x 0.5 on the ground z = 0, both of weight 10 N, pushed along
++x: with friction 0.65 the tower rocks about its edge at load factor 1/2 and the brick stays.
+"""
+
+import itertools
+
+import numpy as np
+
+from mbla.contacts.contacts import ContactReport, Contacts
+from mbla.deck.units import Units
+from mbla.errors import Notice
+from mbla.model.blocks import Blocks
+from mbla.model.model import Ground, Joint, LoadCase, Model
+from mbla.results.results import CaseResult, DeckRecord, Results
+from mbla.solution.solution import (
+    Checks,
+    IterationRecord,
+    Mechanics,
+    ProgramRecord,
+    Solution,
+    Status,
+)
+
+BOX_FACES = np.array(
+    [[0, 3, 2, 1], [4, 5, 6, 7], [0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7]], dtype=np.int64
+)
+TOWER_WEIGHT = 10.0
+G = 9.81
+
+
+def cuboids(lower, upper, groups, densities=1.0):
+    """Blocks from lower and upper corners, (n, 3) each."""
+    lower, upper = np.asarray(lower, float), np.asarray(upper, float)
+    n = len(lower)
+    pattern = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1]])
+    vertices = (lower[:, None, :] + pattern * (upper - lower)[:, None, :]).reshape(-1, 3)
+    loops = (BOX_FACES[None] + 8 * np.arange(n)[:, None, None]).reshape(-1)
+    normals = np.tile([[0, 0, -1], [0, 0, 1], [0, -1, 0], [1, 0, 0], [0, 1, 0], [-1, 0, 0]], (n, 1)).astype(float)
+    counter = {}
+    indices = [counter.setdefault(group, itertools.count()).__next__() for group in groups]
+    return Blocks(
+        vertices=vertices,
+        vertex_start=8 * np.arange(n + 1),
+        loops=loops,
+        loop_start=4 * np.arange(6 * n + 1),
+        face_start=6 * np.arange(n + 1),
+        facet_of_face=np.arange(6 * n),
+        face_normals=normals,
+        convex=np.ones(n, dtype=bool),
+        volumes=np.prod(upper - lower, axis=1),
+        centroids=(lower + upper) / 2,
+        densities=np.broadcast_to(np.asarray(densities, float), (n,)).copy(),
+        groups=tuple(groups),
+        group_indices=np.array(indices, dtype=np.int64),
+    )
+
+
+def empty_report(notices=()):
+    """A contact report with nothing in it."""
+    pairs, numbers, rows = np.zeros((0, 2), np.int64), np.zeros(0), np.zeros(0, np.int64)
+    return ContactReport(pairs, numbers, pairs, numbers, pairs, numbers, rows, (), tuple(notices))
+
+
+def horizontal_contacts(bodies, rectangles, report=None):
+    """Interfaces with normal +z on rectangles (x0, x1, y0, y1, z), four contact points each."""
+    corners = np.array([[[x0, y0, z], [x1, y0, z], [x1, y1, z], [x0, y1, z]] for x0, x1, y0, y1, z in rectangles], float)
+    n = len(rectangles)
+    areas = np.array([(x1 - x0) * (y1 - y0) for x0, x1, y0, y1, _ in rectangles])
+    frame = np.array([[0.0, 0, 1], [1, 0, 0], [0, 1, 0]])
+    return Contacts(
+        bodies=np.array(bodies, dtype=np.int64),
+        normals=np.tile([0.0, 0, 1], (n, 1)),
+        areas=areas,
+        centroids=corners.mean(axis=1),
+        gaps=np.zeros(n),
+        joints=np.zeros(n, dtype=np.int64),
+        joint_names=("dry",),
+        point_start=4 * np.arange(n + 1),
+        outline=np.full(n, 4),
+        points=corners.reshape(-1, 3),
+        frames=np.tile(frame, (4 * n, 1, 1)),
+        point_areas=np.repeat(areas / 4, 4),
+        report=report or empty_report(),
+    )
+
+
+def tower_model():
+    """Base (fixed), tower, brick."""
+    density = TOWER_WEIGHT / (2 * G)
+    blocks = cuboids(
+        [[-1, -1, 0], [0, 0, 1], [4, 0, 0]],
+        [[2, 2, 1], [1, 1, 3], [5, 1, 0.5]],
+        ("base", "tower", "brick"),
+        [density, density, 4 * density],
+    )
+    weights = blocks.masses * G
+    zeros = np.zeros((3, 6))
+    dead, live = zeros.copy(), zeros.copy()
+    dead[:, 2] = -weights
+    live[:, 0] = weights
+    words = ("gravity (0, 0, -9.81) m/s2",), ("acceleration (1, 0, 0) g on all blocks",)
+    cases = (
+        LoadCase("push_x", dead, live, *words),
+        LoadCase("fall", dead, live, *words),
+        LoadCase("not_run", dead, live, *words),
+    )
+    return Model(
+        title="Tower and brick",
+        units=Units(),
+        blocks=blocks,
+        fixed=np.array([True, False, False]),
+        grounds=(
+            Ground(np.zeros(3), np.array([0.0, 0, 1]), "dry", None, "ground z = 0"),
+            Ground(np.array([9.0, 0, 0]), np.array([-1.0, 0, 0]), "strong", np.array([2]), "ground x = 9"),
+        ),
+        joints={"dry": Joint("dry", 0.65), "strong": Joint("strong", 0.5, 1.0, 2.0, 3.0, 0.1)},
+        load_cases=cases,
+        notices=(Notice("notice", "faces-turned-outwards", "faces of 1 block turned outwards"),),
+    )
+
+
+def tower_contacts():
+    """Base and tower, ground and brick."""
+    warning = Notice("warning", "near-miss", "tower[0] and brick[0] nearly touch")
+    return horizontal_contacts([[0, 1], [3, 2]], [(0, 1, 0, 1, 1), (4, 5, 0, 1, 0)], empty_report([warning]))
+
+
+def tower_mechanics(load_factor=0.5):
+    """Exact: the tower turns about its edge x = 1; live power W omega 1 = 1."""
+    weight = TOWER_WEIGHT
+    forces = np.zeros((8, 3))
+    forces[[1, 2], 0] = weight / 2
+    forces[[1, 2], 1] = -load_factor * weight / 2
+    lever = load_factor * weight * 0.25  # the push on the brick at half its height of 0.5
+    forces[4:, 0] = weight / 4 + np.array([-1, 1, 1, -1]) * lever / 2
+    forces[4:, 1] = -load_factor * weight / 4
+    omega = 1 / weight
+    velocities = np.zeros((8, 3))
+    velocities[[0, 3], 0] = omega
+    mechanism = np.zeros((3, 6))
+    mechanism[1] = [omega, 0, omega / 2, 0, omega, 0]  # at (-0.5, 0, 1) from the edge, turning about +y
+    modes = np.zeros(8, dtype=np.int64)
+    modes[[0, 3]] = 2
+    return Mechanics(load_factor, forces, velocities, mechanism, modes)
+
+
+def tower_results(flow_rule="non_associative"):
+    """One solved case, one without equilibrium, one not run."""
+    model = tower_model()
+    mechanics = tower_mechanics()
+    associative = mechanics if flow_rule == "associative" else tower_mechanics(0.5)
+    programs = (
+        ProgramRecord(1, "associative", Status.SOLVED, 0.5, float("nan"), 12, 0.01),
+        ProgramRecord(2, "published", Status.SOLVED, 0.5, 1e-6, 11, 0.01),
+    )
+    iterations = tuple(IterationRecord(1, i, 0.5 + 0.1**i, 0.1**i, 1e-3, 1e-4, 0.9, 0.001 * i) for i in range(12))
+    solution = Solution(flow_rule, Status.SOLVED, mechanics, associative, None, "", programs, iterations, 0.02)
+    checks = Checks(1e-12, 0.0, 0.0, 1e-11, 1.0, 1e-12, 0.5, 0.5, 0.0, True, ())
+    certificate = np.zeros((3, 6))
+    certificate[1] = [0, 0, -1, 0, 0, 0]
+    nan = float("nan")
+    none = Solution(
+        flow_rule, Status.NO_EQUILIBRIUM, None, None, certificate, "the dead load cannot be carried", (), (), 0.01
+    )
+    nothing = Checks(nan, nan, nan, nan, nan, nan, nan, nan, nan, True, ())
+    notices = (*model.notices, *tower_contacts().report.notices)
+    return Results(
+        deck=DeckRecord("tower.yaml", (("tower.yaml", "mbla: 1\ntitle: Tür und Turm – µ\n"), ("b.yaml", "")), (), "ab" * 32),
+        model=model,
+        contacts=tower_contacts(),
+        cases=(
+            CaseResult(model.load_cases[0], solution, checks, Status.SOLVED),
+            CaseResult(model.load_cases[1], none, nothing, Status.NO_EQUILIBRIUM),
+        ),
+        notices=notices,
+        provenance={"mbla": "0.1.0", "platform": "test"},
+        settings={"flow_rule": flow_rule, "tolerance": "1e-08"},
+        time={"read": 0.01, "contacts": 0.02, "solve": 0.8, "write": 0.1},
+        exit_code=5,
+        created="2025-01-01T00:00:00+00:00",
+    )
+
+
+def same(first, second):
+    """Deep equality of records, arrays (type, shape, values, nan equal to nan) and containers."""
+    if isinstance(first, np.ndarray) or isinstance(second, np.ndarray):
+        first, second = np.asarray(first), np.asarray(second)
+        return first.dtype == second.dtype and first.shape == second.shape and np.array_equal(first, second, equal_nan=True)
+    if hasattr(first, "__dataclass_fields__"):
+        return type(first) is type(second) and all(
+            same(getattr(first, name), getattr(second, name)) for name in first.__dataclass_fields__
+        )
+    if isinstance(first, (tuple, list)):
+        return len(first) == len(second) and all(map(same, first, second))
+    if isinstance(first, dict):
+        return list(first) == list(second) and all(same(first[key], second[key]) for key in first)
+    if isinstance(first, float) and isinstance(second, float) and np.isnan(first):
+        return bool(np.isnan(second))
+    return bool(first == second)
