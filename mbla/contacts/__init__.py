@@ -1,1 +1,11 @@
+"""Contacts stage: where blocks touch each other and the ground.
 
+Bounding boxes give pairs of blocks (:mod:`~mbla.contacts.broad_phase`), opposite facets of a pair that lie on one
+plane are clipped against each other (:mod:`~mbla.contacts.narrow_phase`), the corners of what they share become
+contact points (:mod:`~mbla.contacts.corners`).
+"""
+
+from mbla.contacts.contacts import ContactReport, Contacts
+from mbla.contacts.search import find_contacts
+
+__all__ = ["ContactReport", "Contacts", "find_contacts"]

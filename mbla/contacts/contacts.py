@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
+
+import numpy as np
 
 from mbla.arrays import FloatArray, IntArray, row_of_item
 from mbla.errors import Notice
@@ -17,15 +19,18 @@ class Contacts:
     normals      : (n_interfaces, 3)  unit, from a to b
     areas        : (n_interfaces,) m2
     centroids    : (n_interfaces, 3) m
-    gaps         : (n_interfaces,) m  greatest distance between the two faces over the interface, negative where they overlap
+    gaps         : (n_interfaces,) m  greatest distance between the two faces over the interface, negative
+                   where they overlap
     joints       : (n_interfaces,)    row of ``joint_names``
     joint_names  : joint laws in use
     point_start  : (n_interfaces + 1,) contact points of interface i are points[point_start[i]:point_start[i + 1]]
     outline      : (n_interfaces,)    how many of them form the outer boundary, in order, counter-clockwise about the
                    normal; the rest are corners of holes
     points       : (n_points, 3) m
-    frames       : (n_points, 3, 3)   rows: normal, tangent 1, tangent 2; right-handed; the same for all points of an interface
-    point_areas  : (n_points,) m2     share of the interface area: sums to the area, first moment about the centroid zero
+    frames       : (n_points, 3, 3)   rows: normal, tangent 1, tangent 2; right-handed; the same for all points of an
+                   interface
+    point_areas  : (n_points,) m2     share of the interface area: sums to the area, first moment about the centroid
+                   zero
     """
 
     bodies: IntArray
@@ -45,6 +50,18 @@ class Contacts:
     def __len__(self) -> int:
         return len(self.areas)
 
+    @property
+    def count_by_joint(self) -> dict[str, int]:
+        """Number of interfaces of each joint law in use."""
+        counts = np.bincount(self.joints, minlength=len(self.joint_names))
+        return {name: int(count) for name, count in zip(self.joint_names, counts, strict=True)}
+
+    @property
+    def area_by_joint(self) -> dict[str, float]:
+        """Total area of the interfaces of each joint law in use, m2."""
+        areas = np.bincount(self.joints, weights=self.areas, minlength=len(self.joint_names))
+        return {name: float(area) for name, area in zip(self.joint_names, areas, strict=True)}
+
     @cached_property
     def interface_of_point(self) -> IntArray:
         """(n_points,)."""
@@ -61,8 +78,11 @@ class ContactReport:
     near_miss_gaps : (n,) relative to block size
     overlaps       : (n, 2) blocks that share volume deeper than the tolerance
     overlap_depths : (n,) relative to block size
+    unchecked      : (n, 2) pairs of blocks whose overlap could not be judged, because one is not a closed solid
     isolated       : blocks without any contact
-    unsupported    : connected parts that reach no support, each a sorted array of blocks (blocks without contact included)
+    unsupported    : connected parts of free blocks that reach no support, each a sorted array of blocks (blocks without
+                     contact included)
+    fixed_contacts : contacts between bodies that are both fixed; they are left out of ``Contacts``
     notices        : the above in words
     """
 
@@ -72,6 +92,12 @@ class ContactReport:
     near_miss_gaps: FloatArray
     overlaps: IntArray
     overlap_depths: FloatArray
+    unchecked: IntArray
     isolated: IntArray
     unsupported: tuple[IntArray, ...]
+    fixed_contacts: int
     notices: tuple[Notice, ...]
+
+    def with_notices(self, notices: tuple[Notice, ...]) -> ContactReport:
+        """The same report with other notices."""
+        return replace(self, notices=notices)

@@ -1,0 +1,150 @@
+"""Contact points: the corners of a common surface that are needed to describe it.
+
+Clipping leaves duplicates, corners in the middle of an edge and, where outlines miss each other by rounding, tiny
+steps. A corner is needless if it lies within the tolerance of the chord between its neighbours. Corners go one by one,
+the least deviating first; each edge remembers how far the corners dropped along it lie from it at most, so that many
+small steps of a rounded outline do not add up to more than the tolerance. Corners that stay are not moved.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from mbla.arrays import BoolArray, FloatArray, IntArray, starts
+from mbla.contacts.polygons import Polygons, polygons_from_rings, rings, valid, widths
+from mbla.model.ragged import next_item
+
+# Corners this close to the chord are dropped even where dropping others as well would make the outline cross itself.
+_COLLINEAR = 1e-9
+# The first corner of an outline is the least one along a direction that no edge of a building is likely to follow.
+_ODD_DIRECTION = np.array([0.8253356, 0.5646425])
+
+
+@dataclass(frozen=True)
+class Corners:
+    """Corners of polygons in local coordinates, flat.
+
+    points          : (n_corners, 2)  outer boundary counter-clockwise, then holes clockwise
+    ring_start      : (n_rings + 1,)
+    polygon_of_ring : (n_rings,)      the outer ring of each polygon comes first
+    """
+
+    points: FloatArray
+    ring_start: IntArray
+    polygon_of_ring: IntArray
+
+    @property
+    def ring_of_corner(self) -> IntArray:
+        """(n_corners,)."""
+        return np.repeat(np.arange(len(self.ring_start) - 1), np.diff(self.ring_start))
+
+    @property
+    def polygon_of_corner(self) -> IntArray:
+        """(n_corners,)."""
+        return self.polygon_of_ring[self.ring_of_corner]
+
+    def take(self, keep: BoolArray) -> Corners:
+        """Only the corners marked, rings that lose all of them left out."""
+        counts = np.bincount(self.ring_of_corner[keep], minlength=len(self.polygon_of_ring))
+        left = counts > 0
+        return Corners(self.points[keep], starts(counts[left].astype(np.int64)), self.polygon_of_ring[left])
+
+
+def needed_corners(polygons: Polygons, tolerance: float) -> Corners:
+    """Corners of polygons with the needless ones dropped and holes narrower than the tolerance filled.
+
+    Outer rings and holes keep at least three corners; each ring starts at its least corner along an odd direction.
+    """
+    found = _without_narrow_holes(Corners(*rings(polygons)), tolerance)
+    keep = _needed(found, tolerance)
+    thinned = found.take(keep)
+    changed = np.unique(found.polygon_of_corner[~keep])
+    if len(changed):
+        outlines = polygons_from_rings(thinned.points, thinned.ring_start, thinned.polygon_of_ring)
+        broken = changed[~valid(outlines[changed])]
+        if len(broken):
+            cautious = np.isin(found.polygon_of_corner, broken)
+            keep = np.where(cautious, _needed(found, _COLLINEAR), keep)
+            thinned = found.take(keep)
+    return _from_least_corner(thinned)
+
+
+def areas_and_centroids(corners: Corners, n_polygons: int) -> tuple[FloatArray, FloatArray]:
+    """Area (n_polygons,) and centroid (n_polygons, 2) of each polygon, holes taken off."""
+    first = corners.ring_start[:-1][np.searchsorted(corners.polygon_of_ring, np.arange(n_polygons))]
+    anchor = corners.points[first]
+    polygon = corners.polygon_of_corner
+    p = corners.points - anchor[polygon]
+    q = p[next_item(corners.ring_start)]
+    cross = p[:, 0] * q[:, 1] - p[:, 1] * q[:, 0]
+    area = np.bincount(polygon, weights=cross, minlength=n_polygons) / 2
+    moment = np.stack(
+        [np.bincount(polygon, weights=(p + q)[:, axis] * cross, minlength=n_polygons) / 6 for axis in (0, 1)], axis=1
+    )
+    return area, anchor + moment / area[:, None]
+
+
+def _without_narrow_holes(corners: Corners, tolerance: float) -> Corners:
+    hole = np.zeros(len(corners.polygon_of_ring), dtype=bool)
+    hole[1:] = corners.polygon_of_ring[1:] == corners.polygon_of_ring[:-1]
+    if not hole.any():
+        return corners
+    alone = polygons_from_rings(corners.points, corners.ring_start, np.arange(len(hole)))
+    narrow = hole & (widths(alone) < tolerance)
+    return corners.take(~narrow[corners.ring_of_corner])
+
+
+def _needed(corners: Corners, tolerance: float) -> BoolArray:
+    """Corners that stay, (n_corners,)."""
+    n = len(corners.points)
+    ring = corners.ring_of_corner
+    following = next_item(corners.ring_start)
+    preceding = np.empty(n, dtype=np.int64)
+    preceding[following] = np.arange(n)
+    counts = np.diff(corners.ring_start)
+    along = np.zeros(n)  # farthest dropped corner from the edge that leaves each corner
+    keep = np.ones(n, dtype=bool)
+    active = np.arange(n)
+    while True:
+        active = active[keep[active] & (counts[ring[active]] > 3)]
+        before, after = preceding[active], following[active]
+        off = _off_chord(corners.points[active], corners.points[before], corners.points[after])
+        off += np.maximum(along[before], along[active])
+        needless = off <= tolerance
+        if not needless.any():
+            return keep
+        # Rings without a needless corner are done; of the others the least deviating corner goes.
+        busy = np.unique(ring[active[needless]])
+        candidates, off = active[needless], off[needless]
+        order = np.lexsort((off, ring[candidates]))
+        least = order[np.searchsorted(ring[candidates[order]], busy)]
+        gone = candidates[least]
+        along[preceding[gone]] = off[least]
+        following[preceding[gone]] = following[gone]
+        preceding[following[gone]] = preceding[gone]
+        keep[gone] = False
+        counts[ring[gone]] -= 1
+        active = active[np.isin(ring[active], busy)]
+
+
+def _off_chord(points: FloatArray, start: FloatArray, end: FloatArray) -> FloatArray:
+    """Distance of points from the segments start–end, (n,)."""
+    chord = end - start
+    length = np.einsum("ki,ki->k", chord, chord)
+    share = np.einsum("ki,ki->k", points - start, chord) / np.where(length > 0, length, 1.0)
+    foot = start + np.clip(share, 0.0, 1.0)[:, None] * chord
+    distance: FloatArray = np.hypot(*(points - foot).T)
+    return distance
+
+
+def _from_least_corner(corners: Corners) -> Corners:
+    """Rings turned so that each starts at its least corner along an odd direction."""
+    ring = corners.ring_of_corner
+    order = np.lexsort((corners.points @ _ODD_DIRECTION, ring))
+    first = corners.ring_start[:-1]
+    shift = order[first] - first
+    counts = np.diff(corners.ring_start)
+    position = first[ring] + (np.arange(len(ring)) - first[ring] + shift[ring]) % counts[ring]
+    return Corners(corners.points[position], corners.ring_start, corners.polygon_of_ring)

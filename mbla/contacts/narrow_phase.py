@@ -1,0 +1,156 @@
+"""Narrow phase: common surfaces of opposite facets, and what becomes of each.
+
+Both outlines are projected onto the mean plane of the two facets and intersected; every connected part of the result
+is judged by itself (tolerance ε, lengths relative to the block size of the pair):
+
+- contact:    the gap is at most ε at every corner, and the part is at least ε wide;
+- sliver:     the gap is at most ε, but the part is narrower;
+- near miss:  the gap is more than ε and at most 10 ε everywhere, and the part is at least ε wide.
+
+Parts narrower than a thousandth of ε are facets that share an edge, not a surface: they are nothing at all.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from mbla.arrays import BoolArray, FloatArray, IntArray
+from mbla.contacts.broad_phase import NEAR_MISS, BlockPairs, find_facet_pairs, opposite
+from mbla.contacts.facets import Facets
+from mbla.contacts.overlay import Overlays, Planes, build_overlays, concatenate, gap_at, local_maps
+from mbla.contacts.polygons import (
+    Polygons,
+    boxes_overlap,
+    connected_parts,
+    corners,
+    intersect,
+    map_polygons,
+    widths,
+)
+from mbla.model.blocks import Blocks
+from mbla.model.model import Ground
+
+_EDGE = 1e-3
+_ROUNDING = 1e-12
+
+
+@dataclass(frozen=True)
+class Patches:
+    """Connected common surfaces.
+
+    overlays : n records, one for each patch
+    polygons : (n,) in the local coordinates of the overlay (lengths relative to block size)
+    widths   : (n,) relative to block size
+    gaps     : (n,) greatest distance between the two planes over the patch with its sign (negative where they
+               overlap), relative to block size
+    """
+
+    overlays: Overlays
+    polygons: Polygons
+    widths: FloatArray
+    gaps: FloatArray
+
+    def __len__(self) -> int:
+        return len(self.widths)
+
+    def take(self, rows: IntArray | BoolArray) -> Patches:
+        """The given rows."""
+        index = np.arange(len(self))[rows]
+        return Patches(self.overlays.take(index), self.polygons[index], self.widths[index], self.gaps[index])
+
+
+@dataclass(frozen=True)
+class Verdicts:
+    """Common surfaces by verdict; those of bodies that are both fixed included."""
+
+    contacts: Patches
+    slivers: Patches
+    near_misses: Patches
+
+
+def find_patches(
+    blocks: Blocks, facets: Facets, pairs: BlockPairs, grounds: tuple[Ground, ...], tolerance: float
+) -> Patches:
+    """All common surfaces of blocks with blocks and with grounds, whatever their gap (within reach)."""
+    between, first, second = _between_blocks(blocks, facets, pairs, tolerance)
+    keep = np.flatnonzero(boxes_overlap(first, second, _EDGE * tolerance))
+    between = between.take(keep)
+    shapes = [intersect(first[keep], second[keep])]
+    overlays = [between]
+    for index, ground in enumerate(grounds):
+        on_ground = _on_ground(blocks, facets, ground, len(blocks) + index, tolerance)
+        overlays.append(on_ground)
+        shapes.append(_outlines(on_ground, facets, 1))
+    parts, row = connected_parts(np.concatenate(shapes))
+    return _measured(concatenate(overlays).take(row), parts)
+
+
+def judge(patches: Patches, tolerance: float) -> Verdicts:
+    """Sort common surfaces into contacts, slivers and near misses."""
+    gap = np.abs(patches.gaps)
+    # Equality with the tolerance must not hang on the last digit.
+    limit = tolerance * (1 + 1e-9) + _ROUNDING
+    close, wide = gap <= limit, patches.widths >= tolerance * (1 - 1e-9)
+    near = ~close & (gap <= NEAR_MISS * limit)
+    visible = patches.widths > _EDGE * tolerance
+    return Verdicts(
+        contacts=patches.take(close & wide),
+        slivers=patches.take(close & ~wide & visible),
+        near_misses=patches.take(near & wide),
+    )
+
+
+def _between_blocks(
+    blocks: Blocks, facets: Facets, pairs: BlockPairs, tolerance: float
+) -> tuple[Overlays, Polygons, Polygons]:
+    found, pair = find_facet_pairs(blocks, facets, pairs, tolerance)
+    a, b = found[:, 0], found[:, 1]
+    # Amid what the two bounding boxes share: near the common surface, however large one of the facets is.
+    shared = (np.maximum(facets.lower[a], facets.lower[b]) + np.minimum(facets.upper[a], facets.upper[b])) / 2
+    overlays = build_overlays(
+        bodies=pairs.blocks[pair],
+        facets=found,
+        a=Planes(facets.origins[a], facets.normals[a]),
+        b=Planes(facets.origins[b], facets.normals[b]),
+        near=shared,
+        sizes=pairs.sizes[pair],
+    )
+    return overlays, _outlines(overlays, facets, 0), _outlines(overlays, facets, 1)
+
+
+def _on_ground(blocks: Blocks, facets: Facets, ground: Ground, body: int, tolerance: float) -> Overlays:
+    """Facets that face a ground plane and come within reach of it somewhere."""
+    normals = np.broadcast_to(ground.normal, (len(facets), 3))
+    sizes = blocks.sizes[facets.blocks]
+    height = np.abs((facets.origins - ground.point) @ ground.normal)
+    cosine = facets.normals @ ground.normal
+    near = height <= NEAR_MISS * tolerance * sizes + np.sqrt(np.maximum(1 - cosine**2, 0.0)) * facets.radii
+    carried = np.ones(len(facets), dtype=bool) if ground.blocks is None else np.isin(facets.blocks, ground.blocks)
+    chosen = np.flatnonzero(near & carried & opposite(normals, facets.normals))
+    return build_overlays(
+        bodies=np.stack([np.full(len(chosen), body), facets.blocks[chosen]], axis=1),
+        facets=np.stack([np.full(len(chosen), -1), chosen], axis=1),
+        a=Planes(np.broadcast_to(ground.point, (len(chosen), 3)), normals[chosen]),
+        b=Planes(facets.origins[chosen], facets.normals[chosen]),
+        near=facets.origins[chosen],
+        sizes=sizes[chosen],
+    )
+
+
+def _outlines(overlays: Overlays, facets: Facets, side: int) -> Polygons:
+    """Outlines of the facets of body a (side 0) or b (side 1) in local coordinates."""
+    facet = overlays.facets[:, side]
+    matrices, offsets = local_maps(overlays, facets.origins[facet], facets.frames[facet])
+    return map_polygons(facets.polygons[facet], matrices, offsets)
+
+
+def _measured(overlays: Overlays, polygons: Polygons) -> Patches:
+    points, row = corners(polygons)
+    gap = gap_at(overlays, row, points)
+    extreme = np.zeros(len(polygons))
+    np.maximum.at(extreme, row, np.abs(gap))
+    high = np.full(len(polygons), -np.inf)
+    np.maximum.at(high, row, gap)
+    return Patches(overlays, polygons, widths(polygons), np.where(high >= extreme, extreme, -extreme))

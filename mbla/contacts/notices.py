@@ -1,0 +1,161 @@
+"""The contact report in words."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from mbla.arrays import IntArray
+from mbla.contacts.contacts import ContactReport
+from mbla.deck.types import ContactsSection
+from mbla.errors import Notice
+from mbla.model.model import Model
+
+# So many are named in a notice; the arrays of the report have all.
+_NAMED = 3
+
+
+def report_notices(
+    model: Model, section: ContactsSection, report: ContactReport, bodies: IntArray
+) -> tuple[Notice, ...]:
+    """What the report has to say; bodies (n, 2) of all contacts."""
+    return (
+        *_overlaps(model, section, report),
+        *_near_misses(model, section, report),
+        *_slivers(model, section, report),
+        *_isolated(model, report),
+        *_unsupported(model, report),
+        *_grounds(model, section, bodies),
+        *_fixed_contacts(report),
+    )
+
+
+def overlap_messages(model: Model, section: ContactsSection, report: ContactReport) -> tuple[str, ...]:
+    """One sentence for each pair of blocks that overlap: names, depth, remedy; the deck is wrong if there is any."""
+    return tuple(
+        f"{model.body_name(a)} and {model.body_name(b)} overlap by {_length(model, (a, b), depth)}: move them apart"
+        f"{_by_tolerance(depth, ', or set contacts.tolerance above {:.2g} if they are meant to touch')}"
+        for (a, b), depth in zip(report.overlaps.tolist(), report.overlap_depths.tolist(), strict=True)
+    )
+
+
+def _overlaps(model: Model, section: ContactsSection, report: ContactReport) -> list[Notice]:
+    found = [Notice("warning", "blocks-overlap", text) for text in overlap_messages(model, section, report)]
+    if len(report.unchecked):
+        text = (
+            f"{_count(len(report.unchecked), 'pair')} of blocks not checked for overlap, because the faces of one do "
+            f"not form a closed solid: {_pairs(model, report.unchecked)}"
+        )
+        found.append(Notice("warning", "overlap-not-checked", text))
+    return found
+
+
+def _near_misses(model: Model, section: ContactsSection, report: ContactReport) -> list[Notice]:
+    if not len(report.near_misses):
+        return []
+    gaps = report.near_miss_gaps
+    order = np.argsort(np.abs(gaps), kind="stable")
+    named = ", ".join(
+        f"{_pair(model, report.near_misses[row])} ({_length(model, report.near_misses[row].tolist(), gaps[row])})"
+        for row in order[:_NAMED]
+    )
+    text = (
+        f"{_count(len(gaps), 'pair')} of bodies nearly touch, with opposite faces that miss each other by more than "
+        f"the tolerance of {section.tolerance:g}: {named}{_more(len(gaps))}; they are no contacts"
+        f"{_by_tolerance(float(np.abs(gaps).max()), ', with contacts.tolerance above {:.2g} all of them are')}"
+    )
+    return [Notice("warning", "near-misses", text)]
+
+
+def _slivers(model: Model, section: ContactsSection, report: ContactReport) -> list[Notice]:
+    if not len(report.slivers):
+        return []
+    widest = int(np.argmax(report.sliver_widths))
+    pair, width = report.slivers[widest], float(report.sliver_widths[widest])
+    text = (
+        f"{_count(len(report.slivers), 'common surface')} narrower than the tolerance of {section.tolerance:g} "
+        f"dropped; the widest, between {_pair(model, pair)}, measures {_length(model, pair.tolist(), width)}"
+    )
+    return [Notice("notice", "slivers-dropped", text)]
+
+
+def _isolated(model: Model, report: ContactReport) -> list[Notice]:
+    if not len(report.isolated):
+        return []
+    text = f"{_count(len(report.isolated), 'block')} without any contact: {_names(model, report.isolated)}"
+    return [Notice("warning", "isolated-blocks", text)]
+
+
+def _unsupported(model: Model, report: ContactReport) -> list[Notice]:
+    isolated = set(report.isolated.tolist())
+    parts = [part for part in report.unsupported if len(part) > 1 or int(part[0]) not in isolated]
+    if not parts:
+        return []
+    text = (
+        f"{_count(len(parts), 'part')} of the structure not connected to a support; the "
+        f"{'largest' if len(parts) > 1 else 'part'} has "
+        f"{_count(max(len(part) for part in parts), 'block')}: {_names(model, max(parts, key=len))}"
+    )
+    return [Notice("warning", "unsupported-parts", text)]
+
+
+def _grounds(model: Model, section: ContactsSection, bodies: IntArray) -> list[Notice]:
+    """Ground planes that carry nothing, and blocks that lie partly below one."""
+    found = []
+    blocks = model.blocks
+    for index, ground in enumerate(model.grounds):
+        if not (bodies[:, 0] == len(blocks) + index).any():
+            text = f"no face lies on {ground.label} within the tolerance: it carries nothing"
+            found.append(Notice("warning", "ground-without-contact", text))
+        if ground.blocks is not None:
+            continue  # a ground for chosen blocks is an abutment, the rest of the structure may be behind its plane
+        height = (blocks.vertices - ground.point) @ ground.normal
+        first = blocks.vertex_start[:-1]
+        low, high = np.minimum.reduceat(height, first), np.maximum.reduceat(height, first)
+        limit = section.tolerance * blocks.sizes
+        crossing = np.flatnonzero((low < -limit) & (high > limit))
+        if len(crossing):
+            text = f"{_count(len(crossing), 'block')} on both sides of {ground.label}: {_names(model, crossing)}"
+            found.append(Notice("warning", "block-crosses-ground", text))
+    return found
+
+
+def _fixed_contacts(report: ContactReport) -> list[Notice]:
+    if not report.fixed_contacts:
+        return []
+    text = f"{_count(report.fixed_contacts, 'contact')} between bodies that are both fixed left out"
+    return [Notice("notice", "fixed-contacts-left-out", text)]
+
+
+def _count(number: int, noun: str) -> str:
+    return f"{number} {noun}" if number == 1 else f"{number} {noun}s"
+
+
+def _more(number: int) -> str:
+    return f" and {number - _NAMED} more" if number > _NAMED else ""
+
+
+def _names(model: Model, blocks: Sequence[int] | IntArray) -> str:
+    return ", ".join(model.blocks.name(int(block)) for block in blocks[:_NAMED]) + _more(len(blocks))
+
+
+def _pair(model: Model, pair: IntArray) -> str:
+    return f"{model.body_name(int(pair[0]))} and {model.body_name(int(pair[1]))}"
+
+
+def _pairs(model: Model, pairs: IntArray) -> str:
+    return ", ".join(_pair(model, pair) for pair in pairs[:_NAMED]) + _more(len(pairs))
+
+
+def _length(model: Model, pair: Sequence[int], relative: float) -> str:
+    """``0.012 m, 0.03 of the block size``: a length relative to the block size of a pair."""
+    sizes = model.blocks.sizes
+    size = min(sizes[body] for body in pair if body < len(sizes))
+    return f"{relative * size:.3g} {model.units.length}, {relative:.2g} of the block size"
+
+
+def _by_tolerance(relative: float, text: str) -> str:
+    """The text with the tolerance that would do, or nothing where no allowed tolerance would."""
+    rounded = float(f"{relative * 1.05:.1e}")
+    return text.format(rounded) if rounded < 0.1 else ""

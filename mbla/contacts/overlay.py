@@ -1,0 +1,130 @@
+"""Two planes that face each other: their mean plane, and the gap between them over it.
+
+A surface common to bodies a and b is described in a local frame (n, t1, t2) with lengths divided by the block size L of
+the pair, so that the arithmetic is the same in any unit and anywhere in space::
+
+    X = o + L (x t1 + y t2 + z n),   n = (n_a − n_b) / |n_a − n_b|
+
+with n_a, n_b the outward normals. Plane a is z_a = p_a·n_a/(n·n_a) − x (t1·n_a)/(n·n_a) − y (t2·n_a)/(n·n_a), p_a being
+a point on it relative to o over L. The slopes of z_a and z_b are opposite, hence the mean plane is perpendicular to n;
+o is put on it, so that the mean plane is z = 0 and the gap is g = z_b − z_a = g0 + gx x + gy y.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from mbla.arrays import FloatArray, IntArray
+from mbla.contacts.frames import frames_from_normals, unit
+
+
+@dataclass(frozen=True)
+class Overlays:
+    """Mean planes of pairs of facets, or of ground and facet.
+
+    bodies  : (n, 2)     a, b
+    facets  : (n, 2)     facet of each; −1 for ground
+    origins : (n, 3) m   point on the mean plane near the common surface
+    frames  : (n, 3, 3)  rows: normal from a to b, tangents
+    sizes   : (n,) m     block size of the pair, to which local lengths are relative
+    gaps    : (n, 3)     g0, gx, gy of the gap, relative to size
+    """
+
+    bodies: IntArray
+    facets: IntArray
+    origins: FloatArray
+    frames: FloatArray
+    sizes: FloatArray
+    gaps: FloatArray
+
+    def __len__(self) -> int:
+        return len(self.sizes)
+
+    def take(self, rows: IntArray) -> Overlays:
+        """The given rows, repeated where named twice."""
+        return Overlays(
+            self.bodies[rows],
+            self.facets[rows],
+            self.origins[rows],
+            self.frames[rows],
+            self.sizes[rows],
+            self.gaps[rows],
+        )
+
+
+@dataclass(frozen=True)
+class Planes:
+    """Planes by point and outward unit normal, (n, 3) each."""
+
+    points: FloatArray
+    normals: FloatArray
+
+
+def build_overlays(
+    bodies: IntArray, facets: IntArray, a: Planes, b: Planes, near: FloatArray, sizes: FloatArray
+) -> Overlays:
+    """Overlays of planes a and b.
+
+    near  : (n, 3) m  a point near the common surface
+    sizes : (n,) m    block size of the pair
+    """
+    frames = frames_from_normals(unit(a.normals - b.normals))
+    height_a, slope_a = _plane_over(a, near, frames, sizes)
+    height_b, slope_b = _plane_over(b, near, frames, sizes)
+    middle = (height_a + height_b) / 2
+    return Overlays(
+        bodies=bodies,
+        facets=facets,
+        origins=near + (middle * sizes)[:, None] * frames[:, 0],
+        frames=frames,
+        sizes=sizes,
+        gaps=np.column_stack([height_b - height_a, slope_b - slope_a]),
+    )
+
+
+def concatenate(parts: list[Overlays]) -> Overlays:
+    """One record of several."""
+    return Overlays(
+        bodies=np.concatenate([p.bodies for p in parts]),
+        facets=np.concatenate([p.facets for p in parts]),
+        origins=np.concatenate([p.origins for p in parts]),
+        frames=np.concatenate([p.frames for p in parts]),
+        sizes=np.concatenate([p.sizes for p in parts]),
+        gaps=np.concatenate([p.gaps for p in parts]),
+    )
+
+
+def local_maps(overlays: Overlays, origins: FloatArray, frames: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Maps from the planes of facets to the local coordinates of overlays: x -> matrix x + offset.
+
+    origins : (n, 3) m    of the facets
+    frames  : (n, 3, 3)   of the facets
+
+    Returns
+    -------
+    matrices : (n, 2, 2) 1/m
+    offsets  : (n, 2)
+    """
+    tangents = overlays.frames[:, 1:]
+    scale = 1 / overlays.sizes
+    matrices = np.einsum("kai,kbi->kab", tangents, frames[:, 1:]) * scale[:, None, None]
+    offsets = np.einsum("kai,ki->ka", tangents, origins - overlays.origins) * scale[:, None]
+    return matrices, offsets
+
+
+def gap_at(overlays: Overlays, row: IntArray, points: FloatArray) -> FloatArray:
+    """Gap relative to block size at local points (n, 2) of the overlays ``row``, (n,)."""
+    gaps = overlays.gaps[row]
+    gap: FloatArray = gaps[:, 0] + gaps[:, 1] * points[:, 0] + gaps[:, 2] * points[:, 1]
+    return gap
+
+
+def _plane_over(
+    planes: Planes, near: FloatArray, frames: FloatArray, sizes: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    """Height (n,) and slopes (n, 2) of planes over the frames at the points near."""
+    components = np.einsum("kai,ki->ka", frames, planes.normals)
+    distance = np.einsum("ki,ki->k", planes.points - near, planes.normals) / sizes
+    return distance / components[:, 0], -components[:, 1:] / components[:, :1]

@@ -1,0 +1,269 @@
+"""Polygons in the plane, in bulk: the only module that imports shapely.
+
+An array of polygons is a numpy array of shapely geometries (polygons or multipolygons, with or without holes).
+"""
+
+from __future__ import annotations
+
+from typing import TypeAlias
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+
+from mbla.arrays import BoolArray, FloatArray, IntArray, starts
+from mbla.model.ragged import next_item
+
+Polygons: TypeAlias = NDArray[np.object_]
+
+_POLYGON, _MULTIPOLYGON, _COLLECTION = 3, 6, 7
+
+# Grid that the overlay is snapped to where floating arithmetic fails, for coordinates of order one.
+_RESCUE_GRID = 1e-10
+
+
+def box_pairs(lower: FloatArray, upper: FloatArray) -> tuple[IntArray, IntArray]:
+    """Pairs i < j of boxes that share a point, sorted by i, then j.
+
+    lower, upper : (n, 3) corners of the boxes
+
+    The tree works on the two axes along which the boxes are smallest against the whole; the third is compared after.
+    """
+    if len(lower) < 2:
+        empty = np.zeros(0, dtype=np.int64)
+        return empty, empty
+    extent = upper.max(axis=0) - lower.min(axis=0)
+    selectivity = np.median(upper - lower, axis=0) / np.where(extent > 0, extent, 1.0)
+    selectivity[extent <= 0] = 2.0
+    first, second, third = np.argsort(selectivity, kind="stable")
+    rectangles = shapely.box(lower[:, first], lower[:, second], upper[:, first], upper[:, second])
+    i, j = shapely.STRtree(rectangles).query(rectangles)
+    keep = i < j
+    i, j = i[keep].astype(np.int64), j[keep].astype(np.int64)
+    keep = (lower[i, third] <= upper[j, third]) & (lower[j, third] <= upper[i, third])
+    i, j = i[keep], j[keep]
+    order = np.lexsort((j, i))
+    return i[order], j[order]
+
+
+def polygons_from_loops(points: FloatArray, loop_start: IntArray) -> Polygons:
+    """One polygon without holes per loop of corners; invalid ones (a bridge to a hole, a crossing) are repaired.
+
+    points     : (n_corners, 2)
+    loop_start : (n_loops + 1,)
+    """
+    loops = shapely.linearrings(points, indices=np.repeat(np.arange(len(loop_start) - 1), np.diff(loop_start)))
+    polygons: Polygons = np.atleast_1d(shapely.polygons(loops))
+    suspects = np.flatnonzero(~convex_loops(points, loop_start))
+    suspects = suspects[~shapely.is_valid(polygons[suspects])]
+    if len(suspects):
+        polygons[suspects] = _polygonal(shapely.make_valid(polygons[suspects]))
+    return polygons
+
+
+def polygons_from_rings(points: FloatArray, ring_start: IntArray, polygon_of_ring: IntArray) -> Polygons:
+    """Polygons with holes; the first ring of each polygon is its outer boundary, the rest are its holes.
+
+    points          : (n_corners, 2)
+    ring_start      : (n_rings + 1,)
+    polygon_of_ring : (n_rings,) ascending, every polygon from 0 has at least one ring
+    """
+    rings = shapely.linearrings(points, indices=np.repeat(np.arange(len(ring_start) - 1), np.diff(ring_start)))
+    rings = np.atleast_1d(rings)
+    outer = np.ones(len(rings), dtype=bool)
+    outer[1:] = polygon_of_ring[1:] != polygon_of_ring[:-1]
+    if outer.all():
+        return np.atleast_1d(shapely.polygons(rings))
+    return np.atleast_1d(shapely.polygons(rings[outer], holes=rings[~outer], indices=polygon_of_ring[~outer]))
+
+
+def convex_loops(points: FloatArray, loop_start: IntArray) -> BoolArray:
+    """True for loops that turn one way only and only once around, (n_loops,).
+
+    points     : (n_corners, 2)
+    loop_start : (n_loops + 1,)
+
+    Turns below a millionth of the product of the two edges count as straight.
+    """
+    following = next_item(loop_start)
+    edge = points[following] - points
+    after = edge[following]
+    cross = edge[:, 0] * after[:, 1] - edge[:, 1] * after[:, 0]
+    dot = (edge * after).sum(axis=1)
+    size = np.hypot(*edge.T) * np.hypot(*after.T)
+    turn = np.arctan2(cross, dot)
+    first = loop_start[:-1]
+    left = np.logical_and.reduceat(cross >= -1e-6 * size, first)
+    right = np.logical_and.reduceat(cross <= 1e-6 * size, first)
+    winding = np.abs(np.add.reduceat(turn, first))
+    once: BoolArray = (left | right) & (winding < 3 * np.pi)
+    return once
+
+
+def union_by_row(polygons: Polygons, row: IntArray, n_rows: int, grid: float | None = None) -> Polygons:
+    """Union of the polygons of each row, (n_rows,).
+
+    polygons : (n,)
+    row      : (n,) ascending; every row from 0 to n_rows - 1 occurs
+    grid     : coordinates are snapped to multiples of it, so that edges that differ by rounding merge
+    """
+    start = starts(np.bincount(row, minlength=n_rows).astype(np.int64))
+    counts = np.diff(start)
+    result: Polygons = polygons[start[:-1]].copy()
+    # Padded tables of rows with alike counts: one call each, and no table wider than twice what is in it.
+    width = 2
+    while (counts >= width).any():
+        rows = np.flatnonzero((counts >= width) & (counts < 2 * width))
+        if len(rows):
+            column = np.arange(2 * width - 1)
+            inside = column < counts[rows, None]
+            table = np.full(inside.shape, None, dtype=object)
+            table[inside] = polygons[(start[rows, None] + column)[inside]]
+            result[rows] = shapely.union_all(table, axis=1, grid_size=grid)
+        width *= 2
+    return result
+
+
+def map_polygons(polygons: Polygons, matrices: FloatArray, offsets: FloatArray) -> Polygons:
+    """Each polygon under its own affine map x -> matrix x + offset.
+
+    matrices : (n, 2, 2)
+    offsets  : (n, 2)
+    """
+    points, row = shapely.get_coordinates(polygons, return_index=True)
+    m = matrices[row]
+    mapped = np.stack(
+        [
+            m[:, 0, 0] * points[:, 0] + m[:, 0, 1] * points[:, 1] + offsets[row, 0],
+            m[:, 1, 0] * points[:, 0] + m[:, 1, 1] * points[:, 1] + offsets[row, 1],
+        ],
+        axis=1,
+    )
+    result: Polygons = shapely.set_coordinates(polygons.copy(), mapped)
+    return result
+
+
+def intersect(first: Polygons, second: Polygons) -> Polygons:
+    """Common part of each pair, (n,); may be empty or of lower dimension."""
+    try:
+        common: Polygons = shapely.intersection(first, second)
+    except shapely.errors.GEOSException:
+        if len(first) == 1:
+            return np.atleast_1d(shapely.intersection(first, second, grid_size=_RESCUE_GRID))
+        half = len(first) // 2  # only the pair that fails is to be snapped to the grid
+        common = np.concatenate([intersect(first[:half], second[:half]), intersect(first[half:], second[half:])])
+    return common
+
+
+def boxes_overlap(first: Polygons, second: Polygons, margin: float) -> BoolArray:
+    """True where the bounding rectangles of a pair share more than ``margin`` along both axes, (n,)."""
+    a, b = shapely.bounds(first), shapely.bounds(second)
+    shared = np.minimum(a[:, 2:], b[:, 2:]) - np.maximum(a[:, :2], b[:, :2])
+    wide: BoolArray = (shared > margin).all(axis=1)
+    return wide
+
+
+def connected_parts(shapes: Polygons) -> tuple[Polygons, IntArray]:
+    """The polygons that shapes consist of, points and lines left out, and the row of the shape each comes from."""
+    parts, row = shapely.get_parts(shapes, return_index=True)
+    if (shapely.get_type_id(parts) >= _MULTIPOLYGON).any():
+        parts, inner = shapely.get_parts(parts, return_index=True)
+        row = row[inner]
+    keep = (shapely.get_type_id(parts) == _POLYGON) & ~shapely.is_empty(parts)
+    return parts[keep], row[keep].astype(np.int64)
+
+
+def widths(polygons: Polygons) -> FloatArray:
+    """Width of the rectangle with the same area A and perimeter P, (n,); close to 2 A / P for slivers.
+
+    Shapes rounder than a square have no such rectangle; they get 4 A / P.
+    """
+    area = shapely.area(polygons)
+    half = shapely.length(polygons) / 2
+    root = np.sqrt(np.maximum(half**2 - 4 * area, 0.0))
+    width: FloatArray = 2 * area / np.where(half + root > 0, half + root, 1.0)
+    return width
+
+
+def corners(polygons: Polygons) -> tuple[FloatArray, IntArray]:
+    """All corners, (n_corners, 2), and the row of the polygon each belongs to; the closing corner is listed twice."""
+    points, row = shapely.get_coordinates(polygons, return_index=True)
+    return points, row.astype(np.int64)
+
+
+def rings(polygons: Polygons) -> tuple[FloatArray, IntArray, IntArray]:
+    """Corners of all rings without the closing one; outer rings counter-clockwise, holes clockwise.
+
+    Returns
+    -------
+    points          : (n_corners, 2)
+    ring_start      : (n_rings + 1,)
+    polygon_of_ring : (n_rings,)     the outer ring of each polygon comes first
+    """
+    loops, polygon = shapely.get_rings(polygons, return_index=True)
+    points, ring = shapely.get_coordinates(loops, return_index=True)
+    closing = np.ones(len(ring), dtype=bool)
+    closing[:-1] = ring[1:] != ring[:-1]
+    points, ring = points[~closing], ring[~closing]
+    start = starts(np.bincount(ring, minlength=len(loops)).astype(np.int64))
+    outer = np.ones(len(loops), dtype=bool)
+    outer[1:] = polygon[1:] != polygon[:-1]
+    wrong = (_signed_areas(points, start) > 0) != outer
+    position = np.arange(len(points))
+    mirrored = start[ring] + start[ring + 1] - 1 - position
+    return points[np.where(wrong[ring], mirrored, position)], start, polygon.astype(np.int64)
+
+
+def valid(polygons: Polygons) -> BoolArray:
+    """True where no ring crosses itself or another, (n,)."""
+    result: BoolArray = np.atleast_1d(shapely.is_valid(polygons))
+    return result
+
+
+def contains(polygons: Polygons, points: FloatArray) -> BoolArray:
+    """True where a polygon contains its point, (n,); points : (n, 2)."""
+    result: BoolArray = np.atleast_1d(shapely.contains_xy(polygons, points[:, 0], points[:, 1]))
+    return result
+
+
+def inner_points(polygons: Polygons) -> FloatArray:
+    """A point inside each polygon, (n, 2)."""
+    points: FloatArray = shapely.get_coordinates(shapely.point_on_surface(polygons))
+    return points
+
+
+def centroids(polygons: Polygons) -> FloatArray:
+    """Centroid of each polygon, (n, 2)."""
+    points: FloatArray = shapely.get_coordinates(shapely.centroid(polygons))
+    return points
+
+
+def triangles(polygons: Polygons) -> tuple[FloatArray, IntArray]:
+    """Constrained Delaunay triangles of polygons with corners of theirs only, holes respected.
+
+    Returns
+    -------
+    points : (n_triangles, 3, 2)
+    row    : (n_triangles,)  polygon that each triangle belongs to
+    """
+    parts, row = shapely.get_parts(shapely.constrained_delaunay_triangles(polygons), return_index=True)
+    points = shapely.get_coordinates(parts).reshape(len(parts), 4, 2)[:, :3]
+    return points, row.astype(np.int64)
+
+
+def _signed_areas(points: FloatArray, loop_start: IntArray) -> FloatArray:
+    following = next_item(loop_start)
+    cross = points[:, 0] * points[following, 1] - points[:, 1] * points[following, 0]
+    areas: FloatArray = np.add.reduceat(cross, loop_start[:-1]) / 2
+    return areas
+
+
+def _polygonal(shapes: Polygons) -> Polygons:
+    """Shapes with their points and lines left out, as one (multi)polygon each."""
+    parts, row = connected_parts(shapes)
+    result: Polygons = np.full(len(shapes), shapely.Polygon(), dtype=object)
+    if len(parts):
+        # Every row must be named once for union_by_row: rows that lost everything keep the empty polygon.
+        present, dense = np.unique(row, return_inverse=True)
+        result[present] = union_by_row(parts, dense.astype(np.int64), len(present))
+    return result

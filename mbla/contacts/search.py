@@ -1,0 +1,85 @@
+"""The contacts stage in one page: from the model to its interfaces, contact points and the report on both."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from mbla.arrays import FloatArray, IntArray, starts
+from mbla.contacts.broad_phase import find_block_pairs
+from mbla.contacts.contacts import Contacts
+from mbla.contacts.corners import areas_and_centroids, needed_corners
+from mbla.contacts.facets import build_facets
+from mbla.contacts.joints import joints_of_interfaces
+from mbla.contacts.narrow_phase import Patches, find_patches, judge
+from mbla.contacts.near_misses import without_covered
+from mbla.contacts.overlaps import find_overlaps
+from mbla.contacts.point_areas import point_areas
+from mbla.contacts.polygons import centroids
+from mbla.contacts.report import Findings, both_fixed, build_report
+from mbla.deck.types import ContactsSection
+from mbla.model.model import Model
+
+# Interfaces of one pair of bodies are sorted along a direction that no building is likely to be square to, so that
+# rounding does not turn their order.
+_ODD_DIRECTION = np.array([0.5403023, 0.2919266, 0.7892347])
+
+
+def find_contacts(model: Model, section: ContactsSection) -> Contacts:
+    """Find the interfaces between all blocks, and between blocks and ground planes.
+
+    Tolerances are relative to block size, the cube root of the volume of the smaller block of a pair. Contacts between
+    two bodies that are both fixed are counted in the report and left out: nothing depends on their forces.
+    """
+    blocks, tolerance = model.blocks, section.tolerance
+    facets = build_facets(blocks)
+    pairs = find_block_pairs(blocks, tolerance)
+    verdicts = judge(find_patches(blocks, facets, pairs, model.grounds, tolerance), tolerance)
+    touching = verdicts.contacts.overlays.bodies
+    overlaps = find_overlaps(blocks, pairs, touching[touching[:, 0] < len(blocks)], tolerance)
+    kept = _sorted(verdicts.contacts.take(~both_fixed(model, touching)))
+    joints, joint_names, notices = joints_of_interfaces(model, section, kept.overlays.bodies)
+    report = build_report(
+        model,
+        section,
+        Findings(
+            contacts=verdicts.contacts,
+            slivers=verdicts.slivers,
+            near_misses=without_covered(verdicts.near_misses, verdicts.contacts),
+            overlaps=overlaps,
+        ),
+        notices,
+    )
+    corners = needed_corners(kept.polygons, tolerance)
+    area, centroid = areas_and_centroids(corners, len(kept))
+    interface, size = corners.polygon_of_corner, kept.overlays.sizes
+    first_ring = np.searchsorted(corners.polygon_of_ring, np.arange(len(kept)))
+    return Contacts(
+        bodies=kept.overlays.bodies,
+        normals=kept.overlays.frames[:, 0],
+        areas=area * size**2,
+        centroids=_in_space(kept, np.arange(len(kept)), centroid),
+        gaps=kept.gaps * size,
+        joints=joints,
+        joint_names=joint_names,
+        point_start=starts(np.bincount(interface, minlength=len(kept)).astype(np.int64)),
+        outline=np.diff(corners.ring_start)[first_ring],
+        points=_in_space(kept, interface, corners.points),
+        frames=kept.overlays.frames[interface],
+        point_areas=point_areas(corners, len(kept)) * size[interface] ** 2,
+        report=report,
+    )
+
+
+def _sorted(patches: Patches) -> Patches:
+    """By body a, body b, position."""
+    bodies = patches.overlays.bodies
+    along = _in_space(patches, np.arange(len(patches)), centroids(patches.polygons)) @ _ODD_DIRECTION
+    return patches.take(np.lexsort((along, bodies[:, 1], bodies[:, 0])))
+
+
+def _in_space(patches: Patches, row: IntArray, points: FloatArray) -> FloatArray:
+    """Local points (n, 2) of the patches ``row`` in space, (n, 3) m."""
+    overlays = patches.overlays
+    offsets = np.einsum("ka,kai->ki", points, overlays.frames[row, 1:])
+    result: FloatArray = overlays.origins[row] + overlays.sizes[row, None] * offsets
+    return result

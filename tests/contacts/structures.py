@@ -1,0 +1,178 @@
+"""Small structures for the tests of the contacts stage."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+
+from mbla.arrays import FloatArray, IntArray
+from mbla.contacts import Contacts, find_contacts
+from mbla.deck.types import ContactOverride, ContactsSection
+from mbla.deck.units import Units
+from mbla.model.blocks import Blocks
+from mbla.model.build_blocks import Labels, blocks_from_polyhedra, build_blocks, indices_in_groups
+from mbla.model.model import Ground, Joint, Model
+from mbla.model.polyhedra import Polyhedra, cuboids, polyhedra_from_lists, take_polyhedra
+
+SHARED_DATA = Path("/work/shared/data")
+
+
+def blocks_of(polyhedra: Polyhedra, groups: Sequence[str] | None = None) -> Blocks:
+    """Blocks of density 1."""
+    names = tuple(groups) if groups is not None else ("block",) * len(polyhedra)
+    built = build_blocks(polyhedra, Labels(names, indices_in_groups(names), np.ones(len(polyhedra))), 1e-3)
+    assert not built.defects
+    return built.blocks
+
+
+def boxes(*extremes: tuple[Sequence[float], Sequence[float]]) -> Polyhedra:
+    """Cuboids from pairs (least corner, greatest corner)."""
+    array = np.array(extremes, dtype=np.float64)
+    return cuboids(array[:, 0], array[:, 1])
+
+
+def model_of(
+    blocks: Blocks, fixed: Sequence[int] = (), grounds: tuple[Ground, ...] = (), units: Units | None = None
+) -> Model:
+    still = np.zeros(len(blocks), dtype=bool)
+    still[list(fixed)] = True
+    return Model(
+        title="",
+        units=units or Units(),
+        blocks=blocks,
+        fixed=still,
+        grounds=grounds,
+        joints={name: Joint(name, 0.65) for name in ("dry", "mortar", "lead")},
+        load_cases=(),
+        notices=(),
+    )
+
+
+def ground(
+    point: Sequence[float] = (0, 0, 0),
+    normal: Sequence[float] = (0, 0, 1),
+    joint: str = "dry",
+    blocks: Sequence[int] | None = None,
+) -> Ground:
+    direction = np.array(normal, dtype=np.float64)
+    return Ground(
+        point=np.array(point, dtype=np.float64),
+        normal=direction / np.linalg.norm(direction),
+        joint=joint,
+        blocks=None if blocks is None else np.array(blocks, dtype=np.int64),
+        label="ground",
+    )
+
+
+def section(tolerance: float = 1e-3, overrides: Sequence[tuple[str, str, str]] = ()) -> ContactsSection:
+    return ContactsSection(
+        joint="dry",
+        tolerance=tolerance,
+        overrides=[ContactOverride(between=(a, b), joint=joint) for a, b, joint in overrides],
+    )
+
+
+def contacts_of(
+    polyhedra: Polyhedra,
+    fixed: Sequence[int] = (),
+    grounds: tuple[Ground, ...] = (),
+    tolerance: float = 1e-3,
+) -> Contacts:
+    return find_contacts(model_of(blocks_of(polyhedra), fixed, grounds), section(tolerance))
+
+
+def running_bond(units: int, courses: int) -> Polyhedra:
+    """Wall of REFERENCES E: units 0.4 x 0.2 x 0.175, half units at the ends of odd courses; block 0 is the base slab."""
+    length, thickness, height = 0.4, 0.2, 0.175
+    least = [[0.0, 0.0, -height]]
+    greatest = [[units * length, thickness, 0.0]]
+    for course in range(courses):
+        joints = np.arange(units + 1) * length if course % 2 == 0 else _half_bond(units, length)
+        for left, right in zip(joints[:-1], joints[1:], strict=True):
+            least.append([left, 0.0, course * height])
+            greatest.append([right, thickness, (course + 1) * height])
+    return cuboids(np.array(least), np.array(greatest))
+
+
+def _half_bond(units: int, length: float) -> FloatArray:
+    return np.concatenate([[0.0], (np.arange(units) + 0.5) * length, [units * length]])
+
+
+# Walls of Ferris and Tin-Loi by course, bottom to top, in units of 0.4 m; negative lengths are gaps.
+_FE, _FU, _WU, _WE = [1, 1, 1, 1], [0.5, 1, 1, 1, 0.5], [0.5, 1, -1, 1, 0.5], [1, 0.5, -1, 0.5, 1]
+_FE5, _FU5, _WU5, _WE5 = [0.5, 1, 1, 0.5], [1, 1, 1], [1, -1, 1], [0.5, 0.5, -1, 0.5, 0.5]
+_WINDOW5 = [_WU5, _WE5, _WU5, _WE5, _WU5]
+PERFORATED_WALLS: dict[int, list[list[float]]] = {
+    1: [[0.5, 1, 1, 1, 1, 0.5], [1, 1, 1, 1, 1]] * 3,
+    3: [_FE, _FU, _FE, _WU, _WE, _WU, _WE, _WU, _FE, _FU, _FE],
+    5: [_FE5, _FU5, _FE5, *_WINDOW5, _FE5, _FU5, _FE5, *_WINDOW5, _FE5, _FU5, _FE5],
+}
+
+
+def perforated_wall(number: int) -> Polyhedra:
+    """Wall 1, 3 or 5 of REFERENCES B on the plane z = 0, 0.2 m thick."""
+    least, greatest = [], []
+    for course, lengths in enumerate(PERFORATED_WALLS[number]):
+        ends = np.concatenate([[0.0], np.cumsum(np.abs(lengths))]) * 0.4
+        for length, left, right in zip(lengths, ends[:-1], ends[1:], strict=True):
+            if length > 0:
+                least.append([left, 0.0, course * 0.175])
+                greatest.append([right, 0.2, (course + 1) * 0.175])
+    return cuboids(np.array(least), np.array(greatest))
+
+
+def moved(polyhedra: Polyhedra, scale: float = 1.0, turn: FloatArray | None = None, shift: float = 0.0) -> Polyhedra:
+    """Scaled, turned by a rotation matrix, and shifted along (1, 1, 1)."""
+    rotation = np.eye(3) if turn is None else turn
+    return Polyhedra(
+        vertices=scale * polyhedra.vertices @ rotation.T + shift,
+        vertex_start=polyhedra.vertex_start,
+        loops=polyhedra.loops,
+        loop_start=polyhedra.loop_start,
+        face_start=polyhedra.face_start,
+    )
+
+
+def shuffled(polyhedra: Polyhedra, seed: int = 0) -> tuple[Polyhedra, IntArray]:
+    """The polyhedra in another order, and the old number of each."""
+    order = np.random.default_rng(seed).permutation(len(polyhedra))
+    return take_polyhedra(polyhedra, order), order
+
+
+def any_rotation(seed: int = 1) -> FloatArray:
+    """A rotation matrix."""
+    q, r = np.linalg.qr(np.random.default_rng(seed).normal(size=(3, 3)))
+    q = q * np.sign(np.diag(r))
+    return q if np.linalg.det(q) > 0 else -q
+
+
+def prism(outline: Sequence[Sequence[float]], bottom: float, top: float) -> Polyhedra:
+    """Vertical prism over a simple polygon."""
+    n = len(outline)
+    vertices = [[*p, z] for z in (bottom, top) for p in outline]
+    faces = [list(range(n)), list(range(n, 2 * n))]
+    faces += [[i, (i + 1) % n, n + (i + 1) % n, n + i] for i in range(n)]
+    return polyhedra_from_lists([vertices], [faces])
+
+
+def read_obj(path: Path) -> Blocks:
+    """One block for each object of an OBJ file."""
+    points: list[list[float]] = []
+    objects: list[list[list[int]]] = []
+    for line in path.read_text().splitlines():
+        key, *words = line.split() or [""]
+        if key == "v":
+            points.append([float(word) for word in words])
+        elif key == "o":
+            objects.append([])
+        elif key == "f":
+            objects[-1].append([int(word.split("/")[0]) - 1 for word in words])
+    vertex_lists, face_lists = [], []
+    for faces in objects:
+        used = sorted({corner for face in faces for corner in face})
+        row = {corner: i for i, corner in enumerate(used)}
+        vertex_lists.append([points[corner] for corner in used])
+        face_lists.append([[row[corner] for corner in face] for face in faces])
+    return blocks_from_polyhedra(vertex_lists, face_lists)
