@@ -6,11 +6,10 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
+from mbla.deck.tree import KeyPath
 from mbla.deck.types import AnalysisSection, ContactsSection, DeckContent
 from mbla.deck.units import Units
 from mbla.errors import Fault, Notice
-
-KeyPath = tuple[str | int, ...]
 
 
 @dataclass(frozen=True)
@@ -25,9 +24,8 @@ class Source:
 class Deck:
     """A checked deck.
 
-    folder  : folder of the main file; files that the deck names are relative to it and confined to it
     sources : the main file first, then the included ones
-    sha256  : of the effective deck (sources, side files excluded, and overrides), 64 hex digits
+    sha256  : of the texts of all sources and overrides, 64 hex digits; neither file names nor side files count
     """
 
     path: Path
@@ -40,16 +38,20 @@ class Deck:
     fault_at: Callable[[KeyPath, str], Fault]
     """Fault for a key path such as ("blocks", 3, "wall", "length") with a message; finds place and value itself."""
     resolve_file: Callable[[KeyPath, str], Path]
-    """Path of a file named by the value at a key path; DeckError if missing, not a regular file, or outside the folder."""
+    """Path of a file named by the value at a key path; relative to the file that names it and confined to its folder
+    tree. DeckError if missing, not a regular file, or outside."""
 
     @property
     def folder(self) -> Path:
+        """Folder of the main file."""
         return self.path.parent
 
     @property
     def analysis(self) -> AnalysisSection:
+        """How the load factor is computed."""
         return self.content.analysis
 
     @property
     def contacts(self) -> ContactsSection:
+        """How contacts are found."""
         return self.content.contacts

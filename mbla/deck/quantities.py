@@ -1,4 +1,9 @@
-"""Number fields of the deck: a plain number in the deck's units, or a string with a unit that is converted."""
+"""Number fields of the deck: a plain number in the deck's units, an expression, or a string with a unit.
+
+Numbers are checked by pydantic's compiled code, so that large vertex lists cost nothing; only strings, and what is no
+number at all, come to Python. The validation context must hold ``convert``, a function (text, dimension) -> number in
+the deck's units that raises ValueError.
+"""
 
 from __future__ import annotations
 
@@ -6,18 +11,20 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Annotated, Any, TypeAlias
 
-from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler
+from pydantic import Field, GetCoreSchemaHandler, GetJsonSchemaHandler
 from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema, PydanticCustomError, core_schema
+
+from mbla.deck.expressions import ParameterFaultError
+
+EXPRESSION_PATTERN = "^="
+QUANTITY_PATTERN = r"^(=|\s*[-+]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][-+]?[0-9]+)? *[A-Za-zµμ°])"
+"""What a JSON Schema can see of expressions and of strings with a unit."""
 
 
 @dataclass(frozen=True)
 class Quantity:
-    """Annotation of a number field: its dimension (a key of ``mbla.deck.units.DIMENSIONS``) and its bounds.
-
-    Numbers are checked by pydantic's compiled code, so that large vertex lists cost nothing; only strings come here.
-    The validation context must hold ``convert``, a function (text, dimension) -> number in the deck's units.
-    """
+    """Annotation of a number field: its dimension (a key of ``mbla.deck.units.DIMENSIONS``) and its bounds."""
 
     dimension: str
     gt: float | None = None
@@ -29,34 +36,67 @@ class Quantity:
         number = core_schema.float_schema(
             strict=True, allow_inf_nan=False, gt=self.gt, ge=self.ge, lt=self.lt, le=self.le
         )
-        text = core_schema.chain_schema(
-            [core_schema.with_info_plain_validator_function(self._from_text), number],
-        )
-        return core_schema.union_schema([number, text], mode="left_to_right")
+        return core_schema.union_schema([number, _from_text(self.dimension, _plain, number)], mode="left_to_right")
 
     def __get_pydantic_json_schema__(self, schema: CoreSchema, handler: GetJsonSchemaHandler) -> JsonSchemaValue:
-        bounds = {
-            "exclusiveMinimum": self.gt,
-            "minimum": self.ge,
-            "exclusiveMaximum": self.lt,
-            "maximum": self.le,
-        }
-        number = {"type": "number"} | {key: value for key, value in bounds.items() if value is not None}
-        return {"anyOf": [number, {"type": "string"}]}
+        pattern = EXPRESSION_PATTERN if self.dimension == "number" else QUANTITY_PATTERN
+        return {"anyOf": [{"type": "number"} | _bounds(self), {"type": "string", "pattern": pattern}]}
 
-    def _from_text(self, text: Any, info: core_schema.ValidationInfo) -> float:
-        if not isinstance(text, str):
-            raise PydanticCustomError("not_a_number", "must be a number")
-        convert: Callable[[str, str], float] = (info.context or {})["convert"]
+
+@dataclass(frozen=True)
+class Whole:
+    """Annotation of a field for whole numbers, with its bounds; ``6.0`` and expressions that give 6 are whole."""
+
+    ge: int
+    le: int
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
+        number = core_schema.int_schema(strict=True, ge=self.ge, le=self.le)
+        return core_schema.union_schema([number, _from_text("number", _whole, number)], mode="left_to_right")
+
+    def __get_pydantic_json_schema__(self, schema: CoreSchema, handler: GetJsonSchemaHandler) -> JsonSchemaValue:
+        bounds = {"minimum": self.ge, "maximum": self.le}
+        return {"anyOf": [{"type": "integer"} | bounds, {"type": "string", "pattern": EXPRESSION_PATTERN}]}
+
+
+def _bounds(quantity: Quantity) -> dict[str, float]:
+    names = {"gt": "exclusiveMinimum", "ge": "minimum", "lt": "exclusiveMaximum", "le": "maximum"}
+    bounds = {name: getattr(quantity, key) for key, name in names.items()}
+    return {name: value for name, value in bounds.items() if value is not None}
+
+
+def _from_text(dimension: str, accept: Callable[[Any], Any], then: CoreSchema) -> CoreSchema:
+    """Schema that converts a text, passes the result through ``accept``, and checks the bounds again."""
+
+    def convert(value: Any, info: core_schema.ValidationInfo) -> Any:
+        if not isinstance(value, str):
+            return accept(value)
+        function: Callable[[str, str], float] = (info.context or {})["convert"]
         try:
-            return convert(text, self.dimension)
+            return accept(function(value, dimension))
+        except ParameterFaultError:
+            raise PydanticCustomError("reported", "uses a parameter that is at fault itself") from None
         except ValueError as error:
             raise PydanticCustomError("quantity", "{reason}", {"reason": str(error)}) from None
+
+    return core_schema.chain_schema([core_schema.with_info_plain_validator_function(convert), then])
+
+
+def _plain(value: Any) -> Any:
+    return value
+
+
+def _whole(value: Any) -> Any:
+    """The whole number that a float is, up to the rounding of an expression such as 0.3 / 0.1."""
+    if isinstance(value, float) and abs(value) < 1e15 and abs(value - round(value)) <= 1e-9 * max(1.0, abs(value)):
+        return round(value)
+    return value
 
 
 Number: TypeAlias = Annotated[float, Quantity("number")]
 NonNegativeNumber: TypeAlias = Annotated[float, Quantity("number", ge=0)]
 PositiveNumber: TypeAlias = Annotated[float, Quantity("number", gt=0)]
+Share: TypeAlias = Annotated[float, Quantity("number", gt=0, le=1)]
 Length: TypeAlias = Annotated[float, Quantity("length")]
 PositiveLength: TypeAlias = Annotated[float, Quantity("length", gt=0)]
 Force: TypeAlias = Annotated[float, Quantity("force")]
@@ -69,3 +109,6 @@ Angle: TypeAlias = Annotated[float, Quantity("angle")]
 FrictionAngle: TypeAlias = Annotated[float, Quantity("angle", ge=0, lt=90)]
 EmbraceAngle: TypeAlias = Annotated[float, Quantity("angle", gt=0, lt=360)]
 Time: TypeAlias = Annotated[float, Quantity("time", gt=0)]
+Index: TypeAlias = Annotated[int, Whole(ge=0, le=2**31 - 1)]
+Count: TypeAlias = Annotated[int, Whole(ge=1, le=1_000_000)]
+Switch: TypeAlias = Annotated[bool, Field(strict=True)]

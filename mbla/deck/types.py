@@ -6,16 +6,18 @@ Checks that need more than one key are in :mod:`mbla.deck.rules`.
 
 from __future__ import annotations
 
-from typing import Annotated, Literal, TypeAlias
+from typing import Annotated, Any, Literal, TypeAlias
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import BeforeValidator, Discriminator, Field, Tag
 
 from mbla.deck.quantities import (
     Acceleration,
     Angle,
+    Count,
     EmbraceAngle,
     Force,
     FrictionAngle,
+    Index,
     Length,
     NonNegativeNumber,
     NonNegativeStress,
@@ -25,21 +27,28 @@ from mbla.deck.quantities import (
     PositiveNumber,
     PositiveStress,
     PositiveUnitWeight,
+    Quantity,
+    Switch,
     Time,
+    Whole,
 )
+from mbla.deck.section import Section
 
 Point: TypeAlias = tuple[Length, Length, Length]
 PlanePoint: TypeAlias = tuple[Length, Length]
 Direction: TypeAlias = tuple[Number, Number, Number]
 Name: TypeAlias = Annotated[str, Field(pattern=r"^[A-Za-z0-9_][A-Za-z0-9_.-]*$", max_length=64)]
-Index: TypeAlias = Annotated[int, Field(strict=True, ge=0)]
-Count: TypeAlias = Annotated[int, Field(strict=True, ge=1, le=1_000_000)]
+Line: TypeAlias = Annotated[str, Field(pattern=r"^.*$", max_length=200)]
 
 
-class Section(BaseModel):
-    """A mapping of the deck: unknown keys are refused, nothing changes after reading."""
+def _shape(value: Any) -> str:
+    """Which branch of a union a value of the deck belongs to, so that a fault in it is reported once."""
+    return "mapping" if isinstance(value, (dict, Section)) else "list" if isinstance(value, list) else "name"
 
-    model_config = ConfigDict(extra="forbid", frozen=True)
+
+def _no_boolean(value: Any) -> Any:
+    """Python takes True for 1; a deck does not."""
+    return str(value) if isinstance(value, bool) else value
 
 
 class UnitsSection(Section):
@@ -66,7 +75,9 @@ class JointLaw(Section):
     friction_angle: FrictionAngle | None = Field(None, description="friction angle in degrees")
     cohesion: NonNegativeStress = Field(0.0, description="shear strength without normal stress")
     tensile_strength: NonNegativeStress = Field(0.0, description="normal stress at which the joint opens")
-    compressive_strength: PositiveStress | None = Field(None, description="normal stress at which it crushes; unlimited unless given")
+    compressive_strength: PositiveStress | None = Field(
+        None, description="normal stress at which it crushes; unlimited unless given"
+    )
     dilatancy: FrictionAngle = Field(0.0, description="dilatancy angle in degrees, at most the friction angle")
 
 
@@ -97,13 +108,19 @@ class TransformStep(Section):
     mirror: Reflection | None = Field(None, description="reflection in a plane")
 
 
+Transform: TypeAlias = Annotated[
+    Annotated[TransformStep, Tag("mapping")] | Annotated[list[TransformStep], Tag("list")],
+    Discriminator(lambda value: "mapping" if _shape(value) == "mapping" else "list"),
+]
+
+
 class Item(Section):
     """What every item of `blocks` has."""
 
     group: Name | None = Field(None, description="name that selectors use; the item's kind unless given")
     material: Name = Field(description="name of a material")
-    transform: list[TransformStep] | TransformStep = Field(
-        default_factory=list, description="steps applied in order to the item's own geometry"
+    transform: Transform = Field(
+        default_factory=list, description="a step, or a list of steps applied in order to the item's own geometry"
     )
 
 
@@ -167,7 +184,9 @@ class ArchItem(Item):
 class MeshItem(Item):
     """Blocks from a geometry file: each object, closed component or volume cell is one block."""
 
-    file: str = Field(min_length=1, description="OBJ, PLY, STL, VTU, Gmsh .msh or Abaqus/CalculiX .inp, relative to the deck")
+    file: str = Field(
+        min_length=1, description="OBJ, PLY, STL, VTU, Gmsh .msh or Abaqus/CalculiX .inp, relative to the deck"
+    )
     scale: PositiveNumber = Field(1.0, description="factor from the file's coordinates to the deck's unit of length")
 
 
@@ -192,7 +211,16 @@ class SelectorTerm(Section):
     box: tuple[Point, Point] | None = Field(None, description="least and greatest coordinates; centroids inside count")
 
 
-Selector: TypeAlias = Name | SelectorTerm | list[Name | SelectorTerm]
+Term: TypeAlias = Annotated[
+    Annotated[Name, Tag("name")] | Annotated[SelectorTerm, Tag("mapping")],
+    Discriminator(lambda value: "mapping" if _shape(value) == "mapping" else "name"),
+]
+Selector: TypeAlias = Annotated[
+    Annotated[Name, Tag("name")]
+    | Annotated[SelectorTerm, Tag("mapping")]
+    | Annotated[list[Term], Field(min_length=1), Tag("list")],
+    Discriminator(_shape),
+]
 
 
 class ContactOverride(Section):
@@ -206,8 +234,8 @@ class ContactsSection(Section):
     """How contacts are found, and their joint law."""
 
     joint: Name = Field(description="joint law of every contact that no override names")
-    tolerance: PositiveNumber = Field(
-        1e-3, le=0.1, description="greatest gap, overlap and sliver width, relative to block size"
+    tolerance: Annotated[float, Quantity("number", gt=0, le=0.1)] = Field(
+        1e-3, description="greatest gap, overlap and sliver width, relative to block size"
     )
     overrides: list[ContactOverride] = Field(default_factory=list, description="the last that fits a contact holds")
 
@@ -227,7 +255,9 @@ class Support(Section):
 
     ground: GroundPlane | None = Field(None, description="rigid ground")
     joint: Name | None = Field(None, description="joint law on the ground; that of contacts unless given")
-    blocks: Selector | None = Field(None, description="blocks that do not move; with ground: the only blocks it carries")
+    blocks: Selector | None = Field(
+        None, description="blocks that do not move; with ground: the only blocks it carries"
+    )
 
 
 # --- loads --------------------------------------------------------------------------------------------------------
@@ -244,7 +274,9 @@ class Load(Section):
     )
     force: tuple[Force, Force, Force] | None = Field(None, description="force on one block")
     on: Selector | None = Field(None, description="force: the block; acceleration: the blocks, all unless given")
-    at: Point | None = Field(None, description="point of application, carried with its moment; the centroid unless given")
+    at: Point | None = Field(
+        None, description="point of application, carried with its moment; the centroid unless given"
+    )
 
 
 class LoadCaseSection(Section):
@@ -260,13 +292,19 @@ class LoadCaseSection(Section):
 class PublishedScheme(Section):
     """Parameters of the iterative procedure of Portioli et al. 2014 for non-associative flow."""
 
-    slope: Annotated[PositiveNumber, Field(le=1)] = Field(
-        0.01, description="alpha: share of the friction coefficient kept as slope of each program's yield line"
+    slope: Annotated[float, Quantity("number", ge=0, le=1)] = Field(
+        0.0,
+        description="alpha: share of the friction coefficient kept as slope of each program's yield line; "
+        "published runs use small values above 0, which are a small dilatancy; 0 is none",
     )
-    averaging: Annotated[PositiveNumber, Field(le=1)] = Field(
+    averaging: Annotated[float, Quantity("number", gt=0, le=1)] = Field(
         0.6, description="beta: weight of the newest normal forces in the average that sets the fictitious cohesion"
     )
-    tolerance: PositiveNumber = Field(1e-4, description="relative change of the load factor at which the sequence stops")
+    tolerance: Annotated[float, Quantity("number", gt=0, le=0.1)] = Field(
+        1e-4,
+        description="the sequence stops when the load factor changes by less, relatively, and no force exceeds "
+        "its true friction by more than this share of the mean block load",
+    )
     max_programs: Count = Field(60, description="cone programs before the sequence is given up")
 
 
@@ -280,7 +318,7 @@ class AnalysisSection(Section):
     scheme: Literal["published"] = Field("published", description="how non-associative flow is solved")
     published: PublishedScheme = Field(default_factory=PublishedScheme, description="its parameters")
     accuracy: Literal["draft", "standard", "reference"] = Field("standard", description="one word for every knob")
-    tolerance: Annotated[PositiveNumber, Field(le=1e-3)] | None = Field(
+    tolerance: Annotated[float, Quantity("number", gt=0, le=1e-3)] | None = Field(
         None, description="relative tolerance of the cone solver; set by accuracy unless given"
     )
     max_iterations: Count | None = Field(None, description="iterations of the cone solver for one program")
@@ -290,9 +328,9 @@ class AnalysisSection(Section):
 class OutputSection(Section):
     """Which result files are written."""
 
-    vtu: bool = Field(True, description="VTU and PVD files for ParaView")
-    frames: Annotated[int, Field(strict=True, ge=2, le=1000)] = Field(11, description="frames of the animation of the mechanism")
-    plots: bool = Field(False, description="pictures of each load case beside the results")
+    vtu: Switch = Field(True, description="VTU and PVD files for ParaView")
+    frames: Annotated[int, Whole(ge=2, le=1000)] = Field(11, description="frames of the animation of the mechanism")
+    plots: Switch = Field(False, description="pictures of each load case beside the results")
 
 
 class Expectation(Section):
@@ -304,14 +342,14 @@ class Expectation(Section):
         None, description="status of the case"
     )
     tolerance: PositiveNumber = Field(1e-5, description="relative difference that is allowed")
-    source: str = Field(min_length=1, description="where the figure is from")
+    source: Line = Field(min_length=1, description="where the figure is from")
 
 
 class DeckContent(Section):
     """A whole deck."""
 
-    mbla: Literal[1] = Field(description="version of the deck format")
-    title: str = Field("", max_length=200, description="shown in every result")
+    mbla: Annotated[Literal[1], BeforeValidator(_no_boolean)] = Field(description="version of the deck format")
+    title: Line = Field("", description="shown in every result")
     units: UnitsSection = Field(default_factory=UnitsSection, description="units of numbers in deck and results")
     parameters: dict[Annotated[str, Field(pattern=r"^[A-Za-z_][A-Za-z0-9_]*$")], Number] = Field(
         default_factory=dict, description='names for "=..." expressions'
@@ -325,4 +363,6 @@ class DeckContent(Section):
     load_cases: dict[Name, LoadCaseSection] = Field(min_length=1, description="load cases by name")
     analysis: AnalysisSection = Field(default_factory=AnalysisSection, description="how it is solved")
     output: OutputSection = Field(default_factory=OutputSection, description="what is written")
-    expected: dict[Name, Expectation] = Field(default_factory=dict, description="figures that `mbla run --expected` compares")
+    expected: dict[Name, Expectation] = Field(
+        default_factory=dict, description="figures that `mbla run --expected` compares"
+    )

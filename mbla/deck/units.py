@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
+from functools import cache
+from typing import Any
 
 METRES = {"m": 1.0, "mm": 1e-3, "cm": 1e-2, "ft": 0.3048, "in": 0.0254}
 NEWTONS = {"N": 1.0, "kN": 1e3, "MN": 1e6, "lbf": 4.4482216152605, "kip": 4448.2216152605}
@@ -12,8 +15,37 @@ STANDARD_GRAVITY = 9.81
 
 
 @dataclass(frozen=True)
+class Dimension:
+    """What a number measures.
+
+    unit    : the deck's unit for it, with L, F, M for its units of length, force and mass; empty for plain numbers
+    powers  : exponents of length, force, mass; time is in seconds, angles in degrees in every deck
+    si      : the same unit in SI (angles: degree), as pint reads it
+    example : a string that a message can offer
+    """
+
+    unit: str
+    powers: tuple[int, int, int]
+    si: str
+    example: str
+
+
+DIMENSIONS = {
+    "number": Dimension("", (0, 0, 0), "", ""),
+    "length": Dimension("L", (1, 0, 0), "m", "30 cm"),
+    "force": Dimension("F", (0, 1, 0), "N", "10 kN"),
+    "stress": Dimension("F/L^2", (-2, 1, 0), "N/m**2", "0.1 MPa"),
+    "density": Dimension("M/L^3", (-3, 0, 1), "kg/m**3", "2000 kg/m^3"),
+    "unit_weight": Dimension("F/L^3", (-3, 1, 0), "N/m**3", "18 kN/m^3"),
+    "acceleration": Dimension("L/s^2", (1, 0, 0), "m/s**2", "9.81 m/s^2"),
+    "angle": Dimension("degree", (0, 0, 0), "degree", "0.5 rad"),
+    "time": Dimension("s", (0, 0, 0), "s", "10 min"),
+}
+
+
+@dataclass(frozen=True)
 class Units:
-    """Units of length, force and mass; time is always in seconds."""
+    """Units of length, force and mass; time is always in seconds, an angle of the deck in degrees."""
 
     length: str = "m"
     force: str = "N"
@@ -25,6 +57,86 @@ class Units:
         return STANDARD_GRAVITY / METRES[self.length]
 
     @property
+    def default_gravity(self) -> tuple[float, float, float]:
+        """Dead load of a load case that gives none: 9.81 m/s2 along -z, in the deck's unit of length per s2."""
+        return (0.0, 0.0, -self.standard_gravity)
+
+    @property
     def force_per_mass_acceleration(self) -> float:
         """Factor from (unit of mass) x (unit of length)/s2 to the unit of force."""
         return KILOGRAMS[self.mass] * METRES[self.length] / NEWTONS[self.force]
+
+    def unit(self, dimension: str) -> str:
+        """The deck's unit for a dimension, such as ``kN/m^3``; empty for plain numbers."""
+        symbols = {"L": self.length, "F": self.force, "M": self.mass}
+        return re.sub(r"[LFM]", lambda match: symbols[match.group()], DIMENSIONS[dimension].unit)
+
+    def convert(self, text: str, dimension: str) -> float:
+        """Value of a string with a unit, in the deck's unit for a dimension (a key of DIMENSIONS).
+
+        Raises
+        ------
+        ValueError
+            with what is wrong with the string and what to write instead
+        """
+        number, unit = _split(text, dimension)
+        if dimension == "number":
+            raise ValueError("must be a number without a unit")
+        length, force, mass = DIMENSIONS[dimension].powers
+        size = METRES[self.length] ** length * NEWTONS[self.force] ** force * KILOGRAMS[self.mass] ** mass
+        return number * (_si_factor(unit, dimension) / size)
+
+
+_TERM = r"[A-Za-zµμ°]{1,24}(?:(?:\^|\*\*)-?[1-9]|[²³])?"
+_UNIT = rf"{_TERM}(?:[ ]*[*/·][ ]*{_TERM}|[ ]+{_TERM}){{0,5}}"
+# A unit is checked against this before pint sees it: pint evaluates what it is given, powers included.
+_QUANTITY = re.compile(
+    rf"([-+]?(?:\d{{1,30}}(?:\.\d{{0,30}})?|\.\d{{1,30}})(?:[eE][-+]?\d{{1,3}})?)[ ]*({_UNIT})?", re.ASCII
+)
+
+
+def _split(text: str, dimension: str) -> tuple[float, str]:
+    """Number and unit of a string."""
+    example = DIMENSIONS[dimension].example
+    remedy = f', or a text such as "{example}"' if example else ""
+    match = _QUANTITY.fullmatch(text.strip()) if len(text) <= 100 else None
+    if match is None:
+        raise ValueError(f"must be a number{remedy}")
+    number = float(match[1])
+    if abs(number) == float("inf"):
+        raise ValueError("is too large for a number")
+    if match[2] is None:
+        raise ValueError(f"is a text: write the number without quotes{remedy}")
+    return number, match[2]
+
+
+@cache
+def _registry() -> Any:
+    """Registry of units; loading it takes half a second, so only strings with a unit do."""
+    import pint
+
+    return pint.UnitRegistry(cache_folder=None)
+
+
+@cache
+def _si_factor(unit: str, dimension: str) -> float:
+    """Factor from a unit to the SI unit of a dimension (angles: degree)."""
+    import pint
+
+    registry = _registry()
+    wanted = DIMENSIONS[dimension]
+    shown = dimension.replace("_", " ")
+    try:
+        parsed = registry.parse_units(unit.replace("·", "*").replace("°", "degree"))
+    except Exception as error:  # pint raises its own, tokenize's and plain errors on what it does not know
+        raise ValueError(f'has an unknown unit "{unit}": write for example "{wanted.example}"') from error
+    root = registry.Quantity(1.0, parsed).to_root_units()
+    # To pint an angle is a plain ratio; `percent` must not pass for one.
+    is_angle = "radian" in str(root.units)
+    if parsed.dimensionality != registry.parse_units(wanted.si).dimensionality or is_angle != (dimension == "angle"):
+        found = "an angle" if is_angle else str(parsed.dimensionality).replace(" ** ", "^")
+        raise ValueError(f'is not a {shown}: its unit is {found}; write for example "{wanted.example}"')
+    try:
+        return float(registry.Quantity(1.0, parsed).to(wanted.si).magnitude)
+    except pint.errors.PintError as error:
+        raise ValueError(f'"{unit}" cannot be converted: write for example "{wanted.example}"') from error

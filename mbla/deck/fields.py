@@ -1,0 +1,64 @@
+"""What the deck types say about a key path: which keys a mapping takes."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from types import UnionType
+from typing import Annotated, Any, Union, get_args, get_origin
+
+from pydantic import BaseModel
+
+from mbla.deck.tree import KeyPath
+
+
+def allowed_keys(root: type[BaseModel], path: KeyPath) -> list[str]:
+    """Keys that the mapping at a path may have; empty where names are free, or where there is no mapping."""
+    return [key for section in sections_at(root, path) for key in section_keys(section)]
+
+
+def sections_at(root: type[BaseModel], path: KeyPath) -> list[type[BaseModel]]:
+    """Types of the mapping at a path; several where a value may have several shapes."""
+    return [each for each in _types_at(root, path) if isinstance(each, type) and issubclass(each, BaseModel)]
+
+
+def takes_names(root: type[BaseModel], path: KeyPath) -> bool:
+    """Whether the keys of the mapping at a path are names that the deck's author chooses."""
+    return any(get_origin(each) is dict for each in _types_at(root, path))
+
+
+def section_keys(section: type[BaseModel]) -> list[str]:
+    """Keys of a section as the deck writes them."""
+    return [field.alias or name for name, field in section.model_fields.items()]
+
+
+def _types_at(root: type[BaseModel], path: KeyPath) -> list[Any]:
+    types: list[Any] = [root]
+    for key in path:
+        types = [below for each in types for below in _below(each, key)]
+    return types
+
+
+def _below(annotation: Any, key: str | int) -> Iterator[Any]:
+    """Types that a value may have under a key of a value of a type."""
+    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
+        for name, field in annotation.model_fields.items():
+            if key == (field.alias or name):
+                yield from branches(field.annotation)
+        return
+    origin, arguments = get_origin(annotation), get_args(annotation)
+    if origin is dict and isinstance(key, str):
+        yield from branches(arguments[1])
+    elif origin in (list, tuple) and isinstance(key, int):
+        yield from branches(arguments[min(key, len(arguments) - 1)])
+
+
+def branches(annotation: Any) -> Iterator[Any]:
+    """The types that an annotation stands for, without None and without metadata."""
+    origin = get_origin(annotation)
+    if origin is Annotated:
+        yield from branches(get_args(annotation)[0])
+    elif origin in (Union, UnionType):
+        for argument in get_args(annotation):
+            yield from branches(argument)
+    elif annotation is not type(None):
+        yield annotation

@@ -1,0 +1,54 @@
+"""What a valid deck should make its author look twice at."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+from mbla.deck.expressions import Parameters
+from mbla.deck.references import unused_names
+from mbla.deck.tree import KeyPath, Tree, key_text
+from mbla.deck.types import DeckContent, Load
+from mbla.deck.units import METRES, STANDARD_GRAVITY, Units
+from mbla.errors import Notice
+
+_GRAVITY_TOLERANCE = 0.02
+"""Covers 9.8, 9.80665 and the variation over the earth."""
+
+
+def notices_of(tree: Tree, content: DeckContent, units: Units, parameters: Parameters) -> tuple[Notice, ...]:
+    """Warnings about unusual gravity, and remarks on names that nothing uses."""
+    return (*_gravity(tree, content, units), *_unused(tree, content, parameters))
+
+
+def _gravity(tree: Tree, content: DeckContent, units: Units) -> Iterator[Notice]:
+    """Gravity far from 9.81 m/s2: mostly a deck in mm whose gravity is still in m."""
+    for path, load in _loads(content):
+        if load.gravity is None or not any(load.gravity):
+            continue
+        size = math.hypot(*load.gravity) * METRES[units.length]
+        if abs(size - STANDARD_GRAVITY) > _GRAVITY_TOLERANCE * STANDARD_GRAVITY:
+            fault = tree.fault((*path, "gravity"), f"is {size:.4g} m/s^2, not 9.81")
+            yield Notice(
+                "warning",
+                "gravity-unusual",
+                f"{fault}: its numbers are in {units.unit('acceleration')}",
+            )
+
+
+def _loads(content: DeckContent) -> Iterator[tuple[KeyPath, Load]]:
+    for name, case in content.load_cases.items():
+        for key, loads in (("dead", case.dead or []), ("live", case.live)):
+            for number, load in enumerate(loads):
+                yield ("load_cases", name, key, number), load
+
+
+def _unused(tree: Tree, content: DeckContent, parameters: Parameters) -> Iterator[Notice]:
+    for name in content.parameters:
+        if name not in parameters.used:
+            path = ("parameters", name)
+            yield Notice("notice", "parameter-unused", f"{tree.fault(path, '').place} {key_text(path)} is not used")
+    for kind, name in unused_names(tree.data):
+        path = ({"material": "materials", "joint law": "joints"}[kind], name)
+        place = tree.fault(path, "").place
+        yield Notice("notice", f"{path[0]}-unused", f"{place} {key_text(path)} is not used")

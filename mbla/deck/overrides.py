@@ -1,0 +1,107 @@
+"""``--set key.path=value``: values of the deck replaced before anything is evaluated or checked."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from mbla.deck.fields import takes_names
+from mbla.deck.reader import read_yaml
+from mbla.deck.sources import SourceText
+from mbla.deck.suggestions import unknown
+from mbla.deck.tree import FILE_SHIFT, KeyPath, MappingMarks, Marks, SequenceMarks, Tree, key_text, shorten
+from mbla.deck.types import DeckContent
+from mbla.errors import Fault
+
+LABEL = "--set"
+
+
+class _RefusedError(Exception):
+    """The override cannot be applied; the message says why."""
+
+
+def apply_override(tree: Tree, text: str, number: int) -> tuple[list[Fault], set[int]]:
+    """Put one override into the tree; ``number`` counts them from 1, for messages.
+
+    Returns
+    -------
+    Faults of the override, and the marks of values that are thereby reported.
+    """
+    file = len(tree.sources)
+    source = SourceText(LABEL, text, line=number)
+    tree.sources.append(source)
+    key, equals, _ = text.partition("=")
+    if not equals or not key.strip() or "\n" in text or "\r" in text:
+        message = "must be key.path=value, on one line" + ("" if equals else ": there is no =")
+        return [Fault(source.place(0), shorten(text), message)], set()
+    offset = len(key) + 1
+    document = read_yaml(source, file, offset)
+    if document.faults:
+        return [Fault(fault.place, key.strip(), fault.message, fault.value) for fault in document.faults], set()
+    if key.strip().partition(".")[0] == "include":
+        message = "cannot be set: files are included before anything is set"
+        return [Fault(source.place(0), key.strip(), message)], set()
+    if document.data is None:
+        return [Fault(source.place(offset), key.strip(), "has no value: write one after the =")], set()
+    try:
+        _put(tree, key.strip().split("."), document.data, document.marks, file << FILE_SHIFT)
+    except _RefusedError as refusal:
+        written = shorten(text[offset:])
+        return [Fault(source.place(0), key.strip(), str(refusal), written)], set()
+    return [], document.reported
+
+
+def _put(tree: Tree, words: list[str], value: Any, value_marks: Marks, mark: int) -> None:
+    """Set the value at a path, making the sections on the way that the deck leaves to their defaults."""
+    data: Any = tree.data
+    marks: Any = tree.marks
+    path: KeyPath = ()
+    while True:
+        key, words = _next_key(data, words)
+        data_key: str | int = key
+        last = not words
+        if isinstance(data, list):
+            data_key = _index(data, str(key))
+            marks_below = marks.items
+        elif isinstance(data, dict):
+            marks_below = marks.values
+            _check_name(data, path, str(key), value if last else None)
+            if key not in data or last:
+                marks.keys[key] = mark
+            if key not in data and not last:
+                data[key] = {}
+                marks.values[key] = MappingMarks(mark)
+        else:
+            raise _RefusedError("the deck has a single value there, with nothing below it")
+        if last:
+            data[data_key] = value
+            marks_below[data_key] = value_marks
+            return
+        data, marks, path = data[data_key], marks_below[data_key], (*path, data_key)
+        if not isinstance(marks, (MappingMarks, SequenceMarks)):
+            data = None
+
+
+def _next_key(data: Any, words: list[str]) -> tuple[str, list[str]]:
+    """First key of a path and the rest; names may hold dots themselves, so the longest that exists is taken."""
+    if isinstance(data, dict):
+        for length in range(len(words), 0, -1):
+            if (key := ".".join(words[:length])) in data:
+                return key, words[length:]
+    return words[0], words[1:]
+
+
+def _index(data: list[Any], key: str) -> int:
+    if not key.isascii() or not key.isdecimal():
+        raise _RefusedError(f"{key or 'nothing'} is not a number of an item: 0 to {len(data) - 1} are allowed")
+    if len(key) > 9 or int(key) >= len(data):
+        raise _RefusedError(f"there is no item {shorten(key)}: 0 to {len(data) - 1} are allowed")
+    return int(key)
+
+
+def _check_name(data: dict[str, Any], path: KeyPath, key: str, value: Any) -> None:
+    """Refuse a misspelt name where names are free: it would be added beside the right one and change nothing."""
+    if key in data or not takes_names(DeckContent, path):
+        return
+    if path != ("parameters",) and isinstance(value, dict):
+        return
+    raise _RefusedError(unknown(f"name {key} in {key_text(path)}", key, data, "known"))

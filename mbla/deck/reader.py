@@ -1,0 +1,235 @@
+"""YAML text to plain data with marks (only importer of yaml).
+
+The events of the parser are put together here rather than by the library's loaders, which let duplicate keys pass,
+read numbers by YAML 1.1, and crash the process on deeply nested input.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import yaml
+
+from mbla.deck.scalars import plain_scalar
+from mbla.deck.sources import SourceText, has_control_character
+from mbla.deck.tree import FILE_SHIFT, OFFSET_MASK, KeyPath, MappingMarks, Marks, SequenceMarks, key_text, shorten
+from mbla.errors import Fault, Place
+
+MAX_DEPTH = 64
+"""Nesting of brackets and indentation; the deck's own types need ten."""
+
+_PARSER: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
+
+
+@dataclass
+class Document:
+    """What was read from one text.
+
+    data    : plain dicts, lists and scalars; None stands for a value that is already reported
+    marks   : places of all keys and values
+    faults  : everything that was wrong with the text
+    reported: marks of the values that a fault is about, so that nobody complains of them twice
+    whole   : false where the text could not be read to its end
+    """
+
+    data: Any
+    marks: Marks
+    faults: list[Fault]
+    reported: set[int]
+    whole: bool = True
+
+
+def read_yaml(source: SourceText, file: int, offset: int = 0) -> Document:
+    """Read the one document in a text, from a character offset on; ``file`` goes into the marks."""
+    builder = _Builder(source, (file << FILE_SHIFT) + offset)
+    parser = _PARSER(source.text[offset:] if offset else source.text)
+    try:
+        next_event = parser.get_event
+        while (event := next_event()) is not None:
+            if type(event) is yaml.ScalarEvent:
+                builder.scalar(event)
+            else:
+                builder.event(event)
+    except yaml.YAMLError as error:
+        builder.syntax_fault(error)
+    except _StopError:
+        builder.whole = False
+    finally:
+        parser.dispose()
+    return Document(builder.root, builder.root_marks, builder.faults, builder.reported, builder.whole)
+
+
+class _StopError(Exception):
+    """Nothing sensible can follow: nesting too deep, or a second document."""
+
+
+class _Dropped:
+    """Key of a value that has no place in the mapping: a repeated key, or one that is not text."""
+
+
+_NO_KEY: Any = None
+_DROPPED: Any = _Dropped
+
+
+class _Builder:
+    """The container being filled, and the stack of those around it."""
+
+    def __init__(self, source: SourceText, base: int) -> None:
+        self.source = source
+        self.base = base
+        self.root: Any = None
+        self.root_marks: Marks = base
+        self.faults: list[Fault] = []
+        self.reported: set[int] = set()
+        self.whole = True
+        self.documents = 0
+        self.data: Any = None
+        self.marks: Any = None
+        self.key: Any = _NO_KEY
+        self.stack: list[tuple[Any, Any, Any]] = []
+        self.plain: dict[str, Any] = {}  # values of plain scalars seen before: indices and coordinates repeat
+
+    # --- one method per kind of event ---
+
+    def scalar(self, event: Any) -> None:
+        mark = self.base + event.start_mark.index
+        text = event.value
+        if event.style:
+            value = text
+            if event.style == '"' and has_control_character(text):
+                self.fault(mark, "control characters are not allowed in a text")
+        elif (value := self.plain.get(text)) is None:
+            value = self.plain_value(text, mark)
+        if event.anchor or event.tag:
+            self.refuse_properties(event, mark)
+        data = self.data
+        if type(data) is list:
+            data.append(value)
+            self.marks.items.append(mark)
+        elif type(data) is dict and self.key is _NO_KEY:
+            self.take_key(value, text, mark)
+        else:
+            self.put(value, mark)
+
+    def event(self, event: Any) -> None:
+        mark = self.base + event.start_mark.index
+        match event:
+            case yaml.SequenceStartEvent():
+                self.open([], SequenceMarks(mark), event)
+            case yaml.MappingStartEvent():
+                self.open({}, MappingMarks(mark), event)
+            case yaml.SequenceEndEvent() | yaml.MappingEndEvent():
+                self.data, self.marks, self.key = self.stack.pop()
+            case yaml.AliasEvent(anchor=str() as name):
+                message = f"aliases (*{shorten(name)}) are not allowed: write the value out, or use a parameter"
+                self.fault(mark, message)
+                self.put_value_or_key(None, mark)
+            case yaml.DocumentStartEvent():
+                self.start_document(event, mark)
+            case _:
+                pass  # start and end of the stream, end of the document
+
+    def start_document(self, event: Any, mark: int) -> None:
+        self.documents += 1
+        if self.documents == 2:
+            self.fault(mark, "a second document begins here: a deck is one document", path=())
+            raise _StopError
+        if event.version == (1, 1) or event.tags:
+            self.fault(mark, "directives other than %YAML 1.2 are not allowed", path=())
+
+    # --- putting values where they belong ---
+
+    def open(self, data: Any, marks: Any, event: Any) -> None:
+        if event.anchor or event.tag:
+            self.refuse_properties(event, marks.own)
+        if len(self.stack) >= MAX_DEPTH:
+            self.fault(marks.own, f"is nested more than {MAX_DEPTH} levels deep", path=())
+            raise _StopError
+        self.put_value_or_key(data, marks)
+        self.stack.append((self.data, self.marks, self.key))
+        self.data, self.marks, self.key = data, marks, _NO_KEY
+
+    def put_value_or_key(self, value: Any, marks: Any) -> None:
+        if type(self.data) is dict and self.key is _NO_KEY:
+            if value is not None:  # an alias is already reported
+                self.fault(marks.own, "a key must be text")
+            self.key = _DROPPED
+        else:
+            self.put(value, marks)
+
+    def put(self, value: Any, marks: Any) -> None:
+        if type(self.data) is list:
+            self.data.append(value)
+            self.marks.items.append(marks)
+        elif type(self.data) is dict:
+            if self.key is not _DROPPED:
+                self.data[self.key] = value
+                self.marks.values[self.key] = marks
+            self.key = _NO_KEY
+        elif self.documents == 1:
+            self.root, self.root_marks = value, marks
+
+    def take_key(self, value: Any, text: str, mark: int) -> None:
+        self.key = _DROPPED
+        if text == "<<":
+            self.fault(mark, "merge keys (<<) are not allowed: use `include` or a parameter")
+        elif not isinstance(value, str):
+            self.fault(mark, f'a key must be text: write "{shorten(text)}" in quotes' if text else "a key is missing")
+        elif value in self.data:
+            first = self.place(self.marks.keys[value])
+            self.fault(mark, f"is given twice, first in line {first.line}", path=(*self.path(), value))
+        else:
+            self.key = value
+            self.marks.keys[value] = mark
+
+    def plain_value(self, text: str, mark: int) -> Any:
+        """Value of a plain scalar; None, and reported, for what no key of a deck takes."""
+        try:
+            value = plain_scalar(text)
+        except ValueError as error:
+            self.fault(mark, str(error), text)
+            return None
+        if value is None and not (type(self.data) is dict and self.key is _NO_KEY):
+            if self.stack:  # an empty document has its own message
+                self.fault(mark, "has no value: give one, or leave the key out", text or None)
+        else:
+            self.plain[text] = value
+        return value
+
+    # --- faults ---
+
+    def place(self, mark: int) -> Place:
+        return self.source.place(mark & OFFSET_MASK)
+
+    def path(self) -> KeyPath:
+        """Path of the value that is about to be put."""
+        levels = [*self.stack[1:], (self.data, self.marks, self.key)] if self.stack else []
+        return tuple(
+            len(data) - (depth < len(levels) - 1) if type(data) is list else key
+            for depth, (data, _, key) in enumerate(levels)
+            if type(data) is list or isinstance(key, str)
+        )
+
+    def fault(self, mark: int, message: str, value: str | None = None, path: KeyPath | None = None) -> None:
+        key = key_text(self.path() if path is None else path)
+        self.faults.append(Fault(self.place(mark), key, message, shorten(value) if value else None))
+        self.reported.add(mark)
+
+    def refuse_properties(self, event: Any, mark: int) -> None:
+        if event.anchor:
+            self.fault(mark, f"anchors (&{shorten(event.anchor)}) are not allowed")
+        if event.tag:
+            self.fault(mark, f"tags ({shorten(event.tag)}) are not allowed")
+
+    def syntax_fault(self, error: yaml.YAMLError) -> None:
+        self.whole = False
+        mark = getattr(error, "problem_mark", None) or getattr(error, "context_mark", None)
+        problem = getattr(error, "problem", None) or getattr(error, "reason", None) or "cannot be read"
+        context = getattr(error, "context", None)
+        index = mark.index if mark else 0
+        words = f"{context}: {problem}" if context else str(problem)
+        offset = (self.base & OFFSET_MASK) + index
+        if self.source.text[offset : offset + 1] == "\t":
+            words += " (indent with spaces, not with tabs)"
+        self.faults.append(Fault(self.source.place(offset), "", f"not YAML: {words}"))

@@ -1,0 +1,122 @@
+"""From a file to a checked deck: read, include, override, evaluate, validate."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Callable, Iterable, Sequence
+from pathlib import Path
+from typing import Any
+
+from mbla.deck.deck import Deck, Source
+from mbla.deck.expressions import Parameters, is_expression
+from mbla.deck.include import confined, read_files
+from mbla.deck.notices import notices_of
+from mbla.deck.overrides import apply_override
+from mbla.deck.references import check_references
+from mbla.deck.sources import SourceText
+from mbla.deck.tree import KeyPath, Tree
+from mbla.deck.types import UnitsSection
+from mbla.deck.units import Units
+from mbla.deck.validation import validate
+from mbla.errors import DeckError, Fault, FileError
+
+
+def read_deck(path: str | Path, overrides: Sequence[str] = ()) -> Deck:
+    """Read and check a deck.
+
+    path      : the deck file
+    overrides : ``key.path=value`` texts, applied in order before anything is evaluated
+
+    Raises
+    ------
+    DeckError
+        with every fault found
+    FileError
+        if the deck file itself cannot be opened
+    """
+    path = Path(path)
+    tree, reading = read_files(path)
+    for number, text in enumerate(overrides, start=1):
+        faults, reported = apply_override(tree, text, number)
+        reading.faults += faults
+        reading.reported |= reported
+    if not reading.whole:  # what could not be read would be reported as missing
+        raise DeckError(reading.faults)
+    units = _units(tree.data)
+    parameters = Parameters(_mapping(tree.data.get("parameters")))
+    content, faults = validate(tree, _converter(parameters, units), reading.reported)
+    faults = [*reading.faults, *faults, *check_references(tree)]
+    if content is None or faults:
+        raise DeckError(_once(faults))
+    return Deck(
+        path=path,
+        sources=tuple(Source(source.path, source.text) for source in tree.sources if source.path is not None),
+        overrides=tuple(overrides),
+        sha256=_sha256(tree.sources),
+        content=content,
+        units=units,
+        notices=notices_of(tree, content, units, parameters),
+        fault_at=tree.fault,
+        resolve_file=_resolver(tree, path),
+    )
+
+
+def _units(data: dict[str, Any]) -> Units:
+    """Units of the deck; the defaults where they are at fault, which is reported with everything else."""
+    try:
+        section = UnitsSection.model_validate(data.get("units", {}))
+    except ValueError:
+        return Units()
+    return Units(section.length, section.force, section.mass)
+
+
+def _mapping(value: Any) -> dict[str, Any]:
+    return value if isinstance(value, dict) else {}
+
+
+def _converter(parameters: Parameters, units: Units) -> Callable[[str, str], float]:
+    """Function from a text and a dimension to a number in the deck's units, for the validation."""
+
+    def convert(text: str, dimension: str) -> float:
+        return parameters.evaluate(text) if is_expression(text) else units.convert(text, dimension)
+
+    return convert
+
+
+def _once(faults: Iterable[Fault]) -> list[Fault]:
+    return list(dict.fromkeys(faults))
+
+
+def _sha256(sources: Iterable[SourceText]) -> str:
+    """Hash of all texts in the order they were read, each with its length; names of files do not matter."""
+    digest = hashlib.sha256()
+    for source in sources:
+        content = source.text.encode()
+        digest.update(f"{len(content)}\n".encode())
+        digest.update(content)
+    return digest.hexdigest()
+
+
+def _resolver(tree: Tree, deck_path: Path) -> Callable[[KeyPath, str], Path]:
+    """Function from a key path and the file name there to a path."""
+
+    def resolve_file(path: KeyPath, name: str) -> Path:
+        source = tree.source_of(tree.value_mark(path)).path or deck_path.resolve()
+        try:
+            found = confined(source.parent, name)
+            check_regular(found)
+        except FileError as error:
+            raise DeckError([tree.fault(path, str(error))]) from error
+        return found
+
+    return resolve_file
+
+
+def check_regular(path: Path) -> None:
+    """FileError unless a path is a regular file that can be opened."""
+    if not path.exists():
+        raise FileError("does not exist")
+    if not path.is_file():
+        raise FileError("is not a regular file")
+    with path.open("rb"):
+        pass

@@ -1,0 +1,108 @@
+"""Names that one part of the deck gives and another uses: materials, joint laws, groups, load cases.
+
+They are looked up in the deck as read rather than in its checked types, so that a wrong name is reported beside
+every other fault.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from typing import Any
+
+from mbla.deck.suggestions import unknown
+from mbla.deck.tree import KeyPath, Tree
+from mbla.deck.types import BlockItem
+from mbla.errors import Fault
+
+GROUND = "ground"
+"""Name that stands for ground planes in `contacts.overrides`."""
+
+
+@dataclass(frozen=True)
+class Reference:
+    """Where names are used: a key path in which ``#`` stands for every item and ``*`` for every key."""
+
+    path: str
+    kind: str
+    also: tuple[str, ...] = ()
+
+
+REFERENCES = (
+    Reference("blocks.#.*.material", "material"),
+    Reference("blocks.#.arch.joint", "joint law"),
+    Reference("contacts.joint", "joint law"),
+    Reference("contacts.overrides.#.joint", "joint law"),
+    Reference("contacts.overrides.#.between.#", "group", (GROUND,)),
+    Reference("supports.#.joint", "joint law"),
+    *(
+        Reference(f"{place}{form}", "group")
+        for place in ("supports.#.blocks", "load_cases.*.dead.#.on", "load_cases.*.live.#.on")
+        for form in ("", ".group", ".#", ".#.group")
+    ),
+)
+
+
+def check_references(tree: Tree) -> Iterator[Fault]:
+    """Faults of all names that nothing in the deck has."""
+    data = tree.data
+    known: dict[str, list[str]] = {
+        "material": _keys(data.get("materials")),
+        "joint law": _keys(data.get("joints")),
+        "group": list(dict.fromkeys(groups(data))),
+    }
+    for reference in REFERENCES:
+        names = [*known[reference.kind], *reference.also]
+        for path, name in find(data, reference.path.split(".")):
+            if isinstance(name, str) and name not in names:
+                yield tree.fault(path, unknown(reference.kind, name, names, "known"))
+    cases = _keys(data.get("load_cases"))
+    for case in _keys(data.get("expected")):
+        if case not in cases:
+            yield tree.fault(("expected", case), unknown("load case", case, cases, "known"), at_key=True)
+    for path, group in find(data, ["blocks", "#", "*", "group"]):
+        if group == GROUND:
+            yield tree.fault(path, f"{GROUND} stands for ground planes in contacts.overrides: choose another name")
+
+
+def unused_names(data: dict[str, Any]) -> Iterator[tuple[str, str]]:
+    """(kind, name) of materials and joint laws that nothing uses."""
+    for section, kind in (("materials", "material"), ("joints", "joint law")):
+        used = {
+            name
+            for reference in REFERENCES
+            if reference.kind == kind
+            for _, name in find(data, reference.path.split("."))
+            if isinstance(name, str)
+        }
+        yield from ((kind, name) for name in _keys(data.get(section)) if name not in used)
+
+
+def groups(data: dict[str, Any]) -> Iterator[str]:
+    """Names of the groups that the items of `blocks` make."""
+    for (_, _, kind), item in find(data, ["blocks", "#", "*"]):
+        if isinstance(item, dict) and kind in BlockItem.model_fields:
+            group = item.get("group", kind)
+            if isinstance(group, str):
+                yield group
+                if kind == "arch" and item.get("springers") == "blocks":
+                    yield f"{group}_springers"
+
+
+def find(data: Any, pattern: list[str], path: KeyPath = ()) -> Iterator[tuple[KeyPath, Any]]:
+    """Paths and values that fit a pattern."""
+    if not pattern:
+        yield path, data
+        return
+    key, rest = pattern[0], pattern[1:]
+    below: Iterable[tuple[str | int, Any]] = ()
+    if key == "#":
+        below = enumerate(data) if isinstance(data, list) else ()
+    elif isinstance(data, dict):
+        below = data.items() if key == "*" else [(key, data[key])] if key in data else ()
+    for step, value in below:
+        yield from find(value, rest, (*path, step))
+
+
+def _keys(section: Any) -> list[str]:
+    return list(section) if isinstance(section, dict) else []

@@ -1,0 +1,225 @@
+"""Checks across the keys of one section, each registered for its type; names across sections are in ``references``.
+
+A rule gets a section whose own keys are all valid and yields (key path below it, what is wrong and what is allowed).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+from mbla.deck import types
+from mbla.deck.section import Finding, rule
+from mbla.deck.suggestions import listed
+
+_ROUNDING = 1e-9
+"""Relative: sums of lengths such as 6 x 0.175 are not exact in binary."""
+
+
+def _given(section: Any, keys: Sequence[str]) -> list[str]:
+    return [key for key in keys if getattr(section, key) is not None]
+
+
+def _exactly_one(section: Any, keys: Sequence[str], what: str = "") -> Iterator[Finding]:
+    given = _given(section, keys)
+    what = f" {what}" if what else ""
+    if not given:
+        yield (), f"needs{what} one of {listed(keys)}"
+    elif len(given) > 1:
+        yield (given[1],), f"only one{what} of {listed(keys)} may be given, {given[0]} is already"
+
+
+def _least_below_greatest(low: Sequence[float], high: Sequence[float], key: str, names: str) -> Iterator[Finding]:
+    for axis, (least, greatest) in enumerate(zip(low, high, strict=True)):
+        if not least < greatest:
+            yield (key, axis), f"must be > {least:g}, the {names[axis]} of the other corner"
+
+
+def _is_zero(vector: Sequence[float]) -> bool:
+    return not any(vector)
+
+
+# --- materials and joints -----------------------------------------------------------------------------------------
+
+
+@rule(types.Material)
+def material_weight(material: types.Material) -> Iterator[Finding]:
+    """One of density and unit weight."""
+    yield from _exactly_one(material, ("density", "unit_weight"))
+
+
+@rule(types.JointLaw)
+def joint_friction(joint: types.JointLaw) -> Iterator[Finding]:
+    """One of friction and friction angle; dilatancy at most the friction angle."""
+    yield from _exactly_one(joint, ("friction", "friction_angle"))
+    if len(_given(joint, ("friction", "friction_angle"))) != 1:
+        return
+    angle = joint.friction_angle if joint.friction is None else math.degrees(math.atan(joint.friction))
+    if angle is not None and joint.dilatancy > angle * (1 + _ROUNDING):
+        yield ("dilatancy",), f"must be <= {angle:.6g} degrees, the friction angle"
+
+
+@rule(types.JointLaw)
+def joint_strengths(joint: types.JointLaw) -> Iterator[Finding]:
+    """The friction cone must be open at the tensile strength: it ends at the tension cohesion / friction."""
+    if joint.friction is None and joint.friction_angle is None:
+        return
+    friction = math.tan(math.radians(joint.friction_angle or 0.0)) if joint.friction is None else joint.friction
+    if joint.cohesion < friction * joint.tensile_strength * (1 - _ROUNDING):
+        yield (
+            ("tensile_strength",),
+            f"must be <= {joint.cohesion / friction:.6g}, cohesion / friction, where the friction cone ends: "
+            f"lower it, or raise cohesion to {friction * joint.tensile_strength:.6g}",
+        )
+
+
+# --- blocks -------------------------------------------------------------------------------------------------------
+
+_KINDS = tuple(types.BlockItem.model_fields)
+_STEPS = tuple(types.TransformStep.model_fields)
+
+
+@rule(types.BlockItem)
+def one_kind(item: types.BlockItem) -> Iterator[Finding]:
+    """Each item of `blocks` has one key, its kind."""
+    yield from _exactly_one(item, _KINDS)
+
+
+@rule(types.TransformStep)
+def one_step(step: types.TransformStep) -> Iterator[Finding]:
+    """Each step of a transform has one key."""
+    yield from _exactly_one(step, _STEPS)
+
+
+@rule(types.Rotation)
+def rotation_axis(rotation: types.Rotation) -> Iterator[Finding]:
+    """An axis has a direction."""
+    if _is_zero(rotation.axis):
+        yield ("axis",), "must not be the zero vector"
+
+
+@rule(types.Reflection)
+def mirror_normal(reflection: types.Reflection) -> Iterator[Finding]:
+    """A plane has a normal."""
+    if _is_zero(reflection.normal):
+        yield ("normal",), "must not be the zero vector"
+
+
+@rule(types.BoxItem)
+def box_extent(box: types.BoxItem) -> Iterator[Finding]:
+    """Corners in order, none equal."""
+    yield from _least_below_greatest(box.min, box.max, "max", "xyz")
+
+
+@rule(types.PolyhedronItem)
+def polyhedron_faces(polyhedron: types.PolyhedronItem) -> Iterator[Finding]:
+    """Faces use vertices that exist, each once."""
+    n_vertices = len(polyhedron.vertices)
+    for number, face in enumerate(polyhedron.faces):
+        if max(face) >= n_vertices:
+            position = next(i for i, corner in enumerate(face) if corner >= n_vertices)
+            yield ("faces", number, position), f"must be <= {n_vertices - 1}: there are {n_vertices} vertices, from 0"
+        elif len(set(face)) < len(face):
+            position = next(i for i, corner in enumerate(face) if corner in face[:i])
+            yield ("faces", number, position), "is a corner of this face already"
+
+
+@rule(types.WallItem)
+def wall_openings(wall: types.WallItem) -> Iterator[Finding]:
+    """Openings have an extent and lie within the wall."""
+    height = wall.courses * wall.unit[2]
+    for number, opening in enumerate(wall.openings):
+        for axis, (limit, what) in enumerate(((wall.length, "length"), (height, "height"))):
+            low, high = opening.from_[axis], opening.to[axis]
+            if not low < high:
+                yield ("openings", number, "to", axis), f"must be > {low:g}, that of from"
+            if low < -_ROUNDING * limit:
+                yield ("openings", number, "from", axis), "must be >= 0: the opening must lie within the wall"
+            if high > limit * (1 + _ROUNDING):
+                yield ("openings", number, "to", axis), f"must be <= {limit:g}, the {what} of the wall"
+
+
+@rule(types.ArchItem)
+def arch_shape(arch: types.ArchItem) -> Iterator[Finding]:
+    """A semicircle is given by its span alone; a segment needs its rise or its angle."""
+    keys = ("rise", "embrace")
+    if arch.shape == "segmental":
+        yield from _exactly_one(arch, keys, "for a segmental arch")
+    else:
+        for key in _given(arch, keys):
+            yield (
+                (key,),
+                f"applies to segmental arches only: leave it out, or write shape: segmental ({arch.shape} given)",
+            )
+    if arch.joint is not None and arch.springers != "ground":
+        yield ("joint",), "applies with springers: ground only"
+
+
+# --- selectors, supports ------------------------------------------------------------------------------------------
+
+
+@rule(types.SelectorTerm)
+def selector_term(term: types.SelectorTerm) -> Iterator[Finding]:
+    """A group, perhaps with an index, or a box."""
+    if term.group is None and term.index is not None:
+        yield ("index",), "applies with group only"
+    else:
+        yield from _exactly_one(term, ("group", "box"))
+    if term.box is not None:
+        for (key, axis), message in _least_below_greatest(*term.box, "box", "xyz"):
+            yield (key, 1, axis), message
+
+
+@rule(types.GroundPlane)
+def ground_plane(ground: types.GroundPlane) -> Iterator[Finding]:
+    """One coordinate, or a point with a normal."""
+    yield from _exactly_one(ground, ("x", "y", "z", "point"))
+    if ground.point is not None and ground.normal is None:
+        yield (), "needs a normal beside its point"
+    if ground.normal is not None and ground.point is None:
+        yield ("normal",), "applies with point only"
+    if ground.normal is not None and _is_zero(ground.normal):
+        yield ("normal",), "must not be the zero vector"
+
+
+@rule(types.Support)
+def support(item: types.Support) -> Iterator[Finding]:
+    """Ground, or blocks that do not move."""
+    if item.ground is None and item.blocks is None:
+        yield (), "needs one of ground or blocks"
+    if item.joint is not None and item.ground is None:
+        yield ("joint",), "applies with ground only: blocks that do not move have the joints of their contacts"
+
+
+# --- loads --------------------------------------------------------------------------------------------------------
+
+_LOADS = ("gravity", "acceleration", "force")
+
+
+@rule(types.Load)
+def load_keys(load: types.Load) -> Iterator[Finding]:
+    """One load, and where it acts as far as that applies."""
+    yield from _exactly_one(load, _LOADS)
+    if load.force is not None and load.on is None:
+        yield (), "a force needs `on`, the block it acts on"
+    if load.at is not None and load.force is None:
+        yield ("at",), "applies to a force only"
+    if load.on is not None and load.gravity is not None:
+        yield ("on",), "does not apply to gravity, which acts on all blocks: use acceleration"
+
+
+@rule(types.LoadCaseSection)
+def live_load_effect(case: types.LoadCaseSection) -> Iterator[Finding]:
+    """A live load must do something."""
+    for number, load in enumerate(case.live):
+        for key in _given(load, _LOADS):
+            if _is_zero(getattr(load, key)):
+                yield ("live", number, key), "is a live load with no effect"
+
+
+@rule(types.Expectation)
+def expectation(item: types.Expectation) -> Iterator[Finding]:
+    """Something must be expected."""
+    if not _given(item, ("load_factor", "associative_load_factor", "status")):
+        yield (), "needs at least one of load_factor, associative_load_factor or status"

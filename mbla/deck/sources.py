@@ -1,0 +1,117 @@
+"""The texts a deck is made of, read from disk with care, and the place of a character in them."""
+
+from __future__ import annotations
+
+import os
+import re
+import stat
+from bisect import bisect_right
+from dataclasses import dataclass, field
+from functools import cached_property
+from pathlib import Path
+
+from mbla.errors import DeckError, Fault, FileError, Place
+
+MAX_BYTES = 64 * 1024 * 1024
+"""Larger decks are refused: geometry of that size belongs in a mesh file."""
+
+# Every control character but tab, line feed and carriage return, and the two characters that Unicode never assigns.
+_CONTROL = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x84\x86-\x9f\ufffe\uffff]")
+
+
+@dataclass(frozen=True)
+class SourceText:
+    """A text with its name in messages.
+
+    path     : the file, resolved; None for the text of an override
+    line     : for the text of an override, which one it is (from 1); None for a file
+    """
+
+    label: str
+    text: str
+    path: Path | None = None
+    line: int | None = None
+    bytes_: bytes = field(default=b"", repr=False)
+
+    @cached_property
+    def _line_starts(self) -> list[int]:
+        return [0, *(match.end() for match in re.finditer(r"\r\n|\r|\n", self.text))]
+
+    def place(self, offset: int) -> Place:
+        """Place of the character at an offset of the text."""
+        if self.line is not None:
+            return Place(self.label, self.line, offset + 1)
+        row = bisect_right(self._line_starts, offset) - 1
+        return Place(self.label, row + 1, offset - self._line_starts[row] + 1)
+
+
+def read_bytes(path: Path, label: str) -> bytes:
+    """Content of a regular file.
+
+    Raises
+    ------
+    FileError
+        if it cannot be opened, or is a folder, pipe or device (opening does not block, so a pipe cannot hang)
+    """
+    try:
+        descriptor = os.open(path, os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0))
+    except (OSError, ValueError) as error:
+        raise FileError(f"{label}: cannot be opened: {getattr(error, 'strerror', None) or error}") from error
+    with os.fdopen(descriptor, "rb") as file:
+        if not stat.S_ISREG(os.fstat(descriptor).st_mode):
+            raise FileError(f"{label}: is not a regular file")
+        try:
+            return file.read(MAX_BYTES + 1)
+        except OSError as error:
+            raise FileError(f"{label}: cannot be read: {error.strerror or error}") from error
+
+
+def read_source(path: Path, label: str) -> SourceText:
+    """Text of a deck file: strict UTF-8, a byte order mark allowed, no control characters.
+
+    Raises
+    ------
+    FileError
+        if the file cannot be read
+    DeckError
+        if its content is not such a text, or too large
+    """
+    content = read_bytes(path, label)
+    return SourceText(label, _decode(content, label), path.resolve(), bytes_=content)
+
+
+def check_characters(source: SourceText) -> None:
+    """DeckError at the first control character."""
+    if match := _CONTROL.search(source.text):
+        raise _refusal(source, match.start(), f"control character U+{ord(match.group()):04X} is not allowed in a deck")
+
+
+def has_control_character(text: str) -> bool:
+    """Whether a string holds a control character; line breaks and tabs do not count."""
+    return _CONTROL.search(text) is not None
+
+
+def _decode(content: bytes, label: str) -> str:
+    start = SourceText(label, "")
+    if len(content) > MAX_BYTES:
+        limit = MAX_BYTES // 1024**2
+        raise _refusal(
+            start, 0, f"is larger than {limit} MB: put large geometry in a mesh file (`mesh: {{file: ...}}`)"
+        )
+    if content[:2] in (b"\xff\xfe", b"\xfe\xff"):
+        raise _refusal(start, 0, "is UTF-16 text: save it as UTF-8")
+    try:
+        text = content.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        # `errors="replace"` keeps every line break in front of the bad byte, so line and column are right.
+        before = content[: error.start].decode("utf-8-sig", "replace")
+        byte = content[error.start]
+        raise _refusal(
+            SourceText(label, before), len(before), f"byte 0x{byte:02X} is not UTF-8: save the deck as UTF-8"
+        ) from None
+    check_characters(SourceText(label, text))
+    return text
+
+
+def _refusal(source: SourceText, offset: int, message: str) -> DeckError:
+    return DeckError([Fault(source.place(offset), "", message)])

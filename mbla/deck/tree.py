@@ -1,0 +1,147 @@
+"""Deck content as plain dicts, lists and scalars, with the place of every key and value in a parallel tree of marks.
+
+A mark is one integer: number of the source text in the upper bits, offset of the first character in the lower ones.
+Marks stay integers because a deck has hundreds of thousands of values and only faults need their places.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any, TypeAlias
+
+from mbla.deck.sources import SourceText
+from mbla.errors import Fault, Place
+
+KeyPath: TypeAlias = tuple[str | int, ...]
+
+FILE_SHIFT = 32
+OFFSET_MASK = (1 << FILE_SHIFT) - 1
+_LONGEST_VALUE = 60
+
+
+class MappingMarks:
+    """Marks of a mapping: its own first character, its keys, and its values."""
+
+    __slots__ = ("keys", "own", "values")
+
+    def __init__(self, own: int) -> None:
+        self.own = own
+        self.keys: dict[str, int] = {}
+        self.values: dict[str, Marks] = {}
+
+
+class SequenceMarks:
+    """Marks of a list: its own first character, and its items."""
+
+    __slots__ = ("items", "own")
+
+    def __init__(self, own: int) -> None:
+        self.own = own
+        self.items: list[Marks] = []
+
+
+Marks: TypeAlias = int | MappingMarks | SequenceMarks
+
+
+def own_mark(marks: Marks) -> int:
+    """Mark of a value itself, whatever it holds."""
+    return marks if isinstance(marks, int) else marks.own
+
+
+@dataclass(frozen=True)
+class Tree:
+    """Content of a deck, its marks, and the texts that the marks point into."""
+
+    data: dict[str, Any]
+    marks: MappingMarks
+    sources: list[SourceText]
+
+    def place_of(self, mark: int) -> Place:
+        """Place of a mark."""
+        return self.source_of(mark).place(mark & OFFSET_MASK)
+
+    def source_of(self, mark: int) -> SourceText:
+        """Text that a mark points into."""
+        return self.sources[mark >> FILE_SHIFT]
+
+    def marks_along(self, path: KeyPath) -> list[int]:
+        """Marks from the root to the value at a path, as far as the path exists."""
+        found: list[int] = [self.marks.own]
+        marks: Marks = self.marks
+        for key in path:
+            below = _step(marks, key)
+            if below is None:
+                break
+            marks = below
+            found.append(own_mark(marks))
+        return found
+
+    def value_mark(self, path: KeyPath) -> int:
+        """Mark of the value at a path, or of the nearest mapping or list around it."""
+        return self.marks_along(path)[-1]
+
+    def fault(self, path: KeyPath, message: str, at_key: bool = False) -> Fault:
+        """Fault of the value at a path, or of its key; what does not exist is reported where its mapping begins."""
+        marks: Marks = self.marks
+        data: Any = self.data
+        place = self.marks.own
+        for depth, key in enumerate(path):
+            below = _step(marks, key)
+            if below is None:
+                return Fault(self.place_of(place), key_text(path), message)
+            data = data[key]
+            # A mapping is announced by its key; its first character is already its first content.
+            last_key = depth == len(path) - 1 and at_key
+            by_key = isinstance(marks, MappingMarks) and (last_key or isinstance(below, MappingMarks))
+            place = marks.keys[str(key)] if by_key and isinstance(marks, MappingMarks) else own_mark(below)
+            marks = below
+        written = self._written(own_mark(marks), data) if path else None
+        return Fault(self.place_of(place), key_text(path), message, written)
+
+    def _written(self, mark: int, value: Any) -> str | None:
+        """A value as the deck has it, shortened; None for mappings and for lists over several lines."""
+        text = self.source_of(mark).text
+        offset = mark & OFFSET_MASK
+        if isinstance(value, dict):
+            return None
+        if isinstance(value, list):
+            return _flow_sequence(text[offset : offset + 500])
+        first = text[offset : offset + 1]
+        if isinstance(value, str):
+            return shorten(f"{first}{value}{first}" if first in ("'", '"') else value)
+        match = re.compile(r"[^\s,\]}]*").match(text, offset)
+        return shorten(match.group()) if match and match.group() else None
+
+
+def _step(marks: Marks, key: str | int) -> Marks | None:
+    if isinstance(marks, MappingMarks):
+        return marks.values.get(key) if isinstance(key, str) else None
+    if isinstance(marks, SequenceMarks) and isinstance(key, int) and 0 <= key < len(marks.items):
+        return marks.items[key]
+    return None
+
+
+def _flow_sequence(text: str) -> str | None:
+    """The bracketed list at the start of a text, without line breaks; None where there is none, or it is long."""
+    depth = 0
+    for position, character in enumerate(text):
+        depth += (character == "[") - (character == "]")
+        if depth == 0:
+            return shorten(text[: position + 1]) if position else None
+    return shorten(text)
+
+
+def shorten(text: str) -> str:
+    """A text on one line, cut in the middle of nowhere rather than filling the screen."""
+    line = " ".join(text[: 4 * _LONGEST_VALUE].split())
+    return line if len(line) <= _LONGEST_VALUE and len(text) <= 4 * _LONGEST_VALUE else line[: _LONGEST_VALUE - 1] + "…"
+
+
+def key_text(path: Sequence[str | int]) -> str:
+    """``blocks[3].wall.length``."""
+    text = ""
+    for key in path:
+        text += f"[{key}]" if isinstance(key, int) else f".{key}" if text else key
+    return text

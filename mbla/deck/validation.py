@@ -1,0 +1,183 @@
+"""Content of a deck checked against its types in one pass; what pydantic finds, in our words and with its place."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from typing import Any
+
+from pydantic import ValidationError
+
+from mbla.deck import rules  # noqa: F401  registers the rules across keys
+from mbla.deck.fields import allowed_keys
+from mbla.deck.suggestions import did_you_mean, listed, unknown
+from mbla.deck.tree import KeyPath, MappingMarks, SequenceMarks, Tree, own_mark
+from mbla.deck.types import DeckContent
+from mbla.errors import Fault
+
+Convert = Callable[[str, str], float]
+
+
+def validate(tree: Tree, convert: Convert, reported: set[int]) -> tuple[DeckContent | None, list[Fault]]:
+    """Checked content, or everything wrong with it.
+
+    tree     : the deck as read, with inclusions and overrides
+    convert  : (text, dimension) -> number in the deck's units, ValueError otherwise
+    reported : marks of values that the reader has complained of; they are not reported again
+    """
+    try:
+        return DeckContent.model_validate(tree.data, context={"convert": convert}), []
+    except ValidationError as error:
+        errors = error.errors(include_url=False, include_context=True)
+    return None, list(_faults(tree, errors, reported))
+
+
+def _faults(tree: Tree, errors: list[Any], reported: set[int]) -> Iterator[Fault]:
+    around = _around(tree, reported)
+    by_path: dict[KeyPath, Any] = {}
+    lengths: dict[KeyPath, int] = {}
+    for error in errors:
+        path = _data_path(tree.data, error)
+        if error["type"] == "missing" and isinstance(path[-1], int):  # items that a list lacks
+            lengths[path[:-1]] = max(path[-1] + 1, lengths.get(path[:-1], 0))
+        elif error["type"] == "too_long" and "max_length" in error["ctx"]:
+            by_path.setdefault(path, error)
+        else:
+            by_path[path] = error  # of the branches of a number, the last knows most
+    for path, length in lengths.items():
+        found = len(_value_at(tree.data, path))
+        yield tree.fault(path, f"needs {length} {_items(tree.data, path)}, has {found}")
+    for path, error in by_path.items():
+        if error["type"] == "reported" or _is_reported(tree, path, error, reported, around):
+            continue
+        if error["type"] == "rules":
+            for below, message in error["ctx"]["findings"]:
+                yield tree.fault((*path, *below), message)
+        else:
+            message, at_key = _words(tree.data, path, error)
+            yield tree.fault(path, message, at_key)
+
+
+def _around(tree: Tree, reported: set[int]) -> set[int]:
+    """Marks of all mappings and lists that hold a value already reported."""
+    return {mark for path in paths_of(tree, reported) for mark in tree.marks_along(path)[:-1]} if reported else set()
+
+
+def paths_of(tree: Tree, marks: set[int]) -> Iterator[KeyPath]:
+    """Paths of the values that stand at given marks."""
+    pending: list[tuple[KeyPath, Any]] = [((), tree.marks)]
+    while pending:
+        path, node = pending.pop()
+        if own_mark(node) in marks:
+            yield path
+        if isinstance(node, MappingMarks):
+            pending += [((*path, key), below) for key, below in node.values.items()]
+        elif isinstance(node, SequenceMarks):
+            pending += [((*path, index), below) for index, below in enumerate(node.items)]
+
+
+def _is_reported(tree: Tree, path: KeyPath, error: Any, reported: set[int], around: set[int]) -> bool:
+    """Whether the reader has complained of this value, or a rule only fails because a value below it is unreadable."""
+    if not reported:
+        return False
+    marks = tree.marks_along(path)
+    return not reported.isdisjoint(marks) or (error["type"] == "rules" and marks[-1] in around)
+
+
+def _data_path(data: Any, error: Any) -> KeyPath:
+    """Path in the deck of an error: the location without the names of union branches."""
+    location = error["loc"]
+    path: list[str | int] = []
+    last = len(location) - 1
+    for position, key in enumerate(location):
+        absent = error["type"] == "missing" and position == last
+        if isinstance(data, dict) and isinstance(key, str) and (key in data or absent):
+            data = data.get(key)
+        elif isinstance(data, list) and isinstance(key, int) and (key < len(data) or absent):
+            data = None if absent else data[key]
+        else:
+            continue
+        path.append(key)
+    return tuple(path)
+
+
+def _value_at(data: Any, path: KeyPath) -> Any:
+    for key in path:
+        data = data[key]
+    return data
+
+
+# --- words --------------------------------------------------------------------------------------------------------
+
+_MESSAGES = {
+    "greater_than": "must be > {gt:g}",
+    "greater_than_equal": "must be >= {ge:g}",
+    "less_than": "must be < {lt:g}",
+    "less_than_equal": "must be <= {le:g}",
+    "bool_type": "must be true or false",
+    "bool_parsing": "must be true or false",
+    "list_type": "must be a list: [...]",
+    "tuple_type": "must be a list: [...]",
+    "dict_type": "must be a mapping: {{key: value}}",
+    "model_type": "must be a mapping: {{key: value}}",
+    "model_attributes_type": "must be a mapping: {{key: value}}",
+    "string_too_long": "has more than {max_length} characters",
+    "string_too_short": "must not be empty",
+    "finite_number": "must be a finite number",
+    "quantity": "{reason}",
+}
+_TYPES = {"float_type": "must be a number", "int_type": "must be a whole number", "string_type": "must be a text"}
+_PATTERNS = {
+    r"^.*$": "must be on one line",
+    r"^[A-Za-z_][A-Za-z0-9_]*$": "the name of a parameter has letters, digits and _, and begins with no digit",
+}
+_NAME_PATTERN = "a name has letters, digits and . _ - only, and begins with a letter, digit or _"
+
+
+def _words(data: Any, path: KeyPath, error: Any) -> tuple[str, bool]:
+    """Message of an error, and whether it is about the key rather than the value."""
+    kind, context = error["type"], error.get("ctx", {})
+    value = error["input"]
+    is_key = bool(error["loc"]) and error["loc"][-1] == "[key]"
+    if kind == "missing":
+        return "is missing", False
+    if kind == "extra_forbidden":
+        return _unknown_key(path), True
+    if kind in ("too_long", "too_short"):
+        return _length(context, _items(data, path)), False
+    if kind in _TYPES:
+        return _TYPES[kind] + _remedy(kind, value), is_key
+    if kind == "literal_error":
+        allowed = [choice.strip("'") for choice in context["expected"].replace(" or ", ", ").split(", ")]
+        hint = did_you_mean(value, allowed) if isinstance(value, str) else ""
+        return f"must be {listed(allowed)}{hint}", False
+    if kind == "string_pattern_mismatch":
+        return _PATTERNS.get(context["pattern"], _NAME_PATTERN), is_key
+    return _MESSAGES[kind].format(**context), is_key
+
+
+def _unknown_key(path: KeyPath) -> str:
+    allowed = allowed_keys(DeckContent, path[:-1])
+    return unknown("key", str(path[-1]), allowed)
+
+
+def _items(data: Any, path: KeyPath) -> str:
+    """What a list of the deck holds, for messages on its length."""
+    first = next(iter(_value_at(data, path)), None)
+    if isinstance(first, (int, float)):
+        return "numbers"
+    return "names" if path[-1] == "between" else "items"
+
+
+def _length(context: Any, items: str) -> str:
+    least, most, found = context.get("min_length"), context.get("max_length"), context.get("actual_length")
+    if least is not None:
+        return f"needs at least {least} {items if least > 1 else 'item'}, has {found}"
+    return f"needs {most} {items}, has {found}"
+
+
+def _remedy(kind: str, value: Any) -> str:
+    if kind == "string_type":
+        return ": write it in quotes" if isinstance(value, (int, float)) else ""
+    if isinstance(value, bool):
+        return ", not true or false"
+    return f", not a {'list' if isinstance(value, list) else 'mapping'}" if isinstance(value, (list, dict)) else ""
