@@ -1,1 +1,19 @@
-"""Generators: each turns an item of the deck into raw polyhedra."""
+"""Generators: each turns an item of the deck into raw polyhedra. A new one is a file and a line here."""
+
+from __future__ import annotations
+
+from mbla.model.generators.arch import generate_arch
+from mbla.model.generators.box import generate_box
+from mbla.model.generators.generator import Generator
+from mbla.model.generators.mesh import generate_mesh
+from mbla.model.generators.polyhedron import generate_polyhedron
+from mbla.model.generators.wall import generate_wall
+
+GENERATORS: dict[str, Generator] = {
+    "box": generate_box,
+    "polyhedron": generate_polyhedron,
+    "wall": generate_wall,
+    "arch": generate_arch,
+    "mesh": generate_mesh,
+}
+"""by the key of the item in the deck"""

@@ -1,1 +1,37 @@
-"""Geometry files: one reader per file, registered by extension."""
+"""Geometry files: one reader per file, registered by extension. A new one is a file and a line here."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+from mbla.model.geometry.geometry import Geometry, GeometryFileError
+from mbla.model.geometry.meshio_files import read_inp, read_msh, read_ply, read_stl, read_vtu
+from mbla.model.geometry.obj import read_obj
+
+READERS: dict[str, Callable[[Path], Geometry]] = {
+    ".obj": read_obj,
+    ".ply": read_ply,
+    ".stl": read_stl,
+    ".vtu": read_vtu,
+    ".msh": read_msh,
+    ".inp": read_inp,
+}
+"""by extension, in lower case"""
+
+
+def read_geometry(path: Path) -> Geometry:
+    """Blocks of a geometry file.
+
+    Raises
+    ------
+    GeometryFileError
+        for unknown extensions, malformed files, and files without blocks
+    """
+    reader = READERS.get(path.suffix.lower())
+    if reader is None:
+        raise GeometryFileError(f"unknown kind of geometry file; known are {', '.join(READERS)}")
+    geometry = reader(path)
+    if not len(geometry.polyhedra):
+        raise GeometryFileError("the file holds no blocks: no surface and no volume cell was found")
+    return geometry

@@ -1,0 +1,75 @@
+"""What a generator takes and gives."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, Protocol
+
+from mbla.arrays import FloatArray
+from mbla.errors import Notice
+from mbla.model.polyhedra import Polyhedra
+
+KeyPath = tuple[str | int, ...]
+
+
+@dataclass(frozen=True)
+class Part:
+    """Polyhedra of one group: the item's own, or the item's with ``suffix`` after it; ``fixed`` ones do not move."""
+
+    polyhedra: Polyhedra
+    suffix: str = ""
+    fixed: bool = False
+
+
+@dataclass(frozen=True)
+class GroundPart:
+    """Rigid ground that an item brings along, under one block of its first part.
+
+    point, normal : (3,) of the plane, normal unit and towards the structure
+    block         : index in the first part
+    joint         : joint law; that of contacts where None
+    """
+
+    point: FloatArray
+    normal: FloatArray
+    block: int
+    joint: str | None
+
+
+@dataclass(frozen=True)
+class Generated:
+    """An item of the deck as raw polyhedra, in its own coordinates (before its transform)."""
+
+    parts: tuple[Part, ...]
+    grounds: tuple[GroundPart, ...] = ()
+    notices: tuple[Notice, ...] = field(default=())
+
+
+@dataclass(frozen=True)
+class Site:
+    """What a generator may know besides its item.
+
+    tolerance : contacts.tolerance, relative to block size
+    resolve_file : path of a file named by the value at a key path below the item
+    """
+
+    tolerance: float
+    resolve_file: Callable[[KeyPath, str], Path]
+
+
+class ItemRefused(Exception):  # noqa: N818 - an answer, not a defect
+    """The item cannot be built; key paths below the item, and what is wrong there."""
+
+    def __init__(self, findings: Sequence[tuple[KeyPath, str]]) -> None:
+        self.findings = tuple(findings)
+        super().__init__("; ".join(message for _, message in findings))
+
+
+class Generator(Protocol):
+    """Turns an item of one kind into polyhedra; raises ItemRefused with everything that is wrong with it."""
+
+    def __call__(self, item: Any, site: Site) -> Generated:
+        """The item in its own coordinates."""
+        ...

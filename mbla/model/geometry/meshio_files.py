@@ -1,0 +1,209 @@
+"""The formats that meshio reads and writes (only importer of meshio).
+
+Volume cells are blocks, one each; files without any hold surfaces, whose closed parts are the blocks.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import io
+from collections.abc import Iterator, Mapping, Sequence
+from itertools import chain
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from mbla.arrays import FloatArray, starts
+from mbla.errors import FileError, Notice
+from mbla.model.geometry.geometry import Geometry, GeometryFileError
+from mbla.model.geometry.surfaces import split_surface
+from mbla.model.geometry.welding import own_vertices, weld, welding_notices
+from mbla.model.polyhedra import HEXAHEDRON, Polyhedra, join_polyhedra, polyhedra_from_cells
+
+VOLUME_CELLS: dict[str, tuple[int, Sequence[Sequence[int]]]] = {
+    "tetra": (4, ((0, 2, 1), (0, 1, 3), (1, 2, 3), (2, 0, 3))),
+    "VTK_LAGRANGE_TETRAHEDRON": (4, ((0, 2, 1), (0, 1, 3), (1, 2, 3), (2, 0, 3))),
+    "hexahedron": (8, HEXAHEDRON),
+    "VTK_LAGRANGE_HEXAHEDRON": (8, HEXAHEDRON),
+    "wedge": (6, ((0, 2, 1), (3, 4, 5), (0, 1, 4, 3), (1, 2, 5, 4), (2, 0, 3, 5))),
+    "VTK_LAGRANGE_WEDGE": (6, ((0, 2, 1), (3, 4, 5), (0, 1, 4, 3), (1, 2, 5, 4), (2, 0, 3, 5))),
+    "pyramid": (5, ((0, 3, 2, 1), (0, 1, 4), (1, 2, 4), (2, 3, 4), (3, 0, 4))),
+    "VTK_LAGRANGE_PYRAMID": (5, ((0, 3, 2, 1), (0, 1, 4), (1, 2, 4), (2, 3, 4), (3, 0, 4))),
+    "penta_prism": (
+        10,
+        ((4, 3, 2, 1, 0), (5, 6, 7, 8, 9), *((i, (i + 1) % 5, (i + 1) % 5 + 5, i + 5) for i in range(5))),
+    ),
+    "hexa_prism": (
+        12,
+        ((5, 4, 3, 2, 1, 0), (6, 7, 8, 9, 10, 11), *((i, (i + 1) % 6, (i + 1) % 6 + 6, i + 6) for i in range(6))),
+    ),
+}
+"""number of corners and faces by corner, of each shape of cell; cells of higher order begin with their corners"""
+SURFACE_CELLS = {"triangle": 3, "VTK_LAGRANGE_TRIANGLE": 3, "quad": 4, "VTK_LAGRANGE_QUADRILATERAL": 4, "polygon": 0}
+"""number of corners; 0 where it is that of the cell"""
+PIXEL = (0, 1, 3, 2)
+"""corners of a VTK pixel in order around it"""
+
+
+def read_ply(path: Path) -> Geometry:
+    """Closed parts of a PLY surface."""
+    return _read(path, "ply")
+
+
+def read_stl(path: Path) -> Geometry:
+    """Closed parts of an STL surface, after joining the corners that coincide."""
+    return _read(path, "stl")
+
+
+def read_vtu(path: Path) -> Geometry:
+    """Volume cells, or closed parts of surfaces, of a VTU file."""
+    return _read(path, "vtu")
+
+
+def read_msh(path: Path) -> Geometry:
+    """Volume cells, or closed parts of surfaces, of a Gmsh file."""
+    return _read(path, "gmsh")
+
+
+def read_inp(path: Path) -> Geometry:
+    """Volume cells, or closed parts of surfaces, of an Abaqus or CalculiX input file."""
+    return _read(path, "abaqus")
+
+
+def _read(path: Path, file_format: str) -> Geometry:
+    mesh, remarks = _mesh(path, file_format)
+    points = _points(mesh)
+    volumes = [
+        block for block in mesh.cells if _shape(block.type) in VOLUME_CELLS or block.type.startswith("polyhedron")
+    ]
+    surfaces = [block for block in mesh.cells if _shape(block.type) in SURFACE_CELLS or block.type == "pixel"]
+    used = volumes or surfaces
+    left_out = [block for block in mesh.cells if not any(block is other for other in used)]
+    notices = [*remarks, *_left_out(left_out, bool(volumes))]
+    if volumes:
+        cells = join_polyhedra([_volume_cells(points, block) for block in volumes])
+        welded = weld(cells)
+        return Geometry(welded.polyhedra, (*notices, *welding_notices(welded)))
+    faces = list(chain.from_iterable(_surface_cells(block) for block in surfaces))
+    counts = np.array([len(face) for face in faces], dtype=np.int64)
+    corners = np.fromiter(chain.from_iterable(faces), dtype=np.int64, count=int(counts.sum()))
+    _check_rows(corners, points)
+    surface = own_vertices(points, corners, starts(counts), np.zeros(len(faces), dtype=np.int64))
+    if not len(surface):
+        return Geometry(surface, tuple(notices))
+    geometry = split_surface(surface)
+    return Geometry(geometry.polyhedra, (*notices, *geometry.notices))
+
+
+def _mesh(path: Path, file_format: str) -> tuple[Any, list[Notice]]:
+    """The file as meshio gives it, and what meshio would have printed."""
+    printed = io.StringIO()
+    try:
+        import meshio
+
+        with contextlib.redirect_stdout(printed), contextlib.redirect_stderr(printed), np.errstate(all="ignore"):
+            mesh = meshio.read(path, file_format=file_format)
+    except OSError as error:
+        raise GeometryFileError(f"cannot be read: {error.strerror or error}") from error
+    except (Exception, SystemExit) as error:
+        # the readers let all kinds of exceptions through, and the library exits the program after printing
+        reason = " ".join(printed.getvalue().split()) or " ".join(str(error).split()) or type(error).__name__
+        raise GeometryFileError(f"is not a well-formed {file_format} file: {reason[:200]}") from error
+    words = " ".join(printed.getvalue().split())
+    return mesh, [Notice("warning", "mesh-file-remarks", words[:500])] if words else []
+
+
+def _points(mesh: Any) -> FloatArray:
+    points = np.asarray(mesh.points, dtype=np.float64)
+    if points.ndim != 2 or points.shape[1] not in (2, 3):
+        raise GeometryFileError("the points have neither two nor three coordinates")
+    if points.shape[1] == 2:
+        points = np.concatenate([points, np.zeros((len(points), 1))], axis=1)
+    return points
+
+
+def _shape(cell_type: str) -> str:
+    """``hexahedron`` for ``hexahedron20``: names of cells of higher order end in their number of nodes."""
+    return cell_type.rstrip("0123456789")
+
+
+def _volume_cells(points: FloatArray, block: Any) -> Polyhedra:
+    if block.type.startswith("polyhedron"):
+        return _polyhedron_cells(points, block.data)
+    count, faces = VOLUME_CELLS[_shape(block.type)]
+    rows = np.asarray(block.data, dtype=np.int64)[:, :count]
+    _check_rows(rows, points)
+    return polyhedra_from_cells(points[rows], faces)
+
+
+def _polyhedron_cells(points: FloatArray, cells: Any) -> Polyhedra:
+    """Cells given by faces, each face by rows of points."""
+    faces = [np.asarray(face, dtype=np.int64) for cell in cells for face in cell]
+    block = np.repeat(np.arange(len(cells)), [len(cell) for cell in cells])
+    counts = np.array([len(face) for face in faces], dtype=np.int64)
+    corners = np.concatenate(faces)
+    _check_rows(corners, points)
+    return own_vertices(points, corners, starts(counts), block)
+
+
+def _surface_cells(block: Any) -> Iterator[Sequence[int]]:
+    rows = np.asarray(block.data, dtype=np.int64)
+    if block.type == "pixel":
+        rows = rows[:, PIXEL]
+    count = SURFACE_CELLS.get(_shape(block.type), 0)
+    yield from (rows[:, :count] if count else rows).tolist()
+
+
+def _check_rows(rows: np.typing.NDArray[np.int64], points: FloatArray) -> None:
+    if rows.size and not (rows.min() >= 0 and rows.max() < len(points)):
+        raise GeometryFileError(f"a cell names a point that does not exist; there are {len(points)}")
+
+
+def _left_out(blocks: Sequence[Any], beside_volumes: bool) -> list[Notice]:
+    """What becomes no block, in words; single points are not worth any."""
+    counts: dict[str, int] = {}
+    for block in blocks:
+        if block.type != "vertex":
+            counts[block.type] = counts.get(block.type, 0) + len(block.data)
+    if not counts:
+        return []
+    words = ", ".join(f"{count} of type {kind}" for kind, count in counts.items())
+    reason = "beside volume cells only those are blocks" if beside_volumes else "these cells are not blocks"
+    return [Notice("notice", "mesh-cells-left-out", f"cells were left out: {words}; {reason}")]
+
+
+def write_mesh(
+    path: Path,
+    points: FloatArray,
+    cells: Sequence[tuple[str, Any]],
+    point_data: Mapping[str, Any] | None = None,
+    cell_data: Mapping[str, Sequence[Any]] | None = None,
+    file_format: str = "vtu",
+) -> None:
+    """Write points, cells and data on them to a file, without a word on standard output.
+
+    points     : (n_points, 3)
+    cells      : meshio's (type, rows of points) blocks; polyhedra cannot be mixed with other types
+    point_data : by name, (n_points,) or (n_points, k)
+    cell_data  : by name, one array per entry of ``cells``; no booleans and no text
+
+    Raises
+    ------
+    FileError
+        where the file cannot be written
+    """
+    import meshio
+
+    printed = io.StringIO()
+    try:
+        with contextlib.redirect_stdout(printed), contextlib.redirect_stderr(printed):
+            mesh = meshio.Mesh(
+                points,
+                list(cells),
+                point_data=dict(point_data or {}),
+                cell_data={name: list(arrays) for name, arrays in (cell_data or {}).items()},
+            )
+            meshio.write(path, mesh, file_format=file_format)
+    except OSError as error:
+        raise FileError(f"{path}: cannot be written: {error.strerror or error}") from error

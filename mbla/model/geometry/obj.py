@@ -1,0 +1,132 @@
+"""Wavefront OBJ: each object (``o``), or else each group (``g``), is one block.
+
+Without either the file is one surface, split into its closed parts. Read here because the libraries at hand either
+merge objects or split them by rules of their own.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+
+from mbla.arrays import IntArray, starts
+from mbla.errors import Notice
+from mbla.model.geometry.geometry import Geometry, GeometryFileError
+from mbla.model.geometry.surfaces import split_surface
+from mbla.model.geometry.welding import own_vertices, weld, welding_notices
+from mbla.model.polyhedra import Polyhedra
+
+LEFT_OUT = {"l": "lines", "p": "points", "curv": "curves", "curv2": "curves", "surf": "free-form surfaces"}
+"""elements that carry geometry but no block"""
+
+
+@dataclass
+class _Content:
+    """The file as read: vertices, faces as rows of them, and the object and group at each face."""
+
+    vertices: list[tuple[float, float, float]] = field(default_factory=list)
+    faces: list[list[int]] = field(default_factory=list)
+    objects: list[int] = field(default_factory=list)
+    groups: list[int] = field(default_factory=list)
+    object_count: int = 0
+    group_count: int = 0
+    left_out: dict[str, int] = field(default_factory=dict)
+
+
+def read_obj(path: Path) -> Geometry:
+    """Blocks of an OBJ file, in file order.
+
+    Raises
+    ------
+    GeometryFileError
+        for malformed lines, with their number
+    """
+    content = _read(path)
+    if not content.faces:
+        return Geometry(_collect(content, np.empty(0, dtype=np.int64)), ())
+    labels = content.objects if content.object_count else content.groups
+    whole = not content.object_count and not content.group_count
+    polyhedra = _collect(content, np.array(labels, dtype=np.int64))
+    notices = [
+        Notice("warning", "mesh-cells-left-out", f"{count} {words} are not blocks and were left out")
+        for words, count in content.left_out.items()
+    ]
+    if whole:
+        geometry = split_surface(polyhedra)
+        return Geometry(geometry.polyhedra, (*notices, *geometry.notices))
+    welded = weld(polyhedra)
+    return Geometry(welded.polyhedra, (*notices, *welding_notices(welded)))
+
+
+def _read(path: Path) -> _Content:
+    content = _Content()
+    for number, line in _lines(path):
+        keyword, _, rest = line.partition(" ")
+        try:
+            _read_line(content, keyword, rest)
+        except (ValueError, IndexError) as error:
+            raise GeometryFileError(f"line {number} cannot be read: {error}") from error
+    return content
+
+
+def _lines(path: Path) -> Iterator[tuple[int, str]]:
+    """Lines with their numbers, without comments; lines that end in a backslash are joined to the next."""
+    try:
+        text = path.read_text(encoding="utf-8", errors="replace")
+    except OSError as error:
+        raise GeometryFileError(f"cannot be read: {error.strerror}") from error
+    pending = ""
+    for number, raw in enumerate(text.splitlines(), start=1):
+        line = pending + raw.split("#", 1)[0].strip().replace("\t", " ")
+        if line.endswith("\\"):
+            pending = line[:-1] + " "
+            continue
+        pending = ""
+        if line:
+            yield number, line
+
+
+def _read_line(content: _Content, keyword: str, rest: str) -> None:
+    if keyword == "v":
+        fields = rest.split()
+        if len(fields) < 3:
+            raise ValueError("a vertex has three coordinates")
+        content.vertices.append((float(fields[0]), float(fields[1]), float(fields[2])))
+    elif keyword == "f":
+        corners = [_vertex(token, len(content.vertices)) for token in rest.split()]
+        if len(corners) < 3:
+            raise ValueError("a face has at least three corners")
+        content.faces.append(corners)
+        content.objects.append(content.object_count)
+        content.groups.append(content.group_count)
+    elif keyword == "o":
+        content.object_count += 1
+    elif keyword == "g":
+        content.group_count += 1
+    elif keyword in LEFT_OUT:
+        words = LEFT_OUT[keyword]
+        content.left_out[words] = content.left_out.get(words, 0) + 1
+
+
+def _vertex(token: str, count: int) -> int:
+    """Row of the vertex that ``7``, ``7/1``, ``7//3`` or ``-1`` names; negative numbers count back from the last."""
+    number = int(token.split("/", 1)[0])
+    if number == 0 or not -count <= number <= count:
+        raise ValueError(f"there is no vertex {number}, {count} precede this line")
+    return number - 1 if number > 0 else count + number
+
+
+def _collect(content: _Content, labels: IntArray) -> Polyhedra:
+    """One polyhedron per label, in order of first appearance, each with its own copy of its vertices."""
+    present, first, codes = np.unique(labels, return_index=True, return_inverse=True)
+    rank = np.empty(len(present), dtype=np.int64)
+    rank[np.argsort(first, kind="stable")] = np.arange(len(present))
+    order = np.argsort(rank[codes], kind="stable")
+    faces = [content.faces[row] for row in order]
+    block = rank[codes][order]
+    counts = np.array([len(face) for face in faces], dtype=np.int64)
+    corners = np.array([corner for face in faces for corner in face], dtype=np.int64)
+    return own_vertices(np.array(content.vertices, dtype=np.float64).reshape(-1, 3), corners, starts(counts), block)

@@ -1,0 +1,110 @@
+"""A surface mesh split into its closed parts, each of which is a block.
+
+Faces belong together when they share an edge. Where blocks touch along an edge, as in a wall exported as one surface,
+more than two faces meet at it; then each face goes with the one that it meets first on turning about the edge through
+its own block:
+
+    with t the direction in which a face passes the edge and n its outward normal, the face lies along n x t, and its
+    block on the side of turning about -t; its partner passes the edge along -t.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from mbla.arrays import FloatArray, IntArray, starts
+from mbla.errors import Notice
+from mbla.model.face_geometry import face_geometry
+from mbla.model.geometry.geometry import Geometry
+from mbla.model.geometry.welding import own_vertices, weld
+from mbla.model.orientation import connected_labels
+from mbla.model.polyhedra import Polyhedra
+from mbla.model.ragged import ranges
+
+SAME_DIRECTION = 1e-6
+"""angle in radians below which two faces at an edge lie on each other and bound different blocks"""
+
+
+def split_surface(surface: Polyhedra) -> Geometry:
+    """The closed parts of one surface, given as one polyhedron, in the order of their first faces."""
+    welded = weld(surface)
+    surface = welded.polyhedra
+    notices: tuple[Notice, ...] = ()
+    if welded.collapsed:
+        words = f"{welded.collapsed} faces without area, with corners at the same place, were left out"
+        notices = (Notice("notice", "faces-collapsed", words),)
+    if not len(surface):
+        return Geometry(surface, notices)
+    labels = connected_labels(_partners(surface), len(surface.block_of_face))
+    first, codes = np.unique(labels, return_index=True, return_inverse=True)[1:]
+    rank = np.empty(len(first), dtype=np.int64)
+    rank[np.argsort(first)] = np.arange(len(first))
+    block = rank[codes.reshape(-1)]
+    order = np.argsort(block, kind="stable")
+    counts = np.diff(surface.loop_start)[order]
+    corners = surface.loops[ranges(surface.loop_start[order], counts)]
+    return Geometry(own_vertices(surface.vertices, corners, starts(counts), block[order]), notices)
+
+
+def _partners(surface: Polyhedra) -> IntArray:
+    """Pairs of faces that belong together, (n, 2)."""
+    tails, heads = surface.loops, surface.next_loops
+    keys = np.minimum(tails, heads) * len(surface.vertices) + np.maximum(tails, heads)
+    order = np.argsort(keys, kind="stable")
+    first = np.flatnonzero(np.diff(keys[order], prepend=-1))
+    counts = np.diff(first, append=len(keys))
+    face = surface.face_of_corner
+    two = first[counts == 2]
+    pairs = [np.stack([face[order[two]], face[order[two + 1]]], axis=1)]
+    crowded = np.flatnonzero(counts > 2)
+    if len(crowded):
+        angles, forwards = _angles(surface, order, first, counts, crowded)
+        for edge in crowded:
+            corners = order[first[edge] : first[edge] + counts[edge]]
+            pairs.append(face[_pair_around(corners, angles[corners], forwards[corners])])
+    return np.concatenate(pairs)
+
+
+def _angles(
+    surface: Polyhedra, order: IntArray, first: IntArray, counts: IntArray, crowded: IntArray
+) -> tuple[FloatArray, np.typing.NDArray[np.bool_]]:
+    """Angle at which each face leaves a crowded edge, about its direction from the lesser to the greater vertex.
+
+    Both results are (n_corners,), meaningful at crowded edges; the second is true where the face passes it that way.
+    """
+    chosen = order[ranges(first[crowded], counts[crowded])]
+    tails, heads = surface.loops[chosen], surface.next_loops[chosen]
+    forward = tails < heads
+    vertices = surface.local_vertices
+    low, high = np.minimum(tails, heads), np.maximum(tails, heads)
+    axis = vertices[high] - vertices[low]
+    axis /= np.linalg.norm(axis, axis=1)[:, None]
+    normals = face_geometry(surface).normals[surface.face_of_corner[chosen]]
+    leaving = np.cross(normals, np.where(forward[:, None], axis, -axis))
+    helper = np.eye(3)[np.argmin(np.abs(axis), axis=1)]
+    east = np.cross(axis, helper)
+    east /= np.linalg.norm(east, axis=1)[:, None]
+    north = np.cross(axis, east)
+    angles = np.zeros(len(surface.loops))
+    angles[chosen] = np.arctan2(np.einsum("ij,ij->i", leaving, north), np.einsum("ij,ij->i", leaving, east))
+    forwards = np.zeros(len(surface.loops), dtype=bool)
+    forwards[chosen] = forward
+    return angles, forwards
+
+
+def _pair_around(corners: IntArray, angles: FloatArray, forwards: np.typing.NDArray[np.bool_]) -> IntArray:
+    """Corners paired around one edge, (n, 2).
+
+    Where the faces do not pair off (not oriented outwards, or an open sheet among them) all are kept together: the
+    block they make is then refused by name.
+    """
+    together = np.stack([corners[:-1], corners[1:]], axis=1)
+    ahead, back = np.flatnonzero(forwards), np.flatnonzero(~forwards)
+    if len(ahead) != len(back):
+        return together
+    turn = np.mod(angles[ahead][:, None] - angles[back][None, :], 2 * np.pi)
+    turn[turn < SAME_DIRECTION] += 2 * np.pi
+    partner = np.argmin(turn, axis=1)
+    if len(np.unique(partner)) != len(partner):
+        return together
+    return np.stack([corners[ahead], corners[back[partner]]], axis=1)

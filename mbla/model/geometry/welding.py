@@ -1,0 +1,89 @@
+"""Vertices at the same place made one, inside each polyhedron, and what collapses with them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from mbla.arrays import FloatArray, IntArray, row_of_item, starts
+from mbla.errors import Notice
+from mbla.model.polyhedra import Polyhedra, drop_unused_vertices
+from mbla.model.ragged import next_item
+
+
+@dataclass(frozen=True)
+class Welded:
+    """Polyhedra after welding, how many vertices were merged, and how many faces collapsed to a line or point."""
+
+    polyhedra: Polyhedra
+    merged: int
+    collapsed: int
+
+
+def weld(polyhedra: Polyhedra) -> Welded:
+    """Merge vertices with equal coordinates; faces lose corners that repeat, and go when fewer than three are left.
+
+    A collapsed face takes both sides of its edges with it, so that a closed surface stays closed. Faces of volume
+    cells that collapse (a hexahedron given as a wedge) go the same way.
+    """
+    x, y, z = (polyhedra.vertices + 0.0).T  # -0.0 becomes 0.0
+    block = polyhedra.block_of_vertex
+    order = np.lexsort((x, y, z, block))
+    keys = np.stack([block[order].astype(np.float64), x[order], y[order], z[order]])
+    new = np.any(keys[:, 1:] != keys[:, :-1], axis=0)
+    if new.all():
+        return Welded(polyhedra, 0, 0)
+    leader = order[np.concatenate([[0], np.flatnonzero(new) + 1])]
+    target = np.empty(len(order), dtype=np.int64)
+    target[order] = leader[np.concatenate([[0], np.cumsum(new)])]
+    loops = target[polyhedra.loops]
+    kept = loops != loops[next_item(polyhedra.loop_start)]
+    corners = np.bincount(polyhedra.face_of_corner[kept], minlength=len(polyhedra.block_of_face))
+    whole = corners >= 3
+    kept &= whole[polyhedra.face_of_corner]
+    face_counts = np.bincount(polyhedra.block_of_face[whole], minlength=len(polyhedra))
+    remaining = face_counts > 0
+    welded, _ = drop_unused_vertices(
+        Polyhedra(polyhedra.vertices, polyhedra.vertex_start, loops[kept], starts(corners[whole]), starts(face_counts))
+    )
+    vertex_counts = np.diff(welded.vertex_start)
+    # polyhedra without any face left go, too
+    welded = Polyhedra(
+        welded.vertices,
+        starts(vertex_counts[remaining]),
+        welded.loops,
+        welded.loop_start,
+        starts(face_counts[remaining]),
+    )
+    return Welded(welded, len(order) - len(leader), int((~whole).sum()))
+
+
+def welding_notices(welded: Welded) -> tuple[Notice, ...]:
+    """What was merged, in words; nothing where nothing was."""
+    if not welded.merged:
+        return ()
+    words = f"{welded.merged} vertices at the same place as another of their block were merged"
+    if welded.collapsed:
+        words += f"; {welded.collapsed} faces without area went with them"
+    return (Notice("notice", "vertices-merged", words),)
+
+
+def own_vertices(points: FloatArray, corners: IntArray, loop_start: IntArray, block: IntArray) -> Polyhedra:
+    """Polyhedra from faces over shared points, each with its own copy of those it uses.
+
+    corners : (n_corners,) rows of points; block : (n_faces,) polyhedron of each face, ascending from 0 without gaps
+    """
+    if not len(block):
+        none = np.zeros(1, dtype=np.int64)
+        return Polyhedra(np.empty((0, 3)), none, np.empty(0, dtype=np.int64), none, none)
+    keys = block[row_of_item(loop_start)] * len(points) + corners
+    used, loops = np.unique(keys, return_inverse=True)
+    n_blocks = int(block[-1]) + 1
+    return Polyhedra(
+        vertices=points[used % len(points)],
+        vertex_start=starts(np.bincount(used // len(points), minlength=n_blocks)),
+        loops=loops.reshape(-1).astype(np.int64),
+        loop_start=loop_start,
+        face_start=starts(np.bincount(block, minlength=n_blocks)),
+    )

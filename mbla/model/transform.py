@@ -1,0 +1,131 @@
+"""Transforms of an item: steps of translation, rotation, scaling and mirroring, applied in order.
+
+A chain of steps is one affine map x -> M x + c with M a multiple of an orthogonal matrix; rotation by Rodrigues,
+
+    R = I + sin(a) K + (1 - cos(a)) K K,   K the cross-product matrix of the unit axis,
+
+mirroring in a plane of unit normal n by Householder, H = I - 2 n n'.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from mbla.arrays import FloatArray
+from mbla.deck.types import Reflection, Rotation, TransformStep
+from mbla.model.generators.generator import Generated, GroundPart, ItemRefused, KeyPath, Part
+from mbla.model.polyhedra import Polyhedra, turn_faces
+
+KeyedStep = tuple[KeyPath, TransformStep]
+
+
+@dataclass(frozen=True)
+class AffineMap:
+    """x -> matrix x + offset, a similarity: matrix is a multiple of an orthogonal one; (3, 3), (3,)."""
+
+    matrix: FloatArray
+    offset: FloatArray
+
+    def points(self, points: FloatArray) -> FloatArray:
+        """Images of points, (..., 3)."""
+        return np.asarray(points @ self.matrix.T + self.offset, dtype=np.float64)
+
+    def directions(self, directions: FloatArray) -> FloatArray:
+        """Images of directions or normals, (..., 3), unit."""
+        images = directions @ self.matrix.T
+        return np.asarray(images / np.linalg.norm(images, axis=-1, keepdims=True), dtype=np.float64)
+
+    @property
+    def mirrors(self) -> bool:
+        """True where right-handed becomes left-handed."""
+        return bool(np.linalg.det(self.matrix) < 0)
+
+
+def build_transform(transform: Sequence[TransformStep] | TransformStep) -> AffineMap | None:
+    """The affine map of an item's steps; None where there are none.
+
+    Raises
+    ------
+    ItemRefused
+        for axes and normals without direction; key paths below the item
+    """
+    keyed: list[KeyedStep]
+    if isinstance(transform, TransformStep):
+        keyed = [(("transform",), transform)]
+    else:
+        keyed = [(("transform", number), step) for number, step in enumerate(transform)]
+    findings = []
+    for path, step in keyed:
+        if step.rotate is not None and not np.any(step.rotate.axis):
+            findings.append(((*path, "rotate", "axis"), "must have a direction"))
+        if step.mirror is not None and not np.any(step.mirror.normal):
+            findings.append(((*path, "mirror", "normal"), "must have a direction"))
+    if findings:
+        raise ItemRefused(findings)
+    if not keyed:
+        return None
+    matrix, offset = np.eye(3), np.zeros(3)
+    for _, step in keyed:
+        of_step = _step(step)
+        matrix, offset = of_step.matrix @ matrix, of_step.points(offset)
+    return AffineMap(matrix, offset)
+
+
+def transform_item(generated: Generated, transform: AffineMap) -> Generated:
+    """Everything that a generator made, moved; faces keep pointing the way they did."""
+    parts = tuple(replace(part, polyhedra=_moved(part, transform)) for part in generated.parts)
+    grounds = tuple(_moved_ground(ground, transform) for ground in generated.grounds)
+    return replace(generated, parts=parts, grounds=grounds)
+
+
+def _moved(part: Part, transform: AffineMap) -> Polyhedra:
+    moved = replace(part.polyhedra, vertices=transform.points(part.polyhedra.vertices))
+    return turn_faces(moved, np.ones(len(moved.block_of_face), dtype=bool)) if transform.mirrors else moved
+
+
+def _moved_ground(ground: GroundPart, transform: AffineMap) -> GroundPart:
+    return replace(ground, point=transform.points(ground.point), normal=transform.directions(ground.normal))
+
+
+def _step(step: TransformStep) -> AffineMap:
+    if step.rotate is not None:
+        return _rotation(step.rotate)
+    if step.mirror is not None:
+        return _reflection(step.mirror)
+    if step.scale is not None:
+        return AffineMap(step.scale * np.eye(3), np.zeros(3))
+    return AffineMap(np.eye(3), np.array(step.translate or (0.0, 0.0, 0.0)))
+
+
+def _rotation(rotation: Rotation) -> AffineMap:
+    x, y, z = _unit(rotation.axis)
+    cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
+    sine, cosine = _sine_and_cosine(rotation.angle)
+    return _about(np.eye(3) + sine * cross + (1 - cosine) * cross @ cross, rotation.about)
+
+
+def _reflection(reflection: Reflection) -> AffineMap:
+    normal = _unit(reflection.normal)
+    return _about(np.eye(3) - 2 * np.outer(normal, normal), reflection.point)
+
+
+def _about(matrix: FloatArray, point: tuple[float, float, float]) -> AffineMap:
+    return AffineMap(matrix, np.array(point) - matrix @ np.array(point))
+
+
+def _unit(direction: tuple[float, float, float]) -> FloatArray:
+    vector = np.array(direction)
+    vector = vector / np.abs(vector).max()  # so that squares neither overflow nor vanish
+    return np.asarray(vector / np.linalg.norm(vector), dtype=np.float64)
+
+
+def _sine_and_cosine(degrees: float) -> tuple[float, float]:
+    """Exact at multiples of a right angle, so that turned boxes stay along the axes."""
+    quarter, rest = divmod(degrees, 90.0)
+    if rest == 0:
+        return ((0.0, 1.0), (1.0, 0.0), (0.0, -1.0), (-1.0, 0.0))[int(quarter) % 4]
+    radians = np.radians(np.fmod(degrees, 360.0))
+    return float(np.sin(radians)), float(np.cos(radians))
