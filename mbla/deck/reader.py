@@ -107,28 +107,29 @@ class _Builder:
         if type(data) is list:
             data.append(value)
             self.marks.items.append(mark)
-        elif type(data) is dict and self.key is _NO_KEY:
+        elif type(data) is not dict:
+            self.root, self.root_marks = value, mark
+        elif self.key is _NO_KEY:
             self.take_key(value, text, mark)
         else:
-            self.put(value, mark)
+            self.put_under_key(value, mark)
 
     def event(self, event: Any) -> None:
+        kind = type(event)
+        if kind is yaml.SequenceEndEvent or kind is yaml.MappingEndEvent:
+            self.data, self.marks, self.key = self.stack.pop()
+            return
         mark = self.base + event.start_mark.index
-        match event:
-            case yaml.SequenceStartEvent():
-                self.open([], SequenceMarks(mark), event)
-            case yaml.MappingStartEvent():
-                self.open({}, MappingMarks(mark), event)
-            case yaml.SequenceEndEvent() | yaml.MappingEndEvent():
-                self.data, self.marks, self.key = self.stack.pop()
-            case yaml.AliasEvent(anchor=str() as name):
-                message = f"aliases (*{shorten(name)}) are not allowed: write the value out, or use a parameter"
-                self.fault(mark, message)
-                self.put_value_or_key(None, mark)
-            case yaml.DocumentStartEvent():
-                self.start_document(event, mark)
-            case _:
-                pass  # start and end of the stream, end of the document
+        if kind is yaml.SequenceStartEvent:
+            self.open([], SequenceMarks(mark), event)
+        elif kind is yaml.MappingStartEvent:
+            self.open({}, MappingMarks(mark), event)
+        elif kind is yaml.AliasEvent:
+            message = f"aliases (*{shorten(event.anchor)}) are not allowed: write the value out, or use a parameter"
+            self.fault(mark, message)
+            self.put_value_or_key(None, mark)
+        elif kind is yaml.DocumentStartEvent:
+            self.start_document(event, mark)
 
     def start_document(self, event: Any, mark: int) -> None:
         self.documents += 1
@@ -151,24 +152,24 @@ class _Builder:
         self.data, self.marks, self.key = data, marks, _NO_KEY
 
     def put_value_or_key(self, value: Any, marks: Any) -> None:
-        if type(self.data) is dict and self.key is _NO_KEY:
+        data = self.data
+        if type(data) is list:
+            data.append(value)
+            self.marks.items.append(marks)
+        elif type(data) is not dict:
+            self.root, self.root_marks = value, marks
+        elif self.key is not _NO_KEY:
+            self.put_under_key(value, marks)
+        else:
             if value is not None:  # an alias is already reported
                 self.fault(marks.own, "a key must be text")
             self.key = _DROPPED
-        else:
-            self.put(value, marks)
 
-    def put(self, value: Any, marks: Any) -> None:
-        if type(self.data) is list:
-            self.data.append(value)
-            self.marks.items.append(marks)
-        elif type(self.data) is dict:
-            if self.key is not _DROPPED:
-                self.data[self.key] = value
-                self.marks.values[self.key] = marks
-            self.key = _NO_KEY
-        elif self.documents == 1:
-            self.root, self.root_marks = value, marks
+    def put_under_key(self, value: Any, marks: Any) -> None:
+        if self.key is not _DROPPED:
+            self.data[self.key] = value
+            self.marks.values[self.key] = marks
+        self.key = _NO_KEY
 
     def take_key(self, value: Any, text: str, mark: int) -> None:
         self.key = _DROPPED

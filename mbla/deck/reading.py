@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import gc
 import hashlib
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -34,7 +36,27 @@ def read_deck(path: str | Path, overrides: Sequence[str] = ()) -> Deck:
     FileError
         if the deck file itself cannot be opened
     """
-    path = Path(path)
+    with _no_collection():
+        return _read(Path(path), overrides)
+
+
+@contextmanager
+def _no_collection() -> Iterator[None]:
+    """Pause the cyclic garbage collector.
+
+    Reading makes no cycles but hundreds of thousands of lists, through which the collector would walk again and again:
+    a third of the time for a deck of 5,000 polyhedra.
+    """
+    was_enabled = gc.isenabled()
+    gc.disable()
+    try:
+        yield
+    finally:
+        if was_enabled:
+            gc.enable()
+
+
+def _read(path: Path, overrides: Sequence[str]) -> Deck:
     tree, reading = read_files(path)
     for number, text in enumerate(overrides, start=1):
         faults, reported = apply_override(tree, text, number)
