@@ -58,14 +58,16 @@ CONTACT_ARRAYS = (
     "frames",
     "point_areas",
 )
-REPORT_ARRAYS = (
+REPORT_FIELDS = (
     "slivers",
     "sliver_widths",
     "near_misses",
     "near_miss_gaps",
     "overlaps",
     "overlap_depths",
+    "unchecked",
     "isolated",
+    "fixed_contacts",
 )
 MECHANICS_FIELDS = ("load_factor", "contact_forces", "contact_velocities", "mechanism", "modes")
 PROGRAM_FIELDS = ("program", "kind", "status", "load_factor", "change", "iterations", "seconds")
@@ -188,7 +190,7 @@ def _contacts(contacts: Contacts) -> Content:
     return {
         **{f"contacts/{name}": getattr(contacts, name) for name in CONTACT_ARRAYS},
         "contacts/joint_names": contacts.joint_names,
-        **{f"contacts/report/{name}": getattr(report, name) for name in REPORT_ARRAYS},
+        **{f"contacts/report/{name}": getattr(report, name) for name in REPORT_FIELDS},
         "contacts/report/unsupported_start": start,
         "contacts/report/unsupported_blocks": flat,
         **_notices("contacts/notices", report.notices),

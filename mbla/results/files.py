@@ -105,10 +105,16 @@ class OutputFolder:
         self._names.append(name)
         return self._temporary("new", name)
 
+    @contextlib.contextmanager
+    def writing(self, name: str) -> Iterator[Path]:
+        """``path(name)`` for a ``with`` block whose errors of the operating system name the file."""
+        with _file_errors(self.folder / name):
+            yield self.path(name)
+
     def write_bytes(self, name: str, data: bytes) -> None:
         """Write one file."""
-        with _file_errors(self.folder / name):
-            self.path(name).write_bytes(data)
+        with self.writing(name) as path:
+            path.write_bytes(data)
 
     def write_text(self, name: str, text: str) -> None:
         """Write one text file, UTF-8 with newlines as they are."""

@@ -198,6 +198,8 @@ LAYOUT: tuple[Field, ...] = (
     Field("contacts/report/near_miss_gaps", "float", ("near_miss",), "1", "their distance relative to block size"),
     Field("contacts/report/overlaps", "int", ("overlap", "pair"), "1", "blocks that overlap", index_of="body"),
     Field("contacts/report/overlap_depths", "float", ("overlap",), "1", "the depth relative to block size"),
+    Field("contacts/report/unchecked", "int", ("unchecked_pair", "pair"), "1", "overlaps not judged", index_of="body"),
+    Field("contacts/report/fixed_contacts", "int", (), "1", "contacts between fixed bodies, left out"),
     Field("contacts/report/isolated", "int", ("isolated_block",), "1", "blocks without contact", index_of="block"),
     Field(
         "contacts/report/unsupported_start",

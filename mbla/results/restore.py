@@ -23,7 +23,7 @@ from mbla.results.content import (
     ITERATION_FIELDS,
     MECHANICS_FIELDS,
     PROGRAM_FIELDS,
-    REPORT_ARRAYS,
+    REPORT_FIELDS,
     Content,
 )
 from mbla.results.results import CaseResult, DeckRecord, Results
@@ -115,7 +115,7 @@ def _contacts(get: dict[str, Any]) -> Contacts:
     parts = len(get["report/unsupported_start"]) - 1
     unsupported = np.split(get["report/unsupported_blocks"], get["report/unsupported_start"][1:-1]) if parts else []
     report = ContactReport(
-        **{name: get[f"report/{name}"] for name in REPORT_ARRAYS},
+        **{name: get[f"report/{name}"] for name in REPORT_FIELDS},
         unsupported=tuple(unsupported),
         notices=_notices(_part(get, "notices/")),
     )

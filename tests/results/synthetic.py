@@ -60,14 +60,28 @@ def cuboids(lower, upper, groups, densities=1.0):
 def empty_report(notices=()):
     """A contact report with nothing in it."""
     pairs, numbers, rows = np.zeros((0, 2), np.int64), np.zeros(0), np.zeros(0, np.int64)
-    return ContactReport(pairs, numbers, pairs, numbers, pairs, numbers, rows, (), tuple(notices))
+    return ContactReport(
+        slivers=pairs,
+        sliver_widths=numbers,
+        near_misses=pairs,
+        near_miss_gaps=numbers,
+        overlaps=pairs,
+        overlap_depths=numbers,
+        unchecked=pairs,
+        isolated=rows,
+        unsupported=(),
+        fixed_contacts=0,
+        notices=tuple(notices),
+    )
 
 
 def horizontal_contacts(bodies, rectangles, report=None):
     """Interfaces with normal +z on rectangles (x0, x1, y0, y1, z), four contact points each."""
-    corners = np.array([[[x0, y0, z], [x1, y0, z], [x1, y1, z], [x0, y1, z]] for x0, x1, y0, y1, z in rectangles], float)
+    corners = np.array(
+        [[[x0, y0, z], [x1, y0, z], [x1, y1, z], [x0, y1, z]] for x0, x1, y0, y1, z in rectangles], float
+    )
     n = len(rectangles)
-    areas = np.array([(x1 - x0) * (y1 - y0) for x0, x1, y0, y1, _ in rectangles])
+    areas = np.array([(x1 - x0) * (y1 - y0) for x0, x1, y0, y1, _ in rectangles], float)
     frame = np.array([[0.0, 0, 1], [1, 0, 0], [0, 1, 0]])
     return Contacts(
         bodies=np.array(bodies, dtype=np.int64),
@@ -167,7 +181,9 @@ def tower_results(flow_rule="non_associative"):
     nothing = Checks(nan, nan, nan, nan, nan, nan, nan, nan, nan, True, ())
     notices = (*model.notices, *tower_contacts().report.notices)
     return Results(
-        deck=DeckRecord("tower.yaml", (("tower.yaml", "mbla: 1\ntitle: Tür und Turm – µ\n"), ("b.yaml", "")), (), "ab" * 32),
+        deck=DeckRecord(
+            "tower.yaml", (("tower.yaml", "mbla: 1\ntitle: Tür und Turm – µ\n"), ("b.yaml", "")), (), "ab" * 32
+        ),
         model=model,
         contacts=tower_contacts(),
         cases=(
@@ -187,7 +203,11 @@ def same(first, second):
     """Deep equality of records, arrays (type, shape, values, nan equal to nan) and containers."""
     if isinstance(first, np.ndarray) or isinstance(second, np.ndarray):
         first, second = np.asarray(first), np.asarray(second)
-        return first.dtype == second.dtype and first.shape == second.shape and np.array_equal(first, second, equal_nan=True)
+        return (
+            first.dtype == second.dtype
+            and first.shape == second.shape
+            and np.array_equal(first, second, equal_nan=True)
+        )
     if hasattr(first, "__dataclass_fields__"):
         return type(first) is type(second) and all(
             same(getattr(first, name), getattr(second, name)) for name in first.__dataclass_fields__

@@ -1,0 +1,150 @@
+"""The listing: what was asked, what the model is, what was found; ``mbla show`` prints it from the .h5 alone."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from mbla import __version__
+from mbla.errors import Notice
+from mbla.model.model import Model
+from mbla.results.case_words import case_lines, verdict
+from mbla.results.results import Results
+from mbla.results.text import WIDTH, counted, entry, heading, number, sentence, table
+
+
+def listing(results: Results) -> str:
+    """The whole listing, at most 100 columns wide, with a newline at its end."""
+    lines = [
+        *_header(results),
+        *_settings(results),
+        *model_lines(results.model),
+        *contact_lines(results),
+        *notice_lines(results.notices),
+    ]
+    for case in results.cases:
+        lines += case_lines(results.model, results.contacts, case)
+    lines += _recap(results)
+    return "\n".join(line.rstrip() for line in lines) + "\n"
+
+
+def _header(results: Results) -> list[str]:
+    version = results.provenance.get("mbla", __version__)
+    deck = results.deck
+    lines = [f"mbla {version}   limit analysis of masonry as rigid blocks", "=" * WIDTH]
+    lines += sentence(results.model.title, "") if results.model.title else []
+    lines += entry("deck", deck.name)
+    lines += [line for name, _ in deck.sources[1:] for line in entry("includes", name)]
+    lines += [line for override in deck.overrides for line in entry("set on the command line", override)]
+    lines += entry("deck hash (SHA-256)", deck.sha256)
+    lines += entry("date", results.created)
+    return lines
+
+
+def _settings(results: Results) -> list[str]:
+    units = results.model.units
+    lines = heading("Units and analysis settings")
+    lines += entry("units", f"{units.length}, {units.force}, {units.mass}, s; angles of joints as tangents")
+    return lines + [line for name, value in results.settings.items() for line in entry(name, value)]
+
+
+def model_lines(model: Model) -> list[str]:
+    """Blocks by group, joint laws, supports, loads of every case."""
+    blocks, units = model.blocks, model.units
+    lines = heading("Model")
+    lines += entry("blocks", f"{len(blocks)}, of them {len(model.free)} free and {int(model.fixed.sum())} fixed")
+    lines += entry("volume", f"{number(float(blocks.volumes.sum()))} {units.length}3")
+    lines += entry("weight (9.81 m/s2)", f"{number(model.total_weight)} {units.force}")
+    lines += ["", *_group_table(model), "", *_joint_table(model)]
+    lines += heading("Supports") + _supports(model)
+    lines += heading("Loads")
+    for case in model.load_cases:
+        lines += sentence(f"{case.name}")
+        lines += [line for words in case.dead_words for line in entry("  dead load", words)]
+        lines += [line for words in case.live_words for line in entry("  live load", words)]
+    return lines
+
+
+def _group_table(model: Model) -> list[str]:
+    blocks, units = model.blocks, model.units
+    groups = np.array(blocks.groups)
+    weights = blocks.masses * units.standard_gravity * units.force_per_mass_acceleration
+    rows = []
+    for name in dict.fromkeys(blocks.groups):
+        chosen = groups == name
+        least, most = blocks.densities[chosen].min(), blocks.densities[chosen].max()
+        rows.append(
+            [
+                name,
+                str(int(chosen.sum())),
+                str(int(model.fixed[chosen].sum())),
+                number(float(blocks.volumes[chosen].sum())),
+                number(float(weights[chosen].sum())),
+                number(least) if least == most else f"{number(least)} .. {number(most)}",
+            ]
+        )
+    volume, weight = f"volume [{units.length}3]", f"weight [{units.force}]"
+    return table(["group", "blocks", "fixed", volume, weight, f"density [{units.mass}/{units.length}3]"], rows)
+
+
+def _joint_table(model: Model) -> list[str]:
+    stress = f"[{model.units.force}/{model.units.length}2]"
+    rows = [
+        [
+            joint.name,
+            number(joint.friction),
+            number(joint.cohesion),
+            number(joint.tensile_strength),
+            "unlimited" if np.isinf(joint.compressive_strength) else number(joint.compressive_strength),
+            number(joint.dilatancy),
+        ]
+        for joint in model.joints.values()
+    ]
+    head = ["joint law", "friction", f"cohesion {stress}", f"tensile {stress}", f"compressive {stress}", "dilatancy"]
+    return table(head, rows)
+
+
+def _supports(model: Model) -> list[str]:
+    lines = []
+    for ground in model.grounds:
+        only = "" if ground.blocks is None else f", under {counted(len(ground.blocks), 'block')} only"
+        lines += sentence(f"rigid {ground.label} with joint law {ground.joint}{only}")
+    for name in dict.fromkeys(model.blocks.groups):
+        held = int(sum(fixed for group, fixed in zip(model.blocks.groups, model.fixed, strict=True) if group == name))
+        if held:
+            lines += sentence(f"{counted(held, 'block')} of group {name} fixed")
+    return lines or sentence("none")
+
+
+def contact_lines(results: Results) -> list[str]:
+    """Interfaces, contact points and areas by joint law."""
+    contacts = results.contacts
+    length = results.model.units.length
+    points = np.diff(contacts.point_start)
+    rows = []
+    for row, name in enumerate(contacts.joint_names):
+        chosen = contacts.joints == row
+        area = number(float(contacts.areas[chosen].sum()))
+        rows.append([name, str(int(chosen.sum())), str(int(points[chosen].sum())), area])
+    rows.append(["total", str(len(contacts)), str(len(contacts.points)), number(float(contacts.areas.sum()))])
+    return heading("Contacts") + table(["joint law", "interfaces", "points", f"area [{length}2]"], rows)
+
+
+def notice_lines(notices: tuple[Notice, ...], title: str = "Remarks") -> list[str]:
+    """Every notice and warning with its identifier; nothing where there is none."""
+    if not notices:
+        return []
+    return heading(title) + [line for notice in notices for line in sentence(str(notice))]
+
+
+def _recap(results: Results) -> list[str]:
+    warnings = tuple(notice for notice in results.notices if notice.severity == "warning")
+    lines = heading("Summary")
+    for case in results.cases:
+        lines += entry(case.load_case.name, verdict(results.model, case))
+    left_out = len(results.model.load_cases) - len(results.cases)
+    if left_out:
+        lines += sentence(f"{counted(left_out, 'load case')} of the deck not run")
+    lines += sentence(f"{counted(len(warnings), 'warning')}" + (":" if warnings else ""))
+    lines += [line for warning in warnings for line in sentence(str(warning), "    ")]
+    seconds = ", ".join(f"{stage} {number(round(value, 3))} s" for stage, value in results.time.items())
+    return lines + sentence(f"exit status {results.exit_code}" + (f"; {seconds}" if seconds else ""))

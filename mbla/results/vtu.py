@@ -1,0 +1,161 @@
+"""Files for ParaView: blocks, contact points and interfaces of one load case, one file per kind of cell.
+
+Blocks have points of their own, so that Warp By Vector on ``displacement`` (scale factor 1) shows them part.
+meshio writes neither texts nor truth values: groups are numbered in alphabetical order, flags are 0 and 1.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from mbla.arrays import FloatArray
+from mbla.contacts.contacts import Contacts
+from mbla.model.geometry.meshio_files import write_mesh
+from mbla.model.model import Model
+from mbla.results.cells import BlockCells, block_cells
+from mbla.results.mechanics import global_forces, interface_modes, interface_resultants, moving_blocks
+from mbla.results.motion import contact_displacements, drawn_motion, vertex_displacements
+from mbla.results.results import CaseResult
+
+Arrays = dict[str, np.typing.NDArray[Any]]
+
+
+def write_blocks_vtu(path: Path, model: Model, case: CaseResult, cells: BlockCells | None = None) -> None:
+    """Blocks as cells.
+
+    Point data: ``displacement``. Cell data: ``block``, ``group``, ``weight``, ``fixed``, ``moves``, ``velocity``,
+    ``rotation`` (as drawn, m and rad).
+    """
+    motion = drawn_motion(model, case)
+    write_cells(path, model, model.blocks.vertices, motion, vertex_displacements(model.blocks, motion), cells)
+
+
+def write_cells(
+    path: Path,
+    model: Model,
+    vertices: FloatArray,
+    motion: FloatArray,
+    displacement: FloatArray,
+    cells: BlockCells | None = None,
+) -> None:
+    """Blocks with their vertices where they are now; ``motion`` as drawn, (n_blocks, 6)."""
+    cells = cells or block_cells(model.blocks)
+    data = block_data(model) | {
+        "moves": moving_blocks(motion, model.blocks.sizes).astype(np.int8),
+        "velocity": motion[:, :3],
+        "rotation": motion[:, 3:],
+    }
+    write_mesh(
+        path,
+        vertices,
+        list(cells.cells),
+        point_data={"displacement": displacement},
+        cell_data={name: [values[rows] for rows in cells.rows] for name, values in data.items()},
+    )
+
+
+def block_data(model: Model) -> Arrays:
+    """What every block carries, (n_blocks,) each."""
+    units = model.units
+    return {
+        "block": np.arange(len(model.blocks)),
+        "group": group_numbers(model),
+        "weight": model.blocks.masses * units.standard_gravity * units.force_per_mass_acceleration,
+        "fixed": model.fixed.astype(np.int8),
+    }
+
+
+def group_names(model: Model) -> list[str]:
+    """Groups in the order of their numbers, as in ``model/group_names`` of the HDF5 file."""
+    return sorted(set(model.blocks.groups))
+
+
+def group_numbers(model: Model) -> np.typing.NDArray[np.int64]:
+    """Number of the group of each block, (n_blocks,)."""
+    row = {name: i for i, name in enumerate(group_names(model))}
+    return np.array([row[group] for group in model.blocks.groups], dtype=np.int64)
+
+
+def write_contacts_vtu(path: Path, model: Model, contacts: Contacts, case: CaseResult) -> None:
+    """Contact points as vertices; the force is the one on body b, in global directions.
+
+    Point data: ``interface``, ``body_a``, ``body_b``, ``displacement``; with a mechanism also ``contact_force``,
+    ``normal_force``, ``shear_force``, ``contact_velocity`` (b relative to a), ``opening``, ``sliding``, ``mode``
+    (0 stick, 1 slide, 2 open).
+    """
+    owners = contacts.interface_of_point
+    data: Arrays = {
+        "interface": owners,
+        "body_a": contacts.bodies[owners, 0],
+        "body_b": contacts.bodies[owners, 1],
+        "displacement": contact_displacements(model, contacts, drawn_motion(model, case)),
+    }
+    mechanics = case.solution.mechanics
+    if mechanics is not None:
+        forces, velocities = mechanics.contact_forces, mechanics.contact_velocities
+        data |= {
+            "contact_force": global_forces(contacts, forces),
+            "normal_force": forces[:, 0],
+            "shear_force": np.hypot(forces[:, 1], forces[:, 2]),
+            "contact_velocity": global_forces(contacts, velocities),
+            "opening": velocities[:, 0],
+            "sliding": np.hypot(velocities[:, 1], velocities[:, 2]),
+            "mode": mechanics.modes,
+        }
+    vertices = np.arange(len(contacts.points))[:, None]
+    write_mesh(path, contacts.points, [("vertex", vertices)], point_data=data, cell_data={})
+
+
+def write_interfaces_vtu(path: Path, model: Model, contacts: Contacts, case: CaseResult) -> None:
+    """Interfaces as polygons, by their outer boundary; holes are not drawn, areas and forces count them.
+
+    Cell data: ``interface``, ``body_a``, ``body_b``, ``area``, ``gap``, ``joint``, ``normal``; with a mechanism also
+    ``resultant_force``, ``resultant_moment`` (on body b, about the centroid), ``normal_force``, ``shear_force``,
+    ``mode`` (0 stick, 1 slide, 2 open, 3 hinge, 4 twist). Point data: ``displacement``.
+    """
+    data: Arrays = {
+        "interface": np.arange(len(contacts)),
+        "body_a": contacts.bodies[:, 0],
+        "body_b": contacts.bodies[:, 1],
+        "area": contacts.areas,
+        "gap": contacts.gaps,
+        "joint": contacts.joints,
+        "normal": contacts.normals,
+    }
+    mechanics = case.solution.mechanics
+    if mechanics is not None:
+        resultants = interface_resultants(contacts, mechanics.contact_forces)
+        normal_force = np.einsum("ij,ij->i", resultants[:, :3], contacts.normals)
+        shear = resultants[:, :3] - normal_force[:, None] * contacts.normals
+        data |= {
+            "resultant_force": resultants[:, :3],
+            "resultant_moment": resultants[:, 3:],
+            "normal_force": normal_force,
+            "shear_force": np.linalg.norm(shear, axis=1),
+            "mode": interface_modes(contacts, mechanics),
+        }
+    rows = [np.flatnonzero(contacts.outline == n) for n in np.unique(contacts.outline)]
+    cells = [("polygon", _outlines(contacts, each)) for each in rows]
+    write_mesh(
+        path,
+        contacts.points,
+        cells,
+        point_data={"displacement": contact_displacements(model, contacts, drawn_motion(model, case))},
+        cell_data={name: [values[each] for each in rows] for name, values in data.items()},
+    )
+
+
+def _outlines(contacts: Contacts, rows: np.typing.NDArray[np.int64]) -> np.typing.NDArray[np.int64]:
+    """Outer boundaries of interfaces with equally many corners, (n, corners)."""
+    return contacts.point_start[rows][:, None] + np.arange(contacts.outline[rows[0]])
+
+
+CONTACT_FILES: tuple[tuple[str, Callable[[Path, Model, Contacts, CaseResult], None]], ...] = (
+    ("contacts", write_contacts_vtu),
+    ("interfaces", write_interfaces_vtu),
+)
+"""files that exist only where there are contacts; a mesh file without a single cell is refused by its readers"""
