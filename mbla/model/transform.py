@@ -16,10 +16,8 @@ import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.deck.types import Reflection, Rotation, TransformStep
-from mbla.model.generators.generator import Generated, GroundPart, ItemRefused, KeyPath, Part
+from mbla.model.generators.generator import Generated, GroundPart, Part
 from mbla.model.polyhedra import Polyhedra, turn_faces
-
-KeyedStep = tuple[KeyPath, TransformStep]
 
 
 @dataclass(frozen=True)
@@ -45,30 +43,12 @@ class AffineMap:
 
 
 def build_transform(transform: Sequence[TransformStep] | TransformStep) -> AffineMap | None:
-    """The affine map of an item's steps; None where there are none.
-
-    Raises
-    ------
-    ItemRefused
-        for axes and normals without direction; key paths below the item
-    """
-    keyed: list[KeyedStep]
-    if isinstance(transform, TransformStep):
-        keyed = [(("transform",), transform)]
-    else:
-        keyed = [(("transform", number), step) for number, step in enumerate(transform)]
-    findings = []
-    for path, step in keyed:
-        if step.rotate is not None and not np.any(step.rotate.axis):
-            findings.append(((*path, "rotate", "axis"), "must have a direction"))
-        if step.mirror is not None and not np.any(step.mirror.normal):
-            findings.append(((*path, "mirror", "normal"), "must have a direction"))
-    if findings:
-        raise ItemRefused(findings)
-    if not keyed:
+    """The affine map of an item's steps; None where there are none."""
+    steps = [transform] if isinstance(transform, TransformStep) else transform
+    if not steps:
         return None
     matrix, offset = np.eye(3), np.zeros(3)
-    for _, step in keyed:
+    for step in steps:
         of_step = _step(step)
         matrix, offset = of_step.matrix @ matrix, of_step.points(offset)
     return AffineMap(matrix, offset)

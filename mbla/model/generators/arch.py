@@ -32,10 +32,13 @@ def generate_arch(item: ArchItem, site: Site) -> Generated:
     Raises
     ------
     ItemRefused
-        where rise and embrace do not fit the shape, or the voussoirs are too few to be blocks
+        where the voussoirs are too few to be blocks
     """
-    _check_shape(item)
     circle = _circle(item)
+    least = int(np.degrees(2 * circle.half_angle) // 180) + 1
+    if item.voussoirs < least:
+        message = f"too few: at least {least}, so that each spans less than 180 degrees"
+        raise ItemRefused([(("voussoirs",), message)])
     angles = np.linspace(-circle.half_angle, circle.half_angle, item.voussoirs + 1)
     rays = np.stack([np.sin(angles), np.cos(angles)], axis=1)
     intrados = circle.centre + circle.radius * rays
@@ -60,25 +63,15 @@ def generate_arch(item: ArchItem, site: Site) -> Generated:
     return Generated((voussoirs,))
 
 
-def _check_shape(item: ArchItem) -> None:
-    """Raise ItemRefused unless the figures make an arch."""
-    each = np.degrees(2 * _circle(item).half_angle) / item.voussoirs
-    least = int(np.degrees(2 * _circle(item).half_angle) // 180) + 1
-    if each >= 180:
-        message = f"too few: at least {least}, so that each spans less than 180 degrees"
-        raise ItemRefused([(("voussoirs",), message)])
-
-
 def _circle(item: ArchItem) -> _Circle:
     if item.shape == "semicircular":
         half_angle = np.pi / 2
     elif item.rise is not None:
         # half the rise over half the span is the tangent of half the half angle
         half_angle = 2 * np.arctan2(item.rise, item.span / 2)
-    elif item.embrace is not None:
-        half_angle = np.radians(item.embrace) / 2
     else:
-        raise ItemRefused([((), "a segmental arch needs rise or embrace")])
+        assert item.embrace is not None  # a rule of the deck: one of rise and embrace
+        half_angle = np.radians(item.embrace) / 2
     radius = item.span / (2 * np.sin(half_angle))
     centre = np.array([item.span / 2, -radius * np.cos(half_angle)])
     return _Circle(float(radius), float(half_angle), centre)

@@ -14,6 +14,8 @@ from mbla.model.polyhedra import cuboids
 
 NO_UNIT = 1e-6
 """length of a remainder, relative to the unit, that is no unit of its own"""
+MOST_UNITS = 2_000_000
+"""a slip in the units of length asks for far more"""
 
 
 @dataclass(frozen=True)
@@ -32,9 +34,12 @@ def generate_wall(item: WallItem, site: Site) -> Generated:
     Raises
     ------
     ItemRefused
-        for openings outside the wall or off its bed joints, or where nothing is left of the wall
+        for openings off the bed joints, too many units, or where nothing is left of the wall
     """
     findings: list[tuple[KeyPath, str]] = []
+    about = item.courses * item.length / item.unit[0]
+    if about > MOST_UNITS:
+        raise ItemRefused([(("length",), f"makes about {about:.0e} units; at most {MOST_UNITS:,} can be handled")])
     voids = []
     for number, opening in enumerate(item.openings):
         found = list(_check_opening(item, opening, site.tolerance))
@@ -94,23 +99,13 @@ def _void(item: WallItem, opening: Opening) -> _Void:
 
 
 def _check_opening(item: WallItem, opening: Opening, tolerance: float) -> Iterator[tuple[KeyPath, str]]:
-    """What is wrong with an opening; key paths below it."""
-    unit, _, height = item.unit
-    extent = (item.length, item.courses * height)
-    slack = (NO_UNIT * unit, tolerance * height)
-    directions = ("along the wall", "up the wall")
-    for axis in (0, 1):
-        low, high = opening.from_[axis], opening.to[axis]
-        if high - low <= slack[axis]:
-            yield ("to", axis), f"must be greater than from, {low:g}"
-            continue
-        if low < -slack[axis]:
-            yield ("from", axis), f"lies outside the wall, which goes from 0 to {extent[axis]:g} {directions[axis]}"
-        if high > extent[axis] + slack[axis]:
-            yield ("to", axis), f"lies outside the wall, which goes from 0 to {extent[axis]:g} {directions[axis]}"
+    """Bottom and top of an opening lie on bed joints, or so close that they mean them; key paths below it."""
+    height = item.unit[2]
     for key, value in (("from", opening.from_[1]), ("to", opening.to[1])):
-        if not -slack[1] <= value <= extent[1] + slack[1]:
-            continue  # said above
-        if abs(value - round(value / height) * height) > slack[1]:
+        if abs(value - round(value / height) * height) > tolerance * height:
             below = int(value // height)
             yield (key, 1), f"must lie on a bed joint; the nearest are {below * height:g} and {(below + 1) * height:g}"
+    if round(opening.to[1] / height) == round(opening.from_[1] / height):
+        yield ("to", 1), "must be at least a course above from"
+    if opening.to[0] - opening.from_[0] <= NO_UNIT * item.unit[0]:
+        yield ("to", 0), "the opening is too narrow to separate two units"

@@ -1,0 +1,198 @@
+"""From the deck to the model: generate, transform, check blocks, then supports and loads on them."""
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from mbla.deck.deck import Deck
+from mbla.deck.types import BlockItem, Item, JointLaw, Material
+from mbla.deck.units import Units
+from mbla.errors import DeckError, Fault, Notice
+from mbla.model.build_blocks import BuiltBlocks, Labels, build_blocks, indices_in_groups
+from mbla.model.defects import Defect
+from mbla.model.generators import GENERATORS
+from mbla.model.generators.generator import Generated, ItemRefused, KeyPath, Site
+from mbla.model.loads import LoadSite, build_load_case
+from mbla.model.model import Ground, Joint, Model
+from mbla.model.polyhedra import Polyhedra, join_polyhedra
+from mbla.model.selectors import build_roster
+from mbla.model.supports import Supports, build_supports
+from mbla.model.transform import build_transform, transform_item
+
+MOST_FAULTS_PER_ITEM = 10
+"""defects of blocks of one item that are told one by one; a mesh in the wrong format has one in every block"""
+
+
+@dataclass
+class _Collected:
+    """What the items gave so far, one entry per part; ``first_block`` is the number of the next block."""
+
+    polyhedra: list[Polyhedra] = field(default_factory=list)
+    groups: list[str] = field(default_factory=list)
+    densities: list[float] = field(default_factory=list)
+    items: list[int] = field(default_factory=list)
+    fixed: list[bool] = field(default_factory=list)
+    grounds: list[tuple[int, Ground]] = field(default_factory=list)
+    notices: list[Notice] = field(default_factory=list)
+    partial: set[str] = field(default_factory=set)
+    first_block: int = 0
+
+
+def build_model(deck: Deck) -> Model:
+    """The model that a checked deck describes.
+
+    Raises
+    ------
+    DeckError
+        with every fault found: items that cannot be built, blocks that are no blocks, selectors without blocks,
+        supports and loads that do nothing
+    """
+    faults: list[Fault] = []
+    notices: list[Notice] = []
+    items = _generate_items(deck, faults)
+    if not items.polyhedra:
+        raise DeckError(faults)
+    counts = np.array([len(polyhedra) for polyhedra in items.polyhedra])
+    built = build_blocks(join_polyhedra(items.polyhedra), _labels(items, counts), deck.contacts.tolerance)
+    item_of_block = np.repeat(items.items, counts)
+    faults += _defects_in_words(deck, built, item_of_block.tolist())
+    partial = items.partial | {built.blocks.groups[defect.block] for defect in built.defects}
+    roster = build_roster(built.blocks, frozenset(partial), deck.fault_at)
+    grounds = tuple(_named(ground, block, built) for block, ground in items.grounds)
+    brought_along = Supports(np.repeat(np.array(items.fixed, dtype=bool), counts), grounds)
+    tolerance, joint = deck.contacts.tolerance, deck.contacts.joint
+    supports = build_supports(deck.content.supports, joint, brought_along, roster, tolerance, faults)
+    site = LoadSite(roster, supports.fixed, deck.units)
+    load_cases = tuple(
+        build_load_case(name, section, site, faults, notices) for name, section in deck.content.load_cases.items()
+    )
+    if faults:
+        raise DeckError(faults)
+    return Model(
+        title=deck.content.title,
+        units=deck.units,
+        blocks=built.blocks,
+        fixed=supports.fixed,
+        grounds=supports.grounds,
+        joints={name: build_joint(name, law) for name, law in deck.content.joints.items()},
+        load_cases=load_cases,
+        notices=(*items.notices, *built.notices, *notices),
+    )
+
+
+def build_joint(name: str, law: JointLaw) -> Joint:
+    """Joint law with tangents for angles, and an unlimited compressive strength unless given."""
+    friction = law.friction
+    if friction is None:
+        assert law.friction_angle is not None  # a rule of the deck: one of friction and friction angle
+        friction = math.tan(math.radians(law.friction_angle))
+    return Joint(
+        name=name,
+        friction=friction,
+        cohesion=law.cohesion,
+        tensile_strength=law.tensile_strength,
+        compressive_strength=math.inf if law.compressive_strength is None else law.compressive_strength,
+        dilatancy=math.tan(math.radians(law.dilatancy)),
+    )
+
+
+def density_of(material: Material, units: Units) -> float:
+    """Mass per volume; a unit weight is one under standard gravity."""
+    if material.density is not None:
+        return material.density
+    assert material.unit_weight is not None  # a rule of the deck: one of density and unit weight
+    return material.unit_weight / (units.standard_gravity * units.force_per_mass_acceleration)
+
+
+# --- items --------------------------------------------------------------------------------------------------------
+
+
+def _generate_items(deck: Deck, faults: list[Fault]) -> _Collected:
+    """Raw polyhedra of all items; items that cannot be built leave a fault, and their groups are partial."""
+    collected = _Collected()
+    densities = {name: density_of(material, deck.units) for name, material in deck.content.materials.items()}
+    for number, entry in enumerate(deck.content.blocks):
+        kind, item = _kind(entry)
+        path: KeyPath = ("blocks", number, kind)
+        group = item.group or kind
+        try:
+            generated = _generate(deck, kind, item, path)
+        except ItemRefused as refused:
+            faults += [deck.fault_at((*path, *below), message) for below, message in refused.findings]
+        except DeckError as error:
+            faults += error.faults
+        else:
+            _collect(collected, generated, item, group, densities[item.material], number, deck.contacts.joint)
+            continue
+        collected.partial |= {group, f"{group}_springers"}
+    return collected
+
+
+def _kind(entry: BlockItem) -> tuple[str, Item]:
+    """Key and content of an item of the deck."""
+    return next((kind, item) for kind in GENERATORS if (item := getattr(entry, kind)) is not None)
+
+
+def _generate(deck: Deck, kind: str, item: Item, path: KeyPath) -> Generated:
+    site = Site(deck.contacts.tolerance, lambda below, name: deck.resolve_file((*path, *below), name))
+    generated = GENERATORS[kind](item, site)
+    transform = build_transform(item.transform)
+    return generated if transform is None else transform_item(generated, transform)
+
+
+def _collect(
+    collected: _Collected, generated: Generated, item: Item, group: str, density: float, number: int, joint: str
+) -> None:
+    for ground in generated.grounds:
+        block = collected.first_block + ground.block
+        carried = np.array([block], dtype=np.int64)
+        plane = Ground(ground.point, ground.normal, ground.joint or joint, carried, "ground")
+        collected.grounds.append((block, plane))
+    for part in generated.parts:
+        collected.polyhedra.append(part.polyhedra)
+        collected.groups.append(group + part.suffix)
+        collected.densities.append(density)
+        collected.items.append(number)
+        collected.fixed.append(part.fixed)
+        collected.first_block += len(part.polyhedra)
+    collected.notices += generated.notices
+
+
+def _labels(items: _Collected, counts: Sequence[int] | np.typing.NDArray[np.int64]) -> Labels:
+    groups = tuple(group for group, count in zip(items.groups, counts, strict=True) for _ in range(int(count)))
+    return Labels(groups, indices_in_groups(groups), np.repeat(np.array(items.densities), counts))
+
+
+def _named(ground: Ground, block: int, built: BuiltBlocks) -> Ground:
+    label = f"ground under {built.blocks.name(block)}"
+    return Ground(ground.point, ground.normal, ground.joint, ground.blocks, label)
+
+
+def _defects_in_words(deck: Deck, built: BuiltBlocks, item_of_block: Sequence[int]) -> list[Fault]:
+    """Faults at the items, or at the faces, of blocks that are none; many of one item are counted only."""
+    faults = []
+    told: Counter[int] = Counter()
+    for defect in built.defects:
+        number = item_of_block[defect.block]
+        told[number] += 1
+        if told[number] <= MOST_FAULTS_PER_ITEM:
+            path = _path_of_defect(deck, defect, number)
+            faults.append(deck.fault_at(path, f"block {built.blocks.name(defect.block)}: {defect.message}"))
+    for number, count in told.items():
+        if count > MOST_FAULTS_PER_ITEM:
+            kind, _ = _kind(deck.content.blocks[number])
+            message = f"{count - MOST_FAULTS_PER_ITEM} more blocks of this item are refused"
+            faults.append(deck.fault_at(("blocks", number, kind), message))
+    return faults
+
+
+def _path_of_defect(deck: Deck, defect: Defect, number: int) -> KeyPath:
+    kind, _ = _kind(deck.content.blocks[number])
+    if kind == "polyhedron" and defect.face is not None:
+        return ("blocks", number, kind, "faces", defect.face)
+    return ("blocks", number, kind, "file") if kind == "mesh" else ("blocks", number, kind)
