@@ -112,3 +112,7 @@ Time: TypeAlias = Annotated[float, Quantity("time", gt=0)]
 Index: TypeAlias = Annotated[int, Whole(ge=0, le=2**31 - 1)]
 Count: TypeAlias = Annotated[int, Whole(ge=1, le=1_000_000)]
 Switch: TypeAlias = Annotated[bool, Field(strict=True)]
+
+Point: TypeAlias = tuple[Length, Length, Length]
+PlanePoint: TypeAlias = tuple[Length, Length]
+Direction: TypeAlias = tuple[Number, Number, Number]

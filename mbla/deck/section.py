@@ -38,3 +38,8 @@ class Section(BaseModel):
             if findings:
                 raise PydanticCustomError("rules", "breaks a rule", {"findings": findings})
         return self
+
+
+def shape(value: Any) -> str:
+    """Which branch of a union a value of the deck belongs to, so that a fault in it is reported once."""
+    return "mapping" if isinstance(value, (dict, Section)) else "list" if isinstance(value, list) else "name"

@@ -1,7 +1,8 @@
 """The types of the deck: the one source of the schema, of the checks on single values and of the key reference.
 
 Numbers are in the deck's own units; a string with a unit (``"18 kN/m^3"``) is converted while it is read.
-Checks that need more than one key are in :mod:`mbla.deck.rules`.
+Checks that need more than one key are in :mod:`mbla.deck.rules`; the items of `blocks` are in :mod:`mbla.deck.items`
+and can be had from here.
 """
 
 from __future__ import annotations
@@ -10,11 +11,22 @@ from typing import Annotated, Any, Literal, TypeAlias
 
 from pydantic import BeforeValidator, Discriminator, Field, Tag
 
+from mbla.deck.items import ArchItem as ArchItem
+from mbla.deck.items import BlockItem as BlockItem
+from mbla.deck.items import BoxItem as BoxItem
+from mbla.deck.items import Item as Item
+from mbla.deck.items import MeshItem as MeshItem
+from mbla.deck.items import Opening as Opening
+from mbla.deck.items import PolyhedronItem as PolyhedronItem
+from mbla.deck.items import Reflection as Reflection
+from mbla.deck.items import Rotation as Rotation
+from mbla.deck.items import TransformStep as TransformStep
+from mbla.deck.items import WallItem as WallItem
+from mbla.deck.names import Line, Name, ParameterName
 from mbla.deck.quantities import (
     Acceleration,
-    Angle,
     Count,
-    EmbraceAngle,
+    Direction,
     Force,
     FrictionAngle,
     Index,
@@ -22,8 +34,8 @@ from mbla.deck.quantities import (
     NonNegativeNumber,
     NonNegativeStress,
     Number,
+    Point,
     PositiveDensity,
-    PositiveLength,
     PositiveNumber,
     PositiveStress,
     PositiveUnitWeight,
@@ -32,18 +44,7 @@ from mbla.deck.quantities import (
     Time,
     Whole,
 )
-from mbla.deck.section import Section
-
-Point: TypeAlias = tuple[Length, Length, Length]
-PlanePoint: TypeAlias = tuple[Length, Length]
-Direction: TypeAlias = tuple[Number, Number, Number]
-Name: TypeAlias = Annotated[str, Field(pattern=r"^[A-Za-z0-9_][A-Za-z0-9_.-]*$", max_length=64)]
-Line: TypeAlias = Annotated[str, Field(pattern=r"^.*$", max_length=200)]
-
-
-def _shape(value: Any) -> str:
-    """Which branch of a union a value of the deck belongs to, so that a fault in it is reported once."""
-    return "mapping" if isinstance(value, (dict, Section)) else "list" if isinstance(value, list) else "name"
+from mbla.deck.section import Section, shape
 
 
 def _no_boolean(value: Any) -> Any:
@@ -81,125 +82,6 @@ class JointLaw(Section):
     dilatancy: FrictionAngle = Field(0.0, description="dilatancy angle in degrees, at most the friction angle")
 
 
-# --- blocks -------------------------------------------------------------------------------------------------------
-
-
-class Rotation(Section):
-    """Rotation by an angle about an axis, right-handed."""
-
-    axis: Direction = Field(description="direction of the axis")
-    angle: Angle = Field(description="degrees")
-    about: Point = Field((0.0, 0.0, 0.0), description="point on the axis")
-
-
-class Reflection(Section):
-    """Mirror image in a plane."""
-
-    normal: Direction = Field(description="normal of the plane")
-    point: Point = Field((0.0, 0.0, 0.0), description="point on the plane")
-
-
-class TransformStep(Section):
-    """One step of a transform: exactly one of its keys."""
-
-    translate: Point | None = Field(None, description="displacement")
-    rotate: Rotation | None = Field(None, description="rotation about an axis")
-    scale: PositiveNumber | None = Field(None, description="factor on all coordinates, about the origin")
-    mirror: Reflection | None = Field(None, description="reflection in a plane")
-
-
-Transform: TypeAlias = Annotated[
-    Annotated[TransformStep, Tag("mapping")] | Annotated[list[TransformStep], Tag("list")],
-    Discriminator(lambda value: "mapping" if _shape(value) == "mapping" else "list"),
-]
-
-
-class Item(Section):
-    """What every item of `blocks` has."""
-
-    group: Name | None = Field(None, description="name that selectors use; the item's kind unless given")
-    material: Name = Field(description="name of a material")
-    transform: Transform = Field(
-        default_factory=list, description="a step, or a list of steps applied in order to the item's own geometry"
-    )
-
-
-class BoxItem(Item):
-    """One block: a cuboid along the axes."""
-
-    min: Point = Field(description="corner with the least coordinates")
-    max: Point = Field(description="corner with the greatest coordinates")
-
-
-class PolyhedronItem(Item):
-    """One block: a closed polyhedron with planar faces, convex or not."""
-
-    vertices: list[Point] = Field(min_length=4, description="corner points")
-    faces: list[Annotated[list[Index], Field(min_length=3)]] = Field(
-        min_length=4, description="corners of each face in order, as indices of vertices from 0; any orientation"
-    )
-
-
-class Opening(Section):
-    """Rectangular opening in the plane of a wall, its bottom and top on bed joints."""
-
-    from_: PlanePoint = Field(alias="from", description="lower corner: distance along the wall, height")
-    to: PlanePoint = Field(description="upper corner: distance along the wall, height")
-
-
-class WallItem(Item):
-    """A wall one unit thick: runs along +x from the origin, rises along +z, thickness along +y."""
-
-    unit: tuple[PositiveLength, PositiveLength, PositiveLength] = Field(
-        description="length along the wall, thickness, height of one unit"
-    )
-    length: PositiveLength = Field(description="length of the wall; the closing units are cut to fit")
-    courses: Count = Field(description="number of courses")
-    bond: Literal["running", "stack"] = Field("running", description="running: odd courses shifted by half a unit")
-    start: Literal["full", "half"] = Field("full", description="first unit of the bottom course")
-    openings: list[Opening] = Field(default_factory=list, description="rectangles left free")
-
-
-class ArchItem(Item):
-    """A circular arch with radial joints and straight-edged voussoirs, in the x-z plane, extruded along +y.
-
-    The left intrados springing is at the origin, the right one at x = span.
-    """
-
-    shape: Literal["semicircular", "segmental"] = Field(description="semicircular, or segmental with rise or embrace")
-    span: PositiveLength = Field(description="distance between the intrados springings")
-    thickness: PositiveLength = Field(description="radial thickness")
-    width: PositiveLength = Field(description="extent along y")
-    voussoirs: Count = Field(description="number of voussoirs")
-    rise: PositiveLength | None = Field(None, description="segmental: height of the intrados crown over the springings")
-    embrace: EmbraceAngle | None = Field(None, description="segmental: angle between the springing joints in degrees")
-    springers: Literal["none", "ground", "blocks"] = Field(
-        "none",
-        description="ground: rigid ground under both springing joints; blocks: a fixed block behind each, "
-        "in group GROUP_springers; none: the deck's supports hold the arch",
-    )
-    joint: Name | None = Field(None, description="joint law at a springing on ground; that of contacts unless given")
-
-
-class MeshItem(Item):
-    """Blocks from a geometry file: each object, closed component or volume cell is one block."""
-
-    file: str = Field(
-        min_length=1, description="OBJ, PLY, STL, VTU, Gmsh .msh or Abaqus/CalculiX .inp, relative to the deck"
-    )
-    scale: PositiveNumber = Field(1.0, description="factor from the file's coordinates to the deck's unit of length")
-
-
-class BlockItem(Section):
-    """An item of `blocks`: exactly one key, its kind."""
-
-    box: BoxItem | None = None
-    polyhedron: PolyhedronItem | None = None
-    wall: WallItem | None = None
-    arch: ArchItem | None = None
-    mesh: MeshItem | None = None
-
-
 # --- selectors, contacts, supports --------------------------------------------------------------------------------
 
 
@@ -213,13 +95,13 @@ class SelectorTerm(Section):
 
 Term: TypeAlias = Annotated[
     Annotated[Name, Tag("name")] | Annotated[SelectorTerm, Tag("mapping")],
-    Discriminator(lambda value: "mapping" if _shape(value) == "mapping" else "name"),
+    Discriminator(lambda value: "mapping" if shape(value) == "mapping" else "name"),
 ]
 Selector: TypeAlias = Annotated[
     Annotated[Name, Tag("name")]
     | Annotated[SelectorTerm, Tag("mapping")]
     | Annotated[list[Term], Field(min_length=1), Tag("list")],
-    Discriminator(_shape),
+    Discriminator(shape),
 ]
 
 
@@ -351,9 +233,7 @@ class DeckContent(Section):
     mbla: Annotated[Literal[1], BeforeValidator(_no_boolean)] = Field(description="version of the deck format")
     title: Line = Field("", description="shown in every result")
     units: UnitsSection = Field(default_factory=UnitsSection, description="units of numbers in deck and results")
-    parameters: dict[Annotated[str, Field(pattern=r"^[A-Za-z_][A-Za-z0-9_]*$")], Number] = Field(
-        default_factory=dict, description='names for "=..." expressions'
-    )
+    parameters: dict[ParameterName, Number] = Field(default_factory=dict, description='names for "=..." expressions')
     include: list[str] = Field(default_factory=list, description="decks merged into this one, relative to it")
     materials: dict[Name, Material] = Field(min_length=1, description="materials by name")
     joints: dict[Name, JointLaw] = Field(min_length=1, description="joint laws by name")

@@ -9,6 +9,7 @@ from pydantic import ValidationError
 
 from mbla.deck import rules  # noqa: F401  registers the rules across keys
 from mbla.deck.fields import allowed_keys
+from mbla.deck.names import PATTERNS
 from mbla.deck.suggestions import did_you_mean, listed, unknown
 from mbla.deck.tree import KeyPath, MappingMarks, SequenceMarks, Tree, own_mark
 from mbla.deck.types import DeckContent
@@ -126,11 +127,6 @@ _MESSAGES = {
     "quantity": "{reason}",
 }
 _TYPES = {"float_type": "must be a number", "int_type": "must be a whole number", "string_type": "must be a text"}
-_PATTERNS = {
-    r"^.*$": "must be on one line",
-    r"^[A-Za-z_][A-Za-z0-9_]*$": "the name of a parameter has letters, digits and _, and begins with no digit",
-}
-_NAME_PATTERN = "a name has letters, digits and . _ - only, and begins with a letter, digit or _"
 
 
 def _words(data: Any, path: KeyPath, error: Any) -> tuple[str, bool]:
@@ -151,7 +147,7 @@ def _words(data: Any, path: KeyPath, error: Any) -> tuple[str, bool]:
         hint = did_you_mean(value, allowed) if isinstance(value, str) else ""
         return f"must be {listed(allowed)}{hint}", False
     if kind == "string_pattern_mismatch":
-        return _PATTERNS.get(context["pattern"], _NAME_PATTERN), is_key
+        return PATTERNS[context["pattern"]], is_key
     return _MESSAGES[kind].format(**context), is_key
 
 
