@@ -10,11 +10,23 @@ from collections.abc import Iterator, Sequence
 from typing import Any
 
 from mbla.deck import types
-from mbla.deck.section import Finding, rule
+from mbla.deck.section import Finding, Section, rule
 from mbla.deck.suggestions import listed
 
 _ROUNDING = 1e-9
 """Relative: sums of lengths such as 6 x 0.175 are not exact in binary."""
+
+
+EXACTLY_ONE: dict[type[Section], tuple[str, ...]] = {
+    types.Material: ("density", "unit_weight"),
+    types.JointLaw: ("friction", "friction_angle"),
+    types.BlockItem: tuple(types.BlockItem.model_fields),
+    types.TransformStep: tuple(types.TransformStep.model_fields),
+    types.SelectorTerm: ("group", "box"),
+    types.GroundPlane: ("x", "y", "z", "point"),
+    types.Load: ("gravity", "acceleration", "force"),
+}
+"""Keys of which a section has exactly one; the schema says so too."""
 
 
 def _given(section: Any, keys: Sequence[str]) -> list[str]:
@@ -40,19 +52,22 @@ def _is_zero(vector: Sequence[float]) -> bool:
     return not any(vector)
 
 
+def _register_exactly_one(section: type[Section], keys: tuple[str, ...]) -> None:
+    @rule(section)
+    def one_key(item: Section) -> Iterator[Finding]:
+        yield from _exactly_one(item, keys)
+
+
+for _section, _keys in EXACTLY_ONE.items():
+    _register_exactly_one(_section, _keys)
+
+
 # --- materials and joints -----------------------------------------------------------------------------------------
-
-
-@rule(types.Material)
-def material_weight(material: types.Material) -> Iterator[Finding]:
-    """One of density and unit weight."""
-    yield from _exactly_one(material, ("density", "unit_weight"))
 
 
 @rule(types.JointLaw)
 def joint_friction(joint: types.JointLaw) -> Iterator[Finding]:
-    """One of friction and friction angle; dilatancy at most the friction angle."""
-    yield from _exactly_one(joint, ("friction", "friction_angle"))
+    """Dilatancy at most the friction angle."""
     if len(_given(joint, ("friction", "friction_angle"))) != 1:
         return
     angle = joint.friction_angle if joint.friction is None else math.degrees(math.atan(joint.friction))
@@ -75,21 +90,6 @@ def joint_strengths(joint: types.JointLaw) -> Iterator[Finding]:
 
 
 # --- blocks -------------------------------------------------------------------------------------------------------
-
-_KINDS = tuple(types.BlockItem.model_fields)
-_STEPS = tuple(types.TransformStep.model_fields)
-
-
-@rule(types.BlockItem)
-def one_kind(item: types.BlockItem) -> Iterator[Finding]:
-    """Each item of `blocks` has one key, its kind."""
-    yield from _exactly_one(item, _KINDS)
-
-
-@rule(types.TransformStep)
-def one_step(step: types.TransformStep) -> Iterator[Finding]:
-    """Each step of a transform has one key."""
-    yield from _exactly_one(step, _STEPS)
 
 
 @rule(types.Rotation)
@@ -161,11 +161,9 @@ def arch_shape(arch: types.ArchItem) -> Iterator[Finding]:
 
 @rule(types.SelectorTerm)
 def selector_term(term: types.SelectorTerm) -> Iterator[Finding]:
-    """A group, perhaps with an index, or a box."""
+    """An index counts within a group; a box has an extent."""
     if term.group is None and term.index is not None:
         yield ("index",), "applies with group only"
-    else:
-        yield from _exactly_one(term, ("group", "box"))
     if term.box is not None:
         for (key, axis), message in _least_below_greatest(*term.box, "box", "xyz"):
             yield (key, 1, axis), message
@@ -173,8 +171,7 @@ def selector_term(term: types.SelectorTerm) -> Iterator[Finding]:
 
 @rule(types.GroundPlane)
 def ground_plane(ground: types.GroundPlane) -> Iterator[Finding]:
-    """One coordinate, or a point with a normal."""
-    yield from _exactly_one(ground, ("x", "y", "z", "point"))
+    """A normal goes with a point."""
     if ground.point is not None and ground.normal is None:
         yield (), "needs a normal beside its point"
     if ground.normal is not None and ground.point is None:
@@ -194,13 +191,10 @@ def support(item: types.Support) -> Iterator[Finding]:
 
 # --- loads --------------------------------------------------------------------------------------------------------
 
-_LOADS = ("gravity", "acceleration", "force")
-
 
 @rule(types.Load)
 def load_keys(load: types.Load) -> Iterator[Finding]:
-    """One load, and where it acts as far as that applies."""
-    yield from _exactly_one(load, _LOADS)
+    """Where a load acts, as far as that applies."""
     if load.force is not None and load.on is None:
         yield (), "a force needs `on`, the block it acts on"
     if load.at is not None and load.force is None:
@@ -213,7 +207,7 @@ def load_keys(load: types.Load) -> Iterator[Finding]:
 def live_load_effect(case: types.LoadCaseSection) -> Iterator[Finding]:
     """A live load must do something."""
     for number, load in enumerate(case.live):
-        for key in _given(load, _LOADS):
+        for key in _given(load, EXACTLY_ONE[types.Load]):
             if _is_zero(getattr(load, key)):
                 yield ("live", number, key), "is a live load with no effect"
 

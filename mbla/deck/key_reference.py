@@ -1,0 +1,149 @@
+"""Key reference of the deck as Markdown tables, generated from its types."""
+
+from __future__ import annotations
+
+import inspect
+import re
+from collections.abc import Iterator
+from types import UnionType
+from typing import Annotated, Any, Literal, Union, get_args, get_origin
+
+from pydantic import BaseModel
+from pydantic.fields import FieldInfo
+from pydantic_core import PydanticUndefined
+
+from mbla.deck.quantities import Quantity, Whole
+from mbla.deck.types import DeckContent
+from mbla.deck.units import DIMENSIONS
+
+
+def key_reference() -> str:
+    """A table for every section of the deck: key, value with its unit, default, meaning."""
+    introduction = (
+        "Units: L, F and M stand for the deck's units of length, force and mass. Wherever a number is asked for, "
+        'an expression `"=..."` may stand; where it has a unit, also a text such as `"18 kN/m^3"`.\n'
+    )
+    return "\n".join([introduction, *(_table(title, section) for title, section in _sections())])
+
+
+def _sections() -> Iterator[tuple[str, type[BaseModel]]]:
+    """Sections in the order of the deck, each once, titled with all the places where it stands."""
+    places: dict[type[BaseModel], list[str]] = {}
+    _collect(DeckContent, "", places)
+    for section, titles in places.items():
+        yield _joined(titles) or "deck", section
+
+
+def _collect(section: type[BaseModel], title: str, places: dict[type[BaseModel], list[str]]) -> None:
+    """Places of a section and of all below it; the recursion ends because sections do not hold themselves."""
+    places.setdefault(section, []).append(title)
+    for name, field in section.model_fields.items():
+        for suffix, below in _sections_in(field.annotation, ""):
+            _collect(below, f"{title}.{field.alias or name}{suffix}".lstrip("."), places)
+
+
+def _joined(titles: list[str]) -> str:
+    """One title for places that differ in one key (``blocks[].*.transform``), or all of them."""
+    unique = list(dict.fromkeys(title.removesuffix("[]") for title in titles))
+    if len(unique) == 1:
+        return titles[0]
+    keys = [title.split(".") for title in unique]
+    if len({len(each) for each in keys}) > 1:
+        by_length = {len(each): [".".join(other) for other in keys if len(other) == len(each)] for each in keys}
+        return ", ".join(_joined(group) for group in by_length.values())
+    return ".".join(column[0] if len(set(column)) == 1 else "*" for column in zip(*keys, strict=True))
+
+
+def _sections_in(annotation: Any, suffix: str) -> Iterator[tuple[str, type[BaseModel]]]:
+    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
+        yield suffix, annotation
+        return
+    origin, arguments = get_origin(annotation), get_args(annotation)
+    if origin is dict:
+        yield from _sections_in(arguments[1], f"{suffix}.NAME")
+    elif origin is list:
+        yield from _sections_in(arguments[0], f"{suffix}[]")
+    elif origin is Annotated:
+        yield from _sections_in(arguments[0], suffix)
+    elif origin in (Union, UnionType):
+        for argument in arguments:
+            yield from _sections_in(argument, suffix)
+
+
+def _table(title: str, section: type[BaseModel]) -> str:
+    lines = [f"#### `{title}`", "", inspect.cleandoc(section.__doc__ or ""), ""]
+    lines += ["| key | value | default | meaning |", "|---|---|---|---|"]
+    for name, field in section.model_fields.items():
+        value = _value(field.annotation, field.metadata)
+        lines.append(
+            f"| `{field.alias or name}` | {value} | {_default(field)} | {field.description or _first(field)} |"
+        )
+    return "\n".join([*lines, ""])
+
+
+def _first(field: FieldInfo) -> str:
+    """First line about the section a field holds, for fields without words of their own."""
+    sections = [section for _, section in _sections_in(field.annotation, "")]
+    return ((sections[0].__doc__ or "").strip().splitlines()[0]).rstrip(".") if sections else ""
+
+
+def _default(field: FieldInfo) -> str:
+    if field.is_required():
+        return "required"
+    value = field.get_default(call_default_factory=True, validated_data={})
+    if value is None or value is PydanticUndefined or value == "" or isinstance(value, (list, dict, BaseModel)):
+        return "–"
+    if isinstance(value, tuple):
+        return f"`[{', '.join(f'{number:g}' for number in value)}]`"
+    if isinstance(value, bool):
+        return f"`{str(value).lower()}`"
+    return f"`{value:g}`" if isinstance(value, float) else f"`{value}`"
+
+
+def _value(annotation: Any, metadata: list[Any] | tuple[Any, ...] = ()) -> str:
+    """What a value may be, in words."""
+    for item in metadata:
+        if isinstance(item, Quantity):
+            return _quantity(item)
+        if isinstance(item, Whole):
+            return (
+                f"whole number, {item.ge} or more" if item.le >= 1_000_000 else f"whole number, {item.ge} to {item.le}"
+            )
+    if annotation == Name:
+        return "name"
+    origin, arguments = get_origin(annotation), get_args(annotation)
+    if origin is Annotated:
+        metadata = [
+            part for item in arguments[1:] for part in (item.metadata if isinstance(item, FieldInfo) else [item])
+        ]
+        return _value(arguments[0], metadata)
+    if origin is Literal:
+        return ", ".join(f"`{value}`" for value in arguments)
+    if origin in (Union, UnionType):
+        return " or ".join(dict.fromkeys(_value(each) for each in arguments if each is not type(None)))
+    if origin is dict:
+        return f"name: {_value(arguments[1])}"
+    if origin is list:
+        return f"list of {_plural(_value(arguments[0]))}"
+    if origin is tuple:
+        return f"{len(arguments)} {_plural(_value(arguments[0]))}"
+    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
+        return "mapping"
+    return {bool: "`true`, `false`", str: "text"}[annotation]
+
+
+def _plural(words: str) -> str:
+    """``numbers [L]``, ``lists of 3 numbers``, ``names or mappings``."""
+    if words[0].isdecimal():
+        return f"lists of {words}"
+    for noun in ("number", "name", "mapping", "list", "text"):
+        words = re.sub(rf"\b{noun}\b(?!:)", f"{noun}s", words)
+    return words
+
+
+def _quantity(quantity: Quantity) -> str:
+    unit = DIMENSIONS[quantity.dimension].unit
+    words = f"number [{unit}]" if unit else "number"
+    signs = {"gt": ">", "ge": "≥", "lt": "<", "le": "≤"}
+    bounds = [f"{sign} {getattr(quantity, key):g}" for key, sign in signs.items() if getattr(quantity, key) is not None]
+    return ", ".join([words, *bounds])
