@@ -106,11 +106,9 @@ def _value(annotation: Any, metadata: list[Any] | tuple[Any, ...] = ()) -> str:
         if isinstance(item, Quantity):
             return _quantity(item)
         if isinstance(item, Whole):
-            return (
-                f"whole number, {item.ge} or more" if item.le >= 1_000_000 else f"whole number, {item.ge} to {item.le}"
-            )
-    if annotation == Name:
-        return "name"
+            return f"whole number, {item.ge} " + ("or more" if item.le >= 1_000_000 else f"to {item.le}")
+        if getattr(item, "pattern", None) in (NAME_PATTERN, PARAMETER_PATTERN):
+            return "name"
     origin, arguments = get_origin(annotation), get_args(annotation)
     if origin is Annotated:
         metadata = [
