@@ -12,6 +12,7 @@ from pydantic import BaseModel
 from pydantic.fields import FieldInfo
 from pydantic_core import PydanticUndefined
 
+from mbla.deck.names import NAME_PATTERN, PARAMETER_PATTERN
 from mbla.deck.quantities import Quantity, Whole
 from mbla.deck.types import DeckContent
 from mbla.deck.units import DIMENSIONS
