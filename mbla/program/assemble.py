@@ -1,0 +1,67 @@
+"""From model, contacts and load case to the non-dimensional program."""
+
+from __future__ import annotations
+
+import numpy as np
+import scipy.sparse as sp
+
+from mbla.arrays import FloatArray
+from mbla.contacts.contacts import Contacts
+from mbla.model.model import LoadCase, Model
+from mbla.program.equilibrium import equilibrium_matrix, lever_arms
+from mbla.program.program import Program, Scaling
+from mbla.program.yield_conditions.limits import YieldLimits
+
+
+def assemble(model: Model, contacts: Contacts, load_case: LoadCase) -> Program:
+    """Build the program of one load case; nothing in it depends on the deck's units."""
+    free = model.free
+    dead, live = load_case.dead_load[free].ravel(), load_case.live_load[free].ravel()
+    scaling = _scaling(lever_arms(model, contacts, free), dead, live)
+    matrix = sp.diags_array(scaling.row * scaling.force) @ equilibrium_matrix(model, contacts, free)
+    return Program(
+        equilibrium_matrix=sp.csr_array(matrix),
+        dead_load=scaling.row * dead,
+        live_load=scaling.row * live * scaling.live,
+        limits=yield_limits(model, contacts).scaled(1.0 / scaling.force),
+        free=free,
+        n_blocks=len(model.blocks),
+        scaling=scaling,
+    )
+
+
+def yield_limits(model: Model, contacts: Contacts) -> YieldLimits:
+    """Limits of every contact point in the deck's units: joint law times share of area."""
+    laws = [model.joints[name] for name in contacts.joint_names]
+    joint = contacts.joints[contacts.interface_of_point]
+    areas = contacts.point_areas
+
+    def per_point(values: list[float]) -> FloatArray:
+        return np.asarray(values, dtype=np.float64)[joint] if len(joint) else np.zeros(0)
+
+    with np.errstate(invalid="ignore"):  # inf × 0 cannot arise: areas are positive where strengths are finite
+        compression = per_point([law.compressive_strength for law in laws])
+        compression = np.where(np.isinf(compression), np.inf, compression * areas)
+    return YieldLimits(
+        friction=per_point([law.friction for law in laws]),
+        dilatancy=per_point([law.dilatancy for law in laws]),
+        cohesion=per_point([law.cohesion for law in laws]) * areas,
+        tension=per_point([law.tensile_strength for law in laws]) * areas,
+        compression=compression,
+    )
+
+
+def _scaling(arms: FloatArray, dead: FloatArray, live: FloatArray) -> Scaling:
+    """Unit of force: mean load of the loaded free blocks; unit of moment: that times the block's own lever arm.
+
+    Loads count with their moments over the lever arm, so that a pure couple has a size too. Without these units the
+    same structure in centimetres, or with weights times 1e6, gives wrong load factors with status Solved.
+    """
+    per_length = np.repeat(1.0 / arms, 6).reshape(-1, 6)
+    per_length[:, :3] = 1.0
+    dead_sizes = np.linalg.norm(dead.reshape(-1, 6) * per_length, axis=1)
+    live_sizes = np.linalg.norm(live.reshape(-1, 6) * per_length, axis=1)
+    loaded = dead_sizes[dead_sizes > 0] if np.any(dead_sizes > 0) else live_sizes[live_sizes > 0]
+    force = float(loaded.mean())
+    live_size = float(np.sqrt((live_sizes**2).sum() / len(arms)))
+    return Scaling(force=force, live=force / live_size, row=(per_length / force).ravel())

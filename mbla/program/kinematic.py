@@ -1,0 +1,180 @@
+"""The kinematic form as a cone program: few unknowns, and load factors far more accurate than from the static form.
+
+Unknowns are the velocities u of the free blocks and, at points with more than dry friction, the multipliers
+p (Coulomb, p ≥ ‖v_T‖) and d ≥ 0 (crushing); the multiplier of the tension cut-off is eliminated::
+
+    min  −f_D·u + Σ [c p + f_t (v_N − μ p + d) + f_c d]
+    s.t. f_L·u = 1
+         v_N − μ p + d ≥ 0,  d ≥ 0,  ‖v_T‖ ≤ p          points with a tension cut-off (cohesive, or without friction)
+         v_N ≥ 0                                         points without friction and cohesion
+         ‖v_T‖ ≤ v_N / μ                                 dry points: p = v_N / μ
+
+The dual variables of the rows are the contact forces, and −(dual of f_L·u = 1) is the load factor. Form and accuracy
+were compared with the static form: at a solver tolerance of 1e-6 the static form was 0.6 % low on a wall of 410
+blocks, this one 2e-5.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import scipy.sparse as sp
+
+from mbla.arrays import FloatArray, IntArray
+from mbla.program.program import Program
+from mbla.program.yield_conditions import Coulomb, Crushing, TensionCutOff
+from mbla.program.yield_conditions.limits import YieldLimits
+
+
+@dataclass(frozen=True)
+class ConeProgram:
+    """min cost·x subject to matrix x + s = rhs; s = 0 (first row), ≥ 0 (next n_half_lines), in cones of dimension 3 (rest)."""
+
+    cost: FloatArray
+    matrix: sp.csc_array
+    rhs: FloatArray
+    n_half_lines: int
+    n_cones: int
+
+
+@dataclass(frozen=True)
+class PointRows:
+    """Which points have which rows and unknowns; the way back from dual variables to contact forces.
+
+    dry       : points with one cone and no multiplier
+    frictional: points with a cone and a multiplier p
+    cut_off   : points with the half-line of the tension cut-off (frictional points, and those without friction)
+    crushing  : points with a multiplier d
+    """
+
+    dry: IntArray
+    frictional: IntArray
+    cut_off: IntArray
+    crushing: IntArray
+
+
+@dataclass(frozen=True)
+class KinematicForm:
+    """The cone program of a program under given limits, and how to read its solution."""
+
+    program: Program
+    limits: YieldLimits
+    rows: PointRows
+    cone_program: ConeProgram
+
+    def velocities(self, x: FloatArray) -> FloatArray:
+        """Non-dimensional velocities of the free blocks, (6 n_free,)."""
+        return x[: len(self.program.dead_load)]
+
+    def contact_forces(self, z: FloatArray) -> FloatArray:
+        """Non-dimensional contact forces from the dual variables, (3 n_points,)."""
+        rows, limits = self.rows, self.limits
+        forces = np.zeros((self.program.n_points, 3))
+        half_lines = z[1 : 1 + self.cone_program.n_half_lines]
+        cones = z[1 + self.cone_program.n_half_lines :].reshape(-1, 3)
+        n_dry = len(rows.dry)
+        forces[rows.dry, 0] = cones[:n_dry, 0] / limits.friction[rows.dry]
+        forces[rows.dry, 1:] = cones[:n_dry, 1:]
+        forces[rows.cut_off, 0] = half_lines[: len(rows.cut_off)] - limits.tension[rows.cut_off]
+        forces[rows.frictional, 1:] = cones[n_dry:, 1:]
+        return forces.ravel()
+
+    def cost_for(self, limits: YieldLimits) -> FloatArray:
+        """Cost vector for other cohesion, tension and compression at the same friction; keeps matrix and rows."""
+        return _cost(self.program, limits, self.rows)
+
+
+def kinematic_form(program: Program, limits: YieldLimits, *, reduce_dry: bool = True) -> KinematicForm:
+    """Kinematic form under the given limits, those of the program or modified ones.
+
+    reduce_dry : False keeps the multiplier p at dry points too, so that a later cohesion changes the cost alone
+    """
+    rows = _point_rows(limits, reduce_dry)
+    cone_program = ConeProgram(
+        cost=_cost(program, limits, rows),
+        matrix=_matrix(program, limits, rows),
+        rhs=np.concatenate([[1.0], np.zeros(_n_rows(rows) - 1)]),
+        n_half_lines=len(rows.cut_off) + len(rows.crushing),
+        n_cones=len(rows.dry) + len(rows.frictional),
+    )
+    return KinematicForm(program, limits, rows, cone_program)
+
+
+def _point_rows(limits: YieldLimits, reduce_dry: bool) -> PointRows:
+    crushing = Crushing.applies(limits)
+    no_shear = (limits.friction == 0) & (limits.cohesion == 0)
+    cut_off = TensionCutOff.applies(limits) | crushing
+    if not reduce_dry:
+        cut_off = np.ones_like(cut_off)
+        no_shear = np.zeros_like(no_shear)
+    return PointRows(
+        dry=np.flatnonzero(~cut_off),
+        frictional=np.flatnonzero(cut_off & ~no_shear),
+        cut_off=np.flatnonzero(cut_off),
+        crushing=np.flatnonzero(crushing),
+    )
+
+
+def _n_rows(rows: PointRows) -> int:
+    return 1 + len(rows.cut_off) + len(rows.crushing) + 3 * (len(rows.dry) + len(rows.frictional))
+
+
+def _compatibility(program: Program) -> sp.csr_array:
+    """Aᵀ, (3 n_points, 6 n_free): rows v_N, v_T1, v_T2 of each point."""
+    return sp.csr_array(program.equilibrium_matrix.T)
+
+
+def _matrix(program: Program, limits: YieldLimits, rows: PointRows) -> sp.csc_array:
+    """Rows in the order of ``ConeProgram``; rows of cones and half-lines are −G where s = G x."""
+    velocity = _compatibility(program)
+    n_points = program.n_points
+    p_column, d_column = np.full(n_points, -1), np.full(n_points, -1)
+    p_column[rows.frictional] = np.arange(len(rows.frictional))
+    d_column[rows.crushing] = np.arange(len(rows.crushing))
+    n_p, n_d = len(rows.frictional), len(rows.crushing)
+
+    beta = Coulomb.slope(limits)
+    cut_off_p = _selection(np.where(p_column[rows.cut_off] >= 0, p_column[rows.cut_off], -1), beta[rows.cut_off], n_p)
+    cut_off_d = _selection(d_column[rows.cut_off], np.ones(len(rows.cut_off)), n_d)
+    identity_d = sp.eye_array(n_d, format="csr")
+
+    dry = velocity[_components(rows.dry)]
+    dry = sp.diags_array(np.column_stack([1.0 / beta[rows.dry], np.ones((len(rows.dry), 2))]).ravel()) @ dry
+    shear = velocity[_components(rows.frictional)]
+    shear = sp.diags_array(np.tile([0.0, 1.0, 1.0], n_p)) @ shear
+    cone_p = sp.csr_array((np.ones(n_p), (3 * np.arange(n_p), np.arange(n_p))), shape=(3 * n_p, n_p))
+
+    blocks = [
+        [program.live_load[None, :], None, None],
+        [-velocity[3 * rows.cut_off], cut_off_p, -cut_off_d],
+        [sp.csr_array((n_d, velocity.shape[1])), None, -identity_d],
+        [-dry, sp.csr_array((dry.shape[0], n_p)), sp.csr_array((dry.shape[0], n_d))],
+        [-shear, -cone_p, None],
+    ]
+    matrix = sp.csc_array(sp.block_array(blocks))
+    matrix.eliminate_zeros()
+    matrix.sort_indices()
+    return matrix
+
+
+def _components(points: IntArray) -> IntArray:
+    """Rows 3 k, 3 k + 1, 3 k + 2 of the given points."""
+    return (3 * points[:, None] + np.arange(3)).ravel()
+
+
+def _selection(columns: IntArray, values: FloatArray, n_columns: int) -> sp.csr_array:
+    """One entry a row in the given column; none where the column is −1."""
+    present = np.flatnonzero(columns >= 0)
+    return sp.csr_array((values[present], (present, columns[present])), shape=(len(columns), n_columns))
+
+
+def _cost(program: Program, limits: YieldLimits, rows: PointRows) -> FloatArray:
+    tension = np.zeros(program.n_points)
+    tension[rows.cut_off] = limits.tension[rows.cut_off]
+    on_normal = np.zeros((program.n_points, 3))
+    on_normal[:, 0] = tension
+    velocity_cost = -program.dead_load + program.equilibrium_matrix @ on_normal.ravel()
+    p_cost = limits.cohesion - limits.friction * tension
+    d_cost = np.where(np.isinf(limits.compression), 0.0, limits.compression) + tension
+    return np.concatenate([velocity_cost, p_cost[rows.frictional], d_cost[rows.crushing]])

@@ -1,0 +1,78 @@
+"""The load-factor problem of one load case in non-dimensional form, with the map back to the model.
+
+Statement (static form; Portioli et al. 2014, doi:10.1016/j.compstruc.2014.07.010, with the signs of ``mbla``)::
+
+    max λ   subject to   A x + f_D + λ f_L = 0,   every contact force x_k = (N, T1, T2) within its yield conditions
+
+x_k acts on body b along the frame of the point and on body a against it. Its dual is the kinematic form::
+
+    min −f_D·u + dissipation(v)   subject to   f_L·u = 1,   v = Aᵀu compatible with the yield conditions
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import scipy.sparse as sp
+
+from mbla.arrays import FloatArray, IntArray
+from mbla.program.yield_conditions.limits import YieldLimits
+
+
+@dataclass(frozen=True)
+class Scaling:
+    """Units of the non-dimensional program.
+
+    force : one unit of force (mean load of a free block)
+    live  : factor on the live load that brings it to that size
+    row   : (6 n_free,) factor from the rows of equilibrium in the deck's units to those of the program:
+            1/force for forces, 1/(force × length of the block) for moments
+    """
+
+    force: float
+    live: float
+    row: FloatArray
+
+    def load_factor(self, scaled: float) -> float:
+        """Load factor of the model from that of the program."""
+        return scaled * self.live
+
+    def forces(self, scaled: FloatArray) -> FloatArray:
+        """Contact forces in the deck's unit of force, (n_points, 3)."""
+        return scaled.reshape(-1, 3) * self.force
+
+    def velocities(self, scaled: FloatArray) -> FloatArray:
+        """Velocities of the free blocks for unit live load power, (n_free, 6)."""
+        return (scaled * self.row * self.live).reshape(-1, 6)
+
+
+@dataclass(frozen=True)
+class Program:
+    """One load case, non-dimensional.
+
+    equilibrium_matrix : (6 n_free, 3 n_points), rows force x, y, z and moment x, y, z of each free block about its centroid
+    dead_load, live_load : (6 n_free,)
+    limits             : yield limits of the contact points, forces in units of ``scaling.force``
+    free               : (n_free,) the block to which each six rows belong
+    n_blocks           : blocks of the model
+    """
+
+    equilibrium_matrix: sp.csr_array
+    dead_load: FloatArray
+    live_load: FloatArray
+    limits: YieldLimits
+    free: IntArray
+    n_blocks: int
+    scaling: Scaling
+
+    @property
+    def n_points(self) -> int:
+        """Number of contact points."""
+        return len(self.limits.friction)
+
+    def mechanism(self, scaled: FloatArray) -> FloatArray:
+        """Velocities of all blocks, fixed ones at rest, (n_blocks, 6), from those of the program, (6 n_free,)."""
+        full = np.zeros((self.n_blocks, 6))
+        full[self.free] = self.scaling.velocities(scaled)
+        return full

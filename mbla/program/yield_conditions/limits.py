@@ -1,0 +1,31 @@
+"""Limits of the contact points: joint laws times each point's share of the interface area."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from mbla.arrays import FloatArray
+
+
+@dataclass(frozen=True)
+class YieldLimits:
+    """Per contact point, all (n_points,).
+
+    friction    : coefficient μ [-]
+    dilatancy   : tangent of the dilatancy angle, 0 ... μ [-]
+    cohesion    : shear force carried without normal force [force]
+    tension     : tensile force carried [force]
+    compression : compressive force carried, inf where unlimited [force]
+    """
+
+    friction: FloatArray
+    dilatancy: FloatArray
+    cohesion: FloatArray
+    tension: FloatArray
+    compression: FloatArray
+
+    def scaled(self, factor: float) -> YieldLimits:
+        """The same limits with forces multiplied by a factor."""
+        return YieldLimits(
+            self.friction, self.dilatancy, self.cohesion * factor, self.tension * factor, self.compression * factor
+        )

@@ -1,0 +1,163 @@
+"""Cone programs solved by clarabel (only importer of clarabel); its words become ours, its iterations are logged."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+import scipy.sparse as sp
+
+from mbla.arrays import FloatArray
+from mbla.errors import SolverError
+from mbla.program.kinematic import ConeProgram
+from mbla.solution.settings import SolverSettings
+from mbla.solution.solution import IterationRecord, Status
+
+STATUS_MAP = {
+    "Solved": Status.SOLVED,
+    "AlmostSolved": Status.APPROXIMATE,
+    "PrimalInfeasible": Status.UNBOUNDED,
+    "DualInfeasible": Status.NO_EQUILIBRIUM,
+    "AlmostPrimalInfeasible": Status.NUMERICAL_ERROR,
+    "AlmostDualInfeasible": Status.NUMERICAL_ERROR,
+    "MaxIterations": Status.ITERATION_LIMIT,
+    "MaxTime": Status.TIME_LIMIT,
+    "NumericalError": Status.NUMERICAL_ERROR,
+    "InsufficientProgress": Status.NUMERICAL_ERROR,
+    "CallbackTerminated": Status.TIME_LIMIT,
+    "Unsolved": Status.NUMERICAL_ERROR,
+}
+"""clarabel's word for a program in kinematic form: no admissible mechanism (primal infeasible) means that the live load
+never brings collapse; an unbounded mechanism (dual infeasible) means that no equilibrium exists."""
+
+
+@dataclass(frozen=True)
+class ConeSolution:
+    """What the solver returned.
+
+    x : primal variables; a ray where the status is NO_EQUILIBRIUM
+    z : dual variables; a ray where the status is UNBOUNDED
+    """
+
+    status: Status
+    solver_status: str
+    x: FloatArray
+    z: FloatArray
+    objective: float
+    iterations: int
+    seconds: float
+
+
+@dataclass
+class ClarabelProgram:
+    """A cone program held by the solver, so that the next of a sequence reuses its structure.
+
+    log : called once per iteration
+    """
+
+    cone_program: ConeProgram
+    settings: SolverSettings
+    log: Callable[[IterationRecord], None]
+    _solver: Any = field(init=False, default=None)
+
+    def solve(self, program_number: int, to_load_factor: float) -> ConeSolution:
+        """Solve what is loaded.
+
+        to_load_factor : factor from the objective to the load factor, for the log
+        Raises SolverError if the data are not finite (the solver would answer with a confident verdict).
+        """
+        import clarabel
+
+        self._check_finite()
+        if self._solver is None:
+            self._solver = self._new_solver(clarabel)
+        started = time.perf_counter()
+        self._solver.set_termination_callback(self._callback(program_number, to_load_factor, started))
+        result = self._solver.solve()
+        name = str(result.status)
+        if name not in STATUS_MAP:
+            raise SolverError(f"clarabel returned a status that is not known: {name}")
+        return ConeSolution(
+            status=STATUS_MAP[name],
+            solver_status=name,
+            x=np.asarray(result.x),
+            z=np.asarray(result.z),
+            objective=float(result.obj_val),
+            iterations=int(result.iterations),
+            seconds=time.perf_counter() - started,
+        )
+
+    def update(self, *, cost: FloatArray | None = None, rhs: FloatArray | None = None) -> None:
+        """Change cost or right-hand side; the matrix stays."""
+        changed: dict[str, FloatArray] = {}
+        if cost is not None:
+            changed["q"] = cost
+        if rhs is not None:
+            changed["b"] = rhs
+        old = self.cone_program
+        self.cone_program = ConeProgram(
+            cost=old.cost if cost is None else cost,
+            matrix=old.matrix,
+            rhs=old.rhs if rhs is None else rhs,
+            n_half_lines=old.n_half_lines,
+            n_cones=old.n_cones,
+        )
+        if self._solver is not None:
+            self._check_finite()
+            self._solver.update(**changed)
+
+    def _check_finite(self) -> None:
+        program = self.cone_program
+        if not all(np.isfinite(part).all() for part in (program.cost, program.matrix.data, program.rhs)):
+            raise SolverError("the cone program holds numbers that are not finite")
+
+    def _new_solver(self, clarabel: Any) -> Any:
+        program = self.cone_program
+        n = len(program.cost)
+        cones = [clarabel.ZeroConeT(1)]
+        if program.n_half_lines:
+            cones.append(clarabel.NonnegativeConeT(program.n_half_lines))
+        cones += [clarabel.SecondOrderConeT(3)] * program.n_cones
+        return clarabel.DefaultSolver(
+            sp.csc_matrix((n, n)),
+            program.cost,
+            sp.csc_matrix(program.matrix),
+            program.rhs,
+            cones,
+            self._clarabel_settings(clarabel),
+        )
+
+    def _clarabel_settings(self, clarabel: Any) -> Any:
+        settings = clarabel.DefaultSettings()
+        settings.verbose = False
+        settings.presolve_enable = False  # would forbid update()
+        settings.direct_solve_method = "qdldl"  # reruns bit-identically; "auto" may take faer, whose digits depend on threads
+        settings.max_threads = self.settings.threads
+        settings.static_regularization_constant = self.settings.regularization
+        settings.max_iter = self.settings.max_iterations
+        for name in ("tol_gap_abs", "tol_gap_rel", "tol_feas"):
+            setattr(settings, name, self.settings.tolerance)
+        return settings
+
+    def _callback(self, program: int, to_load_factor: float, started: float) -> Callable[[Any], bool]:
+        deadline = self.settings.deadline
+
+        def log(info: Any) -> bool:
+            self.log(
+                IterationRecord(
+                    program=program,
+                    iteration=int(info.iterations),
+                    load_factor=float(info.cost_primal) * to_load_factor,
+                    gap=float(info.gap_rel),
+                    primal_residual=float(info.res_primal),
+                    dual_residual=float(info.res_dual),
+                    step=float(info.step_length),
+                    seconds=time.perf_counter() - started,
+                )
+            )
+            return deadline is not None and time.monotonic() > deadline
+
+        return log

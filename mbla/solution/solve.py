@@ -1,0 +1,74 @@
+"""One load case through the solver stage: associative first, then the sequence that the flow rule asks for."""
+
+from __future__ import annotations
+
+import time
+
+import numpy as np
+
+from mbla.deck.types import AnalysisSection
+from mbla.program.program import Program
+from mbla.solution.associative import AssociativeResult, Log, solve_associative
+from mbla.solution.published import SequenceResult, solve_published
+from mbla.solution.settings import SolverSettings
+from mbla.solution.solution import IterationRecord, Solution, Status
+
+
+def solve(program: Program, analysis: AnalysisSection, settings: SolverSettings, log: Log | None = None) -> Solution:
+    """Load factor of one load case by the flow rule of ``analysis``.
+
+    log : called once per iteration of a cone program, as it goes
+    """
+    started = time.perf_counter()
+    iterations: list[IterationRecord] = []
+
+    def record(iteration: IterationRecord) -> None:
+        iterations.append(iteration)
+        if log is not None:
+            log(iteration)
+
+    associative = solve_associative(program, settings, record)
+    if analysis.flow_rule == "associative" or associative.mechanics is None:
+        return _associative_solution(analysis.flow_rule, associative, iterations, time.perf_counter() - started)
+    dilatancy = program.limits.dilatancy if analysis.flow_rule == "dilatancy" else np.zeros(program.n_points)
+    sequence = solve_published(program, associative, analysis.published, dilatancy, settings, record)
+    return _sequence_solution(analysis.flow_rule, associative, sequence, iterations, time.perf_counter() - started)
+
+
+def _associative_solution(
+    flow_rule: str, result: AssociativeResult, iterations: list[IterationRecord], seconds: float
+) -> Solution:
+    reason = result.reason
+    if result.status is Status.UNBOUNDED and flow_rule != "associative":
+        reason += "; this holds for associative flow, with which whether the load factor is finite without dilatancy is not decided"
+    return Solution(
+        flow_rule=flow_rule,
+        status=result.status,
+        mechanics=result.mechanics,
+        associative=result.mechanics,
+        certificate=result.certificate,
+        reason=reason,
+        programs=result.programs,
+        iterations=tuple(iterations),
+        seconds=seconds,
+    )
+
+
+def _sequence_solution(
+    flow_rule: str,
+    associative: AssociativeResult,
+    sequence: SequenceResult,
+    iterations: list[IterationRecord],
+    seconds: float,
+) -> Solution:
+    return Solution(
+        flow_rule=flow_rule,
+        status=sequence.status,
+        mechanics=sequence.mechanics,
+        associative=associative.mechanics,
+        certificate=None,
+        reason=sequence.reason,
+        programs=sequence.programs,
+        iterations=tuple(iterations),
+        seconds=seconds,
+    )
