@@ -28,9 +28,8 @@ from mbla.model.orientation import Edges, count_pieces, faces_to_turn, find_edge
 from mbla.model.polyhedra import Polyhedra, drop_unused_vertices, polyhedra_from_lists, take_polyhedra, turn_faces
 from mbla.model.self_intersection import intersection_defects
 from mbla.model.volumes import volumes_and_centroids
+from mbla.model.wording import counted, named, was
 
-NAMED = 5
-"""blocks that a notice names before it only counts them"""
 PLANAR = 1e-9
 """departure of a corner from the plane of its face, relative to block size, that is rounding and not reported"""
 
@@ -191,7 +190,8 @@ def _unused_vertices(unused: IntArray, labels: Labels) -> list[Notice]:
     blocks = np.flatnonzero(unused)
     if not len(blocks):
         return []
-    words = f"{int(unused.sum())} vertices that no face uses were left out in {_blocks_in_words(blocks, labels)}"
+    total = int(unused.sum())
+    words = f"{counted(total, 'vertex')} that no face uses {was(total)} left out in {_blocks_in_words(blocks, labels)}"
     return [Notice("notice", "vertices-unused", words)]
 
 
@@ -199,7 +199,8 @@ def _turned_faces(polyhedra: Polyhedra, turned: BoolArray, labels: Labels) -> li
     blocks = np.unique(polyhedra.block_of_face[turned])
     if not len(blocks):
         return []
-    words = f"{int(turned.sum())} faces were turned outwards in {_blocks_in_words(blocks, labels)}"
+    total = int(turned.sum())
+    words = f"{counted(total, 'face')} {was(total)} turned outwards in {_blocks_in_words(blocks, labels)}"
     return [Notice("notice", "faces-turned-outwards", words)]
 
 
@@ -214,15 +215,14 @@ def _bent_faces(
     relative = faces.deviations[bent] / sizes[block]
     worst = int(np.argmax(relative))
     number = int(bent[worst] - polyhedra.face_start[block[worst]])
+    which = f"{counted(len(bent), 'face')} of {_blocks_in_words(np.unique(block), labels)}"
     words = (
-        f"{len(bent)} faces of {_blocks_in_words(np.unique(block), labels)} are planar only within the tolerance; the "
-        f"worst, face {number} of {labels.name(int(block[worst]))}, by {relative[worst]:.2g} of the block size; each "
-        "is taken as the plane fitted to its corners"
+        f"{which} {'is' if len(bent) == 1 else 'are'} planar only within the tolerance; the worst, face {number} of "
+        f"{labels.name(int(block[worst]))}, by {relative[worst]:.2g} of the block size; each is taken as the plane "
+        "fitted to its corners"
     )
     return [Notice("notice", "faces-not-quite-planar", words)]
 
 
 def _blocks_in_words(blocks: IntArray, labels: Labels) -> str:
-    names = ", ".join(labels.name(int(block)) for block in blocks[:NAMED])
-    more = f" and {len(blocks) - NAMED} more" if len(blocks) > NAMED else ""
-    return f"{len(blocks)} block{'s' if len(blocks) > 1 else ''} ({names}{more})"
+    return f"{counted(len(blocks), 'block')} ({named(blocks, labels.name)})"

@@ -17,6 +17,7 @@ from mbla.deck.units import Units
 from mbla.errors import Fault, Notice
 from mbla.model.model import LoadCase
 from mbla.model.selectors import KeyPath, Roster, select_blocks
+from mbla.model.wording import counted, vector
 
 OUTSIDE = 0.01
 """distance of a force from the bounding box of its block, relative to the diagonal, from which it is remarked on"""
@@ -115,14 +116,14 @@ def _add_acceleration(load: Load, blocks: IntArray, site: LoadSite, result: _Sum
     """Mass times gravity, or times acceleration in units of g, at the centroids."""
     units = site.units
     everywhere = len(blocks) == len(site.fixed)
-    where = "" if everywhere else f" on {len(blocks)} block{'s' if len(blocks) > 1 else ''}"
+    where = "" if everywhere else f" on {counted(len(blocks), 'block')}"
     if load.gravity is not None:
         acceleration = np.array(load.gravity)
-        result.words.append(f"gravity {_vector(load.gravity)} {units.length}/s2")
+        result.words.append(f"gravity {vector(load.gravity)} {units.length}/s2")
     else:
         assert load.acceleration is not None  # a rule of the deck: one of gravity, acceleration, force
         acceleration = np.array(load.acceleration) * units.standard_gravity
-        result.words.append(f"acceleration {_vector(load.acceleration)} g{where}")
+        result.words.append(f"acceleration {vector(load.acceleration)} g{where}")
     masses = site.roster.blocks.masses[blocks]
     forces = masses[:, None] * acceleration * units.force_per_mass_acceleration
     result.total[blocks, :3] += forces
@@ -134,12 +135,12 @@ def _add_force(load: Load, block: int, site: LoadSite, result: _Sum, notices: li
     assert load.force is not None
     blocks = site.roster.blocks
     force = np.array(load.force)
-    words = f"force {_vector(load.force)} {site.units.force} on {blocks.name(block)}"
+    words = f"force {vector(load.force)} {site.units.force} on {blocks.name(block)}"
     wrench = np.concatenate([force, np.zeros(3)])
     if load.at is not None:
         point = np.array(load.at)
         wrench[3:] = np.cross(point - blocks.centroids[block], force)
-        words += f" at {_vector(load.at)}"
+        words += f" at {vector(load.at)}"
         _remark_outside(block, point, words, site, notices)
     else:
         words += " at its centroid"
@@ -158,7 +159,3 @@ def _remark_outside(block: int, point: FloatArray, words: str, site: LoadSite, n
         notice = Notice("warning", "force-outside-block", message)
         if notice not in notices:
             notices.append(notice)
-
-
-def _vector(values: Sequence[float]) -> str:
-    return f"({', '.join(f'{value:g}' for value in values)})"

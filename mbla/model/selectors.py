@@ -11,6 +11,7 @@ from mbla.arrays import IntArray
 from mbla.deck.types import Selector, SelectorTerm
 from mbla.errors import Fault
 from mbla.model.blocks import Blocks
+from mbla.model.wording import vector
 
 KeyPath = tuple[str | int, ...]
 
@@ -73,10 +74,6 @@ def _select(term: str | SelectorTerm, path: KeyPath, roster: Roster, faults: lis
     if len(inside) or roster.partial:
         return inside if len(inside) else None
     low, high = centroids.min(axis=0), centroids.max(axis=0)
-    message = f"no centroid of a block lies in it; they lie between {_point(low)} and {_point(high)}"
+    message = f"no centroid of a block lies in it; they lie between {vector(low)} and {vector(high)}"
     faults.append(roster.fault_at((*path, "box"), message))
     return None
-
-
-def _point(coordinates: np.typing.NDArray[np.float64]) -> str:
-    return f"({', '.join(f'{value:g}' for value in coordinates)})"

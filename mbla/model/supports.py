@@ -14,10 +14,10 @@ from mbla.model.blocks import Blocks
 from mbla.model.model import Ground
 from mbla.model.ragged import row_maxima
 from mbla.model.selectors import KeyPath, Roster, select_blocks
+from mbla.model.wording import named, vector
 
 FACING = 0.99
 """cosine of the greatest angle between a face and the ground it lies on"""
-NAMED = 5
 
 
 @dataclass(frozen=True)
@@ -83,7 +83,7 @@ def _plane(ground: GroundPlane) -> tuple[FloatArray, FloatArray, str]:
     point, normal = np.array(ground.point), np.array(ground.normal)
     normal = normal / np.abs(normal).max()  # so that squares neither overflow nor vanish
     normal = normal / np.linalg.norm(normal)
-    return point, normal, f"ground at {_vector(point)} with normal {_vector(normal)}"
+    return point, normal, f"ground at {vector(point)} with normal {vector(normal)}"
 
 
 def _check_ground(
@@ -107,11 +107,9 @@ def _check_ground(
 
 def _sunk_in_words(sunk: IntArray, depths: FloatArray, blocks: Blocks) -> str:
     worst = sunk[np.argmax(depths[sunk])]
-    names = ", ".join(blocks.name(int(block)) for block in sunk[:NAMED])
-    names += f" and {len(sunk) - NAMED} more" if len(sunk) > NAMED else ""
     verb = "reaches" if len(sunk) == 1 else "reach"
     return (
-        f"{names} {verb} below it, {blocks.name(int(worst))} by {depths[worst]:.4g}; "
+        f"{named(sunk, blocks.name)} {verb} below it, {blocks.name(int(worst))} by {depths[worst]:.4g}; "
         "move the plane, or name the blocks it carries with blocks"
     )
 
@@ -122,7 +120,3 @@ def _faces_on(ground: Ground, heights: FloatArray, may_carry: BoolArray, blocks:
     away = row_maxima(np.abs(heights[blocks.loops]), blocks.loop_start)
     facing = blocks.face_normals @ ground.normal < -FACING
     return bool((facing & (away <= allowed) & may_carry[blocks.block_of_face]).any())
-
-
-def _vector(values: FloatArray) -> str:
-    return f"({', '.join(f'{value:.4g}' for value in values)})"

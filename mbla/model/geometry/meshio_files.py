@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import contextlib
 import io
+import logging
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import chain
 from pathlib import Path
@@ -42,6 +43,7 @@ VOLUME_CELLS: dict[str, tuple[int, Sequence[Sequence[int]]]] = {
 """number of corners and faces by corner, of each shape of cell; cells of higher order begin with their corners"""
 SURFACE_CELLS = {"triangle": 3, "VTK_LAGRANGE_TRIANGLE": 3, "quad": 4, "VTK_LAGRANGE_QUADRILATERAL": 4, "polygon": 0}
 """number of corners; 0 where it is that of the cell"""
+WORDS = {"ply": "PLY", "stl": "STL", "vtu": "VTU", "gmsh": "Gmsh .msh", "abaqus": "Abaqus .inp"}
 PIXEL = (0, 1, 3, 2)
 """corners of a VTK pixel in order around it"""
 
@@ -103,19 +105,22 @@ def _mesh(path: Path, file_format: str) -> tuple[Any, list[Notice]]:
         import meshio
 
         with contextlib.redirect_stdout(printed), contextlib.redirect_stderr(printed), np.errstate(all="ignore"):
-            mesh = meshio.read(path, file_format=file_format)
+            # the reader itself: meshio.read prints, and ends the program, where a file is malformed
+            mesh = getattr(meshio, file_format).read(str(path))
     except OSError as error:
         raise GeometryFileError(f"cannot be read: {error.strerror or error}") from error
-    except (Exception, SystemExit) as error:
-        # the readers let all kinds of exceptions through, and the library exits the program after printing
-        reason = " ".join(printed.getvalue().split()) or " ".join(str(error).split()) or type(error).__name__
-        raise GeometryFileError(f"is not a well-formed {file_format} file: {reason[:200]}") from error
+    except (Exception, SystemExit) as error:  # the readers let all kinds of exceptions through
+        reason = " ".join(f"{printed.getvalue()} {error}".split())
+        reason = f": {reason[:200]}" if reason and reason != type(error).__name__ else ""
+        raise GeometryFileError(f"is not a well-formed {WORDS[file_format]} file{reason}") from error
     words = " ".join(printed.getvalue().split())
     return mesh, [Notice("warning", "mesh-file-remarks", words[:500])] if words else []
 
 
 def _points(mesh: Any) -> FloatArray:
     points = np.asarray(mesh.points, dtype=np.float64)
+    if not points.size:
+        return np.empty((0, 3))
     if points.ndim != 2 or points.shape[1] not in (2, 3):
         raise GeometryFileError("the points have neither two nor three coordinates")
     if points.shape[1] == 2:
@@ -181,7 +186,7 @@ def write_mesh(
     cell_data: Mapping[str, Sequence[Any]] | None = None,
     file_format: str = "vtu",
 ) -> None:
-    """Write points, cells and data on them to a file, without a word on standard output.
+    """Write points, cells and data on them to a file; what meshio would print is logged as a warning.
 
     points     : (n_points, 3)
     cells      : meshio's (type, rows of points) blocks; polyhedra cannot be mixed with other types
@@ -207,3 +212,5 @@ def write_mesh(
             meshio.write(path, mesh, file_format=file_format)
     except OSError as error:
         raise FileError(f"{path}: cannot be written: {error.strerror or error}") from error
+    if remarks := " ".join(printed.getvalue().split()):
+        logging.getLogger(__name__).warning("%s: %s", path, remarks)

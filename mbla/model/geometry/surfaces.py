@@ -20,6 +20,7 @@ from mbla.model.geometry.welding import own_vertices, weld
 from mbla.model.orientation import connected_labels
 from mbla.model.polyhedra import Polyhedra
 from mbla.model.ragged import ranges
+from mbla.model.wording import counted, was
 
 SAME_DIRECTION = 1e-6
 """angle in radians below which two faces at an edge lie on each other and bound different blocks"""
@@ -31,7 +32,8 @@ def split_surface(surface: Polyhedra) -> Geometry:
     surface = welded.polyhedra
     notices: tuple[Notice, ...] = ()
     if welded.collapsed:
-        words = f"{welded.collapsed} faces without area, with corners at the same place, were left out"
+        faces = counted(welded.collapsed, "face")
+        words = f"{faces} without area {was(welded.collapsed)} left out: corners at the same place"
         notices = (Notice("notice", "faces-collapsed", words),)
     if not len(surface):
         return Geometry(surface, notices)

@@ -10,6 +10,7 @@ from mbla.arrays import FloatArray, IntArray, row_of_item, starts
 from mbla.errors import Notice
 from mbla.model.polyhedra import Polyhedra, drop_unused_vertices
 from mbla.model.ragged import next_item
+from mbla.model.wording import counted, was
 
 
 @dataclass(frozen=True)
@@ -63,9 +64,11 @@ def welding_notices(welded: Welded) -> tuple[Notice, ...]:
     """What was merged, in words; nothing where nothing was."""
     if not welded.merged:
         return ()
-    words = f"{welded.merged} vertices at the same place as another of their block were merged"
+    words = (
+        f"{counted(welded.merged, 'vertex')} at the same place as another of their block {was(welded.merged)} merged"
+    )
     if welded.collapsed:
-        words += f"; {welded.collapsed} faces without area went with them"
+        words += f"; {counted(welded.collapsed, 'face')} without area went with them"
     return (Notice("notice", "vertices-merged", words),)
 
 

@@ -1,0 +1,36 @@
+"""Counts and names in the words of notices and faults."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+from mbla.arrays import FloatArray, IntArray
+
+NAMED = 5
+"""blocks that a message names before it only counts them"""
+
+
+def counted(count: int, noun: str) -> str:
+    """``1 face``, ``3 faces``.
+
+    >>> counted(1, "face"), counted(3, "vertex")
+    ('1 face', '3 vertices')
+    """
+    plural = "vertices" if noun == "vertex" else f"{noun}s"
+    return f"{count} {noun if count == 1 else plural}"
+
+
+def was(count: int) -> str:
+    """``was`` or ``were``."""
+    return "was" if count == 1 else "were"
+
+
+def named(blocks: IntArray, name: Callable[[int], str]) -> str:
+    """The first names, and how many more: ``a[0], a[4] and 7 more``."""
+    names = ", ".join(name(int(block)) for block in blocks[:NAMED])
+    return f"{names} and {len(blocks) - NAMED} more" if len(blocks) > NAMED else names
+
+
+def vector(values: Sequence[float] | FloatArray) -> str:
+    """``(0, 0, -9.81)``."""
+    return f"({', '.join(f'{value:.6g}' for value in values)})"
