@@ -2,8 +2,9 @@
 
 Clipping leaves duplicates, corners in the middle of an edge and, where outlines miss each other by rounding, tiny
 steps. A corner is needless if it lies within the tolerance of the chord between its neighbours. Corners go one by one,
-the least deviating first; each edge remembers how far the corners dropped along it lie from it at most, so that many
-small steps of a rounded outline do not add up to more than the tolerance. Corners that stay are not moved.
+the least deviating first; each edge remembers how far the corners dropped along it lie from it at most, to the left and
+to the right, so that many small steps of a rounded outline do not add up to more than the tolerance. Corners that stay
+are not moved.
 """
 
 from __future__ import annotations
@@ -104,24 +105,25 @@ def _needed(corners: Corners, tolerance: float) -> BoolArray:
     preceding = np.empty(n, dtype=np.int64)
     preceding[following] = np.arange(n)
     counts = np.diff(corners.ring_start)
-    along = np.zeros(n)  # farthest dropped corner from the edge that leaves each corner
+    dropped = np.zeros((n, 2))  # farthest dropped corners to the right and left of the edge that leaves each corner
     keep = np.ones(n, dtype=bool)
     active = np.arange(n)
     while True:
         active = active[keep[active] & (counts[ring[active]] > 3)]
         before, after = preceding[active], following[active]
-        off = _off_chord(corners.points[active], corners.points[before], corners.points[after])
-        off += np.maximum(along[before], along[active])
+        chord = _off_chord(corners.points[active], corners.points[before], corners.points[after])
+        spread = np.maximum(dropped[before], dropped[active]) + chord
+        off = spread.max(axis=1)
         needless = off <= tolerance
         if not needless.any():
             return keep
         # Rings without a needless corner are done; of the others the least deviating corner goes.
         busy = np.unique(ring[active[needless]])
-        candidates, off = active[needless], off[needless]
+        candidates, off, spread = active[needless], off[needless], spread[needless]
         order = np.lexsort((off, ring[candidates]))
         least = order[np.searchsorted(ring[candidates[order]], busy)]
         gone = candidates[least]
-        along[preceding[gone]] = off[least]
+        dropped[preceding[gone]] = spread[least]
         following[preceding[gone]] = following[gone]
         preceding[following[gone]] = preceding[gone]
         keep[gone] = False
@@ -130,13 +132,13 @@ def _needed(corners: Corners, tolerance: float) -> BoolArray:
 
 
 def _off_chord(points: FloatArray, start: FloatArray, end: FloatArray) -> FloatArray:
-    """Distance of points from the segments start–end, (n,)."""
-    chord = end - start
+    """Distances of points from the segments start–end, (n, 2): in the first column if to the right, else the second."""
+    chord, arm = end - start, points - start
     length = np.einsum("ki,ki->k", chord, chord)
-    share = np.einsum("ki,ki->k", points - start, chord) / np.where(length > 0, length, 1.0)
-    foot = start + np.clip(share, 0.0, 1.0)[:, None] * chord
-    distance: FloatArray = np.hypot(*(points - foot).T)
-    return distance
+    share = np.einsum("ki,ki->k", arm, chord) / np.where(length > 0, length, 1.0)
+    distance = np.hypot(*(arm - np.clip(share, 0.0, 1.0)[:, None] * chord).T)
+    left = chord[:, 0] * arm[:, 1] - chord[:, 1] * arm[:, 0] > 0
+    return np.stack([np.where(left, 0.0, distance), np.where(left, distance, 0.0)], axis=1)
 
 
 def _from_least_corner(corners: Corners) -> Corners:

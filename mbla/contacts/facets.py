@@ -13,7 +13,7 @@ import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray, starts
 from mbla.contacts.frames import frames_from_normals, unit
-from mbla.contacts.polygons import Polygons, map_polygons, polygons_from_loops, union_by_row
+from mbla.contacts.polygons import Polygons, convex_polygons, map_polygons, polygons_from_loops, union_by_row
 from mbla.contacts.ragged import rows_and_items
 from mbla.model.blocks import Blocks
 from mbla.model.ragged import next_item
@@ -21,7 +21,7 @@ from mbla.model.ragged import next_item
 # Facets of a block whose normals and heights differ by less than this (relative to block size) are one plane.
 _SAME_PLANE = 1e-6
 # Snapping grid, relative to block size, for outlines that are united across edges they do not share.
-_GRID = 1e-9
+_GRID = 1e-10
 # Unlike any direction of a building, so that two different normals hardly ever look alike along it.
 _ODD_DIRECTION = np.array([0.5403023, 0.2919266, 0.7892347])
 
@@ -38,6 +38,7 @@ class Facets:
                    parts, and holes
     lower, upper : (n_facets, 3) m    corners of the bounding box
     radii        : (n_facets,) m      distance from the origin to the farthest corner
+    convex       : (n_facets,)        outlines in one part, without holes, that are convex
     """
 
     blocks: IntArray
@@ -48,6 +49,7 @@ class Facets:
     lower: FloatArray
     upper: FloatArray
     radii: FloatArray
+    convex: BoolArray
 
     def __len__(self) -> int:
         return len(self.blocks)
@@ -83,15 +85,17 @@ def build_facets(blocks: Blocks) -> Facets:
     by_facet = np.argsort(facet_of_corner, kind="stable")
     first = starts(np.bincount(facet_of_corner).astype(np.int64))[:-1]
     block_of_facet = blocks.block_of_face[order[face_start[:-1]]]
+    polygons = _outlines(local[:, 1:], corner_start, order, facet_of_sorted, crossing, blocks.sizes[block_of_facet])
     return Facets(
         blocks=block_of_facet,
         facet_start=starts(np.bincount(block_of_facet, minlength=len(blocks)).astype(np.int64)),
         origins=origins,
         frames=frames,
-        polygons=_outlines(local[:, 1:], corner_start, order, facet_of_sorted, crossing, blocks.sizes[block_of_facet]),
+        polygons=polygons,
         lower=np.minimum.reduceat(corners[by_facet], first),
         upper=np.maximum.reduceat(corners[by_facet], first),
         radii=np.maximum.reduceat(np.sqrt((local**2).sum(axis=1))[by_facet], first),
+        convex=convex_polygons(polygons),
     )
 
 

@@ -77,7 +77,8 @@ def find_patches(
     between, first, second = _between_blocks(blocks, facets, pairs, tolerance)
     keep = np.flatnonzero(boxes_overlap(first, second, _EDGE * tolerance))
     between = between.take(keep)
-    shapes = [intersect(first[keep], second[keep])]
+    convex = facets.convex[between.facets[:, 0]] & facets.convex[between.facets[:, 1]]
+    shapes = [intersect(first[keep], second[keep], convex)]
     overlays = [between]
     for index, ground in enumerate(grounds):
         on_ground = _on_ground(blocks, facets, ground, len(blocks) + index, tolerance)

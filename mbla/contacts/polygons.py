@@ -12,14 +12,17 @@ import shapely
 from numpy.typing import NDArray
 
 from mbla.arrays import BoolArray, FloatArray, IntArray, starts
+from mbla.contacts.convex_clip import clip_convex
 from mbla.model.ragged import next_item
 
 Polygons: TypeAlias = NDArray[np.object_]
 
 _POLYGON, _MULTIPOLYGON, _COLLECTION = 3, 6, 7
 
-# Grid that the overlay is snapped to where floating arithmetic fails, for coordinates of order one.
-_RESCUE_GRID = 1e-10
+# Grid that overlays are snapped to, for coordinates of order one.
+_GRID = 1e-11
+
+_EMPTY = shapely.Polygon()
 
 
 def box_pairs(lower: FloatArray, upper: FloatArray) -> tuple[IntArray, IntArray]:
@@ -52,13 +55,22 @@ def polygons_from_loops(points: FloatArray, loop_start: IntArray) -> Polygons:
     points     : (n_corners, 2)
     loop_start : (n_loops + 1,)
     """
-    loops = shapely.linearrings(points, indices=np.repeat(np.arange(len(loop_start) - 1), np.diff(loop_start)))
-    polygons: Polygons = np.atleast_1d(shapely.polygons(loops))
+    polygons = _simple_polygons(points, loop_start)
     suspects = np.flatnonzero(~convex_loops(points, loop_start))
     suspects = suspects[~shapely.is_valid(polygons[suspects])]
     if len(suspects):
         polygons[suspects] = _polygonal(shapely.make_valid(polygons[suspects]))
     return polygons
+
+
+def convex_polygons(polygons: Polygons) -> BoolArray:
+    """True for polygons in one part, without holes, that are convex, (n,)."""
+    single = (shapely.get_type_id(polygons) == _POLYGON) & (shapely.get_num_interior_rings(polygons) == 0)
+    single &= ~shapely.is_empty(polygons)
+    convex: BoolArray = single.copy()
+    if single.any():
+        convex[single] = convex_loops(*_open_loops(polygons[single]))
+    return convex
 
 
 def polygons_from_rings(points: FloatArray, ring_start: IntArray, polygon_of_ring: IntArray) -> Polygons:
@@ -69,12 +81,7 @@ def polygons_from_rings(points: FloatArray, ring_start: IntArray, polygon_of_rin
     polygon_of_ring : (n_rings,) ascending, every polygon from 0 has at least one ring
     """
     rings = shapely.linearrings(points, indices=np.repeat(np.arange(len(ring_start) - 1), np.diff(ring_start)))
-    rings = np.atleast_1d(rings)
-    outer = np.ones(len(rings), dtype=bool)
-    outer[1:] = polygon_of_ring[1:] != polygon_of_ring[:-1]
-    if outer.all():
-        return np.atleast_1d(shapely.polygons(rings))
-    return np.atleast_1d(shapely.polygons(rings[outer], holes=rings[~outer], indices=polygon_of_ring[~outer]))
+    return np.atleast_1d(shapely.polygons(rings, indices=polygon_of_ring))
 
 
 def convex_loops(points: FloatArray, loop_start: IntArray) -> BoolArray:
@@ -143,16 +150,43 @@ def map_polygons(polygons: Polygons, matrices: FloatArray, offsets: FloatArray) 
     return result
 
 
-def intersect(first: Polygons, second: Polygons) -> Polygons:
-    """Common part of each pair, (n,); may be empty or of lower dimension."""
-    try:
-        common: Polygons = shapely.intersection(first, second)
-    except shapely.errors.GEOSException:
-        if len(first) == 1:
-            return np.atleast_1d(shapely.intersection(first, second, grid_size=_RESCUE_GRID))
-        half = len(first) // 2  # only the pair that fails is to be snapped to the grid
-        common = np.concatenate([intersect(first[:half], second[:half]), intersect(first[half:], second[half:])])
+def intersect(first: Polygons, second: Polygons, convex: BoolArray) -> Polygons:
+    """Common part of each pair, (n,); may be empty or of lower dimension.
+
+    convex : (n,) both polygons are convex and without holes
+    """
+    common: Polygons = np.full(len(first), _EMPTY, dtype=object)
+    rows = np.flatnonzero(convex)
+    if len(rows):
+        common[rows] = _intersect_convex(first[rows], second[rows])
+    rows = np.flatnonzero(~convex)
+    if len(rows):
+        # Snapped to a grid the overlay is robust; in floating arithmetic it may lose parts whose edges nearly coincide.
+        common[rows] = shapely.intersection(first[rows], second[rows], grid_size=_GRID)
     return common
+
+
+def _intersect_convex(first: Polygons, second: Polygons) -> Polygons:
+    points, start = clip_convex(*_open_loops(first), *_open_loops(second))
+    counts = np.diff(start)
+    solid = counts >= 3
+    common: Polygons = np.full(len(first), _EMPTY, dtype=object)
+    if solid.any():
+        corners_of_solid = points[np.repeat(solid, counts)]
+        common[solid] = _simple_polygons(corners_of_solid, starts(counts[solid]))
+    return common
+
+
+def _open_loops(polygons: Polygons) -> tuple[FloatArray, IntArray]:
+    """Corners of polygons without holes, the closing one left out, and their starts."""
+    points, row = shapely.get_coordinates(polygons, return_index=True)
+    closing = np.append(row[1:] != row[:-1], True)
+    return points[~closing], starts(np.bincount(row[~closing], minlength=len(polygons)).astype(np.int64))
+
+
+def _simple_polygons(points: FloatArray, loop_start: IntArray) -> Polygons:
+    rows = np.repeat(np.arange(len(loop_start) - 1), np.diff(loop_start))
+    return np.atleast_1d(shapely.polygons(shapely.linearrings(points, indices=rows)))
 
 
 def boxes_overlap(first: Polygons, second: Polygons, margin: float) -> BoolArray:
@@ -261,7 +295,7 @@ def _signed_areas(points: FloatArray, loop_start: IntArray) -> FloatArray:
 def _polygonal(shapes: Polygons) -> Polygons:
     """Shapes with their points and lines left out, as one (multi)polygon each."""
     parts, row = connected_parts(shapes)
-    result: Polygons = np.full(len(shapes), shapely.Polygon(), dtype=object)
+    result: Polygons = np.full(len(shapes), _EMPTY, dtype=object)
     if len(parts):
         # Every row must be named once for union_by_row: rows that lost everything keep the empty polygon.
         present, dense = np.unique(row, return_inverse=True)

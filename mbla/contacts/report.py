@@ -51,7 +51,7 @@ def build_report(model: Model, section: ContactsSection, findings: Findings, not
 def both_fixed(model: Model, bodies: IntArray) -> BoolArray:
     """True where neither body of a pair can move, (n,)."""
     still = np.concatenate([model.fixed, np.ones(len(model.grounds), dtype=bool)])
-    return still[bodies[:, 0]] & still[bodies[:, 1]]
+    return np.asarray(still[bodies[:, 0]] & still[bodies[:, 1]])
 
 
 def _slivers(model: Model, slivers: Patches) -> tuple[IntArray, FloatArray]:

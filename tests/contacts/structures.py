@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -16,7 +17,7 @@ from mbla.model.build_blocks import Labels, blocks_from_polyhedra, build_blocks,
 from mbla.model.model import Ground, Joint, Model
 from mbla.model.polyhedra import Polyhedra, cuboids, polyhedra_from_lists, take_polyhedra
 
-SHARED_DATA = Path("/work/shared/data")
+DECKS = Path(__file__).parents[2] / "decks"
 
 
 def blocks_of(polyhedra: Polyhedra, groups: Sequence[str] | None = None) -> Blocks:
@@ -84,13 +85,13 @@ def contacts_of(
 
 
 def running_bond(units: int, courses: int) -> Polyhedra:
-    """Wall of REFERENCES E: units 0.4 x 0.2 x 0.175, half units at the ends of odd courses; block 0 is the base slab."""
+    """Wall of units 0.4 x 0.2 x 0.175, half units at the ends of odd courses; block 0 is the base slab."""
     length, thickness, height = 0.4, 0.2, 0.175
     least = [[0.0, 0.0, -height]]
     greatest = [[units * length, thickness, 0.0]]
     for course in range(courses):
         joints = np.arange(units + 1) * length if course % 2 == 0 else _half_bond(units, length)
-        for left, right in zip(joints[:-1], joints[1:], strict=True):
+        for left, right in itertools.pairwise(joints):
             least.append([left, 0.0, course * height])
             greatest.append([right, thickness, (course + 1) * height])
     return cuboids(np.array(least), np.array(greatest))
@@ -101,20 +102,19 @@ def _half_bond(units: int, length: float) -> FloatArray:
 
 
 # Walls of Ferris and Tin-Loi by course, bottom to top, in units of 0.4 m; negative lengths are gaps.
-_FE, _FU, _WU, _WE = [1, 1, 1, 1], [0.5, 1, 1, 1, 0.5], [0.5, 1, -1, 1, 0.5], [1, 0.5, -1, 0.5, 1]
-_FE5, _FU5, _WU5, _WE5 = [0.5, 1, 1, 0.5], [1, 1, 1], [1, -1, 1], [0.5, 0.5, -1, 0.5, 0.5]
-_WINDOW5 = [_WU5, _WE5, _WU5, _WE5, _WU5]
-PERFORATED_WALLS: dict[int, list[list[float]]] = {
-    1: [[0.5, 1, 1, 1, 1, 0.5], [1, 1, 1, 1, 1]] * 3,
-    3: [_FE, _FU, _FE, _WU, _WE, _WU, _WE, _WU, _FE, _FU, _FE],
-    5: [_FE5, _FU5, _FE5, *_WINDOW5, _FE5, _FU5, _FE5, *_WINDOW5, _FE5, _FU5, _FE5],
+_COURSES: dict[int, dict[str, list[float]]] = {
+    1: {"A": [0.5, 1, 1, 1, 1, 0.5], "B": [1, 1, 1, 1, 1]},
+    3: {"E": [1, 1, 1, 1], "F": [0.5, 1, 1, 1, 0.5], "U": [0.5, 1, -1, 1, 0.5], "W": [1, 0.5, -1, 0.5, 1]},
+    5: {"E": [0.5, 1, 1, 0.5], "F": [1, 1, 1], "U": [1, -1, 1], "W": [0.5, 0.5, -1, 0.5, 0.5]},
 }
+_WALLS = {1: "ABABAB", 3: "EFEUWUWUEFE", 5: "EFEUWUWUEFEUWUWUEFE"}
 
 
 def perforated_wall(number: int) -> Polyhedra:
-    """Wall 1, 3 or 5 of REFERENCES B on the plane z = 0, 0.2 m thick."""
+    """Wall 1, 3 or 5 of Ferris and Tin-Loi on the plane z = 0, 0.2 m thick."""
     least, greatest = [], []
-    for course, lengths in enumerate(PERFORATED_WALLS[number]):
+    for course, kind in enumerate(_WALLS[number]):
+        lengths = _COURSES[number][kind]
         ends = np.concatenate([[0.0], np.cumsum(np.abs(lengths))]) * 0.4
         for length, left, right in zip(lengths, ends[:-1], ends[1:], strict=True):
             if length > 0:
@@ -152,9 +152,14 @@ def prism(outline: Sequence[Sequence[float]], bottom: float, top: float) -> Poly
     """Vertical prism over a simple polygon."""
     n = len(outline)
     vertices = [[*p, z] for z in (bottom, top) for p in outline]
-    faces = [list(range(n)), list(range(n, 2 * n))]
+    faces: list[Sequence[int]] = [range(n), range(n, 2 * n)]
     faces += [[i, (i + 1) % n, n + (i + 1) % n, n + i] for i in range(n)]
     return polyhedra_from_lists([vertices], [faces])
+
+
+def exported(name: str) -> Path | None:
+    """A geometry file that a deck of the project carries."""
+    return next(iter(sorted(DECKS.rglob(name))), None)
 
 
 def read_obj(path: Path) -> Blocks:

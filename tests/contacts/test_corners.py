@@ -1,0 +1,102 @@
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+import pytest
+import shapely
+
+from mbla.contacts.corners import areas_and_centroids, needed_corners
+from mbla.contacts.polygons import Polygons
+
+Outline = Sequence[Sequence[float]]
+
+
+def polygons(*outlines: Outline, holes: Sequence[Outline] = ()) -> Polygons:
+    found: Polygons = np.array([shapely.Polygon(outline, holes) for outline in outlines], dtype=object)
+    return found
+
+
+SQUARE: list[list[float]] = [[0, 0], [1, 0], [1, 1], [0, 1]]
+
+
+def test_corners_of_a_square_stay() -> None:
+    corners = needed_corners(polygons(SQUARE), 1e-3)
+    assert {tuple(point) for point in corners.points} == {(0, 0), (1, 0), (1, 1), (0, 1)}
+
+
+def test_collinear_and_double_corners_go() -> None:
+    outline: Outline = [[0, 0], [0.5, 0], [1, 0], [1, 1e-12], [1, 1], [0.3, 1 + 1e-10], [0, 1], [0, 0.2]]
+    corners = needed_corners(polygons(outline), 1e-3)
+    assert len(corners.points) == 4
+
+
+def test_small_steps_go_and_large_ones_stay() -> None:
+    step: Outline = [[0, 0], [0.5, 0], [0.5, 9e-4], [1, 9e-4], [1, 1], [0, 1]]
+    assert len(needed_corners(polygons(step), 1e-3).points) == 4
+    assert len(needed_corners(polygons(step), 4e-4).points) == 6
+
+
+def test_corners_that_stay_are_not_moved() -> None:
+    outline: Outline = [[0, 0], [0.5, 1e-4], [1, 0], [1, 1], [0, 1]]
+    corners = needed_corners(polygons(outline), 1e-3)
+    original = {tuple(point) for point in np.array(outline, dtype=float).tolist()}
+    assert {tuple(point) for point in corners.points.tolist()} <= original
+
+
+@pytest.mark.parametrize("count", [50, 200, 1000])
+@pytest.mark.parametrize("tolerance", [1e-2, 1e-3])
+def test_a_round_outline_is_not_eaten_away(count: int, tolerance: float) -> None:
+    angles = 2 * np.pi * np.arange(count) / count
+    outline = np.stack([np.cos(angles), np.sin(angles)], axis=1)
+    corners = needed_corners(polygons(outline.tolist()), tolerance)
+    kept = shapely.Polygon(corners.points)
+    assert len(corners.points) < count or tolerance < 2 * np.sin(np.pi / count) ** 2
+    distance = shapely.distance(kept.exterior, shapely.points(outline))
+    assert distance.max() <= tolerance * (1 + 1e-9)
+
+
+def test_three_corners_are_left_at_least() -> None:
+    tiny: Outline = [[0, 0], [1e-4, 0], [1e-4, 1e-4], [0, 1e-4]]
+    assert len(needed_corners(polygons(tiny), 1e-2).points) == 3
+
+
+def test_outlines_start_at_the_same_corner_whatever_their_order() -> None:
+    turned = [SQUARE[2:] + SQUARE[:2], SQUARE[::-1], SQUARE]
+    corners = needed_corners(polygons(*turned), 1e-3)
+    for ring in np.split(corners.points, 3):
+        np.testing.assert_array_equal(ring, [[0, 0], [1, 0], [1, 1], [0, 1]])
+
+
+def test_holes_follow_the_outline_and_run_the_other_way() -> None:
+    hole: Outline = [[0.25, 0.25], [0.75, 0.25], [0.75, 0.75], [0.25, 0.75]]
+    corners = needed_corners(polygons(SQUARE, holes=[hole]), 1e-3)
+    assert np.diff(corners.ring_start).tolist() == [4, 4]
+    area, centroid = areas_and_centroids(corners, 1)
+    assert area == pytest.approx([0.75])
+    assert centroid == pytest.approx(np.array([[0.5, 0.5]]))
+
+
+def test_holes_narrower_than_the_tolerance_are_filled() -> None:
+    slit: Outline = [[0.2, 0.5], [0.8, 0.5], [0.8, 0.5005], [0.2, 0.5005]]
+    corners = needed_corners(polygons(SQUARE, holes=[slit]), 1e-3)
+    assert len(corners.polygon_of_ring) == 1
+    wide: Outline = [[0.2, 0.5], [0.8, 0.5], [0.8, 0.502], [0.2, 0.502]]
+    assert len(needed_corners(polygons(SQUARE, holes=[wide]), 1e-3).polygon_of_ring) == 2
+
+
+def test_outline_that_would_cross_itself_keeps_its_corners() -> None:
+    """The notch keeps its tip, but without the two shallow corners the outer edge would run through it."""
+    depth = 1e-3
+    outline: Outline = [[0, 0], [1, depth], [2, 0], [2, 1], [1.01, 1], [1, 0.2 * depth + depth], [0.99, 1], [0, 1]]
+    shallow: Outline = [[0, 0], [1, -0.9 * depth], [2, 0], [2, 1], [1.01, 1], [1, -0.5 * depth], [0.99, 1], [0, 1]]
+    for case in (outline, shallow):
+        corners = needed_corners(polygons(case), depth)
+        assert shapely.Polygon(corners.points).is_valid
+
+
+def test_area_and_centroid_far_from_the_local_origin() -> None:
+    far = (np.array(SQUARE) + 1e6).tolist()
+    area, centroid = areas_and_centroids(needed_corners(polygons(far), 1e-3), 1)
+    assert area == pytest.approx([1.0], rel=1e-9)
+    assert centroid == pytest.approx(np.array([[1e6 + 0.5, 1e6 + 0.5]]), rel=1e-12)

@@ -1,0 +1,180 @@
+"""Interfaces between blocks that are not cuboids face to face."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from mbla.contacts import find_contacts
+from mbla.model.polyhedra import Polyhedra, join_polyhedra, polyhedra_from_lists
+from tests.contacts.structures import any_rotation, blocks_of, boxes, contacts_of, model_of, moved, prism, section
+from tests.contacts.test_search import assert_consistent
+
+L_OUTLINE = [[0, 0], [2, 0], [2, 1], [1, 1], [1, 2], [0, 2]]
+
+
+def circle(radius: float, corners: int, start: float = 0.0) -> list[list[float]]:
+    angles = start + 2 * np.pi * np.arange(corners) / corners
+    return [[radius * np.cos(angle), radius * np.sin(angle)] for angle in angles.tolist()]
+
+
+def ring(inner: Sequence[Sequence[float]], outer: Sequence[Sequence[float]], bottom: float, top: float) -> Polyhedra:
+    """Prism with a hole: top and bottom are strips of quadrilaterals between the two outlines."""
+    n = len(inner)
+    vertices = [[*p, z] for z in (bottom, top) for outline in (inner, outer) for p in outline]
+    faces = []
+    for i in range(n):
+        j = (i + 1) % n
+        faces += [[i, n + i, n + j, j], [2 * n + i, 2 * n + j, 3 * n + j, 3 * n + i]]
+        faces += [[i, j, 2 * n + j, 2 * n + i], [n + i, 3 * n + i, 3 * n + j, n + j]]
+    return polyhedra_from_lists([vertices], [faces])
+
+
+@pytest.fixture(params=[None, 1, 2], ids=["along the axes", "turned", "turned again"])
+def turn(request: pytest.FixtureRequest) -> np.ndarray | None:
+    return None if request.param is None else any_rotation(request.param)
+
+
+def test_box_in_the_notch_of_an_l(turn: np.ndarray | None) -> None:
+    pair = join_polyhedra([prism(L_OUTLINE, 0, 1), boxes(([1, 1, 0], [2, 2, 1]))])
+    contacts = contacts_of(moved(pair, turn=turn))
+    assert len(contacts) == 2
+    np.testing.assert_allclose(contacts.areas, 1.0, rtol=1e-9)
+    assert abs(contacts.normals[0] @ contacts.normals[1]) < 1e-9
+    assert contacts.report.overlaps.shape == (0, 2)
+
+
+def test_l_on_l_is_one_interface_with_six_points(turn: np.ndarray | None) -> None:
+    stack = join_polyhedra([prism(L_OUTLINE, 0, 1), prism(L_OUTLINE, 1, 2)])
+    contacts = contacts_of(moved(stack, turn=turn))
+    assert contacts.areas == pytest.approx([3.0], rel=1e-9)
+    assert np.diff(contacts.point_start).tolist() == [6]
+    assert_consistent(contacts)
+
+
+def test_column_on_a_ring_has_an_interface_with_a_hole(turn: np.ndarray | None) -> None:
+    inner, outer = circle(0.5, 12), circle(1.0, 12)
+    stack = join_polyhedra([ring(inner, outer, 0, 1), prism(outer, 1, 3)])
+    contacts = contacts_of(moved(stack, turn=turn))
+    area = 12 * np.sin(2 * np.pi / 12) / 2 * (1 - 0.25)
+    assert contacts.areas == pytest.approx([area], rel=1e-7)
+    assert contacts.outline.tolist() == [12]
+    assert np.diff(contacts.point_start).tolist() == [24]
+    assert_consistent(contacts)
+
+
+def test_two_feet_give_two_interfaces(turn: np.ndarray | None) -> None:
+    portal = prism([[0, 0], [1, 0], [1, 1], [2, 1], [2, 0], [3, 0], [3, 2], [0, 2]], 0, 1)
+    upright = Polyhedra(
+        portal.vertices[:, [0, 2, 1]], portal.vertex_start, portal.loops, portal.loop_start, portal.face_start
+    )
+    pair = join_polyhedra([boxes(([0, 0, -1], [3, 1, 0])), upright])
+    contacts = contacts_of(moved(pair, turn=turn))
+    np.testing.assert_array_equal(contacts.bodies, [[0, 1], [0, 1]])
+    np.testing.assert_allclose(contacts.areas, 1.0, rtol=1e-9)
+
+
+def test_cylinder_in_a_socket_touches_all_around(turn: np.ndarray | None) -> None:
+    outline = circle(1.0, 24)
+    pair = join_polyhedra([ring(outline, circle(2.0, 24), 0, 1), prism(outline, 0, 1)])
+    contacts = contacts_of(moved(pair, turn=turn))
+    assert len(contacts) == 24
+    side = 2 * np.sin(np.pi / 24)
+    np.testing.assert_allclose(contacts.areas, side, rtol=1e-9)
+    # The normals go from socket to cylinder: inwards.
+    axis = np.array([0, 0, 0.5]) if turn is None else turn @ [0, 0, 0.5]
+    inward = np.einsum("ki,ki->k", contacts.normals, axis - contacts.centroids)
+    np.testing.assert_allclose(inward, np.cos(np.pi / 24), rtol=1e-9)
+    assert len(contacts.report.overlaps) == 0
+
+
+def test_curved_faces_that_do_not_match() -> None:
+    """A finer cylinder in a socket: facets of different directions within a generous tolerance."""
+    socket = ring(circle(1.0, 48), circle(2.0, 48), 0, 1)
+    cylinder = prism(circle(1.0, 96), 0, 1)
+    contacts = contacts_of(join_polyhedra([socket, cylinder]), tolerance=3e-3)
+    assert len(contacts) == 96
+    assert contacts.areas.sum() == pytest.approx(2 * np.pi, rel=2e-3)
+    assert np.abs(contacts.gaps).max() < 3e-3 * 1.5
+
+
+def test_faces_that_do_not_match() -> None:
+    shifted = boxes(([0, 0, 0], [2, 2, 1]), ([0.5, 0.7, 1], [3, 3, 2]), ([-1, -1, 1], [0.25, 0.5, 2]))
+    contacts = contacts_of(shifted)
+    np.testing.assert_array_equal(contacts.bodies, [[0, 1], [0, 2]])
+    np.testing.assert_allclose(contacts.areas, [1.5 * 1.3, 0.25 * 0.5], rtol=1e-12)
+
+
+def test_crossing_bars_give_the_common_rhombus() -> None:
+    turned = moved(boxes(([-5, -0.5, 1], [5, 0.5, 2])), turn=np.array([[0.6, -0.8, 0], [0.8, 0.6, 0], [0, 0, 1]]))
+    contacts = contacts_of(join_polyhedra([boxes(([-5, -0.5, 0], [5, 0.5, 1])), turned]))
+    assert contacts.areas == pytest.approx([1 / 0.8], rel=1e-12)
+    np.testing.assert_allclose(contacts.centroids, [[0, 0, 1]], atol=1e-12)
+    assert_consistent(contacts)
+
+
+def box_with_split_top(split: Sequence[Sequence[int]], extra: Sequence[Sequence[float]] = ()) -> Polyhedra:
+    """Unit cube whose top (corners 4 to 7, further points from 8) is split into the given faces."""
+    cube = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1], *extra]
+    sides = [[0, 3, 2, 1], [0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7]]
+    return polyhedra_from_lists([cube], [[*sides, *split]])
+
+
+SPLITS = {
+    "one diagonal": box_with_split_top([[4, 5, 6], [4, 6, 7]]),
+    "other diagonal": box_with_split_top([[5, 6, 7], [5, 7, 4]]),
+    "fan": box_with_split_top([[4, 5, 8], [5, 6, 8], [6, 7, 8], [7, 4, 8]], [[0.3, 0.6, 1]]),
+}
+
+
+@pytest.mark.parametrize("split", SPLITS)
+def test_split_faces_give_the_interface_of_the_whole(split: str, turn: np.ndarray | None) -> None:
+    lid = boxes(([0.25, 0.5, 1], [1.5, 1, 2]))
+    contacts = contacts_of(moved(join_polyhedra([SPLITS[split], lid]), turn=turn))
+    assert contacts.areas == pytest.approx([0.75 * 0.5], rel=1e-7)
+    assert np.diff(contacts.point_start).tolist() == [4]
+    np.testing.assert_allclose(contacts.point_areas, 0.75 * 0.5 / 4, rtol=1e-6)
+
+
+def test_faces_on_one_plane_that_share_no_edge_count_as_one(turn: np.ndarray | None) -> None:
+    """The model has put the two triangles of a top on different facets, as it does where a corner ends in an edge."""
+    stack = moved(join_polyhedra([SPLITS["one diagonal"], boxes(([0, 0, 1], [1, 1, 2]))]), turn=turn)
+    blocks = blocks_of(stack)
+    every_face = np.arange(len(blocks.face_normals))
+    assert len(np.unique(blocks.facet_of_face)) == len(every_face) - 1
+    apart = replace(blocks, facet_of_face=every_face)
+    contacts = find_contacts(model_of(apart), section())
+    assert contacts.areas == pytest.approx([1.0], rel=1e-7)
+    assert np.diff(contacts.point_start).tolist() == [4]
+
+
+def test_edges_and_corners_that_touch_are_no_interface() -> None:
+    contacts = contacts_of(boxes(([0, 0, 0], [1, 1, 1]), ([1, 1, 0], [2, 2, 1]), ([2, 2, 1], [3, 3, 2])))
+    assert len(contacts) == 0
+    assert len(contacts.report.slivers) == 0
+
+
+def test_wedge_in_a_groove(turn: np.ndarray | None) -> None:
+    """Inclined faces: two interfaces on the flanks of a V."""
+    groove = prism([[-2, -2], [2, -2], [2, 0], [1, 0], [0, -1], [-1, 0], [-2, 0]], 0, 1)
+    wedge = prism([[0, -1], [1, 0], [0, 1], [-1, 0]], 0, 1)
+    contacts = contacts_of(moved(join_polyhedra([groove, wedge]), turn=turn))
+    np.testing.assert_allclose(contacts.areas, np.sqrt(2), rtol=1e-9)
+    assert len(contacts) == 2
+    assert len(contacts.report.overlaps) == 0
+
+
+def test_faces_at_a_small_angle_within_the_tolerance_touch() -> None:
+    tilt = 8e-4
+    lower = boxes(([0, 0, 0], [1, 1, 1]))
+    upper = boxes(([0, 0, 1], [1, 1, 2]))
+    vertices = upper.vertices.copy()
+    vertices[:, 2] += tilt * vertices[:, 0]
+    tilted = Polyhedra(vertices, upper.vertex_start, upper.loops, upper.loop_start, upper.face_start)
+    contacts = contacts_of(join_polyhedra([lower, tilted]))
+    assert contacts.gaps == pytest.approx([tilt], rel=1e-3)
+    np.testing.assert_allclose(contacts.points[:, 2], 1 + tilt * contacts.points[:, 0] / 2, atol=1e-6)
+    assert_consistent(contacts)
