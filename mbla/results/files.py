@@ -97,7 +97,7 @@ class OutputFolder:
 
     def path(self, name: str) -> Path:
         """Where to write the file that will be ``name``; for libraries that write files themselves."""
-        if Path(name).name != name or name.startswith(PREFIX):
+        if not name or Path(name).name != name or name.startswith(PREFIX):
             raise ValueError(f"not a plain file name: {name!r}")
         if name in self._names:
             raise ValueError(f"{name} is written twice")
@@ -108,8 +108,14 @@ class OutputFolder:
     @contextlib.contextmanager
     def writing(self, name: str) -> Iterator[Path]:
         """``path(name)`` for a ``with`` block whose errors of the operating system name the file."""
+        temporary = self.path(name)
         with _file_errors(self.folder / name):
-            yield self.path(name)
+            try:
+                yield temporary
+            except FileError as error:  # of another stage, with the temporary name
+                if isinstance(error.__cause__, OSError):
+                    raise error.__cause__ from None
+                raise
 
     def write_bytes(self, name: str, data: bytes) -> None:
         """Write one file."""
@@ -161,9 +167,8 @@ class OutputFolder:
     def _commit(self) -> None:
         for name, stream in self._live.items():
             with _file_errors(self.folder / name):
-                stream.flush()
-                os.fsync(stream.fileno())
                 stream.close()
+                _flush_to_disk(self.folder / name)
         written = [name for name in self._names if name not in self._live]
         for name in written:
             self._refuse(name)

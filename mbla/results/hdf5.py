@@ -96,7 +96,9 @@ def read_results_hdf5(path: Path) -> Results:
 
 
 def _short(error: BaseException) -> str:
-    return str(error).strip("'\"").splitlines()[0] if str(error) else type(error).__name__
+    """The first line of an error in words; a KeyError puts its text in quotes."""
+    text = str(error.args[0]) if isinstance(error, KeyError) and error.args else str(error)
+    return text.splitlines()[0] if text else type(error).__name__
 
 
 def _fields(cases: list[str]) -> list[tuple[str, Field]]:

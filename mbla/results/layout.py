@@ -311,3 +311,13 @@ def fields_of_case(name: str) -> tuple[tuple[str, Field], ...]:
 
 
 COMMON_FIELDS: tuple[Field, ...] = tuple(f for f in LAYOUT if "*" not in f.path)
+
+
+def layout_table() -> str:
+    """The datasets as a Markdown table, as it stands in schemas/results.md; units as in a deck in m, N, kg."""
+    lines = ["| dataset | type | dimensions | units | content |", "|---|---|---|---|---|"]
+    for field in LAYOUT:
+        content = field.long_name + (f" (part: {field.part})" if field.part else "")
+        dims = ", ".join(field.dims) or "–"
+        lines.append(f"| `/{field.path}` | {field.kind} | {dims} | {unit_text(field.unit, Units())} | {content} |")
+    return "\n".join(lines) + "\n"
