@@ -62,6 +62,7 @@ class ClarabelProgram:
     settings: SolverSettings
     log: Callable[[IterationRecord], None]
     _solver: Any = field(init=False, default=None)
+    _raised: BaseException | None = field(init=False, default=None)
 
     def solve(self, program_number: int, to_load_factor: float) -> ConeSolution:
         """Solve what is loaded.
@@ -77,6 +78,9 @@ class ClarabelProgram:
         started = time.perf_counter()
         self._solver.set_termination_callback(self._callback(program_number, to_load_factor, started))
         result = self._solver.solve()
+        if self._raised is not None:
+            raised, self._raised = self._raised, None
+            raise raised
         name = str(result.status)
         if name not in STATUS_MAP:
             raise SolverError(f"clarabel returned a status that is not known: {name}")
@@ -146,18 +150,28 @@ class ClarabelProgram:
         deadline = self.settings.deadline
 
         def log(info: Any) -> bool:
-            self.log(
-                IterationRecord(
-                    program=program,
-                    iteration=int(info.iterations),
-                    load_factor=float(info.cost_primal) * to_load_factor,
-                    gap=float(info.gap_rel),
-                    primal_residual=float(info.res_primal),
-                    dual_residual=float(info.res_dual),
-                    step=float(info.step_length),
-                    seconds=time.perf_counter() - started,
-                )
+            record = IterationRecord(
+                program=program,
+                iteration=int(info.iterations),
+                load_factor=float(info.cost_primal) * to_load_factor,
+                gap=float(info.gap_rel),
+                primal_residual=float(info.res_primal),
+                dual_residual=float(info.res_dual),
+                step=float(info.step_length),
+                seconds=time.perf_counter() - started,
             )
+            try:
+                self.log(record)
+            except BaseException as error:  # the solver would print it and go on: kept, and raised after solve()
+                self._raised = error
+                return True
             return deadline is not None and time.monotonic() > deadline
 
-        return log
+        def stop_on_interrupt(info: Any) -> bool:
+            try:
+                return log(info)
+            except BaseException as error:  # an interrupt that came outside the inner block
+                self._raised = error
+                return True
+
+        return stop_on_interrupt

@@ -1,0 +1,191 @@
+"""One deck to one result: the table of contents of the program."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from mbla.contacts import Contacts, find_contacts
+from mbla.contacts.notices import overlap_messages
+from mbla.deck import Deck, read_deck
+from mbla.errors import DeckError, Notice, UsageError
+from mbla.expected import compare_with_expected
+from mbla.model import Model, build_model
+from mbla.model.model import LoadCase
+from mbla.program import assemble
+from mbla.results.files import OutputFolder
+from mbla.results.provenance import collect_provenance
+from mbla.results.results import CaseResult, DeckRecord, Results
+from mbla.results.sta import StatusFile
+from mbla.results.write import write_results
+from mbla.solution import Status, solve, verified_status, verify
+from mbla.solution.settings import SolverSettings, solver_settings
+from mbla.solution.solution import IterationRecord
+
+Progress = Callable[[str, IterationRecord], None]
+
+
+@dataclass(frozen=True)
+class RunOptions:
+    """What the command line adds to a deck.
+
+    folder    : for the results; the deck's name with .out beside it if None
+    overrides : key.path=value texts
+    cases     : names of the load cases to solve; all if empty
+    force     : replace an earlier result
+    threads   : of the cone solver
+    expected  : compare with the deck's ``expected`` section
+    """
+
+    folder: Path | None = None
+    overrides: tuple[str, ...] = ()
+    cases: tuple[str, ...] = ()
+    force: bool = False
+    threads: int = 1
+    expected: bool = False
+
+    def folder_for(self, deck_path: Path) -> Path:
+        """Where the results of a deck go."""
+        return deck_path.with_suffix(".out") if self.folder is None else self.folder
+
+
+def run(deck_path: Path, options: RunOptions, progress: Progress | None = None) -> Results:
+    """Solve every load case of a deck and write the result files.
+
+    progress : called once per iteration with the name of the load case
+
+    Raises
+    ------
+    DeckError, UsageError, FileError, LimitError, SolverError
+        nothing is written then, and an earlier result stays as it was
+    """
+    started = time.perf_counter()
+    deck = read_deck(deck_path, options.overrides)
+    with OutputFolder(options.folder_for(deck_path), deck_path.stem, options.force) as out:
+        status_file = StatusFile(out.open_live(f"{deck_path.stem}.sta"), deck.content.title or deck_path.name)
+        model = build_model(deck)
+        load_cases = select_cases(model, options.cases)
+        read = time.perf_counter()
+        contacts = contacts_of(deck, model)
+        found = time.perf_counter()
+        settings = solver_settings(deck.analysis, options.threads)
+        cases = [
+            solve_case(deck, model, contacts, load_case, settings, status_file, progress) for load_case in load_cases
+        ]
+        differences = differences_from_expected(deck, cases) if options.expected else []
+        results = Results(
+            deck=deck_record(deck),
+            model=model,
+            contacts=contacts,
+            cases=tuple(cases),
+            notices=(*deck.notices, *model.notices, *contacts.report.notices, *differences),
+            provenance=collect_provenance(),
+            settings=settings_in_words(deck, settings),
+            time={"read": read - started, "contacts": found - read, "solve": time.perf_counter() - found},
+            exit_code=exit_code(cases) or (4 if differences else 0),
+        )
+        output = deck.content.output
+        return write_results(results, out, output.vtu, output.frames, output.plots)
+
+
+def solve_case(
+    deck: Deck,
+    model: Model,
+    contacts: Contacts,
+    load_case: LoadCase,
+    settings: SolverSettings,
+    status_file: StatusFile,
+    progress: Progress | None,
+) -> CaseResult:
+    """Assemble, solve and verify one load case."""
+
+    def log(record: IterationRecord) -> None:
+        status_file.add(load_case.name, record)
+        if progress is not None:
+            progress(load_case.name, record)
+
+    program = assemble(model, contacts, load_case)
+    solution = solve(program, deck.analysis, settings, log)
+    checks = verify(model, contacts, load_case, solution)
+    status = verified_status(solution, checks)
+    status_file.remark(f"{load_case.name}: {status}")
+    return CaseResult(load_case, solution, checks, status)
+
+
+def contacts_of(deck: Deck, model: Model) -> Contacts:
+    """Contacts of a model; blocks that overlap make the deck invalid."""
+    contacts = find_contacts(model, deck.contacts)
+    overlaps = overlap_messages(model, deck.contacts, contacts.report)
+    if overlaps:
+        raise DeckError([deck.fault_at(("blocks",), message) for message in overlaps])
+    return contacts
+
+
+def select_cases(model: Model, names: Sequence[str]) -> tuple[LoadCase, ...]:
+    """The load cases of those names in the order of the deck, all if no name is given; UsageError for an unknown one."""
+    known = [case.name for case in model.load_cases]
+    for name in names:
+        if name not in known:
+            raise UsageError(f"--case {name}: the deck has no such load case; it has {', '.join(known)}")
+    return tuple(case for case in model.load_cases if not names or case.name in names)
+
+
+def deck_record(deck: Deck) -> DeckRecord:
+    """The deck as results keep it."""
+    sources = tuple((source.path.name, source.text) for source in deck.sources)
+    return DeckRecord(deck.path.name, sources, deck.overrides, deck.sha256)
+
+
+def settings_in_words(deck: Deck, settings: SolverSettings) -> dict[str, str]:
+    """Analysis settings in effect, by name, for the result files."""
+    analysis = deck.analysis
+    words = {
+        "flow_rule": analysis.flow_rule,
+        "contact_model": analysis.contact_model,
+        "accuracy": analysis.accuracy,
+        "solver": "clarabel, kinematic form",
+        "tolerance": f"{settings.tolerance:g}",
+        "max_iterations": str(settings.max_iterations),
+        "contact_tolerance": f"{deck.contacts.tolerance:g}",
+    }
+    if analysis.flow_rule != "associative":
+        scheme = analysis.published
+        words["scheme"] = analysis.scheme
+        words |= {f"scheme_{name}": f"{value:g}" for name, value in scheme.model_dump().items()}
+    if analysis.time_limit is not None:
+        words["time_limit"] = f"{analysis.time_limit:g} s"
+    return words
+
+
+def differences_from_expected(deck: Deck, cases: Sequence[CaseResult]) -> list[Notice]:
+    """Where the results are not what the deck expects; UsageError if it expects nothing."""
+    expected = deck.content.expected
+    if not expected:
+        raise UsageError(f"--expected: {deck.path} has no expected section")
+    return [
+        Notice("warning", "not-as-expected", difference)
+        for case in cases
+        if case.load_case.name in expected
+        for difference in compare_with_expected(case, expected[case.load_case.name])
+    ]
+
+
+def exit_code(cases: Sequence[CaseResult]) -> int:
+    """Exit status of a run: the gravest of its cases."""
+    codes = {EXIT_CODES[case.status] for case in cases}
+    return next((code for code in GRAVEST_FIRST if code in codes), 0)
+
+
+EXIT_CODES = {
+    Status.SOLVED: 0,
+    Status.APPROXIMATE: 4,
+    Status.NOT_VERIFIED: 4,
+    Status.NO_EQUILIBRIUM: 5,
+    Status.UNBOUNDED: 5,
+    Status.ITERATION_LIMIT: 4,
+    Status.TIME_LIMIT: 7,
+    Status.NUMERICAL_ERROR: 4,
+}
+GRAVEST_FIRST = (7, 4, 5)
