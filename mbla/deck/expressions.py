@@ -11,6 +11,7 @@ import math
 import operator
 import warnings
 from collections.abc import Callable, Mapping
+from contextlib import suppress
 from typing import Any
 
 from mbla.deck.suggestions import unknown
@@ -87,14 +88,13 @@ class Parameters:
         """
         return _evaluate(_parse(text), self._value, 0)
 
-    def evaluate_parameter(self, name: str) -> float:
-        """Value of a parameter for the check of its own entry: raises its own fault instead of ParameterFaultError."""
-        try:
-            return self._value(name)
-        except ParameterFaultError:
-            if name in self._failures:
-                raise ExpressionError(self._failures[name]) from None
-            raise
+    def failures(self) -> list[tuple[str, str]]:
+        """(name, message) of every parameter whose own expression is at fault."""
+        for name, raw in self._raw.items():
+            if is_expression(raw):
+                with suppress(ExpressionError):  # kept under the name of the parameter that is to blame
+                    self._evaluated(name)
+        return list(self._failures.items())
 
     def _value(self, name: str) -> float:
         if name in CONSTANTS:
@@ -104,6 +104,9 @@ class Parameters:
                 raise ExpressionError(f"{name} is a function: write {name}(...)")
             raise ExpressionError(unknown(f"parameter {name}", name, [*self._raw, *CONSTANTS], "known"))
         self.used.add(name)
+        return self._evaluated(name)
+
+    def _evaluated(self, name: str) -> float:
         if name not in self._values:
             self._values[name] = self._resolve(name)
         return self._values[name]
@@ -119,7 +122,7 @@ class Parameters:
             self._failures[min(cycle, key=list(self._raw).index)] = f"refers to itself: {' -> '.join(cycle)}"
             raise ParameterFaultError(f"parameter {name} refers to itself")
         if len(self._active) >= MAX_CHAIN:
-            raise ExpressionError(f"passes through more than {MAX_CHAIN} other parameters")
+            raise ExpressionError(f"passes through more than {MAX_CHAIN} parameters")
         self._active.append(name)
         try:
             return self.evaluate(raw)

@@ -1,4 +1,4 @@
-"""What the deck types say about a key path: which keys a mapping takes."""
+"""What the deck types say about a key path: which keys a mapping takes, and what a key means."""
 
 from __future__ import annotations
 
@@ -19,6 +19,15 @@ def allowed_keys(root: type[BaseModel], path: KeyPath) -> list[str]:
 def sections_at(root: type[BaseModel], path: KeyPath) -> list[type[BaseModel]]:
     """Types of the mapping at a path; several where a value may have several shapes."""
     return [each for each in _types_at(root, path) if isinstance(each, type) and issubclass(each, BaseModel)]
+
+
+def description(root: type[BaseModel], path: KeyPath) -> str:
+    """What the types say about a key."""
+    for section in sections_at(root, path[:-1]):
+        for name, field in section.model_fields.items():
+            if path[-1] == (field.alias or name):
+                return field.description or ""
+    return ""
 
 
 def takes_names(root: type[BaseModel], path: KeyPath) -> bool:

@@ -23,11 +23,12 @@ NAMED = frozenset({"parameters", "materials", "joints", "load_cases", "expected"
 
 @dataclass
 class Reading:
-    """Everything read so far: texts, faults, and marks of values already reported."""
+    """Everything read so far: texts, faults, and marks of what is reported already (see ``Document``)."""
 
     sources: list[SourceText] = field(default_factory=list)
     faults: list[Fault] = field(default_factory=list)
     reported: set[int] = field(default_factory=set)
+    damaged: set[int] = field(default_factory=set)
     active: list[Path] = field(default_factory=list)
     whole: bool = True
 
@@ -54,6 +55,7 @@ def _read_file(reading: Reading, source: SourceText) -> Tree:
     document = read_yaml(source, number)
     reading.faults += document.faults
     reading.reported |= document.reported
+    reading.damaged |= document.damaged
     reading.whole &= document.whole
     tree = _mapping_root(reading, document)
     if source.path is not None:
@@ -143,7 +145,7 @@ def confined(folder: Path, name: str) -> Path:
     except (OSError, RuntimeError) as error:
         raise FileError(f"cannot be found: {error}") from error
     if not path.is_relative_to(root):
-        raise FileError(f"leads out of the folder tree of the file that names it, {folder}")
+        raise FileError("leads out of the folder tree of the file that names it")
     return path
 
 

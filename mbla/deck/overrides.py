@@ -19,12 +19,12 @@ class _RefusedError(Exception):
     """The override cannot be applied; the message says why."""
 
 
-def apply_override(tree: Tree, text: str, number: int) -> tuple[list[Fault], set[int]]:
+def apply_override(tree: Tree, text: str, number: int) -> list[Fault]:
     """Put one override into the tree; ``number`` counts them from 1, for messages.
 
     Returns
     -------
-    Faults of the override, and the marks of values that are thereby reported.
+    Faults of the override; where there are any, the tree is unchanged.
     """
     file = len(tree.sources)
     source = SourceText(LABEL, text, line=number)
@@ -32,22 +32,22 @@ def apply_override(tree: Tree, text: str, number: int) -> tuple[list[Fault], set
     key, equals, _ = text.partition("=")
     if not equals or not key.strip() or "\n" in text or "\r" in text:
         message = "must be key.path=value, on one line" + ("" if equals else ": there is no =")
-        return [Fault(source.place(0), shorten(text), message)], set()
+        return [Fault(source.place(0), shorten(text), message)]
     offset = len(key) + 1
     document = read_yaml(source, file, offset)
     if document.faults:
-        return [Fault(fault.place, key.strip(), fault.message, fault.value) for fault in document.faults], set()
+        return [Fault(fault.place, key.strip(), fault.message, fault.value) for fault in document.faults]
     if key.strip().partition(".")[0] == "include":
         message = "cannot be set: files are included before anything is set"
-        return [Fault(source.place(0), key.strip(), message)], set()
+        return [Fault(source.place(0), key.strip(), message)]
     if document.data is None:
-        return [Fault(source.place(offset), key.strip(), "has no value: write one after the =")], set()
+        return [Fault(source.place(offset), key.strip(), "has no value: write one after the =")]
     try:
         _put(tree, key.strip().split("."), document.data, document.marks, file << FILE_SHIFT)
     except _RefusedError as refusal:
         written = shorten(text[offset:])
-        return [Fault(source.place(0), key.strip(), str(refusal), written)], set()
-    return [], document.reported
+        return [Fault(source.place(0), key.strip(), str(refusal), written)]
+    return []
 
 
 def _put(tree: Tree, words: list[str], value: Any, value_marks: Marks, mark: int) -> None:

@@ -29,7 +29,8 @@ class Document:
     data    : plain dicts, lists and scalars; None stands for a value that is already reported
     marks   : places of all keys and values
     faults  : everything that was wrong with the text
-    reported: marks of the values that a fault is about, so that nobody complains of them twice
+    reported: marks of the values that are reported already, so that nobody complains of them twice
+    damaged : marks of the mappings in which a key had to be left out
     whole   : false where the text could not be read to its end
     """
 
@@ -37,6 +38,7 @@ class Document:
     marks: Marks
     faults: list[Fault]
     reported: set[int]
+    damaged: set[int]
     whole: bool = True
 
 
@@ -57,7 +59,7 @@ def read_yaml(source: SourceText, file: int, offset: int = 0) -> Document:
         builder.whole = False
     finally:
         parser.dispose()
-    return Document(builder.root, builder.root_marks, builder.faults, builder.reported, builder.whole)
+    return Document(builder.root, builder.root_marks, builder.faults, builder.reported, builder.damaged, builder.whole)
 
 
 class _StopError(Exception):
@@ -82,12 +84,13 @@ class _Builder:
         self.root_marks: Marks = base
         self.faults: list[Fault] = []
         self.reported: set[int] = set()
+        self.damaged: set[int] = set()
         self.whole = True
         self.documents = 0
         self.data: Any = None
         self.marks: Any = None
         self.key: Any = _NO_KEY
-        self.stack: list[tuple[Any, Any, Any]] = []
+        self.stack: list[tuple[Any, Any, Any, Any]] = []  # data, marks, key of what is being filled, key after it
         self.plain: dict[str, Any] = {}  # values of plain scalars seen before: indices and coordinates repeat
 
     # --- one method per kind of event ---
@@ -117,7 +120,7 @@ class _Builder:
     def event(self, event: Any) -> None:
         kind = type(event)
         if kind is yaml.SequenceEndEvent or kind is yaml.MappingEndEvent:
-            self.data, self.marks, self.key = self.stack.pop()
+            self.data, self.marks, _, self.key = self.stack.pop()
             return
         mark = self.base + event.start_mark.index
         if kind is yaml.SequenceStartEvent:
@@ -127,6 +130,7 @@ class _Builder:
         elif kind is yaml.AliasEvent:
             message = f"aliases (*{shorten(event.anchor)}) are not allowed: write the value out, or use a parameter"
             self.fault(mark, message)
+            self.reported.add(mark)
             self.put_value_or_key(None, mark)
         elif kind is yaml.DocumentStartEvent:
             self.start_document(event, mark)
@@ -147,8 +151,9 @@ class _Builder:
         if len(self.stack) >= MAX_DEPTH:
             self.fault(marks.own, f"is nested more than {MAX_DEPTH} levels deep", path=())
             raise _StopError
+        key = self.key
         self.put_value_or_key(data, marks)
-        self.stack.append((self.data, self.marks, self.key))
+        self.stack.append((self.data, self.marks, key, self.key))
         self.data, self.marks, self.key = data, marks, _NO_KEY
 
     def put_value_or_key(self, value: Any, marks: Any) -> None:
@@ -163,7 +168,7 @@ class _Builder:
         else:
             if value is not None:  # an alias is already reported
                 self.fault(marks.own, "a key must be text")
-            self.key = _DROPPED
+            self.leave_out()
 
     def put_under_key(self, value: Any, marks: Any) -> None:
         if self.key is not _DROPPED:
@@ -172,17 +177,24 @@ class _Builder:
         self.key = _NO_KEY
 
     def take_key(self, value: Any, text: str, mark: int) -> None:
-        self.key = _DROPPED
         if text == "<<":
+            self.leave_out()
             self.fault(mark, "merge keys (<<) are not allowed: use `include` or a parameter")
         elif not isinstance(value, str):
+            self.leave_out()
             self.fault(mark, f'a key must be text: write "{shorten(text)}" in quotes' if text else "a key is missing")
         elif value in self.data:
+            self.key = _DROPPED
             first = self.place(self.marks.keys[value])
             self.fault(mark, f"is given twice, first in line {first.line}", path=(*self.path(), value))
         else:
             self.key = value
             self.marks.keys[value] = mark
+
+    def leave_out(self) -> None:
+        """Drop the value of a key that is already reported."""
+        self.key = _DROPPED
+        self.damaged.add(self.marks.own)
 
     def plain_value(self, text: str, mark: int) -> Any:
         """Value of a plain scalar; None, and reported, for what no key of a deck takes."""
@@ -190,10 +202,12 @@ class _Builder:
             value = plain_scalar(text)
         except ValueError as error:
             self.fault(mark, str(error), text)
+            self.reported.add(mark)
             return None
         if value is None and not (type(self.data) is dict and self.key is _NO_KEY):
             if self.stack:  # an empty document has its own message
                 self.fault(mark, "has no value: give one, or leave the key out", text or None)
+                self.reported.add(mark)
         else:
             self.plain[text] = value
         return value
@@ -205,23 +219,23 @@ class _Builder:
 
     def path(self) -> KeyPath:
         """Path of the value that is about to be put."""
-        levels = [*self.stack[1:], (self.data, self.marks, self.key)] if self.stack else []
+        levels = [*self.stack[1:], (self.data, self.marks, self.key, None)] if self.stack else []
         return tuple(
             len(data) - (depth < len(levels) - 1) if type(data) is list else key
-            for depth, (data, _, key) in enumerate(levels)
+            for depth, (data, _, key, _) in enumerate(levels)
             if type(data) is list or isinstance(key, str)
         )
 
     def fault(self, mark: int, message: str, value: str | None = None, path: KeyPath | None = None) -> None:
         key = key_text(self.path() if path is None else path)
         self.faults.append(Fault(self.place(mark), key, message, shorten(value) if value else None))
-        self.reported.add(mark)
 
     def refuse_properties(self, event: Any, mark: int) -> None:
         if event.anchor:
             self.fault(mark, f"anchors (&{shorten(event.anchor)}) are not allowed")
         if event.tag:
-            self.fault(mark, f"tags ({shorten(event.tag)}) are not allowed")
+            tag = event.tag.replace("tag:yaml.org,2002:", "!!")
+            self.fault(mark, f"tags ({shorten(tag)}) are not allowed")
 
     def syntax_fault(self, error: yaml.YAMLError) -> None:
         self.whole = False
@@ -231,6 +245,9 @@ class _Builder:
         index = mark.index if mark else 0
         words = f"{context}: {problem}" if context else str(problem)
         offset = (self.base & OFFSET_MASK) + index
+        begun = getattr(error, "context_mark", None)
+        if begun and mark and begun.line != mark.line:
+            words += f" (it began in line {self.source.place((self.base & OFFSET_MASK) + begun.index).line})"
         if self.source.text[offset : offset + 1] == "\t":
             words += " (indent with spaces, not with tabs)"
         self.faults.append(Fault(self.source.place(offset), "", f"not YAML: {words}"))

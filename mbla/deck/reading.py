@@ -59,15 +59,14 @@ def _no_collection() -> Iterator[None]:
 def _read(path: Path, overrides: Sequence[str]) -> Deck:
     tree, reading = read_files(path)
     for number, text in enumerate(overrides, start=1):
-        faults, reported = apply_override(tree, text, number)
-        reading.faults += faults
-        reading.reported |= reported
+        reading.faults += apply_override(tree, text, number)
     if not reading.whole:  # what could not be read would be reported as missing
         raise DeckError(reading.faults)
     units = _units(tree.data)
     parameters = Parameters(_mapping(tree.data.get("parameters")))
-    content, faults = validate(tree, _converter(parameters, units), reading.reported)
-    faults = [*reading.faults, *faults, *check_references(tree)]
+    content, faults = validate(tree, _converter(parameters, units), reading.reported, reading.damaged)
+    faults += [tree.fault(("parameters", name), message) for name, message in parameters.failures()]
+    faults += [*reading.faults, *check_references(tree)]
     if content is None or faults:
         raise DeckError(_once(faults))
     return Deck(

@@ -35,11 +35,10 @@ def _given(section: Any, keys: Sequence[str]) -> list[str]:
 
 def _exactly_one(section: Any, keys: Sequence[str], what: str = "") -> Iterator[Finding]:
     given = _given(section, keys)
-    what = f" {what}" if what else ""
     if not given:
-        yield (), f"needs{what} one of {listed(keys)}"
+        yield (), f"needs one of {listed(keys)}{what}"
     elif len(given) > 1:
-        yield (given[1],), f"only one{what} of {listed(keys)} may be given, {given[0]} is already"
+        yield (given[1],), f"only one of {listed(keys)} may be given{what}, here are {listed(given, 'and')}"
 
 
 def _least_below_greatest(low: Sequence[float], high: Sequence[float], key: str, names: str) -> Iterator[Finding]:
@@ -145,7 +144,7 @@ def arch_shape(arch: types.ArchItem) -> Iterator[Finding]:
     """A semicircle is given by its span alone; a segment needs its rise or its angle."""
     keys = ("rise", "embrace")
     if arch.shape == "segmental":
-        yield from _exactly_one(arch, keys, "for a segmental arch")
+        yield from _exactly_one(arch, keys, " for a segmental arch")
     else:
         for key in _given(arch, keys):
             yield (
@@ -162,7 +161,7 @@ def arch_shape(arch: types.ArchItem) -> Iterator[Finding]:
 @rule(types.SelectorTerm)
 def selector_term(term: types.SelectorTerm) -> Iterator[Finding]:
     """An index counts within a group; a box has an extent."""
-    if term.group is None and term.index is not None:
+    if term.box is not None and term.index is not None:
         yield ("index",), "applies with group only"
     if term.box is not None:
         for (key, axis), message in _least_below_greatest(*term.box, "box", "xyz"):
@@ -185,7 +184,7 @@ def support(item: types.Support) -> Iterator[Finding]:
     """Ground, or blocks that do not move."""
     if item.ground is None and item.blocks is None:
         yield (), "needs one of ground or blocks"
-    if item.joint is not None and item.ground is None:
+    elif item.joint is not None and item.ground is None:
         yield ("joint",), "applies with ground only: blocks that do not move have the joints of their contacts"
 
 

@@ -118,6 +118,26 @@ def _registry() -> Any:
     return pint.UnitRegistry(cache_folder=None)
 
 
+def _measured(registry: Any, unit: Any, is_angle: bool) -> str:
+    """What a unit measures, in the words of DIMENSIONS where they have it."""
+    if is_angle:
+        return "an angle"
+    for name, dimension in DIMENSIONS.items():
+        if dimension.si and unit.dimensionality == registry.parse_units(dimension.si).dimensionality != {}:
+            return f"{_article(name)} {name.replace('_', ' ')}"
+    return (
+        str(unit.dimensionality)
+        .replace(" ** ", "^")
+        .replace(" / ", "/")
+        .replace(" * ", " ")
+        .replace("dimensionless", "a ratio")
+    )
+
+
+def _article(name: str) -> str:
+    return "an" if name[0] in "ae" else "a"
+
+
 @cache
 def _si_factor(unit: str, dimension: str) -> float:
     """Factor from a unit to the SI unit of a dimension (angles: degree)."""
@@ -134,8 +154,8 @@ def _si_factor(unit: str, dimension: str) -> float:
     # To pint an angle is a plain ratio; `percent` must not pass for one.
     is_angle = "radian" in str(root.units)
     if parsed.dimensionality != registry.parse_units(wanted.si).dimensionality or is_angle != (dimension == "angle"):
-        found = "an angle" if is_angle else str(parsed.dimensionality).replace(" ** ", "^")
-        raise ValueError(f'is not a {shown}: its unit is {found}; write for example "{wanted.example}"')
+        found = _measured(registry, parsed, is_angle)
+        raise ValueError(f'is not {_article(shown)} {shown} but {found}: write for example "{wanted.example}"')
     try:
         return float(registry.Quantity(1.0, parsed).to(wanted.si).magnitude)
     except pint.errors.PintError as error:

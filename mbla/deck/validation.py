@@ -8,7 +8,7 @@ from typing import Any
 from pydantic import ValidationError
 
 from mbla.deck import rules  # noqa: F401  registers the rules across keys
-from mbla.deck.fields import allowed_keys
+from mbla.deck.fields import allowed_keys, description
 from mbla.deck.names import PATTERNS
 from mbla.deck.suggestions import did_you_mean, listed, unknown
 from mbla.deck.tree import KeyPath, MappingMarks, SequenceMarks, Tree, own_mark
@@ -18,22 +18,26 @@ from mbla.errors import Fault
 Convert = Callable[[str, str], float]
 
 
-def validate(tree: Tree, convert: Convert, reported: set[int]) -> tuple[DeckContent | None, list[Fault]]:
+def validate(
+    tree: Tree, convert: Convert, reported: set[int], damaged: set[int]
+) -> tuple[DeckContent | None, list[Fault]]:
     """Checked content, or everything wrong with it.
 
     tree     : the deck as read, with inclusions and overrides
     convert  : (text, dimension) -> number in the deck's units, ValueError otherwise
     reported : marks of values that the reader has complained of; they are not reported again
+    damaged  : marks of mappings that lack something the reader has complained of
     """
     try:
         return DeckContent.model_validate(tree.data, context={"convert": convert}), []
     except ValidationError as error:
         errors = error.errors(include_url=False, include_context=True)
-    return None, list(_faults(tree, errors, reported))
+    around = damaged | {mark for path in _paths_of(tree, reported) for mark in tree.marks_along(path)[:-1]}
+    return None, list(_faults(tree, errors, reported, around))
 
 
-def _faults(tree: Tree, errors: list[Any], reported: set[int]) -> Iterator[Fault]:
-    around = _around(tree, reported)
+def _faults(tree: Tree, errors: list[Any], reported: set[int], around: set[int]) -> Iterator[Fault]:
+    """Faults without those that only follow from others; ``around``: marks of what holds something reported."""
     by_path: dict[KeyPath, Any] = {}
     lengths: dict[KeyPath, int] = {}
     for error in errors:
@@ -48,7 +52,10 @@ def _faults(tree: Tree, errors: list[Any], reported: set[int]) -> Iterator[Fault
         found = len(_value_at(tree.data, path))
         yield tree.fault(path, f"needs {length} {_items(tree.data, path)}, has {found}")
     for path, error in by_path.items():
-        if error["type"] == "reported" or _is_reported(tree, path, error, reported, around):
+        marks = tree.marks_along(path)
+        if error["type"] == "reported" or not reported.isdisjoint(marks):
+            continue
+        if marks[-1] in around and error["type"] in ("rules", "missing", "too_short"):
             continue
         if error["type"] == "rules":
             for below, message in error["ctx"]["findings"]:
@@ -58,14 +65,9 @@ def _faults(tree: Tree, errors: list[Any], reported: set[int]) -> Iterator[Fault
             yield tree.fault(path, message, at_key)
 
 
-def _around(tree: Tree, reported: set[int]) -> set[int]:
-    """Marks of all mappings and lists that hold a value already reported."""
-    return {mark for path in paths_of(tree, reported) for mark in tree.marks_along(path)[:-1]} if reported else set()
-
-
-def paths_of(tree: Tree, marks: set[int]) -> Iterator[KeyPath]:
+def _paths_of(tree: Tree, marks: set[int]) -> Iterator[KeyPath]:
     """Paths of the values that stand at given marks."""
-    pending: list[tuple[KeyPath, Any]] = [((), tree.marks)]
+    pending: list[tuple[KeyPath, Any]] = [((), tree.marks)] if marks else []
     while pending:
         path, node = pending.pop()
         if own_mark(node) in marks:
@@ -74,14 +76,6 @@ def paths_of(tree: Tree, marks: set[int]) -> Iterator[KeyPath]:
             pending += [((*path, key), below) for key, below in node.values.items()]
         elif isinstance(node, SequenceMarks):
             pending += [((*path, index), below) for index, below in enumerate(node.items)]
-
-
-def _is_reported(tree: Tree, path: KeyPath, error: Any, reported: set[int], around: set[int]) -> bool:
-    """Whether the reader has complained of this value, or a rule only fails because a value below it is unreadable."""
-    if not reported:
-        return False
-    marks = tree.marks_along(path)
-    return not reported.isdisjoint(marks) or (error["type"] == "rules" and marks[-1] in around)
 
 
 def _data_path(data: Any, error: Any) -> KeyPath:
@@ -125,6 +119,8 @@ _MESSAGES = {
     "string_too_short": "must not be empty",
     "finite_number": "must be a finite number",
     "quantity": "{reason}",
+    "reserved": "means something else in expressions: choose another name",
+    "reported": "uses a parameter that is at fault itself",
 }
 _TYPES = {"float_type": "must be a number", "int_type": "must be a whole number", "string_type": "must be a text"}
 
@@ -135,7 +131,8 @@ def _words(data: Any, path: KeyPath, error: Any) -> tuple[str, bool]:
     value = error["input"]
     is_key = bool(error["loc"]) and error["loc"][-1] == "[key]"
     if kind == "missing":
-        return "is missing", False
+        meaning = description(DeckContent, path)
+        return "is missing" + (f": {meaning}" if meaning else ""), False
     if kind == "extra_forbidden":
         return _unknown_key(path), True
     if kind in ("too_long", "too_short"):
