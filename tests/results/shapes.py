@@ -1,0 +1,59 @@
+"""Blocks of a few shapes, turned at random, with exact volumes."""
+
+import numpy as np
+
+from mbla.model.blocks import Blocks
+
+TETRA = ([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]], 1 / 6)
+WEDGE = (
+    [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 2], [1, 0, 2], [0, 1, 2]],
+    [[0, 1, 4, 3], [0, 2, 1], [1, 2, 5, 4], [3, 4, 5], [2, 0, 3, 5]],
+    1.0,
+)
+BRICK = (
+    [[0, 0, 0], [2, 0, 0], [2, 1, 0], [0, 1, 0], [0, 0, 1], [2, 0, 1], [2, 1, 1], [0, 1, 1]],
+    [[3, 0, 4, 7], [0, 3, 2, 1], [4, 5, 6, 7], [0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6]],
+    2.0,
+)
+PYRAMID = (
+    [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0.5, 0.5, 3]],
+    [[0, 3, 2, 1], [0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]],
+    1.0,
+)
+
+
+def blocks_of(shapes, seed=0):
+    """Blocks of these shapes: vertices renumbered and the whole turned at random, one beside the other."""
+    generator = np.random.default_rng(seed)
+    vertices, loops, centroids, normals = [], [], [], []
+    for i, (corners, faces, _) in enumerate(shapes):
+        turn, _ = np.linalg.qr(generator.normal(size=(3, 3)))
+        turn *= np.sign(np.linalg.det(turn))
+        order = generator.permutation(len(corners))
+        points = (np.asarray(corners, float)[order] + [4.0 * i, 0, 0]) @ turn.T
+        place = np.argsort(order)
+        faces = [np.roll(place[face], generator.integers(len(face))) for face in faces]
+        faces = [faces[k] for k in generator.permutation(len(faces))]
+        loops += [np.asarray(face) + sum(map(len, vertices)) for face in faces]
+        vertices.append(points)
+        centroids.append(points.mean(axis=0))
+        for face in faces:
+            normal = np.cross(points[face[1]] - points[face[0]], points[face[2]] - points[face[1]])
+            normals.append(normal / np.linalg.norm(normal))
+    n = len(shapes)
+    faces_of = [len(faces) for _, faces, _ in shapes]
+    return Blocks(
+        vertices=np.vstack(vertices),
+        vertex_start=np.concatenate([[0], np.cumsum([len(v) for v in vertices])]),
+        loops=np.concatenate(loops),
+        loop_start=np.concatenate([[0], np.cumsum([len(loop) for loop in loops])]),
+        face_start=np.concatenate([[0], np.cumsum(faces_of)]),
+        facet_of_face=np.arange(sum(faces_of)),
+        face_normals=np.array(normals),
+        convex=np.ones(n, dtype=bool),
+        volumes=np.array([volume for _, _, volume in shapes]),
+        centroids=np.array(centroids),
+        densities=np.ones(n),
+        groups=("shape",) * n,
+        group_indices=np.arange(n),
+    )

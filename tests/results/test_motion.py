@@ -1,0 +1,86 @@
+import numpy as np
+import pytest
+from scipy.linalg import expm
+
+from mbla.results.motion import (
+    LARGEST_ROTATION,
+    SHARE_OF_SIZE,
+    contact_displacements,
+    drawn_motion,
+    motion_scale,
+    movable_size,
+    moved_vertices,
+    rotation_matrices,
+    vertex_displacements,
+)
+
+from .synthetic import tower_results
+
+
+@pytest.fixture(scope="module")
+def results():
+    return tower_results()
+
+
+def test_rotation_matrices_are_exponentials():
+    vectors = np.random.default_rng(0).normal(size=(20, 3))
+    vectors[0] = 0
+    for vector, matrix in zip(vectors, rotation_matrices(vectors), strict=True):
+        cross = np.array([[0, -vector[2], vector[1]], [vector[2], 0, -vector[0]], [-vector[1], vector[0], 0]])
+        assert matrix == pytest.approx(expm(cross), abs=1e-12)
+
+
+def test_farthest_corner_moves_by_the_stated_share(results):
+    motion = drawn_motion(results.model, results.cases[0])
+    moved = np.linalg.norm(vertex_displacements(results.model.blocks, motion), axis=1)
+    assert moved.max() == pytest.approx(SHARE_OF_SIZE * movable_size(results.model))
+
+
+def test_tower_turns_about_its_edge(results):
+    motion = drawn_motion(results.model, results.cases[0])
+    moved = vertex_displacements(results.model.blocks, motion)
+    vertices = results.model.blocks.vertices
+    edge = (vertices[:, 0] == 1) & (vertices[:, 2] == 1)
+    assert edge.sum() == 2
+    assert moved[edge] == pytest.approx(0, abs=1e-12)
+    top = (vertices[:, 0] == 1) & (vertices[:, 2] == 3)
+    assert (moved[top][:, 0] > 0).all()
+
+
+def test_finite_motion_keeps_distances_and_begins_as_the_linear_one(results):
+    blocks = results.model.blocks
+    motion = np.random.default_rng(1).normal(size=(3, 6))
+    moved = moved_vertices(blocks, motion)
+    for b in range(3):
+        before, after = blocks.vertices[8 * b : 8 * b + 8], moved[8 * b : 8 * b + 8]
+        pairs = np.linalg.norm(before[:, None] - before[None], axis=2)
+        assert np.linalg.norm(after[:, None] - after[None], axis=2) == pytest.approx(pairs)
+    small = 1e-6 * motion
+    linear = vertex_displacements(blocks, small)
+    assert moved_vertices(blocks, small) - blocks.vertices == pytest.approx(linear, abs=1e-10)
+
+
+def test_small_spinning_block_does_not_turn_several_times(results):
+    motion = np.zeros((3, 6))
+    motion[2, 5] = 1.0
+    motion[1, 0] = 1e-3
+    scaled = motion_scale(results.model, motion) * motion
+    assert np.linalg.norm(scaled[:, 3:], axis=1).max() == pytest.approx(LARGEST_ROTATION)
+
+
+def test_nothing_moves_without_mechanism(results):
+    assert motion_scale(results.model, np.zeros((3, 6))) == 0.0
+
+
+def test_certificate_moves_where_there_is_no_equilibrium(results):
+    motion = drawn_motion(results.model, results.cases[1])
+    assert motion[1, 2] < 0
+    assert not motion[[0, 2]].any()
+
+
+def test_contact_points_move_with_the_mean_of_their_bodies(results):
+    motion = np.zeros((3, 6))
+    motion[1, 0] = 1.0
+    moved = contact_displacements(results.model, results.contacts, motion)
+    assert moved[:4] == pytest.approx(np.tile([0.5, 0, 0], (4, 1)))
+    assert not moved[4:].any()
