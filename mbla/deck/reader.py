@@ -240,14 +240,16 @@ class _Builder:
     def syntax_fault(self, error: yaml.YAMLError) -> None:
         self.whole = False
         mark = getattr(error, "problem_mark", None) or getattr(error, "context_mark", None)
+        begun = getattr(error, "context_mark", None)
         problem = getattr(error, "problem", None) or getattr(error, "reason", None) or "cannot be read"
         context = getattr(error, "context", None)
-        index = mark.index if mark else 0
-        words = f"{context}: {problem}" if context else str(problem)
-        offset = (self.base & OFFSET_MASK) + index
-        begun = getattr(error, "context_mark", None)
-        if begun and mark and begun.line != mark.line:
-            words += f" (it began in line {self.source.place((self.base & OFFSET_MASK) + begun.index).line})"
+        words = f"not YAML: {context}: {problem}" if context else f"not YAML: {problem}"
+        first = self.base & OFFSET_MASK
+        offset = first + (mark.index if mark else 0)
+        if begun and offset >= len(self.source.text.rstrip()):
+            offset = first + begun.index  # what never ends is better looked for where it begins
+        elif begun and (line := self.source.place(first + begun.index).line) != self.source.place(offset).line:
+            words += f" (it began in line {line})"
         if self.source.text[offset : offset + 1] == "\t":
             words += " (indent with spaces, not with tabs)"
-        self.faults.append(Fault(self.source.place(offset), "", f"not YAML: {words}"))
+        self.faults.append(Fault(self.source.place(offset), "", words))
