@@ -118,11 +118,12 @@ def _edge_meets_face(
     crossing = points[:, 0] + share[:, None] * (points[:, 1] - points[:, 0])
     middle = points.mean(axis=1)
     meets = np.zeros(len(edge), dtype=bool)
-    places = ((through, crossing), (touching[:, 0], points[:, 0]), (touching[:, 1], points[:, 1]), (in_plane, middle))
-    for chosen, place in places:
+    for chosen, place in ((through, crossing), (touching[:, 0], points[:, 0]), (touching[:, 1], points[:, 1])):
         rows = np.flatnonzero(chosen)
-        meets[rows] |= _inside(polyhedra, faces, face[rows], place[rows], eps[rows])
+        meets[rows] |= _inside(polyhedra, faces, face[rows], place[rows], eps[rows], outline_counts=True)
     rows = np.flatnonzero(in_plane)
+    # the middle of a face's own edge is on its outline
+    meets[rows] |= _inside(polyhedra, faces, face[rows], middle[rows], eps[rows], outline_counts=False)
     meets[rows] |= _crosses_outline(polyhedra, faces, face[rows], points[rows], eps[rows])
     return meets
 
@@ -155,9 +156,14 @@ def _plane_outlines(
 
 
 def _inside(
-    polyhedra: Polyhedra, faces: FaceGeometry, face: IntArray, points: FloatArray, eps: FloatArray
+    polyhedra: Polyhedra,
+    faces: FaceGeometry,
+    face: IntArray,
+    points: FloatArray,
+    eps: FloatArray,
+    outline_counts: bool,
 ) -> BoolArray:
-    """True where a point in the plane of a face lies inside its outline, and not on it, (n_pairs,)."""
+    """True where a point in the plane of a face lies inside its outline, and on it if that counts, (n_pairs,)."""
     if not len(face):
         return np.zeros(0, dtype=bool)
     tails, heads, start, axes = _plane_outlines(polyhedra, faces, face)
@@ -170,7 +176,8 @@ def _inside(
     share = np.clip(np.einsum("ij,ij->i", arms, along) / np.einsum("ij,ij->i", along, along), 0, 1)
     clear = np.linalg.norm(arms - share[:, None] * along, axis=1) > np.repeat(eps, counts)
     odd = np.add.reduceat(right.astype(np.int64), start[:-1]) % 2 == 1
-    return np.asarray(odd & np.logical_and.reduceat(clear, start[:-1]))
+    off_outline = np.logical_and.reduceat(clear, start[:-1])
+    return np.asarray(odd | ~off_outline if outline_counts else odd & off_outline)
 
 
 def _crosses_outline(

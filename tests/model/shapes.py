@@ -13,7 +13,7 @@ from mbla.deck import Deck, read_deck
 from mbla.model.build_blocks import BuiltBlocks, Labels, build_blocks
 from mbla.model.polyhedra import Polyhedra, polyhedra_from_lists
 
-Shape = tuple[list[list[float]], list[list[int]]]
+Shape = tuple[Sequence[Sequence[float]], Sequence[Sequence[int]]]
 
 BOX_FACES = [[0, 3, 2, 1], [4, 5, 6, 7], [0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7]]
 L_OUTLINE = [(0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2)]

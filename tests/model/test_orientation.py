@@ -56,7 +56,7 @@ def test_edges_of_a_box() -> None:
 
 def test_pieces_are_counted() -> None:
     near, far = box(), box((5, 0, 0), (6, 1, 1))
-    both = near[0] + far[0], near[1] + [[corner + 8 for corner in face] for face in far[1]]
+    both = [*near[0], *far[0]], [*near[1], *([corner + 8 for corner in face] for face in far[1])]
     polyhedra = raw(near, both)
     assert count_pieces(polyhedra, find_edges(polyhedra)).tolist() == [1, 2]
 

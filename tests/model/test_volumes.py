@@ -60,9 +60,9 @@ def test_far_from_the_origin_nothing_is_lost() -> None:
 
 def test_volume_of_a_bent_face_does_not_depend_on_its_first_corner() -> None:
     vertices, faces = box()
-    vertices[6] = [1.0, 1.0, 1.0005]
-    turned = [face[2:] + face[:2] for face in faces]
-    shifted = [face[1:] + face[:1] for face in faces]
+    vertices = [*vertices[:6], [1.0, 1.0, 1.0005], vertices[7]]
+    turned = [[*face[2:], *face[:2]] for face in faces]
+    shifted = [[*face[1:], *face[:1]] for face in faces]
     volumes, _ = volumes_and_centroids(raw((vertices, faces), (vertices, turned), (vertices, shifted)))
     assert volumes[1:] == pytest.approx([volumes[0]] * 2, rel=1e-15)
 

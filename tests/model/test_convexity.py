@@ -1,0 +1,33 @@
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from scipy.spatial import ConvexHull
+
+from tests.model.shapes import L_OUTLINE, TETRAHEDRON, box, build, hull, moved, prism, rotation
+
+
+@pytest.mark.parametrize("scale", [1e-6, 1.0, 1e6])
+def test_each_block_by_itself(scale: float) -> None:
+    shapes = [box(), prism(L_OUTLINE), TETRAHEDRON, hull(0)[0], prism(L_OUTLINE, 0.1)]
+    built = build(*[moved(shape, scale * rotation(0)) for shape in shapes])
+    assert built.blocks.convex.tolist() == [True, False, True, True, False]
+
+
+def test_large_polyhedra() -> None:
+    points = np.random.default_rng(0).normal(size=(400, 3))
+    points /= np.linalg.norm(points, axis=1)[:, None]
+    faces = ConvexHull(points).simplices.tolist()
+    dented = points.copy()
+    dented[7] *= 0.5
+    built = build((points.tolist(), faces), (dented.tolist(), faces))
+    assert not built.defects
+    assert built.blocks.convex.tolist() == [True, False]
+
+
+@pytest.mark.parametrize(("dent", "convex"), [(1e-4, True), (1e-2, False)])
+def test_dents_within_the_tolerance_do_not_count(dent: float, convex: bool) -> None:
+    vertices, faces = box()
+    vertices = [*vertices, [0.5, 0.5, 1 - dent]]
+    built = build((vertices, [faces[0], *([4 + i, 4 + (i + 1) % 4, 8] for i in range(4)), *faces[2:]]))
+    assert built.blocks.convex.tolist() == [convex]

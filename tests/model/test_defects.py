@@ -1,0 +1,178 @@
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from mbla.errors import MblaError
+from mbla.model.build_blocks import blocks_from_polyhedra
+from tests.model.shapes import TETRAHEDRON, Shape, box, build, build_raw, moved, raw, rotation
+
+
+def message_of(shape: Shape, tolerance: float = 1e-3) -> str:
+    """The one defect of the middle of three blocks, the others being sound."""
+    built = build(box((-9, 0, 0), (-8, 1, 1)), shape, box((9, 0, 0), (10, 1, 1)), tolerance=tolerance)
+    (defect,) = built.defects
+    assert defect.block == 1
+    return defect.message
+
+
+def test_missing_face() -> None:
+    vertices, faces = box()
+    assert message_of((vertices, faces[1:])) == (
+        "is not closed: 4 edges, first that between vertices 0 and 1, have one face only, face 1"
+    )
+
+
+def test_missing_triangle() -> None:
+    vertices, faces = TETRAHEDRON
+    assert "3 edges" in message_of((vertices, faces[:3]))
+
+
+def test_face_listed_twice() -> None:
+    vertices, faces = box()
+    assert message_of((vertices, [*faces, faces[2][::-1]])) == (
+        "faces 2 and 6 have the same corners: each face is listed once"
+    )
+
+
+def test_edge_with_more_than_two_faces() -> None:
+    vertices, faces = box()
+    fin = [[0, 4, 8], [0, 8, 4]]
+    assert message_of(([*vertices, [-1, -1, 0.5]], [*faces, fin[0]])) == (
+        "the edge between vertices 0 and 4 has more than two faces"
+    )
+
+
+def test_two_boxes_that_share_an_edge_are_no_block() -> None:
+    near, far = box(), box((1, 1, 0), (2, 2, 1))
+    # corners (1, 1, 0) and (1, 1, 1) of the far box are corners 2 and 6 of the near one
+    number = {0: 2, 4: 6, **{corner: corner + 8 for corner in (1, 2, 3, 5, 6, 7)}}
+    faces = [*near[1], *([number[corner] for corner in face] for face in far[1])]
+    message = message_of(([*near[0], *far[0]], faces))
+    assert message == "the edge between vertices 2 and 6 has more than two faces"
+
+
+def test_separate_pieces() -> None:
+    near, far = box(), box((5, 0, 0), (6, 1, 1))
+    both = [*near[0], *far[0]], [*near[1], *([corner + 8 for corner in face] for face in far[1])]
+    assert message_of(both) == "is 2 separate pieces: each must be a block"
+
+
+def test_vertex_passed_twice() -> None:
+    vertices, faces = box()
+    assert message_of((vertices, [[0, 3, 2, 1, 3], *faces[1:]])) == "face 0 passes vertex 3 twice"
+
+
+def test_two_vertices_at_one_place() -> None:
+    vertices, faces = box()
+    vertices = [*vertices, list(vertices[5])]
+    faces = [[8 if corner == 5 else corner for corner in faces[2]] if n == 2 else face for n, face in enumerate(faces)]
+    assert message_of((vertices, faces)) == "vertices 5 and 8 lie at the same place"
+
+
+@pytest.mark.parametrize("coordinate", [np.nan, np.inf, -np.inf, 1e60])
+def test_wild_coordinates(coordinate: float) -> None:
+    vertices, faces = box()
+    vertices = [*vertices[:3], [0.0, coordinate, 0], *vertices[4:]]
+    assert message_of((vertices, faces)) == "vertex 3 has a coordinate that is not finite or exceeds 1e+50"
+
+
+def test_flat_face() -> None:
+    vertices = [[0.0, 0, 0], [1.0, 0, 0], [0.0, 1, 0], [0.5, 0, 0], [0.0, 0, 1]]
+    faces = [[0, 3, 1], [0, 2, 3], [3, 2, 1], [0, 1, 4], [1, 2, 4], [2, 0, 4]]
+    assert message_of((vertices, faces)) == "face 0 has no area"
+
+
+def test_no_volume() -> None:
+    vertices = [[0.0, 0, 0], [1.0, 0, 0], [1.0, 1, 0], [0.0, 1, 0]]
+    assert message_of((vertices, [[0, 1, 2], [0, 2, 3], [0, 1, 3], [1, 2, 3]])) == "has no volume"
+
+
+def test_no_volume_far_from_the_origin_whatever_rounding_makes_of_it() -> None:
+    flat = [[0.0, 0, 0], [0.1, 0, 0], [0.1, 0.1, 0], [0, 0.1, 0]]
+    shape = moved((flat, [[0, 1, 2], [0, 2, 3], [0, 1, 3], [1, 2, 3]]), rotation(5), (1e5, 3e5, -2e5))
+    assert message_of(shape) == "has no volume"
+
+
+@pytest.mark.parametrize("thickness", [1e-2, 1e-4, 1e-5])
+@pytest.mark.parametrize("thin_axes", [1, 2])
+@pytest.mark.parametrize("scale", [1e-6, 1.0, 1e6])
+def test_plates_and_needles_are_blocks(thickness: float, thin_axes: int, scale: float) -> None:
+    extent = [1.0, 1.0, 1.0]
+    for axis in range(thin_axes):
+        extent[axis] = thickness
+    shape = moved(box((0, 0, 0), extent), scale * rotation(1))
+    built = build(shape)
+    assert not built.defects
+    assert built.blocks.volumes == pytest.approx([thickness**thin_axes * scale**3])
+
+
+def test_thin_plate_far_from_the_origin_is_a_block() -> None:
+    assert not build(moved(box((0, 0, 0), (1, 1, 1e-4)), rotation(2), (1e4, 1e4, 1e4))).defects
+
+
+def bent_box(height: float) -> Shape:
+    vertices, faces = box()
+    return [*vertices[:6], [1, 1, 1 + height], vertices[7]], faces
+
+
+def test_bent_faces_beyond_the_tolerance() -> None:
+    assert message_of(bent_box(0.1)) == (
+        "face 1 is not planar: corners leave the plane by 0.0249, 2.47% of the block size; "
+        "contacts.tolerance allows 0.10%"
+    )
+
+
+def test_bent_faces_within_the_tolerance() -> None:
+    built = build(box((-9, 0, 0), (-8, 1, 1)), bent_box(0.002))
+    assert not built.defects
+    (notice,) = built.notices
+    assert notice.identifier == "faces-not-quite-planar"
+    assert notice.message == (
+        "1 face of 1 block (b[1]) is planar only within the tolerance; the worst, face 1 of b[1], by 0.0005 of the "
+        "block size; each is taken as the plane fitted to its corners"
+    )
+
+
+@pytest.mark.parametrize(("tolerance", "refused"), [(1e-2, True), (1e-1, False)])
+def test_the_tolerance_decides(tolerance: float, refused: bool) -> None:
+    assert bool(build(bent_box(0.1), tolerance=tolerance).defects) is refused
+
+
+@pytest.mark.parametrize("scale", [1e-6, 1e6])
+def test_the_tolerance_is_relative_to_the_block(scale: float) -> None:
+    assert build(moved(bent_box(0.1), scale * np.eye(3))).defects
+    assert not build(moved(bent_box(0.002), scale * np.eye(3))).defects
+
+
+def test_rounding_far_from_the_origin_is_not_reported() -> None:
+    assert build(moved(box(), rotation(4), (1e7, 1e7, 1e7))).notices == ()
+
+
+def test_every_block_with_a_defect_is_reported_once() -> None:
+    vertices, faces = box()
+    open_box = (vertices, faces[1:])
+    built = build(open_box, box(), bent_box(0.1), open_box)
+    assert [defect.block for defect in built.defects] == [0, 2, 3]
+
+
+def test_unused_vertices_are_left_out_with_a_notice() -> None:
+    vertices, faces = box()
+    built = build_raw(raw(([*vertices, [7, 7, 7]], faces), box((3, 0, 0), (4, 1, 1))))
+    assert not built.defects
+    assert len(built.blocks.vertices) == 16
+    assert [notice.message for notice in built.notices] == ["1 vertex that no face uses was left out in 1 block (b[0])"]
+    assert built.blocks.volumes == pytest.approx([1, 1])
+
+
+def test_blocks_from_polyhedra_names_every_refused_block() -> None:
+    vertices, faces = box()
+    with pytest.raises(MblaError, match=r"block pier\[1\]: is not closed(.|\n)*block pier\[2\]: is not closed"):
+        blocks_from_polyhedra([vertices] * 3, [faces, faces[1:], faces[:-1]], "pier")
+
+
+def test_blocks_from_polyhedra_counts_in_groups() -> None:
+    vertices, faces = box()
+    blocks = blocks_from_polyhedra([vertices] * 4, [faces] * 4, ["a", "b", "a", "b"], [1.0, 2.0, 3.0, 4.0])
+    assert [blocks.name(block) for block in range(4)] == ["a[0]", "b[0]", "a[1]", "b[1]"]
+    assert blocks.masses == pytest.approx([1, 2, 3, 4])

@@ -1,0 +1,98 @@
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from scipy.spatial import ConvexHull
+
+from tests.model.shapes import L_OUTLINE, Shape, box, build, moved, prism, rotation
+
+
+def triangulated_box(n: int = 1, bulge: float = 0.0) -> Shape:
+    """Unit box whose top is n x n squares of two triangles each, raised by ``bulge`` (1 - r^2) about the middle."""
+    grid = [
+        [i / n, j / n, 1 + bulge * (1 - (2 * i / n - 1) ** 2) * (1 - (2 * j / n - 1) ** 2)]
+        for j in range(n + 1)
+        for i in range(n + 1)
+    ]
+
+    def at(i: int, j: int) -> int:
+        return j * (n + 1) + i
+
+    top = []
+    for i in range(n):
+        for j in range(n):
+            top += [[at(i, j), at(i + 1, j), at(i + 1, j + 1)], [at(i, j), at(i + 1, j + 1), at(i, j + 1)]]
+    base = len(grid)
+    vertices = [*grid, [0.0, 0, 0], [1.0, 0, 0], [1.0, 1, 0], [0.0, 1, 0]]
+    rim = [
+        [at(i, 0) for i in range(n + 1)],
+        [at(n, j) for j in range(n + 1)],
+        [at(n - i, n) for i in range(n + 1)],
+        [at(0, n - j) for j in range(n + 1)],
+    ]
+    sides = [[base + k, base + (k + 1) % 4, *rim[k][::-1]] for k in range(4)]
+    return vertices, [*top, *sides, [base + 3, base + 2, base + 1, base]]
+
+
+def facets(shape: Shape, tolerance: float = 1e-3) -> int:
+    built = build(shape, tolerance=tolerance)
+    assert not built.defects
+    return int(built.blocks.facet_of_face.max()) + 1
+
+
+@pytest.mark.parametrize("n", [1, 2, 7])
+@pytest.mark.parametrize("seed", [0, 1])
+def test_triangles_of_a_plane_are_one_facet(n: int, seed: int) -> None:
+    shape = moved(triangulated_box(n), 1e3 * rotation(seed), (5e3, 0, 0))
+    assert facets(shape) == 6
+
+
+def test_box_has_six() -> None:
+    assert build(box()).blocks.facet_of_face.tolist() == [0, 1, 2, 3, 4, 5]
+
+
+def test_numbers_run_over_all_blocks_in_order() -> None:
+    built = build(triangulated_box(), box((2, 0, 0), (3, 1, 1)))
+    assert built.blocks.facet_of_face.tolist() == [0, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11]
+
+
+def test_parallel_faces_at_different_heights_stay_apart() -> None:
+    assert facets(prism([(0, 0), (2, 0), (2, 1), (1, 1), (1, 1.5), (0, 1.5)])) == 8
+
+
+def test_coplanar_faces_that_share_no_edge_stay_apart() -> None:
+    u_shape = [(0, 0), (3, 0), (3, 2), (2, 2), (2, 1), (1, 1), (1, 2), (0, 2)]
+    assert facets(prism(u_shape)) == 10
+
+
+def test_random_hull_has_a_facet_for_each_triangle() -> None:
+    points = np.random.default_rng(0).normal(size=(30, 3))
+    points /= np.linalg.norm(points, axis=1)[:, None]
+    faces = ConvexHull(points).simplices.tolist()
+    assert facets((points.tolist(), faces)) == len(faces)
+
+
+def test_bulge_within_the_tolerance_is_one_facet() -> None:
+    assert facets(triangulated_box(6, bulge=5e-4)) == 6
+
+
+def test_finely_faceted_curve_is_not_flattened() -> None:
+    # neighbours are nearly in line, the whole leaves its plane by 25 times the tolerance
+    assert facets(triangulated_box(40, bulge=2.5e-2)) > 100
+
+
+@pytest.mark.parametrize("bulge", [5e-4, 2e-3, 1e-2, 5e-2])
+@pytest.mark.parametrize("n", [4, 16])
+def test_no_corner_leaves_its_facet_by_more_than_the_tolerance(bulge: float, n: int) -> None:
+    blocks = build(triangulated_box(n, bulge)).blocks
+    for facet in range(int(blocks.facet_of_face.max()) + 1):
+        faces = np.flatnonzero(blocks.facet_of_face == facet)
+        rows = np.concatenate([blocks.loops[blocks.loop_start[f] : blocks.loop_start[f + 1]] for f in faces])
+        corners = blocks.vertices[rows] - blocks.vertices[rows].mean(axis=0)
+        assert np.linalg.svd(corners)[1][2] / np.sqrt(len(rows)) <= 1e-3 * blocks.sizes[0]
+
+
+def test_l_shaped_face_is_one_facet_with_its_triangles() -> None:
+    vertices, faces = prism(L_OUTLINE)
+    split = [[6, 7, 8], [6, 8, 9], [6, 9, 10], [6, 10, 11]]
+    assert facets((vertices, [faces[0], *split, *faces[2:]])) == 8
