@@ -6,6 +6,7 @@ contact points (:mod:`~mbla.contacts.corners`).
 """
 
 from mbla.contacts.contacts import ContactReport, Contacts
+from mbla.contacts.notices import overlap_messages
 from mbla.contacts.search import find_contacts
 
-__all__ = ["ContactReport", "Contacts", "find_contacts"]
+__all__ = ["ContactReport", "Contacts", "find_contacts", "overlap_messages"]

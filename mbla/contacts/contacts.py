@@ -74,8 +74,10 @@ class ContactReport:
 
     slivers        : (n, 2) bodies of common surfaces dropped because they are thinner than the tolerance
     sliver_widths  : (n,) relative to block size
-    near_misses    : (n, 2) bodies with opposite faces that miss each other by 1 to 10 times the tolerance
-    near_miss_gaps : (n,) relative to block size
+    near_misses    : (n, 2) bodies with opposite faces that miss each other: by more than the tolerance somewhere, and
+                     by at most ten times the tolerance amid the common surface
+    near_miss_gaps : (n,) greatest distance over the common surface, relative to block size; negative where faces
+                     overlap
     overlaps       : (n, 2) blocks that share volume deeper than the tolerance
     overlap_depths : (n,) relative to block size
     unchecked      : (n, 2) pairs of blocks whose overlap could not be judged, because one is not a closed solid

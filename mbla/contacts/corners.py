@@ -19,6 +19,7 @@ from mbla.model.ragged import next_item
 
 # Corners this close to the chord are dropped even where dropping others as well would make the outline cross itself.
 _COLLINEAR = 1e-9
+_SHARE_OF_WIDTH = 0.1
 # The first corner of an outline is the least one along a direction that no edge of a building is likely to follow.
 _ODD_DIRECTION = np.array([0.8253356, 0.5646425])
 
@@ -56,10 +57,12 @@ class Corners:
 def needed_corners(polygons: Polygons, tolerance: float) -> Corners:
     """Corners of polygons with the needless ones dropped and holes narrower than the tolerance filled.
 
+    A narrow polygon is described more finely: to a tenth of its width at most.
     Outer rings and holes keep at least three corners; each ring starts at its least corner along an odd direction.
     """
     found = _without_narrow_holes(Corners(*rings(polygons)), tolerance)
-    keep = _needed(found, tolerance)
+    fineness = np.minimum(tolerance, _SHARE_OF_WIDTH * widths(polygons))[found.polygon_of_corner]
+    keep = _needed(found, fineness)
     thinned = found.take(keep)
     changed = np.unique(found.polygon_of_corner[~keep])
     if len(changed):
@@ -67,7 +70,7 @@ def needed_corners(polygons: Polygons, tolerance: float) -> Corners:
         broken = changed[~valid(outlines[changed])]
         if len(broken):
             cautious = np.isin(found.polygon_of_corner, broken)
-            keep = np.where(cautious, _needed(found, _COLLINEAR), keep)
+            keep = np.where(cautious, _needed(found, np.minimum(fineness, _COLLINEAR)), keep)
             thinned = found.take(keep)
     return _from_least_corner(thinned)
 
@@ -97,8 +100,8 @@ def _without_narrow_holes(corners: Corners, tolerance: float) -> Corners:
     return corners.take(~narrow[corners.ring_of_corner])
 
 
-def _needed(corners: Corners, tolerance: float) -> BoolArray:
-    """Corners that stay, (n_corners,)."""
+def _needed(corners: Corners, fineness: FloatArray) -> BoolArray:
+    """Corners that stay, (n_corners,), where fineness (n_corners,) is the distance from the chord that is needless."""
     n = len(corners.points)
     ring = corners.ring_of_corner
     following = next_item(corners.ring_start)
@@ -114,7 +117,7 @@ def _needed(corners: Corners, tolerance: float) -> BoolArray:
         chord = _off_chord(corners.points[active], corners.points[before], corners.points[after])
         spread = np.maximum(dropped[before], dropped[active]) + chord
         off = spread.max(axis=1)
-        needless = off <= tolerance
+        needless = off <= fineness[active]
         if not needless.any():
             return keep
         # Rings without a needless corner are done; of the others the least deviating corner goes.

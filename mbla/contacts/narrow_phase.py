@@ -5,9 +5,12 @@ is judged by itself (tolerance ε, lengths relative to the block size of the pai
 
 - contact:    the gap is at most ε at every corner, and the part is at least ε wide;
 - sliver:     the gap is at most ε, but the part is narrower;
-- near miss:  the gap is more than ε and at most 10 ε everywhere, and the part is at least ε wide.
+- near miss:  the gap is more than ε somewhere, halfway between its extremes at most 10 ε, and the part is at least
+              ε wide.
 
-Parts narrower than a thousandth of ε are facets that share an edge, not a surface: they are nothing at all.
+Where the part is narrow because a facet is (a finely faceted cylinder in its socket), and takes at least half of that
+facet, it is no sliver but a contact. Parts narrower than a thousandth of ε are facets that share an edge, not a
+surface: they are nothing at all.
 """
 
 from __future__ import annotations
@@ -22,6 +25,7 @@ from mbla.contacts.facets import Facets
 from mbla.contacts.overlay import Overlays, Planes, build_overlays, concatenate, gap_at, local_maps
 from mbla.contacts.polygons import (
     Polygons,
+    areas,
     boxes_overlap,
     connected_parts,
     corners,
@@ -33,6 +37,7 @@ from mbla.model.blocks import Blocks
 from mbla.model.model import Ground
 
 _EDGE = 1e-3
+_NARROW_FACET = 0.5
 _ROUNDING = 1e-12
 
 
@@ -45,12 +50,16 @@ class Patches:
     widths   : (n,) relative to block size
     gaps     : (n,) greatest distance between the two planes over the patch with its sign (negative where they
                overlap), relative to block size
+    mid_gaps : (n,) halfway between the extremes of that distance, relative to block size
+    coverage : (n,) share of the smaller of the two facets that the patch takes
     """
 
     overlays: Overlays
     polygons: Polygons
     widths: FloatArray
     gaps: FloatArray
+    mid_gaps: FloatArray
+    coverage: FloatArray
 
     def __len__(self) -> int:
         return len(self.widths)
@@ -58,7 +67,14 @@ class Patches:
     def take(self, rows: IntArray | BoolArray) -> Patches:
         """The given rows."""
         index = np.arange(len(self))[rows]
-        return Patches(self.overlays.take(index), self.polygons[index], self.widths[index], self.gaps[index])
+        return Patches(
+            self.overlays.take(index),
+            self.polygons[index],
+            self.widths[index],
+            self.gaps[index],
+            self.mid_gaps[index],
+            self.coverage[index],
+        )
 
 
 @dataclass(frozen=True)
@@ -85,7 +101,7 @@ def find_patches(
         overlays.append(on_ground)
         shapes.append(_outlines(on_ground, facets, 1))
     parts, row = connected_parts(np.concatenate(shapes))
-    return _measured(concatenate(overlays).take(row), parts)
+    return _measured(concatenate(overlays).take(row), parts, areas(facets.polygons))
 
 
 def judge(patches: Patches, tolerance: float) -> Verdicts:
@@ -93,9 +109,10 @@ def judge(patches: Patches, tolerance: float) -> Verdicts:
     gap = np.abs(patches.gaps)
     # Equality with the tolerance must not hang on the last digit.
     limit = tolerance * (1 + 1e-9) + _ROUNDING
-    close, wide = gap <= limit, patches.widths >= tolerance * (1 - 1e-9)
-    near = ~close & (gap <= NEAR_MISS * limit)
+    close = gap <= limit
+    near = ~close & (np.abs(patches.mid_gaps) <= NEAR_MISS * limit)
     visible = patches.widths > _EDGE * tolerance
+    wide = (patches.widths >= tolerance * (1 - 1e-9)) | (visible & (patches.coverage >= _NARROW_FACET))
     return Verdicts(
         contacts=patches.take(close & wide),
         slivers=patches.take(close & ~wide & visible),
@@ -147,11 +164,19 @@ def _outlines(overlays: Overlays, facets: Facets, side: int) -> Polygons:
     return map_polygons(facets.polygons[facet], matrices, offsets)
 
 
-def _measured(overlays: Overlays, polygons: Polygons) -> Patches:
+def _measured(overlays: Overlays, polygons: Polygons, facet_areas: FloatArray) -> Patches:
     points, row = corners(polygons)
     gap = gap_at(overlays, row, points)
-    extreme = np.zeros(len(polygons))
-    np.maximum.at(extreme, row, np.abs(gap))
-    high = np.full(len(polygons), -np.inf)
-    np.maximum.at(high, row, gap)
-    return Patches(overlays, polygons, widths(polygons), np.where(high >= extreme, extreme, -extreme))
+    first = np.flatnonzero(np.diff(row, prepend=-1))
+    high = np.maximum.reduceat(gap, first) if len(first) else np.zeros(0)
+    low = np.minimum.reduceat(gap, first) if len(first) else np.zeros(0)
+    area_a = np.where(overlays.facets[:, 0] >= 0, facet_areas[overlays.facets[:, 0]], np.inf)  # ground has no end
+    smaller = np.minimum(area_a, facet_areas[overlays.facets[:, 1]])
+    return Patches(
+        overlays=overlays,
+        polygons=polygons,
+        widths=widths(polygons),
+        gaps=np.where(high >= -low, high, low),
+        mid_gaps=(high + low) / 2,
+        coverage=areas(polygons) * overlays.sizes**2 / smaller,
+    )

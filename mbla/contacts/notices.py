@@ -21,7 +21,7 @@ def report_notices(
 ) -> tuple[Notice, ...]:
     """What the report has to say; bodies (n, 2) of all contacts."""
     return (
-        *_overlaps(model, section, report),
+        *_overlaps(model, report),
         *_near_misses(model, section, report),
         *_slivers(model, section, report),
         *_isolated(model, report),
@@ -31,7 +31,7 @@ def report_notices(
     )
 
 
-def overlap_messages(model: Model, section: ContactsSection, report: ContactReport) -> tuple[str, ...]:
+def overlap_messages(model: Model, report: ContactReport) -> tuple[str, ...]:
     """One sentence for each pair of blocks that overlap: names, depth, remedy; the deck is wrong if there is any."""
     return tuple(
         f"{model.body_name(a)} and {model.body_name(b)} overlap by {_length(model, (a, b), depth)}: move them apart"
@@ -40,8 +40,8 @@ def overlap_messages(model: Model, section: ContactsSection, report: ContactRepo
     )
 
 
-def _overlaps(model: Model, section: ContactsSection, report: ContactReport) -> list[Notice]:
-    found = [Notice("warning", "blocks-overlap", text) for text in overlap_messages(model, section, report)]
+def _overlaps(model: Model, report: ContactReport) -> list[Notice]:
+    found = [Notice("warning", "blocks-overlap", text) for text in overlap_messages(model, report)]
     if len(report.unchecked):
         text = (
             f"{_count(len(report.unchecked), 'pair')} of blocks not checked for overlap, because the faces of one do "

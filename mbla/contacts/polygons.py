@@ -266,6 +266,12 @@ def inner_points(polygons: Polygons) -> FloatArray:
     return points
 
 
+def areas(polygons: Polygons) -> FloatArray:
+    """Area of each polygon, (n,)."""
+    found: FloatArray = shapely.area(polygons)
+    return found
+
+
 def centroids(polygons: Polygons) -> FloatArray:
     """Centroid of each polygon, (n, 2)."""
     points: FloatArray = shapely.get_coordinates(shapely.centroid(polygons))

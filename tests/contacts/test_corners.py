@@ -56,9 +56,14 @@ def test_a_round_outline_is_not_eaten_away(count: int, tolerance: float) -> None
     assert distance.max() <= tolerance * (1 + 1e-9)
 
 
+def test_outlines_smaller_than_the_tolerance_keep_their_shape() -> None:
+    tiny = (1e-4 * np.array(SQUARE)).tolist()
+    assert len(needed_corners(polygons(tiny), 1e-2).points) == 4
+
+
 def test_three_corners_are_left_at_least() -> None:
-    tiny: Outline = [[0, 0], [1e-4, 0], [1e-4, 1e-4], [0, 1e-4]]
-    assert len(needed_corners(polygons(tiny), 1e-2).points) == 3
+    needle: Outline = [[0, 0], [1, 0], [1, 1e-12], [0.5, 1e-12]]
+    assert len(needed_corners(polygons(needle), 1e-2).points) == 3
 
 
 def test_outlines_start_at_the_same_corner_whatever_their_order() -> None:

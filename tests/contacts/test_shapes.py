@@ -91,6 +91,23 @@ def test_cylinder_in_a_socket_touches_all_around(turn: np.ndarray | None) -> Non
     assert len(contacts.report.overlaps) == 0
 
 
+@pytest.mark.parametrize("start", [0.0, 0.016])
+def test_finely_faceted_cylinder_in_a_socket_at_a_coarse_tolerance(start: float) -> None:
+    """Every facet is narrower than the tolerance, but they are no slivers."""
+    socket = ring(circle(1.0, 120), circle(2.0, 120), 0, 1)
+    contacts = contacts_of(join_polyhedra([socket, prism(circle(1.0, 120, start), 0, 1)]), tolerance=5e-2)
+    assert len(contacts) == 120
+    assert contacts.areas.sum() > 0.6 * 2 * np.pi
+
+
+def test_block_on_a_ridge_narrower_than_the_tolerance() -> None:
+    ridge = prism([[-0.0004, 0], [0.0004, 0], [1, 1], [-1, 1]], 0, 1)
+    turned = replace(ridge, vertices=ridge.vertices[:, [0, 2, 1]])
+    contacts = contacts_of(join_polyhedra([boxes(([-1, 0, -1], [1, 1, 0])), turned]))
+    assert contacts.areas == pytest.approx([0.0008], rel=1e-6)
+    assert np.diff(contacts.point_start).tolist() == [4]
+
+
 def test_curved_faces_that_do_not_match() -> None:
     """A finer cylinder in a socket: facets of different directions within a generous tolerance."""
     socket = ring(circle(1.0, 48), circle(2.0, 48), 0, 1)

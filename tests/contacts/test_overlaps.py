@@ -1,0 +1,98 @@
+"""Blocks that share volume, and blocks that only seem to."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from mbla.contacts.broad_phase import find_block_pairs
+from mbla.contacts.overlaps import Overlaps, find_overlaps
+from mbla.model.polyhedra import Polyhedra, join_polyhedra, polyhedra_from_lists
+from tests.contacts.structures import any_rotation, blocks_of, boxes, contacts_of, moved, prism, running_bond
+from tests.contacts.test_shapes import L_OUTLINE, circle, ring
+
+NONE = np.zeros((0, 2), dtype=np.int64)
+
+
+def overlaps_of(polyhedra: Polyhedra, tolerance: float = 1e-3) -> Overlaps:
+    blocks = blocks_of(polyhedra)
+    return find_overlaps(blocks, find_block_pairs(blocks, tolerance), NONE, tolerance)
+
+
+@pytest.mark.parametrize("turn", [None, any_rotation(4)], ids=["along the axes", "turned"])
+@pytest.mark.parametrize("depth", [0.01, 0.1])
+def test_boxes_that_overlap(depth: float, turn: np.ndarray | None) -> None:
+    pair = boxes(([0, 0, 0], [1, 1, 1]), ([0, 0, 1 - depth], [1, 1, 2 - depth]))
+    found = overlaps_of(moved(pair, turn=turn))
+    assert found.pairs.tolist() == [[0, 1]]
+    # V = d, S = 2 + 4 d
+    assert found.depths == pytest.approx([2 * depth / (2 + 4 * depth)], rel=1e-9)
+
+
+def test_overlap_within_the_tolerance_is_none() -> None:
+    pair = boxes(([0, 0, 0], [1, 1, 1]), ([0, 0, 0.9995], [1, 1, 1.9995]))
+    assert len(overlaps_of(pair).pairs) == 0
+    assert len(overlaps_of(pair, tolerance=1e-4).pairs) == 1
+
+
+@pytest.mark.parametrize("scale", [1e-3, 1.0, 1e4])
+def test_identical_blocks_overlap(scale: float) -> None:
+    pair = boxes(([0, 0, 0], [1, 1, 1]), ([0, 0, 0], [1, 1, 1]))
+    found = overlaps_of(moved(pair, scale=scale, turn=any_rotation()))
+    assert found.pairs.tolist() == [[0, 1]]
+    assert found.depths == pytest.approx([1 / 3], rel=1e-9)
+
+
+def test_a_block_inside_another_overlaps() -> None:
+    found = overlaps_of(boxes(([0, 0, 0], [10, 10, 10]), ([4, 4, 4], [5, 5, 5])))
+    assert found.pairs.tolist() == [[0, 1]]
+    assert found.depths == pytest.approx([1 / 3], rel=1e-9)
+
+
+def test_a_cross_of_two_bars_overlaps() -> None:
+    """No corner of either lies in the other."""
+    found = overlaps_of(boxes(([-5, -1, -1], [5, 1, 1]), ([-1, -5, -1], [1, 5, 1])))
+    assert found.pairs.tolist() == [[0, 1]]
+
+
+def test_blocks_that_interlock_without_sharing_volume() -> None:
+    socket = ring(circle(1.0, 24), circle(2.0, 24), 0, 1)
+    for pair in (
+        [prism(L_OUTLINE, 0, 1), boxes(([1, 1, 0], [2, 2, 1]))],
+        [socket, prism(circle(1.0, 24), 0, 1)],
+        [socket, prism(circle(0.9, 24), 0, 1)],
+    ):
+        assert len(overlaps_of(moved(join_polyhedra(pair), turn=any_rotation())).pairs) == 0
+
+
+def test_a_plug_too_large_for_its_socket() -> None:
+    socket = ring(circle(1.0, 24), circle(2.0, 24), 0, 1)
+    found = overlaps_of(join_polyhedra([socket, prism(circle(1.05, 24), 0, 1)]))
+    assert found.pairs.tolist() == [[0, 1]]
+    assert found.depths[0] * np.cbrt(24 * np.sin(np.pi / 12) / 2 * 1.05**2) == pytest.approx(0.05, rel=0.1)
+
+
+def test_edges_across_each_other_are_no_overlap() -> None:
+    """Two tetrahedra separated by no face plane of either, only by a plane along two of their edges."""
+    lower: list[list[float]] = [[-1, 0, 0], [1, 0, 0], [0.0, -1, -1.2], [0.0, 1, -1.2]]
+    upper: list[list[float]] = [[0, -1, 0.01], [0, 1, 0.01], [-1, 0.0, 1.2], [1, 0.0, 1.2]]
+    faces = [[0, 1, 2], [0, 1, 3], [0, 2, 3], [1, 2, 3]]
+    assert len(overlaps_of(polyhedra_from_lists([lower, upper], [faces, faces])).pairs) == 0
+    closer = [[x, y, z - 0.2] for x, y, z in upper]
+    assert overlaps_of(polyhedra_from_lists([lower, closer], [faces, faces])).pairs.tolist() == [[0, 1]]
+
+
+def test_a_turned_wall_has_no_overlaps() -> None:
+    assert len(overlaps_of(moved(running_bond(6, 6), turn=any_rotation(5))).pairs) == 0
+
+
+def test_overlaps_are_in_the_report_in_words() -> None:
+    contacts = contacts_of(boxes(([0, 0, 0], [1, 1, 1]), ([0, 0, 0.98], [1, 1, 1.98])), fixed=[0])
+    report = contacts.report
+    assert report.overlaps.tolist() == [[0, 1]]
+    assert report.overlap_depths == pytest.approx([0.04 / 2.08])
+    words = {notice.identifier: notice.message for notice in report.notices}
+    assert words["blocks-overlap"] == (
+        "block[0] and block[1] overlap by 0.0192 m, 0.019 of the block size: move them apart, or set "
+        "contacts.tolerance above 0.02 if they are meant to touch"
+    )

@@ -1,0 +1,120 @@
+from __future__ import annotations
+
+import numpy as np
+import pytest
+import shapely
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from mbla.contacts.polygons import (
+    Polygons,
+    box_pairs,
+    connected_parts,
+    convex_loops,
+    convex_polygons,
+    intersect,
+    polygons_from_loops,
+    union_by_row,
+    widths,
+)
+
+
+def array(*polygons: shapely.Geometry) -> Polygons:
+    found: Polygons = np.array(polygons, dtype=object)
+    return found
+
+
+@settings(deadline=None, max_examples=40)
+@given(st.integers(0, 10**6), st.integers(0, 60))
+def test_box_pairs_agree_with_all_against_all(seed: int, count: int) -> None:
+    rng = np.random.default_rng(seed)
+    lower = rng.uniform(0, 5, (count, 3))
+    upper = lower + rng.uniform(0, 2, (count, 3))
+    i, j = box_pairs(lower, upper)
+    expected = [
+        (a, b)
+        for a in range(count)
+        for b in range(a + 1, count)
+        if (lower[a] <= upper[b]).all() and (lower[b] <= upper[a]).all()
+    ]
+    assert list(zip(i.tolist(), j.tolist(), strict=True)) == expected
+
+
+@pytest.mark.parametrize("flat", [0, 1, 2])
+def test_box_pairs_of_a_flat_structure(flat: int) -> None:
+    lower = np.array([[0.0, 0, 0], [1, 1, 1], [3, 3, 3]])
+    upper = np.array([[1.0, 1, 1], [2, 2, 2], [4, 4, 4]])
+    lower[:, flat], upper[:, flat] = 0, 0
+    i, j = box_pairs(lower, upper)
+    assert (i.tolist(), j.tolist()) == ([0], [1])
+
+
+def test_width_is_exact_for_rectangles() -> None:
+    boxes = [shapely.box(0, 0, length, 0.01) for length in (0.01, 0.02, 1.0, 1e4)]
+    np.testing.assert_allclose(widths(array(*boxes)), 0.01, rtol=1e-9)
+
+
+def test_width_of_a_thin_triangle_is_half_its_height() -> None:
+    assert widths(array(shapely.Polygon([[0, 0], [1, 0], [0.5, 1e-4]]))) == pytest.approx([0.5e-4], rel=1e-3)
+
+
+def test_width_of_nothing_is_nothing() -> None:
+    assert widths(array(shapely.Polygon())).tolist() == [0.0]
+
+
+def test_parts_are_the_polygons_of_collections() -> None:
+    mixed = shapely.from_wkt(
+        "GEOMETRYCOLLECTION (POINT (0 0), LINESTRING (0 0, 1 1), "
+        "MULTIPOLYGON (((0 0, 1 0, 0 1, 0 0)), ((5 5, 6 5, 5 6, 5 5))))"
+    )
+    parts, row = connected_parts(array(shapely.Point(0, 0), mixed, shapely.Polygon(), shapely.box(0, 0, 1, 1)))
+    assert row.tolist() == [1, 1, 3]
+    assert [part.area for part in parts] == [0.5, 0.5, 1.0]
+
+
+@pytest.mark.parametrize("counts", [[1, 2, 3], [5, 1, 1, 9], [4]])
+def test_union_by_row(counts: list[int]) -> None:
+    strips = [shapely.box(0, k, 1, k + 1) for count in counts for k in range(count)]
+    united = union_by_row(array(*strips), np.repeat(np.arange(len(counts)), counts), len(counts))
+    assert [shape.area for shape in united] == pytest.approx(counts)
+    assert all(shape.geom_type == "Polygon" for shape in united)
+
+
+def test_union_with_a_grid_closes_cracks_of_rounding() -> None:
+    cracked = [shapely.box(0, 0, 1, 1), shapely.box(0, 1 + 3e-12, 1, 2)]
+    rows = np.zeros(2, dtype=np.int64)
+    assert union_by_row(array(*cracked), rows, 1)[0].geom_type == "MultiPolygon"
+    assert union_by_row(array(*cracked), rows, 1, grid=1e-10)[0].geom_type == "Polygon"
+
+
+def test_loop_with_a_bridge_to_its_hole_is_repaired() -> None:
+    loop = np.array([[0, 0], [4, 0], [4, 4], [0, 4], [0, 0], [1, 1], [1, 3], [3, 3], [3, 1], [1, 1]], dtype=float)
+    polygon = polygons_from_loops(loop, np.array([0, len(loop)]))
+    assert polygon[0].is_valid
+    assert polygon[0].area == pytest.approx(12.0)
+
+
+def test_convexity_of_loops() -> None:
+    star: list[list[float]] = [[np.cos(k * 4 * np.pi / 5), np.sin(k * 4 * np.pi / 5)] for k in range(5)]
+    square: list[list[float]] = [[0, 0], [1, 0], [1, 1], [0, 1]]
+    notched: list[list[float]] = [[0, 0], [1, 0], [0.5, 0.5], [1, 1], [0, 1]]
+    flat_corner: list[list[float]] = [[0, 0], [0.5, 0], [1, 0], [1, 1], [0, 1]]
+    turned = square[::-1]
+    loops = [square, turned, flat_corner, notched, star]
+    start = np.concatenate([[0], np.cumsum([len(loop) for loop in loops])])
+    assert convex_loops(np.concatenate(loops), start).tolist() == [True, True, True, False, False]
+
+
+def test_convexity_of_polygons() -> None:
+    holed = shapely.Polygon([[0, 0], [4, 0], [4, 4], [0, 4]], [[[1, 1], [2, 1], [2, 2], [1, 2]]])
+    two = shapely.MultiPolygon([shapely.box(0, 0, 1, 1), shapely.box(2, 2, 3, 3)])
+    kinds = array(shapely.box(0, 0, 1, 1), holed, two, shapely.Polygon())
+    assert convex_polygons(kinds).tolist() == [True, False, False, False]
+
+
+def test_intersection_by_either_way_is_the_same() -> None:
+    first = array(*(shapely.box(0, 0, 1, 1) for _ in range(3)))
+    second = array(shapely.box(0.5, 0.5, 2, 2), shapely.box(1, 0, 2, 1), shapely.box(3, 3, 4, 4))
+    for convex in (True, False):
+        common = intersect(first, second, np.full(3, convex))
+        assert [shape.area for shape in common] == pytest.approx([0.25, 0.0, 0.0])
