@@ -48,6 +48,14 @@ def verdict(model: Model, case: CaseResult) -> str:
     return remarks.get(case.status, f"NOT SOLVED ({case.status.value}); last value: {at}")
 
 
+def beside_associative(case: CaseResult) -> str:
+    """`` (associative 0.646)`` where the deck's flow rule is another one and both answers are there, else nothing."""
+    own, associative = case.solution.mechanics, case.solution.associative
+    if own is None or associative is None or associative is own:
+        return ""
+    return f" (associative load factor {number(associative.load_factor)})"
+
+
 def case_lines(model: Model, contacts: Contacts, case: CaseResult) -> list[str]:
     """The section of one load case."""
     lines = heading(f"Load case {case.load_case.name}")
@@ -60,7 +68,7 @@ def case_lines(model: Model, contacts: Contacts, case: CaseResult) -> list[str]:
         lines += sentence(case.solution.reason)
     if mechanics is None and case.solution.certificate is not None:
         lines += certificate_lines(model, case.solution.certificate)
-    lines += ["", *_figures(model, case)]
+    lines += ["", *figures(model, case)]
     if mechanics is not None:
         lines += ["", *mechanism_lines(model, contacts, mechanics)]
         lines += _power(model, case.load_case, mechanics)
@@ -68,7 +76,7 @@ def case_lines(model: Model, contacts: Contacts, case: CaseResult) -> list[str]:
     return lines + _programs(case.solution)
 
 
-def _figures(model: Model, case: CaseResult) -> list[str]:
+def figures(model: Model, case: CaseResult) -> list[str]:
     """Load factors by both flow rules, bounds, residuals, verdict of the verification."""
     solution, checks = case.solution, case.checks
     lines = entry("status", case.status.value)

@@ -109,6 +109,7 @@ def content_of(results: Results) -> Content:
         **_mapping("provenance/setting_names", "provenance/setting_values", results.settings),
         "provenance/stage_names": list(results.time),
         "provenance/stage_seconds": np.array(list(results.time.values()), dtype=float),
+        "provenance/files": results.files,
         "provenance/exit_code": results.exit_code,
     }
     for load_case in results.model.load_cases:

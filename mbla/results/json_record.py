@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -19,8 +19,8 @@ DIMENSION = 3
 """of the models that this version solves; planar models would say 2"""
 
 
-def results_json(results: Results, files: Sequence[str] = ()) -> dict[str, Any]:
-    """The record of a run; ``files`` are the names of its result files. Values that do not exist are None."""
+def results_json(results: Results) -> dict[str, Any]:
+    """The record of a run; values that do not exist are None."""
     return {
         "mbla": results.provenance.get("mbla", __version__),
         "deck": results.deck.name,
@@ -32,8 +32,33 @@ def results_json(results: Results, files: Sequence[str] = ()) -> dict[str, Any]:
         "settings": results.settings,
         "notices": [notice_json(notice) for notice in results.notices],
         "time": {stage: number(seconds) for stage, seconds in results.time.items()},
-        "files": sorted(files),
+        "files": list(results.files),
     }
+
+
+def check_json(results: Results, needs: Mapping[str, int]) -> dict[str, Any]:
+    """The record of a check: no cases; ``needs`` is the size of the cone program of one load case."""
+    report = results.contacts.report
+    record = results_json(results)
+    for key in ("cases", "files"):
+        del record[key]
+    record["model"] |= {
+        "load_cases": [case.name for case in results.model.load_cases],
+        "joints": {
+            name: {"interfaces": results.contacts.count_by_joint[name], "area": number(area)}
+            for name, area in results.contacts.area_by_joint.items()
+        },
+        "slivers": len(report.slivers),
+        "near_misses": len(report.near_misses),
+        "isolated_blocks": [results.model.blocks.name(int(b)) for b in report.isolated],
+        "unsupported_parts": len(report.unsupported),
+    }
+    return record | {"needs": dict(needs)}
+
+
+def verification_json(results: Results, disagreements: Sequence[str]) -> dict[str, Any]:
+    """The record of a verification: figures recomputed, and where the file says otherwise."""
+    return results_json(results) | {"agrees": not disagreements, "disagreements": list(disagreements)}
 
 
 def json_line(record: dict[str, Any]) -> str:

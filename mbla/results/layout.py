@@ -301,6 +301,7 @@ LAYOUT: tuple[Field, ...] = (
     Field("provenance/setting_values", "text", ("setting",), "1", "their values"),
     Field("provenance/stage_names", "text", ("stage",), "1", "stages of the run"),
     Field("provenance/stage_seconds", "float", ("stage",), "time", "time of each stage"),
+    Field("provenance/files", "text", ("file",), "1", "names of the files of this run"),
     Field("provenance/exit_code", "int", (), "1", "exit status of the run"),
 )
 

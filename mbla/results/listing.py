@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
+
 import numpy as np
 
 from mbla import __version__
 from mbla.errors import Notice
 from mbla.model.model import Model
-from mbla.results.case_words import case_lines, verdict
+from mbla.results.case_words import beside_associative, case_lines, figures, verdict
+from mbla.results.mechanism_words import mechanism_summary
 from mbla.results.results import Results
 from mbla.results.text import WIDTH, counted, entry, heading, number, sentence, table
+from mbla.solution.solution import Status
 
 
 def listing(results: Results) -> str:
@@ -25,6 +29,56 @@ def listing(results: Results) -> str:
         lines += case_lines(results.model, results.contacts, case)
     lines += _recap(results)
     return "\n".join(line.rstrip() for line in lines) + "\n"
+
+
+def summary_lines(results: Results) -> list[str]:
+    """What the terminal shows of a run: the model in a line, each case in one or two, warnings."""
+    model, contacts = results.model, results.contacts
+    counts = (
+        f"{results.deck.name}: {counted(len(model.blocks), 'block')}, {counted(len(contacts), 'interface')}, "
+        f"{counted(len(contacts.points), 'contact point')}"
+    )
+    lines = [counts]
+    for case in results.cases:
+        text = f"{case.load_case.name}: {verdict(model, case)}"
+        mechanics = case.solution.mechanics
+        if mechanics is not None:
+            text += f": {mechanism_summary(model, contacts, mechanics)}"
+        lines += sentence(text + beside_associative(case))
+        unsure = case.status is not Status.SOLVED
+        lines += sentence(case.solution.reason, "    ") if unsure and case.solution.reason else []
+        lines += [line for failure in case.checks.failures for line in sentence(failure, "    ")]
+    return lines + [
+        line for notice in results.notices if notice.severity == "warning" for line in sentence(str(notice))
+    ]
+
+
+def check_listing(results: Results, needs: Mapping[str, int]) -> str:
+    """What ``mbla check`` prints: the model and its contacts as in the listing, and the size of the cone program."""
+    lines = [
+        *_header(results),
+        *_settings(results),
+        *model_lines(results.model),
+        *contact_lines(results),
+        *notice_lines(results.notices),
+        *heading("Needed for one load case"),
+    ]
+    lines += [line for name, count in needs.items() for line in entry(name.replace("_", " "), str(count))]
+    lines += sentence("Nothing was solved.")
+    return "\n".join(line.rstrip() for line in lines) + "\n"
+
+
+def verification_lines(results: Results, disagreements: Sequence[str]) -> list[str]:
+    """What ``mbla verify`` prints: figures recomputed for every case, and where the file says otherwise."""
+    lines = [f"{results.deck.name}: recomputed from the file alone, no solver"]
+    for case in results.cases:
+        lines += heading(f"Load case {case.load_case.name}") + figures(results.model, case)
+    lines += heading("Summary")
+    lines += [line for case in results.cases for line in entry(case.load_case.name, verdict(results.model, case))]
+    lines += [line for text in disagreements for line in sentence(f"differs: {text}")]
+    if not disagreements:
+        lines += sentence("the file agrees with what was recomputed")
+    return lines
 
 
 def _header(results: Results) -> list[str]:

@@ -21,6 +21,9 @@ MOVING = 1e-6
 TWISTING = 0.5
 """mean over largest tangential velocity below which a sliding interface is said to turn about its normal"""
 
+MOST_SINGLE_SUPPORTS = 12
+"""fixed blocks up to this number have their reactions listed one by one"""
+
 
 class InterfaceMode(IntEnum):
     """What an interface does in the mechanism."""
@@ -126,26 +129,36 @@ class Reaction:
 
 
 def support_reactions(model: Model, contacts: Contacts, contact_forces: FloatArray) -> tuple[Reaction, ...]:
-    """Reactions of the ground planes, and of the fixed blocks by group; those that touch nothing free are left out."""
+    """Reactions of ground planes, then of fixed blocks; supports that touch nothing free are left out.
+
+    Fixed blocks stand one by one where they are few, else their groups do.
+    """
     forces = global_forces(contacts, contact_forces)
     wrenches = sum_by_interface(contacts, np.hstack([forces, np.cross(contacts.points, forces)]))
-    n_blocks = len(model.blocks)
     fixed = np.concatenate([model.fixed, np.ones(len(model.grounds), dtype=bool)])
     support_a, support_b = fixed[contacts.bodies].T
     only_one = support_a != support_b
-    body = np.where(support_a, contacts.bodies[:, 0], contacts.bodies[:, 1])[only_one]
+    bodies = np.where(support_a, contacts.bodies[:, 0], contacts.bodies[:, 1])[only_one]
     onto_structure = np.where(support_a, 1.0, -1.0)[only_one, None] * wrenches[only_one]
-    labels = [f"{group} (fixed blocks)" for group in model.blocks.groups] + [ground.label for ground in model.grounds]
-    order = list(range(n_blocks, n_blocks + len(model.grounds))) + list(np.flatnonzero(model.fixed))
-    row: dict[str, int] = {}
-    for each in order:
-        row.setdefault(labels[each], len(row))
-    total = np.zeros((len(row), 6))
-    touched = np.zeros(len(row), dtype=bool)
-    rows = np.array([row[labels[each]] for each in body], dtype=np.int64)
-    np.add.at(total, rows, onto_structure)
-    touched[rows] = True
-    return tuple(Reaction(label, total[i]) for label, i in row.items() if touched[i])
+    touched, row = np.unique(bodies, return_inverse=True)
+    total = np.zeros((len(touched), 6))
+    np.add.at(total, row, onto_structure)
+    return _named_reactions(model, touched, total)
+
+
+def _named_reactions(model: Model, bodies: IntArray, wrenches: FloatArray) -> tuple[Reaction, ...]:
+    """Reactions by name, from the supporting bodies, (n,), and what each adds, (n, 6)."""
+    n_blocks = len(model.blocks)
+    one_by_one = int(np.sum(bodies < n_blocks)) <= MOST_SINGLE_SUPPORTS
+    sums: dict[str, FloatArray] = {}
+    for i in np.argsort(bodies < n_blocks, kind="stable"):
+        body = int(bodies[i])
+        if body >= n_blocks or one_by_one:
+            name = model.body_name(body)
+        else:
+            name = f"{model.blocks.groups[body]} (fixed blocks)"
+        sums[name] = sums.get(name, np.zeros(6)) + wrenches[i]
+    return tuple(Reaction(name, wrench) for name, wrench in sums.items())
 
 
 def load_on_structure(model: Model, load_case: LoadCase, load_factor: float) -> FloatArray:

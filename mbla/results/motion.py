@@ -20,16 +20,15 @@ LARGEST_ROTATION = 0.5
 """radians; without this limit a small block that spins in a large model would turn several times"""
 
 
-def drawn_motion(model: Model, case: CaseResult) -> FloatArray:
+def drawn_motion(model: Model, case: CaseResult | None) -> FloatArray:
     """Displacement and rotation of each block as drawn, (n_blocks, 6) m and rad.
 
-    From the mechanism; without equilibrium from the motion that proves it; zero where there is neither.
+    From the mechanism; without equilibrium from the motion that proves it; zero where there is neither or no case.
     """
-    solution = case.solution
-    if solution.mechanics is not None:
-        motion = solution.mechanics.mechanism
-    elif solution.certificate is not None:
-        motion = solution.certificate
+    if case is not None and case.solution.mechanics is not None:
+        motion = case.solution.mechanics.mechanism
+    elif case is not None and case.solution.certificate is not None:
+        motion = case.solution.certificate
     else:
         return np.zeros((len(model.blocks), 6))
     return motion_scale(model, motion) * motion

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -23,9 +23,6 @@ from mbla.results.motion import contact_displacements, drawn_motion, moved_verti
 from mbla.results.outlines import as_vtk_rows, block_edges, box_of, edges_of_blocks
 from mbla.results.results import CaseResult, Results
 from mbla.solution.solution import ContactMode, Mechanics
-
-if TYPE_CHECKING:
-    import pyvista
 
 STONE, MOVED = (0.93, 0.90, 0.83), (0.10, 0.37, 0.61)
 FIXED, GROUND = (0.62, 0.62, 0.62), (0.35, 0.35, 0.35)
@@ -90,6 +87,37 @@ def plot_mechanism(results: Results, case: CaseResult, path: Path, width: int = 
         plotter.close()
 
 
+def plot_results(results: Results, target: Path, stem: str, case: str | None = None) -> list[Path]:
+    """Pictures of every case, or of one; the paths written.
+
+    target : a file with the suffix .png, for a single case; else a folder for ``STEM_CASE.png``, created if missing
+
+    Raises
+    ------
+    UsageError
+        As ``plot_mechanism`` does; no such case; several cases for one file; another suffix.
+    FileError
+        A picture or the folder cannot be written.
+    """
+    chosen = [each for each in results.cases if case is None or each.load_case.name == case]
+    if not chosen:
+        names = ", ".join(each.load_case.name for each in results.cases) or "none"
+        raise UsageError(f"no such load case in the result: {case}; it has {names}")
+    if target.suffix and not target.is_dir():
+        if len(chosen) > 1:
+            raise UsageError(f"{target}: one file for {len(chosen)} load cases; name one with --case, or a folder")
+        paths = [target]
+    else:
+        paths = [target / f"{stem}_{each.load_case.name}.png" for each in chosen]
+    for each, path in zip(chosen, paths, strict=True):
+        try:
+            path.parent.mkdir(parents=True, exist_ok=True)
+        except OSError as error:
+            raise FileError(f"{path.parent}: {error.strerror or error}") from error
+        plot_mechanism(results, each, path)
+    return paths
+
+
 def _pyvista() -> Any:
     try:
         import pyvista
@@ -124,7 +152,7 @@ def _block_colours(scene: _Scene) -> FloatArray:
     return np.asarray(colours)
 
 
-def _add_blocks(plotter: pyvista.Plotter, scene: _Scene) -> None:
+def _add_blocks(plotter: Any, scene: _Scene) -> None:
     blocks = scene.model.blocks
     vista = _pyvista()
     surface = vista.PolyData(scene.moved, faces=as_vtk_rows(blocks.loop_start, blocks.loops))
@@ -144,7 +172,7 @@ def _lines(points: FloatArray, pairs: IntArray) -> Any:
     return _pyvista().PolyData(points, lines=as_vtk_rows(start, pairs.ravel()))
 
 
-def _add_grounds(plotter: pyvista.Plotter, scene: _Scene) -> None:
+def _add_grounds(plotter: Any, scene: _Scene) -> None:
     """A slab behind each ground plane, as wide as what stands on it and a little more."""
     contacts, model = scene.contacts, scene.model
     for row, ground in enumerate(model.grounds):
@@ -167,7 +195,7 @@ def _add_grounds(plotter: pyvista.Plotter, scene: _Scene) -> None:
 # --- what the joints do -------------------------------------------------------------------------------------------
 
 
-def _add_modes(plotter: pyvista.Plotter, scene: _Scene, mechanics: Mechanics) -> None:
+def _add_modes(plotter: Any, scene: _Scene, mechanics: Mechanics) -> None:
     contacts = scene.contacts
     vista = _pyvista()
     modes = interface_modes(contacts, mechanics)
@@ -221,7 +249,7 @@ def _live_resultant(scene: _Scene) -> tuple[FloatArray, FloatArray]:
     return forces.sum(axis=0), centre
 
 
-def _add_live_load(plotter: pyvista.Plotter, scene: _Scene) -> None:
+def _add_live_load(plotter: Any, scene: _Scene) -> None:
     """An arrow before the structure, pointing where the live load pushes."""
     resultant, centre = _live_resultant(scene)
     size = float(np.linalg.norm(resultant))
@@ -263,7 +291,7 @@ def front_axis(extents: FloatArray, travel: FloatArray) -> int | None:
     return None if hidden or extents[axis] > THIN * across else axis
 
 
-def _set_camera(plotter: pyvista.Plotter, scene: _Scene) -> None:
+def _set_camera(plotter: Any, scene: _Scene) -> None:
     low, high = box_of(np.vstack([scene.moved, scene.model.blocks.vertices]))
     travel = np.abs(scene.moved - scene.model.blocks.vertices).max(axis=0)
     axis = front_axis(np.ptp(scene.model.blocks.vertices, axis=0), travel)
@@ -276,7 +304,7 @@ def _set_camera(plotter: pyvista.Plotter, scene: _Scene) -> None:
     plotter.camera.zoom(1.15 if axis is not None else 1.05)
 
 
-def _add_words(plotter: pyvista.Plotter, scene: _Scene) -> None:
+def _add_words(plotter: Any, scene: _Scene) -> None:
     title = scene.model.title or scene.results.deck.name
     words = f"{title}\nload case {scene.case.load_case.name}: {verdict(scene.model, scene.case)}"
     plotter.add_text(words, position="upper_left", font_size=13, color=INK)

@@ -56,6 +56,7 @@ def results_from(content: Content, attributes: dict[str, str | int]) -> Results:
         time=dict(zip(get["provenance/stage_names"], get["provenance/stage_seconds"].tolist(), strict=True)),
         exit_code=get["provenance/exit_code"],
         created=str(attributes["created"]),
+        files=tuple(get["provenance/files"]),
     )
 
 

@@ -45,6 +45,7 @@ class Results:
     time       : seconds by stage (read, contacts, solve, write)
     exit_code  : exit status of the run
     created    : date of the run, UTC, ISO 8601
+    files      : names of the files that were written for it, in its folder
     """
 
     deck: DeckRecord
@@ -57,6 +58,7 @@ class Results:
     time: dict[str, float]
     exit_code: int
     created: str = field(default_factory=now)
+    files: tuple[str, ...] = ()
 
     def case(self, name: str) -> CaseResult:
         """The case of that name; KeyError if there is none."""

@@ -1,4 +1,4 @@
-"""Files for ParaView: blocks, contact points and interfaces of one load case, one file per kind of cell.
+"""Files for ParaView: blocks, contact points and interfaces, one file per kind of cell; without a case the model alone.
 
 Blocks have points of their own, so that Warp By Vector on ``displacement`` (scale factor 1) shows them part.
 meshio writes neither texts nor truth values: groups are numbered in alphabetical order, flags are 0 and 1.
@@ -17,14 +17,15 @@ from mbla.contacts.contacts import Contacts
 from mbla.model.geometry.meshio_files import write_mesh
 from mbla.model.model import Model
 from mbla.results.cells import BlockCells, block_cells
+from mbla.results.files import OutputFolder
 from mbla.results.mechanics import global_forces, interface_modes, interface_resultants, moving_blocks
 from mbla.results.motion import contact_displacements, drawn_motion, vertex_displacements
-from mbla.results.results import CaseResult
+from mbla.results.results import CaseResult, Results
 
 Arrays = dict[str, np.typing.NDArray[Any]]
 
 
-def write_blocks_vtu(path: Path, model: Model, case: CaseResult, cells: BlockCells | None = None) -> None:
+def write_blocks_vtu(path: Path, model: Model, case: CaseResult | None, cells: BlockCells | None = None) -> None:
     """Blocks as cells.
 
     Point data: ``displacement``. Cell data: ``block``, ``group``, ``weight``, ``fixed``, ``moves``, ``velocity``,
@@ -80,7 +81,7 @@ def group_numbers(model: Model) -> np.typing.NDArray[np.int64]:
     return np.array([row[group] for group in model.blocks.groups], dtype=np.int64)
 
 
-def write_contacts_vtu(path: Path, model: Model, contacts: Contacts, case: CaseResult) -> None:
+def write_contacts_vtu(path: Path, model: Model, contacts: Contacts, case: CaseResult | None) -> None:
     """Contact points as vertices; the force is the one on body b, in global directions.
 
     Point data: ``interface``, ``body_a``, ``body_b``, ``displacement``; with a mechanism also ``contact_force``,
@@ -94,7 +95,7 @@ def write_contacts_vtu(path: Path, model: Model, contacts: Contacts, case: CaseR
         "body_b": contacts.bodies[owners, 1],
         "displacement": contact_displacements(model, contacts, drawn_motion(model, case)),
     }
-    mechanics = case.solution.mechanics
+    mechanics = None if case is None else case.solution.mechanics
     if mechanics is not None:
         forces, velocities = mechanics.contact_forces, mechanics.contact_velocities
         data |= {
@@ -110,7 +111,7 @@ def write_contacts_vtu(path: Path, model: Model, contacts: Contacts, case: CaseR
     write_mesh(path, contacts.points, [("vertex", vertices)], point_data=data, cell_data={})
 
 
-def write_interfaces_vtu(path: Path, model: Model, contacts: Contacts, case: CaseResult) -> None:
+def write_interfaces_vtu(path: Path, model: Model, contacts: Contacts, case: CaseResult | None) -> None:
     """Interfaces as polygons, by their outer boundary; holes are not drawn, areas and forces count them.
 
     Cell data: ``interface``, ``body_a``, ``body_b``, ``area``, ``gap``, ``joint``, ``normal``; with a mechanism also
@@ -126,7 +127,7 @@ def write_interfaces_vtu(path: Path, model: Model, contacts: Contacts, case: Cas
         "joint": contacts.joints,
         "normal": contacts.normals,
     }
-    mechanics = case.solution.mechanics
+    mechanics = None if case is None else case.solution.mechanics
     if mechanics is not None:
         resultants = interface_resultants(contacts, mechanics.contact_forces)
         normal_force = np.einsum("ij,ij->i", resultants[:, :3], contacts.normals)
@@ -154,8 +155,17 @@ def _outlines(contacts: Contacts, rows: np.typing.NDArray[np.int64]) -> np.typin
     return contacts.point_start[rows][:, None] + np.arange(contacts.outline[rows[0]])
 
 
-CONTACT_FILES: tuple[tuple[str, Callable[[Path, Model, Contacts, CaseResult], None]], ...] = (
+CONTACT_FILES: tuple[tuple[str, Callable[[Path, Model, Contacts, CaseResult | None], None]], ...] = (
     ("contacts", write_contacts_vtu),
     ("interfaces", write_interfaces_vtu),
 )
 """files that exist only where there are contacts; a mesh file without a single cell is refused by its readers"""
+
+
+def write_model_vtu(results: Results, out: OutputFolder) -> None:
+    """``STEM_blocks.vtu`` and, where there are contacts, ``STEM_contacts.vtu`` and ``STEM_interfaces.vtu``, no case."""
+    with out.writing(f"{out.stem}_blocks.vtu") as path:
+        write_blocks_vtu(path, results.model, None)
+    for kind, write in CONTACT_FILES if len(results.contacts) else ():
+        with out.writing(f"{out.stem}_{kind}.vtu") as path:
+            write(path, results.model, results.contacts, None)

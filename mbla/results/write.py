@@ -22,7 +22,7 @@ def write_results(results: Results, out: OutputFolder, vtu: bool, frames: int, p
     Parameters
     ----------
     results
-        ``results.time["write"]`` is set here: seconds spent on the VTU files and pictures.
+        ``time["write"]`` is set here, to the seconds spent on the VTU files and pictures, and so is ``files``.
     vtu, frames
         Files for ParaView, and the frames of each animation.
     plots
@@ -31,7 +31,7 @@ def write_results(results: Results, out: OutputFolder, vtu: bool, frames: int, p
     Returns
     -------
     Results
-        As they are in the files, with the time of writing.
+        As they are in the files, with the time of writing and the names of the files.
 
     Raises
     ------
@@ -46,12 +46,11 @@ def write_results(results: Results, out: OutputFolder, vtu: bool, frames: int, p
             _write_mesh_files(results, case, out, frames)
         if plots:
             _write_picture(results, case, out)
-    results = replace(results, time=results.time | {"write": time.perf_counter() - begin})
+    files = sorted({*out.names, *(f"{out.stem}.{suffix}" for suffix in ("lst", "h5", "json"))})
+    results = replace(results, time=results.time | {"write": time.perf_counter() - begin}, files=tuple(files))
     out.write_text(f"{out.stem}.lst", listing(results))
     out.write_bytes(f"{out.stem}.h5", write_results_hdf5(results))
-    name = f"{out.stem}.json"
-    record = results_json(results, (*out.names, name))
-    out.write_text(name, json_line(record) + "\n")
+    out.write_text(f"{out.stem}.json", json_line(results_json(results)) + "\n")
     return results
 
 
