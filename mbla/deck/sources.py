@@ -6,7 +6,7 @@ import os
 import re
 import stat
 from bisect import bisect_right
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 
@@ -31,7 +31,6 @@ class SourceText:
     text: str
     path: Path | None = None
     line: int | None = None
-    bytes_: bytes = field(default=b"", repr=False)
 
     @cached_property
     def _line_starts(self) -> list[int]:
@@ -57,9 +56,10 @@ def read_bytes(path: Path, label: str) -> bytes:
         descriptor = os.open(path, os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0))
     except (OSError, ValueError) as error:
         raise FileError(f"{label}: cannot be opened: {getattr(error, 'strerror', None) or error}") from error
+    if not stat.S_ISREG(os.fstat(descriptor).st_mode):
+        os.close(descriptor)
+        raise FileError(f"{label}: is not a regular file")
     with os.fdopen(descriptor, "rb") as file:
-        if not stat.S_ISREG(os.fstat(descriptor).st_mode):
-            raise FileError(f"{label}: is not a regular file")
         try:
             return file.read(MAX_BYTES + 1)
         except OSError as error:
@@ -77,7 +77,7 @@ def read_source(path: Path, label: str) -> SourceText:
         if its content is not such a text, or too large
     """
     content = read_bytes(path, label)
-    return SourceText(label, _decode(content, label), path.resolve(), bytes_=content)
+    return SourceText(label, _decode(content, label), path.resolve())
 
 
 def check_characters(source: SourceText) -> None:

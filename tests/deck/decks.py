@@ -1,0 +1,48 @@
+"""A small working deck that the tests of the deck stage change one thing in."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from mbla.deck import read_deck
+from mbla.errors import DeckError
+
+BLOCK = """mbla: 1
+title: A block on the ground
+units: {length: m, force: N, mass: kg}
+parameters: {mu: 0.6}
+materials:
+  stone: {density: 2000}
+joints:
+  dry: {friction: "=mu"}
+blocks:
+  - box: {group: block, material: stone, min: [0, 0, 0], max: [1, 1, 1]}
+contacts: {joint: dry}
+supports:
+  - {ground: {z: 0}}
+load_cases:
+  push:
+    live: [{acceleration: [1, 0, 0]}]
+"""
+
+
+def changed(old: str, new: str) -> str:
+    """The working deck with one thing replaced."""
+    assert BLOCK.count(old) == 1
+    return BLOCK.replace(old, new)
+
+
+def write(folder: Path, text: str, name: str = "deck.yaml") -> Path:
+    path = folder / name
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(text, encoding="utf-8", newline="")
+    return path
+
+
+def faults(path: Path, *overrides: str) -> list[str]:
+    """Messages of a deck that must be refused, without the folder."""
+    with pytest.raises(DeckError) as caught:
+        read_deck(path, overrides)
+    return [str(fault).replace(f"{path.parent}/", "") for fault in caught.value.faults]

@@ -1,0 +1,168 @@
+from __future__ import annotations
+
+import ast
+import math
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from mbla.deck.expressions import CONSTANTS, FUNCTIONS, ExpressionError, ParameterFaultError, Parameters
+
+
+def value(text: str, **parameters: object) -> float:
+    return Parameters(parameters).evaluate(text)
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("=1", 1.0),
+        ("= 2 + 3*4", 14.0),
+        ("=-2**2", -4.0),
+        ("=2**3**2", 512.0),
+        ("=7 % 3", 1.0),
+        ("=-(1+2)/4", -0.75),
+        ("=sqrt(2)**2", 2.0),
+        ("=sin(pi/6)", 0.5),
+        ("=degrees(atan2(1, 1))", 45.0),
+        ("=tan(radians(45))", 1.0),
+        ("=log(e)", 1.0),
+        ("=log(8, 2)", 3.0),
+        ("=exp(0)", 1.0),
+        ("=min(3, 1, 2) + max(3, 1)", 4.0),
+        ("=floor(-1.5)", -2.0),
+        ("=ceil(1.2)", 2.0),
+        ("=round(2.6)", 3.0),
+        ("=abs(-n)", 5.0),
+        ("=" + "9" * 299, 1e299),
+        ("=acos(1) + asin(0) + atan(0) + cos(0)", 1.0),
+    ],
+)
+def test_values(text: str, expected: float) -> None:
+    assert value(text, n=5) == pytest.approx(expected, rel=1e-14)
+
+
+def test_every_function_is_tested() -> None:
+    rows = test_values.pytestmark[0].args[1]
+    used = {node.id for text, _ in rows for node in ast.walk(ast.parse(text[1:].strip())) if isinstance(node, ast.Name)}
+    assert set(FUNCTIONS) | set(CONSTANTS) | {"n"} == used
+
+
+def test_parameters_refer_to_parameters() -> None:
+    parameters = Parameters({"a": "=2*b", "b": "=c+1", "c": 3})
+    assert parameters.evaluate("=a") == 8.0
+    assert parameters.used == {"a", "b", "c"}
+    assert parameters.failures() == []
+
+
+def test_cycle_is_blamed_on_its_first_parameter() -> None:
+    parameters = Parameters({"x": "=a", "a": "=b", "b": "=c", "c": "=a"})
+    with pytest.raises(ParameterFaultError):
+        parameters.evaluate("=x")
+    assert parameters.failures() == [("a", "refers to itself: a -> b -> c -> a")]
+
+
+def test_parameter_of_itself() -> None:
+    assert Parameters({"a": "=a"}).failures() == [("a", "refers to itself: a -> a")]
+
+
+def test_fault_of_a_parameter_is_its_own() -> None:
+    parameters = Parameters({"a": "=1/0", "b": "=a"})
+    with pytest.raises(ParameterFaultError):
+        parameters.evaluate("=b")
+    assert parameters.failures() == [("a", "divides by zero")]
+
+
+def test_long_chain_is_an_error_and_not_a_recursion() -> None:
+    chain: dict[str, object] = {f"p{i}": f"=p{i + 1}" for i in range(5000)} | {"p5000": 1}
+    (name, message), *_ = Parameters(chain).failures()
+    assert "more than 64 parameters" in message
+    assert name in chain
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("=", "without content"),
+        ("=1/0", "divides by zero"),
+        ("=0**-1", "divides by zero"),
+        ("=5%0", "divides by zero"),
+        ("=9**9**9**9", "too large"),
+        ("=1e308*10", "too large"),
+        ("=exp(1000)", "too large"),
+        ("=sqrt(-1)", r"sqrt\(-1\) is not defined"),
+        ("=log(0)", r"log\(0\) is not defined"),
+        ("=acos(2)", r"acos\(2\) is not defined"),
+        ("=(-8)**(1/3)", "root of a negative number"),
+        ("=1e400", "too large"),
+        ("=n", "unknown parameter n"),
+        ("=sqrt", r"sqrt is a function: write sqrt\(...\)"),
+        ("=sqr(4)", "unknown function sqr; did you mean sqrt"),
+        ("=sqrt()", "sqrt takes 1 argument, has 0"),
+        ("=atan2(1)", "atan2 takes 2 arguments, has 1"),
+        ("=max(1)", "max takes 2 to 16 arguments, has 1"),
+        ("=2^3", r"write \*\* for powers"),
+        ("=2 3", "cannot be read"),
+        ("=(1", "cannot be read"),
+        ("=1 if 1 else 2", "something other"),
+        ("=1 < 2", "something other"),
+        ("=7 // 2", "something other"),
+        ("=True", "something other"),
+        ("=1j", "something other"),
+        ("='a'*9", "something other"),
+        ("=[1][0]", "something other"),
+        ("=(1).real", "something other"),
+        ("=lambda: 1", "something other"),
+        ("=[x for x in (1,)]", "something other"),
+        ("=f'{1}'", "something other"),
+        ("=(x:=1)", "something other"),
+        ("=abs(x=1)", "something other"),
+        ("=max(*(1, 2))", "something other"),
+        ("=sqrt(2)(3)", "something other"),
+        ("=__import__('os').system('true')", "something other"),
+        ("=import os", "cannot be read"),
+        ("=" + "(" * 250 + "1" + ")" * 40, "cannot be read"),
+        ("=" + "-" * 250 + "1", "nested"),
+        ("=" + "1+" * 149 + "1", "nested"),
+        ("=" + "1" * 301, "more than 300 characters"),
+    ],
+)
+def test_refusals(text: str, message: str) -> None:
+    with pytest.raises(ExpressionError, match=message):
+        value(text)
+
+
+def test_python_remarks_on_style_are_no_warnings() -> None:
+    with pytest.raises(ExpressionError):
+        value("=1if 2else 3")
+
+
+@given(st.text("0123456789.+-*/%()e pisqrtmaxnl,_'\"[]{}:=<>!~@\\", max_size=60))
+def test_any_text_gives_a_finite_number_or_an_expression_error(text: str) -> None:
+    try:
+        result = value("=" + text, n=2)
+    except ExpressionError:
+        return
+    assert isinstance(result, float)
+    assert math.isfinite(result)
+
+
+NUMBERS = st.floats(-1e3, 1e3).map(lambda number: round(number, 3))
+FORMULAS = st.recursive(
+    NUMBERS.map(lambda number: f"({number})"),
+    lambda below: st.tuples(below, st.sampled_from("+-*/%"), below).map(lambda parts: f"({''.join(parts)})"),
+    max_leaves=8,
+)
+
+
+@given(FORMULAS)
+def test_arithmetic_is_that_of_python(formula: str) -> None:
+    try:
+        expected = eval(formula)
+    except ZeroDivisionError:
+        with pytest.raises(ExpressionError, match="divides by zero"):
+            value(f"={formula}")
+        return
+    if math.isfinite(expected):
+        assert value(f"={formula}") == expected

@@ -1,0 +1,62 @@
+from __future__ import annotations
+
+import pytest
+
+from mbla.deck.reader import read_yaml
+from mbla.deck.sources import SourceText
+from mbla.deck.tree import KeyPath, MappingMarks, Tree, key_text, shorten
+
+TEXT = """a:
+  b: {c: -0.60, d: [1, [2,
+    3]]}
+  e: some words, here
+  f: "quoted"
+list:
+  - x: 1
+  - 0x1F
+"""
+
+
+@pytest.fixture
+def tree() -> Tree:
+    source = SourceText("deck.yaml", TEXT)
+    document = read_yaml(source, 0)
+    assert isinstance(document.marks, MappingMarks)
+    return Tree(document.data, document.marks, [source])
+
+
+@pytest.mark.parametrize(
+    ("path", "line"),
+    [
+        ((), "1:1 no"),
+        (("a",), "1:1 a: no"),
+        (("a", "b"), "2:3 a.b: no"),
+        (("a", "b", "c"), "2:10 a.b.c = -0.60: no"),
+        (("a", "b", "d"), "2:20 a.b.d = [1, [2, 3]]: no"),
+        (("a", "b", "d", 1, 1), "3:5 a.b.d[1][1] = 3: no"),
+        (("a", "e"), "4:6 a.e = some words, here: no"),
+        (("a", "f"), '5:6 a.f = "quoted": no'),
+        (("list",), "7:3 list: no"),
+        (("list", 0), "7:5 list[0]: no"),
+        (("list", 1), "8:5 list[1] = 0x1F: no"),
+        (("a", "b", "absent"), "2:3 a.b.absent: no"),
+        (("a", "b", "absent", 3, "deeper"), "2:3 a.b.absent[3].deeper: no"),
+        (("list", 9), "7:3 list[9]: no"),
+    ],
+)
+def test_place_path_and_value(tree: Tree, path: KeyPath, line: str) -> None:
+    assert str(tree.fault(path, "no")) == f"deck.yaml:{line}"
+
+
+def test_place_of_key(tree: Tree) -> None:
+    assert str(tree.fault(("a", "e"), "no", at_key=True)) == "deck.yaml:4:3 a.e = some words, here: no"
+
+
+def test_long_values_are_cut() -> None:
+    assert shorten("x" * 1000) == "x" * 59 + "…"
+    assert shorten("x" * 60) == "x" * 60
+    assert shorten("two\n  lines") == "two lines"
+
+
+def test_key_text() -> None:
+    assert key_text(("blocks", 3, "wall", "length")) == "blocks[3].wall.length"

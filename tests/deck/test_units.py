@@ -1,0 +1,108 @@
+from __future__ import annotations
+
+import subprocess
+import sys
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from mbla.deck.units import DIMENSIONS, KILOGRAMS, METRES, NEWTONS, STANDARD_GRAVITY, Units
+
+SI = Units()
+
+
+@pytest.mark.parametrize(
+    ("units", "text", "dimension", "expected"),
+    [
+        (SI, "18 kN/m^3", "unit_weight", 18e3),
+        (Units("m", "kN", "t"), "18 kN/m^3", "unit_weight", 18.0),
+        (Units("mm", "N", "t"), "18 kN/m^3", "unit_weight", 18e-6),
+        (Units("mm", "N", "t"), "0.1 MPa", "stress", 0.1),
+        (Units("m", "kN", "t"), "0.1 N/mm**2", "stress", 100.0),
+        (Units("in", "kip", "lb"), "12 ft", "length", 144.0),
+        (SI, "1 in", "length", 0.0254),
+        (SI, "30cm", "length", 0.3),
+        (SI, "-3e2 mm", "length", -0.3),
+        (SI, "1 kip", "force", 4448.2216152605),
+        (SI, "2 t/m³", "density", 2000.0),
+        (SI, "120 lbf/ft^3", "unit_weight", 120 * 4.4482216152605 / 0.3048**3),
+        (Units("mm", "N", "t"), "9.81 m/s^2", "acceleration", 9810.0),
+        (SI, "0.5 rad", "angle", 28.64788975654116),
+        (SI, "30 deg", "angle", 30.0),
+        (SI, "33°", "angle", 33.0),
+        (SI, "10 min", "time", 600.0),
+        (SI, "1 kN·s^2/m^4", "density", 1000.0),
+        (SI, " 5 kg / m^3 ", "density", 5.0),
+        (SI, "100 m^-3 kg", "density", 100.0),
+        (SI, "3 m\n", "length", 3.0),
+    ],
+)
+def test_conversion(units: Units, text: str, dimension: str, expected: float) -> None:
+    assert units.convert(text, dimension) == pytest.approx(expected, rel=1e-14)
+
+
+@pytest.mark.parametrize("dimension", [name for name in DIMENSIONS if name != "number"])
+def test_example_of_every_dimension_is_one(dimension: str) -> None:
+    assert SI.convert(DIMENSIONS[dimension].example, dimension) > 0
+
+
+@pytest.mark.parametrize(
+    ("text", "dimension", "message"),
+    [
+        ("18 kN/m", "unit_weight", r"is not a unit weight but \[mass\]/\[time\]\^2: write for example \"18 kN/m\^3\""),
+        ("18 kg/m^3", "unit_weight", "is not a unit weight but a density"),
+        ("3 s", "length", "is not a length but a time"),
+        ("1 g", "acceleration", r"is not an acceleration but \[mass\]"),
+        ("5 percent", "angle", "is not an angle but a ratio"),
+        ("5 rad", "length", "is not a length but an angle"),
+        ("5 degC", "length", "is not a length"),
+        ("0.6", "number", "write the number without quotes"),
+        ("0.6", "length", "write the number without quotes"),
+        ("0.6 m", "number", "without a unit"),
+        ("3 furlongz", "length", 'unknown unit "furlongz"'),
+        ("3 __import__", "length", "must be a number"),
+        ("3 m^9^9^9^9", "length", "must be a number"),
+        ("3 m**99999999", "length", "must be a number"),
+        ("3 (m)", "length", "must be a number"),
+        ("3 m; 4", "length", "must be a number"),
+        ("m", "length", "must be a number"),
+        ("", "length", "must be a number"),
+        ("1e999 m", "length", "too large"),
+        ("3 " + "m" * 200, "length", "must be a number"),
+        ("3 " + "m*" * 8 + "m", "length", "must be a number"),
+        ("1,5 m", "length", "must be a number"),
+        ("٣ m", "length", "must be a number"),
+    ],
+)
+def test_refusals(text: str, dimension: str, message: str) -> None:
+    with pytest.raises(ValueError, match=message):
+        SI.convert(text, dimension)
+
+
+@pytest.mark.parametrize("units", [Units(a, b, c) for a in METRES for b in NEWTONS for c in KILOGRAMS])
+def test_own_units_convert_to_themselves(units: Units) -> None:
+    for dimension in DIMENSIONS:
+        if dimension != "number":
+            assert units.convert(f"7 {units.unit(dimension)}", dimension) == pytest.approx(7.0, rel=1e-13)
+
+
+@pytest.mark.parametrize("units", [SI, Units("mm", "kN", "t"), Units("ft", "lbf", "lb")])
+def test_gravity(units: Units) -> None:
+    assert units.convert("9.81 m/s^2", "acceleration") == pytest.approx(units.standard_gravity, rel=1e-14)
+    assert units.default_gravity == (0.0, 0.0, -units.standard_gravity)
+    weight = units.convert("1 kg/m^3", "density") * units.standard_gravity * units.force_per_mass_acceleration
+    assert weight == pytest.approx(units.convert(f"{STANDARD_GRAVITY} N/m^3", "unit_weight"), rel=1e-13)
+
+
+@given(st.text("0123456789.eE+- mkNsftinlb/*^°²³·()[]'\";:=!\n\t", max_size=30), st.sampled_from(sorted(DIMENSIONS)))
+def test_any_text_is_a_number_or_a_value_error(text: str, dimension: str) -> None:
+    try:
+        assert isinstance(SI.convert(text, dimension), float)
+    except ValueError as error:
+        assert str(error)
+
+
+def test_units_library_is_loaded_only_when_needed() -> None:
+    program = "import sys, mbla.deck; sys.exit('pint' in sys.modules or 'numpy' in sys.modules)"
+    assert subprocess.run([sys.executable, "-c", program], check=False).returncode == 0
