@@ -1,6 +1,6 @@
 """Blocks that share volume.
 
-Two blocks are apart if the plane of some face has all of one on its inner side and all of the other on its outer side,
+Two blocks are apart if the plane of some facet has all of one on its inner side and all of the other on its outer side,
 up to the tolerance. Pairs without such a plane are intersected as solids: with V the volume and S the surface of what
 they share, they overlap if the thickness 2 V / S exceeds the tolerance times the block size. The measure sees identical
 and nested blocks too, which no comparison of faces does.
@@ -12,15 +12,18 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mbla.arrays import BoolArray, FloatArray, IntArray
+from mbla.arrays import BoolArray, FloatArray, IntArray, starts
 from mbla.contacts.broad_phase import BlockPairs
+from mbla.contacts.facets import Facets
 from mbla.contacts.ragged import rows_and_items
-from mbla.contacts.solids import Solid
+from mbla.contacts.solids import Solid, triangulate_block
 from mbla.model.blocks import Blocks
-from mbla.model.ragged import chunks
+from mbla.model.ragged import chunks, ranges
 
-# Distances computed together: bounds memory to some 100 MB.
+# Heights of vertices over facets computed together: bounds memory to some 100 MB.
 _BATCH = 1_000_000
+# Products of facets and vertices above which a pair is taken by itself, with a matrix product.
+_LARGE = 20_000
 
 
 @dataclass(frozen=True)
@@ -37,7 +40,7 @@ class Overlaps:
     unchecked: IntArray
 
 
-def find_overlaps(blocks: Blocks, pairs: BlockPairs, touching: IntArray, tolerance: float) -> Overlaps:
+def find_overlaps(blocks: Blocks, facets: Facets, pairs: BlockPairs, touching: IntArray, tolerance: float) -> Overlaps:
     """Overlaps deeper than the tolerance (relative to block size).
 
     touching : (m, 2) pairs of blocks with a contact
@@ -47,11 +50,9 @@ def find_overlaps(blocks: Blocks, pairs: BlockPairs, touching: IntArray, toleran
     # The joint between two convex blocks separates them: no need to look for another plane.
     apart = blocks.convex[a] & blocks.convex[b] & _listed(pairs.blocks, touching, len(blocks))
     rows = np.flatnonzero(deep & ~apart)
-    if len(rows):
-        extents = _own_extents(blocks)
-        for one, other in ((0, 1), (1, 0)):
-            limit = -tolerance * pairs.sizes[rows]
-            rows = rows[_clearances(blocks, pairs.blocks[rows, one], pairs.blocks[rows, other], extents) < limit]
+    for one, other in ((0, 1), (1, 0)):
+        clearance = _clearances(blocks, facets, pairs.blocks[rows, one], pairs.blocks[rows, other])
+        rows = rows[clearance < -tolerance * pairs.sizes[rows]]
     return _by_solids(blocks, pairs, rows, tolerance)
 
 
@@ -61,54 +62,67 @@ def _listed(pairs: IntArray, listed: IntArray, n_blocks: int) -> BoolArray:
     return found
 
 
-def _face_points(blocks: Blocks) -> FloatArray:
-    """A corner of each face, (n_faces, 3)."""
-    return blocks.vertices[blocks.loops[blocks.loop_start[:-1]]]
+def _clearances(blocks: Blocks, facets: Facets, one: IntArray, other: IntArray) -> FloatArray:
+    """Greatest clearance of the blocks of each pair along a facet normal of the first, (n,) m; negative if none."""
+    if not len(one):
+        return np.zeros(0)
+    # How far each of the first blocks reaches beyond the planes of its own facets: 0 where it is convex.
+    own = np.unique(one)
+    extents = np.zeros(len(facets))
+    counts = np.diff(facets.facet_start)
+    extents[ranges(facets.facet_start[own], counts[own])] = -_least_heights(blocks, facets, own, own, sign=-1.0)
+    lowest = _least_heights(blocks, facets, one, other, sign=1.0)
+    clearance = lowest - extents[ranges(facets.facet_start[one], counts[one])]
+    greatest: FloatArray = np.maximum.reduceat(clearance, starts(counts[one])[:-1])
+    return greatest
 
 
-def _own_extents(blocks: Blocks) -> FloatArray:
-    """How far each block reaches beyond the plane of each of its faces, (n_faces,) m; 0 for faces of convex blocks."""
-    n_vertices = np.diff(blocks.vertex_start)[blocks.block_of_face]
-    points = _face_points(blocks)
-    extents = np.empty(len(points))
-    for faces in chunks(n_vertices, _BATCH):
-        block = blocks.block_of_face[faces]
-        row, vertex = rows_and_items(blocks.vertex_start[block], n_vertices[faces])
-        height = _heights(blocks, vertex, points[faces][row], blocks.face_normals[faces][row])
-        extents[faces] = np.maximum.reduceat(height, np.flatnonzero(np.diff(row, prepend=-1)))
-    return extents
-
-
-def _clearances(blocks: Blocks, one: IntArray, other: IntArray, extents: FloatArray) -> FloatArray:
-    """Greatest clearance between the blocks of each pair along a face normal of the first, (n,) m; negative if none."""
-    points = _face_points(blocks)
-    n_faces = np.diff(blocks.face_start)[one]
+def _least_heights(blocks: Blocks, facets: Facets, one: IntArray, other: IntArray, sign: float) -> FloatArray:
+    """Least of sign × height over the vertices of ``other``, above every facet of ``one``: flat, row by row, m."""
+    n_facets = np.diff(facets.facet_start)[one]
     n_vertices = np.diff(blocks.vertex_start)[other]
-    clearances = np.empty(len(one))
-    for rows in chunks(n_faces * n_vertices, _BATCH):
-        pair, face = rows_and_items(blocks.face_start[one[rows]], n_faces[rows])
+    start = starts(n_facets)
+    least = np.empty(start[-1])
+    products = n_facets * n_vertices
+    small = np.flatnonzero(products <= _LARGE)
+    for part in chunks(products[small], _BATCH):
+        rows = small[part]
+        pair, facet = rows_and_items(facets.facet_start[one[rows]], n_facets[rows])
         row, vertex = rows_and_items(blocks.vertex_start[other[rows]][pair], n_vertices[rows][pair])
-        height = _heights(blocks, vertex, points[face][row], blocks.face_normals[face][row])
-        nearest = np.minimum.reduceat(height, np.flatnonzero(np.diff(row, prepend=-1)))
-        clearance = nearest - extents[face]
-        clearances[rows] = np.maximum.reduceat(clearance, np.flatnonzero(np.diff(pair, prepend=-1)))
-    return clearances
+        arms = blocks.vertices[vertex] - facets.origins[facet][row]
+        height = sign * np.einsum("ki,ki->k", arms, facets.normals[facet][row])
+        least[ranges(start[rows], n_facets[rows])] = np.minimum.reduceat(height, starts(n_vertices[rows][pair])[:-1])
+    for large in np.flatnonzero(products > _LARGE):
+        of_facets = slice(facets.facet_start[one[large]], facets.facet_start[one[large] + 1])
+        vertices = blocks.vertices[blocks.vertex_start[other[large]] : blocks.vertex_start[other[large] + 1]]
+        least[start[large] : start[large + 1]] = _least_of_large(
+            vertices, sign * facets.normals[of_facets], facets.origins[of_facets]
+        )
+    return least
 
 
-def _heights(blocks: Blocks, vertex: IntArray, points: FloatArray, normals: FloatArray) -> FloatArray:
-    """Height of vertices over planes, (n,) m."""
-    heights: FloatArray = np.einsum("ki,ki->k", blocks.vertices[vertex] - points, normals)
+def _least_of_large(vertices: FloatArray, normals: FloatArray, origins: FloatArray) -> FloatArray:
+    """Least height of vertices (n, 3) over each of many planes, (m,), in slabs of a matrix product."""
+    about = vertices[0]  # differences first: far from the origin the products would lose digits
+    arms, offsets = vertices - about, np.einsum("ki,ki->k", origins - about, normals)
+    slab = max(_BATCH // len(vertices), 1)
+    least = [(arms @ normals[i : i + slab].T).min(axis=0) for i in range(0, len(normals), slab)]
+    heights: FloatArray = np.concatenate(least) - offsets
     return heights
 
 
 def _by_solids(blocks: Blocks, pairs: BlockPairs, rows: IntArray, tolerance: float) -> Overlaps:
     """Judge the pairs left over one by one."""
     found, depths, unchecked = [], [], []
+    triangles: dict[int, IntArray] = {}
     for row in rows:
         a, b = (int(block) for block in pairs.blocks[row])
         size = float(pairs.sizes[row])
         origin = blocks.centroids[a if blocks.sizes[a] <= blocks.sizes[b] else b]
-        solids = [Solid(blocks, block, origin, size) for block in (a, b)]
+        for block in (a, b):
+            if block not in triangles:
+                triangles[block] = triangulate_block(blocks, block)
+        solids = [Solid(blocks.vertices, triangles[block], origin, size) for block in (a, b)]
         if not all(solid.sound for solid in solids):
             unchecked.append((a, b))
             continue

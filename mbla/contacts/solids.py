@@ -7,19 +7,20 @@ from typing import Any
 import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
+from mbla.contacts.frames import frames_from_normals
 from mbla.model.blocks import Blocks
 
 
 class Solid:
-    """A block as a triangulated solid, in coordinates relative to ``origin`` over ``size``."""
+    """A closed surface of triangles as a solid, in coordinates relative to ``origin`` over ``size``."""
 
-    def __init__(self, blocks: Blocks, block: int, origin: FloatArray, size: float) -> None:
-        vertices, triangles = _triangulated(blocks, block)
-        self._solid: Any = _manifold((vertices - origin) / size, triangles)
+    def __init__(self, vertices: FloatArray, triangles: IntArray, origin: FloatArray, size: float) -> None:
+        first, last = triangles.min(), triangles.max()
+        self._solid: Any = _manifold((vertices[first : last + 1] - origin) / size, triangles - first)
 
     @property
     def sound(self) -> bool:
-        """False where the faces do not form a closed solid, so that nothing can be said about overlaps."""
+        """False where the triangles do not form a closed solid, so that nothing can be said about overlaps."""
         return self._solid is not None
 
     def shared_thickness(self, other: Solid) -> float:
@@ -29,25 +30,23 @@ class Solid:
         return 2 * abs(common.volume()) / surface if surface > 0 else 0.0
 
 
-def _triangulated(blocks: Blocks, block: int) -> tuple[FloatArray, IntArray]:
-    """Vertices (n, 3) m and triangles (m, 3) of a block, outwards."""
+def triangulate_block(blocks: Blocks, block: int) -> IntArray:
+    """Triangles (m, 3) of a block, outwards, as rows of ``blocks.vertices``."""
     from manifold3d import triangulate
 
-    start, end = blocks.vertex_start[block], blocks.vertex_start[block + 1]
+    faces = slice(blocks.face_start[block], blocks.face_start[block + 1])
+    frames = frames_from_normals(blocks.face_normals[faces])
+    starts = blocks.loop_start[blocks.face_start[block] : blocks.face_start[block + 1] + 1]
     found = []
-    for face in range(blocks.face_start[block], blocks.face_start[block + 1]):
-        loop = blocks.loops[blocks.loop_start[face] : blocks.loop_start[face + 1]] - start
+    for tangents, first, end in zip(frames[:, 1:], starts[:-1], starts[1:], strict=True):
+        loop = blocks.loops[first:end]
         if len(loop) == 3:
             found.append(loop[None])
             continue
-        corners = blocks.vertices[loop + start]
-        normal = blocks.face_normals[face]
-        tangent = corners[1] - corners[0]
-        tangent = tangent / np.linalg.norm(tangent)
-        axes = np.stack([tangent, np.cross(normal, tangent)])
-        flat = (corners - corners[0]) @ axes.T
+        corners = blocks.vertices[loop]
+        flat = (corners - corners[0]) @ tangents.T
         found.append(loop[np.asarray(triangulate([flat / np.abs(flat).max()]))])
-    return blocks.vertices[start:end], np.concatenate(found)
+    return np.concatenate(found)
 
 
 def _manifold(vertices: FloatArray, triangles: IntArray) -> Any | None:

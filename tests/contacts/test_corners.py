@@ -62,8 +62,8 @@ def test_outlines_smaller_than_the_tolerance_keep_their_shape() -> None:
 
 
 def test_three_corners_are_left_at_least() -> None:
-    needle: Outline = [[0, 0], [1, 0], [1, 1e-12], [0.5, 1e-12]]
-    assert len(needed_corners(polygons(needle), 1e-2).points) == 3
+    triangle: Outline = [[0, 0], [0.5, 0], [1, 0], [0.5, 0.5], [0, 1], [0, 0.5]]
+    assert len(needed_corners(polygons(triangle), 1e-2).points) == 3
 
 
 def test_outlines_start_at_the_same_corner_whatever_their_order() -> None:

@@ -2,13 +2,27 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
+from mbla.contacts import find_contacts
 from mbla.contacts.broad_phase import find_block_pairs
+from mbla.contacts.facets import build_facets
 from mbla.contacts.overlaps import Overlaps, find_overlaps
 from mbla.model.polyhedra import Polyhedra, join_polyhedra, polyhedra_from_lists
-from tests.contacts.structures import any_rotation, blocks_of, boxes, contacts_of, moved, prism, running_bond
+from tests.contacts.structures import (
+    any_rotation,
+    blocks_of,
+    boxes,
+    contacts_of,
+    model_of,
+    moved,
+    prism,
+    running_bond,
+    section,
+)
 from tests.contacts.test_shapes import L_OUTLINE, circle, ring
 
 NONE = np.zeros((0, 2), dtype=np.int64)
@@ -16,7 +30,7 @@ NONE = np.zeros((0, 2), dtype=np.int64)
 
 def overlaps_of(polyhedra: Polyhedra, tolerance: float = 1e-3) -> Overlaps:
     blocks = blocks_of(polyhedra)
-    return find_overlaps(blocks, find_block_pairs(blocks, tolerance), NONE, tolerance)
+    return find_overlaps(blocks, build_facets(blocks), find_block_pairs(blocks, tolerance), NONE, tolerance)
 
 
 @pytest.mark.parametrize("turn", [None, any_rotation(4)], ids=["along the axes", "turned"])
@@ -96,3 +110,13 @@ def test_overlaps_are_in_the_report_in_words() -> None:
         "block[0] and block[1] overlap by 0.0192 m, 0.019 of the block size: move them apart, or set "
         "contacts.tolerance above 0.02 if they are meant to touch"
     )
+
+
+def test_block_that_is_no_closed_solid_is_said_to_be_unchecked() -> None:
+    blocks = blocks_of(boxes(([0, 0, 0], [1, 1, 1]), ([0, 0, 0.5], [1, 1, 1.5])))
+    loops = blocks.loops.copy()
+    loops[:4] = loops[4:8]  # one face twice, its opposite missing
+    report = find_contacts(model_of(replace(blocks, loops=loops)), section()).report
+    assert report.unchecked.tolist() == [[0, 1]]
+    assert len(report.overlaps) == 0
+    assert "overlap-not-checked" in {notice.identifier for notice in report.notices}
