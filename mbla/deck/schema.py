@@ -61,10 +61,9 @@ def _tidy(node: Any) -> Any:
     prefix = node.get("prefixItems")
     if prefix and all(item == prefix[0] for item in prefix):
         node["items"] = node.pop("prefixItems")[0]
-    branches = [branch for branch in node.get("anyOf", ()) if branch != {"type": "null"}]
-    if len(branches) == 1:
-        del node["anyOf"]
-        node = {**branches[0], **node}
+    if "anyOf" in node:
+        branches = [branch for branch in node.pop("anyOf") if branch != {"type": "null"}]
+        node = {**branches[0], **node} if len(branches) == 1 else {"anyOf": branches, **node}
     return node
 
 

@@ -111,46 +111,10 @@ def test_offset_shifts_marks() -> None:
     assert (document.marks.own, document.marks.items) == (4, [5, 8])
 
 
+# An underscore stands for a blank.
+SYNTAX = r"""[ ] { } , :_ -_ ? &a_ *a !!str_ <<:_ | > ' " \ # --- ... %YAML_1.2 a b:_1 true 1e3 .inf ~ = @ `"""
 YAML_PIECES = st.sampled_from(
-    [
-        "[",
-        "]",
-        "{",
-        "}",
-        ",",
-        ": ",
-        "- ",
-        "\n",
-        "\n  ",
-        "? ",
-        "&a ",
-        "*a",
-        "!!str ",
-        "<<: ",
-        "|\n",
-        ">",
-        "'",
-        '"',
-        "\\",
-        "#",
-    ]
-    + [
-        "---\n",
-        "...\n",
-        "%YAML 1.2\n",
-        "a",
-        "b: 1",
-        "true",
-        "1e3",
-        ".inf",
-        "~",
-        "\t",
-        "\u2028",
-        "\U0001f600",
-        "=",
-        "@",
-        "`",
-    ]
+    [*(piece.replace("_", " ") for piece in SYNTAX.split()), "\n", "\n  ", "\t", "\u2028", "\U0001f600"]
 )
 
 

@@ -2,6 +2,7 @@ from __future__ import annotations
 
 import subprocess
 import sys
+from contextlib import suppress
 
 import pytest
 from hypothesis import given
@@ -97,10 +98,8 @@ def test_gravity(units: Units) -> None:
 
 @given(st.text("0123456789.eE+- mkNsftinlb/*^°²³·()[]'\";:=!\n\t", max_size=30), st.sampled_from(sorted(DIMENSIONS)))
 def test_any_text_is_a_number_or_a_value_error(text: str, dimension: str) -> None:
-    try:
+    with suppress(ValueError):
         assert isinstance(SI.convert(text, dimension), float)
-    except ValueError as error:
-        assert str(error)
 
 
 def test_units_library_is_loaded_only_when_needed() -> None:

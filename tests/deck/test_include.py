@@ -1,0 +1,154 @@
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+import pytest
+
+from mbla.deck import read_deck
+from tests.deck.decks import BLOCK, changed, faults, write
+
+INCLUDING = changed("title: A block on the ground\n", "title: A block on the ground\ninclude: [more.yaml]\n")
+
+
+def test_sections_are_merged_key_by_key(tmp_path: Path) -> None:
+    write(tmp_path, "materials: {brick: {density: 1800}}\nparameters: {width: 2}\noutput: {frames: 5}\n", "more.yaml")
+    deck = read_deck(write(tmp_path, INCLUDING + "output: {vtu: false}\n"))
+    assert list(deck.content.materials) == ["brick", "stone"]
+    assert deck.content.parameters == {"width": 2.0, "mu": 0.6}
+    assert (deck.content.output.frames, deck.content.output.vtu) == (5, False)
+    assert [source.path.name for source in deck.sources] == ["deck.yaml", "more.yaml"]
+
+
+def test_lists_are_joined_included_items_first(tmp_path: Path) -> None:
+    item = "{group: base, material: stone, min: [0, 0, -1], max: [1, 1, 0]}"
+    write(tmp_path, f"blocks:\n  - box: {item}\n", "more.yaml")
+    deck = read_deck(write(tmp_path, INCLUDING))
+    assert [item.box.group for item in deck.content.blocks if item.box] == ["base", "block"]
+    assert str(deck.fault_at(("blocks", 0, "box", "min", 2), "no")) == (
+        f"{tmp_path}/more.yaml:2:53 blocks[0].box.min[2] = -1: no"
+    )
+    assert deck.fault_at(("blocks", 1, "box", "group"), "no").place.file == f"{tmp_path}/deck.yaml"
+
+
+def test_faults_in_included_files_have_their_places(tmp_path: Path) -> None:
+    write(
+        tmp_path,
+        "mbla: 1\nmaterials:\n  brick: {density: -1}\njoints: {wet: {friction: 1, friction: 2}}\n",
+        "more.yaml",
+    )
+    assert faults(write(tmp_path, INCLUDING)) == [
+        "more.yaml:3:20 materials.brick.density = -1: must be > 0",
+        "more.yaml:4:29 joints.wet.friction: is given twice, first in line 4",
+    ]
+
+
+def test_what_both_define_names_both_places(tmp_path: Path) -> None:
+    write(tmp_path, "title: Another\nmaterials: {stone: {density: 1}}\nunits: {length: mm}\n", "more.yaml")
+    assert faults(write(tmp_path, INCLUDING)) == [
+        "deck.yaml:2:1 title: is defined in more.yaml:1:1 too",
+        "deck.yaml:4:9 units.length: is defined in more.yaml:3:9 too",
+        "deck.yaml:7:3 materials.stone: is defined in more.yaml:2:13 too",
+    ]
+
+
+def test_two_included_files_may_not_define_the_same(tmp_path: Path) -> None:
+    write(tmp_path, "materials: {brick: {density: 1}}\n", "a.yaml")
+    write(tmp_path, "materials: {brick: {density: 1}}\n", "b.yaml")
+    assert faults(write(tmp_path, INCLUDING.replace("more.yaml", "a.yaml, b.yaml"))) == [
+        "b.yaml:1:13 materials.brick: is defined in a.yaml:1:13 too"
+    ]
+
+
+def test_version_may_stand_in_each_file_but_not_differ(tmp_path: Path) -> None:
+    write(tmp_path, "mbla: 1\n", "more.yaml")
+    path = write(tmp_path, INCLUDING)
+    assert read_deck(path).content.mbla == 1
+    write(tmp_path, "mbla: 2\n", "more.yaml")
+    assert faults(path) == ["deck.yaml:1:1 mbla: is defined in more.yaml:1:1 too"]
+
+
+def test_names_are_relative_to_the_including_file(tmp_path: Path) -> None:
+    write(tmp_path, "include: [c.yaml]\n", "sub/b.yaml")
+    write(tmp_path, "materials: {brick: {density: -1}}\n", "sub/c.yaml")
+    assert faults(write(tmp_path, INCLUDING.replace("more.yaml", "sub/b.yaml"))) == [
+        "sub/c.yaml:1:30 materials.brick.density = -1: must be > 0"
+    ]
+
+
+def test_file_reached_twice_is_merged_once(tmp_path: Path) -> None:
+    write(tmp_path, "include: [common.yaml]\n", "a.yaml")
+    write(tmp_path, "include: [common.yaml]\n", "b.yaml")
+    write(tmp_path, "materials: {brick: {density: 1800}}\n", "common.yaml")
+    deck = read_deck(write(tmp_path, INCLUDING.replace("more.yaml", "a.yaml, b.yaml")))
+    assert list(deck.content.materials) == ["brick", "stone"]
+    assert len(deck.sources) == 4
+
+
+def test_included_file_cannot_leave_its_own_folder(tmp_path: Path) -> None:
+    write(tmp_path, "include: [../other.yaml]\n", "sub/b.yaml")
+    write(tmp_path, "materials: {brick: {density: 1}}\n", "other.yaml")
+    assert faults(write(tmp_path, INCLUDING.replace("more.yaml", "sub/b.yaml"))) == [
+        "sub/b.yaml:1:11 include[0] = ../other.yaml: leads out of the folder tree of the file that names it"
+    ]
+
+
+def test_link_out_of_the_folder(tmp_path: Path) -> None:
+    outside = write(tmp_path, "materials: {brick: {density: 1}}\n", "outside.yaml")
+    path = write(tmp_path, INCLUDING, "inside/deck.yaml")
+    (tmp_path / "inside" / "more.yaml").symlink_to(outside)
+    assert faults(path) == [
+        "deck.yaml:3:11 include[0] = more.yaml: leads out of the folder tree of the file that names it"
+    ]
+
+
+def test_link_within_the_folder(tmp_path: Path) -> None:
+    target = write(tmp_path, "materials: {brick: {density: 1}}\n", "library/bricks.yaml")
+    (tmp_path / "more.yaml").symlink_to(target)
+    assert "brick" in read_deck(write(tmp_path, INCLUDING)).content.materials
+
+
+def test_cycles(tmp_path: Path) -> None:
+    path = write(tmp_path, INCLUDING)
+    write(tmp_path, "include: [deck.yaml]\n", "more.yaml")
+    assert faults(path) == ["more.yaml:1:11 include[0] = deck.yaml: includes a file that includes it in turn"]
+    write(tmp_path, "include: [more.yaml]\n", "more.yaml")
+    assert faults(path) == ["more.yaml:1:11 include[0] = more.yaml: includes itself"]
+
+
+def test_links_that_go_round(tmp_path: Path) -> None:
+    (tmp_path / "more.yaml").symlink_to(tmp_path / "more.yaml")
+    (message,) = faults(write(tmp_path, INCLUDING))
+    assert message.startswith("deck.yaml:3:11 include[0] = more.yaml: cannot be ")
+
+
+def test_pipe(tmp_path: Path) -> None:
+    os.mkfifo(tmp_path / "more.yaml")
+    assert faults(write(tmp_path, INCLUDING)) == ["deck.yaml:3:11 include[0] = more.yaml: is not a regular file"]
+
+
+def test_text_that_is_no_deck(tmp_path: Path) -> None:
+    path = write(tmp_path, INCLUDING)
+    write(tmp_path, "", "more.yaml")
+    assert faults(path) == ["more.yaml:1:1 is empty: a deck is a mapping that begins with mbla: 1"]
+    (tmp_path / "more.yaml").write_bytes(b"a: \xff\n")
+    assert faults(path) == ["more.yaml:1:4 byte 0xFF is not UTF-8: save the deck as UTF-8"]
+
+
+def test_number_of_files_is_limited(tmp_path: Path) -> None:
+    for number in range(120):
+        write(tmp_path, f"include: [f{number + 1}.yaml]\n", f"f{number}.yaml")
+    (message,) = faults(write(tmp_path, INCLUDING.replace("more.yaml", "f0.yaml")))
+    assert "at most 100 are read" in message
+
+
+@pytest.mark.parametrize("entry", ["7", "[more.yaml]", "{file: more.yaml}"])
+def test_entries_that_are_no_names(tmp_path: Path, entry: str) -> None:
+    assert faults(write(tmp_path, INCLUDING.replace("[more.yaml]", f"[{entry}]")))[0].startswith(
+        "deck.yaml:3:11 include[0]"
+    )
+
+
+def test_what_an_included_file_supplies_is_not_missing(tmp_path: Path) -> None:
+    write(tmp_path, BLOCK, "more.yaml")
+    assert read_deck(write(tmp_path, "include: [more.yaml]\n")).content.title == "A block on the ground"

@@ -1,0 +1,109 @@
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from mbla.deck import Deck, read_deck
+from tests.deck.decks import BLOCK, changed, faults, write
+
+
+@pytest.fixture
+def path(tmp_path: Path) -> Path:
+    return write(tmp_path, BLOCK)
+
+
+def friction(deck: Deck) -> float | None:
+    return deck.content.joints["dry"].friction
+
+
+def test_parameter_is_set_before_expressions_are_evaluated(path: Path) -> None:
+    assert friction(read_deck(path, ["parameters.mu=0.5"])) == 0.5
+
+
+def test_last_of_two_stands(path: Path) -> None:
+    assert friction(read_deck(path, ["parameters.mu=0.5", "parameters.mu=0.4"])) == 0.4
+
+
+def test_value_may_be_an_expression_or_hold_a_unit(path: Path) -> None:
+    assert friction(read_deck(path, ["joints.dry.friction==mu/2"])) == 0.3
+    assert read_deck(path, ["materials.stone.density=2 t/m^3"]).content.materials["stone"].density == 2000.0
+
+
+def test_item_of_a_list_by_its_number(path: Path) -> None:
+    (item,) = read_deck(path, ["blocks.0.box.max.2=3"]).content.blocks
+    assert item.box is not None
+    assert item.box.max == (1.0, 1.0, 3.0)
+
+
+def test_lists_and_mappings(path: Path) -> None:
+    content = read_deck(path, ["blocks.0.box.max=[1, 2, 3]", "joints.dry={friction: 0.7, cohesion: 5}"]).content
+    assert content.blocks[0].box is not None
+    assert content.blocks[0].box.max == (1.0, 2.0, 3.0)
+    assert (content.joints["dry"].friction, content.joints["dry"].cohesion) == (0.7, 5.0)
+
+
+def test_section_that_the_deck_leaves_to_its_defaults(path: Path) -> None:
+    assert read_deck(path, ["analysis.published.slope=0.1"]).content.analysis.published.slope == 0.1
+
+
+def test_name_with_a_dot(tmp_path: Path) -> None:
+    path = write(tmp_path, BLOCK.replace("stone", "stone.v2"))
+    assert read_deck(path, ["materials.stone.v2.density=5"]).content.materials["stone.v2"].density == 5.0
+
+
+def test_new_load_case_as_a_whole(path: Path) -> None:
+    cases = read_deck(path, ["load_cases.pull={live: [{acceleration: [-1, 0, 0]}]}"]).content.load_cases
+    assert list(cases) == ["push", "pull"]
+
+
+def test_place_is_the_override(path: Path) -> None:
+    deck = read_deck(path, ["title=New", "parameters.mu=0.5"])
+    assert str(deck.fault_at(("parameters", "mu"), "no")) == "--set:2:15 parameters.mu = 0.5: no"
+
+
+@pytest.mark.parametrize(
+    ("override", "message"),
+    [
+        ("parameters.mu=x", "--set:1:15 parameters.mu = x: must be a number"),
+        ("parameters.mo=0.5", "--set:1:1 parameters.mo = 0.5: unknown name mo in parameters; known: mu"),
+        (
+            "materials.ston.density=5",
+            "--set:1:1 materials.ston.density = 5: unknown name ston in materials; did you mean stone? known: stone",
+        ),
+        ("blocks.1.box=3", "--set:1:1 blocks.1.box = 3: there is no item 1: 0 to 0 are allowed"),
+        ("blocks.-1.box=3", "--set:1:1 blocks.-1.box = 3: -1 is not a number of an item: 0 to 0 are allowed"),
+        ("blocks..box=3", "--set:1:1 blocks..box = 3: nothing is not a number of an item: 0 to 0 are allowed"),
+        ("blocks.²=3", "--set:1:1 blocks.² = 3: ² is not a number of an item: 0 to 0 are allowed"),
+        ("title.first=A", "--set:1:1 title.first = A: the deck has a single value there, with nothing below it"),
+        ("title", "--set:1:1 title: must be key.path=value, on one line: there is no ="),
+        ("=3", "--set:1:1 =3: must be key.path=value, on one line"),
+        ("title=a\nb", "--set:1:1 title=a b: must be key.path=value, on one line"),
+        ("title=", "--set:1:7 title: has no value: write one after the ="),
+        ("title=~", "--set:1:7 title: has no value: write one after the ="),
+        ("include=[more.yaml]", "--set:1:1 include: cannot be set: files are included before anything is set"),
+        ("contacts={a: 1, a: 2}", "--set:1:17 contacts: is given twice, first in line 1"),
+        ("parameters.mu=.nan", "--set:1:15 parameters.mu = .nan: must be a finite number"),
+        ("parameters.mu=*a", "--set:1:15 parameters.mu: aliases (*a) are not allowed"),
+        ("parameters.mu=[1", "--set:1:15 parameters.mu: not YAML: while parsing a flow sequence"),
+        ("analysis.acuracy=draft", "--set:1:1 analysis.acuracy = draft: unknown key; did you mean accuracy?"),
+        ("analisis.accuracy=draft", "--set:1:1 analisis: unknown key; did you mean analysis?"),
+    ],
+)
+def test_refusals(path: Path, override: str, message: str) -> None:
+    (found,) = faults(path, override)
+    assert found.startswith(message)
+
+
+def test_faults_of_deck_and_overrides_together(tmp_path: Path) -> None:
+    path = write(tmp_path, changed("density: 2000", "density: -1"))
+    assert faults(path, "parameters.mo=1", "contacts.tolerance=2") == [
+        "--set:1:1 parameters.mo = 1: unknown name mo in parameters; known: mu",
+        "--set:2:20 contacts.tolerance = 2: must be <= 0.1",
+        "deck.yaml:6:20 materials.stone.density = -1: must be > 0",
+    ]
+
+
+def test_override_mends_a_fault(tmp_path: Path) -> None:
+    path = write(tmp_path, changed("density: 2000", "density: -1"))
+    assert read_deck(path, ["materials.stone.density=1"]).content.materials["stone"].density == 1.0

@@ -1,0 +1,77 @@
+"""What the rules accept; what they refuse is in tests/invalid_decks."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from mbla.deck import read_deck, rules, types
+from mbla.deck.section import RULES, Section
+from tests.deck.decks import BLOCK, changed, write
+
+WALL = (
+    "wall: {group: block, material: stone, unit: [0.4, 0.2, 0.175], length: 2, courses: 6, "
+    "openings: [{from: [0, 0], to: [2, 1.05]}]}"
+)
+BOX = "box: {group: block, material: stone, min: [0, 0, 0], max: [1, 1, 1]}"
+LIVE = "[{acceleration: [1, 0, 0]}]"
+
+
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [
+        ('{friction: "=mu"}', "{friction: 0}"),
+        ('{friction: "=mu"}', "{friction_angle: 33, dilatancy: 33}"),
+        ('{friction: "=mu"}', "{friction: 1, dilatancy: 45}"),
+        ('{friction: "=mu"}', "{friction: 0.5, cohesion: 1000, tensile_strength: 2000}"),
+        ('{friction: "=mu"}', "{friction: 0, tensile_strength: 5}"),
+        (BOX, WALL),
+        (LIVE, "[{gravity: [1, 0, 0]}]"),
+        (LIVE, "[{acceleration: [0, 0, 1.e-300]}]"),
+        (LIVE, "[{acceleration: [1, 0, 0], on: block}]"),
+        (LIVE, "[{force: [1, 0, 0], on: {group: block, index: 0}}]"),
+        (LIVE, LIVE + "\n    dead: []"),
+        (LIVE, LIVE + "\n    dead: [{gravity: [0, 0, 0]}]"),
+        (LIVE, LIVE + "\n    dead: [{acceleration: [0, 0, -1]}]"),
+        ("supports:\n  - {ground: {z: 0}}\n", ""),
+        ("{ground: {z: 0}}", "{ground: {z: 0}, blocks: block, joint: dry}"),
+    ],
+)
+def test_accepted(tmp_path: Path, old: str, new: str) -> None:
+    assert read_deck(write(tmp_path, changed(old, new))).content.mbla == 1
+
+
+def test_box_of_a_group_that_several_items_make(tmp_path: Path) -> None:
+    deck = read_deck(write(tmp_path, changed(f"  - {BOX}\n", f"  - {BOX}\n  - {BOX}\n")))
+    assert len(deck.content.blocks) == 2
+
+
+def test_exactly_one_names_keys_of_the_types() -> None:
+    for section, keys in rules.EXACTLY_ONE.items():
+        assert set(keys) <= set(section.model_fields)
+
+
+def test_every_rule_is_registered_and_broken_by_a_faulty_deck() -> None:
+    folder = Path(__file__).parents[1] / "invalid_decks"
+    expected = "\n".join(path.read_text(encoding="utf-8") for path in folder.glob("deck_*.yaml"))
+    words = {
+        types.JointLaw: ["the friction angle", "where the friction cone ends"],
+        types.Rotation: ["rotate.axis = [0, 0, 0]: must not be the zero vector"],
+        types.Reflection: ["mirror.normal = [0, 0, 0]: must not be the zero vector"],
+        types.BoxItem: ["box.max[1] = -1: must be > 0"],
+        types.PolyhedronItem: ["there are 4 vertices", "is a corner of this face already"],
+        types.WallItem: ["that of from", "the length of the wall", "the height of the wall"],
+        types.ArchItem: ["applies to segmental arches only", "applies with springers: ground only"],
+        types.SelectorTerm: ["box[1][2] = -1: must be > 0", "applies with group only"],
+        types.GroundPlane: ["needs a normal beside its point", "applies with point only"],
+        types.Support: ["needs one of ground or blocks", "applies with ground only"],
+        types.Load: ["a force needs `on`", "applies to a force only", "does not apply to gravity"],
+        types.LoadCaseSection: ["is a live load with no effect"],
+        types.Expectation: ["needs at least one of load_factor"],
+    }
+    assert set(words) | set(rules.EXACTLY_ONE) == set(RULES)
+    assert all(issubclass(section, Section) for section in RULES)
+    missing = [message for messages in words.values() for message in messages if message not in expected]
+    assert missing == []
+    assert BLOCK.startswith("mbla: 1")

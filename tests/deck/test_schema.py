@@ -1,0 +1,160 @@
+from __future__ import annotations
+
+import json
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import jsonschema
+import pytest
+
+from mbla.deck import read_deck
+from mbla.deck.key_reference import key_reference
+from mbla.deck.reader import read_yaml
+from mbla.deck.schema import REPOSITORY, deck_schema, deck_schema_text, main, with_key_reference, write_schema
+from mbla.deck.sources import SourceText
+from mbla.errors import DeckError
+from tests.deck.decks import BLOCK, changed, write
+from tests.deck.test_reading import COMPLETE, FRAGMENTS
+
+INVALID = sorted((Path(__file__).parents[1] / "invalid_decks").glob("deck_*.yaml"))
+
+# What a schema cannot see: text and syntax, other files, values of expressions, names, and sums over keys.
+BEYOND_SCHEMA = (
+    *("not_yaml", "duplicate", "anchor", "alias", "tag", "merge_key", "second_document", "directive", "key_is_number"),
+    *("key_is_list", "nested", "infinite", "not_a_number", "too_large", "5000_digits", "control_character", "include"),
+    *("expression", "unknown_", "parameter_cycle", "parameter_at_fault", "unit_of_other", "unit_mass", "unit_negative"),
+    *("angle_as_percent", "dilatancy", "tension", "reversed", "flat", "vertex_out_of_range", "corner_repeated"),
+    *(
+        "opening",
+        "semicircular_with",
+        "segmental",
+        "arch_joint",
+        "zero",
+        "without_normal",
+        "normal_without",
+        "support_",
+        "without_effect",
+    ),
+    *(
+        "force_on_nothing",
+        "point_of",
+        "gravity_on",
+        "index_with",
+        "expectation_of_nothing",
+        "group_named",
+        "named_like",
+    ),
+)
+BEYOND_BUT_SEEN = (
+    "number_zero",
+    "count_zero",
+    "unknown_kind",
+    "enumeration_unknown",
+    "unit_unknown.yaml",
+    "version_unknown",
+)
+
+
+@cache
+def validator() -> Any:
+    return jsonschema.Draft202012Validator(deck_schema())
+
+
+def schema_accepts(text: str) -> bool:
+    return bool(validator().is_valid(read_yaml(SourceText("deck", text), 0).data))
+
+
+def models_accept(folder: Path, text: str) -> bool:
+    try:
+        read_deck(write(folder, text))
+    except DeckError:
+        return False
+    return True
+
+
+def test_file_is_up_to_date() -> None:
+    assert (REPOSITORY / "schemas" / "deck.schema.json").read_text(encoding="utf-8") == deck_schema_text()
+
+
+def test_schema_is_a_schema() -> None:
+    jsonschema.Draft202012Validator.check_schema(deck_schema())
+
+
+def test_every_key_is_described() -> None:
+    schema = deck_schema()
+    for name, section in {"": schema, **schema["$defs"]}.items():
+        for key, value in section["properties"].items():
+            assert "description" in value or "$ref" in value, f"{name}.{key}"
+
+
+def test_nothing_may_be_null() -> None:
+    assert '"null"' not in deck_schema_text()
+    assert ": null" not in deck_schema_text()
+
+
+GOOD = [
+    BLOCK,
+    COMPLETE,
+    FRAGMENTS,
+    changed("{density: 2000}", '{density: "2 t/m^3"}'),
+    changed("min: [0, 0, 0]", 'min: ["=mu-1", "-1 cm", "-.5e1 m"]'),
+    changed("{ground: {z: 0}}", "{blocks: [block, {group: block, index: '=0'}]}"),
+    COMPLETE.replace("courses: 6", 'courses: "=n+1"'),
+    COMPLETE.replace("courses: 6", "courses: 6.0"),
+]
+
+
+@pytest.mark.parametrize("text", GOOD)
+def test_good_decks_pass_both(tmp_path: Path, text: str) -> None:
+    assert models_accept(tmp_path, text)
+    assert schema_accepts(text)
+
+
+SEEN = [
+    path
+    for path in INVALID
+    if any(word in path.name for word in BEYOND_BUT_SEEN) or not any(word in path.name for word in BEYOND_SCHEMA)
+]
+
+
+@pytest.mark.parametrize("path", SEEN, ids=lambda path: path.stem)
+def test_faulty_decks_fail_both(tmp_path: Path, path: Path) -> None:
+    text = path.read_text(encoding="utf-8")
+    assert not models_accept(tmp_path, text)
+    assert not schema_accepts(text)
+
+
+def test_most_faulty_decks_are_within_sight() -> None:
+    assert len(SEEN) >= 50
+
+
+def test_sections_may_come_from_an_included_deck() -> None:
+    assert schema_accepts("mbla: 1\ninclude: [more.yaml]\n")
+    assert not schema_accepts("mbla: 1\n")
+
+
+def test_write(tmp_path: Path) -> None:
+    (tmp_path / "schemas").mkdir()
+    assert write_schema(tmp_path) == [tmp_path / "schemas" / "deck.schema.json"]
+    assert json.loads((tmp_path / "schemas" / "deck.schema.json").read_text(encoding="utf-8")) == deck_schema()
+    readme = tmp_path / "README.md"
+    readme.write_text("a\n<!-- keys:begin -->\noutdated\n<!-- keys:end -->\nz\n", encoding="utf-8")
+    assert write_schema(tmp_path)[1:] == [readme]
+    text = readme.read_text(encoding="utf-8")
+    assert text.startswith("a\n<!-- keys:begin -->\n\nUnits:")
+    assert text.endswith("\n<!-- keys:end -->\nz\n")
+    assert "outdated" not in text
+    assert with_key_reference(text) == text
+
+
+def test_command_needs_to_be_told_to_write() -> None:
+    with pytest.raises(SystemExit):
+        main([])
+
+
+def test_readme_is_up_to_date() -> None:
+    text = (REPOSITORY / "README.md").read_text(encoding="utf-8")
+    if "<!-- keys:begin -->" in text:
+        assert with_key_reference(text) == text
+    assert key_reference().count("####") >= 20
