@@ -100,10 +100,11 @@ def build_facets(blocks: Blocks) -> Facets:
 
 
 def _face_areas(relative_corners: FloatArray, corner_start: IntArray, normals: FloatArray) -> FloatArray:
-    """Areas (n_faces,) from corners relative to a point near each face; never zero, they serve as weights."""
+    """Areas (n_faces,) from corners relative to a point near each face; never zero, for they serve as weights."""
     following = relative_corners[next_item(corner_start)]
     vectors = np.add.reduceat(np.cross(relative_corners, following), corner_start[:-1]) / 2
-    areas: FloatArray = np.maximum(np.einsum("fi,fi->f", vectors, normals), 1e-300)
+    extents = np.maximum.reduceat((relative_corners**2).sum(axis=1), corner_start[:-1])
+    areas: FloatArray = np.maximum(np.einsum("fi,fi->f", vectors, normals), 1e-12 * extents)
     return areas
 
 
