@@ -16,7 +16,6 @@ from mbla import __version__
 from mbla.errors import DeckError, FileError, LimitError, MblaError, UsageError
 
 if TYPE_CHECKING:
-    from mbla.results.results import Results
     from mbla.run import Progress, RunOptions
 
 EXIT_STATUS = """\
@@ -48,7 +47,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except Terminated:
         return _say("terminated", 143)
     except BrokenPipeError:  # the reader of our output went away: not our error, but the output is not whole
-        sys.stdout = open(os.devnull, "w")  # noqa: SIM115 - replaced for the interpreter's own flush at exit
+        sys.stdout = Path(os.devnull).open("w")  # noqa: SIM115 - for the interpreter's own flush at exit
         return 6
     except Exception as error:
         return _failed(error, options)
@@ -58,7 +57,7 @@ def build_parser() -> argparse.ArgumentParser:
     """The commands and their options."""
     parser = argparse.ArgumentParser(
         prog="mbla",
-        description="Limit analysis of masonry: load factor, mechanism and verified bounds of assemblies of rigid blocks.",
+        description="Limit analysis of masonry: load factor, mechanism and verified bounds of rigid-block assemblies.",
         epilog=EXIT_STATUS,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
@@ -83,7 +82,9 @@ def _add_run(commands: Any) -> None:
         "--flow-rule", choices=["associative", "non_associative", "dilatancy"], help="instead of analysis.flow_rule"
     )
     command.add_argument("--time-limit", type=_seconds, metavar="S", help="instead of analysis.time_limit")
-    command.add_argument("--threads", type=_threads, default=1, metavar="N", help="threads of the cone solver (default 1)")
+    command.add_argument(
+        "--threads", type=_threads, default=1, metavar="N", help="threads of the cone solver (default 1)"
+    )
     command.add_argument("--expected", action="store_true", help="compare with the deck's expected section")
     volume = command.add_mutually_exclusive_group()
     volume.add_argument("-q", "--quiet", action="store_true", help="say nothing but errors")
@@ -100,9 +101,13 @@ def _add_check(commands: Any) -> None:
 
 def _add_deck_options(command: argparse.ArgumentParser) -> None:
     command.add_argument("-o", "--output", type=Path, metavar="DIR", help="folder of the results (default DECK.out)")
-    command.add_argument("--set", action="append", default=[], metavar="KEY.PATH=VALUE", help="change a value of the deck")
+    command.add_argument(
+        "--set", action="append", default=[], metavar="KEY.PATH=VALUE", help="change a value of the deck"
+    )
     command.add_argument("--force", action="store_true", help="replace an earlier result")
-    command.add_argument("--json", action="store_true", help="one JSON object per deck on standard output, nothing else")
+    command.add_argument(
+        "--json", action="store_true", help="one JSON object per deck on standard output, nothing else"
+    )
 
 
 def _add_result_commands(commands: Any) -> None:

@@ -117,14 +117,14 @@ def solve_case(
 def contacts_of(deck: Deck, model: Model) -> Contacts:
     """Contacts of a model; blocks that overlap make the deck invalid."""
     contacts = find_contacts(model, deck.contacts)
-    overlaps = overlap_messages(model, deck.contacts, contacts.report)
+    overlaps = overlap_messages(model, contacts.report)
     if overlaps:
         raise DeckError([deck.fault_at(("blocks",), message) for message in overlaps])
     return contacts
 
 
 def select_cases(model: Model, names: Sequence[str]) -> tuple[LoadCase, ...]:
-    """The load cases of those names in the order of the deck, all if no name is given; UsageError for an unknown one."""
+    """The load cases of those names in the order of the deck, all if none is named; UsageError for an unknown one."""
     known = [case.name for case in model.load_cases]
     for name in names:
         if name not in known:

@@ -12,8 +12,8 @@ from mbla.solution.solution import Checks
 from mbla.solution.verify import verified_status, verify
 
 AGREEMENT = 1e-6
-"""Relative difference of stored and recomputed figures beyond which the file is not what a run wrote: sparse factorisations
-of another machine may round differently, and residuals near rounding are compared absolutely."""
+"""Difference of stored and recomputed figures, relative and absolute, beyond which the file is not what a run wrote;
+sparse factorisations of another machine may round differently."""
 
 
 def verify_results(results: Results) -> tuple[Results, tuple[str, ...]]:
@@ -35,7 +35,13 @@ def verify_results(results: Results) -> tuple[Results, tuple[str, ...]]:
 
 def _differences(stored: Checks, recomputed: Checks) -> list[str]:
     found = []
-    for name in ("static_bound", "kinematic_bound", "equilibrium_residual", "yield_violation", "complementarity_residual"):
+    for name in (
+        "static_bound",
+        "kinematic_bound",
+        "equilibrium_residual",
+        "yield_violation",
+        "complementarity_residual",
+    ):
         old, new = getattr(stored, name), getattr(recomputed, name)
         same = np.isclose(old, new, rtol=AGREEMENT, atol=AGREEMENT, equal_nan=True)
         if not same:

@@ -40,7 +40,7 @@ def equilibrium_matrix(model: Model, contacts: Contacts, free: IntArray) -> sp.c
 
 
 def lever_arms(model: Model, contacts: Contacts, free: IntArray) -> FloatArray:
-    """Typical distance of contact points from the centroid of each free block (its size where it has none), (n_free,)."""
+    """Mean distance of contact points from the centroid of each free block, its size where it has none, (n_free,)."""
     n_blocks = len(model.blocks)
     bodies = contacts.bodies[contacts.interface_of_point]
     total, count = np.zeros(n_blocks), np.zeros(n_blocks)

@@ -29,7 +29,7 @@ from mbla.program.yield_conditions.limits import YieldLimits
 
 @dataclass(frozen=True)
 class ConeProgram:
-    """min cost·x subject to matrix x + s = rhs; s = 0 (first row), ≥ 0 (next n_half_lines), in cones of dimension 3 (rest)."""
+    """min cost·x subject to matrix x + s = rhs; s = 0 (first row), ≥ 0 (next n_half_lines), in 3-cones (the rest)."""
 
     cost: FloatArray
     matrix: sp.csc_array
@@ -145,8 +145,8 @@ def _matrix(program: Program, limits: YieldLimits, rows: PointRows) -> sp.csc_ar
     shear = sp.diags_array(np.tile([0.0, 1.0, 1.0], n_p)) @ shear
     cone_p = sp.csr_array((np.ones(n_p), (3 * np.arange(n_p), np.arange(n_p))), shape=(3 * n_p, n_p))
 
-    blocks = [
-        [program.live_load[None, :], None, None],
+    blocks: list[list[sp.sparray | None]] = [
+        [sp.csr_array(program.live_load[None, :]), None, None],
         [-velocity[3 * rows.cut_off], cut_off_p, -cut_off_d],
         [sp.csr_array((n_d, velocity.shape[1])), None, -identity_d],
         [-dry, sp.csr_array((dry.shape[0], n_p)), sp.csr_array((dry.shape[0], n_d))],

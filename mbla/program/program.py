@@ -51,7 +51,7 @@ class Scaling:
 class Program:
     """One load case, non-dimensional.
 
-    equilibrium_matrix : (6 n_free, 3 n_points), rows force x, y, z and moment x, y, z of each free block about its centroid
+    equilibrium_matrix : (6 n_free, 3 n_points), rows force and moment x, y, z of each free block
     dead_load, live_load : (6 n_free,)
     limits             : yield limits of the contact points, forces in units of ``scaling.force``
     free               : (n_free,) the block to which each six rows belong

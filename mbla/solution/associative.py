@@ -8,20 +8,17 @@ interval the dead load alone is not carried, and the mechanism of the violated e
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
 from mbla.arrays import FloatArray
-from mbla.program.kinematic import ConeProgram, KinematicForm, kinematic_form
+from mbla.program.kinematic import KinematicForm, kinematic_form
 from mbla.program.program import Program
 from mbla.solution.clarabel_adapter import ClarabelProgram, ConeSolution
 from mbla.solution.mechanics import mechanics_of
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import IterationRecord, Mechanics, ProgramRecord, Status
-
-FALLBACK_REGULARIZATION = 1e-8
-"""Second try where the solver does not finish: programs whose feasible set has no interior want the larger value."""
 
 STANDS_MARGIN = 1e-7
 """A load factor is taken as negative only beyond this share of (dead load over live load): below it is solver noise."""
@@ -31,7 +28,7 @@ Log = Callable[[IterationRecord], None]
 
 @dataclass(frozen=True)
 class AssociativeResult:
-    """What the associative program says; mechanics where there is a load factor, certificate where there is no equilibrium."""
+    """What the associative program says: mechanics with a load factor, a certificate without equilibrium."""
 
     status: Status
     mechanics: Mechanics | None
@@ -43,7 +40,8 @@ class AssociativeResult:
 def solve_associative(program: Program, settings: SolverSettings, log: Log) -> AssociativeResult:
     """Solve the program of one load case with associative flow."""
     form = kinematic_form(program, program.limits)
-    solver, forward = _solve_robustly(form.cone_program, settings, log, 1, program.scaling.live)
+    solver = ClarabelProgram(form.cone_program, settings, log)
+    forward = solver.solve(1, program.scaling.live)
     records = [_record(program, 1, "associative", forward)]
     if forward.status not in (Status.SOLVED, Status.UNBOUNDED, Status.NO_EQUILIBRIUM):
         return AssociativeResult(forward.status, None, None, _words_of(forward), tuple(records))
@@ -55,29 +53,17 @@ def solve_associative(program: Program, settings: SolverSettings, log: Log) -> A
     solver.update(rhs=-form.cone_program.rhs)
     reverse = solver.solve(2, -program.scaling.live)
     records.append(_record(program, 2, "reverse", reverse, sign=-1.0))
-    if reverse.status is Status.NO_EQUILIBRIUM or (reverse.status is Status.SOLVED and _negative(program, reverse.objective)):
+    if reverse.status is Status.NO_EQUILIBRIUM or (
+        reverse.status is Status.SOLVED and _negative(program, reverse.objective)
+    ):
         return _no_equilibrium(program, form, reverse.x, records)
     if reverse.status not in (Status.SOLVED, Status.UNBOUNDED):
         reason = "whether the dead load alone is carried could not be decided: " + _words_of(reverse)
         return AssociativeResult(reverse.status, None, None, reason, tuple(records))
     if forward.status is Status.UNBOUNDED:
-        reason = "no mechanism exists in which the live load does work: friction locks the structure under every multiple of it"
+        reason = "no mechanism exists in which the live load does work: friction locks the structure under any multiple"
         return AssociativeResult(Status.UNBOUNDED, None, None, reason, tuple(records))
     return AssociativeResult(Status.SOLVED, _mechanics(form, forward), None, "", tuple(records))
-
-
-def _solve_robustly(
-    cone_program: ConeProgram, settings: SolverSettings, log: Log, number: int, to_load_factor: float
-) -> tuple[ClarabelProgram, ConeSolution]:
-    """Solve; once more with the solver's own regularisation where it did not finish."""
-    solver = ClarabelProgram(cone_program, settings, log)
-    solution = solver.solve(number, to_load_factor)
-    if solution.status in (Status.APPROXIMATE, Status.NUMERICAL_ERROR, Status.ITERATION_LIMIT):
-        second = ClarabelProgram(cone_program, replace(settings, regularization=FALLBACK_REGULARIZATION), log)
-        again = second.solve(number, to_load_factor)
-        if again.status in (Status.SOLVED, Status.UNBOUNDED, Status.NO_EQUILIBRIUM):
-            return second, again
-    return solver, solution
 
 
 def _negative(program: Program, objective: float) -> bool:
@@ -97,7 +83,9 @@ def _no_equilibrium(
     certificate = program.mechanism(form.velocities(x))
     largest = np.abs(certificate).max(initial=0.0)
     certificate = certificate / largest if largest > 0 else certificate
-    reason = "the dead load alone is not carried: a mechanism exists in which it does more work than the joints dissipate"
+    reason = (
+        "the dead load alone is not carried: a mechanism exists in which it does more work than the joints dissipate"
+    )
     return AssociativeResult(Status.NO_EQUILIBRIUM, None, certificate, reason, tuple(records))
 
 

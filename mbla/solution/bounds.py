@@ -30,12 +30,13 @@ from mbla.program.yield_conditions import YieldLimits, yield_violation
 ROUNDS = 6
 """Corrections in a row; each solves one sparse system. Two are usual."""
 
-EQUILIBRIUM_TOLERANCE = 1e-10
-"""Residual, relative to the mean load of a block, that counts as equilibrium in double precision."""
+EQUILIBRIUM_TOLERANCE = 1e-9
+"""Residual, relative to the mean load of a block, that counts as equilibrium: where all joints of a sliding plane are
+on their cones at once, double precision does not get far below 1e-10."""
 
 OPENINGS = (1e-10, 1e-8)
-"""Opening velocities, relative to the largest contact speed, that the mechanism is moved towards; the better one counts.
-Confined joints cannot open at all: there the smaller one leaves less to be charged."""
+"""Opening velocities, relative to the largest contact speed, that the mechanism is moved towards; the better one
+counts. Confined joints cannot open at all: there the smaller one leaves less to be charged."""
 
 REGULARIZATION = 1e-15
 """On the unit diagonal of the factorised matrix; refinement removes its trace."""
@@ -78,7 +79,9 @@ def _pulled_inside(limits: YieldLimits, x: FloatArray) -> FloatArray:
     inside = x.copy()
     scale = max(float(np.abs(x[:, 0]).max(initial=0.0)), 1e-300)
     margin = 1e-12 * scale
-    lower = -np.minimum(limits.tension, np.where(limits.friction > 0, limits.cohesion / np.maximum(limits.friction, 1e-300), np.inf))
+    lower = -np.minimum(
+        limits.tension, np.where(limits.friction > 0, limits.cohesion / np.maximum(limits.friction, 1e-300), np.inf)
+    )
     upper = limits.compression
     room = np.minimum(margin, 0.25 * (upper - lower))
     inside[:, 0] = np.clip(x[:, 0], lower + room, upper - room)
@@ -144,13 +147,18 @@ def _static_correction(program: Program, x: FloatArray, factor: float) -> tuple[
     return delta, delta_factor
 
 
-def _bordered_solver(normal: sp.csc_array, live: FloatArray, weight: float) -> Callable[[FloatArray], FloatArray] | None:
+def _bordered_solver(
+    normal: sp.csc_array, live: FloatArray, weight: float
+) -> Callable[[FloatArray], FloatArray] | None:
     """Solver of [[N, f], [fᵀ, −1/weight]] (y, t) = (rhs, 0); weight inf makes f·y = 0 a constraint.
 
     N is scaled to unit diagonal first; its one tiny eigenvalue is the collapse mechanism, which the border controls.
     """
     diagonal = normal.diagonal()
-    scale = 1.0 / np.sqrt(np.maximum(diagonal, 1e-16 * diagonal.max(initial=1e-300)))
+    largest = float(diagonal.max(initial=0.0))
+    if not 0.0 < largest < np.inf:
+        return None
+    scale = 1.0 / np.sqrt(np.maximum(diagonal, 1e-16 * largest))
     scaling = sp.diags_array(scale)
     scaled = scaling @ normal @ scaling + REGULARIZATION * sp.eye_array(len(scale))
     border = scale * live
@@ -171,7 +179,7 @@ def _bordered_solver(normal: sp.csc_array, live: FloatArray, weight: float) -> C
 
 
 def _kinematic_correction(program: Program, u: FloatArray, opening: float) -> FloatArray | None:
-    """Least change, in the barrier's metric, towards contact velocities that open by ``opening`` of the largest speed."""
+    """Least change, in the barrier's metric, towards velocities that open by ``opening`` of the largest speed."""
     mu = program.limits.friction
     v = (program.equilibrium_matrix.T @ u).reshape(-1, 3)
     target = v.copy()
@@ -179,7 +187,9 @@ def _kinematic_correction(program: Program, u: FloatArray, opening: float) -> Fl
     least = opening * float(np.abs(v).max(initial=0.0))
     target[:, 0] = np.maximum(v[:, 0], mu * sliding + least)
     weights = _velocity_barrier_hessian(mu, target)
-    weights[np.isfinite(program.limits.compression)] = 0.0
+    # joints that can crush need not open: they only keep the velocity from straying
+    speed = max(float(np.abs(v).max(initial=0.0)), 1e-300)
+    weights[np.isfinite(program.limits.compression)] = np.eye(3) / speed**2
     metric = _block_diagonal(weights)
     matrix = program.equilibrium_matrix
     solve = _bordered_solver(sp.csc_array(matrix @ metric @ matrix.T), program.live_load, np.inf)

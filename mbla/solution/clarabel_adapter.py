@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -32,6 +32,12 @@ STATUS_MAP = {
 }
 """clarabel's word for a program in kinematic form: no admissible mechanism (primal infeasible) means that the live load
 never brings collapse; an unbounded mechanism (dual infeasible) means that no equilibrium exists."""
+
+
+UNDECIDED = (Status.APPROXIMATE, Status.NUMERICAL_ERROR, Status.ITERATION_LIMIT)
+
+FALLBACK_REGULARIZATION = 1e-8
+"""Second try where the solver does not finish: programs whose feasible set has no interior want the larger value."""
 
 
 @dataclass(frozen=True)
@@ -65,11 +71,20 @@ class ClarabelProgram:
     _raised: BaseException | None = field(init=False, default=None)
 
     def solve(self, program_number: int, to_load_factor: float) -> ConeSolution:
-        """Solve what is loaded.
+        """Solve what is loaded; where the solver does not finish, once more with its own, larger regularisation.
 
         to_load_factor : factor from the objective to the load factor, for the log
         Raises SolverError if the data are not finite (the solver would answer with a confident verdict).
         """
+        solution = self._solve_once(program_number, to_load_factor)
+        if solution.status in UNDECIDED and self.settings.regularization < FALLBACK_REGULARIZATION:
+            self.settings = replace(self.settings, regularization=FALLBACK_REGULARIZATION)
+            self._solver = None
+            again = self._solve_once(program_number, to_load_factor)
+            return again if again.status not in UNDECIDED else solution
+        return solution
+
+    def _solve_once(self, program_number: int, to_load_factor: float) -> ConeSolution:
         import clarabel
 
         self._check_finite()
@@ -81,6 +96,7 @@ class ClarabelProgram:
         if self._raised is not None:
             raised, self._raised = self._raised, None
             raise raised
+        self._log(self._solver.get_info(), program_number, to_load_factor, started)  # the callback misses the last one
         name = str(result.status)
         if name not in STATUS_MAP:
             raise SolverError(f"clarabel returned a status that is not known: {name}")
@@ -138,7 +154,9 @@ class ClarabelProgram:
         settings = clarabel.DefaultSettings()
         settings.verbose = False
         settings.presolve_enable = False  # would forbid update()
-        settings.direct_solve_method = "qdldl"  # reruns bit-identically; "auto" may take faer, whose digits depend on threads
+        settings.direct_solve_method = (
+            "qdldl"  # reruns bit-identically; "auto" may take faer, whose digits depend on threads
+        )
         settings.max_threads = self.settings.threads
         settings.static_regularization_constant = self.settings.regularization
         settings.max_iter = self.settings.max_iterations
@@ -149,29 +167,25 @@ class ClarabelProgram:
     def _callback(self, program: int, to_load_factor: float, started: float) -> Callable[[Any], bool]:
         deadline = self.settings.deadline
 
-        def log(info: Any) -> bool:
-            record = IterationRecord(
-                program=program,
-                iteration=int(info.iterations),
-                load_factor=float(info.cost_primal) * to_load_factor,
-                gap=float(info.gap_rel),
-                primal_residual=float(info.res_primal),
-                dual_residual=float(info.res_dual),
-                step=float(info.step_length),
-                seconds=time.perf_counter() - started,
-            )
+        def callback(info: Any) -> bool:
             try:
-                self.log(record)
+                self._log(info, program, to_load_factor, started)
             except BaseException as error:  # the solver would print it and go on: kept, and raised after solve()
                 self._raised = error
                 return True
             return deadline is not None and time.monotonic() > deadline
 
-        def stop_on_interrupt(info: Any) -> bool:
-            try:
-                return log(info)
-            except BaseException as error:  # an interrupt that came outside the inner block
-                self._raised = error
-                return True
+        return callback
 
-        return stop_on_interrupt
+    def _log(self, info: Any, program: int, to_load_factor: float, started: float) -> None:
+        record = IterationRecord(
+            program=program,
+            iteration=int(info.iterations),
+            load_factor=float(info.cost_primal) * to_load_factor,
+            gap=float(info.gap_rel),
+            primal_residual=float(info.res_primal),
+            dual_residual=float(info.res_dual),
+            step=float(info.step_length),
+            seconds=time.perf_counter() - started,
+        )
+        self.log(record)

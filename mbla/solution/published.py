@@ -11,10 +11,10 @@ associative forces. Parameters: α ``slope`` (share of the friction slope that i
 ``max_programs``. With a dilatancy angle ψ in the joints the slope is tan ψ where that is the larger.
 
 Published runs take α slightly above zero and stop when the load factor settles. Measured on the walls of Ferris and
-Tin-Loi: with α = 0.01 the load factor settles near 0.643, 0.402, 0.232 while single forces go on jumping and exceed their
-true friction by up to half a block's weight; any α > 0 is a dilatancy, which locks confined joints. With α = 0 and
-β = 0.6 forces settle too, on solutions of the exact law (0.6415, 0.3731, 0.2197). So α = 0 is the default here, and the
-sequence stops only when load factor and forces have both settled; the solution it finds is one of many.
+Tin-Loi: with α = 0.01 the load factor settles near 0.643, 0.402, 0.232 while single forces go on jumping and exceed
+their true friction by up to half a block's weight; any α > 0 is a dilatancy, which locks confined joints. With α = 0
+and β = 0.6 forces settle too, on solutions of the exact law (0.6415, 0.3731, 0.2197). So α = 0 is the default here, and
+the sequence stops only when load factor and forces have both settled; the solution it finds is one of many.
 """
 
 from __future__ import annotations
@@ -39,10 +39,12 @@ SPREAD_PROGRAMS = 10
 
 
 DAMPING = 0.9
-"""On the averaging weight whenever the load factor turns back by more than the tolerance: without it wall 5 goes to and fro between two states for ever."""
+"""On the averaging weight whenever the load factor turns back by more than the tolerance: without it wall 5 goes to
+and fro between two states for ever."""
 
 FLOOR = 1e-9
-"""Least fictitious cohesion, in mean block loads: without it the sliding multiplier of an open point has no cost and no bound."""
+"""Least fictitious cohesion, in mean block loads: without it the sliding multiplier of an open point has no cost and
+no bound."""
 
 
 @dataclass(frozen=True)
@@ -99,6 +101,9 @@ def solve_published(
             weight *= DAMPING
         normal = weight * np.maximum(forces[:, 0], 0.0) + (1 - weight) * normal
     last = factors[-SPREAD_PROGRAMS:]
+    if solution.status is Status.APPROXIMATE:
+        reason = f"the programs of the sequence end short of the solver's tolerance (clarabel: {solution.solver_status})"
+        return SequenceResult(Status.APPROXIMATE, best and _mechanics(program, best), reason, tuple(records))
     reason = (
         f"the sequence did not settle in {scheme.max_programs} programs: the last {len(last)} load factors lie between "
         f"{min(last):.6g} and {max(last):.6g}, and forces exceed their friction by up to {excess:.2g} mean block loads"
@@ -108,7 +113,9 @@ def solve_published(
 
 def _fictitious(limits: YieldLimits, slope: FloatArray, normal: FloatArray) -> YieldLimits:
     """Yield lines of the next program: slope reduced, cohesion raised so that they meet the true ones at N̄."""
-    return replace(limits, friction=slope, cohesion=limits.cohesion + np.maximum((limits.friction - slope) * normal, FLOOR))
+    return replace(
+        limits, friction=slope, cohesion=limits.cohesion + np.maximum((limits.friction - slope) * normal, FLOOR)
+    )
 
 
 def _friction_mismatch(form: KinematicForm, solution: ConeSolution, normal: FloatArray, assumed: FloatArray) -> float:
@@ -126,7 +133,9 @@ def _mechanics(program: Program, best: tuple[KinematicForm, ConeSolution]) -> Me
 
 
 def _record(number: int, solution: ConeSolution, load_factor: float, change: float) -> ProgramRecord:
-    return ProgramRecord(number, "published", solution.status, load_factor, change, solution.iterations, solution.seconds)
+    return ProgramRecord(
+        number, "published", solution.status, load_factor, change, solution.iterations, solution.seconds
+    )
 
 
 def _broken_off(
@@ -137,6 +146,8 @@ def _broken_off(
 ) -> SequenceResult:
     number = len(records) + 1
     records.append(_record(number, solution, np.nan, np.nan))
-    status = solution.status if solution.status in (Status.TIME_LIMIT, Status.ITERATION_LIMIT) else Status.NUMERICAL_ERROR
+    status = (
+        solution.status if solution.status in (Status.TIME_LIMIT, Status.ITERATION_LIMIT) else Status.NUMERICAL_ERROR
+    )
     reason = f"program {number} of the sequence ended without a solution (clarabel: {solution.solver_status})"
     return SequenceResult(status, best and _mechanics(program, best), reason, tuple(records))

@@ -66,7 +66,8 @@ class Mechanics:
     load_factor        : live load multiplier
     contact_forces     : (n_points, 3) N, T1, T2 [N], compression positive, on body b along the frame, on a against it
     contact_velocities : (n_points, 3) velocity of b relative to a in the frame, opening positive, scaled as mechanism
-    mechanism          : (n_blocks, 6) velocity and angular velocity about the centroid, live load power = 1; zero on fixed blocks
+    mechanism          : (n_blocks, 6) velocity and angular velocity about the centroid, live load power = 1; zero on
+                         fixed blocks
     modes              : (n_points,) ContactMode
     """
 
@@ -84,8 +85,8 @@ class Solution:
     status      : what the solver stage claims; never better than what ``verify`` confirms
     mechanics   : by the deck's flow rule; None where there is no load factor
     associative : by the associative flow rule; the same object where that is the deck's flow rule
-    certificate : (n_blocks, 6) for no_equilibrium: motion under which the dead load does positive work and no joint resists;
-                  None otherwise
+    certificate : (n_blocks, 6) for no_equilibrium: motion in which the dead load does more work than the joints
+                  dissipate; None otherwise
     reason      : for every status but solved, one sentence in words
     """
 
@@ -102,12 +103,13 @@ class Solution:
 
 @dataclass(frozen=True)
 class Checks:
-    """What ``verify`` recomputed from model, contacts and solution alone; all relative, NaN where there is nothing to check.
+    """What ``verify`` recomputed from model, contacts and solution; relative, NaN where there is nothing to check.
 
     equilibrium_residual     : largest unbalanced force (moment over block size) over mean block weight
-    yield_violation          : largest excess of shear over its limit, or of tension, compression over theirs, over mean block weight
+    yield_violation          : largest excess of shear, tension or compression over its limit, over mean block weight
     penetration              : largest closing velocity over largest contact speed
-    complementarity_residual : share of the power balance that forces and velocities leave unexplained under the flow rule claimed
+    complementarity_residual : share of the power balance that forces and velocities leave unexplained under the flow
+                               rule claimed
     live_power               : live load times mechanism, should be 1
     power_balance            : dissipation minus external power, over the larger of the two
     static_bound, kinematic_bound : of the associative load factor, valid whatever the solver did

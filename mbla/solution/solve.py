@@ -40,7 +40,9 @@ def _associative_solution(
 ) -> Solution:
     reason = result.reason
     if result.status is Status.UNBOUNDED and flow_rule != "associative":
-        reason += "; this holds for associative flow, with which whether the load factor is finite without dilatancy is not decided"
+        reason += (
+            "; this holds for associative flow, and does not decide whether there is a load factor without dilatancy"
+        )
     return Solution(
         flow_rule=flow_rule,
         status=result.status,

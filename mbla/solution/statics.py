@@ -50,7 +50,7 @@ def contact_velocities(model: Model, contacts: Contacts, mechanism: FloatArray) 
         arm = contacts.points[here] - model.blocks.centroids[block]
         motion = mechanism[block]
         relative[here] += sign * (motion[:, :3] + np.cross(motion[:, 3:], arm))
-    return np.einsum("pjx,px->pj", contacts.frames, relative)
+    return np.asarray(np.einsum("pjx,px->pj", contacts.frames, relative))
 
 
 def power(load: FloatArray, mechanism: FloatArray) -> float:

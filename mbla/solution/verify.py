@@ -1,17 +1,18 @@
 """Verification: everything that is claimed, recomputed from model, contacts and solution.
 
 No solver is asked and no matrix of the program stage is used for a verdict: forces are summed over blocks and
-velocities taken from rigid-body motion directly (:mod:`mbla.solution.statics`). Relative measures, w being the mean load
-of a loaded free block:
+velocities taken from rigid-body motion directly (:mod:`mbla.solution.statics`). Relative measures, w being the mean
+load of a loaded free block:
 
 - equilibrium: largest unbalanced force, or moment over the block's lever arm, over w;
 - yield: largest excess of a force over its yield conditions, over w;
 - penetration: largest closing velocity over the largest contact speed, where the joint cannot crush;
 - complementarity: share of the power balance, hence of the load factor, that the claimed flow rule leaves unexplained::
 
-      Σ |(N + f_t)(v_N − s tan ψ)| + Σ |(μN + c) s + T·v_T|   over   max(|λ|, |f_D·u|, Σ (μN + c) s),   s = ‖v_T‖
+      Σ |(N + f_t)(v_N − s tan ψ)| + Σ |(μN + c) s + T·v_T|   over   max(|λ|, |f_D·u|, Σ (μN + c) s, 1e-3 Σ ‖f_D‖‖u‖)
 
-  with ψ the friction angle (associative), zero (non-associative) or the joint's dilatancy angle.
+  with s = ‖v_T‖ (the last term gives structures whose load factor is zero a scale) and ψ the friction angle
+  (associative), zero (non-associative) or the joint's dilatancy angle.
 """
 
 from __future__ import annotations
@@ -36,6 +37,12 @@ PENETRATION_TOLERANCE = 1e-4
 SOLVED_COMPLEMENTARITY = 1e-4
 APPROXIMATE_RESIDUAL = 1e-2
 """Beyond this a factor is not a result; between it and the tolerances above it is approximate."""
+
+ZERO_FACTOR = 1e-3
+"""Load factors below this share of dead over live load are taken for that share in relative measures."""
+
+PROVED_RESIDUAL = 2e-9
+"""Unbalanced force and excess over yield, in mean loads of a block, with which forces still prove a bound."""
 
 GAP_TOLERANCE = 1e-5
 """Greatest relative distance of static and kinematic bound at which an associative factor counts as verified."""
@@ -120,15 +127,16 @@ def residuals_of(
     strength = limits.friction * x[:, 0] + limits.cohesion
     unexplained, dissipated = _flow_power(limits, dilatancy, x, v, sliding, strength)
     external = dead_power + mechanics.load_factor * live_power
-    balance = max(abs(mechanics.load_factor * live_power), abs(dead_power), float(np.abs(strength * sliding).sum()))
-    internal = float((x * v).sum())
+    gross = float(np.linalg.norm(load_case.dead_load[:, :3], axis=1) @ np.linalg.norm(u[:, :3], axis=1))
+    frictional = float(np.abs(strength * sliding).sum())
+    balance = max(abs(mechanics.load_factor * live_power), abs(dead_power), frictional, ZERO_FACTOR * gross)
     return Residuals(
         equilibrium=float(np.abs(unbalanced).max(initial=0.0)) / mean,
         yielding=float(yield_violation(x, limits).max(initial=0.0)) / mean,
         penetration=float(closing.max(initial=0.0)) / speed if speed > 0 else np.nan,
         complementarity=unexplained / balance if balance > 0 else np.nan,
         live_power=live_power,
-        power_balance=abs(external + internal) / balance if balance > 0 else np.nan,
+        power_balance=abs(external - dissipated) / balance if balance > 0 else np.nan,
     )
 
 
@@ -149,7 +157,7 @@ def _flow_power(
     normal = np.abs((x[:, 0] + limits.tension) * opening) + np.abs((capacity - x[:, 0]) * crushing)
     normal += np.where(crushable, 0.0, np.abs(x[:, 0] * np.minimum(surplus, 0.0)))
     shear = np.abs(strength * sliding + x[:, 1] * v[:, 1] + x[:, 2] * v[:, 2])
-    dissipated = strength * sliding + limits.tension * opening + capacity * crushing
+    dissipated = (strength - dilatancy * x[:, 0]) * sliding + limits.tension * opening + capacity * crushing
     return float((normal + shear).sum()), float(dissipated.sum())
 
 
@@ -163,7 +171,9 @@ def associative_bounds(
     repaired = repaired_forces(program, scaled_forces, associative.load_factor / scaling.live)
     static = np.nan
     if repaired is not None:
-        static = _proved_static(model, contacts, load_case, scaling.forces(repaired[0]), scaling.load_factor(repaired[1]))
+        static = _proved_static(
+            model, contacts, load_case, scaling.forces(repaired[0]), scaling.load_factor(repaired[1])
+        )
     velocities = associative.mechanism[program.free].ravel() / (scaling.row * scaling.live)
     largest = 2.0 * float(np.abs(associative.contact_forces[:, 0]).max(initial=0.0))
     values = [
@@ -185,7 +195,7 @@ def _proved_static(
     unbalanced = (contact_resultants(model, contacts, forces) + loads)[free]
     unbalanced[:, 3:] /= arms[:, None]
     excess = yield_violation(forces, yield_limits(model, contacts)).max(initial=0.0)
-    rounding = 1e-9 * max(mean, 1e-6 * float(np.abs(forces).max(initial=0.0)))
+    rounding = PROVED_RESIDUAL * max(mean, 1e-6 * float(np.abs(forces).max(initial=0.0)))
     proved = np.abs(unbalanced).max(initial=0.0) <= rounding and excess <= rounding
     return load_factor if proved else np.nan
 
@@ -236,7 +246,9 @@ def _certificate_failures(
     dissipated = dissipated + capacity * np.maximum(-surplus, 0.0)
     failures = []
     if lack > 1e-5 * max(speed, float(np.abs(certificate[:, :3]).max(initial=0.0))):
-        failures.append(f"the mechanism that shows the lack of equilibrium closes joints by {lack / speed:.1g} of its speed")
+        failures.append(
+            f"the mechanism that shows the lack of equilibrium closes joints by {lack / speed:.1g} of its speed"
+        )
     if not power(load_case.dead_load, certificate) > dissipated.sum():
         failures.append("the dead load does no work in the mechanism that should show the lack of equilibrium")
     return tuple(failures)
@@ -252,10 +264,10 @@ def _dilatancy(limits: YieldLimits, flow_rule: str) -> FloatArray:
 
 
 def _relative_gap(static: float, kinematic: float, model: Model, load_case: LoadCase) -> float:
-    """Distance of the bounds over the load factor; over dead load / live load where the factor is smaller than 1e-3 of that."""
+    """Distance of the bounds over the load factor; over dead load / live load where the factor is tiny."""
     free = model.free
     dead, live = (np.linalg.norm(load[free, :3]) for load in (load_case.dead_load, load_case.live_load))
-    size = max(abs(kinematic), 1e-3 * float(dead / live) if live > 0 else 0.0)
+    size = max(abs(kinematic), ZERO_FACTOR * float(dead / live) if live > 0 else 0.0)
     return float(abs(kinematic - static) / size) if size > 0 else np.nan
 
 
@@ -269,10 +281,16 @@ def _failures(residuals: Residuals, solution: Solution, static: float, kinematic
     )
     failures = [f"{name} {value:.2g} exceeds {limit:g}" for name, value, limit in limits if not value <= limit]
     if not gap <= GAP_TOLERANCE:
-        failures.append(f"static bound {static:.8g} and kinematic bound {kinematic:.8g} lie further apart than {GAP_TOLERANCE:g}")
+        failures.append(
+            f"static bound {static:.8g} and kinematic bound {kinematic:.8g} lie further apart than {GAP_TOLERANCE:g}"
+        )
     factor = solution.mechanics.load_factor if solution.mechanics else np.nan
-    if solution.flow_rule != "associative" and factor > kinematic * (1 + GAP_TOLERANCE) + GAP_TOLERANCE * abs(kinematic):
-        failures.append(f"the load factor {factor:.8g} exceeds the kinematic bound {kinematic:.8g} of the associative one")
+    if solution.flow_rule != "associative" and factor > kinematic * (1 + GAP_TOLERANCE) + GAP_TOLERANCE * abs(
+        kinematic
+    ):
+        failures.append(
+            f"the load factor {factor:.8g} exceeds the kinematic bound {kinematic:.8g} of the associative one"
+        )
     return tuple(failures)
 
 

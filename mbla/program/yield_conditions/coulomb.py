@@ -1,4 +1,7 @@
-"""Coulomb friction with cohesion: ‖T‖ ≤ c + μ N, the true cone (Portioli et al. 2014, doi:10.1016/j.compstruc.2014.07.010)."""
+"""Coulomb friction with cohesion: ‖T‖ ≤ c + μ N, the true cone.
+
+Portioli et al. 2014, doi:10.1016/j.compstruc.2014.07.010.
+"""
 
 from __future__ import annotations
 
@@ -23,10 +26,10 @@ class Coulomb:
 
     @staticmethod
     def slope(limits: YieldLimits) -> FloatArray:
-        """β = μ."""
+        """Slope β = μ."""
         return limits.friction
 
     @staticmethod
     def offset(limits: YieldLimits) -> FloatArray:
-        """h = c."""
+        """Offset h = c."""
         return limits.cohesion

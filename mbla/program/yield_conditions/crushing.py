@@ -23,10 +23,10 @@ class Crushing:
 
     @staticmethod
     def slope(limits: YieldLimits) -> FloatArray:
-        """β = −1."""
+        """Slope β = −1."""
         return -np.ones(len(limits.friction))
 
     @staticmethod
     def offset(limits: YieldLimits) -> FloatArray:
-        """h = f_c."""
+        """Offset h = f_c."""
         return limits.compression

@@ -19,14 +19,14 @@ class TensionCutOff:
     @staticmethod
     def applies(limits: YieldLimits) -> BoolArray:
         """Not where the Coulomb cone has its apex at N = 0 and so forbids tension by itself."""
-        return (limits.cohesion > 0) | (limits.friction == 0)
+        return np.asarray((limits.cohesion > 0) | (limits.friction == 0))
 
     @staticmethod
     def slope(limits: YieldLimits) -> FloatArray:
-        """β = 1."""
+        """Slope β = 1."""
         return np.ones(len(limits.friction))
 
     @staticmethod
     def offset(limits: YieldLimits) -> FloatArray:
-        """h = f_t."""
+        """Offset h = f_t."""
         return limits.tension

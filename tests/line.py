@@ -1,0 +1,95 @@
+"""The line from deck to solution for tests: small decks as text, and what each stage makes of them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+from mbla.contacts import Contacts, find_contacts
+from mbla.deck import Deck, read_deck
+from mbla.model import Model, build_model
+from mbla.model.model import LoadCase
+from mbla.program import Program, assemble
+from mbla.solution import Checks, Solution, solve, verified_status, verify
+from mbla.solution.settings import solver_settings
+from mbla.solution.solution import Status
+
+HEAD = """\
+mbla: 1
+materials: {stone: {density: 2000}}
+contacts: {joint: dry}
+"""
+
+BLOCK = (
+    HEAD
+    + """\
+parameters: {mu: 0.5, b: 1, h: 2, c: 0, ft: 0}
+joints: {dry: {friction: "=mu", cohesion: "=c", tensile_strength: "=ft"}}
+blocks:
+  - box: {group: block, material: stone, min: [0, 0, 0], max: ["=b", 1, "=h"]}
+supports: [{ground: {z: 0}}]
+load_cases:
+  push: {live: [{acceleration: [1, 0, 0]}]}
+analysis: {flow_rule: associative}
+"""
+)
+"""One block on the ground, pushed by its weight times the load factor."""
+
+WALL = (
+    HEAD
+    + """\
+parameters: {mu: 0.65, n: 5}
+joints: {dry: {friction: "=mu"}}
+blocks:
+  - wall: {group: wall, material: stone, unit: [0.4, 0.2, 0.175], length: "=0.4*n", courses: "=n"}
+supports: [{ground: {z: 0}}]
+load_cases:
+  push: {live: [{acceleration: [1, 0, 0]}]}
+analysis: {flow_rule: associative}
+"""
+)
+"""Running-bond wall on the ground, n units long and n courses high."""
+
+
+@dataclass(frozen=True)
+class Line:
+    """Everything up to the program of the first load case."""
+
+    deck: Deck
+    model: Model
+    contacts: Contacts
+    load_case: LoadCase
+    program: Program
+
+
+def line_of(text: str, *overrides: str, case: int = 0) -> Line:
+    """Read, build, find contacts, assemble."""
+    with TemporaryDirectory() as folder:
+        path = Path(folder) / "deck.yaml"
+        path.write_text(text, encoding="utf-8")
+        deck = read_deck(path, overrides)
+        model = build_model(deck)
+    contacts = find_contacts(model, deck.contacts)
+    load_case = model.load_cases[case]
+    return Line(deck, model, contacts, load_case, assemble(model, contacts, load_case))
+
+
+def solution_of(line: Line) -> Solution:
+    """Solve without verification."""
+    return solve(line.program, line.deck.analysis, solver_settings(line.deck.analysis))
+
+
+def verified(line: Line) -> tuple[Solution, Checks, Status]:
+    """Solve and verify."""
+    solution = solution_of(line)
+    checks = verify(line.model, line.contacts, line.load_case, solution)
+    return solution, checks, verified_status(solution, checks)
+
+
+def load_factor(text: str, *overrides: str, case: int = 0) -> float:
+    """Load factor of a deck whose case must come out solved and verified."""
+    solution, checks, status = verified(line_of(text, *overrides, case=case))
+    assert status is Status.SOLVED, (status, solution.reason, checks.failures)
+    assert solution.mechanics is not None
+    return solution.mechanics.load_factor

@@ -1,0 +1,59 @@
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from mbla.program.equilibrium import equilibrium_matrix
+from mbla.solution.statics import contact_resultants, contact_velocities
+from tests.line import BLOCK, WALL, line_of
+
+
+def test_equilibrium_matrix_agrees_with_summing_forces_over_blocks() -> None:
+    line = line_of(WALL)
+    rng = np.random.default_rng(1)
+    forces = rng.normal(size=(len(line.contacts.points), 3))
+    matrix = equilibrium_matrix(line.model, line.contacts, line.model.free)
+    assert (matrix @ forces.ravel()).reshape(-1, 6) == pytest.approx(
+        contact_resultants(line.model, line.contacts, forces)[line.model.free], abs=1e-13
+    )
+
+
+def test_compatibility_is_the_transpose_of_equilibrium() -> None:
+    line = line_of(WALL)
+    mechanism = np.random.default_rng(2).normal(size=(len(line.model.blocks), 6))
+    matrix = equilibrium_matrix(line.model, line.contacts, line.model.free)
+    assert (matrix.T @ mechanism[line.model.free].ravel()).reshape(-1, 3) == pytest.approx(
+        contact_velocities(line.model, line.contacts, mechanism), abs=1e-13
+    )
+
+
+def test_compression_pushes_the_block_off_the_ground() -> None:
+    line = line_of(BLOCK)
+    forces = np.zeros((4, 3))
+    forces[:, 0] = 1.0
+    assert contact_resultants(line.model, line.contacts, forces)[0] == pytest.approx([0, 0, 4, 0, 0, 0], abs=1e-14)
+
+
+@pytest.mark.parametrize(
+    "overrides",
+    [
+        ("units.length=mm", "parameters.b=1000", "parameters.h=2000", "materials.stone.density=2e-6"),
+        ("materials.stone.density=2e-3",),
+        ("units.force=kip",),
+        ("units.mass=lb", "materials.stone.density=5"),
+    ],
+)
+def test_the_program_does_not_know_units(overrides: tuple[str, ...]) -> None:
+    text = BLOCK.replace('max: ["=b", 1, "=h"]', 'max: ["=b", "=b", "=h"]')
+    here, there = line_of(text).program, line_of(text, *overrides).program
+    assert there.equilibrium_matrix.toarray() == pytest.approx(here.equilibrium_matrix.toarray(), abs=1e-12)
+    assert there.dead_load == pytest.approx(here.dead_load)
+    assert there.live_load == pytest.approx(here.live_load)
+
+
+def test_load_factor_of_the_program_goes_back_to_that_of_the_model() -> None:
+    line = line_of(BLOCK, "load_cases.push.live=[{force: [10, 0, 0], on: block}]")
+    scaling = line.program.scaling
+    physical = line.program.live_load / (scaling.row * scaling.live)
+    assert physical[:3] == pytest.approx([10, 0, 0])
+    assert np.linalg.norm(line.program.live_load) == pytest.approx(1.0)

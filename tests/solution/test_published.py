@@ -1,0 +1,69 @@
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from mbla.solution.solution import Status
+from tests.line import BLOCK, WALL, line_of, load_factor, verified
+
+NON_ASSOCIATIVE = "analysis.flow_rule=non_associative"
+
+
+def test_a_sliding_block_needs_its_friction_with_either_flow_rule() -> None:
+    solution, checks, status = verified(line_of(BLOCK, NON_ASSOCIATIVE, "parameters.h=0.5"))
+    assert status is Status.SOLVED
+    assert solution.mechanics is not None
+    assert solution.associative is not None
+    assert solution.mechanics.load_factor == pytest.approx(0.5, rel=1e-6)
+    assert checks.complementarity_residual < 1e-5
+    assert solution.mechanics.contact_velocities[:, 0] == pytest.approx(0, abs=1e-6)  # no dilatancy
+    lift = solution.associative.contact_velocities
+    assert lift[:, 0] == pytest.approx(0.5 * np.hypot(lift[:, 1], lift[:, 2]), rel=1e-5)  # friction angle
+
+
+def test_where_nothing_slides_both_flow_rules_give_one_factor() -> None:
+    assert load_factor(BLOCK, NON_ASSOCIATIVE, "parameters.mu=0.9") == pytest.approx(0.5, rel=1e-6)
+
+
+@pytest.mark.parametrize("n", [4, 7])
+def test_the_non_associative_factor_lies_below_the_associative_one(n: int) -> None:
+    solution, _, status = verified(line_of(WALL, NON_ASSOCIATIVE, f"parameters.n={n}"))
+    assert status is Status.SOLVED
+    assert solution.mechanics is not None
+    assert solution.associative is not None
+    assert solution.mechanics.load_factor <= solution.associative.load_factor * (1 + 1e-6)
+
+
+def test_a_slope_above_zero_is_a_dilatancy_and_verification_sees_it() -> None:
+    """The published slope of 0.01 μ on a sliding block: v_N = 0.01 μ s, so 1 % of the power is not explained."""
+    solution, checks, status = verified(
+        line_of(BLOCK, NON_ASSOCIATIVE, "parameters.h=0.5", "analysis.published={slope: 0.01}")
+    )
+    assert solution.mechanics is not None
+    assert solution.mechanics.load_factor == pytest.approx(0.5, rel=1e-5)
+    assert checks.complementarity_residual == pytest.approx(0.01, rel=1e-3)
+    assert status in (Status.APPROXIMATE, Status.NOT_VERIFIED)
+
+
+def test_a_sequence_that_may_not_go_on_says_how_far_it_came() -> None:
+    solution, _, status = verified(line_of(WALL, NON_ASSOCIATIVE, "analysis.published={max_programs: 2}"))
+    assert status in (Status.APPROXIMATE, Status.NOT_VERIFIED)
+    assert "did not settle in 2 programs" in solution.reason
+    assert [program.kind for program in solution.programs] == ["associative", "reverse", "published", "published"]
+
+
+def test_dilatancy_of_the_joint_sets_the_direction_of_sliding() -> None:
+    """Its forces need not settle: one self-stress of the four corners is free, and the solver's choice of it jumps."""
+    solution, _, _ = verified(
+        line_of(BLOCK, "analysis.flow_rule=dilatancy", "joints.dry.dilatancy=10", "parameters.h=0.5")
+    )
+    assert solution.mechanics is not None
+    v = solution.mechanics.contact_velocities
+    assert v[:, 0] == pytest.approx(np.tan(np.radians(10)) * np.hypot(v[:, 1], v[:, 2]), rel=1e-5)
+    assert solution.mechanics.load_factor == pytest.approx(0.5, rel=1e-6)
+
+
+def test_cohesion_adds_to_friction() -> None:
+    weight = 0.5 * 2000 * 9.81
+    factor = load_factor(BLOCK, NON_ASSOCIATIVE, "parameters.h=0.5", "parameters.c=1000")
+    assert factor == pytest.approx(0.5 + 1000 / weight, rel=1e-5)
