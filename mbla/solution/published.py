@@ -102,7 +102,8 @@ def solve_published(
         normal = weight * np.maximum(forces[:, 0], 0.0) + (1 - weight) * normal
     last = factors[-SPREAD_PROGRAMS:]
     if solution.status is Status.APPROXIMATE:
-        reason = f"the programs of the sequence end short of the solver's tolerance (clarabel: {solution.solver_status})"
+        ended = f"(clarabel: {solution.solver_status})"
+        reason = f"the programs of the sequence end short of the solver's tolerance {ended}"
         return SequenceResult(Status.APPROXIMATE, best and _mechanics(program, best), reason, tuple(records))
     reason = (
         f"the sequence did not settle in {scheme.max_programs} programs: the last {len(last)} load factors lie between "
