@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from mbla.arrays import FloatArray
+from mbla.arrays import FloatArray, IntArray
 from mbla.contacts.contacts import Contacts
 from mbla.model.blocks import Blocks
 from mbla.model.model import Model
@@ -51,9 +51,7 @@ def movable_size(model: Model) -> float:
     return float(np.linalg.norm(np.ptp(vertices, axis=0)))
 
 
-def displacements_at(
-    blocks: Blocks, motion: FloatArray, owners: np.typing.NDArray[np.int64], points: FloatArray
-) -> FloatArray:
+def displacements_at(blocks: Blocks, motion: FloatArray, owners: IntArray, points: FloatArray) -> FloatArray:
     """Linearised displacement of points that belong to blocks, u + θ × (p − c), (n, 3) m."""
     arms = points - blocks.centroids[owners]
     return np.asarray(motion[owners, :3] + np.cross(motion[owners, 3:], arms))
@@ -75,14 +73,28 @@ def contact_displacements(model: Model, contacts: Contacts, motion: FloatArray) 
 
 
 def moved_vertices(blocks: Blocks, motion: FloatArray) -> FloatArray:
-    """Vertices after a finite motion: c + u + exp(θ)(p − c), (n_vertices, 3) m. Blocks keep their shape.
+    """Vertices after a finite motion, (n_vertices, 3) m; see ``moved_points``."""
+    return moved_points(blocks, motion, blocks.block_of_vertex, blocks.vertices)
+
+
+def moved_points(blocks: Blocks, motion: FloatArray, owners: IntArray, points: FloatArray) -> FloatArray:
+    """Points of blocks after a finite motion, c + u + exp(θ)(p − c), (n, 3) m. Blocks keep their shape.
 
     motion : (n_blocks, 6) displacement of the centroid m and rotation vector rad
+    owners : (n,) block of each point
     """
-    owners = blocks.block_of_vertex
-    arms = blocks.vertices - blocks.centroids[owners]
-    rotated = np.einsum("vij,vj->vi", rotation_matrices(motion[:, 3:])[owners], arms)
-    return np.asarray(blocks.centroids[owners] + motion[owners, :3] + rotated)
+    centroids = blocks.centroids[owners]
+    turned = np.einsum("vij,vj->vi", rotation_matrices(motion[:, 3:])[owners], points - centroids)
+    return np.asarray(centroids + motion[owners, :3] + turned)
+
+
+def moved_contact_points(model: Model, contacts: Contacts, motion: FloatArray, side: int) -> FloatArray:
+    """Contact points after a finite motion as part of body a (side 0) or b (side 1), (n_points, 3) m."""
+    owners = contacts.bodies[contacts.interface_of_point, side]
+    block = owners < len(model.blocks)
+    moved = contacts.points.copy()
+    moved[block] = moved_points(model.blocks, motion, owners[block], contacts.points[block])
+    return moved
 
 
 def rotation_matrices(vectors: FloatArray) -> FloatArray:
