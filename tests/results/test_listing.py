@@ -1,0 +1,155 @@
+import re
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from mbla.results.hdf5 import read_results_hdf5, write_results_hdf5
+from mbla.results.listing import check_listing, listing, summary_lines, verification_lines
+from mbla.results.text import WIDTH
+from mbla.solution.solution import Status
+
+from .synthetic import tower_mechanics, tower_results
+
+
+@pytest.fixture(scope="module")
+def results():
+    return tower_results()
+
+
+@pytest.fixture(scope="module")
+def text(results):
+    return listing(results)
+
+
+def section(text, title):
+    """Lines below a heading up to the next one."""
+    match = re.search(
+        rf"^{re.escape(title)}\n-+\n(.*?)(?=\n\n[^\n ][^\n]*\n-+\n|\Z)", text, flags=re.MULTILINE | re.DOTALL
+    )
+    assert match, title
+    return match[1]
+
+
+def test_width(text):
+    assert max(map(len, text.splitlines())) <= WIDTH
+
+
+def test_listing_is_the_same_from_the_file(tmp_path, results, text):
+    path = tmp_path / "tower.h5"
+    path.write_bytes(write_results_hdf5(results))
+    assert listing(read_results_hdf5(path)) == text
+
+
+@pytest.mark.parametrize(
+    ("title", "words"),
+    [
+        ("Model", ["3, of them 2 free and 1 fixed", "11.5 m3", "65 N", "unlimited"]),
+        ("Supports", ["rigid ground z = 0 with joint law dry", "under 1 block only", "1 block of group base fixed"]),
+        ("Loads", ["gravity (0, 0, -9.81) m/s2", "acceleration (1, 0, 0) g"]),
+        ("Contacts", ["dry", "total"]),
+        ("Remarks", ["notice [faces-turned-outwards]", "warning [near-miss]"]),
+        (
+            "Load case push_x",
+            [
+                "collapses at 0.5 g, verified: 1 hinge; 1 of 2 free blocks move.",
+                "Blocks that move: 1 of 1 in tower.",
+                "base[0]/tower[0]  (1, 0.5, 1)  +x side",
+                "100.0 % goes into the dead load, 0.0 % into friction",
+                "2 cone programs, 23 iterations",
+            ],
+        ),
+        ("Load case fall", ["no equilibrium", "Not held (1 block):", "tower[0]  moves down"]),
+        ("Summary", ["1 load case of the deck not run", "1 warning:", "exit status 5"]),
+    ],
+)
+def test_sections(text, title, words):
+    found = section(text, title)
+    for each in words:
+        assert each in found
+
+
+def test_reactions_balance_in_print(text):
+    rows = {line[:26].strip(): line[26:].split() for line in section(text, "Load case push_x").splitlines()}
+    assert rows["base[0]"][:3] == ["-5", "0", "10"]
+    assert rows["sum of reactions"][:3] == ["-10", "0", "20"]
+    assert rows["out of balance"] == ["0"] * 6
+
+
+def with_case(results, **changes):
+    """Results whose first case has another status, solution or checks."""
+    first = results.cases[0]
+    solution = replace(first.solution, **changes.pop("solution", {}))
+    checks = replace(first.checks, **changes.pop("checks", {}))
+    return replace(results, cases=(replace(first, solution=solution, checks=checks, **changes),))
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        ({"status": Status.APPROXIMATE, "solution": {"reason": "did not settle"}}, "collapses at 0.5 g, approximately"),
+        ({"status": Status.APPROXIMATE, "solution": {"reason": "did not settle"}}, "did not settle"),
+        ({"status": Status.NOT_VERIFIED, "checks": {"verified": False, "failures": ("residual 0.1",)}}, "NOT VERIFIED"),
+        ({"status": Status.NOT_VERIFIED, "checks": {"verified": False, "failures": ("residual 0.1",)}}, "residual 0.1"),
+        ({"status": Status.UNBOUNDED, "solution": {"mechanics": None, "reason": "locked"}}, "no collapse"),
+        ({"status": Status.UNBOUNDED, "solution": {"mechanics": None, "reason": "locked"}}, "locked"),
+        ({"status": Status.TIME_LIMIT, "solution": {"mechanics": None}}, "out of time"),
+        ({"status": Status.TIME_LIMIT}, "NOT SOLVED (time_limit)"),
+        ({"status": Status.ITERATION_LIMIT, "solution": {"mechanics": None}}, "out of iterations"),
+        ({"status": Status.NUMERICAL_ERROR, "solution": {"mechanics": None}}, "numerical failure"),
+    ],
+)
+def test_every_status_has_its_words(results, changes, words):
+    changed = with_case(
+        results, **{key: dict(value) if isinstance(value, dict) else value for key, value in changes.items()}
+    )
+    assert words in listing(changed)
+
+
+def test_no_status_but_solved_reads_as_a_plain_collapse(results):
+    for status in set(Status) - {Status.SOLVED}:
+        assert "0.5 g, verified" not in listing(with_case(results, status=status))
+
+
+def test_factors_of_both_flow_rules_stand_side_by_side(results):
+    changed = with_case(results, solution={"associative": tower_mechanics(0.625)})
+    found = section(listing(changed), "Load case push_x")
+    assert re.search(r"load factor, non_associative +0\.5\n", found)
+    assert re.search(r"load factor, associative +0\.625   \(the one above differs by -20\.00 %\)", found)
+
+
+def test_force_as_live_load_is_not_in_g(results):
+    first = results.cases[0]
+    case = replace(first, load_case=replace(first.load_case, live_words=("force (1, 0, 0) N on tower[0]",)))
+    assert "collapses at 0.5 times the live load" in listing(replace(results, cases=(case,)))
+
+
+def test_long_tables_say_how_much_they_leave_out(results):
+    certificate = np.tile([0, 0, -1.0, 0, 0, 0], (3, 1))
+    case = results.cases[1]
+    changed = replace(case, solution=replace(case.solution, certificate=certificate))
+    assert "Not held (3 blocks):" in listing(replace(results, cases=(changed,)))
+
+
+def test_summary_says_the_essential(results):
+    text = "\n".join(summary_lines(results))
+    assert "tower.yaml: 3 blocks, 2 interfaces, 8 contact points" in text
+    assert "push_x: collapses at 0.5 g, verified: 1 hinge" in text
+    assert "(associative load factor 0.5)" in " ".join(text.split())
+    assert "fall: no equilibrium" in text
+    assert "near-miss" in text
+    assert "faces-turned-outwards" not in text
+    assert max(map(len, text.splitlines())) <= WIDTH
+
+
+def test_check_listing_has_no_results(results):
+    text = check_listing(replace(results, cases=()), {"unknown_velocities": 12, "cones": 8})
+    assert "Nothing was solved." in text
+    assert re.search(r"unknown velocities +12", text)
+    assert "Load case" not in text
+
+
+def test_verification_names_what_differs(results):
+    assert "agrees" in verification_lines(results, ())[-1]
+    lines = verification_lines(results, ("push_x: static bound is 1 recomputed, the file says 2",))
+    assert "differs: push_x: static bound is 1" in lines[-1]

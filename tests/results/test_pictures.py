@@ -1,0 +1,89 @@
+import builtins
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+from mbla.errors import FileError, UsageError
+from mbla.results.pictures import HINGE, plot_mechanism, plot_results
+
+from .synthetic import tower_results
+
+
+@pytest.fixture(scope="module")
+def results():
+    return tower_results()
+
+
+def pixels(path):
+    from PIL import Image
+
+    with Image.open(path) as image:
+        return np.asarray(image)[..., :3].astype(int)
+
+
+def near(picture, colour, distance=40):
+    """How many pixels are about of this colour."""
+    target = np.array([int(colour[i : i + 2], 16) for i in (1, 3, 5)])
+    return int((np.abs(picture - target).max(axis=2) < distance).sum())
+
+
+def test_pictures_show_the_structure_and_its_hinge(tmp_path, results):
+    paths = plot_results(results, tmp_path / "pictures", "tower")
+    assert [path.name for path in paths] == ["tower_push_x.png", "tower_fall.png"]
+    rocking, falling = map(pixels, paths)
+    assert rocking.shape == (1000, 1600, 3)
+    blue = (rocking[..., 2] - rocking[..., 0] > 60).sum()
+    assert blue > 10_000
+    assert near(rocking, HINGE) > 200
+    assert near(falling, HINGE) < 20
+
+
+def test_one_file_for_one_case(tmp_path, results):
+    target = tmp_path / "mine.png"
+    assert plot_results(results, target, "tower", "push_x") == [target]
+    assert target.stat().st_size > 5000
+
+
+def test_one_file_for_two_cases_is_refused(tmp_path, results):
+    with pytest.raises(UsageError, match="--case"):
+        plot_results(results, tmp_path / "mine.png", "tower")
+
+
+def test_unknown_case_is_refused(tmp_path, results):
+    with pytest.raises(UsageError, match="push_x, fall"):
+        plot_results(results, tmp_path, "tower", "push_y")
+
+
+def test_other_formats_are_refused(tmp_path, results):
+    with pytest.raises(UsageError, match="PNG"):
+        plot_results(results, tmp_path / "mine.svg", "tower", "push_x")
+
+
+def test_place_that_cannot_be_written(tmp_path, results):
+    (tmp_path / "file").write_text("mine")
+    with pytest.raises(FileError, match="file"):
+        plot_results(results, tmp_path / "file" / "deeper", "tower")
+
+
+def test_missing_extra_is_named(tmp_path, results, monkeypatch):
+    importing = builtins.__import__
+
+    def without(name, *rest):
+        if name.startswith("pyvista"):
+            raise ImportError(name)
+        return importing(name, *rest)
+
+    monkeypatch.setattr(builtins, "__import__", without)
+    with pytest.raises(UsageError, match=r"pip install 'mbla\[pictures\]'"):
+        plot_mechanism(results, results.cases[0], tmp_path / "mine.png")
+
+
+def test_module_imports_nothing_heavy():
+    code = (
+        "import sys, mbla.results.pictures, mbla.results.write; "
+        "print([name for name in ('pyvista', 'vtk', 'h5py', 'meshio') if name in sys.modules])"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == "[]"

@@ -1,0 +1,86 @@
+import json
+import xml.etree.ElementTree as ElementTree
+from dataclasses import replace
+
+import meshio
+import pytest
+
+from mbla.errors import FileError
+from mbla.results.files import OutputFolder
+from mbla.results.hdf5 import read_results_hdf5
+from mbla.results.listing import listing
+from mbla.results.vtu import write_model_vtu
+from mbla.results.write import write_outputs, write_results
+
+from .synthetic import same, tower_results
+
+CASE_FILES = {"blocks.vtu", "contacts.vtu", "interfaces.vtu", "frame_000.vtu", "frame_001.vtu", "frame_002.vtu"}
+
+
+@pytest.fixture(scope="module")
+def results():
+    return tower_results()
+
+
+def names(folder):
+    return {path.name for path in folder.iterdir()}
+
+
+def test_all_files_of_a_run(tmp_path, results):
+    written = write_outputs(results, tmp_path, "tower", False, True, 3, False)
+    expected = {"tower.h5", "tower.lst", "tower.json"}
+    for case in ("push_x", "fall"):
+        expected |= {f"tower_{case}_{name}" for name in CASE_FILES} | {f"tower_{case}.pvd"}
+    assert names(tmp_path) == expected == set(written)
+
+
+def test_files_agree_with_each_other(tmp_path, results):
+    with OutputFolder(tmp_path, "tower") as out:
+        final = write_results(results, out, True, 2, False)
+    back = read_results_hdf5(tmp_path / "tower.h5")
+    assert same(back, final)
+    assert listing(back) == (tmp_path / "tower.lst").read_text(encoding="utf-8")
+    record = json.loads((tmp_path / "tower.json").read_text(encoding="utf-8"))
+    assert set(record["files"]) == names(tmp_path)
+    assert final.time["write"] > 0
+    assert record["time"]["write"] == final.time["write"]
+
+
+def test_pvd_names_frames_that_exist(tmp_path, results):
+    write_outputs(results, tmp_path, "tower", False, True, 4, False)
+    entries = ElementTree.parse(tmp_path / "tower_push_x.pvd").getroot().findall("Collection/DataSet")
+    assert len(entries) == 4
+    assert all((tmp_path / entry.get("file")).is_file() for entry in entries)
+
+
+def test_without_vtu_there_is_none(tmp_path, results):
+    write_outputs(results, tmp_path, "tower", False, False, 3, False)
+    assert names(tmp_path) == {"tower.h5", "tower.lst", "tower.json"}
+
+
+def test_case_that_moves_nothing_has_one_frame(tmp_path, results):
+    case = results.cases[1]
+    still = replace(case, solution=replace(case.solution, certificate=None))
+    write_outputs(replace(results, cases=(still,)), tmp_path, "tower", False, True, 5, False)
+    assert [name for name in sorted(names(tmp_path)) if "frame" in name] == ["tower_fall_frame_000.vtu"]
+
+
+def test_forced_run_with_fewer_cases_leaves_no_stale_files(tmp_path, results):
+    write_outputs(results, tmp_path, "tower", False, True, 3, False)
+    write_outputs(replace(results, cases=results.cases[:1]), tmp_path, "tower", True, True, 2, False)
+    assert not [name for name in names(tmp_path) if "fall" in name or "frame_002" in name]
+
+
+def test_result_is_not_overwritten_without_force(tmp_path, results):
+    write_outputs(results, tmp_path, "tower", False, False, 2, False)
+    before = (tmp_path / "tower.h5").read_bytes()
+    with pytest.raises(FileError, match="--force"):
+        write_outputs(results, tmp_path, "tower", False, False, 2, False)
+    assert (tmp_path / "tower.h5").read_bytes() == before
+
+
+def test_model_alone(tmp_path, results):
+    with OutputFolder(tmp_path, "tower_check") as out:
+        write_model_vtu(results, out)
+    assert names(tmp_path) == {f"tower_check_{kind}.vtu" for kind in ("blocks", "contacts", "interfaces")}
+    assert not meshio.read(tmp_path / "tower_check_blocks.vtu").point_data["displacement"].any()
