@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mbla.arrays import BoolArray, FloatArray, IntArray, starts
+from mbla.arrays import FloatArray, IntArray, starts
 from mbla.contacts.broad_phase import BlockPairs
 from mbla.contacts.facets import Facets
 from mbla.contacts.ragged import rows_and_items
@@ -40,26 +40,13 @@ class Overlaps:
     unchecked: IntArray
 
 
-def find_overlaps(blocks: Blocks, facets: Facets, pairs: BlockPairs, touching: IntArray, tolerance: float) -> Overlaps:
-    """Overlaps deeper than the tolerance (relative to block size).
-
-    touching : (m, 2) pairs of blocks with a contact
-    """
-    deep = pairs.box_depths > tolerance * pairs.sizes
-    a, b = pairs.blocks.T
-    # The joint between two convex blocks separates them: no need to look for another plane.
-    apart = blocks.convex[a] & blocks.convex[b] & _listed(pairs.blocks, touching, len(blocks))
-    rows = np.flatnonzero(deep & ~apart)
+def find_overlaps(blocks: Blocks, facets: Facets, pairs: BlockPairs, tolerance: float) -> Overlaps:
+    """Overlaps deeper than the tolerance (relative to block size)."""
+    rows = np.flatnonzero(pairs.box_depths > tolerance * pairs.sizes)
     for one, other in ((0, 1), (1, 0)):
         clearance = _clearances(blocks, facets, pairs.blocks[rows, one], pairs.blocks[rows, other])
         rows = rows[clearance < -tolerance * pairs.sizes[rows]]
     return _by_solids(blocks, pairs, rows, tolerance)
-
-
-def _listed(pairs: IntArray, listed: IntArray, n_blocks: int) -> BoolArray:
-    """True for pairs that occur in the list."""
-    found: BoolArray = np.isin(pairs[:, 0] * n_blocks + pairs[:, 1], listed[:, 0] * n_blocks + listed[:, 1])
-    return found
 
 
 def _clearances(blocks: Blocks, facets: Facets, one: IntArray, other: IntArray) -> FloatArray:

@@ -35,7 +35,7 @@ def find_contacts(model: Model, section: ContactsSection) -> Contacts:
     pairs = find_block_pairs(blocks, tolerance)
     verdicts = judge(find_patches(blocks, facets, pairs, model.grounds, tolerance), tolerance)
     touching = verdicts.contacts.overlays.bodies
-    overlaps = find_overlaps(blocks, facets, pairs, touching[touching[:, 0] < len(blocks)], tolerance)
+    overlaps = find_overlaps(blocks, facets, pairs, tolerance)
     kept = _sorted(verdicts.contacts.take(~both_fixed(model, touching)))
     joints, joint_names, notices = joints_of_interfaces(model, section, kept.overlays.bodies)
     report = build_report(

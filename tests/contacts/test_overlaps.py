@@ -25,12 +25,10 @@ from tests.contacts.structures import (
 )
 from tests.contacts.test_shapes import L_OUTLINE, circle, ring
 
-NONE = np.zeros((0, 2), dtype=np.int64)
-
 
 def overlaps_of(polyhedra: Polyhedra, tolerance: float = 1e-3) -> Overlaps:
     blocks = blocks_of(polyhedra)
-    return find_overlaps(blocks, build_facets(blocks), find_block_pairs(blocks, tolerance), NONE, tolerance)
+    return find_overlaps(blocks, build_facets(blocks), find_block_pairs(blocks, tolerance), tolerance)
 
 
 @pytest.mark.parametrize("turn", [None, any_rotation(4)], ids=["along the axes", "turned"])
