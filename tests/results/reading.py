@@ -1,11 +1,13 @@
 """VTU files read back by vtk."""
 
 import warnings
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 
-def read_vtk(path):
+def read_vtk(path: Path) -> Any:
     """The grid as vtk reads it; its reader must not complain."""
     with warnings.catch_warnings():
         warnings.filterwarnings("ignore", category=DeprecationWarning, module="vtk.*")
@@ -16,13 +18,13 @@ def read_vtk(path):
         reader = vtkXMLUnstructuredGridReader()
         reader.SetFileName(str(path))
         complaints = []
-        reader.AddObserver("ErrorEvent", lambda *_: complaints.append("error"))
+        reader.AddObserver("ErrorEvent", lambda *_: complaints.append("error"))  # type: ignore[arg-type]
         reader.Update()
         assert not complaints
         return reader.GetOutput()
 
 
-def vtk_volumes(path):
+def vtk_volumes(path: Path) -> Any:
     """Signed-by-orientation volume of every cell, as vtk sums it from the cell's own faces or nodes."""
     from vtkmodules.vtkFiltersVerdict import vtkCellSizeFilter
 
@@ -33,7 +35,7 @@ def vtk_volumes(path):
     return np.array([array.GetValue(i) for i in range(array.GetNumberOfTuples())])
 
 
-def vtk_array(data, name):
+def vtk_array(data: Any, name: str) -> Any:
     """One array of point or cell data."""
     array = data.GetArray(name)
     values = [array.GetTuple(i) for i in range(array.GetNumberOfTuples())]

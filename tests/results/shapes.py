@@ -1,5 +1,7 @@
 """Blocks of a few shapes, turned at random, with exact volumes."""
 
+from typing import Any
+
 import numpy as np
 
 from mbla.model.blocks import Blocks
@@ -22,10 +24,13 @@ PYRAMID = (
 )
 
 
-def blocks_of(shapes, seed=0):
+def blocks_of(shapes: Any, seed: int = 0) -> Blocks:
     """Blocks of these shapes: vertices renumbered and the whole turned at random, one beside the other."""
     generator = np.random.default_rng(seed)
-    vertices, loops, centroids, normals = [], [], [], []
+    vertices: list[Any] = []
+    loops: list[Any] = []
+    centroids: list[Any] = []
+    normals: list[Any] = []
     for i, (corners, faces, _) in enumerate(shapes):
         turn, _ = np.linalg.qr(generator.normal(size=(3, 3)))
         turn *= np.sign(np.linalg.det(turn))
@@ -34,7 +39,7 @@ def blocks_of(shapes, seed=0):
         place = np.argsort(order)
         faces = [np.roll(place[face], generator.integers(len(face))) for face in faces]
         faces = [faces[k] for k in generator.permutation(len(faces))]
-        loops += [np.asarray(face) + sum(map(len, vertices)) for face in faces]
+        loops += [np.asarray(face) + sum(len(v) for v in vertices) for face in faces]
         vertices.append(points)
         centroids.append(points.mean(axis=0))
         for face in faces:

@@ -5,6 +5,7 @@ A tower 1 x 1 x 2 on a fixed base and a flat brick 1 x 1 x 0.5 on the ground z =
 """
 
 import itertools
+from typing import Any
 
 import numpy as np
 
@@ -30,7 +31,7 @@ TOWER_WEIGHT = 10.0
 G = 9.81
 
 
-def cuboids(lower, upper, groups, densities=1.0):
+def cuboids(lower: Any, upper: Any, groups: Any, densities: Any = 1.0) -> Blocks:
     """Blocks from lower and upper corners, (n, 3) each."""
     lower, upper = np.asarray(lower, float), np.asarray(upper, float)
     n = len(lower)
@@ -38,7 +39,7 @@ def cuboids(lower, upper, groups, densities=1.0):
     vertices = (lower[:, None, :] + pattern * (upper - lower)[:, None, :]).reshape(-1, 3)
     loops = (BOX_FACES[None] + 8 * np.arange(n)[:, None, None]).reshape(-1)
     normals = np.tile([[0, 0, -1], [0, 0, 1], [0, -1, 0], [1, 0, 0], [0, 1, 0], [-1, 0, 0]], (n, 1)).astype(float)
-    counter = {}
+    counter: dict[str, Any] = {}
     indices = [counter.setdefault(group, itertools.count()).__next__() for group in groups]
     return Blocks(
         vertices=vertices,
@@ -57,7 +58,7 @@ def cuboids(lower, upper, groups, densities=1.0):
     )
 
 
-def empty_report(notices=()):
+def empty_report(notices: Any = ()) -> ContactReport:
     """A contact report with nothing in it."""
     pairs, numbers, rows = np.zeros((0, 2), np.int64), np.zeros(0), np.zeros(0, np.int64)
     return ContactReport(
@@ -75,7 +76,7 @@ def empty_report(notices=()):
     )
 
 
-def horizontal_contacts(bodies, rectangles, report=None):
+def horizontal_contacts(bodies: Any, rectangles: Any, report: Any = None) -> Contacts:
     """Interfaces with normal +z on rectangles (x0, x1, y0, y1, z), four contact points each."""
     corners = np.array(
         [[[x0, y0, z], [x1, y0, z], [x1, y1, z], [x0, y1, z]] for x0, x1, y0, y1, z in rectangles], float
@@ -100,7 +101,7 @@ def horizontal_contacts(bodies, rectangles, report=None):
     )
 
 
-def tower_model():
+def tower_model() -> Model:
     """Base (fixed), tower, brick."""
     density = TOWER_WEIGHT / (2 * G)
     blocks = cuboids(
@@ -135,13 +136,13 @@ def tower_model():
     )
 
 
-def tower_contacts():
+def tower_contacts() -> Contacts:
     """Base and tower, ground and brick."""
     warning = Notice("warning", "near-miss", "tower[0] and brick[0] nearly touch")
     return horizontal_contacts([[0, 1], [3, 2]], [(0, 1, 0, 1, 1), (4, 5, 0, 1, 0)], empty_report([warning]))
 
 
-def tower_mechanics(load_factor=0.5):
+def tower_mechanics(load_factor: Any = 0.5) -> Mechanics:
     """Exact: the tower turns about its edge x = 1; live power W omega 1 = 1."""
     weight = TOWER_WEIGHT
     forces = np.zeros((8, 3))
@@ -160,7 +161,7 @@ def tower_mechanics(load_factor=0.5):
     return Mechanics(load_factor, forces, velocities, mechanism, modes)
 
 
-def tower_results(flow_rule="non_associative"):
+def tower_results(flow_rule: str = "non_associative") -> Results:
     """One solved case, one without equilibrium, one not run."""
     model = tower_model()
     mechanics = tower_mechanics()
@@ -199,7 +200,7 @@ def tower_results(flow_rule="non_associative"):
     )
 
 
-def same(first, second):
+def same(first: Any, second: Any) -> bool:
     """Deep equality of records, arrays (type, shape, values, nan equal to nan) and containers."""
     if isinstance(first, np.ndarray) or isinstance(second, np.ndarray):
         first, second = np.asarray(first), np.asarray(second)

@@ -1,3 +1,6 @@
+from pathlib import Path
+from typing import Any
+
 import numpy as np
 import pytest
 
@@ -24,7 +27,7 @@ CORNERS_OF_A_CELL = {
         ([BRICK, PYRAMID, TETRA], ["polyhedron"]),
     ],
 )
-def test_cells_have_the_volumes_of_their_blocks(tmp_path, shapes, cells, seed):
+def test_cells_have_the_volumes_of_their_blocks(tmp_path: Path, shapes: Any, cells: list[str], seed: int) -> None:
     blocks = blocks_of(shapes, seed)
     found = block_cells(blocks)
     assert [cell for cell, _ in found.cells] == cells
@@ -35,7 +38,7 @@ def test_cells_have_the_volumes_of_their_blocks(tmp_path, shapes, cells, seed):
 
 
 @pytest.mark.parametrize("seed", range(5))
-def test_cells_are_listed_right_handed(seed):
+def test_cells_are_listed_right_handed(seed: int) -> None:
     """VTK takes a cell listed inside out without a word and gives it inward normals."""
     blocks = blocks_of([TETRA, BRICK, WEDGE], seed)
     for cell, connectivity in block_cells(blocks).cells:
@@ -44,7 +47,7 @@ def test_cells_are_listed_right_handed(seed):
         assert (np.linalg.det(edges) > 0).all()
 
 
-def test_block_that_only_counts_like_a_brick_is_a_polyhedron():
+def test_block_that_only_counts_like_a_brick_is_a_polyhedron() -> None:
     """Eight vertices and six faces, but two of the faces have three corners and two have five."""
     corners = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1]]
     faces = [[3, 0, 4, 7], [0, 3, 2, 1], [4, 5, 6], [4, 6, 7], [0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6]]
@@ -52,7 +55,7 @@ def test_block_that_only_counts_like_a_brick_is_a_polyhedron():
     assert block_cells(blocks).cells[0][0] == "polyhedron"
 
 
-def test_vtk_reads_the_cell_types(tmp_path):
+def test_vtk_reads_the_cell_types(tmp_path: Path) -> None:
     blocks = blocks_of([TETRA, BRICK, WEDGE])
     path = tmp_path / "blocks.vtu"
     write_mesh(path, blocks.vertices, block_cells(blocks).cells)

@@ -4,7 +4,9 @@ import signal
 import subprocess
 import sys
 import textwrap
+from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -12,7 +14,7 @@ from mbla.errors import FileError
 from mbla.results.files import PREFIX, OutputFolder, earlier_files
 
 
-def run(folder, force=False, text="new", extra=(), stem="arch"):
+def run(folder: Path, force: bool = False, text: str = "new", extra: Sequence[str] = (), stem: str = "arch") -> None:
     """A whole run that writes STEM.h5, STEM.json, STEM.sta and ``extra``."""
     with OutputFolder(folder, stem, force) as out:
         with out.open_live(f"{stem}.sta") as live:
@@ -23,7 +25,7 @@ def run(folder, force=False, text="new", extra=(), stem="arch"):
         out.write_text(f"{stem}.json", json.dumps({"files": [*out.names, f"{stem}.json"]}))
 
 
-def fail(folder, error):
+def fail(folder: Path, error: type[BaseException]) -> None:
     """A run that breaks off after its last file."""
     with OutputFolder(folder, "arch", force=True) as out:
         out.open_live("arch.sta").write("new")
@@ -32,15 +34,15 @@ def fail(folder, error):
         raise error
 
 
-def content(folder):
+def content(folder: Path) -> dict[str, str]:
     return {path.name: path.read_text() for path in sorted(folder.iterdir())}
 
 
-def temporaries(folder):
+def temporaries(folder: Path) -> list[str]:
     return [path.name for path in folder.iterdir() if path.name.startswith(PREFIX)]
 
 
-def test_nothing_is_in_place_before_the_end(tmp_path):
+def test_nothing_is_in_place_before_the_end(tmp_path: Path) -> None:
     with OutputFolder(tmp_path, "arch") as out:
         out.write_text("arch.h5", "x")
         assert not (tmp_path / "arch.h5").exists()
@@ -49,12 +51,12 @@ def test_nothing_is_in_place_before_the_end(tmp_path):
     assert out.names == ("arch.h5",)
 
 
-def test_folder_is_created_with_its_parents(tmp_path):
+def test_folder_is_created_with_its_parents(tmp_path: Path) -> None:
     run(tmp_path / "a" / "b")
     assert (tmp_path / "a" / "b" / "arch.h5").read_text() == "new"
 
 
-def test_live_file_grows_under_its_own_name(tmp_path):
+def test_live_file_grows_under_its_own_name(tmp_path: Path) -> None:
     with OutputFolder(tmp_path, "arch") as out:
         stream = out.open_live("arch.sta")
         stream.write("line 1\n")
@@ -63,7 +65,7 @@ def test_live_file_grows_under_its_own_name(tmp_path):
 
 
 @pytest.mark.parametrize("suffix", ["h5", "json", "lst", "sta"])
-def test_earlier_result_is_refused_and_untouched(tmp_path, suffix):
+def test_earlier_result_is_refused_and_untouched(tmp_path: Path, suffix: str) -> None:
     earlier = tmp_path / f"arch.{suffix}"
     earlier.write_text("old")
     with pytest.raises(FileError, match="--force") as caught:
@@ -72,13 +74,13 @@ def test_earlier_result_is_refused_and_untouched(tmp_path, suffix):
     assert content(tmp_path) == {earlier.name: "old"}
 
 
-def test_result_of_another_deck_is_not_refused(tmp_path):
+def test_result_of_another_deck_is_not_refused(tmp_path: Path) -> None:
     run(tmp_path, stem="wall")
     run(tmp_path, stem="arch")
     assert {"arch.h5", "wall.h5"} <= set(content(tmp_path))
 
 
-def test_force_replaces(tmp_path):
+def test_force_replaces(tmp_path: Path) -> None:
     run(tmp_path, text="old")
     run(tmp_path, force=True, text="new")
     assert content(tmp_path)["arch.h5"] == "new"
@@ -86,14 +88,14 @@ def test_force_replaces(tmp_path):
     assert temporaries(tmp_path) == []
 
 
-def test_file_of_another_deck_with_the_same_name_is_refused(tmp_path):
+def test_file_of_another_deck_with_the_same_name_is_refused(tmp_path: Path) -> None:
     (tmp_path / "arch_push_blocks.vtu").write_text("of another deck")
     with pytest.raises(FileError, match=r"arch_push_blocks\.vtu"):
         run(tmp_path, extra=["arch_push_blocks.vtu"])
     assert content(tmp_path) == {"arch_push_blocks.vtu": "of another deck"}
 
 
-def test_stale_files_of_the_earlier_result_go_and_foreign_ones_stay(tmp_path):
+def test_stale_files_of_the_earlier_result_go_and_foreign_ones_stay(tmp_path: Path) -> None:
     run(tmp_path, extra=["arch_x_blocks.vtu", "arch_y_blocks.vtu", "arch_y.pvd"])
     (tmp_path / "arch_z_blocks.vtu").write_text("mine")
     (tmp_path / "notes.txt").write_text("mine")
@@ -106,7 +108,7 @@ def test_stale_files_of_the_earlier_result_go_and_foreign_ones_stay(tmp_path):
     "listed",
     [["../secret.vtu"], ["/etc/passwd"], ["notes.txt"], ["archive.h5"], ["arch_a/../b.vtu"], "arch.h5", [1, None], {}],
 )
-def test_list_of_earlier_files_cannot_name_others(tmp_path, listed):
+def test_list_of_earlier_files_cannot_name_others(tmp_path: Path, listed: Any) -> None:
     (tmp_path / "notes.txt").write_text("mine")
     (tmp_path / "archive.h5").write_text("mine")
     (tmp_path / "arch.json").write_text(json.dumps({"files": listed}))
@@ -114,13 +116,13 @@ def test_list_of_earlier_files_cannot_name_others(tmp_path, listed):
 
 
 @pytest.mark.parametrize("text", ["", "{", "[]", "{}", '{"files": null}'])
-def test_damaged_list_of_earlier_files_is_no_list(tmp_path, text):
+def test_damaged_list_of_earlier_files_is_no_list(tmp_path: Path, text: str) -> None:
     (tmp_path / "arch.json").write_text(text)
     assert earlier_files(tmp_path, "arch") == ()
 
 
 @pytest.mark.parametrize("error", [RuntimeError, KeyboardInterrupt, SystemExit])
-def test_failed_run_leaves_the_earlier_result(tmp_path, error):
+def test_failed_run_leaves_the_earlier_result(tmp_path: Path, error: type[BaseException]) -> None:
     run(tmp_path, text="old", extra=["arch_x_blocks.vtu"])
     before = content(tmp_path)
     with pytest.raises(error):
@@ -128,7 +130,7 @@ def test_failed_run_leaves_the_earlier_result(tmp_path, error):
     assert content(tmp_path) == before
 
 
-def test_failed_run_leaves_nothing_where_there_was_nothing(tmp_path):
+def test_failed_run_leaves_nothing_where_there_was_nothing(tmp_path: Path) -> None:
     folder = tmp_path / "a" / "arch.out"
     with pytest.raises(RuntimeError):
         fail(folder, RuntimeError)
@@ -136,12 +138,14 @@ def test_failed_run_leaves_nothing_where_there_was_nothing(tmp_path):
 
 
 @pytest.mark.parametrize("failing", range(6))
-def test_failure_while_putting_in_place_is_undone(tmp_path, monkeypatch, failing):
+def test_failure_while_putting_in_place_is_undone(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, failing: int
+) -> None:
     run(tmp_path, text="old", extra=["arch_y.pvd"])
     before = content(tmp_path)
     replace, calls = Path.replace, []
 
-    def flaky(self, target):
+    def flaky(self: Path, target: Path) -> Any:
         calls.append(target)
         if len(calls) == failing + 1:
             raise OSError(28, "No space left on device")
@@ -154,14 +158,16 @@ def test_failure_while_putting_in_place_is_undone(tmp_path, monkeypatch, failing
     assert content(tmp_path) == before
 
 
-def test_unwritten_file_is_an_error_that_names_it(tmp_path):
+def test_unwritten_file_is_an_error_that_names_it(tmp_path: Path) -> None:
     with pytest.raises(FileError, match=r"arch\.h5"), OutputFolder(tmp_path, "arch") as out:
         out.path("arch.h5")
     assert content(tmp_path) == {}
 
 
-def test_errors_of_the_system_name_the_file_and_keep_their_cause(tmp_path, monkeypatch):
-    def full(self, data):
+def test_errors_of_the_system_name_the_file_and_keep_their_cause(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def full(self: Path, data: bytes) -> None:
         raise OSError(28, "No space left on device")
 
     with OutputFolder(tmp_path, "arch") as out:
@@ -173,7 +179,7 @@ def test_errors_of_the_system_name_the_file_and_keep_their_cause(tmp_path, monke
     assert isinstance(caught.value.__cause__, OSError)
 
 
-def other_writer(out):
+def other_writer(out: OutputFolder) -> None:
     """A writer of another stage, with a FileError of its own."""
     with out.writing("arch_x.vtu") as path:
         try:
@@ -182,7 +188,7 @@ def other_writer(out):
             raise FileError(f"{path}: full") from error
 
 
-def test_error_of_another_writer_names_the_file_not_the_temporary(tmp_path):
+def test_error_of_another_writer_names_the_file_not_the_temporary(tmp_path: Path) -> None:
     with OutputFolder(tmp_path, "arch") as out:
         with pytest.raises(FileError, match=r"arch_x\.vtu: No space left") as caught:
             other_writer(out)
@@ -190,25 +196,25 @@ def test_error_of_another_writer_names_the_file_not_the_temporary(tmp_path):
     assert PREFIX not in str(caught.value)
 
 
-def test_file_where_the_folder_should_be(tmp_path):
+def test_file_where_the_folder_should_be(tmp_path: Path) -> None:
     (tmp_path / "arch.out").write_text("mine")
     with pytest.raises(FileError, match=r"arch\.out"):
         run(tmp_path / "arch.out")
 
 
-def test_folder_where_a_file_should_be(tmp_path):
+def test_folder_where_a_file_should_be(tmp_path: Path) -> None:
     (tmp_path / "arch.h5").mkdir()
     with pytest.raises(FileError, match="is a folder"):
         run(tmp_path, force=True)
 
 
 @pytest.mark.parametrize("name", ["a/b.vtu", "../b.vtu", ".mbla-x", ""])
-def test_only_plain_names(tmp_path, name):
+def test_only_plain_names(tmp_path: Path, name: str) -> None:
     with OutputFolder(tmp_path, "arch") as out, pytest.raises(ValueError, match="plain file name"):
         out.path(name)
 
 
-def test_no_file_is_written_twice(tmp_path):
+def test_no_file_is_written_twice(tmp_path: Path) -> None:
     with OutputFolder(tmp_path, "arch") as out:
         out.write_text("arch.h5", "x")
         with pytest.raises(ValueError, match="twice"):
@@ -238,7 +244,7 @@ KILLED = """
 
 @pytest.mark.skipif(not hasattr(signal, "SIGKILL"), reason="needs a process that can be killed")
 @pytest.mark.parametrize("moment", [1, 2, 3, 4, 5])
-def test_next_run_restores_what_a_killed_one_left_half_done(tmp_path, moment):
+def test_next_run_restores_what_a_killed_one_left_half_done(tmp_path: Path, moment: int) -> None:
     for suffix in ("sta", "h5", "lst"):
         (tmp_path / f"arch.{suffix}").write_text("old")
     script = textwrap.dedent(KILLED)
@@ -251,14 +257,14 @@ def test_next_run_restores_what_a_killed_one_left_half_done(tmp_path, moment):
 
 
 @pytest.mark.skipif(not hasattr(signal, "SIGKILL"), reason="needs a process that can be killed")
-def test_complete_result_of_a_killed_process_stays(tmp_path):
+def test_complete_result_of_a_killed_process_stays(tmp_path: Path) -> None:
     for suffix in ("sta", "h5", "lst"):
         (tmp_path / f"arch.{suffix}").write_text("old")
     subprocess.run([sys.executable, "-c", textwrap.dedent(KILLED), str(tmp_path), "99"], check=False)
     assert content(tmp_path) == {"arch.sta": "killed", "arch.h5": "killed", "arch.lst": "killed"}
 
 
-def test_temporaries_of_living_processes_and_other_machines_are_left_alone(tmp_path):
+def test_temporaries_of_living_processes_and_other_machines_are_left_alone(tmp_path: Path) -> None:
     with OutputFolder(tmp_path, "arch") as first:
         first.write_text("arch.h5", "x")
         other = tmp_path / f"{PREFIX}elsewhere-{os.getpid()}-new-wall.h5"

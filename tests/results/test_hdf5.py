@@ -1,5 +1,7 @@
 import random
 from dataclasses import replace
+from pathlib import Path
+from typing import Any
 
 import h5py
 import numpy as np
@@ -8,29 +10,30 @@ import pytest
 from mbla.deck.units import Units
 from mbla.errors import FileError
 from mbla.results.hdf5 import read_results_hdf5, write_results_hdf5
+from mbla.results.results import Results
 
 from .synthetic import same, tower_results
 
 
 @pytest.fixture(scope="module")
-def results():
+def results() -> Results:
     return tower_results()
 
 
 @pytest.fixture(scope="module")
-def image(results):
+def image(results: Results) -> bytes:
     return write_results_hdf5(results)
 
 
 @pytest.fixture
-def path(tmp_path, image):
+def path(tmp_path: Path, image: bytes) -> Path:
     path = tmp_path / "tower.h5"
     path.write_bytes(image)
     return path
 
 
 @pytest.mark.parametrize("flow_rule", ["non_associative", "associative"])
-def test_everything_comes_back(tmp_path, flow_rule):
+def test_everything_comes_back(tmp_path: Path, flow_rule: str) -> None:
     results = tower_results(flow_rule)
     path = tmp_path / "tower.h5"
     path.write_bytes(write_results_hdf5(results))
@@ -40,7 +43,7 @@ def test_everything_comes_back(tmp_path, flow_rule):
     assert own == (flow_rule == "associative")
 
 
-def test_lists_that_are_empty_come_back(tmp_path, results):
+def test_lists_that_are_empty_come_back(tmp_path: Path, results: Results) -> None:
     bare = replace(
         results,
         model=replace(results.model, grounds=(), notices=(), title=""),
@@ -69,7 +72,7 @@ def test_lists_that_are_empty_come_back(tmp_path, results):
     assert same(read_results_hdf5(path), bare)
 
 
-def test_ragged_reports_come_back(tmp_path, results):
+def test_ragged_reports_come_back(tmp_path: Path, results: Results) -> None:
     report = replace(
         results.contacts.report,
         unsupported=(np.array([0, 2]), np.array([1])),
@@ -83,7 +86,7 @@ def test_ragged_reports_come_back(tmp_path, results):
     assert same(read_results_hdf5(path), changed)
 
 
-def test_units_of_the_deck_come_back_and_label_the_data(tmp_path, results):
+def test_units_of_the_deck_come_back_and_label_the_data(tmp_path: Path, results: Results) -> None:
     changed = replace(results, model=replace(results.model, units=Units("mm", "kN", "t")))
     path = tmp_path / "units.h5"
     path.write_bytes(write_results_hdf5(changed))
@@ -93,23 +96,24 @@ def test_units_of_the_deck_come_back_and_label_the_data(tmp_path, results):
         assert file["contacts/areas"].attrs["units"] == b"mm2"
 
 
-def test_same_results_give_same_bytes_but_for_the_date(results, image):
+def test_same_results_give_same_bytes_but_for_the_date(results: Results, image: bytes) -> None:
     assert write_results_hdf5(results) == image
     assert write_results_hdf5(replace(results, created="2026-01-01T00:00:00+00:00")) != image
 
 
-def test_deck_text_is_readable_without_mbla(path, results):
+def test_deck_text_is_readable_without_mbla(path: Path, results: Results) -> None:
     with h5py.File(path) as file:
         assert file["deck/source_texts"][0].decode() == results.deck.sources[0][1]
         assert float(file["cases/push_x/load_factor"][()]) == 0.5
 
 
-def test_a_changed_value_is_read_as_changed(path):
+def test_a_changed_value_is_read_as_changed(path: Path) -> None:
     """Checksums guard against damage, not against someone's own edits: those are for ``verify`` to judge."""
     with h5py.File(path, "r+") as file:
         file["cases/push_x/load_factor"][()] = 0.75
         file["cases/push_x/contact_forces"][0, 0] = 99.0
     mechanics = read_results_hdf5(path).cases[0].solution.mechanics
+    assert mechanics is not None
     assert mechanics.load_factor == 0.75
     assert mechanics.contact_forces[0, 0] == 99.0
 
@@ -117,63 +121,63 @@ def test_a_changed_value_is_read_as_changed(path):
 # --- what is refused ----------------------------------------------------------------------------------------------
 
 
-def refused(path):
+def refused(path: Path) -> str:
     with pytest.raises(FileError) as caught:
         read_results_hdf5(path)
     assert str(path) in str(caught.value)
     return str(caught.value)
 
 
-def test_missing_file(tmp_path):
+def test_missing_file(tmp_path: Path) -> None:
     assert "No such file" in refused(tmp_path / "none.h5")
 
 
-def test_folder(tmp_path):
+def test_folder(tmp_path: Path) -> None:
     refused(tmp_path)
 
 
-def test_not_hdf5(tmp_path):
+def test_not_hdf5(tmp_path: Path) -> None:
     path = tmp_path / "text.h5"
     path.write_text("mbla: 1\n")
     assert "not an HDF5 file" in refused(path)
 
 
-def test_empty_file(tmp_path):
+def test_empty_file(tmp_path: Path) -> None:
     path = tmp_path / "empty.h5"
     path.touch()
     refused(path)
 
 
-def test_other_hdf5_file(tmp_path):
+def test_other_hdf5_file(tmp_path: Path) -> None:
     path = tmp_path / "other.h5"
     with h5py.File(path, "w") as file:
         file["x"] = 1
     assert "not an mbla result file" in refused(path)
 
 
-def test_other_version_is_named(path):
+def test_other_version_is_named(path: Path) -> None:
     with h5py.File(path, "r+") as file:
         file.attrs["version"] = 99
     assert "layout version 99" in refused(path)
 
 
-def test_incomplete_file(path):
+def test_incomplete_file(path: Path) -> None:
     with h5py.File(path, "r+") as file:
         file.attrs["complete"] = 0
     assert "incomplete" in refused(path)
 
 
-def change(path, name, value):
+def change(path: Path, name: str, value: Any) -> None:
     with h5py.File(path, "r+") as file:
         file[name][...] = value
 
 
-def remove(path, name):
+def remove(path: Path, name: str) -> None:
     with h5py.File(path, "r+") as file:
         del file[name]
 
 
-def replace_dataset(path, name, array):
+def replace_dataset(path: Path, name: str, array: Any) -> None:
     with h5py.File(path, "r+") as file:
         del file[name]
         file[name] = array
@@ -207,18 +211,18 @@ def replace_dataset(path, name, array):
         (lambda p: change(p, "model/ground_joints", b"x"), "joint law"),
     ],
 )
-def test_contradictions(path, spoil, words):
+def test_contradictions(path: Path, spoil: Any, words: Any) -> None:
     spoil(path)
     assert words in refused(path)
 
 
-def test_truncated_files_are_refused(path, image):
+def test_truncated_files_are_refused(path: Path, image: bytes) -> None:
     for length in np.linspace(1, len(image) - 1, 40).astype(int):
         path.write_bytes(image[:length])
         refused(path)
 
 
-def test_flipped_bits_are_refused_or_without_effect(path, image, results):
+def test_flipped_bits_are_refused_or_without_effect(path: Path, image: bytes, results: Results) -> None:
     """Seeded; every flip is either found out or lies where nothing is read."""
     generator = random.Random(1)
     found = 0
@@ -235,7 +239,7 @@ def test_flipped_bits_are_refused_or_without_effect(path, image, results):
     assert found > 25
 
 
-def test_overwritten_stretches_are_refused_or_without_effect(path, image, results):
+def test_overwritten_stretches_are_refused_or_without_effect(path: Path, image: bytes, results: Results) -> None:
     generator = random.Random(2)
     for _ in range(50):
         damaged = bytearray(image)

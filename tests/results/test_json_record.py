@@ -1,5 +1,6 @@
 import json
 from dataclasses import replace
+from typing import Any
 
 import pytest
 
@@ -9,8 +10,9 @@ from .synthetic import tower_results
 
 
 @pytest.fixture(scope="module")
-def record():
-    return json.loads(json_line(results_json(replace(tower_results(), files=("tower.h5",)))))
+def record() -> dict[str, Any]:
+    record: dict[str, Any] = json.loads(json_line(results_json(replace(tower_results(), files=("tower.h5",)))))
+    return record
 
 
 PROMISED = {
@@ -44,7 +46,7 @@ PROMISED = {
 }
 
 
-def test_promised_keys_are_there(record):
+def test_promised_keys_are_there(record: dict[str, Any]) -> None:
     assert set(record) >= PROMISED[""]
     assert set(record["model"]) >= PROMISED["model"]
     for case in record["cases"]:
@@ -53,8 +55,9 @@ def test_promised_keys_are_there(record):
     assert set(record["time"]) == {"read", "contacts", "solve", "write"}
 
 
-def test_values(record):
-    model, solved, fallen = record["model"], *record["cases"]
+def test_values(record: dict[str, Any]) -> None:
+    model = record["model"]
+    solved, fallen = record["cases"]
     assert (model["blocks"], model["free_blocks"], model["interfaces"], model["contact_points"]) == (3, 2, 2, 8)
     assert model["total_weight"] == pytest.approx(65)
     assert model["standing"] is None
@@ -67,19 +70,19 @@ def test_values(record):
     assert record["files"] == ["tower.h5"]
 
 
-def test_line_is_one_line_without_nan_and_deterministic():
+def test_line_is_one_line_without_nan_and_deterministic() -> None:
     line = json_line(results_json(tower_results()))
     assert "\n" not in line
     assert "NaN" not in line
     assert line == json_line(results_json(tower_results()))
 
 
-def test_a_number_that_is_none_cannot_slip_through():
+def test_a_number_that_is_none_cannot_slip_through() -> None:
     with pytest.raises(ValueError, match="JSON"):
         json_line({"x": float("nan")})
 
 
-def test_check_record_has_no_cases():
+def test_check_record_has_no_cases() -> None:
     record = check_json(tower_results(), {"cones": 8})
     assert "cases" not in record
     assert record["needs"] == {"cones": 8}
@@ -87,7 +90,7 @@ def test_check_record_has_no_cases():
     json_line(record)
 
 
-def test_verification_record_says_whether_the_file_agrees():
+def test_verification_record_says_whether_the_file_agrees() -> None:
     assert verification_json(tower_results(), ())["agrees"] is True
     record = verification_json(tower_results(), ("x differs",))
     assert record["agrees"] is False

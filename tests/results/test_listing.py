@@ -1,11 +1,14 @@
 import re
 from dataclasses import replace
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 
 from mbla.results.hdf5 import read_results_hdf5, write_results_hdf5
 from mbla.results.listing import check_listing, listing, summary_lines, verification_lines
+from mbla.results.results import Results
 from mbla.results.text import WIDTH
 from mbla.solution.solution import Status
 
@@ -13,16 +16,16 @@ from .synthetic import tower_mechanics, tower_results
 
 
 @pytest.fixture(scope="module")
-def results():
+def results() -> Results:
     return tower_results()
 
 
 @pytest.fixture(scope="module")
-def text(results):
+def text(results: Results) -> str:
     return listing(results)
 
 
-def section(text, title):
+def section(text: str, title: str) -> str:
     """Lines below a heading up to the next one."""
     match = re.search(
         rf"^{re.escape(title)}\n-+\n(.*?)(?=\n\n[^\n ][^\n]*\n-+\n|\Z)", text, flags=re.MULTILINE | re.DOTALL
@@ -31,11 +34,11 @@ def section(text, title):
     return match[1]
 
 
-def test_width(text):
+def test_width(text: str) -> None:
     assert max(map(len, text.splitlines())) <= WIDTH
 
 
-def test_listing_is_the_same_from_the_file(tmp_path, results, text):
+def test_listing_is_the_same_from_the_file(tmp_path: Path, results: Results, text: str) -> None:
     path = tmp_path / "tower.h5"
     path.write_bytes(write_results_hdf5(results))
     assert listing(read_results_hdf5(path)) == text
@@ -63,20 +66,20 @@ def test_listing_is_the_same_from_the_file(tmp_path, results, text):
         ("Summary", ["1 load case of the deck not run", "1 warning:", "exit status 5"]),
     ],
 )
-def test_sections(text, title, words):
+def test_sections(text: str, title: str, words: Any) -> None:
     found = section(text, title)
     for each in words:
         assert each in found
 
 
-def test_reactions_balance_in_print(text):
+def test_reactions_balance_in_print(text: str) -> None:
     rows = {line[:26].strip(): line[26:].split() for line in section(text, "Load case push_x").splitlines()}
     assert rows["base[0]"][:3] == ["-5", "0", "10"]
     assert rows["sum of reactions"][:3] == ["-10", "0", "20"]
     assert rows["out of balance"] == ["0"] * 6
 
 
-def with_case(results, **changes):
+def with_case(results: Results, **changes: Any) -> Results:
     """Results whose first case has another status, solution or checks."""
     first = results.cases[0]
     solution = replace(first.solution, **changes.pop("solution", {}))
@@ -99,39 +102,39 @@ def with_case(results, **changes):
         ({"status": Status.NUMERICAL_ERROR, "solution": {"mechanics": None}}, "numerical failure"),
     ],
 )
-def test_every_status_has_its_words(results, changes, words):
+def test_every_status_has_its_words(results: Results, changes: dict[str, Any], words: Any) -> None:
     changed = with_case(
         results, **{key: dict(value) if isinstance(value, dict) else value for key, value in changes.items()}
     )
     assert words in listing(changed)
 
 
-def test_no_status_but_solved_reads_as_a_plain_collapse(results):
+def test_no_status_but_solved_reads_as_a_plain_collapse(results: Results) -> None:
     for status in set(Status) - {Status.SOLVED}:
         assert "0.5 g, verified" not in listing(with_case(results, status=status))
 
 
-def test_factors_of_both_flow_rules_stand_side_by_side(results):
+def test_factors_of_both_flow_rules_stand_side_by_side(results: Results) -> None:
     changed = with_case(results, solution={"associative": tower_mechanics(0.625)})
     found = section(listing(changed), "Load case push_x")
     assert re.search(r"load factor, non_associative +0\.5\n", found)
     assert re.search(r"load factor, associative +0\.625   \(the one above differs by -20\.00 %\)", found)
 
 
-def test_force_as_live_load_is_not_in_g(results):
+def test_force_as_live_load_is_not_in_g(results: Results) -> None:
     first = results.cases[0]
     case = replace(first, load_case=replace(first.load_case, live_words=("force (1, 0, 0) N on tower[0]",)))
     assert "collapses at 0.5 times the live load" in listing(replace(results, cases=(case,)))
 
 
-def test_long_tables_say_how_much_they_leave_out(results):
+def test_long_tables_say_how_much_they_leave_out(results: Results) -> None:
     certificate = np.tile([0, 0, -1.0, 0, 0, 0], (3, 1))
     case = results.cases[1]
     changed = replace(case, solution=replace(case.solution, certificate=certificate))
     assert "Not held (3 blocks):" in listing(replace(results, cases=(changed,)))
 
 
-def test_summary_says_the_essential(results):
+def test_summary_says_the_essential(results: Results) -> None:
     text = "\n".join(summary_lines(results))
     assert "tower.yaml: 3 blocks, 2 interfaces, 8 contact points" in text
     assert "push_x: collapses at 0.5 g, verified: 1 hinge" in text
@@ -142,14 +145,14 @@ def test_summary_says_the_essential(results):
     assert max(map(len, text.splitlines())) <= WIDTH
 
 
-def test_check_listing_has_no_results(results):
+def test_check_listing_has_no_results(results: Results) -> None:
     text = check_listing(replace(results, cases=()), {"unknown_velocities": 12, "cones": 8})
     assert "Nothing was solved." in text
     assert re.search(r"unknown velocities +12", text)
     assert "Load case" not in text
 
 
-def test_verification_names_what_differs(results):
+def test_verification_names_what_differs(results: Results) -> None:
     assert "agrees" in verification_lines(results, ())[-1]
     lines = verification_lines(results, ("push_x: static bound is 1 recomputed, the file says 2",))
     assert "differs: push_x: static bound is 1" in lines[-1]

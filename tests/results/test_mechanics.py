@@ -1,8 +1,11 @@
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
 
+from mbla.contacts.contacts import Contacts
+from mbla.model.model import Model
 from mbla.results.mechanics import (
     InterfaceMode,
     curvature_sides,
@@ -15,7 +18,7 @@ from mbla.results.mechanics import (
     power_shares,
     support_reactions,
 )
-from mbla.solution.solution import ContactMode
+from mbla.solution.solution import ContactMode, Mechanics
 
 from .synthetic import cuboids, horizontal_contacts, tower_contacts, tower_mechanics, tower_model
 
@@ -23,21 +26,21 @@ STICK, SLIDE, OPEN = ContactMode.STICK, ContactMode.SLIDE, ContactMode.OPEN
 
 
 @pytest.fixture(scope="module")
-def model():
+def model() -> Model:
     return tower_model()
 
 
 @pytest.fixture(scope="module")
-def contacts():
+def contacts() -> Contacts:
     return tower_contacts()
 
 
 @pytest.fixture(scope="module")
-def mechanics():
+def mechanics() -> Mechanics:
     return tower_mechanics()
 
 
-def test_resultants_carry_weight_and_push(model, contacts, mechanics):
+def test_resultants_carry_weight_and_push(model: Model, contacts: Contacts, mechanics: Mechanics) -> None:
     resultants = interface_resultants(contacts, mechanics.contact_forces)
     assert resultants[:, :3] == pytest.approx(np.array([[-5, 0, 10], [-5, 0, 10]]))
     # tower: 10 N at the edge, 0.5 m from the centroid of the bed; brick: the push at 0.25 m above it
@@ -56,7 +59,9 @@ def test_resultants_carry_weight_and_push(model, contacts, mechanics):
         ([SLIDE] * 4, "about", InterfaceMode.TWIST),
     ],
 )
-def test_modes_of_interfaces(contacts, mechanics, modes, tangential, expected):
+def test_modes_of_interfaces(
+    contacts: Contacts, mechanics: Mechanics, modes: list[int], tangential: Any, expected: Any
+) -> None:
     velocities = np.zeros((8, 3))
     velocities[:4, 1] = 0 if tangential == "about" else tangential
     if tangential == "about":
@@ -66,16 +71,16 @@ def test_modes_of_interfaces(contacts, mechanics, modes, tangential, expected):
     assert interface_modes(contacts, changed).tolist() == [expected, InterfaceMode.STICK]
 
 
-def test_hinge_lies_where_points_stay_closed(contacts, mechanics):
+def test_hinge_lies_where_points_stay_closed(contacts: Contacts, mechanics: Mechanics) -> None:
     assert hinge_positions(contacts, mechanics) == pytest.approx(np.array([[1, 0.5, 1], [4.5, 0.5, 0]]))
 
 
-def test_only_the_tower_moves(model, mechanics):
+def test_only_the_tower_moves(model: Model, mechanics: Mechanics) -> None:
     assert moving_blocks(mechanics.mechanism, model.blocks.sizes).tolist() == [False, True, False]
     assert not moving_blocks(np.zeros((3, 6)), model.blocks.sizes).any()
 
 
-def test_reactions_balance_the_loads(model, contacts, mechanics):
+def test_reactions_balance_the_loads(model: Model, contacts: Contacts, mechanics: Mechanics) -> None:
     reactions = support_reactions(model, contacts, mechanics.contact_forces)
     assert [reaction.support for reaction in reactions] == ["ground z = 0", "base[0]"]
     assert reactions[0].wrench[:3] == pytest.approx([-5, 0, 10])
@@ -85,7 +90,9 @@ def test_reactions_balance_the_loads(model, contacts, mechanics):
     assert total + load == pytest.approx(np.zeros(6), abs=1e-12)
 
 
-def test_reaction_does_not_depend_on_which_body_comes_first(model, contacts, mechanics):
+def test_reaction_does_not_depend_on_the_order_of_bodies(
+    model: Model, contacts: Contacts, mechanics: Mechanics
+) -> None:
     """The same bed described from the tower's side: bodies and normal swapped, forces unchanged in the turned frame."""
     turned = contacts.frames.copy()
     turned[:4] = [[0, 0, -1], [1, 0, 0], [0, -1, 0]]
@@ -101,7 +108,7 @@ def test_reaction_does_not_depend_on_which_body_comes_first(model, contacts, mec
         assert one.wrench == pytest.approx(other.wrench)
 
 
-def test_many_fixed_blocks_are_summed_by_group():
+def test_many_fixed_blocks_are_summed_by_group() -> None:
     n = 20
     lower = np.array([[i, 0, 0] for i in range(n)] + [[0, 0, 1]], float)
     upper = lower + 1
@@ -117,12 +124,12 @@ def test_many_fixed_blocks_are_summed_by_group():
     assert [each.support for each in support_reactions(few, contacts, forces)] == [f"plinth[{i}]" for i in range(3)]
 
 
-def test_power_of_a_rocking_tower_lifts_it(model, mechanics):
+def test_power_of_a_rocking_tower_lifts_it(model: Model, mechanics: Mechanics) -> None:
     shares = power_shares(model, model.load_cases[0], mechanics)
     assert (shares.live, shares.dead, shares.friction, shares.joints) == pytest.approx((0.5, -0.5, 0, 0))
 
 
-def test_power_of_a_sliding_brick_goes_into_friction(model, mechanics):
+def test_power_of_a_sliding_brick_goes_into_friction(model: Model, mechanics: Mechanics) -> None:
     mechanism = np.zeros((3, 6))
     mechanism[2, 0] = 0.1
     velocities, forces = np.zeros((8, 3)), np.zeros((8, 3))
@@ -135,7 +142,7 @@ def test_power_of_a_sliding_brick_goes_into_friction(model, mechanics):
     assert (shares.live, shares.dead, shares.friction, shares.joints) == pytest.approx((0.65, 0, 0.65, 0))
 
 
-def test_acceleration_counts_in_g(model):
+def test_acceleration_counts_in_g(model: Model) -> None:
     case = model.load_cases[0]
     assert live_load_in_g(model, case) == pytest.approx(1.0)
     assert live_load_in_g(model, replace(case, live_load=2 * case.live_load)) == pytest.approx(2.0)
@@ -143,7 +150,7 @@ def test_acceleration_counts_in_g(model):
     assert live_load_in_g(model, replace(case, live_load=one)) == pytest.approx(1.0)
 
 
-def test_other_live_loads_do_not_count_in_g(model):
+def test_other_live_loads_do_not_count_in_g(model: Model) -> None:
     case = model.load_cases[0]
     assert live_load_in_g(model, replace(case, live_words=("force (1, 0, 0) N on tower[0]",))) is None
     assert live_load_in_g(model, replace(case, live_words=())) is None
@@ -152,7 +159,7 @@ def test_other_live_loads_do_not_count_in_g(model):
     assert live_load_in_g(model, replace(case, live_load=np.zeros((3, 6)))) is None
 
 
-def chain(points):
+def chain(points: Any) -> tuple[Model, Contacts]:
     """A model of unit blocks about these centroids, each touching the next, between two fixed ones at the ends."""
     n = len(points)
     blocks = cuboids(np.array(points) - 0.1, np.array(points) + 0.1, ["arch"] * n)
@@ -161,7 +168,7 @@ def chain(points):
     return model, contacts
 
 
-def test_outside_of_a_curved_chain():
+def test_outside_of_a_curved_chain() -> None:
     """Centroids and joints on a half circle: outwards is away from its centre, at the ends too."""
     angles = np.linspace(np.pi, 0, 13)
     model, contacts = chain([[np.cos(a), 0, np.sin(a)] for a in angles])
@@ -173,6 +180,6 @@ def test_outside_of_a_curved_chain():
     assert (along[[0, -1]] > 0.9).all()
 
 
-def test_straight_chain_has_no_outside():
+def test_straight_chain_has_no_outside() -> None:
     model, contacts = chain([[i, 0, 0] for i in range(5)])
     assert not curvature_sides(model, replace(contacts, centroids=np.array([[i + 0.5, 0, 0] for i in range(4)]))).any()

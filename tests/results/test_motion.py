@@ -13,16 +13,17 @@ from mbla.results.motion import (
     rotation_matrices,
     vertex_displacements,
 )
+from mbla.results.results import Results
 
 from .synthetic import tower_results
 
 
 @pytest.fixture(scope="module")
-def results():
+def results() -> Results:
     return tower_results()
 
 
-def test_rotation_matrices_are_exponentials():
+def test_rotation_matrices_are_exponentials() -> None:
     vectors = np.random.default_rng(0).normal(size=(20, 3))
     vectors[0] = 0
     for vector, matrix in zip(vectors, rotation_matrices(vectors), strict=True):
@@ -30,13 +31,13 @@ def test_rotation_matrices_are_exponentials():
         assert matrix == pytest.approx(expm(cross), abs=1e-12)
 
 
-def test_farthest_corner_moves_by_the_stated_share(results):
+def test_farthest_corner_moves_by_the_stated_share(results: Results) -> None:
     motion = drawn_motion(results.model, results.cases[0])
     moved = np.linalg.norm(vertex_displacements(results.model.blocks, motion), axis=1)
     assert moved.max() == pytest.approx(SHARE_OF_SIZE * movable_size(results.model))
 
 
-def test_tower_turns_about_its_edge(results):
+def test_tower_turns_about_its_edge(results: Results) -> None:
     motion = drawn_motion(results.model, results.cases[0])
     moved = vertex_displacements(results.model.blocks, motion)
     vertices = results.model.blocks.vertices
@@ -47,7 +48,7 @@ def test_tower_turns_about_its_edge(results):
     assert (moved[top][:, 0] > 0).all()
 
 
-def test_finite_motion_keeps_distances_and_begins_as_the_linear_one(results):
+def test_finite_motion_keeps_distances_and_begins_as_the_linear_one(results: Results) -> None:
     blocks = results.model.blocks
     motion = np.random.default_rng(1).normal(size=(3, 6))
     moved = moved_vertices(blocks, motion)
@@ -60,7 +61,7 @@ def test_finite_motion_keeps_distances_and_begins_as_the_linear_one(results):
     assert moved_vertices(blocks, small) - blocks.vertices == pytest.approx(linear, abs=1e-10)
 
 
-def test_small_spinning_block_does_not_turn_several_times(results):
+def test_small_spinning_block_does_not_turn_several_times(results: Results) -> None:
     motion = np.zeros((3, 6))
     motion[2, 5] = 1.0
     motion[1, 0] = 1e-3
@@ -68,17 +69,17 @@ def test_small_spinning_block_does_not_turn_several_times(results):
     assert np.linalg.norm(scaled[:, 3:], axis=1).max() == pytest.approx(LARGEST_ROTATION)
 
 
-def test_nothing_moves_without_mechanism(results):
+def test_nothing_moves_without_mechanism(results: Results) -> None:
     assert motion_scale(results.model, np.zeros((3, 6))) == 0.0
 
 
-def test_certificate_moves_where_there_is_no_equilibrium(results):
+def test_certificate_moves_where_there_is_no_equilibrium(results: Results) -> None:
     motion = drawn_motion(results.model, results.cases[1])
     assert motion[1, 2] < 0
     assert not motion[[0, 2]].any()
 
 
-def test_contact_points_move_with_the_mean_of_their_bodies(results):
+def test_contact_points_move_with_the_mean_of_their_bodies(results: Results) -> None:
     motion = np.zeros((3, 6))
     motion[1, 0] = 1.0
     moved = contact_displacements(results.model, results.contacts, motion)

@@ -1,35 +1,38 @@
 import builtins
 import subprocess
 import sys
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 
 from mbla.errors import FileError, UsageError
 from mbla.results.pictures import HINGE, plot_mechanism, plot_results
+from mbla.results.results import Results
 
 from .synthetic import tower_results
 
 
 @pytest.fixture(scope="module")
-def results():
+def results() -> Results:
     return tower_results()
 
 
-def pixels(path):
+def pixels(path: Path) -> Any:
     from PIL import Image
 
     with Image.open(path) as image:
         return np.asarray(image)[..., :3].astype(int)
 
 
-def near(picture, colour, distance=40):
+def near(picture: Any, colour: str, distance: int = 40) -> int:
     """How many pixels are about of this colour."""
     target = np.array([int(colour[i : i + 2], 16) for i in (1, 3, 5)])
     return int((np.abs(picture - target).max(axis=2) < distance).sum())
 
 
-def test_pictures_show_the_structure_and_its_hinge(tmp_path, results):
+def test_pictures_show_the_structure_and_its_hinge(tmp_path: Path, results: Results) -> None:
     paths = plot_results(results, tmp_path / "pictures", "tower")
     assert [path.name for path in paths] == ["tower_push_x.png", "tower_fall.png"]
     rocking, falling = map(pixels, paths)
@@ -40,37 +43,37 @@ def test_pictures_show_the_structure_and_its_hinge(tmp_path, results):
     assert near(falling, HINGE) < 20
 
 
-def test_one_file_for_one_case(tmp_path, results):
+def test_one_file_for_one_case(tmp_path: Path, results: Results) -> None:
     target = tmp_path / "mine.png"
     assert plot_results(results, target, "tower", "push_x") == [target]
     assert target.stat().st_size > 5000
 
 
-def test_one_file_for_two_cases_is_refused(tmp_path, results):
+def test_one_file_for_two_cases_is_refused(tmp_path: Path, results: Results) -> None:
     with pytest.raises(UsageError, match="--case"):
         plot_results(results, tmp_path / "mine.png", "tower")
 
 
-def test_unknown_case_is_refused(tmp_path, results):
+def test_unknown_case_is_refused(tmp_path: Path, results: Results) -> None:
     with pytest.raises(UsageError, match="push_x, fall"):
         plot_results(results, tmp_path, "tower", "push_y")
 
 
-def test_other_formats_are_refused(tmp_path, results):
+def test_other_formats_are_refused(tmp_path: Path, results: Results) -> None:
     with pytest.raises(UsageError, match="PNG"):
         plot_results(results, tmp_path / "mine.svg", "tower", "push_x")
 
 
-def test_place_that_cannot_be_written(tmp_path, results):
+def test_place_that_cannot_be_written(tmp_path: Path, results: Results) -> None:
     (tmp_path / "file").write_text("mine")
     with pytest.raises(FileError, match="file"):
         plot_results(results, tmp_path / "file" / "deeper", "tower")
 
 
-def test_missing_extra_is_named(tmp_path, results, monkeypatch):
+def test_missing_extra_is_named(tmp_path: Path, results: Results, monkeypatch: pytest.MonkeyPatch) -> None:
     importing = builtins.__import__
 
-    def without(name, *rest):
+    def without(name: str, *rest: Any) -> Any:
         if name.startswith("pyvista"):
             raise ImportError(name)
         return importing(name, *rest)
@@ -80,7 +83,7 @@ def test_missing_extra_is_named(tmp_path, results, monkeypatch):
         plot_mechanism(results, results.cases[0], tmp_path / "mine.png")
 
 
-def test_module_imports_nothing_heavy():
+def test_module_imports_nothing_heavy() -> None:
     code = (
         "import sys, mbla.results.pictures, mbla.results.write; "
         "print([name for name in ('pyvista', 'vtk', 'h5py', 'meshio') if name in sys.modules])"

@@ -1,4 +1,5 @@
 import io
+from pathlib import Path
 
 import pytest
 
@@ -9,7 +10,7 @@ from mbla.solution.solution import IterationRecord
 RECORD = IterationRecord(3, 17, 0.14534567, 1.25e-7, 2e-9, 3e-10, 0.99, 1.2345)
 
 
-def test_columns_stand_under_their_names():
+def test_columns_stand_under_their_names() -> None:
     line = status_line("push_x", RECORD)
     names = dict(zip(HEADER.split(), line.split(), strict=True))
     assert names == {
@@ -26,14 +27,14 @@ def test_columns_stand_under_their_names():
     assert len(line) == len(HEADER)
 
 
-def test_values_that_do_not_exist_keep_the_columns():
+def test_values_that_do_not_exist_keep_the_columns() -> None:
     nan = float("nan")
     line = status_line("push_x", IterationRecord(1, 0, nan, nan, nan, nan, nan, 0.0))
     assert len(line) == len(HEADER)
     assert line.split()[3] == "nan"
 
 
-def test_every_line_is_flushed(tmp_path):
+def test_every_line_is_flushed(tmp_path: Path) -> None:
     path = tmp_path / "arch.sta"
     with path.open("w", encoding="utf-8") as stream:
         status = StatusFile(stream, "arch.yaml")
@@ -44,11 +45,11 @@ def test_every_line_is_flushed(tmp_path):
         assert path.read_text().splitlines()[-1] == "# push_x: solved at last"
 
 
-def test_full_disk_is_a_file_error():
+def test_full_disk_is_a_file_error() -> None:
     class Full(io.StringIO):
         name = "arch.sta"
 
-        def write(self, text):
+        def write(self, text: str) -> int:
             raise OSError(28, "No space left on device")
 
     with pytest.raises(FileError, match=r"arch\.sta: No space left"):

@@ -1,4 +1,6 @@
 from dataclasses import replace
+from pathlib import Path
+from typing import Any
 
 import meshio
 import numpy as np
@@ -6,23 +8,24 @@ import pytest
 
 from mbla.results.mechanics import InterfaceMode
 from mbla.results.motion import SHARE_OF_SIZE, movable_size
+from mbla.results.results import Results
 from mbla.results.vtu import group_names, write_blocks_vtu, write_contacts_vtu, write_interfaces_vtu
 
 from .reading import read_vtk, vtk_array, vtk_volumes
-from .synthetic import tower_results
+from .synthetic import tower_mechanics, tower_results
 
 
 @pytest.fixture(scope="module")
-def results():
+def results() -> Results:
     return tower_results()
 
 
 @pytest.fixture
-def path(tmp_path):
+def path(tmp_path: Path) -> Path:
     return tmp_path / "file.vtu"
 
 
-def test_blocks(path, results):
+def test_blocks(path: Path, results: Results) -> None:
     write_blocks_vtu(path, results.model, results.cases[0])
     for points, displacement, cells, data in (by_meshio(path), by_vtk(path)):
         assert points == pytest.approx(results.model.blocks.vertices)
@@ -43,20 +46,20 @@ def test_blocks(path, results):
 NAMES = ("block", "group", "weight", "fixed", "moves", "rotation", "velocity")
 
 
-def by_meshio(path):
+def by_meshio(path: Path) -> Any:
     mesh = meshio.read(path)
     data = {name: np.concatenate(mesh.cell_data[name]) for name in NAMES}
     return mesh.points, mesh.point_data["displacement"], sum(map(len, mesh.cells)), data
 
 
-def by_vtk(path):
+def by_vtk(path: Path) -> Any:
     grid = read_vtk(path)
     points = np.array([grid.GetPoint(i) for i in range(grid.GetNumberOfPoints())])
     data = {name: vtk_array(grid.GetCellData(), name) for name in NAMES}
     return points, vtk_array(grid.GetPointData(), "displacement"), grid.GetNumberOfCells(), data
 
 
-def test_contact_forces_carry_the_weights(path, results):
+def test_contact_forces_carry_the_weights(path: Path, results: Results) -> None:
     write_contacts_vtu(path, results.model, results.contacts, results.cases[0])
     mesh, grid = meshio.read(path), read_vtk(path)
     assert [(cells.type, len(cells)) for cells in mesh.cells] == [("vertex", 8)]
@@ -66,14 +69,14 @@ def test_contact_forces_carry_the_weights(path, results):
     assert forces[:4].sum(axis=0) == pytest.approx([-5, 0, 10])
     assert forces[4:].sum(axis=0) == pytest.approx([-5, 0, 10])
     assert mesh.point_data["mode"].tolist() == [2, 0, 0, 2, 0, 0, 0, 0]
-    assert mesh.point_data["normal_force"] == pytest.approx(results.cases[0].solution.mechanics.contact_forces[:, 0])
+    assert mesh.point_data["normal_force"] == pytest.approx(tower_mechanics().contact_forces[:, 0])
     assert mesh.point_data["shear_force"][:4] == pytest.approx([0, 2.5, 2.5, 0])
     assert mesh.point_data["opening"][[0, 3]] == pytest.approx([0.1, 0.1])
     assert mesh.point_data["interface"].tolist() == [0] * 4 + [1] * 4
     assert mesh.point_data["body_a"].tolist() == [0] * 4 + [3] * 4
 
 
-def test_interfaces(path, results):
+def test_interfaces(path: Path, results: Results) -> None:
     write_interfaces_vtu(path, results.model, results.contacts, results.cases[0])
     mesh, grid = meshio.read(path), read_vtk(path)
     data = {name: np.concatenate(values) for name, values in mesh.cell_data.items()}
@@ -88,7 +91,7 @@ def test_interfaces(path, results):
     assert vtk_array(grid.GetCellData(), "gap") == pytest.approx([0, 0])
 
 
-def test_interfaces_with_different_numbers_of_corners(path, results):
+def test_interfaces_with_different_numbers_of_corners(path: Path, results: Results) -> None:
     """The second loses a corner; a corner that bounds a hole is not part of the outline."""
     contacts = replace(results.contacts, outline=np.array([4, 3]))
     write_interfaces_vtu(path, results.model, contacts, results.cases[0])
@@ -98,7 +101,7 @@ def test_interfaces_with_different_numbers_of_corners(path, results):
     assert vtk_array(grid.GetCellData(), "interface").tolist() == [1, 0]
 
 
-def test_case_without_mechanism_shows_the_model_and_what_falls(path, results):
+def test_case_without_mechanism_shows_the_model_and_what_falls(path: Path, results: Results) -> None:
     write_contacts_vtu(path, results.model, results.contacts, results.cases[1])
     assert "contact_force" not in meshio.read(path).point_data
     write_interfaces_vtu(path, results.model, results.contacts, results.cases[1])
@@ -109,7 +112,7 @@ def test_case_without_mechanism_shows_the_model_and_what_falls(path, results):
     assert np.concatenate(mesh.cell_data["moves"]).tolist() == [0, 1, 0]
 
 
-def test_case_without_anything_has_displacement_zero(path, results):
+def test_case_without_anything_has_displacement_zero(path: Path, results: Results) -> None:
     case = results.cases[1]
     case = replace(case, solution=replace(case.solution, certificate=None))
     write_blocks_vtu(path, results.model, case)

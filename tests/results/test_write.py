@@ -1,6 +1,7 @@
 import json
 import xml.etree.ElementTree as ElementTree
 from dataclasses import replace
+from pathlib import Path
 
 import meshio
 import pytest
@@ -9,6 +10,7 @@ from mbla.errors import FileError
 from mbla.results.files import OutputFolder
 from mbla.results.hdf5 import read_results_hdf5
 from mbla.results.listing import listing
+from mbla.results.results import Results
 from mbla.results.vtu import write_model_vtu
 from mbla.results.write import write_outputs, write_results
 
@@ -18,15 +20,15 @@ CASE_FILES = {"blocks.vtu", "contacts.vtu", "interfaces.vtu", "frame_000.vtu", "
 
 
 @pytest.fixture(scope="module")
-def results():
+def results() -> Results:
     return tower_results()
 
 
-def names(folder):
+def names(folder: Path) -> set[str]:
     return {path.name for path in folder.iterdir()}
 
 
-def test_all_files_of_a_run(tmp_path, results):
+def test_all_files_of_a_run(tmp_path: Path, results: Results) -> None:
     written = write_outputs(results, tmp_path, "tower", False, True, 3, False)
     expected = {"tower.h5", "tower.lst", "tower.json"}
     for case in ("push_x", "fall"):
@@ -34,7 +36,7 @@ def test_all_files_of_a_run(tmp_path, results):
     assert names(tmp_path) == expected == set(written)
 
 
-def test_files_agree_with_each_other(tmp_path, results):
+def test_files_agree_with_each_other(tmp_path: Path, results: Results) -> None:
     with OutputFolder(tmp_path, "tower") as out:
         final = write_results(results, out, True, 2, False)
     back = read_results_hdf5(tmp_path / "tower.h5")
@@ -46,32 +48,32 @@ def test_files_agree_with_each_other(tmp_path, results):
     assert record["time"]["write"] == final.time["write"]
 
 
-def test_pvd_names_frames_that_exist(tmp_path, results):
+def test_pvd_names_frames_that_exist(tmp_path: Path, results: Results) -> None:
     write_outputs(results, tmp_path, "tower", False, True, 4, False)
     entries = ElementTree.parse(tmp_path / "tower_push_x.pvd").getroot().findall("Collection/DataSet")
     assert len(entries) == 4
-    assert all((tmp_path / entry.get("file")).is_file() for entry in entries)
+    assert all((tmp_path / entry.get("file", "none")).is_file() for entry in entries)
 
 
-def test_without_vtu_there_is_none(tmp_path, results):
+def test_without_vtu_there_is_none(tmp_path: Path, results: Results) -> None:
     write_outputs(results, tmp_path, "tower", False, False, 3, False)
     assert names(tmp_path) == {"tower.h5", "tower.lst", "tower.json"}
 
 
-def test_case_that_moves_nothing_has_one_frame(tmp_path, results):
+def test_case_that_moves_nothing_has_one_frame(tmp_path: Path, results: Results) -> None:
     case = results.cases[1]
     still = replace(case, solution=replace(case.solution, certificate=None))
     write_outputs(replace(results, cases=(still,)), tmp_path, "tower", False, True, 5, False)
     assert [name for name in sorted(names(tmp_path)) if "frame" in name] == ["tower_fall_frame_000.vtu"]
 
 
-def test_forced_run_with_fewer_cases_leaves_no_stale_files(tmp_path, results):
+def test_forced_run_with_fewer_cases_leaves_no_stale_files(tmp_path: Path, results: Results) -> None:
     write_outputs(results, tmp_path, "tower", False, True, 3, False)
     write_outputs(replace(results, cases=results.cases[:1]), tmp_path, "tower", True, True, 2, False)
     assert not [name for name in names(tmp_path) if "fall" in name or "frame_002" in name]
 
 
-def test_result_is_not_overwritten_without_force(tmp_path, results):
+def test_result_is_not_overwritten_without_force(tmp_path: Path, results: Results) -> None:
     write_outputs(results, tmp_path, "tower", False, False, 2, False)
     before = (tmp_path / "tower.h5").read_bytes()
     with pytest.raises(FileError, match="--force"):
@@ -79,7 +81,7 @@ def test_result_is_not_overwritten_without_force(tmp_path, results):
     assert (tmp_path / "tower.h5").read_bytes() == before
 
 
-def test_model_alone(tmp_path, results):
+def test_model_alone(tmp_path: Path, results: Results) -> None:
     with OutputFolder(tmp_path, "tower_check") as out:
         write_model_vtu(results, out)
     assert names(tmp_path) == {f"tower_check_{kind}.vtu" for kind in ("blocks", "contacts", "interfaces")}
