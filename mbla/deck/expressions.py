@@ -11,15 +11,13 @@ import math
 import operator
 import warnings
 from collections.abc import Callable, Mapping
-from contextlib import suppress
 from typing import Any
 
 from mbla.deck.suggestions import unknown
 
 MAX_LENGTH = 300
 MAX_DEPTH = 40
-MAX_CHAIN = 64
-"""Parameters that a parameter may pass through; nobody reads longer chains."""
+_LONGEST_CYCLE = 10
 
 CONSTANTS: dict[str, float] = {"pi": math.pi, "e": math.e}
 FUNCTIONS: dict[str, Callable[..., float]] = {
@@ -68,14 +66,17 @@ def is_expression(value: object) -> bool:
 
 
 class Parameters:
-    """Values of the deck's parameters, each evaluated when first used."""
+    """Values of the deck's parameters, each evaluated when first used.
+
+    A parameter without a value is either to blame for it (``_failures``, with what is wrong) or depends on one that is.
+    """
 
     def __init__(self, raw: Mapping[str, object]) -> None:
         """``raw`` maps names to numbers, ``"=..."`` strings, or whatever else the deck holds there."""
         self._raw = raw
         self._values: dict[str, float] = {}
         self._failures: dict[str, str] = {}
-        self._active: list[str] = []
+        self._without_value: set[str] = set()
         self.used: set[str] = set()
 
     def evaluate(self, text: str) -> float:
@@ -86,53 +87,91 @@ class Parameters:
         ExpressionError
             with what is wrong; ParameterFaultError where a parameter is, rather than this expression
         """
-        return _evaluate(_parse(text), self._value, 0)
+        expression = _parse(text)
+        for name in self._parameters_in(expression):
+            self._resolve(name)
+        return _evaluate(expression, self._value, 0)
 
     def failures(self) -> list[tuple[str, str]]:
         """(name, message) of every parameter whose own expression is at fault."""
-        for name, raw in self._raw.items():
-            if is_expression(raw):
-                with suppress(ExpressionError):  # kept under the name of the parameter that is to blame
-                    self._evaluated(name)
+        for name in self._raw:
+            self._resolve(name)
         return list(self._failures.items())
 
+    def _parameters_in(self, expression: ast.expr) -> list[str]:
+        names = [node.id for node in ast.walk(expression) if isinstance(node, ast.Name) and node.id in self._raw]
+        self.used.update(names)
+        return names
+
     def _value(self, name: str) -> float:
+        """Value of a name in an expression whose parameters are resolved."""
         if name in CONSTANTS:
             return CONSTANTS[name]
-        if name not in self._raw:
-            if name in FUNCTIONS:
-                raise ExpressionError(f"{name} is a function: write {name}(...)")
-            raise ExpressionError(unknown(f"parameter {name}", name, [*self._raw, *CONSTANTS], "known"))
-        self.used.add(name)
-        return self._evaluated(name)
-
-    def _evaluated(self, name: str) -> float:
-        if name not in self._values:
-            self._values[name] = self._resolve(name)
-        return self._values[name]
-
-    def _resolve(self, name: str) -> float:
-        raw = self._raw[name]
-        if isinstance(raw, (int, float)) and not isinstance(raw, bool):
-            return float(raw)
-        if name in self._failures or not isinstance(raw, str) or not is_expression(raw):
+        if name in self._values:
+            return self._values[name]
+        if name in self._raw:
             raise ParameterFaultError(f"parameter {name} has no value")
-        if name in self._active:
-            cycle = [*self._active[self._active.index(name) :], name]
-            self._failures[min(cycle, key=list(self._raw).index)] = f"refers to itself: {' -> '.join(cycle)}"
-            raise ParameterFaultError(f"parameter {name} refers to itself")
-        if len(self._active) >= MAX_CHAIN:
-            raise ExpressionError(f"passes through more than {MAX_CHAIN} parameters")
-        self._active.append(name)
+        if name in FUNCTIONS:
+            raise ExpressionError(f"{name} is a function: write {name}(...)")
+        raise ExpressionError(unknown(f"parameter {name}", name, [*self._raw, *CONSTANTS], "known"))
+
+    def _resolve(self, name: str) -> None:
+        """Evaluate a parameter after those it depends on, by a stack of its own: chains may be long."""
+        active: dict[str, ast.expr | None] = {}
+        stack = [name]
+        while stack:
+            top = stack[-1]
+            if top in self._values or top in self._without_value:
+                stack.pop()
+                continue
+            if top not in active:
+                active[top] = self._parsed(top)
+            expression = active[top]
+            waiting = [] if expression is None else [d for d in self._parameters_in(expression) if not self._known(d)]
+            if not waiting:
+                self._settle(top, expression)
+            elif waiting[0] in active:
+                self._blame_cycle(stack[stack.index(waiting[0]) :])
+            else:
+                stack.append(waiting[0])
+
+    def _known(self, name: str) -> bool:
+        return name in self._values or name in self._without_value
+
+    def _parsed(self, name: str) -> ast.expr | None:
+        """Expression of a parameter; None for numbers, and for what cannot be read."""
+        raw = self._raw[name]
+        if isinstance(raw, str) and is_expression(raw):
+            try:
+                return _parse(raw)
+            except ExpressionError as error:
+                self._failures[name] = str(error)
+        return None
+
+    def _settle(self, name: str, expression: ast.expr | None) -> None:
+        """Give a parameter its value, or put it among those without."""
+        raw = self._raw[name]
         try:
-            return self.evaluate(raw)
+            if expression is not None:
+                self._values[name] = _evaluate(expression, self._value, 0)
+                return
+            if isinstance(raw, (int, float)) and not isinstance(raw, bool):
+                self._values[name] = float(raw)
+                return
         except ParameterFaultError:
-            raise
+            pass  # reported under the name of the other parameter
         except ExpressionError as error:
             self._failures[name] = str(error)
-            raise ParameterFaultError(f"parameter {name} has no value") from None
-        finally:
-            self._active.pop()
+        self._without_value.add(name)
+
+    def _blame_cycle(self, names: list[str]) -> None:
+        """Report a cycle once, from the member that stands first in the deck."""
+        order = {name: position for position, name in enumerate(self._raw)}
+        first = names.index(min(names, key=order.__getitem__))
+        cycle = [*names[first:], *names[:first], names[first]]
+        shown = cycle if len(cycle) <= _LONGEST_CYCLE else [*cycle[: _LONGEST_CYCLE - 2], "...", cycle[-1]]
+        self._failures[cycle[0]] = f"refers to itself: {' -> '.join(shown)}"
+        self._without_value.update(names)
 
 
 def _parse(text: str) -> ast.expr:

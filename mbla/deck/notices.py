@@ -48,7 +48,7 @@ def _unused(tree: Tree, content: DeckContent, parameters: Parameters) -> Iterato
         if name not in parameters.used:
             path = ("parameters", name)
             yield Notice("notice", "parameter-unused", f"{tree.fault(path, '').place} {key_text(path)} is not used")
-    for kind, name in unused_names(tree.data):
-        path = ({"material": "materials", "joint law": "joints"}[kind], name)
-        place = tree.fault(path, "").place
-        yield Notice("notice", f"{path[0]}-unused", f"{place} {key_text(path)} is not used")
+    for section, name in unused_names(tree.data):
+        path = (section, name)
+        identifier = f"{section.removesuffix('s')}-unused"
+        yield Notice("notice", identifier, f"{tree.fault(path, '').place} {key_text(path)} is not used")

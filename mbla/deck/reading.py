@@ -66,7 +66,10 @@ def _read(path: Path, overrides: Sequence[str]) -> Deck:
     parameters = Parameters(_mapping(tree.data.get("parameters")))
     content, faults = validate(tree, _converter(parameters, units), reading.reported, reading.damaged)
     faults += [tree.fault(("parameters", name), message) for name, message in parameters.failures()]
-    faults += [*reading.faults, *check_references(tree)]
+    faults += reading.faults
+    # What is no name at all is not looked up as well.
+    seen = {(fault.place, fault.key) for fault in faults}
+    faults += [fault for fault in check_references(tree) if (fault.place, fault.key) not in seen]
     if content is None or faults:
         raise DeckError(_once(faults))
     return Deck(
@@ -135,9 +138,12 @@ def _resolver(tree: Tree, deck_path: Path) -> Callable[[KeyPath, str], Path]:
 
 def check_regular(path: Path) -> None:
     """FileError unless a path is a regular file that can be opened."""
-    if not path.exists():
-        raise FileError("does not exist")
-    if not path.is_file():
-        raise FileError("is not a regular file")
-    with path.open("rb"):
-        pass
+    try:
+        if not path.exists():
+            raise FileError("does not exist")
+        if not path.is_file():
+            raise FileError("is not a regular file")
+        with path.open("rb"):
+            pass
+    except OSError as error:
+        raise FileError(f"cannot be opened: {error.strerror or error}") from error

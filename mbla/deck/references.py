@@ -66,7 +66,7 @@ def check_references(tree: Tree) -> Iterator[Fault]:
 
 
 def unused_names(data: dict[str, Any]) -> Iterator[tuple[str, str]]:
-    """(kind, name) of materials and joint laws that nothing uses."""
+    """(section, name) of materials and joint laws that nothing uses."""
     for section, kind in (("materials", "material"), ("joints", "joint law")):
         used = {
             name
@@ -75,7 +75,7 @@ def unused_names(data: dict[str, Any]) -> Iterator[tuple[str, str]]:
             for _, name in find(data, reference.path.split("."))
             if isinstance(name, str)
         }
-        yield from ((kind, name) for name in _keys(data.get(section)) if name not in used)
+        yield from ((section, name) for name in _keys(data.get(section)) if name not in used)
 
 
 def groups(data: dict[str, Any]) -> Iterator[str]:

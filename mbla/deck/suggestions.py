@@ -6,6 +6,7 @@ from collections.abc import Iterable
 from difflib import get_close_matches
 
 _MOST_NAMES = 20
+_MOST_COMPARED = 200
 
 
 def unknown(kind: str, word: str, allowed: Iterable[str], label: str = "allowed") -> str:
@@ -16,7 +17,10 @@ def unknown(kind: str, word: str, allowed: Iterable[str], label: str = "allowed"
 
 def did_you_mean(word: str, allowed: Iterable[str]) -> str:
     """``; did you mean friction?``, or nothing."""
-    by_case = {name.casefold().replace("-", "_"): name for name in allowed}
+    names = list(allowed)
+    if len(names) > _MOST_COMPARED:  # comparing is slow: of many names, those that begin alike
+        names = [name for name in names if name[:2].casefold() == word[:2].casefold()][:_MOST_COMPARED]
+    by_case = {name.casefold().replace("-", "_"): name for name in names}
     close = get_close_matches(word.casefold().replace("-", "_")[:80], by_case, n=1, cutoff=0.6)
     return f"; did you mean {by_case[close[0]]}?" if close else ""
 

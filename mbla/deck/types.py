@@ -146,7 +146,7 @@ class Support(Section):
 
 
 class Load(Section):
-    """One load: exactly one of gravity, acceleration, force."""
+    """One load: exactly one of gravity, acceleration, force; each may be a dead load or a live one."""
 
     gravity: tuple[Acceleration, Acceleration, Acceleration] | None = Field(
         None, description="gravitational acceleration, in the deck's unit of length per s^2"

@@ -57,6 +57,6 @@ def test_names_that_nothing_uses(tmp_path: Path) -> None:
     )
     assert notices(tmp_path, text) == [
         "notice [parameter-unused]: deck.yaml:4:34 parameters.xi is not used",
-        "notice [materials-unused]: deck.yaml:7:3 materials.brick is not used",
-        "notice [joints-unused]: deck.yaml:9:3 joints.wet is not used",
+        "notice [material-unused]: deck.yaml:7:3 materials.brick is not used",
+        "notice [joint-unused]: deck.yaml:9:3 joints.wet is not used",
     ]

@@ -19,6 +19,10 @@ def test_hostile_length() -> None:
     assert did_you_mean("x" * 100_000, ["friction"] * 100) == ""
 
 
+def test_among_many_names() -> None:
+    assert did_you_mean("block777", [f"other{i}" for i in range(5000)] + ["block77"]) == "; did you mean block77?"
+
+
 def test_listed() -> None:
     assert [listed([]), listed(["a"]), listed(["a", "b"]), listed("abc", "and")] == [
         "none",

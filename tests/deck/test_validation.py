@@ -1,0 +1,95 @@
+"""How complaints are merged and placed; their words are in tests/invalid_decks."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from tests.deck.decks import BLOCK, changed, faults, write
+
+BOX = "box: {group: block, material: stone, min: [0, 0, 0], max: [1, 1, 1]}"
+
+
+def test_type_faults_rules_and_names_come_together(tmp_path: Path) -> None:
+    text = (
+        changed("density: 2000", "density: true")
+        .replace("max: [1, 1, 1]", "max: [1, 1, 0]")
+        .replace("{z: 0}", "{z: 0, x: 0}")
+    )
+    assert [
+        message.split(" ")[1] for message in faults(write(tmp_path, text.replace("{joint: dry}", "{joint: wet}")))
+    ] == [
+        "materials.stone.density",
+        "blocks[0].box.max[2]",
+        "contacts.joint",
+        "supports[0].ground.z",
+    ]
+
+
+@pytest.mark.parametrize(
+    "value", ["[1, 1", "true", "heavy", '"3"', "[]", "{}", "-1", "0", ".nan", '"1 s"', '"=1/0"', "~"]
+)
+def test_one_fault_for_one_value(tmp_path: Path, value: str) -> None:
+    assert len(faults(write(tmp_path, changed("density: 2000", f"density: {value}")))) == 1
+
+
+@pytest.mark.parametrize(
+    "value", ["true", "5", "[]", "[5]", "[{group: 5}]", "{group: 5}", '"a b"', "~", "{}", "nobody"]
+)
+def test_one_fault_for_one_selector(tmp_path: Path, value: str) -> None:
+    assert len(faults(write(tmp_path, changed("{ground: {z: 0}}", f"{{blocks: {value}}}")))) == 1
+
+
+@pytest.mark.parametrize("value", ["5", "[5]", "[{scale: 0}]", "{scale: 0}", "{turn: 1}", "{}", "[{}]", "left"])
+def test_one_fault_for_one_transform(tmp_path: Path, value: str) -> None:
+    assert len(faults(write(tmp_path, changed("group: block,", f"group: block, transform: {value},")))) == 1
+
+
+@pytest.mark.parametrize("key", ["float", "chain", "name", "mapping", "list", "SelectorTerm"])
+def test_names_like_branches_of_a_union_are_kept_in_the_path(tmp_path: Path, key: str) -> None:
+    text = BLOCK.replace("stone", key).replace("density: 2000", "density: 0")
+    assert faults(write(tmp_path, text)) == [f"deck.yaml:6:{15 + len(key)} materials.{key}.density = 0: must be > 0"]
+
+
+def test_unreadable_value_does_not_break_rules_around_it(tmp_path: Path) -> None:
+    assert faults(write(tmp_path, changed('{friction: "=mu"}', "{friction: .inf}"))) == [
+        "deck.yaml:8:19 joints.dry.friction = .inf: must be a finite number"
+    ]
+
+
+def test_fault_beside_an_unreadable_value_is_still_reported(tmp_path: Path) -> None:
+    assert faults(write(tmp_path, changed('{friction: "=mu"}', "{friction: .inf, cohesion: -1}"))) == [
+        "deck.yaml:8:19 joints.dry.friction = .inf: must be a finite number",
+        "deck.yaml:8:35 joints.dry.cohesion = -1: must be >= 0",
+    ]
+
+
+def test_faults_in_a_mapping_whose_first_key_is_refused(tmp_path: Path) -> None:
+    assert faults(
+        write(tmp_path, changed("  stone: {density: 2000}", "  1: {density: 5}\n  stone: {density: -1}"))
+    ) == [
+        'deck.yaml:6:3 materials: a key must be text: write "1" in quotes',
+        "deck.yaml:7:20 materials.stone.density = -1: must be > 0",
+    ]
+
+
+def test_users_of_a_faulty_parameter_are_not_reported(tmp_path: Path) -> None:
+    for value in ("true", '"=nu"', '"0.6"', "[1]", "~"):
+        messages = faults(write(tmp_path, changed("{mu: 0.6}", f"{{mu: {value}}}")))
+        assert len(messages) == 1
+        assert "parameters.mu" in messages[0]
+
+
+def test_parameters_that_are_no_mapping(tmp_path: Path) -> None:
+    assert faults(write(tmp_path, changed("{mu: 0.6}", "0.6"))) == [
+        "deck.yaml:4:13 parameters = 0.6: must be a mapping: {key: value}",
+        'deck.yaml:8:19 joints.dry.friction = "=mu": unknown parameter mu; known: pi and e',
+    ]
+
+
+def test_missing_key_is_reported_where_its_mapping_begins(tmp_path: Path) -> None:
+    text = changed(f"  - {BOX}\n", "  - box:\n      group: block\n      material: stone\n      min: [0, 0, 0]\n")
+    assert faults(write(tmp_path, text)) == [
+        "deck.yaml:10:5 blocks[0].box.max: is missing: corner with the greatest coordinates"
+    ]
