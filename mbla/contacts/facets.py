@@ -1,8 +1,6 @@
 """Facets: the plane pieces of the surface of each block, with their outlines as polygons in their own plane.
 
-Faces of a block that the model put on one facet are united; so are facets of one block that lie on the same plane
-without sharing edges (a quadrilateral beside triangles that end in the middle of its edge), for they touch a
-neighbour in one common surface.
+Faces of a block that the model put on one facet are united, and facets of one block that lie on the same plane.
 """
 
 from __future__ import annotations
@@ -11,19 +9,17 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mbla.arrays import BoolArray, FloatArray, IntArray, starts
+from mbla.arrays import BoolArray, FloatArray, IntArray, row_of_item, starts
+from mbla.contacts.coplanar import facets_on_one_plane
 from mbla.contacts.frames import frames_from_normals, unit
-from mbla.contacts.polygons import Polygons, convex_polygons, map_polygons, polygons_from_loops, union_by_row
-from mbla.contacts.ragged import rows_and_items
+from mbla.contacts.polygons import Polygons, areas, convex_polygons, map_polygons, polygons_from_loops, union_by_row
 from mbla.model.blocks import Blocks
 from mbla.model.ragged import next_item
 
-# Facets of a block whose normals and heights differ by less than this (relative to block size) are one plane.
-_SAME_PLANE = 1e-6
-# Snapping grid, relative to block size, for outlines that are united across edges they do not share.
+# Snapping grid, relative to block size, for uniting outlines whose edges may differ by rounding: an order of magnitude
+# slower than floating arithmetic, which is enough where faces share their edges, and checked by the area.
 _GRID = 1e-10
-# Unlike any direction of a building, so that two different normals hardly ever look alike along it.
-_ODD_DIRECTION = np.array([0.5403023, 0.2919266, 0.7892347])
+_LOST = 1e-9
 
 
 @dataclass(frozen=True)
@@ -63,29 +59,22 @@ class Facets:
 def build_facets(blocks: Blocks) -> Facets:
     """Facets of all blocks; see :class:`Facets`."""
     corner_start = blocks.loop_start
-    face_of_corner = np.repeat(np.arange(len(blocks.face_normals)), np.diff(corner_start))
+    face_of_corner = row_of_item(corner_start)
     corners = blocks.vertices[blocks.loops]
     centres = np.add.reduceat(corners, corner_start[:-1]) / np.diff(corner_start)[:, None]
-    areas = _face_areas(corners - centres[face_of_corner], corner_start, blocks.face_normals)
-
-    facet_of_face, crossing = _facets_on_one_plane(blocks, centres)
-    order = np.argsort(facet_of_face, kind="stable")
-    facet_of_sorted = facet_of_face[order]
-    face_start = starts(np.bincount(facet_of_face).astype(np.int64))
-    weights = areas[order]
-    total = np.add.reduceat(weights, face_start[:-1])
-    frames = frames_from_normals(unit(np.add.reduceat(weights[:, None] * blocks.face_normals[order], face_start[:-1])))
-    # Differences first: far from the origin the weighted sum of absolute coordinates would lose digits.
-    anchor = centres[order[face_start[:-1]]]
-    shift = np.add.reduceat(weights[:, None] * (centres[order] - anchor[facet_of_sorted]), face_start[:-1])
-    origins = anchor + shift / total[:, None]
-
+    facet_of_face = facets_on_one_plane(blocks, centres)
     facet_of_corner = facet_of_face[face_of_corner]
+    _, first_face = np.unique(facet_of_face, return_index=True)
+    block_of_facet = blocks.block_of_face[first_face]
+    joined = (blocks.facet_of_face != blocks.facet_of_face[first_face][facet_of_face]).nonzero()[0]
+    joined = np.isin(np.arange(len(first_face)), facet_of_face[joined])
+
+    face_areas = _face_areas(corners - centres[face_of_corner], corner_start, blocks.face_normals)
+    origins, frames = _fitted_planes(facet_of_face, centres, blocks.face_normals, face_areas)
     local = np.einsum("kij,kj->ki", frames[facet_of_corner], corners - origins[facet_of_corner])
+    polygons = _outlines(local[:, 1:], corner_start, facet_of_face, joined, blocks.sizes[block_of_facet])
     by_facet = np.argsort(facet_of_corner, kind="stable")
     first = starts(np.bincount(facet_of_corner).astype(np.int64))[:-1]
-    block_of_facet = blocks.block_of_face[order[face_start[:-1]]]
-    polygons = _outlines(local[:, 1:], corner_start, order, facet_of_sorted, crossing, blocks.sizes[block_of_facet])
     return Facets(
         blocks=block_of_facet,
         facet_start=starts(np.bincount(block_of_facet, minlength=len(blocks)).astype(np.int64)),
@@ -104,74 +93,50 @@ def _face_areas(relative_corners: FloatArray, corner_start: IntArray, normals: F
     following = relative_corners[next_item(corner_start)]
     vectors = np.add.reduceat(np.cross(relative_corners, following), corner_start[:-1]) / 2
     extents = np.maximum.reduceat((relative_corners**2).sum(axis=1), corner_start[:-1])
-    areas: FloatArray = np.maximum(np.einsum("fi,fi->f", vectors, normals), 1e-12 * extents)
-    return areas
+    found: FloatArray = np.maximum(np.einsum("fi,fi->f", vectors, normals), 1e-12 * extents)
+    return found
 
 
-def _facets_on_one_plane(blocks: Blocks, centres: FloatArray) -> tuple[IntArray, BoolArray]:
-    """Facet of each face after joining facets of one block on one plane, and which facets were joined from several."""
-    facet_of_face = blocks.facet_of_face
-    _, first_face = np.unique(facet_of_face, return_index=True)
-    n = len(first_face)
-    block = blocks.block_of_face[first_face]
-    normals, points = blocks.face_normals[first_face], centres[first_face]
-    # Facets with the same normal are neighbours when sorted along an odd direction: pairs only within such runs.
-    along = normals @ _ODD_DIRECTION
-    order = np.lexsort((along, block))
-    same_run = (block[order][1:] == block[order][:-1]) & (np.diff(along[order]) < _SAME_PLANE)
-    run_start = np.concatenate([[True], ~same_run]).nonzero()[0]
-    run_end = np.concatenate([run_start[1:], [n]])
-    run_of = np.repeat(np.arange(len(run_start)), run_end - run_start)
-    row, position = rows_and_items(np.arange(1, n + 1), run_end[run_of] - np.arange(n) - 1)
-    i, j = order[row], order[position]
-    height = np.abs(np.einsum("ki,ki->k", points[j] - points[i], normals[i]))
-    alike = np.abs(normals[i] - normals[j]).max(axis=1, initial=0.0) < _SAME_PLANE
-    alike &= height < _SAME_PLANE * blocks.sizes[block[i]]
-    i, j = i[alike], j[alike]
-    if not len(i):
-        return facet_of_face, np.zeros(n, dtype=bool)
-    from scipy.sparse import coo_array
-    from scipy.sparse.csgraph import connected_components
-
-    _, label = connected_components(coo_array((np.ones(len(i)), (i, j)), shape=(n, n)), directed=False)
-    _, first, dense = np.unique(label, return_index=True, return_inverse=True)
-    rank = np.argsort(np.argsort(first))  # numbered by first occurrence, to stay in order of blocks
-    joined = rank[dense]
-    return joined[facet_of_face].astype(np.int64), np.bincount(joined) > 1
+def _fitted_planes(
+    facet_of_face: IntArray, centres: FloatArray, normals: FloatArray, face_areas: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    """Origins (n_facets, 3) and frames (n_facets, 3, 3): means over the faces of each facet, weighted by area."""
+    order = np.argsort(facet_of_face, kind="stable")
+    first = starts(np.bincount(facet_of_face).astype(np.int64))[:-1]
+    weights = face_areas[order, None]
+    frames = frames_from_normals(unit(np.add.reduceat(weights * normals[order], first)))
+    # Differences first: far from the origin the weighted sum of absolute coordinates would lose digits.
+    anchor = centres[order[first]]
+    shift = np.add.reduceat(weights * (centres[order] - anchor[facet_of_face[order]]), first)
+    return anchor + shift / np.add.reduceat(weights, first), frames
 
 
 def _outlines(
-    corners: FloatArray,
-    corner_start: IntArray,
-    order: IntArray,
-    facet_of_sorted: IntArray,
-    crossing: BoolArray,
-    sizes: FloatArray,
+    corners: FloatArray, corner_start: IntArray, facet_of_face: IntArray, joined: BoolArray, sizes: FloatArray
 ) -> Polygons:
-    """Outlines of facets from the loops of their faces.
+    """Outlines of facets, (n_facets,), united from the loops of their faces.
 
-    corners         : (n_corners, 2) m, in the frame of the facet, in order of faces
-    order           : faces sorted by facet; facet_of_sorted is the facet of each
-    crossing        : (n_facets,) facets whose faces need not share edges
-    sizes           : (n_facets,) block sizes
+    corners : (n_corners, 2) m, in the frame of the facet, in order of faces
+    joined  : (n_facets,)     facets whose faces need not share edges
+    sizes   : (n_facets,) m   block sizes
     """
+    order = np.argsort(facet_of_face, kind="stable")
+    facet = facet_of_face[order]
     faces = polygons_from_loops(corners, corner_start)[order]
-    n_facets = len(crossing)
-    counts = np.bincount(facet_of_sorted, minlength=n_facets)
-    first = starts(counts.astype(np.int64))[:-1]
-    outlines: Polygons = faces[first].copy()
-    for snapped in (False, True):
-        chosen = (counts > 1) & (crossing == snapped)
-        if not chosen.any():
-            continue
-        rows = np.flatnonzero(chosen)
-        dense = np.cumsum(chosen) - 1
-        members = chosen[facet_of_sorted]
-        facet = facet_of_sorted[members]
-        scaled = _scaled(faces[members], 1 / sizes[facet])
-        united = union_by_row(scaled, dense[facet], len(rows), grid=_GRID if snapped else None)
-        outlines[rows] = _scaled(united, sizes[rows])
-    return outlines
+    faces = _scaled(faces, 1 / sizes[facet])
+    counts = np.bincount(facet)
+    outlines: Polygons = faces[starts(counts.astype(np.int64))[:-1]].copy()
+    _unite(outlines, faces, facet, (counts > 1) & ~joined, None)
+    lost = np.abs(areas(outlines) - np.bincount(facet, weights=areas(faces))) > _LOST * areas(outlines)
+    _unite(outlines, faces, facet, (counts > 1) & (joined | lost), _GRID)
+    return _scaled(outlines, sizes)
+
+
+def _unite(outlines: Polygons, faces: Polygons, facet: IntArray, chosen: BoolArray, grid: float | None) -> None:
+    """Put the union of the faces of the facets chosen in place of their outlines; facet (n_faces,) ascending."""
+    if chosen.any():
+        dense, members = np.cumsum(chosen) - 1, chosen[facet]
+        outlines[chosen] = union_by_row(faces[members], dense[facet[members]], int(chosen.sum()), grid=grid)
 
 
 def _scaled(polygons: Polygons, factors: FloatArray) -> Polygons:
