@@ -17,7 +17,7 @@ from mbla.arrays import BoolArray, FloatArray, IntArray, starts
 from mbla.contacts.polygons import Polygons, polygons_from_rings, rings, valid, widths
 from mbla.model.ragged import next_item
 
-# Corners this close to the chord are dropped even where dropping others as well would make the outline cross itself.
+# Corners this close to the chord are dropped even where dropping more would make the outline cross itself.
 _COLLINEAR = 1e-9
 _SHARE_OF_WIDTH = 0.1
 # The first corner of an outline is the least one along a direction that no edge of a building is likely to follow.
@@ -63,15 +63,14 @@ def needed_corners(polygons: Polygons, tolerance: float) -> Corners:
     found = _without_narrow_holes(Corners(*rings(polygons)), tolerance)
     fineness = np.minimum(tolerance, _SHARE_OF_WIDTH * widths(polygons))[found.polygon_of_corner]
     keep = _needed(found, fineness)
+    # Where the outline would cross itself, for instance at a neck, only collinear corners go, or none at all.
+    for coarse in (_COLLINEAR, 0.0):
+        crossing = _crossing_after(found, keep)
+        if not crossing.any():
+            break
+        fineness = np.where(crossing, np.minimum(fineness, coarse), fineness)
+        keep = np.where(crossing, _needed(found, fineness) if coarse > 0 else True, keep)
     thinned = found.take(keep)
-    changed = np.unique(found.polygon_of_corner[~keep])
-    if len(changed):
-        outlines = polygons_from_rings(thinned.points, thinned.ring_start, thinned.polygon_of_ring)
-        broken = changed[~valid(outlines[changed])]
-        if len(broken):
-            cautious = np.isin(found.polygon_of_corner, broken)
-            keep = np.where(cautious, _needed(found, np.minimum(fineness, _COLLINEAR)), keep)
-            thinned = found.take(keep)
     return _from_least_corner(thinned)
 
 
@@ -88,6 +87,17 @@ def areas_and_centroids(corners: Corners, n_polygons: int) -> tuple[FloatArray, 
         [np.bincount(polygon, weights=(p + q)[:, axis] * cross, minlength=n_polygons) / 6 for axis in (0, 1)], axis=1
     )
     return area, anchor + moment / area[:, None]
+
+
+def _crossing_after(corners: Corners, keep: BoolArray) -> BoolArray:
+    """Corners of polygons that lose some and cross themselves without them, (n_corners,)."""
+    changed = np.zeros(corners.polygon_of_ring[-1] + 1 if len(keep) else 0, dtype=bool)
+    changed[corners.polygon_of_corner[~keep]] = True
+    if changed.any():
+        thinned = corners.take(keep & changed[corners.polygon_of_corner])
+        _, dense = np.unique(thinned.polygon_of_ring, return_inverse=True)
+        changed[changed] = ~valid(polygons_from_rings(thinned.points, thinned.ring_start, dense.astype(np.int64)))
+    return changed[corners.polygon_of_corner]
 
 
 def _without_narrow_holes(corners: Corners, tolerance: float) -> Corners:

@@ -7,6 +7,7 @@ import pytest
 import shapely
 
 from mbla.contacts.corners import areas_and_centroids, needed_corners
+from mbla.contacts.point_areas import point_areas
 from mbla.contacts.polygons import Polygons
 
 Outline = Sequence[Sequence[float]]
@@ -90,14 +91,30 @@ def test_holes_narrower_than_the_tolerance_are_filled() -> None:
     assert len(needed_corners(polygons(SQUARE, holes=[wide]), 1e-3).polygon_of_ring) == 2
 
 
-def test_outline_that_would_cross_itself_keeps_its_corners() -> None:
-    """The notch keeps its tip, but without the two shallow corners the outer edge would run through it."""
-    depth = 1e-3
-    outline: Outline = [[0, 0], [1, depth], [2, 0], [2, 1], [1.01, 1], [1, 0.2 * depth + depth], [0.99, 1], [0, 1]]
-    shallow: Outline = [[0, 0], [1, -0.9 * depth], [2, 0], [2, 1], [1.01, 1], [1, -0.5 * depth], [0.99, 1], [0, 1]]
-    for case in (outline, shallow):
-        corners = needed_corners(polygons(case), depth)
-        assert shapely.Polygon(corners.points).is_valid
+@pytest.mark.parametrize("neck", [1e-4, 1e-7, 1e-11])
+def test_outline_that_would_cross_itself_keeps_its_corners(neck: float) -> None:
+    """Two squares joined by a neck at a corner: without the corners of the neck the outlines would touch."""
+    outline: Outline = [[0, 0], [1, 0], [1, 1 - neck], [2, 1], [2, 2], [1, 2], [1 - neck, 1], [0, 1]]
+    corners = needed_corners(polygons(outline), 1e-3)
+    assert shapely.Polygon(corners.points).is_valid
+    assert areas_and_centroids(corners, 1)[0] == pytest.approx([2.0], abs=1e-3)
+
+
+def test_corners_on_both_sides_of_a_hairline_neck() -> None:
+    """Seen where faces with a snapped outline meet at an edge: the corner of one square lies on the side of another."""
+    outline: Outline = [
+        [-0.2311389721, -0.09932687846],
+        [-0.4279989713, 0.56550091694],
+        [0.2368288241, 0.76236091614],
+        [0.4336888233, 0.09753312075],
+        [-0.23113897209, -0.09932687845],
+        [-0.03427897289, -0.76415467375],
+        [-0.0342789729, -0.76415467375],
+    ]
+    corners = needed_corners(polygons(outline), 1e-3)
+    assert shapely.Polygon(corners.points).is_valid
+    shares = point_areas(corners, 1)
+    assert shares.sum() == pytest.approx(shapely.Polygon(outline).area, rel=1e-9)
 
 
 def test_area_and_centroid_far_from_the_local_origin() -> None:
