@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from mbla import __version__
+from mbla.arrays import IntArray
 from mbla.errors import Notice
 from mbla.model.model import Model
 from mbla.results.case_words import beside_associative, case_lines, figures, verdict
@@ -120,16 +121,14 @@ def model_lines(model: Model) -> list[str]:
 
 def _group_table(model: Model) -> list[str]:
     blocks, units = model.blocks, model.units
-    groups = np.array(blocks.groups)
     weights = blocks.masses * units.standard_gravity * units.force_per_mass_acceleration
     rows = []
-    for name in dict.fromkeys(blocks.groups):
-        chosen = groups == name
+    for name, chosen in _blocks_of_groups(model).items():
         least, most = blocks.densities[chosen].min(), blocks.densities[chosen].max()
         rows.append(
             [
                 name,
-                str(int(chosen.sum())),
+                str(len(chosen)),
                 str(int(model.fixed[chosen].sum())),
                 number(float(blocks.volumes[chosen].sum())),
                 number(float(weights[chosen].sum())),
@@ -138,6 +137,13 @@ def _group_table(model: Model) -> list[str]:
         )
     volume, weight = f"volume [{units.length}3]", f"weight [{units.force}]"
     return table(["group", "blocks", "fixed", volume, weight, f"density [{units.mass}/{units.length}3]"], rows)
+
+
+def _blocks_of_groups(model: Model) -> dict[str, IntArray]:
+    """Blocks of every group, groups in the order in which they appear."""
+    names, first, rows = np.unique(np.array(model.blocks.groups), return_index=True, return_inverse=True)
+    members = np.split(np.argsort(rows, kind="stable"), np.cumsum(np.bincount(rows))[:-1])
+    return {str(names[i]): members[i] for i in np.argsort(first)}
 
 
 def _joint_table(model: Model) -> list[str]:
@@ -162,8 +168,8 @@ def _supports(model: Model) -> list[str]:
     for ground in model.grounds:
         only = "" if ground.blocks is None else f", under {counted(len(ground.blocks), 'block')} only"
         lines += sentence(f"rigid {ground.label} with joint law {ground.joint}{only}")
-    for name in dict.fromkeys(model.blocks.groups):
-        held = int(sum(fixed for group, fixed in zip(model.blocks.groups, model.fixed, strict=True) if group == name))
+    for name, chosen in _blocks_of_groups(model).items():
+        held = int(model.fixed[chosen].sum())
         if held:
             lines += sentence(f"{counted(held, 'block')} of group {name} fixed")
     return lines or sentence("none")

@@ -101,11 +101,10 @@ def curvature_sides(model: Model, contacts: Contacts) -> FloatArray:
     rise -= np.einsum("ij,ij->i", rise, chord)[:, None] / np.einsum("ij,ij->i", chord, chord)[:, None] * chord
     curved = np.linalg.norm(rise, axis=1) > 1e-3 * np.linalg.norm(chord, axis=1)
     outward[np.flatnonzero(inner)[curved]] = rise[curved]
-    for interface in np.flatnonzero(in_chain[contacts.bodies].sum(axis=1) == 1):  # the ends of chains, few
-        body = contacts.bodies[interface][in_chain[contacts.bodies[interface]]][0]
-        neighbours = np.flatnonzero((contacts.bodies == body).any(axis=1) & inner)
-        if len(neighbours):
-            outward[interface] = outward[neighbours[0]]
+    of_body = np.zeros((n_bodies, 3))
+    np.add.at(of_body, contacts.bodies[inner], outward[inner][:, None, :])
+    end, side = np.nonzero(in_chain[contacts.bodies] & ~inner[:, None])
+    outward[end] = of_body[contacts.bodies[end, side]]
     return outward
 
 

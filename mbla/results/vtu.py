@@ -32,31 +32,19 @@ def write_blocks_vtu(path: Path, model: Model, case: CaseResult | None, cells: B
     ``rotation`` (as drawn, m and rad).
     """
     motion = drawn_motion(model, case)
-    write_cells(path, model, model.blocks.vertices, motion, vertex_displacements(model.blocks, motion), cells)
-
-
-def write_cells(
-    path: Path,
-    model: Model,
-    vertices: FloatArray,
-    motion: FloatArray,
-    displacement: FloatArray,
-    cells: BlockCells | None = None,
-) -> None:
-    """Blocks with their vertices where they are now; ``motion`` as drawn, (n_blocks, 6)."""
-    cells = cells or block_cells(model.blocks)
     data = block_data(model) | {
         "moves": moving_blocks(motion, model.blocks.sizes).astype(np.int8),
         "velocity": motion[:, :3],
         "rotation": motion[:, 3:],
     }
-    write_mesh(
-        path,
-        vertices,
-        list(cells.cells),
-        point_data={"displacement": displacement},
-        cell_data={name: [values[rows] for rows in cells.rows] for name, values in data.items()},
-    )
+    displacement = vertex_displacements(model.blocks, motion)
+    write_cells(path, model.blocks.vertices, displacement, data, cells or block_cells(model.blocks))
+
+
+def write_cells(path: Path, points: FloatArray, displacement: FloatArray, data: Arrays, cells: BlockCells) -> None:
+    """Blocks with their vertices at ``points`` and data on each, (n_blocks, ...)."""
+    cell_data = {name: [values[rows] for rows in cells.rows] for name, values in data.items()}
+    write_mesh(path, points, list(cells.cells), point_data={"displacement": displacement}, cell_data=cell_data)
 
 
 def block_data(model: Model) -> Arrays:

@@ -1,0 +1,156 @@
+"""Time to write and read the result files of large models; run by hand, appends to results/results.csv.
+
+Cuboids in a grid, each on the one below, with made-up forces and velocities: what is measured does not look at them.
+
+::
+
+    python tests/performance/bench_results.py
+"""
+
+from __future__ import annotations
+
+import csv
+import platform
+import time
+from collections.abc import Callable
+from dataclasses import replace
+from datetime import UTC, datetime
+from importlib.metadata import version
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+import numpy as np
+
+from mbla.model.model import LoadCase
+from mbla.results.cells import BlockCells, block_cells
+from mbla.results.hdf5 import read_results_hdf5, write_results_hdf5
+from mbla.results.json_record import results_json
+from mbla.results.listing import listing
+from mbla.results.pvd import write_frame_vtu
+from mbla.results.results import CaseResult, Results
+from mbla.results.vtu import write_blocks_vtu, write_contacts_vtu, write_interfaces_vtu
+from mbla.results.write import write_outputs
+from mbla.solution.solution import Mechanics
+from tests.results.synthetic import cuboids, horizontal_contacts, tower_model, tower_results
+
+RESULTS = Path(__file__).parent / "results" / "results.csv"
+COLUMNS = [
+    "date",
+    "step",
+    "blocks",
+    "points",
+    "seconds",
+    "bytes",
+    "mbla",
+    "numpy",
+    "h5py",
+    "meshio",
+    "python",
+    "machine",
+]
+SIZES = (1_000, 10_000)
+COURSES = 10
+FRAMES = 11
+
+
+def grid(n_blocks: int) -> Results:
+    """Stacks of COURSES cuboids, the lowest of each fixed, with one case of random forces and velocities."""
+    generator = np.random.default_rng(0)
+    x, z = np.divmod(np.arange(n_blocks), COURSES)
+    lower = np.column_stack([1.1 * x, 0 * x, z]).astype(float)
+    blocks = cuboids(lower, lower + 1, ["wall"] * n_blocks)
+    above = np.flatnonzero(z > 0)
+    rectangles = [(1.1 * x[b], 1.1 * x[b] + 1, 0, 1, z[b]) for b in above]
+    contacts = horizontal_contacts(np.column_stack([above - 1, above]), rectangles)
+    loads = generator.normal(size=(2, n_blocks, 6))
+    load_case = LoadCase("push", loads[0], loads[1], ("gravity",), ("acceleration (1, 0, 0) g",))
+    model = replace(tower_model(), blocks=blocks, fixed=z == 0, grounds=(), load_cases=(load_case,))
+    n_points = len(contacts.points)
+    mechanics = Mechanics(
+        0.5,
+        generator.normal(size=(n_points, 3)),
+        generator.normal(size=(n_points, 3)),
+        generator.normal(size=(n_blocks, 6)) * (z > 0)[:, None],
+        generator.integers(0, 3, n_points),
+    )
+    results = tower_results()
+    solution = replace(results.cases[0].solution, mechanics=mechanics, associative=mechanics)
+    case = CaseResult(load_case, solution, results.cases[0].checks, results.cases[0].status)
+    return replace(results, model=model, contacts=contacts, cases=(case,), notices=())
+
+
+def steps(results: Results, folder: Path) -> dict[str, Callable[[], object]]:
+    """What is timed, by name; every step writes to the folder."""
+    case, model, contacts = results.cases[0], results.model, results.contacts
+    cells = block_cells(model.blocks)
+    polyhedra = as_polyhedra(results)
+    image = folder / "image.h5"
+
+    def write_image() -> None:
+        image.write_bytes(write_results_hdf5(results))
+
+    return {
+        "hdf5 write": write_image,
+        "hdf5 read": lambda: read_results_hdf5(image),
+        "listing": lambda: listing(results),
+        "json": lambda: results_json(results),
+        "cells": lambda: block_cells(model.blocks),
+        "blocks.vtu": lambda: write_blocks_vtu(folder / "blocks.vtu", model, case, cells),
+        "blocks.vtu, polyhedra": lambda: write_blocks_vtu(folder / "polyhedra.vtu", model, case, polyhedra),
+        "contacts.vtu": lambda: write_contacts_vtu(folder / "contacts.vtu", model, contacts, case),
+        "interfaces.vtu": lambda: write_interfaces_vtu(folder / "interfaces.vtu", model, contacts, case),
+        "one frame": lambda: write_frame_vtu(folder / "frame.vtu", model, case, 0.5, cells),
+        f"all files, {FRAMES} frames": lambda: write_outputs(
+            results, folder / "all", "wall", True, True, FRAMES, False
+        ),
+    }
+
+
+def as_polyhedra(results: Results) -> BlockCells:
+    """The blocks as polyhedra although they are cuboids."""
+    unknown = replace(results.model.blocks, convex=np.zeros(len(results.model.blocks), dtype=bool))
+    return block_cells(unknown)
+
+
+def main() -> None:
+    """Best of three of each step, one row each."""
+    new = not RESULTS.exists()
+    RESULTS.parent.mkdir(exist_ok=True)
+    machine = f"{platform.machine()} {platform.system()}, {_processor()}"
+    versions = [version(name) for name in ("mbla", "numpy", "h5py", "meshio")]
+    with RESULTS.open("a", newline="", encoding="utf-8") as file:
+        writer = csv.writer(file)
+        if new:
+            writer.writerow(COLUMNS)
+        for n_blocks in SIZES:
+            results = grid(n_blocks)
+            with TemporaryDirectory() as name:
+                for step, action in steps(results, Path(name)).items():
+                    before = _bytes(Path(name))
+                    seconds = []
+                    for _ in range(3):
+                        start = time.perf_counter()
+                        action()
+                        seconds.append(time.perf_counter() - start)
+                    row = [datetime.now(UTC).date().isoformat(), step, n_blocks, len(results.contacts.points)]
+                    row += [f"{min(seconds):.4f}", _bytes(Path(name)) - before]
+                    writer.writerow([*row, *versions, platform.python_version(), machine])
+
+
+def _bytes(folder: Path) -> int:
+    return sum(path.stat().st_size for path in folder.rglob("*") if path.is_file())
+
+
+def _processor() -> str:
+    """Model name of the processor where the system tells it."""
+    information = Path("/proc/cpuinfo")
+    names = [
+        line.split(":", 1)[1].strip()
+        for line in (information.read_text(encoding="utf-8").splitlines() if information.exists() else [])
+        if line.startswith("model name")
+    ]
+    return f"{len(names)} x {names[0]}" if names else platform.processor()
+
+
+if __name__ == "__main__":
+    main()

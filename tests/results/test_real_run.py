@@ -1,0 +1,82 @@
+"""The results stage behind the real line: an arch that collapses by four hinges, and a wall of which a part slides."""
+
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from mbla.results.hdf5 import read_results_hdf5
+from mbla.results.listing import listing
+from mbla.results.results import Results
+from mbla.run import RunOptions, run
+
+from .reading import read_vtk, vtk_array, vtk_volumes
+from .synthetic import same
+
+ARCH = """\
+mbla: 1
+title: Semicircular arch
+units: {length: m, force: kN, mass: t}
+materials: {stone: {density: 2}}
+joints: {dry: {friction: 0.65}}
+blocks:
+  - arch:
+      {group: arch, material: stone, shape: semicircular, span: 1.85, thickness: 0.15, width: 0.3, voussoirs: 20,
+       springers: blocks}
+contacts: {joint: dry}
+load_cases:
+  push_x: {live: [{acceleration: [1, 0, 0]}]}
+analysis: {flow_rule: associative}
+output: {frames: 3}
+"""
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("arch")
+    (folder / "arch.yaml").write_text(ARCH, encoding="utf-8")
+    return folder
+
+
+@pytest.fixture(scope="module")
+def results(folder: Path) -> Results:
+    return run(folder / "arch.yaml", RunOptions())
+
+
+def test_file_holds_the_run_in_full(folder: Path, results: Results) -> None:
+    back = read_results_hdf5(folder / "arch.out" / "arch.h5")
+    assert same(back, results)
+    assert listing(back) == (folder / "arch.out" / "arch.lst").read_text(encoding="utf-8")
+
+
+def test_four_hinges_alternate_between_intrados_and_extrados(results: Results) -> None:
+    text = listing(results)
+    assert re.search(r"collapses at 0\.1493\d* g, verified: 4 hinges", text)
+    assert re.findall(r"\b(intrados|extrados)$", text, flags=re.MULTILINE) == ["intrados", "extrados"] * 2
+
+
+def test_reactions_at_both_springers_carry_the_weight(results: Results) -> None:
+    rows = [line.split() for line in listing(results).splitlines() if line.startswith("  arch_springers[")]
+    vertical = [float(row[3]) for row in rows]
+    assert len(vertical) == 2
+    free = results.model.free
+    weight = -results.cases[0].load_case.dead_load[free, 2].sum()
+    assert sum(vertical) == pytest.approx(weight, rel=1e-3)
+
+
+def test_mesh_files_hold_the_structure(folder: Path, results: Results) -> None:
+    blocks = folder / "arch.out" / "arch_push_x_blocks.vtu"
+    assert vtk_volumes(blocks) == pytest.approx(results.model.blocks.volumes)
+    last = folder / "arch.out" / "arch_push_x_frame_002.vtu"
+    assert vtk_volumes(last) == pytest.approx(results.model.blocks.volumes)
+    forces = vtk_array(read_vtk(folder / "arch.out" / "arch_push_x_contacts.vtu").GetPointData(), "contact_force")
+    assert np.isfinite(forces).all()
+    assert len(forces) == len(results.contacts.points)
+
+
+def test_status_file_has_every_iteration(folder: Path, results: Results) -> None:
+    lines = (folder / "arch.out" / "arch.sta").read_text(encoding="utf-8").splitlines()
+    iterations = [line for line in lines[2:] if not line.startswith("#")]
+    assert len(iterations) == len(results.cases[0].solution.iterations) > 5
+    assert {len(line) for line in iterations} == {len(lines[1])}
