@@ -13,7 +13,7 @@ from typing import Any
 
 from mbla.deck.reader import Document, read_yaml
 from mbla.deck.sources import SourceText, read_source
-from mbla.deck.tree import MappingMarks, SequenceMarks, Tree, key_text, own_mark
+from mbla.deck.tree import MappingMarks, Marks, SequenceMarks, Tree, key_text, own_mark
 from mbla.errors import DeckError, Fault, FileError
 
 MAX_FILES = 100
@@ -60,7 +60,7 @@ def _read_file(reading: Reading, source: SourceText) -> Tree:
     tree = _mapping_root(reading, document)
     if source.path is not None:
         reading.active.append(source.path)
-        _merge_included(reading, tree, source)
+        tree = _with_included(reading, tree, source)
         reading.active.pop()
     return tree
 
@@ -71,18 +71,18 @@ def _mapping_root(reading: Reading, document: Document) -> Tree:
         return Tree(document.data, document.marks, reading.sources)
     mark = own_mark(document.marks)
     tree = Tree({}, MappingMarks(mark), reading.sources)
-    if not document.faults:
+    if document.whole:
         found = "is empty" if document.data is None else "is not a mapping"
         reading.faults.append(Fault(tree.place_of(mark), "", f"{found}: a deck is a mapping that begins with mbla: 1"))
-        reading.whole = False
+    reading.whole = False
     return tree
 
 
-def _merge_included(reading: Reading, tree: Tree, source: SourceText) -> None:
-    """Merge the files that a tree lists under `include`; wrong types there are left to the check of types."""
+def _with_included(reading: Reading, tree: Tree, source: SourceText) -> Tree:
+    """A tree with the files it lists under `include`; wrong types there are left to the check of types."""
     names = tree.data.get("include")
     if not isinstance(names, list):
-        return
+        return tree
     merged: Tree | None = None
     for index, name in enumerate(names):
         if not isinstance(name, str):
@@ -98,8 +98,7 @@ def _merge_included(reading: Reading, tree: Tree, source: SourceText) -> None:
         below = _read_file(reading, included)
         below.data.pop("include", None)
         merged = below if merged is None else _merge(reading, merged, below)
-    if merged is not None:
-        _merge(reading, merged, tree, into=tree)
+    return tree if merged is None else _merge(reading, merged, tree)
 
 
 def _open(reading: Reading, source: SourceText, name: str) -> SourceText | None:
@@ -149,54 +148,33 @@ def confined(folder: Path, name: str) -> Path:
     return path
 
 
-def _merge(reading: Reading, first: Tree, second: Tree, into: Tree | None = None) -> Tree:
-    """Content of both trees, in the given order of lists; the result replaces the content of ``into``."""
-    data, marks = _merge_mappings(reading, first, second, (first.data, first.marks), (second.data, second.marks), ())
-    target = into or Tree({}, MappingMarks(first.marks.own), reading.sources)
-    target.data.clear()
-    target.data.update(data)
-    target.marks.keys = marks.keys
-    target.marks.values = marks.values
-    return target
+def _merge(reading: Reading, first: Tree, second: Tree, path: tuple[str, ...] = ()) -> Tree:
+    """Mapping with the keys of two at the same path; the recursion ends with the reader's limit on depth."""
+    data = first.data | second.data
+    marks = MappingMarks(second.marks.own)
+    marks.keys = first.marks.keys | second.marks.keys
+    marks.values = first.marks.values | second.marks.values
+    for key in second.data:
+        if key in first.data:
+            data[key], marks.values[key] = _merge_values(reading, first, second, (*path, key))
+    return Tree(data, marks, reading.sources)
 
 
-def _merge_mappings(
-    reading: Reading,
-    first: Tree,
-    second: Tree,
-    a: tuple[dict[str, Any], MappingMarks],
-    b: tuple[dict[str, Any], MappingMarks],
-    path: tuple[str, ...],
-) -> tuple[dict[str, Any], MappingMarks]:
-    """Mapping with the keys of two; recursion ends with the reader's limit on depth."""
-    data = dict(a[0])
-    marks = MappingMarks(b[1].own)
-    marks.keys = dict(a[1].keys)
-    marks.values = dict(a[1].values)
-    for key, value in b[0].items():
-        value_marks = b[1].values[key]
-        if key in data:
-            other, other_marks = data[key], marks.values[key]
-            named = bool(path) and path[0] in NAMED
-            if isinstance(value, dict) and isinstance(other, dict) and not named:
-                assert isinstance(value_marks, MappingMarks)
-                assert isinstance(other_marks, MappingMarks)
-                data[key], marks.values[key] = _merge_mappings(
-                    reading, first, second, (other, other_marks), (value, value_marks), (*path, key)
-                )
-                marks.keys[key] = b[1].keys[key]
-                continue
-            if isinstance(value, list) and isinstance(other, list) and not path:
-                assert isinstance(value_marks, SequenceMarks)
-                assert isinstance(other_marks, SequenceMarks)
-                joined = SequenceMarks(value_marks.own)
-                joined.items = [*other_marks.items, *value_marks.items]
-                data[key], marks.values[key] = [*other, *value], joined
-                marks.keys[key] = b[1].keys[key]
-                continue
-            if not (key == "mbla" and not path and value == other):
-                there = first.place_of(marks.keys[key])
-                place = second.place_of(b[1].keys[key])
-                reading.faults.append(Fault(place, key_text((*path, key)), f"is defined in {there} too"))
-        data[key], marks.values[key], marks.keys[key] = value, value_marks, b[1].keys[key]
-    return data, marks
+def _merge_values(reading: Reading, first: Tree, second: Tree, path: tuple[str, ...]) -> tuple[Any, Marks]:
+    """Value, and its marks, of a key that both mappings have; that of the second where they cannot be merged."""
+    key = path[-1]
+    a, b = first.data[key], second.data[key]
+    a_marks, b_marks = first.marks.values[key], second.marks.values[key]
+    is_section = len(path) == 1 or path[0] not in NAMED
+    if isinstance(a_marks, MappingMarks) and isinstance(b_marks, MappingMarks) and is_section:
+        merged = _merge(reading, Tree(a, a_marks, reading.sources), Tree(b, b_marks, reading.sources), path)
+        return merged.data, merged.marks
+    if isinstance(a_marks, SequenceMarks) and isinstance(b_marks, SequenceMarks) and len(path) == 1:
+        joined = SequenceMarks(b_marks.own)
+        joined.items = a_marks.items + b_marks.items
+        return a + b, joined
+    if path != ("mbla",) or a != b:
+        there = first.place_of(first.marks.keys[key])
+        place = second.place_of(second.marks.keys[key])
+        reading.faults.append(Fault(place, key_text(path), f"is defined in {there} too"))
+    return b, b_marks

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable
 from difflib import get_close_matches
 
+from mbla.deck.tree import shorten
+
 _MOST_NAMES = 20
 _MOST_COMPARED = 200
 
@@ -22,12 +24,12 @@ def did_you_mean(word: str, allowed: Iterable[str]) -> str:
         names = [name for name in names if name[:2].casefold() == word[:2].casefold()][:_MOST_COMPARED]
     by_case = {name.casefold().replace("-", "_"): name for name in names}
     close = get_close_matches(word.casefold().replace("-", "_")[:80], by_case, n=1, cutoff=0.6)
-    return f"; did you mean {by_case[close[0]]}?" if close else ""
+    return f"; did you mean {shorten(by_case[close[0]])}?" if close else ""
 
 
 def listed(names: Iterable[str], last: str = "or") -> str:
     """``a, b or c``; only the first of many names."""
-    all_names = list(names)
+    all_names = [shorten(name) for name in names]
     shown = all_names[:_MOST_NAMES]
     if len(all_names) > len(shown):
         return ", ".join(shown) + f" and {len(all_names) - len(shown)} more"

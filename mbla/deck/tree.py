@@ -19,6 +19,7 @@ KeyPath: TypeAlias = tuple[str | int, ...]
 FILE_SHIFT = 32
 OFFSET_MASK = (1 << FILE_SHIFT) - 1
 _LONGEST_VALUE = 60
+_PLAIN_WORD = re.compile(r"[^\s,\]}]+")
 
 
 class MappingMarks:
@@ -111,8 +112,8 @@ class Tree:
         first = text[offset : offset + 1]
         if isinstance(value, str):
             return shorten(f"{first}{value}{first}" if first in ("'", '"') else value)
-        match = re.compile(r"[^\s,\]}]*").match(text, offset)
-        return shorten(match.group()) if match and match.group() else None
+        match = _PLAIN_WORD.match(text, offset)
+        return shorten(match.group()) if match else None
 
 
 def _step(marks: Marks, key: str | int) -> Marks | None:
@@ -134,8 +135,9 @@ def _flow_sequence(text: str) -> str | None:
 
 
 def shorten(text: str) -> str:
-    """A text on one line, cut in the middle of nowhere rather than filling the screen."""
+    """A text on one line, cut where it would fill the screen, with nothing in it that a terminal acts on."""
     line = " ".join(text[: 4 * _LONGEST_VALUE].split())
+    line = "".join(character if character.isprintable() else "\ufffd" for character in line)
     return line if len(line) <= _LONGEST_VALUE and len(text) <= 4 * _LONGEST_VALUE else line[: _LONGEST_VALUE - 1] + "…"
 
 
@@ -143,5 +145,5 @@ def key_text(path: Sequence[str | int]) -> str:
     """``blocks[3].wall.length``."""
     text = ""
     for key in path:
-        text += f"[{key}]" if isinstance(key, int) else f".{key}" if text else key
+        text += f"[{key}]" if isinstance(key, int) else f".{shorten(key)}" if text else shorten(key)
     return text

@@ -145,12 +145,11 @@ def _words(data: Any, path: KeyPath, error: Any) -> tuple[str, bool]:
         return f"must be {listed(allowed)}{hint}", False
     if kind == "string_pattern_mismatch":
         return PATTERNS[context["pattern"]], is_key
-    return _MESSAGES[kind].format(**context), is_key
+    return _MESSAGES[kind].format(**context) if kind in _MESSAGES else error["msg"], is_key
 
 
 def _unknown_key(path: KeyPath) -> str:
-    allowed = allowed_keys(DeckContent, path[:-1])
-    return unknown("key", str(path[-1]), allowed)
+    return unknown("key", str(path[-1]), allowed_keys(DeckContent, path[:-1]))
 
 
 def _items(data: Any, path: KeyPath) -> str:

@@ -58,5 +58,10 @@ def test_long_values_are_cut() -> None:
     assert shorten("two\n  lines") == "two lines"
 
 
+def test_nothing_reaches_the_terminal_but_text() -> None:
+    assert shorten("a\x1b[31mb\u202ec") == "a\ufffd[31mb\ufffdc"
+    assert key_text(("a\x07", "x" * 100)) == "a\ufffd." + "x" * 59 + "…"
+
+
 def test_key_text() -> None:
     assert key_text(("blocks", 3, "wall", "length")) == "blocks[3].wall.length"

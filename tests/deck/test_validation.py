@@ -74,6 +74,13 @@ def test_faults_in_a_mapping_whose_first_key_is_refused(tmp_path: Path) -> None:
     ]
 
 
+def test_root_that_is_no_mapping_and_faulty_itself(tmp_path: Path) -> None:
+    assert faults(write(tmp_path, "- .nan\n")) == [
+        "deck.yaml:1:1 is not a mapping: a deck is a mapping that begins with mbla: 1",
+        "deck.yaml:1:3 [0] = .nan: must be a finite number",
+    ]
+
+
 def test_users_of_a_faulty_parameter_are_not_reported(tmp_path: Path) -> None:
     for value in ("true", '"=nu"', '"0.6"', "[1]", "~"):
         messages = faults(write(tmp_path, changed("{mu: 0.6}", f"{{mu: {value}}}")))
