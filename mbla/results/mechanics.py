@@ -93,7 +93,7 @@ def curvature_sides(model: Model, contacts: Contacts) -> FloatArray:
     in_chain = np.zeros(n_bodies, dtype=bool)
     in_chain[: len(model.blocks)] = ~model.fixed
     in_chain &= degree == 2
-    inner = in_chain[contacts.bodies].all(axis=1)
+    inner = np.asarray(in_chain[contacts.bodies].all(axis=1))
     outward = np.zeros((len(contacts), 3))
     a, b = contacts.bodies[inner].T
     chord = model.blocks.centroids[b] - model.blocks.centroids[a]
