@@ -29,8 +29,8 @@ def did_you_mean(word: str, allowed: Iterable[str]) -> str:
 
 def listed(names: Iterable[str], last: str = "or") -> str:
     """``a, b or c``; only the first of many names."""
-    all_names = [shorten(name) for name in names]
-    shown = all_names[:_MOST_NAMES]
+    all_names = list(names)
+    shown = [shorten(name) for name in all_names[:_MOST_NAMES]]
     if len(all_names) > len(shown):
         return ", ".join(shown) + f" and {len(all_names) - len(shown)} more"
     return f" {last} ".join(filter(None, (", ".join(shown[:-1]), shown[-1]))) if shown else "none"

@@ -137,7 +137,8 @@ def _flow_sequence(text: str) -> str | None:
 def shorten(text: str) -> str:
     """A text on one line, cut where it would fill the screen, with nothing in it that a terminal acts on."""
     line = " ".join(text[: 4 * _LONGEST_VALUE].split())
-    line = "".join(character if character.isprintable() else "\ufffd" for character in line)
+    if not line.isprintable():
+        line = "".join(character if character.isprintable() else "\ufffd" for character in line)
     return line if len(line) <= _LONGEST_VALUE and len(text) <= 4 * _LONGEST_VALUE else line[: _LONGEST_VALUE - 1] + "…"
 
 
