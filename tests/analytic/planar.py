@@ -51,7 +51,7 @@ class Rectangle:
 def load_factor(joints: Sequence[PlanarJoint], centroids: Array, dead: Array, live: Array) -> float | None:
     """Greatest factor on ``live`` in equilibrium with ``dead``; None where there is none, inf where there is no limit.
 
-    centroids : (n, 2); dead, live : (n, 2) forces at the centroids
+    centroids : (n, 2); dead, live : (n, 2) forces at the centroids, or (n, 3) with moments x Fz - z Fx about them
     """
     n, m = len(centroids), len(joints)
     rows, columns, values = [], [], []
@@ -72,11 +72,12 @@ def load_factor(joints: Sequence[PlanarJoint], centroids: Array, dead: Array, li
             slip_columns += [3 * j, 3 * j + 1, 3 * j + 2]
             slip_values += [-joint.mu, -joint.mu, sign]
     loads = np.zeros((n, 3))
-    loads[:, :2] = live
+    loads[:, : live.shape[1]] = live
     unit = np.abs(dead).max()
     equilibrium = sp.csr_array((values, (rows, columns)), shape=(3 * n, 3 * m))
     equilibrium = sp.hstack([equilibrium, sp.csr_array(loads.reshape(-1, 1) / unit)]).tocsr()
-    loads[:, :2] = dead
+    loads[:] = 0.0
+    loads[:, : dead.shape[1]] = dead
     friction = sp.csr_array((slip_values, (slip_rows, slip_columns)), shape=(2 * m, 3 * m + 1))
     answer = linprog(
         np.append(np.zeros(3 * m), -1.0),
@@ -153,8 +154,8 @@ class Arch:
     points: Array
 
 
-def arch_load_factor(arch: Arch, mu: float) -> float | None:
-    """Associative load factor of an arch between two springings on ground, pushed along +x in proportion to weight."""
+def arch_load_factor(arch: Arch, mu: float, live: Array | None = None) -> float | None:
+    """Associative load factor of an arch between two springings on ground; pushed along +x by its weight unless ``live``."""
     joints = []
     n = len(arch.weights)
     for i, angle in enumerate(arch.angles):
@@ -162,8 +163,8 @@ def arch_load_factor(arch: Arch, mu: float) -> float | None:
         normal = np.array([np.cos(angle), -np.sin(angle)])       # direction of travel along the arch
         a, b = i - 1, (i if i < n else GROUND)
         joints.append(PlanarJoint(a, b, arch.inner * ray, arch.outer * ray, normal, mu))
-    dead, live = np.outer(arch.weights, [0.0, -1.0]), np.outer(arch.weights, [1.0, 0.0])
-    return load_factor(joints, arch.points, dead, live)
+    dead = np.outer(arch.weights, [0.0, -1.0])
+    return load_factor(joints, arch.points, dead, np.outer(arch.weights, [1.0, 0.0]) if live is None else live)
 
 
 def centre_line_arch(thickness: float, voussoirs: int, radius: float = 1.0) -> Arch:
