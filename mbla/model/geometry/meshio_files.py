@@ -8,6 +8,7 @@ from __future__ import annotations
 import contextlib
 import io
 import logging
+import re
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import chain
 from pathlib import Path
@@ -48,33 +49,45 @@ PIXEL = (0, 1, 3, 2)
 """corners of a VTK pixel in order around it"""
 
 
+WITHOUT_DIMENSION = {"wedge12": 3, "wedge15": 3, "pyramid13": 3, "hexahedron24": 3, "penta_prism": 3, "hexa_prism": 3}
+"""cells that meshio's readers know and its mesh does not, for want of a number of dimensions"""
+
+
 def read_ply(path: Path) -> Geometry:
     """Closed parts of a PLY surface."""
-    return _read(path, "ply")
+    try:
+        header, end, body = path.read_bytes().partition(b"end_header")
+    except OSError as error:
+        raise GeometryFileError(f"cannot be read: {error.strerror or error}") from error
+    if not end:  # meshio would look for it for ever
+        raise GeometryFileError("is not a well-formed PLY file: its header has no end")
+    # both names are in use, meshio knows one
+    header = re.sub(rb"(property\s+list\s+\S+\s+\S+\s+)vertex_index\b", rb"\1vertex_indices", header)
+    return _read(io.BytesIO(header + end + body), "ply")
 
 
 def read_stl(path: Path) -> Geometry:
     """Closed parts of an STL surface, after joining the corners that coincide."""
-    return _read(path, "stl")
+    return _read(str(path), "stl")
 
 
 def read_vtu(path: Path) -> Geometry:
     """Volume cells, or closed parts of surfaces, of a VTU file."""
-    return _read(path, "vtu")
+    return _read(str(path), "vtu")
 
 
 def read_msh(path: Path) -> Geometry:
     """Volume cells, or closed parts of surfaces, of a Gmsh file."""
-    return _read(path, "gmsh")
+    return _read(str(path), "gmsh")
 
 
 def read_inp(path: Path) -> Geometry:
     """Volume cells, or closed parts of surfaces, of an Abaqus or CalculiX input file."""
-    return _read(path, "abaqus")
+    return _read(str(path), "abaqus")
 
 
-def _read(path: Path, file_format: str) -> Geometry:
-    mesh, remarks = _mesh(path, file_format)
+def _read(source: str | io.BytesIO, file_format: str) -> Geometry:
+    mesh, remarks = _mesh(source, file_format)
     points = _points(mesh)
     volumes = [
         block for block in mesh.cells if _shape(block.type) in VOLUME_CELLS or block.type.startswith("polyhedron")
@@ -98,15 +111,14 @@ def _read(path: Path, file_format: str) -> Geometry:
     return Geometry(geometry.polyhedra, (*notices, *geometry.notices))
 
 
-def _mesh(path: Path, file_format: str) -> tuple[Any, list[Notice]]:
+def _mesh(source: str | io.BytesIO, file_format: str) -> tuple[Any, list[Notice]]:
     """The file as meshio gives it, and what meshio would have printed."""
     printed = io.StringIO()
     try:
-        import meshio
-
+        meshio = _meshio()
         with contextlib.redirect_stdout(printed), contextlib.redirect_stderr(printed), np.errstate(all="ignore"):
             # the reader itself: meshio.read prints, and ends the program, where a file is malformed
-            mesh = getattr(meshio, file_format).read(str(path))
+            mesh = getattr(meshio, file_format).read(source)
     except OSError as error:
         raise GeometryFileError(f"cannot be read: {error.strerror or error}") from error
     except (Exception, SystemExit) as error:  # the readers let all kinds of exceptions through
@@ -115,6 +127,16 @@ def _mesh(path: Path, file_format: str) -> tuple[Any, list[Notice]]:
         raise GeometryFileError(f"is not a well-formed {WORDS[file_format]} file{reason}") from error
     words = " ".join(printed.getvalue().split())
     return mesh, [Notice("warning", "mesh-file-remarks", words[:500])] if words else []
+
+
+def _meshio() -> Any:
+    """The library, imported late, for it takes half a second, and completed."""
+    import meshio
+    from meshio._mesh import topological_dimension
+
+    for kind, dimension in WITHOUT_DIMENSION.items():
+        topological_dimension.setdefault(kind, dimension)
+    return meshio
 
 
 def _points(mesh: Any) -> FloatArray:
@@ -137,7 +159,10 @@ def _volume_cells(points: FloatArray, block: Any) -> Polyhedra:
     if block.type.startswith("polyhedron"):
         return _polyhedron_cells(points, block.data)
     count, faces = VOLUME_CELLS[_shape(block.type)]
-    rows = np.asarray(block.data, dtype=np.int64)[:, :count]
+    rows = np.asarray(block.data, dtype=np.int64)
+    if rows.ndim != 2 or rows.shape[1] < count:
+        raise GeometryFileError(f"a cell of type {block.type} has fewer than {count} points")
+    rows = rows[:, :count]
     _check_rows(rows, points)
     return polyhedra_from_cells(points[rows], faces)
 
@@ -198,8 +223,7 @@ def write_mesh(
     FileError
         where the file cannot be written
     """
-    import meshio
-
+    meshio = _meshio()
     printed = io.StringIO()
     try:
         with contextlib.redirect_stdout(printed), contextlib.redirect_stderr(printed):

@@ -18,8 +18,9 @@ from mbla.model.geometry.geometry import Geometry, GeometryFileError
 from mbla.model.geometry.surfaces import split_surface
 from mbla.model.geometry.welding import own_vertices, weld, welding_notices
 from mbla.model.polyhedra import Polyhedra
+from mbla.model.wording import counted, was
 
-LEFT_OUT = {"l": "lines", "p": "points", "curv": "curves", "curv2": "curves", "surf": "free-form surfaces"}
+LEFT_OUT = {"l": "line", "p": "point", "curv": "curve", "curv2": "curve", "surf": "free-form surface"}
 """elements that carry geometry but no block"""
 
 
@@ -51,8 +52,8 @@ def read_obj(path: Path) -> Geometry:
     whole = not content.object_count and not content.group_count
     polyhedra = _collect(content, np.array(labels, dtype=np.int64))
     notices = [
-        Notice("warning", "mesh-cells-left-out", f"{count} {words} are not blocks and were left out")
-        for words, count in content.left_out.items()
+        Notice("warning", "mesh-cells-left-out", f"{counted(count, noun)} {was(count)} left out: no block")
+        for noun, count in content.left_out.items()
     ]
     if whole:
         geometry = split_surface(polyhedra)
@@ -107,8 +108,8 @@ def _read_line(content: _Content, keyword: str, rest: str) -> None:
     elif keyword == "g":
         content.group_count += 1
     elif keyword in LEFT_OUT:
-        words = LEFT_OUT[keyword]
-        content.left_out[words] = content.left_out.get(words, 0) + 1
+        noun = LEFT_OUT[keyword]
+        content.left_out[noun] = content.left_out.get(noun, 0) + 1
 
 
 def _vertex(token: str, count: int) -> int:

@@ -1,0 +1,76 @@
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from mbla.deck.types import BlockItem, BoxItem, MeshItem, PolyhedronItem
+from mbla.model.generators import GENERATORS
+from mbla.model.generators.generator import ItemRefused, Site
+from mbla.model.generators.mesh import generate_mesh
+from tests.model.shapes import TETRAHEDRON, box, build_raw
+
+
+def site(folder: Path) -> Site:
+    return Site(1e-3, lambda path, name: folder / name)
+
+
+def test_every_kind_of_item_has_a_generator_and_no_other() -> None:
+    assert set(GENERATORS) == set(BlockItem.model_fields)
+
+
+@pytest.mark.parametrize("kind", list(GENERATORS))
+def test_every_generator_has_a_file_and_a_test(kind: str) -> None:
+    assert GENERATORS[kind].__module__ == f"mbla.model.generators.{kind}"
+    folder = Path(__file__).parent
+    assert any(
+        f"generate_{kind}" in path.read_text() or f'"{kind}"' in path.read_text() for path in folder.glob("test_*.py")
+    )
+
+
+def test_box(tmp_path: Path) -> None:
+    item = BoxItem(material="stone", min=(-1, 2, 3), max=(0, 4, 6))
+    (part,) = GENERATORS["box"](item, site(tmp_path)).parts
+    built = build_raw(part.polyhedra)
+    assert built.notices == ()
+    assert built.blocks.volumes == pytest.approx([6])
+    assert built.blocks.centroids.tolist() == [[-0.5, 3, 4.5]]
+
+
+def test_polyhedron(tmp_path: Path) -> None:
+    item = PolyhedronItem.model_validate({"material": "stone", "vertices": TETRAHEDRON[0], "faces": TETRAHEDRON[1]})
+    (part,) = GENERATORS["polyhedron"](item, site(tmp_path)).parts
+    assert part.polyhedra.vertices.tolist() == TETRAHEDRON[0]
+    assert part.polyhedra.loops.reshape(-1, 3).tolist() == TETRAHEDRON[1]
+
+
+def write_obj(path: Path, n: int) -> None:
+    lines = []
+    for number in range(n):
+        vertices, faces = box((2 * number, 0, 0), (2 * number + 1, 1, 1))
+        lines += [f"o block {number}", *(f"v {x} {y} {z}" for x, y, z in vertices)]
+        lines += [f"f {' '.join(str(corner + 1 + 8 * number) for corner in face)}" for face in faces]
+    path.write_text("\n".join(lines))
+
+
+def test_mesh_is_scaled(tmp_path: Path) -> None:
+    write_obj(tmp_path / "row.obj", 3)
+    made = generate_mesh(MeshItem(material="stone", file="row.obj", scale=0.01), site(tmp_path))
+    built = build_raw(made.parts[0].polyhedra)
+    assert built.blocks.volumes == pytest.approx([1e-6] * 3)
+    assert built.blocks.centroids[2] == pytest.approx([0.045, 0.005, 0.005])
+
+
+def test_mesh_that_cannot_be_read(tmp_path: Path) -> None:
+    (tmp_path / "row.obj").write_text("v 1 2")
+    with pytest.raises(ItemRefused) as caught:
+        generate_mesh(MeshItem(material="stone", file="row.obj"), site(tmp_path))
+    assert caught.value.findings == ((("file",), "line 1 cannot be read: a vertex has three coordinates"),)
+
+
+def test_notices_of_a_mesh_name_the_file(tmp_path: Path) -> None:
+    write_obj(tmp_path / "row.obj", 1)
+    with (tmp_path / "row.obj").open("a") as stream:
+        stream.write("\nl 1 2\n")
+    made = generate_mesh(MeshItem(material="stone", file="row.obj"), site(tmp_path))
+    assert [notice.message for notice in made.notices] == ["row.obj: 1 line was left out: no block"]

@@ -1,0 +1,166 @@
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from mbla.model.geometry.geometry import GeometryFileError
+from mbla.model.geometry.obj import read_obj
+from tests.model.shapes import box, build_raw, prism
+
+DATA = Path(__file__).parents[3] / "decks" / "tutorials" / "data"
+CUBE = """v 0 0 0
+v 1 0 0
+v 1 1 0
+v 0 1 0
+v 0 0 1
+v 1 0 1
+v 1 1 1
+v 0 1 1
+"""
+FACES = "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n"
+
+
+def volumes(path: Path, text: str) -> list[float]:
+    path.write_text(text)
+    built = build_raw(read_obj(path).polyhedra)
+    assert not built.defects
+    return [float(volume) for volume in built.blocks.volumes]
+
+
+def obj(path: Path) -> Path:
+    return path / "blocks.obj"
+
+
+def test_cross_vault() -> None:
+    geometry = read_obj(DATA / "crossvault.obj")
+    built = build_raw(geometry.polyhedra)
+    assert len(built.blocks) == 184
+    assert not built.defects
+    assert len(built.blocks.vertices) == 1624
+    assert len(built.blocks.face_normals) == 1264
+    assert [notice.identifier for notice in (*geometry.notices, *built.notices)] == ["faces-not-quite-planar"]
+    assert built.blocks.volumes.sum() == pytest.approx(3524256.03, abs=0.01)
+
+
+def test_wall() -> None:
+    built = build_raw(read_obj(DATA / "wall.obj").polyhedra)
+    assert len(built.blocks) == 38
+    assert built.notices == ()
+    assert not built.defects
+
+
+def test_the_data_carries_its_licence_and_origin() -> None:
+    assert "MIT License" in (DATA / "LICENSE-compas_dem.txt").read_text()
+    assert "559107e09615ccb6e960f6ac15a11a3e00b60799" in (DATA / "README.md").read_text()
+
+
+def test_objects_are_blocks(tmp_path: Path) -> None:
+    second = CUBE.replace("v 0", "v 5").replace("v 1", "v 7")
+    shifted = "\n".join("f " + " ".join(str(int(c) + 8) for c in line.split()[1:]) for line in FACES.splitlines())
+    text = f"o one\n{CUBE}{FACES}o two\n{second}{shifted}\n"
+    assert volumes(obj(tmp_path), text) == [1, 2]
+
+
+def test_vertices_may_all_come_first_and_objects_may_share_them(tmp_path: Path) -> None:
+    vertices = "".join(f"v {x} {y} {z}\n" for z in (0, 1, 2) for x, y in ((0, 0), (1, 0), (1, 1), (0, 1)))
+    upper = "\n".join("f " + " ".join(str(int(c) + 4) for c in line.split()[1:]) for line in FACES.splitlines())
+    assert volumes(obj(tmp_path), f"{vertices}o low\n{FACES}o high\n{upper}\n") == [1, 1]
+
+
+def test_groups_are_blocks_where_there_are_no_objects(tmp_path: Path) -> None:
+    vertices = "".join(f"v {x} {y} {z}\n" for z in (0, 1, 2) for x, y in ((0, 0), (1, 0), (1, 1), (0, 1)))
+    upper = "\n".join("f " + " ".join(str(int(c) + 4) for c in line.split()[1:]) for line in FACES.splitlines())
+    assert volumes(obj(tmp_path), f"{vertices}g low\n{FACES}g high\n{upper}\n") == [1, 1]
+
+
+def test_groups_inside_an_object_are_one_block(tmp_path: Path) -> None:
+    first, rest = FACES.split("\n", 1)
+    assert volumes(obj(tmp_path), f"o cube\n{CUBE}g bottom\n{first}\ng rest\n{rest}") == [1]
+
+
+def test_a_file_without_objects_is_split_into_closed_parts(tmp_path: Path) -> None:
+    second = CUBE.replace("v 0", "v 5").replace("v 1", "v 7")
+    shifted = "\n".join("f " + " ".join(str(int(c) + 8) for c in line.split()[1:]) for line in FACES.splitlines())
+    assert volumes(obj(tmp_path), f"{CUBE}{second}{FACES}{shifted}\n") == [1, 2]
+
+
+@pytest.mark.parametrize("form", ["{}/{}", "{}//{}", "{}/{}/{}"])
+def test_texture_and_normal_indices_are_ignored(tmp_path: Path, form: str) -> None:
+    faces = "\n".join("f " + " ".join(form.format(c, c, c) for c in line.split()[1:]) for line in FACES.splitlines())
+    text = f"mtllib x.mtl\no cube\n{CUBE}vt 0 0\nvn 0 0 1\nusemtl stone\ns off\n{faces}\n"
+    assert volumes(obj(tmp_path), text) == [1]
+
+
+def test_negative_indices_count_back(tmp_path: Path) -> None:
+    faces = "\n".join("f " + " ".join(str(int(c) - 9) for c in line.split()[1:]) for line in FACES.splitlines())
+    assert volumes(obj(tmp_path), f"o one\n{CUBE}{faces}\no two\n{CUBE}{faces}\n") == [1, 1]
+
+
+def test_comments_colours_tabs_and_continued_lines(tmp_path: Path) -> None:
+    vertices = CUBE.replace("v 0 0 0", "v\t0\t0 0 1.0 0.5 0.5 # corner")
+    faces = FACES.replace("f 1 4 3 2", "f 1 4 \\\n 3 2")
+    assert volumes(obj(tmp_path), f"# a cube\n\no cube\n{vertices}{faces}") == [1]
+
+
+def test_polygons(tmp_path: Path) -> None:
+    vertices, faces = prism([(0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2)])
+    lines = [f"v {x} {y} {z}" for x, y, z in vertices] + ["f " + " ".join(str(c + 1) for c in face) for face in faces]
+    assert volumes(obj(tmp_path), "\n".join(lines)) == [3]
+
+
+def test_unwelded_corners_are_merged_with_a_notice(tmp_path: Path) -> None:
+    vertices, faces = box()
+    lines = ["o cube"]
+    for number, face in enumerate(faces):
+        lines += ["v " + " ".join(map(str, vertices[corner])) for corner in face]
+        lines.append("f " + " ".join(str(4 * number + i) for i in (1, 2, 3, 4)))
+    assert volumes(obj(tmp_path), "\n".join(lines)) == [1]
+    assert [notice.message for notice in read_obj(obj(tmp_path)).notices] == [
+        "16 vertices at the same place as another of their block were merged"
+    ]
+
+
+def test_orphan_vertices_are_ignored(tmp_path: Path) -> None:
+    path = obj(tmp_path)
+    path.write_text(f"o cube\n{CUBE}v 9 9 9\n{FACES}")
+    assert len(read_obj(path).polyhedra.vertices) == 8
+
+
+def test_an_empty_object_is_no_block(tmp_path: Path) -> None:
+    assert volumes(obj(tmp_path), f"o nothing\no cube\n{CUBE}{FACES}o nothing\n") == [1]
+
+
+def test_file_without_faces_has_no_blocks(tmp_path: Path) -> None:
+    obj(tmp_path).write_text(CUBE)
+    assert len(read_obj(obj(tmp_path)).polyhedra) == 0
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("v 1 2", "line 1 cannot be read: a vertex has three coordinates"),
+        ("v 1 2 x", "line 1 cannot be read: could not convert string to float: 'x'"),
+        (CUBE + "f 1 2", "line 9 cannot be read: a face has at least three corners"),
+        (CUBE + "f 1 2 0", "line 9 cannot be read: there is no vertex 0, 8 precede this line"),
+        (CUBE + "f 1 2 9", "line 9 cannot be read: there is no vertex 9, 8 precede this line"),
+        (CUBE + "f 1 2 -9", "line 9 cannot be read: there is no vertex -9, 8 precede this line"),
+        (CUBE + "f 1 2 a", "line 9 cannot be read: invalid literal for int() with base 10: 'a'"),
+    ],
+)
+def test_malformed(tmp_path: Path, text: str, message: str) -> None:
+    obj(tmp_path).write_text(text)
+    with pytest.raises(GeometryFileError) as caught:
+        read_obj(obj(tmp_path))
+    assert str(caught.value) == message
+
+
+def test_binary_rubbish_is_no_traceback(tmp_path: Path) -> None:
+    path = obj(tmp_path)
+    path.write_bytes(np.random.default_rng(0).bytes(4000))
+    try:
+        read_obj(path)
+    except GeometryFileError:
+        return
+    assert len(read_obj(path).polyhedra) == 0
