@@ -14,7 +14,6 @@ from mbla.deck.types import BlockItem, Item, JointLaw, Material
 from mbla.deck.units import Units
 from mbla.errors import DeckError, Fault, Notice
 from mbla.model.build_blocks import BuiltBlocks, Labels, build_blocks, indices_in_groups
-from mbla.model.defects import Defect
 from mbla.model.generators import GENERATORS
 from mbla.model.generators.generator import Generated, ItemRefused, KeyPath, Site
 from mbla.model.loads import LoadSite, build_load_case
@@ -181,18 +180,17 @@ def _defects_in_words(deck: Deck, built: BuiltBlocks, item_of_block: Sequence[in
         number = item_of_block[defect.block]
         told[number] += 1
         if told[number] <= MOST_FAULTS_PER_ITEM:
-            path = _path_of_defect(deck, defect, number)
+            path = _path_of_defect(deck, defect.face, number)
             faults.append(deck.fault_at(path, f"block {built.blocks.name(defect.block)}: {defect.message}"))
     for number, count in told.items():
         if count > MOST_FAULTS_PER_ITEM:
-            kind, _ = _kind(deck.content.blocks[number])
             message = f"{count - MOST_FAULTS_PER_ITEM} more blocks of this item are refused"
-            faults.append(deck.fault_at(("blocks", number, kind), message))
+            faults.append(deck.fault_at(_path_of_defect(deck, None, number), message))
     return faults
 
 
-def _path_of_defect(deck: Deck, defect: Defect, number: int) -> KeyPath:
+def _path_of_defect(deck: Deck, face: int | None, number: int) -> KeyPath:
     kind, _ = _kind(deck.content.blocks[number])
-    if kind == "polyhedron" and defect.face is not None:
-        return ("blocks", number, kind, "faces", defect.face)
+    if kind == "polyhedron" and face is not None:
+        return ("blocks", number, kind, "faces", face)
     return ("blocks", number, kind, "file") if kind == "mesh" else ("blocks", number, kind)

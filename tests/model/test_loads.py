@@ -1,0 +1,148 @@
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from mbla.errors import DeckError
+from mbla.model import build_model
+from mbla.model.model import LoadCase, Model
+from tests.model.shapes import deck
+
+BLOCKS = [
+    "box: {group: base, material: stone, min: [0, 0, 0], max: [1, 1, 1]}",
+    "box: {group: top, material: stone, min: [0, 0, 1], max: [1, 1, 3]}",
+    "box: {group: top, material: stone, min: [0, 0, 3], max: [1, 1, 4]}",
+]
+FIXED = "[{blocks: base}]"
+
+
+def model(folder: Path, loads: str, units: str = "", supports: str = FIXED) -> Model:
+    return build_model(deck(folder, BLOCKS, supports, loads, units))
+
+
+def case(folder: Path, loads: str, units: str = "", supports: str = FIXED) -> LoadCase:
+    return model(folder, loads, units, supports).load_cases[0]
+
+
+def messages(folder: Path, loads: str) -> list[str]:
+    with pytest.raises(DeckError) as caught:
+        model(folder, loads)
+    return [f"{fault.key}: {fault.message}" for fault in caught.value.faults]
+
+
+def test_default_dead_load_is_gravity(tmp_path: Path) -> None:
+    found = case(tmp_path, "live: [{acceleration: [1, 0, 0]}]")
+    assert found.dead_load[:, 2] == pytest.approx(-9.81 * 2000 * np.array([1, 2, 1]))
+    assert not found.dead_load[:, [0, 1, 3, 4, 5]].any()
+    assert found.dead_words == ("gravity (0, 0, -9.81) m/s2",)
+    assert found.name == "push"
+
+
+def test_acceleration_is_in_units_of_g(tmp_path: Path) -> None:
+    found = case(tmp_path, "live: [{acceleration: [0.5, 0, -1]}]")
+    assert found.live_load[:, 0] == pytest.approx(0.5 * 9.81 * 2000 * np.array([1, 2, 1]))
+    assert found.live_load[:, 2] == pytest.approx(-9.81 * 2000 * np.array([1, 2, 1]))
+    assert found.live_words == ("acceleration (0.5, 0, -1) g",)
+
+
+def test_acceleration_on_a_selection(tmp_path: Path) -> None:
+    found = case(tmp_path, "live: [{acceleration: [1, 0, 0], on: top}]")
+    assert found.live_load[:, 0] == pytest.approx(9.81 * 2000 * np.array([0, 2, 1]))
+    assert found.live_words == ("acceleration (1, 0, 0) g on 2 blocks",)
+
+
+@pytest.mark.parametrize(
+    ("units", "gravity"),
+    [
+        ("length: mm, force: kN, mass: t", 9810),
+        ("length: ft, force: lbf, mass: lb", 32.185),
+        ("length: m, force: kN", 9.81),
+    ],
+)
+def test_an_acceleration_of_one_g_weighs_as_much_as_gravity(tmp_path: Path, units: str, gravity: float) -> None:
+    found = case(tmp_path, f"dead: [{{gravity: [0, 0, {-gravity}]}}], live: [{{acceleration: [0, 0, -1]}}]", units)
+    assert found.dead_load == pytest.approx(found.live_load, rel=1e-5)
+
+
+def test_force_at_the_centroid_has_no_moment(tmp_path: Path) -> None:
+    found = case(tmp_path, "live: [{force: [10, 20, 30], on: {group: top, index: 1}}]")
+    assert found.live_load[2].tolist() == [10, 20, 30, 0, 0, 0]
+    assert not found.live_load[:2].any()
+    assert found.live_words == ("force (10, 20, 30) N on top[1] at its centroid",)
+
+
+def test_force_at_a_point_brings_its_moment(tmp_path: Path) -> None:
+    found = case(tmp_path, "live: [{force: [10, 20, 30], on: {group: top, index: 0}, at: [1, 0.5, 2.5]}]")
+    assert found.live_load[1] == pytest.approx([10, 20, 30, *np.cross([0.5, 0, 0.5], [10, 20, 30])])
+    assert found.live_words == ("force (10, 20, 30) N on top[0] at (1, 0.5, 2.5)",)
+
+
+def test_loads_add_up(tmp_path: Path) -> None:
+    force = "{{force: [{}, 0, 0], on: {{group: top, index: 0}}}}"
+    loads = f"live: [{force.format(1)}, {force.format(2)}, {{acceleration: [0, 1, 0]}}]"
+    found = case(tmp_path, loads)
+    assert found.live_load[1] == pytest.approx([3, 9.81 * 4000, 0, 0, 0, 0])
+    assert len(found.live_words) == 3
+
+
+def test_no_dead_load_at_all(tmp_path: Path) -> None:
+    found = case(tmp_path, "dead: [], live: [{acceleration: [1, 0, 0]}]")
+    assert not found.dead_load.any()
+    assert found.dead_words == ()
+
+
+def test_loads_on_fixed_blocks_are_kept(tmp_path: Path) -> None:
+    found = case(tmp_path, "live: [{acceleration: [1, 0, 0]}]")
+    assert found.live_load[0, 0] == pytest.approx(9.81 * 2000)
+
+
+def test_dead_force_on_a_fixed_block_is_remarked_on(tmp_path: Path) -> None:
+    found = model(tmp_path, "dead: [{force: [0, 0, -5], on: base}], live: [{acceleration: [1, 0, 0]}]")
+    assert found.load_cases[0].dead_load[0].tolist() == [0, 0, -5, 0, 0, 0]
+    assert [(notice.severity, notice.identifier) for notice in found.notices] == [("warning", "dead-load-on-support")]
+
+
+@pytest.mark.parametrize(("x", "remarked"), [(1.0, False), (1.01, False), (1.05, True), (-3.0, True)])
+def test_force_outside_its_block(tmp_path: Path, x: float, remarked: bool) -> None:
+    found = model(tmp_path, f"live: [{{force: [1, 0, 0], on: {{group: top, index: 0}}, at: [{x}, 0.5, 2]}}]")
+    assert [notice.identifier for notice in found.notices] == ["force-outside-block"] * remarked
+
+
+def test_words_of_a_force_outside_its_block(tmp_path: Path) -> None:
+    found = model(tmp_path, "live: [{force: [1, 0, 0], on: {group: top, index: 0}, at: [1.5, 0.5, 2]}]")
+    assert found.notices[0].message == (
+        "the force (1, 0, 0) N on top[0] at (1.5, 0.5, 2) acts 0.5 m outside that block; its moment is kept"
+    )
+
+
+def test_force_on_several_blocks(tmp_path: Path) -> None:
+    assert messages(tmp_path, "live: [{force: [1, 0, 0], on: top}]") == [
+        "load_cases.push.live[0].on: a force acts on one block, 2 are selected: give an index, or one force for each"
+    ]
+
+
+def test_live_force_on_a_fixed_block(tmp_path: Path) -> None:
+    assert messages(tmp_path, "live: [{acceleration: [1, 0, 0]}, {force: [1, 0, 0], on: base}]") == [
+        "load_cases.push.live[1].on: every block it acts on is fixed: the live load has no effect"
+    ]
+
+
+def test_live_acceleration_on_fixed_blocks(tmp_path: Path) -> None:
+    assert messages(tmp_path, "live: [{acceleration: [1, 0, 0], on: base}]") == [
+        "load_cases.push.live[0].on: every block it acts on is fixed: the live load has no effect"
+    ]
+
+
+def test_live_loads_that_cancel_each_other(tmp_path: Path) -> None:
+    loads = "live: [{acceleration: [0.1, 0, 0]}, {acceleration: [0.2, 0, 0]}, {acceleration: [-0.3, 0, 0]}]"
+    assert messages(tmp_path, loads) == ["load_cases.push.live: the live loads cancel each other: they have no effect"]
+
+
+def test_a_couple_has_an_effect(tmp_path: Path) -> None:
+    where = "on: {group: top, index: 1}"
+    loads = (
+        f"live: [{{force: [1, 0, 0], {where}, at: [0.5, 0.5, 4]}}, {{force: [-1, 0, 0], {where}, at: [0.5, 0.5, 3]}}]"
+    )
+    assert case(tmp_path, loads).live_load[2] == pytest.approx([0, 0, 0, 0, 1, 0])

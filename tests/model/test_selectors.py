@@ -1,0 +1,70 @@
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+from pydantic import TypeAdapter
+
+from mbla.deck.types import Selector
+from mbla.errors import Fault, Place
+from mbla.model.build_blocks import Labels, build_blocks
+from mbla.model.polyhedra import cuboids
+from mbla.model.selectors import KeyPath, Roster, build_roster, select_blocks
+
+
+def fault_at(path: KeyPath, message: str) -> Fault:
+    return Fault(Place("deck", 1, 1), ".".join(map(str, path)), message)
+
+
+def roster(partial: frozenset[str] = frozenset()) -> Roster:
+    """Ten unit cubes along x; even ones are group a, odd ones b."""
+    least = np.array([[2.0 * i, 0, 0] for i in range(10)])
+    labels = Labels(("a", "b") * 5, np.repeat(np.arange(5), 2), np.ones(10))
+    return build_roster(build_blocks(cuboids(least, least + 1), labels, 1e-3).blocks, partial, fault_at)
+
+
+def select(selector: Any, partial: frozenset[str] = frozenset()) -> tuple[Any, list[Fault]]:
+    faults: list[Fault] = []
+    checked = TypeAdapter(Selector).validate_python(selector)
+    blocks = select_blocks(checked, ("on",), roster(partial), faults)
+    return None if blocks is None else blocks.tolist(), faults
+
+
+@pytest.mark.parametrize(
+    ("selector", "blocks"),
+    [
+        ("a", [0, 2, 4, 6, 8]),
+        ({"group": "b"}, [1, 3, 5, 7, 9]),
+        ({"group": "b", "index": 3}, [7]),
+        ({"box": [(3, 0, 0), (9, 1, 1)]}, [2, 3, 4]),
+        ({"box": [(0.5, 0.5, 0.5), (2.5, 0.6, 0.6)]}, [0, 1]),
+        (["a", {"group": "b", "index": 0}], [0, 1, 2, 4, 6, 8]),
+        (["a", "a", {"box": [(-1, -1, -1), (1, 1, 1)]}], [0, 2, 4, 6, 8]),
+    ],
+)
+def test_selection(selector: Any, blocks: list[int]) -> None:
+    assert select(selector) == (blocks, [])
+
+
+def test_unknown_index() -> None:
+    blocks, (fault,) = select([{"group": "a", "index": 5}, "b"])
+    assert blocks is None
+    assert (fault.key, fault.message) == ("on.0.index", "there is no such block: a has 5, index 0 to 4")
+
+
+def test_empty_box() -> None:
+    blocks, (fault,) = select({"box": [(0, 5, 0), (1, 6, 1)]})
+    assert blocks is None
+    assert fault.key == "on.box"
+    assert fault.message == ("no centroid of a block lies in it; they lie between (0.5, 0.5, 0.5) and (18.5, 0.5, 0.5)")
+
+
+def test_every_fault_of_a_list() -> None:
+    _, faults = select([{"group": "a", "index": 5}, {"group": "b", "index": 9}])
+    assert [fault.key for fault in faults] == ["on.0.index", "on.1.index"]
+
+
+@pytest.mark.parametrize("selector", ["a", {"group": "a", "index": 77}, ["b", "a"], {"box": [(0, 5, 0), (1, 6, 1)]}])
+def test_groups_that_could_not_be_built_are_not_judged(selector: Any) -> None:
+    assert select(selector, frozenset({"a"})) == (None, [])
