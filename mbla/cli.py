@@ -212,7 +212,7 @@ def _plot(options: argparse.Namespace) -> int:
     from mbla.results.pictures import plot_results
 
     results = read_results_hdf5(options.result)
-    target = options.output or options.result.with_suffix("")
+    target = options.output or options.result.parent
     for path in plot_results(results, target, options.result.stem, options.case):
         print(path)
     return 0

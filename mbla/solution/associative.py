@@ -23,6 +23,8 @@ from mbla.solution.solution import IterationRecord, Mechanics, ProgramRecord, St
 STANDS_MARGIN = 1e-7
 """A load factor is taken as negative only beyond this share of (dead load over live load): below it is solver noise."""
 
+WITH_VALUE = (Status.SOLVED, Status.APPROXIMATE)
+
 Log = Callable[[IterationRecord], None]
 
 
@@ -43,27 +45,30 @@ def solve_associative(program: Program, settings: SolverSettings, log: Log) -> A
     solver = ClarabelProgram(form.cone_program, settings, log)
     forward = solver.solve(1, program.scaling.live)
     records = [_record(program, 1, "associative", forward)]
-    if forward.status not in (Status.SOLVED, Status.UNBOUNDED, Status.NO_EQUILIBRIUM):
+    if forward.status not in (Status.SOLVED, Status.APPROXIMATE, Status.UNBOUNDED, Status.NO_EQUILIBRIUM):
         return AssociativeResult(forward.status, None, None, _words_of(forward), tuple(records))
     if forward.status is Status.NO_EQUILIBRIUM:
         return _no_equilibrium(program, form, forward.x, records)
-    if forward.status is Status.SOLVED and _negative(program, forward.objective):
+    if forward.status in WITH_VALUE and _negative(program, forward.objective):
         return _no_equilibrium(program, form, forward.x, records)
 
     solver.update(rhs=-form.cone_program.rhs)
     reverse = solver.solve(2, -program.scaling.live)
     records.append(_record(program, 2, "reverse", reverse, sign=-1.0))
     if reverse.status is Status.NO_EQUILIBRIUM or (
-        reverse.status is Status.SOLVED and _negative(program, reverse.objective)
+        reverse.status in WITH_VALUE and _negative(program, reverse.objective)
     ):
         return _no_equilibrium(program, form, reverse.x, records)
-    if reverse.status not in (Status.SOLVED, Status.UNBOUNDED):
+    if reverse.status not in (Status.SOLVED, Status.APPROXIMATE, Status.UNBOUNDED):
         reason = "whether the dead load alone is carried could not be decided: " + _words_of(reverse)
         return AssociativeResult(reverse.status, None, None, reason, tuple(records))
     if forward.status is Status.UNBOUNDED:
         reason = "no mechanism exists in which the live load does work: friction locks the structure under any multiple"
         return AssociativeResult(Status.UNBOUNDED, None, None, reason, tuple(records))
-    return AssociativeResult(Status.SOLVED, _mechanics(form, forward), None, "", tuple(records))
+    almost = next((solution for solution in (forward, reverse) if solution.status is Status.APPROXIMATE), None)
+    reason = "" if almost is None else _words_of(almost)
+    status = Status.SOLVED if almost is None else Status.APPROXIMATE
+    return AssociativeResult(status, _mechanics(form, forward), None, reason, tuple(records))
 
 
 def _negative(program: Program, objective: float) -> bool:

@@ -14,6 +14,7 @@ from mbla.arrays import FloatArray
 from mbla.errors import SolverError
 from mbla.program.kinematic import ConeProgram
 from mbla.solution.settings import SolverSettings
+from mbla.solution.signals import signals_held
 from mbla.solution.solution import IterationRecord, Status
 
 STATUS_MAP = {
@@ -38,6 +39,9 @@ UNDECIDED = (Status.APPROXIMATE, Status.NUMERICAL_ERROR, Status.ITERATION_LIMIT)
 
 FALLBACK_REGULARIZATION = 1e-8
 """Second try where the solver does not finish: programs whose feasible set has no interior want the larger value."""
+
+FALLBACK_TOLERANCE = 1e-8
+"""Third try: beyond this the solver often ends short; the verified bounds tell what the answer is worth."""
 
 
 @dataclass(frozen=True)
@@ -71,17 +75,18 @@ class ClarabelProgram:
     _raised: BaseException | None = field(init=False, default=None)
 
     def solve(self, program_number: int, to_load_factor: float) -> ConeSolution:
-        """Solve what is loaded; where the solver does not finish, once more with its own, larger regularisation.
+        """Solve what is loaded; where the solver does not finish, again with settings that are easier for it.
 
         to_load_factor : factor from the objective to the load factor, for the log
         Raises SolverError if the data are not finite (the solver would answer with a confident verdict).
         """
         solution = self._solve_once(program_number, to_load_factor)
-        if solution.status in UNDECIDED and self.settings.regularization < FALLBACK_REGULARIZATION:
-            self.settings = replace(self.settings, regularization=FALLBACK_REGULARIZATION)
-            self._solver = None
+        for easier in _easier(self.settings):
+            if solution.status not in UNDECIDED:
+                break
+            self.settings, self._solver = easier, None
             again = self._solve_once(program_number, to_load_factor)
-            return again if again.status not in UNDECIDED else solution
+            solution = again if again.status not in UNDECIDED or solution.status is not Status.APPROXIMATE else solution
         return solution
 
     def _solve_once(self, program_number: int, to_load_factor: float) -> ConeSolution:
@@ -91,8 +96,10 @@ class ClarabelProgram:
         if self._solver is None:
             self._solver = self._new_solver(clarabel)
         started = time.perf_counter()
-        self._solver.set_termination_callback(self._callback(program_number, to_load_factor, started))
-        result = self._solver.solve()
+        with signals_held() as signalled:
+            callback = self._callback(program_number, to_load_factor, started, signalled)
+            self._solver.set_termination_callback(callback)
+            result = self._solver.solve()
         if self._raised is not None:
             raised, self._raised = self._raised, None
             raise raised
@@ -164,7 +171,9 @@ class ClarabelProgram:
             setattr(settings, name, self.settings.tolerance)
         return settings
 
-    def _callback(self, program: int, to_load_factor: float, started: float) -> Callable[[Any], bool]:
+    def _callback(
+        self, program: int, to_load_factor: float, started: float, signalled: Callable[[], bool]
+    ) -> Callable[[Any], bool]:
         deadline = self.settings.deadline
 
         def callback(info: Any) -> bool:
@@ -173,7 +182,7 @@ class ClarabelProgram:
             except BaseException as error:  # the solver would print it and go on: kept, and raised after solve()
                 self._raised = error
                 return True
-            return deadline is not None and time.monotonic() > deadline
+            return signalled() or (deadline is not None and time.monotonic() > deadline)
 
         return callback
 
@@ -189,3 +198,10 @@ class ClarabelProgram:
             seconds=time.perf_counter() - started,
         )
         self.log(record)
+
+
+def _easier(settings: SolverSettings) -> tuple[SolverSettings, ...]:
+    """Settings to try in turn where a program was not decided; none that were tried already."""
+    regular = replace(settings, regularization=FALLBACK_REGULARIZATION)
+    loose = replace(regular, tolerance=max(settings.tolerance, FALLBACK_TOLERANCE))
+    return tuple(dict.fromkeys(easier for easier in (regular, loose) if easier != settings))

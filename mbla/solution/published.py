@@ -14,7 +14,9 @@ Published runs take α slightly above zero and stop when the load factor settles
 Tin-Loi: with α = 0.01 the load factor settles near 0.643, 0.402, 0.232 while single forces go on jumping and exceed
 their true friction by up to half a block's weight; any α > 0 is a dilatancy, which locks confined joints. With α = 0
 and β = 0.6 forces settle too, on solutions of the exact law (0.6415, 0.3731, 0.2197). So α = 0 is the default here, and
-the sequence stops only when load factor and forces have both settled; the solution it finds is one of many.
+the sequence stops only when the load factor has settled and forces and velocities fit the scheme's own law. Forces that
+jump along self-stresses are averaged over the last programs: the mean balances the mean load factor and lies closer to
+the true cones. The solution found is one of many.
 """
 
 from __future__ import annotations
@@ -25,7 +27,7 @@ import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.deck.types import PublishedScheme
-from mbla.program.kinematic import KinematicForm, kinematic_form
+from mbla.program.kinematic import kinematic_form
 from mbla.program.program import Program
 from mbla.program.yield_conditions import YieldLimits, yield_violation
 from mbla.solution.associative import AssociativeResult, Log
@@ -35,12 +37,11 @@ from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Mechanics, ProgramRecord, Status
 
 SPREAD_PROGRAMS = 10
-"""Programs at the end of a sequence that did not settle, over which its spread is reported."""
-
+"""Last programs of a sequence over which forces are averaged, and its spread is reported where it did not settle."""
 
 DAMPING = 0.9
-"""On the averaging weight whenever the load factor turns back by more than the tolerance: without it wall 5 goes to
-and fro between two states for ever."""
+"""Factor on the averaging weight whenever the load factor turns back by more than the tolerance: without it wall 5 goes
+to and fro between two states for ever."""
 
 FLOOR = 1e-9
 """Least fictitious cohesion, in mean block loads: without it the sliding multiplier of an open point has no cost and
@@ -49,12 +50,22 @@ no bound."""
 
 @dataclass(frozen=True)
 class SequenceResult:
-    """Last program of the sequence; status SOLVED where it converged, APPROXIMATE where it did not."""
+    """Best pair of forces and mechanism of the sequence; status SOLVED where it converged, APPROXIMATE where not."""
 
     status: Status
     mechanics: Mechanics | None
     reason: str
     programs: tuple[ProgramRecord, ...]
+
+
+@dataclass(frozen=True)
+class State:
+    """Forces (n_points, 3), velocities (6 n_free,) and load factor of the program, and how badly they fit the law."""
+
+    forces: FloatArray
+    velocities: FloatArray
+    load_factor: float
+    residual: float
 
 
 def solve_published(
@@ -70,67 +81,84 @@ def solve_published(
     dilatancy : (n_points,) tangent of the dilatancy angle, zero for non-associative flow
     """
     assert associative.mechanics is not None
-    limits = program.limits
-    scale = max(abs(program.scaling.live), 1e-300)
+    limits, live = program.limits, program.scaling.live
     slope = np.minimum(limits.friction, np.maximum(scheme.slope * limits.friction, dilatancy))
-    normal = np.maximum(associative.mechanics.contact_forces[:, 0], 0.0) / program.scaling.force
+    normal = associative.mechanics.contact_forces[:, 0] / program.scaling.force
     form = kinematic_form(program, _fictitious(limits, slope, normal), reduce_dry=False)
     solver = ClarabelProgram(form.cone_program, settings, log)
 
-    weight = scheme.averaging
-    records = list(associative.programs)
-    factors = [associative.mechanics.load_factor]
-    best: tuple[KinematicForm, ConeSolution] | None = None
+    weight, best = scheme.averaging, None
+    records, factors = list(associative.programs), [associative.mechanics.load_factor / live]
+    recent: list[tuple[FloatArray, float]] = []
     for _ in range(scheme.max_programs):
         number = len(records) + 1
         solver.update(cost=form.cost_for(_fictitious(limits, slope, normal)))
-        solution = solver.solve(number, program.scaling.live)
+        solution = solver.solve(number, live)
         if solution.status not in (Status.SOLVED, Status.APPROXIMATE):
             return _broken_off(program, best, solution, records)
-        best = (form, solution)
-        factors.append(program.scaling.load_factor(solution.objective))
-        change = abs(factors[-1] - factors[-2]) / max(abs(factors[-1]), 1e-12 * scale)
-        records.append(_record(number, solution, factors[-1], change))
-        forces = form.contact_forces(solution.z).reshape(-1, 3)
-        excess = yield_violation(forces, limits).max(initial=0.0)
-        mismatch = _friction_mismatch(form, solution, forces[:, 0], normal)
-        if max(change, excess, mismatch) <= scheme.tolerance and solution.status is Status.SOLVED:
-            return SequenceResult(Status.SOLVED, _mechanics(program, best), "", tuple(records))
+        factors.append(solution.objective)
+        change = abs(factors[-1] - factors[-2]) / max(abs(factors[-1]), 1e-12)
+        records.append(_record(number, solution, program.scaling.load_factor(factors[-1]), change))
+        forces, velocities = form.contact_forces(solution.z).reshape(-1, 3), form.velocities(solution.x)
+        normal = weight * forces[:, 0] + (1 - weight) * normal
+        recent = [*recent, (forces, factors[-1])][-SPREAD_PROGRAMS:]
+        now = min(_states(program, slope, recent, velocities), key=lambda state: state.residual)
+        if max(change, now.residual) <= scheme.tolerance and solution.status is Status.SOLVED:
+            return SequenceResult(Status.SOLVED, _mechanics(program, now), "", tuple(records))
+        best = now if best is None or now.residual < best.residual else best
         turned_back = len(factors) > 2 and (factors[-1] - factors[-2]) * (factors[-2] - factors[-3]) < 0
-        if turned_back and max(change, mismatch) > scheme.tolerance:
+        if turned_back and change > scheme.tolerance:
             weight *= DAMPING
-        normal = weight * np.maximum(forces[:, 0], 0.0) + (1 - weight) * normal
-    last = factors[-SPREAD_PROGRAMS:]
-    if solution.status is Status.APPROXIMATE:
-        ended = f"(clarabel: {solution.solver_status})"
-        reason = f"the programs of the sequence end short of the solver's tolerance {ended}"
-        return SequenceResult(Status.APPROXIMATE, best and _mechanics(program, best), reason, tuple(records))
+    assert best is not None  # there is at least one program
+    last = [program.scaling.load_factor(factor) for factor in factors[-SPREAD_PROGRAMS:]]
     reason = (
         f"the sequence did not settle in {scheme.max_programs} programs: the last {len(last)} load factors lie between "
-        f"{min(last):.6g} and {max(last):.6g}, and forces exceed their friction by up to {excess:.2g} mean block loads"
+        f"{min(last):.6g} and {max(last):.6g}, and the best forces miss the law by {best.residual:.2g}"
     )
-    return SequenceResult(Status.APPROXIMATE, best and _mechanics(program, best), reason, tuple(records))
+    if solution.status is Status.APPROXIMATE:
+        reason = f"its programs end short of the solver's tolerance (clarabel: {solution.solver_status}); " + reason
+    return SequenceResult(Status.APPROXIMATE, _mechanics(program, best), reason, tuple(records))
 
 
 def _fictitious(limits: YieldLimits, slope: FloatArray, normal: FloatArray) -> YieldLimits:
     """Yield lines of the next program: slope reduced, cohesion raised so that they meet the true ones at N̄."""
-    return replace(
-        limits, friction=slope, cohesion=limits.cohesion + np.maximum((limits.friction - slope) * normal, FLOOR)
+    fictitious = np.maximum((limits.friction - slope) * normal, FLOOR)
+    return replace(limits, friction=slope, cohesion=limits.cohesion + fictitious)
+
+
+def _states(
+    program: Program, slope: FloatArray, recent: list[tuple[FloatArray, float]], velocities: FloatArray
+) -> list[State]:
+    """The newest forces, and means over the last 2, 3, ... programs: each mean balances the mean load factor."""
+    states = []
+    for count in range(1, len(recent) + 1):
+        forces = np.mean([forces for forces, _ in recent[-count:]], axis=0)
+        factor = float(np.mean([factor for _, factor in recent[-count:]]))
+        states.append(_state(program, slope, forces, velocities, factor))
+    return states
+
+
+def _state(program: Program, slope: FloatArray, forces: FloatArray, velocities: FloatArray, factor: float) -> State:
+    """A state with its residual, the larger of two.
+
+    Excess over the true yield conditions, in mean block loads; share of the power balance that the scheme's law (true
+    friction, dilatancy ``slope``) does not explain.
+    """
+    limits = program.limits
+    v = (program.equilibrium_matrix.T @ velocities).reshape(-1, 3)
+    sliding = np.hypot(v[:, 1], v[:, 2])
+    strength = limits.friction * forces[:, 0] + limits.cohesion
+    opening = np.maximum(v[:, 0] - slope * sliding, 0.0)
+    unexplained = np.abs(strength * sliding + (forces[:, 1:] * v[:, 1:]).sum(axis=1)) + np.abs(
+        (forces[:, 0] + limits.tension) * opening
     )
+    balance = max(abs(factor), float(np.abs(strength) @ sliding), abs(float(program.dead_load @ velocities)), 1e-300)
+    excess = float(yield_violation(forces, limits).max(initial=0.0))
+    return State(forces, velocities, factor, max(excess, float(unexplained.sum()) / balance))
 
 
-def _friction_mismatch(form: KinematicForm, solution: ConeSolution, normal: FloatArray, assumed: FloatArray) -> float:
-    """Share of the power balance by which friction of the assumed normal forces misses that of the present ones."""
-    program = form.program
-    velocity = (program.equilibrium_matrix.T @ form.velocities(solution.x)).reshape(-1, 3)
-    sliding = program.limits.friction * np.hypot(velocity[:, 1], velocity[:, 2])
-    balance = max(abs(solution.objective), float(sliding @ np.abs(normal)), 1e-300)
-    return float(sliding @ np.abs(normal - assumed)) / balance
-
-
-def _mechanics(program: Program, best: tuple[KinematicForm, ConeSolution]) -> Mechanics:
-    form, solution = best
-    return mechanics_of(program, solution.objective, form.contact_forces(solution.z), form.velocities(solution.x))
+def _mechanics(program: Program, state: State) -> Mechanics:
+    return mechanics_of(program, state.load_factor, state.forces.ravel(), state.velocities)
 
 
 def _record(number: int, solution: ConeSolution, load_factor: float, change: float) -> ProgramRecord:
@@ -140,15 +168,12 @@ def _record(number: int, solution: ConeSolution, load_factor: float, change: flo
 
 
 def _broken_off(
-    program: Program,
-    best: tuple[KinematicForm, ConeSolution] | None,
-    solution: ConeSolution,
-    records: list[ProgramRecord],
+    program: Program, best: State | None, solution: ConeSolution, records: list[ProgramRecord]
 ) -> SequenceResult:
     number = len(records) + 1
     records.append(_record(number, solution, np.nan, np.nan))
-    status = (
-        solution.status if solution.status in (Status.TIME_LIMIT, Status.ITERATION_LIMIT) else Status.NUMERICAL_ERROR
-    )
+    own = (Status.TIME_LIMIT, Status.ITERATION_LIMIT)
+    status = solution.status if solution.status in own else Status.NUMERICAL_ERROR
     reason = f"program {number} of the sequence ended without a solution (clarabel: {solution.solver_status})"
-    return SequenceResult(status, best and _mechanics(program, best), reason, tuple(records))
+    mechanics = None if best is None else _mechanics(program, best)
+    return SequenceResult(status, mechanics, reason, tuple(records))

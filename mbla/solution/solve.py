@@ -28,7 +28,7 @@ def solve(program: Program, analysis: AnalysisSection, settings: SolverSettings,
             log(iteration)
 
     associative = solve_associative(program, settings, record)
-    if analysis.flow_rule == "associative" or associative.mechanics is None:
+    if analysis.flow_rule == "associative" or associative.status is not Status.SOLVED:
         return _associative_solution(analysis.flow_rule, associative, iterations, time.perf_counter() - started)
     dilatancy = program.limits.dilatancy if analysis.flow_rule == "dilatancy" else np.zeros(program.n_points)
     sequence = solve_published(program, associative, analysis.published, dilatancy, settings, record)

@@ -15,8 +15,8 @@ def test_a_sliding_block_needs_its_friction_with_either_flow_rule() -> None:
     assert solution.mechanics is not None
     assert solution.associative is not None
     assert solution.mechanics.load_factor == pytest.approx(0.5, rel=1e-6)
-    assert checks.complementarity_residual < 1e-5
-    assert solution.mechanics.contact_velocities[:, 0] == pytest.approx(0, abs=1e-6)  # no dilatancy
+    assert checks.complementarity_residual < 1e-4
+    assert solution.mechanics.contact_velocities[:, 0] == pytest.approx(0, abs=1e-9)  # no dilatancy
     lift = solution.associative.contact_velocities
     assert lift[:, 0] == pytest.approx(0.5 * np.hypot(lift[:, 1], lift[:, 2]), rel=1e-5)  # friction angle
 
@@ -41,7 +41,7 @@ def test_a_slope_above_zero_is_a_dilatancy_and_verification_sees_it() -> None:
     )
     assert solution.mechanics is not None
     assert solution.mechanics.load_factor == pytest.approx(0.5, rel=1e-5)
-    assert checks.complementarity_residual == pytest.approx(0.01, rel=1e-3)
+    assert checks.complementarity_residual == pytest.approx(0.01, rel=2e-2)
     assert status in (Status.APPROXIMATE, Status.NOT_VERIFIED)
 
 

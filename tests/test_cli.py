@@ -1,0 +1,257 @@
+"""The command line as scripts use it: exit status, standard output, files."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from mbla.cli import main
+from tests.line import BLOCK, WALL
+
+TWO_CASES = BLOCK.replace("load_cases:\n", "load_cases:\n  down: {live: [{acceleration: [0, 0, -1]}]}\n", 1)
+
+
+@pytest.fixture
+def deck(tmp_path: Path) -> Path:
+    path = tmp_path / "block.yaml"
+    path.write_text(BLOCK, encoding="utf-8")
+    return path
+
+
+def written(path: Path, text: str) -> Path:
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+def run_json(capsys: pytest.CaptureFixture[str], *arguments: str | Path) -> tuple[int, list[dict[str, Any]], str]:
+    """Exit status, objects on standard output, standard error; nothing but JSON lines may be on standard output."""
+    code = main([str(argument) for argument in arguments])
+    captured = capsys.readouterr()
+    return code, [json.loads(line) for line in captured.out.splitlines()], captured.err
+
+
+def test_run_writes_its_files_and_prints_one_object(deck: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    code, (record,), _ = run_json(capsys, "run", deck, "--json")
+    assert code == record["exit_code"] == 0
+    assert record["deck"] == "block.yaml"
+    assert record["model"]["blocks"] == record["model"]["free_blocks"] == 1
+    assert record["model"]["interfaces"] == 1
+    assert record["model"]["contact_points"] == 4
+    (case,) = record["cases"]
+    assert case["status"] == "solved"
+    assert case["load_factor"] == pytest.approx(0.5, rel=1e-7)
+    assert case["static_bound"] <= 0.5 + 1e-7
+    assert case["kinematic_bound"] >= 0.5 - 1e-7
+    assert set(record["time"]) == {"read", "contacts", "solve", "write"}
+    folder = deck.with_suffix(".out")
+    expected = {"block.h5", "block.lst", "block.sta", "block.json", "block_push.pvd", "block_push_blocks.vtu"}
+    assert expected <= {path.name for path in folder.iterdir()}
+    assert json.loads((folder / "block.json").read_text())["cases"] == record["cases"]
+    lines = (folder / "block.sta").read_text().splitlines()
+    assert sum(line.startswith("push ") for line in lines) > 5
+
+
+def test_an_earlier_result_is_kept_without_force(deck: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["run", str(deck), "-q"]) == 0
+    before = (deck.with_suffix(".out") / "block.h5").read_bytes()
+    assert main(["run", str(deck), "-q"]) == 6
+    assert "--force" in capsys.readouterr().err
+    assert (deck.with_suffix(".out") / "block.h5").read_bytes() == before
+    assert main(["run", str(deck), "-q", "--force", "--set", "parameters.mu=0.3"]) == 0
+    assert (deck.with_suffix(".out") / "block.h5").read_bytes() != before
+
+
+def test_a_failed_run_leaves_the_earlier_result_alone(deck: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["run", str(deck), "-q"]) == 0
+    folder = deck.with_suffix(".out")
+    before = {path.name: path.read_bytes() for path in folder.iterdir()}
+    written(deck, BLOCK + "surplus: 1\n")
+    assert main(["run", str(deck), "-q", "--force"]) == 3
+    assert "surplus" in capsys.readouterr().err
+    written(deck, BLOCK.replace("[1, 0, 0]", "[0, 0, 0]"))
+    assert main(["run", str(deck), "-q", "--force"]) == 3
+    assert {path.name: path.read_bytes() for path in folder.iterdir()} == before
+
+
+def test_status_of_several_cases_is_that_of_the_gravest(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    deck = written(tmp_path / "two.yaml", TWO_CASES)
+    code, (record,), _ = run_json(capsys, "run", deck, "--json")
+    assert code == record["exit_code"] == 5
+    assert [case["status"] for case in record["cases"]] == ["unbounded", "solved"]
+    assert record["cases"][0]["load_factor"] is None
+    code, (record,), _ = run_json(capsys, "run", deck, "--json", "--force", "--case", "push")
+    assert code == 0
+    assert [case["name"] for case in record["cases"]] == ["push"]
+
+
+def test_an_unknown_case_is_wrong_usage(deck: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["run", str(deck), "--case", "pull"]) == 2
+    assert "it has push" in capsys.readouterr().err
+    assert not deck.with_suffix(".out").exists()
+
+
+@pytest.mark.parametrize(
+    ("arguments", "status"),
+    [
+        (["--set", "analysis.max_iterations=2"], 4),
+        (["--time-limit", "1e-9"], 7),
+        (["--set", "parameters.mu=0.3"], 0),
+        (["--accuracy", "draft", "--flow-rule", "non_associative"], 0),
+    ],
+)
+def test_exit_status(deck: Path, arguments: list[str], status: int) -> None:
+    assert main(["run", str(deck), "-q", *arguments]) == status
+
+
+def test_options_of_the_command_line_reach_the_analysis(deck: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    _, (record,), _ = run_json(
+        capsys, "run", deck, "--json", "--accuracy", "reference", "--flow-rule", "non_associative"
+    )
+    assert record["settings"]["tolerance"] == "1e-10"
+    assert record["cases"][0]["flow_rule"] == "non_associative"
+    assert record["cases"][0]["associative_load_factor"] == pytest.approx(0.5, rel=1e-8)
+
+
+def test_expected_figures_are_compared(deck: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["run", str(deck), "--expected"]) == 2
+    assert "no expected section" in capsys.readouterr().err
+    expected = "expected:\n  push: {load_factor: %s, tolerance: 1.0e-6, source: closed form}\n"
+    written(deck, BLOCK + expected % 0.5)
+    assert main(["run", str(deck), "-q", "--expected"]) == 0
+    written(deck, BLOCK + expected % 0.51)
+    code, (record,), _ = run_json(capsys, "run", deck, "--json", "--expected", "--force")
+    assert code == 4
+    (notice,) = [notice for notice in record["notices"] if notice["identifier"] == "not-as-expected"]
+    assert "expected 0.51" in notice["message"]
+
+
+def test_one_bad_deck_does_not_stop_the_next(deck: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    bad = written(deck.parent / "bad.yaml", BLOCK.replace("friction", "fricton"))
+    missing = deck.parent / "missing.yaml"
+    code, records, err = run_json(capsys, "run", bad, missing, deck, "--json")
+    assert code == 6
+    assert [record["exit_code"] for record in records] == [3, 6, 0]
+    assert "did you mean" in records[0]["errors"][0]
+    assert "fricton" in err
+    assert "Traceback" not in err
+
+
+def test_two_decks_may_not_share_their_files(deck: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (deck.parent / "other").mkdir()
+    other = written(deck.parent / "other" / "block.yaml", BLOCK)
+    assert main(["run", str(deck), str(other), "-o", str(deck.parent / "out")]) == 2
+    assert "same result files" in capsys.readouterr().err
+
+
+def test_overlapping_blocks_are_refused_by_name(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    overlapping = BLOCK.replace(
+        "blocks:\n", "blocks:\n  - box: {group: other, material: stone, min: [0.9, 0, 0], max: [2, 1, 1]}\n"
+    )
+    assert main(["run", str(written(tmp_path / "deck.yaml", overlapping))]) == 3
+    err = capsys.readouterr().err
+    assert "other[0] and block[0] overlap" in err
+    assert "deck.yaml:" in err
+
+
+def test_check_solves_nothing_and_writes_nothing(deck: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    code, (record,), _ = run_json(capsys, "check", deck, "--json")
+    assert code == 0
+    assert record["needs"]["unknown_velocities"] == 6
+    assert record["needs"]["cones"] == 4
+    assert not deck.with_suffix(".out").exists()
+    assert main(["check", str(deck), "--vtu"]) == 0
+    assert {path.suffix for path in deck.with_suffix(".out").iterdir()} == {".vtu"}
+
+
+def test_show_and_verify_read_the_result_file_alone(deck: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    main(["run", str(deck), "-q"])
+    listing = (deck.with_suffix(".out") / "block.lst").read_text()
+    moved = deck.with_suffix(".out") / "block.h5"
+    moved = moved.rename(deck.parent / "moved.h5")
+    deck.unlink()
+    assert main(["show", str(moved)]) == 0
+    assert capsys.readouterr().out == listing
+    code, (record,), _ = run_json(capsys, "show", moved, "--json")
+    assert code == 0
+    assert record["cases"][0]["status"] == "solved"
+    code, (record,), _ = run_json(capsys, "verify", moved, "--json")
+    assert code == 0
+    assert record["cases"][0]["static_bound"] == pytest.approx(0.5, rel=1e-6)
+    assert main(["verify", str(moved)]) == 0
+
+
+@pytest.mark.parametrize("command", ["show", "verify", "plot"])
+def test_a_file_that_is_no_result_is_refused(command: str, deck: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main([command, str(deck)]) == 6
+    assert main([command, str(deck.parent / "missing.h5")]) == 6
+    assert "Traceback" not in capsys.readouterr().err
+
+
+def test_new_writes_a_deck_that_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert main(["new", "house"]) == 0
+    assert main(["new", "house"]) == 6
+    assert main(["run", "house.yaml", "-q"]) == 0
+    assert (tmp_path / "house.out" / "house.h5").is_file()
+
+
+def test_schema_is_the_one_in_the_repository(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["schema"]) == 0
+    shipped = Path(__file__).parents[1] / "schemas" / "deck.schema.json"
+    assert json.loads(capsys.readouterr().out) == json.loads(shipped.read_text())
+
+
+@pytest.mark.parametrize("arguments", [["run"], ["fly"], [], ["run", "a", "--threads", "0"], ["schema", "pictures"]])
+def test_wrong_usage(arguments: list[str]) -> None:
+    with pytest.raises(SystemExit) as stopped:
+        main(arguments)
+    assert stopped.value.code == 2
+
+
+def test_read_only_folder(deck: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    target = deck.parent / "file"
+    target.write_text("not a folder")
+    assert main(["run", str(deck), "-o", str(target)]) == 6
+    assert "Traceback" not in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(("number", "status"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
+def test_signals_end_the_run_and_keep_the_earlier_result(tmp_path: Path, number: signal.Signals, status: int) -> None:
+    deck = written(tmp_path / "wall.yaml", WALL)
+    assert main(["run", str(deck), "-q"]) == 0
+    folder = tmp_path / "wall.out"
+    before = {path.name: path.read_bytes() for path in folder.iterdir()}
+    long = ["--set", "parameters.n=25", "--flow-rule", "non_associative", "--force"]
+    process = subprocess.Popen([sys.executable, "-m", "mbla", "run", str(deck), *long], stderr=subprocess.PIPE)
+    deadline = time.monotonic() + 60
+    while (folder / "wall.sta").read_bytes().count(b"\n") < 5 or (folder / "wall.sta").read_bytes() == before[
+        "wall.sta"
+    ]:
+        assert time.monotonic() < deadline
+        assert process.poll() is None
+        time.sleep(0.02)
+    process.send_signal(number)
+    try:
+        _, err = process.communicate(timeout=30)
+    finally:
+        process.kill()
+    assert process.returncode == status
+    assert b"Traceback" not in err
+    assert {path.name: path.read_bytes() for path in folder.iterdir()} == before
+
+
+def test_nothing_is_printed_for_progress_off_a_terminal(deck: Path) -> None:
+    environment = {**os.environ, "PYTHONUNBUFFERED": "1"}
+    done = subprocess.run(
+        [sys.executable, "-m", "mbla", "run", str(deck), "-q"], capture_output=True, env=environment, check=True
+    )
+    assert done.stdout == b""
+    assert done.stderr == b""

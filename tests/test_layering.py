@@ -1,0 +1,91 @@
+"""The stages import only from the stages to their left, and each foreign library has one door."""
+
+from __future__ import annotations
+
+import ast
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+PACKAGE = Path(__file__).parents[1] / "mbla"
+STAGES = ("deck", "model", "contacts", "program", "solution", "results")
+SHARED = ("arrays", "errors")
+DOORS = {
+    "yaml": "deck/reader.py",
+    "pint": "deck/units.py",
+    "meshio": "model/geometry/meshio_files.py",
+    "manifold3d": "contacts/solids.py",
+    "clarabel": "solution/clarabel_adapter.py",
+    "h5py": "results/hdf5.py",
+    "pyvista": "results/pictures.py",
+    "vtk": "results/pictures.py",
+}
+FILES = sorted(PACKAGE.rglob("*.py"))
+
+
+def imports_of(path: Path, *, at_run_time: bool = True) -> set[str]:
+    """Full names of what a file imports, wherever in it; those for type checkers alone left out if ``at_run_time``."""
+    tree = ast.parse(path.read_text(encoding="utf-8"))
+    for_types: set[ast.AST] = set()
+    if at_run_time:
+        for node in ast.walk(tree):
+            if isinstance(node, ast.If) and "TYPE_CHECKING" in ast.dump(node.test):
+                for_types.update(ast.walk(node))
+    names: set[str] = set()
+    for node in ast.walk(tree):
+        if node in for_types:
+            continue
+        if isinstance(node, ast.Import):
+            names.update(alias.name for alias in node.names)
+        elif isinstance(node, ast.ImportFrom):
+            assert node.level == 0, f"{path}: relative import"
+            names.add(str(node.module))
+    return names
+
+
+STAGE_FILES = [path for path in FILES if path.relative_to(PACKAGE).parts[0] in STAGES]
+
+
+@pytest.mark.parametrize("path", STAGE_FILES, ids=lambda path: str(path.relative_to(PACKAGE)))
+def test_a_stage_imports_only_from_the_left(path: Path) -> None:
+    stage = path.relative_to(PACKAGE).parts[0]
+    allowed = {*SHARED, *STAGES[: STAGES.index(stage) + 1]}
+    for name in imports_of(path, at_run_time=False):
+        parts = name.split(".")
+        if parts[0] == "mbla" and len(parts) > 1:
+            assert parts[1] in allowed, f"{path.relative_to(PACKAGE)} imports {name}"
+
+
+@pytest.mark.parametrize(("library", "door"), DOORS.items())
+def test_each_library_has_one_door(library: str, door: str) -> None:
+    users = {str(path.relative_to(PACKAGE)) for path in FILES if library in {n.split(".")[0] for n in imports_of(path)}}
+    assert users <= {door}, f"{library} is imported by {sorted(users)}"
+
+
+def test_every_folder_of_the_package_is_a_stage() -> None:
+    folders = {path.name for path in PACKAGE.iterdir() if path.is_dir() and path.name != "__pycache__"}
+    assert folders == set(STAGES)
+
+
+def test_top_level_of_the_project() -> None:
+    root = PACKAGE.parent
+    names = {path.name for path in root.iterdir()}
+    assert names >= {"pyproject.toml", "mbla", "decks", "schemas", "tests", "README.md"}
+    tracked = subprocess.run(["git", "ls-files"], cwd=root, capture_output=True, text=True, check=False).stdout
+    tops = {line.split("/")[0] for line in tracked.splitlines() if not line.startswith(".")}
+    assert tops <= {"pyproject.toml", "mbla", "decks", "schemas", "tests", "README.md"}
+
+
+def test_help_imports_nothing_heavy() -> None:
+    """``mbla --help`` answers in the time that Python itself takes to start."""
+    code = (
+        "import sys\n"
+        "from mbla.cli import build_parser\n"
+        "build_parser().format_help()\n"
+        "print(*sorted({name.split('.')[0] for name in sys.modules}))"
+    )
+    loaded = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout.split()
+    heavy = {"numpy", "scipy", "yaml", "pydantic", "pint", "meshio", "h5py", "clarabel", "shapely", "manifold3d", "vtk"}
+    assert not heavy & set(loaded)
