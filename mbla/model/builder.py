@@ -10,12 +10,13 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from mbla.deck.deck import Deck
+from mbla.deck.tree import KeyPath
 from mbla.deck.types import BlockItem, Item, JointLaw, Material
 from mbla.deck.units import Units
 from mbla.errors import DeckError, Fault, Notice
 from mbla.model.build_blocks import BuiltBlocks, Labels, build_blocks, indices_in_groups
 from mbla.model.generators import GENERATORS
-from mbla.model.generators.generator import Generated, ItemRefused, KeyPath, Site
+from mbla.model.generators.generator import Generated, ItemRefused, Site
 from mbla.model.loads import LoadSite, build_load_case
 from mbla.model.model import Ground, Joint, Model
 from mbla.model.polyhedra import Polyhedra, join_polyhedra
@@ -139,9 +140,10 @@ def _kind(entry: BlockItem) -> tuple[str, Item]:
 
 def _generate(deck: Deck, kind: str, item: Item, path: KeyPath) -> Generated:
     site = Site(deck.contacts.tolerance, lambda below, name: deck.resolve_file((*path, *below), name))
-    generated = GENERATORS[kind](item, site)
-    transform = build_transform(item.transform)
-    return generated if transform is None else transform_item(generated, transform)
+    with np.errstate(over="ignore", invalid="ignore"):  # coordinates that are not finite are refused by block
+        generated = GENERATORS[kind](item, site)
+        transform = build_transform(item.transform)
+        return generated if transform is None else transform_item(generated, transform)
 
 
 def _collect(

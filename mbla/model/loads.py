@@ -12,11 +12,12 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
+from mbla.deck.tree import KeyPath
 from mbla.deck.types import Load, LoadCaseSection
 from mbla.deck.units import Units
 from mbla.errors import Fault, Notice
 from mbla.model.model import LoadCase
-from mbla.model.selectors import KeyPath, Roster, select_blocks
+from mbla.model.selectors import Roster, select_blocks
 from mbla.model.wording import counted, vector
 
 OUTSIDE = 0.01
@@ -59,8 +60,9 @@ def build_load_case(
     dead = _add_up(dead_loads, (*path, "dead"), site, faults, notices, live=False)
     live = _add_up(section.live, (*path, "live"), site, faults, notices, live=True)
     free = ~site.fixed
+    judged = len(faults) == before and free.any() and not site.roster.partial
     rest = np.abs(live.total[free]).max(initial=0.0)
-    if len(faults) == before and not site.roster.partial and rest <= CANCELLED * live.gross[free].max(initial=0.0):
+    if judged and rest <= CANCELLED * live.gross[free].max(initial=0.0):
         faults.append(site.roster.fault_at((*path, "live"), "the live loads cancel each other: they have no effect"))
     return LoadCase(name, dead.total, live.total, tuple(dead.words), tuple(live.words))
 
@@ -100,7 +102,7 @@ def _judge_fixed(
     live: bool,
 ) -> None:
     """A load on blocks that do not move goes straight into the support: no live load does that alone."""
-    if not site.fixed[blocks].all():
+    if not site.fixed[blocks].all() or site.fixed.all():  # a structure that is fixed altogether is refused as such
         return
     if live:
         key = "on" if load.on is not None else "acceleration"

@@ -8,12 +8,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from mbla.arrays import IntArray
+from mbla.deck.tree import KeyPath
 from mbla.deck.types import Selector, SelectorTerm
 from mbla.errors import Fault
 from mbla.model.blocks import Blocks
 from mbla.model.wording import vector
-
-KeyPath = tuple[str | int, ...]
 
 
 @dataclass(frozen=True)
@@ -68,11 +67,13 @@ def _select(term: str | SelectorTerm, path: KeyPath, roster: Roster, faults: lis
             return None
         return members[term.index : term.index + 1]
     assert term.box is not None  # a rule of the deck: a group or a box
+    if roster.partial:  # any block that could not be built might lie in it
+        return None
     least, greatest = np.array(term.box)
     centroids = roster.blocks.centroids
     inside = np.flatnonzero(((centroids >= least) & (centroids <= greatest)).all(axis=1))
-    if len(inside) or roster.partial:
-        return inside if len(inside) else None
+    if len(inside):
+        return inside
     low, high = centroids.min(axis=0), centroids.max(axis=0)
     message = f"no centroid of a block lies in it; they lie between {vector(low)} and {vector(high)}"
     faults.append(roster.fault_at((*path, "box"), message))

@@ -8,12 +8,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
+from mbla.deck.tree import KeyPath
 from mbla.deck.types import GroundPlane, Support
 from mbla.errors import Fault
 from mbla.model.blocks import Blocks
 from mbla.model.model import Ground
 from mbla.model.ragged import row_maxima
-from mbla.model.selectors import KeyPath, Roster, select_blocks
+from mbla.model.selectors import Roster, select_blocks
 from mbla.model.wording import named, vector
 
 FACING = 0.99
@@ -91,7 +92,8 @@ def _check_ground(
 ) -> None:
     """Blocks it may carry must not reach below it, and one of their faces must lie on it."""
     blocks = roster.blocks
-    may_carry = ~fixed
+    # what cannot be built need not lie right, either
+    may_carry = ~fixed & ~np.isin(np.array(blocks.groups), list(roster.partial))
     if ground.blocks is not None:
         may_carry &= np.isin(np.arange(len(blocks)), ground.blocks)
     heights = (blocks.vertices - ground.point) @ ground.normal
@@ -108,8 +110,9 @@ def _check_ground(
 def _sunk_in_words(sunk: IntArray, depths: FloatArray, blocks: Blocks) -> str:
     worst = sunk[np.argmax(depths[sunk])]
     verb = "reaches" if len(sunk) == 1 else "reach"
+    most = "" if len(sunk) == 1 else f", {blocks.name(int(worst))}"
     return (
-        f"{named(sunk, blocks.name)} {verb} below it, {blocks.name(int(worst))} by {depths[worst]:.4g}; "
+        f"{named(sunk, blocks.name)} {verb} below it{most} by {depths[worst]:.4g}; "
         "move the plane, or name the blocks it carries with blocks"
     )
 

@@ -6,11 +6,12 @@ import numpy as np
 import pytest
 from pydantic import TypeAdapter
 
+from mbla.deck.tree import KeyPath
 from mbla.deck.types import Selector
 from mbla.errors import Fault, Place
 from mbla.model.build_blocks import Labels, build_blocks
 from mbla.model.polyhedra import cuboids
-from mbla.model.selectors import KeyPath, Roster, build_roster, select_blocks
+from mbla.model.selectors import Roster, build_roster, select_blocks
 
 
 def fault_at(path: KeyPath, message: str) -> Fault:

@@ -8,10 +8,9 @@ from pathlib import Path
 from typing import Any, Protocol
 
 from mbla.arrays import FloatArray
+from mbla.deck.tree import KeyPath
 from mbla.errors import Notice
 from mbla.model.polyhedra import Polyhedra
-
-KeyPath = tuple[str | int, ...]
 
 
 @dataclass(frozen=True)

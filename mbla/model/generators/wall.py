@@ -8,8 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from mbla.arrays import FloatArray
+from mbla.deck.tree import KeyPath
 from mbla.deck.types import Opening, WallItem
-from mbla.model.generators.generator import Generated, ItemRefused, KeyPath, Part, Site
+from mbla.model.generators.generator import Generated, ItemRefused, Part, Site
 from mbla.model.polyhedra import cuboids
 
 NO_UNIT = 1e-6
