@@ -25,7 +25,7 @@ def wall(**keys: Any) -> Polyhedra:
 
 
 def rows(polyhedra: Polyhedra, unit: tuple[float, float, float] = (0.4, 0.2, 0.175)) -> list[list[float]]:
-    """Widths in units course by course, gaps negative, as REFERENCES B writes them."""
+    """Widths in units course by course, gaps negative."""
     corners = polyhedra.vertices.reshape(-1, 8, 3)
     least, greatest = corners.min(axis=1) / unit, corners.max(axis=1) / unit
     assert least[:, 1] == pytest.approx(0)
