@@ -7,6 +7,9 @@ the colour-blind can tell apart. Drawn off-screen; no display is needed.
 
 from __future__ import annotations
 
+import ctypes
+import os
+import sys
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -106,7 +109,7 @@ def plot_mechanism(results: Results, case: CaseResult, path: Path) -> None:
     Raises
     ------
     UsageError
-        The extra for pictures is not installed, or the file is not to be a PNG.
+        The extra for pictures is not installed, the machine has no OpenGL, or the file is not to be a PNG.
     FileError
         The file cannot be written.
     """
@@ -123,12 +126,33 @@ def plot_mechanism(results: Results, case: CaseResult, path: Path) -> None:
     _write_png(path, image)
 
 
+def can_draw() -> bool:
+    """Whether the machine has what vtk draws with; without it vtk crashes the process instead of saying so."""
+    if not sys.platform.startswith("linux"):
+        return True
+
+    def loads(name: str) -> bool:
+        try:
+            ctypes.CDLL(name)
+        except OSError:
+            return False
+        return True
+
+    return any(loads(name) for name in ("libEGL.so.1", "libOSMesa.so.8", "libOSMesa.so.6")) or (
+        bool(os.environ.get("DISPLAY")) and loads("libGL.so.1")
+    )
+
+
 def _pyvista() -> Any:
     try:
         import pyvista
         from vtkmodules.vtkCommonCore import vtkLogger
     except ImportError as error:
         raise UsageError("pictures need an extra that is not installed: pip install 'mbla[pictures]'") from error
+    if not can_draw():
+        raise UsageError(
+            "pictures need OpenGL, with or without a display: install libEGL (Debian: apt install libegl1) or OSMesa"
+        )
     # without a display vtk says so on standard error before it goes on without one
     vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_ERROR)
     return pyvista

@@ -73,6 +73,7 @@ class ClarabelProgram:
     log: Callable[[IterationRecord], None]
     _solver: Any = field(init=False, default=None)
     _raised: BaseException | None = field(init=False, default=None)
+    _logged: int = field(init=False, default=-1)
 
     def solve(self, program_number: int, to_load_factor: float) -> ConeSolution:
         """Solve what is loaded; where the solver does not finish, again with settings that are easier for it.
@@ -95,7 +96,7 @@ class ClarabelProgram:
         self._check_finite()
         if self._solver is None:
             self._solver = self._new_solver(clarabel)
-        started = time.perf_counter()
+        started, self._logged = time.perf_counter(), -1
         with signals_held() as signalled:
             callback = self._callback(program_number, to_load_factor, started, signalled)
             self._solver.set_termination_callback(callback)
@@ -103,7 +104,8 @@ class ClarabelProgram:
         if self._raised is not None:
             raised, self._raised = self._raised, None
             raise raised
-        self._log(self._solver.get_info(), program_number, to_load_factor, started)  # the callback misses the last one
+        if self._logged < result.iterations:  # the callback misses the last one where that is converged
+            self._log(self._solver.get_info(), program_number, to_load_factor, started)
         name = str(result.status)
         if name not in STATUS_MAP:
             raise SolverError(f"clarabel returned a status that is not known: {name}")
@@ -197,6 +199,7 @@ class ClarabelProgram:
             step=float(info.step_length),
             seconds=time.perf_counter() - started,
         )
+        self._logged = record.iteration
         self.log(record)
 
 

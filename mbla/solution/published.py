@@ -172,8 +172,14 @@ def _broken_off(
 ) -> SequenceResult:
     number = len(records) + 1
     records.append(_record(number, solution, np.nan, np.nan))
-    own = (Status.TIME_LIMIT, Status.ITERATION_LIMIT)
-    status = solution.status if solution.status in own else Status.NUMERICAL_ERROR
+    status = solution.status
     reason = f"program {number} of the sequence ended without a solution (clarabel: {solution.solver_status})"
+    if status in (Status.NO_EQUILIBRIUM, Status.UNBOUNDED):  # said of a fictitious joint law, not of the structure
+        status = Status.NOT_VERIFIED
+        what = "carry the dead load" if solution.status is Status.NO_EQUILIBRIUM else "give way to the live load"
+        reason = (
+            f"in program {number} of the sequence the friction that belongs to the forces before does not {what}; "
+            "the structure may stand only by friction that something has locked in"
+        )
     mechanics = None if best is None else _mechanics(program, best)
     return SequenceResult(status, mechanics, reason, tuple(records))

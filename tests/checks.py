@@ -1,0 +1,27 @@
+"""All checks in one command: format, lint, types, tests. ``python tests/checks.py -m long`` passes options to pytest."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).parents[1]
+CHECKS = (("ruff", "format", "--check", "."), ("ruff", "check", "."), ("mypy",), ("pytest",))
+
+
+def main() -> int:
+    """Run every check to its end; 1 if one of them failed."""
+    failed = []
+    for check in CHECKS:
+        options = sys.argv[1:] if check[0] == "pytest" else []
+        sys.stderr.write(f"== {' '.join([*check, *options])}\n")
+        sys.stderr.flush()
+        if subprocess.run([sys.executable, "-m", *check, *options], cwd=ROOT, check=False).returncode != 0:
+            failed.append(check[0])
+    sys.stderr.write(f"== failed: {', '.join(failed)}\n" if failed else "== all checks passed\n")
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

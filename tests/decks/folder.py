@@ -1,0 +1,67 @@
+"""Every deck under decks/, run through the command line once and kept for all tests."""
+
+from __future__ import annotations
+
+import contextlib
+import io
+import json
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any
+
+from mbla.cli import main
+from mbla.deck import Deck, read_deck
+
+ROOT = Path(__file__).parents[2]
+DECKS = ROOT / "decks"
+PATHS = tuple(sorted((*DECKS.glob("tutorials/*.yaml"), *DECKS.glob("benchmarks/*.yaml"))))
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What ``mbla run DECK --expected --json --force`` left behind."""
+
+    exit_status: int
+    output: str
+    messages: str
+    files: tuple[str, ...]
+
+    @property
+    def record(self) -> dict[str, Any]:
+        """The JSON object."""
+        loaded: dict[str, Any] = json.loads(self.output, parse_constant=_refused)
+        return loaded
+
+
+def name_of(path: Path) -> str:
+    """``tutorials/arch``: how tests and tables call a deck."""
+    return f"{path.parent.name}/{path.stem}"
+
+
+@cache
+def deck_of(path: Path) -> Deck:
+    """The deck as read."""
+    return read_deck(path)
+
+
+@cache
+def outcome_of(path: Path) -> Outcome:
+    """Run a deck in this process."""
+    return run_deck(path)
+
+
+def run_deck(path: Path, *options: str) -> Outcome:
+    """Run a deck in this process, results in a folder of its own."""
+    output, messages = io.StringIO(), io.StringIO()
+    with TemporaryDirectory() as folder:
+        arguments = ["run", str(path), "--expected", "--json", "--force", "-o", folder, *options]
+        with contextlib.redirect_stdout(output), contextlib.redirect_stderr(messages):
+            status = main(arguments)
+        files = tuple(sorted(file.name for file in Path(folder).iterdir()))
+    return Outcome(status, output.getvalue(), messages.getvalue(), files)
+
+
+def _refused(constant: str) -> None:
+    raise ValueError(f"{constant} is not JSON")
