@@ -66,12 +66,14 @@ def _planar_parts(polyhedra: Polyhedra, faces: FaceGeometry, parts: IntArray, al
     for axis in range(3):
         normals[:, axis] = np.bincount(parts, weights * faces.normals[:, axis], n_parts) / area
         centres[:, axis] = np.bincount(parts, weights * faces.centres[:, axis], n_parts) / area
-    normals /= np.linalg.norm(normals, axis=1)[:, None]
+    lengths = np.linalg.norm(normals, axis=1)
+    closes = lengths < STEEPEST  # the faces go round a curve, all the way round they cancel each other
+    normals /= np.where(closes, 1.0, lengths)[:, None]
     part = parts[polyhedra.face_of_corner]
     arms = polyhedra.local_vertices[polyhedra.loops] - centres[part]
     distances = np.abs(np.einsum("ij,ij->i", arms, normals[part]))
     outside = distances > allowed[polyhedra.block_of_face[polyhedra.face_of_corner]]
-    planar = np.ones(n_parts, dtype=bool)
+    planar = ~closes
     planar[part[outside]] = False
     return planar
 

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from scipy.spatial import ConvexHull
 
+from mbla.model.build_blocks import blocks_from_polyhedra
 from tests.model.shapes import L_OUTLINE, Shape, box, build, moved, prism, rotation
 
 
@@ -96,3 +97,22 @@ def test_l_shaped_face_is_one_facet_with_its_triangles() -> None:
     vertices, faces = prism(L_OUTLINE)
     split = [[6, 7, 8], [6, 8, 9], [6, 9, 10], [6, 10, 11]]
     assert facets((vertices, [faces[0], *split, *faces[2:]])) == 8
+
+
+def test_mantle_of_a_finely_faceted_ring_is_no_facet() -> None:
+    """All the way round its normals cancel each other; every side is a facet, top and bottom are one each."""
+    n = 400
+    angles = np.arange(n) * 2 * np.pi / n
+    rim = [(r * np.cos(a), r * np.sin(a), z) for z in (0.0, 1.0) for r in (1.0, 2.0) for a in angles]
+
+    def corner(top: int, outer: int, k: int) -> int:
+        return (2 * top + outer) * n + k % n
+
+    faces = []
+    for k in range(n):
+        faces.append([corner(0, 1, k), corner(0, 1, k + 1), corner(1, 1, k + 1), corner(1, 1, k)])
+        faces.append([corner(0, 0, k + 1), corner(0, 0, k), corner(1, 0, k), corner(1, 0, k + 1)])
+        faces.append([corner(1, 0, k), corner(1, 1, k), corner(1, 1, k + 1), corner(1, 0, k + 1)])
+        faces.append([corner(0, 0, k + 1), corner(0, 1, k + 1), corner(0, 1, k), corner(0, 0, k)])
+    ring = blocks_from_polyhedra([rim], [faces])
+    assert len(set(ring.facet_of_face.tolist())) == 2 * n + 2
