@@ -13,7 +13,7 @@ from mbla.results.files import OutputFolder
 from mbla.results.provenance import collect_provenance
 from mbla.results.results import Results
 from mbla.results.vtu import write_model_vtu
-from mbla.run import RunOptions, contacts_of, deck_record, settings_in_words
+from mbla.run import RunOptions, contacts_of, deck_record, notices_of, settings_in_words
 from mbla.solution.settings import solver_settings
 
 
@@ -37,7 +37,7 @@ def check(deck_path: Path, options: RunOptions, vtu: bool = False) -> tuple[Resu
         model=model,
         contacts=contacts,
         cases=(),
-        notices=(*deck.notices, *model.notices, *contacts.report.notices),
+        notices=notices_of(deck, model, contacts),
         provenance=collect_provenance(),
         settings=settings_in_words(deck, solver_settings(deck.analysis, options.threads)),
         time={"read": read - started, "contacts": time.perf_counter() - read},

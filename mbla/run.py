@@ -15,6 +15,7 @@ from mbla.expected import compare_with_expected
 from mbla.model import Model, build_model
 from mbla.model.model import LoadCase
 from mbla.program import assemble
+from mbla.program.remarks import program_notices
 from mbla.results.files import OutputFolder
 from mbla.results.provenance import collect_provenance
 from mbla.results.results import CaseResult, DeckRecord, Results
@@ -80,7 +81,7 @@ def run(deck_path: Path, options: RunOptions, progress: Progress | None = None) 
             model=model,
             contacts=contacts,
             cases=tuple(cases),
-            notices=(*deck.notices, *model.notices, *contacts.report.notices, *differences),
+            notices=(*notices_of(deck, model, contacts), *differences),
             provenance=collect_provenance(),
             settings=settings_in_words(deck, settings),
             time={"read": read - started, "contacts": found - read, "solve": time.perf_counter() - found},
@@ -121,6 +122,11 @@ def contacts_of(deck: Deck, model: Model) -> Contacts:
     if overlaps:
         raise DeckError([deck.fault_at(("blocks",), message) for message in overlaps])
     return contacts
+
+
+def notices_of(deck: Deck, model: Model, contacts: Contacts) -> tuple[Notice, ...]:
+    """What every stage before the solver remarked, in their order."""
+    return (*deck.notices, *model.notices, *contacts.report.notices, *program_notices(model, contacts))
 
 
 def select_cases(model: Model, names: Sequence[str]) -> tuple[LoadCase, ...]:
