@@ -19,8 +19,8 @@ def program_notices(model: Model, contacts: Contacts) -> tuple[Notice, ...]:
     if not crushable:
         return ()
     text = (
-        f"joint law {', '.join(crushable)}: compressive strength limits each contact point to its share of the area, which "
-        "overstates an interface under eccentric load: it bears N (1 + 2 e/b) <= fc A, a rectangular stress block only "
+        f"joint law {', '.join(crushable)}: compressive strength limits each contact point to its share of the area, "
+        "which overstates an interface under eccentric load: it bears N (1 + 2 e/b) <= fc A, a stress block only "
         "N <= fc A (1 - 2 e/b), with eccentricity e and width b"
     )
     return (Notice("warning", "eccentric-crushing-overstated", text),)

@@ -2,7 +2,7 @@
 
 ::
 
-    python tests/performance/bench_deck.py
+    python -m tests.performance.bench_deck
 
 `events` is the time in which the YAML parser alone goes through the text: the floor below which no reader gets.
 Times of the processor are recorded beside those of the clock, which suffer from whatever else the machine does.
@@ -10,29 +10,16 @@ Times of the processor are recorded beside those of the clock, which suffer from
 
 from __future__ import annotations
 
-import csv
-import os
-import platform
-import sys
 import tempfile
-import time
-from collections.abc import Callable
-from datetime import UTC, datetime
 from functools import partial
-from importlib.metadata import version
 from pathlib import Path
 
 import yaml
 
 from mbla.deck import read_deck
 from mbla.errors import DeckError
+from tests.performance.recording import best_time, record
 
-RESULTS = Path(__file__).parent / "results" / "deck.csv"
-COLUMNS = [
-    *("date", "case", "blocks", "megabytes", "seconds", "cpu_seconds", "events_cpu_seconds"),
-    *("mbla", "pyyaml", "pydantic", "python", "machine", "cores"),
-]
-REPEATS = 5
 HEAD = """mbla: 1
 materials: {stone: {density: 2000}}
 joints: {dry: {friction: 0.6}}
@@ -57,17 +44,6 @@ def polyhedra(n_blocks: int, fault: str = "") -> str:
     return HEAD + "".join(rows)
 
 
-def best_time(run: Callable[[], object]) -> tuple[float, float]:
-    """Shortest of a few runs by the clock and by the processor, in seconds."""
-    clock, processor = [], []
-    for _ in range(REPEATS):
-        start = time.perf_counter(), time.process_time()
-        run()
-        clock.append(time.perf_counter() - start[0])
-        processor.append(time.process_time() - start[1])
-    return min(clock), min(processor)
-
-
 def go_through_events(text: str) -> None:
     """Nothing but the parser."""
     parser = yaml.CSafeLoader(text)
@@ -85,33 +61,15 @@ def read(path: Path) -> None:
 
 def main() -> None:
     """Best of a few runs of each case, one row each."""
-    versions = [version("mbla"), version("pyyaml"), version("pydantic"), platform.python_version()]
-    machine = [f"{platform.machine()} {platform.system()}, {_processor()}", str(os.cpu_count())]
-    new = not RESULTS.exists()
-    RESULTS.parent.mkdir(exist_ok=True)
-    with tempfile.TemporaryDirectory() as folder, RESULTS.open("a", newline="", encoding="utf-8") as file:
-        writer = csv.writer(file)
-        if new:
-            writer.writerow(COLUMNS)
+    with tempfile.TemporaryDirectory() as folder:
         for case, n_blocks, fault in [("valid", 500, ""), ("valid", 5000, ""), ("one fault per block", 5000, "true")]:
             text = polyhedra(n_blocks, fault)
             path = Path(folder) / "deck.yaml"
             path.write_text(text, encoding="utf-8")
             _, events = best_time(partial(go_through_events, text))
-            seconds, cpu = best_time(partial(read, path))
-            row = [case, n_blocks, f"{len(text) / 1e6:.2f}", f"{seconds:.3f}", f"{cpu:.3f}", f"{events:.3f}"]
-            writer.writerow([datetime.now(UTC).date().isoformat(), *row, *versions, *machine])
-            sys.stdout.write(f"{case:20} {n_blocks:6} blocks  {row[2]} MB  {seconds:.3f} s, ")
-            sys.stdout.write(f"of the processor {cpu:.3f} s, events alone {events:.3f} s\n")
-
-
-def _processor() -> str:
-    """Model of the processor, where the system says."""
-    info = Path("/proc/cpuinfo")
-    lines = info.read_text(encoding="utf-8").splitlines() if info.exists() else []
-    return next(
-        (line.split(":", 1)[1].strip() for line in lines if line.startswith("model name")), platform.processor()
-    )
+            seconds, processor = best_time(partial(read, path))
+            row = {"case": case, "blocks": n_blocks, "megabytes": len(text) / 1e6, "seconds": seconds}
+            record("deck", row | {"processor_seconds": processor, "events_processor_seconds": events})
 
 
 if __name__ == "__main__":

@@ -2,18 +2,14 @@
 
 ::
 
-    python tests/performance/bench_model.py
+    python -m tests.performance.bench_model
 """
 
 from __future__ import annotations
 
-import csv
-import platform
 import tempfile
-import time
 from collections.abc import Sequence
-from datetime import UTC, datetime
-from importlib.metadata import version
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -21,10 +17,8 @@ import numpy as np
 from mbla.deck import read_deck
 from mbla.model import build_model
 from tests.model.shapes import Shape, box, moved, prism, rotation, write_deck
+from tests.performance.recording import best_time, record
 
-RESULTS = Path(__file__).parent / "results" / "model.csv"
-COLUMNS = ["date", "case", "blocks", "seconds", "mbla", "numpy", "scipy", "python", "machine"]
-REPEATS = 3
 STAR = [(np.cos(a) * (1 + i % 2), np.sin(a) * (1 + i % 2)) for i, a in enumerate(np.pi * np.arange(12) / 6)]
 
 
@@ -54,30 +48,12 @@ def cases() -> dict[str, Sequence[str]]:
 
 def main() -> None:
     """Best of a few runs of each case, one row each."""
-    new = not RESULTS.exists()
-    RESULTS.parent.mkdir(exist_ok=True)
-    with tempfile.TemporaryDirectory() as folder, RESULTS.open("a", newline="", encoding="utf-8") as file:
-        writer = csv.writer(file)
-        if new:
-            writer.writerow(COLUMNS)
+    with tempfile.TemporaryDirectory() as folder:
         for name, items in cases().items():
             deck = read_deck(write_deck(Path(folder), items, supports="[{blocks: base}]"))
-            seconds, blocks = np.inf, 0
-            for _ in range(REPEATS):
-                started = time.perf_counter()
-                blocks = len(build_model(deck).blocks)
-                seconds = min(seconds, time.perf_counter() - started)
-            versions = [version("mbla"), np.__version__, version("scipy"), platform.python_version()]
-            machine = f"{platform.machine()} {platform.system()}, {_processor()}"
-            date = datetime.now(UTC).isoformat(timespec="seconds")
-            writer.writerow([date, name, blocks, f"{seconds:.3f}", *versions, machine])
-
-
-def _processor() -> str:
-    """Model name of the processor, where the system tells it."""
-    info = Path("/proc/cpuinfo")
-    lines = info.read_text(encoding="utf-8").splitlines() if info.exists() else []
-    return next((line.split(":")[1].strip() for line in lines if line.startswith("model name")), "unknown processor")
+            seconds, processor = best_time(partial(build_model, deck))
+            row = {"case": name, "blocks": len(build_model(deck).blocks)}
+            record("model", row | {"seconds": seconds, "processor_seconds": processor})
 
 
 if __name__ == "__main__":

@@ -4,18 +4,13 @@ Cuboids in a grid, each on the one below, with made-up forces and velocities: wh
 
 ::
 
-    python tests/performance/bench_results.py
+    python -m tests.performance.bench_results
 """
 
 from __future__ import annotations
 
-import csv
-import platform
-import time
 from collections.abc import Callable
 from dataclasses import replace
-from datetime import UTC, datetime
-from importlib.metadata import version
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
@@ -31,23 +26,9 @@ from mbla.results.results import CaseResult, Results
 from mbla.results.vtu import write_blocks_vtu, write_contacts_vtu, write_interfaces_vtu
 from mbla.results.write import write_outputs
 from mbla.solution.solution import Mechanics
+from tests.performance.recording import best_time, record
 from tests.results.synthetic import cuboids, horizontal_contacts, tower_model, tower_results
 
-RESULTS = Path(__file__).parent / "results" / "results.csv"
-COLUMNS = [
-    "date",
-    "step",
-    "blocks",
-    "points",
-    "seconds",
-    "bytes",
-    "mbla",
-    "numpy",
-    "h5py",
-    "meshio",
-    "python",
-    "machine",
-]
 SIZES = (1_000, 10_000)
 COURSES = 10
 FRAMES = 11
@@ -113,43 +94,20 @@ def as_polyhedra(results: Results) -> BlockCells:
 
 
 def main() -> None:
-    """Best of three of each step, one row each."""
-    new = not RESULTS.exists()
-    RESULTS.parent.mkdir(exist_ok=True)
-    machine = f"{platform.machine()} {platform.system()}, {_processor()}"
-    versions = [version(name) for name in ("mbla", "numpy", "h5py", "meshio")]
-    with RESULTS.open("a", newline="", encoding="utf-8") as file:
-        writer = csv.writer(file)
-        if new:
-            writer.writerow(COLUMNS)
-        for n_blocks in SIZES:
-            results = grid(n_blocks)
-            with TemporaryDirectory() as name:
-                for step, action in steps(results, Path(name)).items():
-                    before = _bytes(Path(name))
-                    seconds = []
-                    for _ in range(3):
-                        start = time.perf_counter()
-                        action()
-                        seconds.append(time.perf_counter() - start)
-                    row = [datetime.now(UTC).date().isoformat(), step, n_blocks, len(results.contacts.points)]
-                    row += [f"{min(seconds):.4f}", _bytes(Path(name)) - before]
-                    writer.writerow([*row, *versions, platform.python_version(), machine])
+    """Best of a few runs of each step, one row each."""
+    for n_blocks in SIZES:
+        results = grid(n_blocks)
+        with TemporaryDirectory() as name:
+            for step, action in steps(results, Path(name)).items():
+                before = _bytes(Path(name))
+                seconds, processor = best_time(action)
+                row: dict[str, object] = {"step": step, "blocks": n_blocks, "points": len(results.contacts.points)}
+                row |= {"seconds": seconds, "processor_seconds": processor}
+                record("results", row | {"bytes": _bytes(Path(name)) - before})
 
 
 def _bytes(folder: Path) -> int:
     return sum(path.stat().st_size for path in folder.rglob("*") if path.is_file())
-
-
-def _processor() -> str:
-    """Model name of the processor where the system tells it."""
-    information = Path("/proc/cpuinfo")
-    names = [
-        line.split(":", 1)[1].strip()
-        for line in (information.read_text(encoding="utf-8").splitlines() if information.exists() else [])
-        if line.startswith("model name")
-    ]
-    return f"{len(names)} x {names[0]}" if names else platform.processor()
 
 
 if __name__ == "__main__":

@@ -1,0 +1,58 @@
+"""How the benchmarks measure and record: shortest of a few runs, one row each, with date, versions and machine."""
+
+from __future__ import annotations
+
+import csv
+import os
+import platform
+import sys
+import time
+from collections.abc import Callable, Mapping
+from datetime import UTC, datetime
+from importlib.metadata import version
+from pathlib import Path
+
+RESULTS = Path(__file__).parent / "results"
+REPEATS = 3
+LIBRARIES = ("mbla", "numpy", "scipy", "clarabel", "shapely", "h5py", "meshio", "pyyaml", "pydantic")
+
+
+def best_time(run: Callable[[], object], repeats: int = REPEATS) -> tuple[float, float]:
+    """Shortest of a few runs by the clock and by the processor, s; they differ where the machine is busy."""
+    clock, processor = [], []
+    for _ in range(repeats):
+        start = time.perf_counter(), time.process_time()
+        run()
+        clock.append(time.perf_counter() - start[0])
+        processor.append(time.process_time() - start[1])
+    return min(clock), min(processor)
+
+
+def record(benchmark: str, row: Mapping[str, object]) -> None:
+    """Append a row to ``results/BENCHMARK.csv`` and say it; numbers get four digits."""
+    RESULTS.mkdir(exist_ok=True)
+    path = RESULTS / f"{benchmark}.csv"
+    values = {name: f"{value:.4g}" if isinstance(value, float) else str(value) for name, value in row.items()}
+    full = {"date": datetime.now(UTC).date().isoformat(), **values, "versions": versions(), "machine": machine()}
+    new = not path.exists()
+    with path.open("a", newline="", encoding="utf-8") as file:
+        writer = csv.DictWriter(file, full, lineterminator="\n")
+        if new:
+            writer.writeheader()
+        writer.writerow(full)
+    sys.stdout.write("  ".join(f"{name} {value}" for name, value in values.items()) + "\n")
+
+
+def versions() -> str:
+    """Versions that the figures depend on."""
+    return " ".join([f"python {platform.python_version()}", *(f"{name} {version(name)}" for name in LIBRARIES)])
+
+
+def machine() -> str:
+    """Processor and number of cores."""
+    information = Path("/proc/cpuinfo")
+    lines = information.read_text(encoding="utf-8").splitlines() if information.exists() else []
+    models = [line.split(":", 1)[1].strip() for line in lines if line.startswith("model name")]
+    return (
+        f"{platform.system()} {platform.machine()}, {os.cpu_count()} x {models[0] if models else platform.processor()}"
+    )
