@@ -79,7 +79,7 @@ def load_factor(joints: Sequence[PlanarJoint], centroids: Array, dead: Array, li
     loads[:] = 0.0
     loads[:, : dead.shape[1]] = dead
     friction = sp.csr_array((slip_values, (slip_rows, slip_columns)), shape=(2 * m, 3 * m + 1))
-    answer = linprog(
+    answer = linprog(  # type: ignore[call-overload]  # its stubs do not know sparse matrices
         np.append(np.zeros(3 * m), -1.0),
         A_ub=friction,
         b_ub=np.zeros(2 * m),
@@ -155,12 +155,12 @@ class Arch:
 
 
 def arch_load_factor(arch: Arch, mu: float, live: Array | None = None) -> float | None:
-    """Associative load factor of an arch between two springings on ground; pushed along +x by its weight unless ``live``."""
+    """Associative load factor of an arch between springings on ground; its weight pushes along +x unless ``live``."""
     joints = []
     n = len(arch.weights)
     for i, angle in enumerate(arch.angles):
         ray = np.array([np.sin(angle), np.cos(angle)])
-        normal = np.array([np.cos(angle), -np.sin(angle)])       # direction of travel along the arch
+        normal = np.array([np.cos(angle), -np.sin(angle)])  # direction of travel along the arch
         a, b = i - 1, (i if i < n else GROUND)
         joints.append(PlanarJoint(a, b, arch.inner * ray, arch.outer * ray, normal, mu))
     dead = np.outer(arch.weights, [0.0, -1.0])

@@ -14,7 +14,10 @@ EXACT = 1e-7
 
 VARIATIONS: list[tuple[str, tuple[str, ...]]] = [
     *(("block_sliding", (f"mu={mu}",)) for mu in (0.05, 0.2, 0.577, 0.9)),
-    *(("block_rocking", (f"b={b}", f"d={d}", f"h={h}")) for b, d, h in ((0.6, 0.6, 3), (2, 1, 6), (0.1, 0.9, 2), (30, 20, 90))),
+    *(
+        ("block_rocking", (f"b={b}", f"d={d}", f"h={h}"))
+        for b, d, h in ((0.6, 0.6, 3), (2, 1, 6), (0.1, 0.9, 2), (30, 20, 90))
+    ),
     *(("incline", (f"mu={mu}", f"alpha={alpha}")) for mu, alpha in ((0.7, 30), (0.7, 1), (0.3, 16), (0.5, 20))),
     *(("incline_tilted_gravity", (f"mu={mu}", f"alpha={alpha}")) for mu, alpha in ((0.7, 30), (0.3, 16), (1.2, 45))),
     *(("stack", (f"b={b}", f"h={h}")) for b, h in ((1, 0.4), (0.8, 0.8), (2.0, 1.5))),
@@ -25,7 +28,10 @@ VARIATIONS: list[tuple[str, tuple[str, ...]]] = [
     *(("leaning_block_rough_wall", (f"mu={mu}", f"muw={muw}")) for mu, muw in ((0.2, 0.5), (0.3, 0.1))),
     *(("groove", (f"mu={mu}", f"beta={beta}")) for mu, beta in itertools.product((0.3, 0.6), (10, 30, 55))),
     *(("torque", (f"mu={mu}", f"a={a}")) for mu, a in ((0.2, 0.1), (0.9, 5))),
-    *(("mortar_joint", (f"mu={mu}", f"c={c}", f"ft={ft}")) for mu, c, ft in ((0.5, 5e3, 0), (0.8, 2e6, 1e6), (0.0, 1e4, 2e3))),
+    *(
+        ("mortar_joint", (f"mu={mu}", f"c={c}", f"ft={ft}"))
+        for mu, c, ft in ((0.5, 5e3, 0), (0.8, 2e6, 1e6), (0.0, 1e4, 2e3))
+    ),
     *(("eccentric_compression", (f"ecc={ecc}", f"fc={fc}")) for ecc, fc in ((0.1, 1e6), (0.4, 3e5), (0.0, 1e9))),
     *(("beam_on_three_supports", (f"l={length}", f"h={h}")) for length, h in ((1.0, 0.05), (20.0, 2.0))),
 ]
@@ -35,7 +41,9 @@ def overrides(values: tuple[str, ...]) -> list[str]:
     return [f"parameters.{value}" for value in values]
 
 
-@pytest.mark.parametrize(("deck", "values"), VARIATIONS, ids=lambda value: value if isinstance(value, str) else ",".join(value))
+@pytest.mark.parametrize(
+    ("deck", "values"), VARIATIONS, ids=lambda value: value if isinstance(value, str) else ",".join(value)
+)
 def test_the_associative_figure_follows_the_closed_form(deck: str, values: tuple[str, ...]) -> None:
     for case in answers(deck, ASSOCIATIVE, *overrides(values)):
         exact = case.expected.associative_load_factor
@@ -60,7 +68,8 @@ def test_the_groove_locks_for_associative_flow_from_the_friction_on_at_which_it_
     wedging = 1 / math.tan(math.radians(55))
     closed_form = "expected.along.associative_load_factor=1"  # the deck's own has no value where it locks
     below, above = (
-        answer("groove", ASSOCIATIVE, closed_form, *overrides((f"mu={share * wedging}", "beta=55"))) for share in (0.99, 1.01)
+        answer("groove", ASSOCIATIVE, closed_form, *overrides((f"mu={share * wedging}", "beta=55")))
+        for share in (0.99, 1.01)
     )
     assert below.status is Status.SOLVED
     assert above.status is Status.UNBOUNDED
@@ -69,7 +78,10 @@ def test_the_groove_locks_for_associative_flow_from_the_friction_on_at_which_it_
 @pytest.mark.parametrize("mu", [0.1, 0.5, 1.3])
 @pytest.mark.parametrize(("share", "status"), [(1 - 1e-5, Status.SOLVED), (1 + 1e-5, Status.NO_EQUILIBRIUM)])
 def test_a_block_on_an_incline_stands_while_tan_alpha_is_at_most_mu(mu: float, share: float, status: Status) -> None:
-    cases = {case.name: case for case in answers("incline_too_steep", ASSOCIATIVE, *overrides((f"mu={mu}", f'flat="=atan({share}*mu)"')))}
+    cases = {
+        case.name: case
+        for case in answers("incline_too_steep", ASSOCIATIVE, *overrides((f"mu={mu}", f'flat="=atan({share}*mu)"')))
+    }
     case = cases["flat_enough"]
     if status is Status.SOLVED:
         # so close to the limit the relative gap of a factor of 1e-5 is no measure

@@ -48,19 +48,23 @@ def deck_text(case: Case) -> str:
 def _head(case: Case) -> Iterator[str]:
     limit = "no thickness stands" if case.least is None else f"least t/r = {case.least:g}"
     verb = "stands" if case.name.endswith("stands") else "falls"
+    title = f"Semicircular arch with its weight on the centre line, friction {case.mu:g}, t/r {case.thickness:g}"
+    numbers = f"mu: {case.mu:g}, t: {case.thickness:g}, w: 0.5"
     yield "# yaml-language-server: $schema=../../schemas/deck.schema.json"
-    yield "# Semicircular arch of Cocchetti and Rizzi (Frattura ed Integrita Strutturale 51, 2020, 356-375, Tables 1 and 3):"
-    yield "# radial joints, mean radius 1, weight along the centre line. It is applied as a force on each voussoir, at the"
-    yield "# centroid of its arc, so that every joint has the resultant of the continuous arch; the blocks' own weight is not used."
+    yield "# Semicircular arch of Cocchetti and Rizzi (Frattura ed Integrita Strutturale 51, 2020, 356-375, Tables"
+    yield "# 1 and 3): radial joints, mean radius 1, weight along the centre line. It is applied as a force on each"
+    yield "# voussoir, at the centroid of its arc, so that every joint has the resultant of the continuous arch; the"
+    yield "# blocks' own weight is not used."
     yield f"# Friction {case.mu:g}: {limit}. Here t/r = {case.thickness:g}: the arch {verb}."
     if case.least is not None:
-        yield "# (--set parameters.t=... tries another thickness; joints at a finite number of places lower the limit by up to 6e-5.)"
+        yield "# (--set parameters.t=... tries another thickness. With joints at a finite number of places the arch"
+        yield "# stands down to a thickness that is smaller by up to 6e-5.)"
     else:
         yield "# Below mu = 0.309215 the arch slides at its springings whatever its thickness."
     yield "# Generated: tests/decks/centre_line_arches.py."
     yield "mbla: 1"
-    yield f"title: Semicircular arch with its weight on the centre line, friction {case.mu:g}, t/r {case.thickness:g}"
-    yield f'parameters: {{mu: {case.mu:g}, t: {case.thickness:g}, w: 0.5, d: "=pi/{VOUSSOIRS}", r: "=sin(d/2)/(d/2)", xc: "=1-t/2"}}'
+    yield f"title: {title}"
+    yield f'parameters: {{{numbers}, d: "=pi/{VOUSSOIRS}", r: "=sin(d/2)/(d/2)", xc: "=1-t/2"}}'
 
 
 def _structure() -> Iterator[str]:
@@ -104,10 +108,12 @@ def _expected(case: Case) -> Iterator[str]:
     published = "Cocchetti and Rizzi 2020"
     factor = arch_load_factor(centre_line_arch(case.thickness, VOUSSOIRS), case.mu)
     yield "expected:"
-    if factor is None:
-        yield f'  push_x: {{status: no_equilibrium, source: "{published}; planar linear program"}}'
-    else:
-        yield f'  push_x: {{load_factor: {factor:.7e}, status: solved, tolerance: 1.e-5, source: "planar linear program; that it stands: {published}"}}'
+    yield "  push_x:"
+    if factor is not None:
+        yield f"    load_factor: {factor:.7e}"
+        yield "    tolerance: 1.e-5"
+    yield f"    status: {'no_equilibrium' if factor is None else 'solved'}"
+    yield f'    source: "planar linear program; that it {"falls" if factor is None else "stands"}: {published}"'
 
 
 def main() -> None:

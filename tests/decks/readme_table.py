@@ -1,4 +1,4 @@
-"""The table of decks/README.md, made from the decks themselves; ``python -m tests.decks.readme_table`` writes it again."""
+"""The table of decks/README.md, made from the decks; ``python -m tests.decks.readme_table`` writes it again."""
 
 from __future__ import annotations
 

@@ -109,7 +109,9 @@ def test_no_load_factor_exceeds_the_associative_one(path: Path) -> None:
 def test_the_result_files_are_there(path: Path) -> None:
     stem, files = path.stem, outcome_of(path).files
     assert {f"{stem}.h5", f"{stem}.lst", f"{stem}.sta", f"{stem}.json"} <= set(files)
-    assert (f"{stem}_{next(iter(deck_of(path).content.load_cases))}_blocks.vtu" in files) == deck_of(path).content.output.vtu
+    assert (f"{stem}_{next(iter(deck_of(path).content.load_cases))}_blocks.vtu" in files) == deck_of(
+        path
+    ).content.output.vtu
 
 
 @every_deck

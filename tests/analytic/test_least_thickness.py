@@ -1,0 +1,101 @@
+"""Least thickness of the semicircular arch with friction (Cocchetti and Rizzi 2020, Tables 1 and 3).
+
+The radial joints of the model lie at whole multiples of pi/n, those of the continuous arch anywhere: the model stands
+a little thinner. It comes close where a joint happens to lie near those of the true mechanism, so each friction has its
+own number of voussoirs here. The least thickness is where the load factor of a horizontal push becomes zero; close to
+it the factor is nearly linear in the thickness (with a friction of 0.31 up to 0.8 % above it: further on the arch
+slides).
+"""
+
+from __future__ import annotations
+
+import pytest
+
+from mbla.solution import Status
+from tests.analytic.planar import arch_load_factor, centre_line_arch
+from tests.line import HEAD, line_of, verified
+
+PUBLISHED = {0.7: 0.107426, 0.395832: 0.107426, 0.38: 0.122192, 0.35: 0.152920, 0.31: 0.199653}
+"""Least thickness over mean radius by friction coefficient, six digits."""
+
+VOUSSOIRS = {0.7: 86, 0.395832: 86, 0.38: 106, 0.35: 96, 0.31: 86}
+FALLS = -1.0
+NEAR = 1e-4
+LONG = 720
+"""At this number the joints are a quarter of a degree apart."""
+
+
+def deck_text(thickness: float, voussoirs: int, mu: float) -> str:
+    """Arch of mean radius 1, unit weight on each voussoir at the centroid of its arc."""
+    loads = {"dead": "[0, 0, -1]", "live": "[1, 0, 0]"}
+    points = [f'["=x-r*cos({i + 0.5}*d)", 0.25, "=r*sin({i + 0.5}*d)"]' for i in range(voussoirs)]
+    lines = [
+        HEAD,
+        f'parameters: {{d: "=pi/{voussoirs}", r: "=sin(d/2)/(d/2)", x: {1 - thickness / 2!r}}}',
+        f"joints: {{dry: {{friction: {mu!r}}}}}",
+        "blocks:",
+        f'  - arch: {{material: stone, shape: semicircular, span: "=2*x", thickness: {thickness!r}, width: 0.5,',
+        f"           voussoirs: {voussoirs}, springers: ground}}",
+        "analysis: {flow_rule: associative}",
+        "load_cases:",
+        "  push:",
+    ]
+    for kind, force in loads.items():
+        lines.append(f"    {kind}:")
+        lines += [
+            f"      - {{force: {force}, on: {{group: arch, index: {i}}}, at: {point}}}"
+            for i, point in enumerate(points)
+        ]
+    return "\n".join(lines) + "\n"
+
+
+def margin(thickness: float, voussoirs: int, mu: float) -> float:
+    """Load factor of the push; negative where the arch falls by its own weight (its size means nothing then)."""
+    solution, _, status = verified(line_of(deck_text(thickness, voussoirs, mu)))
+    if status is Status.NO_EQUILIBRIUM:
+        return FALLS
+    assert solution.mechanics is not None, solution.reason
+    return solution.mechanics.load_factor
+
+
+def least_thickness(voussoirs: int, mu: float, start: float) -> float:
+    """Thickness at which the load factor of the push becomes zero, by two secants from above.
+
+    The factor is not asked for closer than NEAR: on the limit itself the set of admissible forces has no interior, and
+    a cone program with no interior is neither solved nor refuted in double precision.
+    """
+    far = secant(voussoirs, mu, start * 1.004, start * 1.002)
+    return secant(voussoirs, mu, far + 2.5 * NEAR, far + NEAR)
+
+
+def secant(voussoirs: int, mu: float, thick: float, thin: float) -> float:
+    """Zero of the line through two load factors."""
+    more, less = margin(thick, voussoirs, mu), margin(thin, voussoirs, mu)
+    assert more > less > 0
+    return thin - less * (thick - thin) / (more - less)
+
+
+@pytest.mark.parametrize("mu", PUBLISHED)
+def test_least_thickness(mu: float) -> None:
+    found = least_thickness(VOUSSOIRS[mu], mu, PUBLISHED[mu])
+    assert found == pytest.approx(PUBLISHED[mu], abs=1e-5)
+    assert margin(found - NEAR, VOUSSOIRS[mu], mu) == FALLS
+
+
+@pytest.mark.parametrize("mu", [0.7, 0.35])
+def test_the_planar_linear_program_has_the_same_limit(mu: float) -> None:
+    found = least_thickness(VOUSSOIRS[mu], mu, PUBLISHED[mu])
+    assert arch_load_factor(centre_line_arch(found + 2e-6, VOUSSOIRS[mu]), mu) is not None
+    assert arch_load_factor(centre_line_arch(found - 4e-6, VOUSSOIRS[mu]), mu) is None
+
+
+@pytest.mark.parametrize("thickness", [0.15, 0.3, 0.6])
+def test_below_the_least_friction_no_thickness_stands(thickness: float) -> None:
+    assert margin(thickness, 60, 0.308) == FALLS
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("mu", [0.7, 0.38, 0.35, 0.31])
+def test_least_thickness_with_720_voussoirs(mu: float) -> None:
+    found = least_thickness(LONG, mu, PUBLISHED[mu])
+    assert found == pytest.approx(PUBLISHED[mu], abs=1e-6)
