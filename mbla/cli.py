@@ -144,7 +144,8 @@ def _add_schema_and_new(commands: Any) -> None:
 
 def _run(options: argparse.Namespace) -> int:
     from mbla.results.json_record import json_line, results_json
-    from mbla.results.listing import listing, summary_lines
+    from mbla.results.listing import listing
+    from mbla.results.summary import summary_lines
     from mbla.run import run
 
     run_options = _run_options(options)

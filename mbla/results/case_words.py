@@ -18,6 +18,21 @@ from mbla.results.results import CaseResult
 from mbla.results.text import counted, entry, heading, number, sentence, small, table
 from mbla.solution.solution import Checks, Mechanics, Solution, Status
 
+WITH_VALUE = (Status.SOLVED, Status.APPROXIMATE)
+"""statuses whose load factor is a result"""
+STOPPED_BY = {
+    Status.ITERATION_LIMIT: "out of iterations",
+    Status.TIME_LIMIT: "out of time",
+    Status.NUMERICAL_ERROR: "numerical failure",
+}
+"""what ended a case without a result"""
+PURPOSES = {
+    "associative": "associative",
+    "reverse": "reversed live load",
+    "published": "reduced dilatancy",
+}
+"""what a cone program is for, in words"""
+
 
 def load_factor_words(model: Model, load_case: LoadCase, load_factor: float) -> str:
     """``0.145 g`` where the live load is an acceleration, else ``0.643 times the live load``."""
@@ -28,32 +43,51 @@ def load_factor_words(model: Model, load_case: LoadCase, load_factor: float) -> 
 
 
 def verdict(model: Model, case: CaseResult) -> str:
-    """The outcome of a case in one line."""
-    solution = case.solution
-    if solution.mechanics is None:
-        words = {
-            Status.NO_EQUILIBRIUM: "no equilibrium: the structure cannot carry its dead load",
-            Status.UNBOUNDED: "no collapse: the live load never brings the structure down",
-            Status.ITERATION_LIMIT: "not solved: out of iterations",
-            Status.TIME_LIMIT: "not solved: out of time",
-            Status.NUMERICAL_ERROR: "not solved: numerical failure",
-        }
-        return words.get(case.status, f"not solved ({case.status.value})")
-    at = f"collapses at {load_factor_words(model, case.load_case, solution.mechanics.load_factor)}"
-    remarks = {
-        Status.SOLVED: f"{at}, verified",
-        Status.APPROXIMATE: f"{at}, approximately",
-        Status.NOT_VERIFIED: f"NOT VERIFIED; the solver says that it {at}",
-    }
-    return remarks.get(case.status, f"NOT SOLVED ({case.status.value}); last value: {at}")
+    """The outcome of a case in one line; only a solved case reads as a collapse."""
+    mechanics = case.solution.mechanics
+    if mechanics is None:
+        return _without_load_factor(case)
+    value = load_factor_words(model, case.load_case, mechanics.load_factor)
+    if case.status is Status.SOLVED:
+        return f"collapses at {value}, verified"
+    if case.status is Status.APPROXIMATE:
+        return f"collapses at about {value}, approximate"
+    if case.status is Status.NOT_VERIFIED:
+        return f"NOT VERIFIED: the last value, {value}, is no result"
+    return f"NOT SOLVED ({_stopped(case)}): the last value, {value}, is no result"
 
 
-def beside_associative(case: CaseResult) -> str:
-    """`` (associative 0.646)`` where the deck's flow rule is another one and both answers are there, else nothing."""
-    own, associative = case.solution.mechanics, case.solution.associative
-    if own is None or associative is None or associative is own:
+def _without_load_factor(case: CaseResult) -> str:
+    if case.status is Status.NO_EQUILIBRIUM:
+        return "no equilibrium: the structure cannot carry its dead load"
+    if case.status is Status.UNBOUNDED and case.solution.flow_rule == "associative":
+        return "no collapse: no multiple of the live load brings the structure down"
+    if case.status is Status.UNBOUNDED:
+        return f"no collapse by associative flow; undecided for {case.solution.flow_rule.replace('_', '-')} flow"
+    if case.status is Status.NOT_VERIFIED:
+        return "NOT VERIFIED: the lack of equilibrium could not be confirmed"
+    return f"NOT SOLVED ({_stopped(case)})"
+
+
+def _stopped(case: CaseResult) -> str:
+    return STOPPED_BY.get(case.status, case.status.value)
+
+
+def bound_words(model: Model, case: CaseResult) -> str:
+    """What is known although a case has no verified load factor; nothing for others.
+
+    The kinematic bound limits the associative load factor, and that limits the load factor of any other flow rule.
+    """
+    if case.status is Status.SOLVED or case.solution.mechanics is None or np.isnan(case.checks.kinematic_bound):
         return ""
-    return f" (associative load factor {number(associative.load_factor)})"
+    value = load_factor_words(model, case.load_case, case.checks.kinematic_bound)
+    return f"certain all the same: it collapses at no more than {value} (kinematic bound, valid for every flow rule)"
+
+
+def reasons(case: CaseResult) -> list[str]:
+    """Why a case is not plainly solved, each reason once."""
+    reason = [] if case.status is Status.SOLVED or not case.solution.reason else [case.solution.reason]
+    return list(dict.fromkeys([*reason, *case.checks.failures]))
 
 
 def case_lines(model: Model, contacts: Contacts, case: CaseResult) -> list[str]:
@@ -62,10 +96,9 @@ def case_lines(model: Model, contacts: Contacts, case: CaseResult) -> list[str]:
     mechanics = case.solution.mechanics
     says = verdict(model, case)
     if mechanics is not None:
-        says += f": {mechanism_summary(model, contacts, mechanics)}"
+        says += f"{_mechanism_label(case)}: {mechanism_summary(model, contacts, mechanics)}"
     lines += sentence(says + ".")
-    if case.solution.reason:
-        lines += sentence(case.solution.reason)
+    lines += [line for text in (case.solution.reason, bound_words(model, case)) for line in sentence(text)]
     if mechanics is None and case.solution.certificate is not None:
         lines += certificate_lines(model, case.solution.certificate)
     lines += ["", *figures(model, case)]
@@ -76,21 +109,26 @@ def case_lines(model: Model, contacts: Contacts, case: CaseResult) -> list[str]:
     return lines + _programs(case.solution)
 
 
+def _mechanism_label(case: CaseResult) -> str:
+    return "" if case.status in WITH_VALUE else "; its mechanism, for what it is worth"
+
+
 def figures(model: Model, case: CaseResult) -> list[str]:
     """Load factors by both flow rules, bounds, residuals, verdict of the verification."""
     solution, checks = case.solution, case.checks
     lines = entry("status", case.status.value)
     if solution.mechanics is not None:
-        lines += entry(f"load factor, {solution.flow_rule}", number(solution.mechanics.load_factor))
+        remark = "" if case.status in WITH_VALUE else "   (the last value, no result)"
+        lines += entry(f"load factor, {solution.flow_rule}", number(solution.mechanics.load_factor) + remark)
     if solution.associative is not None and solution.flow_rule != "associative":
         lines += entry("load factor, associative", _beside(solution.associative, solution.mechanics))
     if not np.isnan(checks.static_bound) or not np.isnan(checks.kinematic_bound):
         lines += entry("associative, static bound", _digits(checks.static_bound))
         lines += entry("associative, kinematic bound", _digits(checks.kinematic_bound))
         lines += entry("relative gap", small(checks.gap))
-    for name, value in _residuals(checks):
+    for name, value, measure in _residuals(checks):
         if not np.isnan(value):
-            lines += entry(name, small(value))
+            lines += entry(name, f"{small(value)}   {measure}")
     return lines + _verification(case)
 
 
@@ -106,13 +144,14 @@ def _beside(associative: Mechanics, own: Mechanics | None) -> str:
     return f"{text}   (the one above differs by {difference:+.2f} %)" if difference else text
 
 
-def _residuals(checks: Checks) -> tuple[tuple[str, float], ...]:
+def _residuals(checks: Checks) -> tuple[tuple[str, float, str], ...]:
+    """Name, value and what each residual is relative to."""
     return (
-        ("equilibrium residual", checks.equilibrium_residual),
-        ("yield violation", checks.yield_violation),
-        ("penetration", checks.penetration),
-        ("complementarity residual", checks.complementarity_residual),
-        ("power balance", checks.power_balance),
+        ("equilibrium residual", checks.equilibrium_residual, "of the mean load of a block"),
+        ("yield violation", checks.yield_violation, "of the mean load of a block"),
+        ("penetration", checks.penetration, "of the largest contact velocity"),
+        ("complementarity residual", checks.complementarity_residual, "of the power"),
+        ("power balance", checks.power_balance, "of the power"),
     )
 
 
@@ -122,7 +161,8 @@ def _verification(case: CaseResult) -> list[str]:
     if case.checks.verified:
         return entry("verification", "nothing contradicts the status")
     lines = entry("verification", "NOT PASSED")
-    return lines + [line for failure in case.checks.failures for line in sentence(failure, "    ")]
+    told = (case.solution.reason,)
+    return lines + [line for text in case.checks.failures if text not in told for line in sentence(text, "    ")]
 
 
 def _power(model: Model, load_case: LoadCase, mechanics: Mechanics) -> list[str]:
@@ -166,7 +206,7 @@ def _programs(solution: Solution) -> list[str]:
     rows = [
         [
             str(program.program),
-            program.kind,
+            PURPOSES.get(program.kind, program.kind),
             program.status.value,
             number(program.load_factor),
             small(program.change),
@@ -177,4 +217,7 @@ def _programs(solution: Solution) -> list[str]:
     ]
     says = f"{counted(len(rows), 'cone program')}, {counted(total, 'iteration')}, {solution.seconds:.3f} s:"
     head = ["program", "for", "status", "load factor", "change", "iterations", "seconds"]
-    return ["", *sentence(says), *table(head, rows, left=3)]
+    lines = ["", *sentence(says), *table(head, rows, left=3)]
+    if any(program.kind == "reverse" for program in solution.programs):
+        lines += sentence("The program with the live load reversed shows whether the dead load alone is carried.")
+    return lines

@@ -10,11 +10,9 @@ from mbla import __version__
 from mbla.arrays import IntArray
 from mbla.errors import Notice
 from mbla.model.model import Model
-from mbla.results.case_words import beside_associative, case_lines, figures, verdict
-from mbla.results.mechanism_words import mechanism_summary
+from mbla.results.case_words import case_lines, figures, verdict
 from mbla.results.results import Results
 from mbla.results.text import WIDTH, counted, entry, heading, number, sentence, table
-from mbla.solution.solution import Status
 
 
 def listing(results: Results) -> str:
@@ -30,28 +28,6 @@ def listing(results: Results) -> str:
         lines += case_lines(results.model, results.contacts, case)
     lines += _recap(results)
     return "\n".join(line.rstrip() for line in lines) + "\n"
-
-
-def summary_lines(results: Results) -> list[str]:
-    """What the terminal shows of a run: the model in a line, each case in one or two, warnings."""
-    model, contacts = results.model, results.contacts
-    counts = (
-        f"{results.deck.name}: {counted(len(model.blocks), 'block')}, {counted(len(contacts), 'interface')}, "
-        f"{counted(len(contacts.points), 'contact point')}"
-    )
-    lines = [counts]
-    for case in results.cases:
-        text = f"{case.load_case.name}: {verdict(model, case)}"
-        mechanics = case.solution.mechanics
-        if mechanics is not None:
-            text += f": {mechanism_summary(model, contacts, mechanics)}"
-        lines += sentence(text + beside_associative(case))
-        unsure = case.status is not Status.SOLVED
-        lines += sentence(case.solution.reason, "    ") if unsure and case.solution.reason else []
-        lines += [line for failure in case.checks.failures for line in sentence(failure, "    ")]
-    return lines + [
-        line for notice in results.notices if notice.severity == "warning" for line in sentence(str(notice))
-    ]
 
 
 def check_listing(results: Results, needs: Mapping[str, int]) -> str:

@@ -23,6 +23,8 @@ from mbla.solution.solution import ContactMode, Mechanics
 
 MOST_ROWS = 20
 """rows of a table in the listing; the result files hold all of them"""
+MOST_NAMED = 3
+"""blocks named in a summary"""
 
 
 def mechanism_summary(model: Model, contacts: Contacts, mechanics: Mechanics) -> str:
@@ -37,7 +39,8 @@ def mechanism_summary(model: Model, contacts: Contacts, mechanics: Mechanics) ->
         f"{counted(count[InterfaceMode.OPEN], 'interface')} open" if count[InterfaceMode.OPEN] else "",
     ]
     found = ", ".join(word for word in words if word) or "no interface opens or slides"
-    return f"{found}; {int(moving.sum())} of {counted(len(model.free), 'free block')} move"
+    verb = "moves" if moving.sum() == 1 else "move"
+    return f"{found}; {int(moving.sum())} of {counted(len(model.free), 'free block')} {verb}"
 
 
 def mechanism_lines(model: Model, contacts: Contacts, mechanics: Mechanics) -> list[str]:
@@ -123,14 +126,28 @@ def _position(point: FloatArray, model: Model) -> str:
 
 def certificate_lines(model: Model, certificate: FloatArray) -> list[str]:
     """Which blocks cannot be held, and what they do, the fastest first."""
+    order = _not_held(model, certificate)
+    named = [[model.blocks.name(b), _motion_words(certificate[b], model.blocks.sizes[b])] for b in order[:MOST_ROWS]]
+    return _titled(f"Not held ({counted(len(order), 'block')}):", ["block", "motion"], named, len(order))
+
+
+def not_held_summary(model: Model, certificate: FloatArray) -> str:
+    """``not held: tower[0] (moves down), tower[1] (moves down) and 3 more``."""
+    order = _not_held(model, certificate)
+    words = [
+        f"{model.blocks.name(b)} ({_motion_words(certificate[b], model.blocks.sizes[b])})" for b in order[:MOST_NAMED]
+    ]
+    more = f" and {len(order) - MOST_NAMED} more" if len(order) > MOST_NAMED else ""
+    return f"not held: {', '.join(words)}{more}" if words else ""
+
+
+def _not_held(model: Model, certificate: FloatArray) -> list[int]:
+    """Moving blocks, the fastest first."""
     moving = moving_blocks(certificate, model.blocks.sizes)
     speeds = (
         np.linalg.norm(certificate[:, :3], axis=1) + np.linalg.norm(certificate[:, 3:], axis=1) * model.blocks.sizes / 2
     )
-    order = [int(b) for b in np.argsort(-speeds, kind="stable") if moving[b]]
-    named = [[model.blocks.name(b), _motion_words(certificate[b], model.blocks.sizes[b])] for b in order[:MOST_ROWS]]
-    title = f"Not held ({counted(int(moving.sum()), 'block')}):"
-    return _titled(title, ["block", "motion"], named, len(order))
+    return [int(b) for b in np.argsort(-speeds, kind="stable") if moving[b]]
 
 
 def _motion_words(motion: FloatArray, size: float) -> str:

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from mbla.results.hdf5 import read_results_hdf5, write_results_hdf5
-from mbla.results.listing import check_listing, listing, summary_lines, verification_lines
+from mbla.results.listing import check_listing, listing, verification_lines
 from mbla.results.results import Results
 from mbla.results.text import WIDTH
 from mbla.solution.solution import Status
@@ -55,7 +55,7 @@ def test_listing_is_the_same_from_the_file(tmp_path: Path, results: Results, tex
         (
             "Load case push_x",
             [
-                "collapses at 0.5 g, verified: 1 hinge; 1 of 2 free blocks move.",
+                "collapses at 0.5 g, verified: 1 hinge; 1 of 2 free blocks moves.",
                 "Blocks that move: 1 of 1 in tower.",
                 "base[0]/tower[0]  (1, 0.5, 1)  +x side",
                 "100.0 % goes into the dead load, 0.0 % into friction",
@@ -90,14 +90,18 @@ def with_case(results: Results, **changes: Any) -> Results:
 @pytest.mark.parametrize(
     ("changes", "words"),
     [
-        ({"status": Status.APPROXIMATE, "solution": {"reason": "did not settle"}}, "collapses at 0.5 g, approximately"),
+        (
+            {"status": Status.APPROXIMATE, "solution": {"reason": "did not settle"}},
+            "collapses at about 0.5 g, approximate",
+        ),
         ({"status": Status.APPROXIMATE, "solution": {"reason": "did not settle"}}, "did not settle"),
         ({"status": Status.NOT_VERIFIED, "checks": {"verified": False, "failures": ("residual 0.1",)}}, "NOT VERIFIED"),
         ({"status": Status.NOT_VERIFIED, "checks": {"verified": False, "failures": ("residual 0.1",)}}, "residual 0.1"),
-        ({"status": Status.UNBOUNDED, "solution": {"mechanics": None, "reason": "locked"}}, "no collapse"),
+        ({"status": Status.UNBOUNDED, "solution": {"mechanics": None, "flow_rule": "associative"}}, "no collapse: no"),
+        ({"status": Status.UNBOUNDED, "solution": {"mechanics": None}}, "undecided for non-associative flow"),
         ({"status": Status.UNBOUNDED, "solution": {"mechanics": None, "reason": "locked"}}, "locked"),
         ({"status": Status.TIME_LIMIT, "solution": {"mechanics": None}}, "out of time"),
-        ({"status": Status.TIME_LIMIT}, "NOT SOLVED (time_limit)"),
+        ({"status": Status.TIME_LIMIT}, "NOT SOLVED (out of time): the last value, 0.5 g, is no result"),
         ({"status": Status.ITERATION_LIMIT, "solution": {"mechanics": None}}, "out of iterations"),
         ({"status": Status.NUMERICAL_ERROR, "solution": {"mechanics": None}}, "numerical failure"),
     ],
@@ -134,15 +138,16 @@ def test_long_tables_say_how_much_they_leave_out(results: Results) -> None:
     assert "Not held (3 blocks):" in listing(replace(results, cases=(changed,)))
 
 
-def test_summary_says_the_essential(results: Results) -> None:
-    text = "\n".join(summary_lines(results))
-    assert "tower.yaml: 3 blocks, 2 interfaces, 8 contact points" in text
-    assert "push_x: collapses at 0.5 g, verified: 1 hinge" in text
-    assert "(associative load factor 0.5)" in " ".join(text.split())
-    assert "fall: no equilibrium" in text
-    assert "near-miss" in text
-    assert "faces-turned-outwards" not in text
-    assert max(map(len, text.splitlines())) <= WIDTH
+def test_a_value_that_is_no_result_says_so(results: Results) -> None:
+    failed = {"verified": False, "failures": ("residual 0.1",), "kinematic_bound": 0.4}
+    found = section(listing(with_case(results, status=Status.NOT_VERIFIED, checks=failed)), "Load case push_x")
+    assert re.search(r"load factor, non_associative +0\.5   \(the last value, no result\)", found)
+    assert "collapses at no more than 0.4 g" in found
+
+
+def test_residuals_say_what_they_are_relative_to(text: str) -> None:
+    found = section(text, "Load case push_x")
+    assert re.search(r"equilibrium residual +\S+   of the mean load of a block\n", found)
 
 
 def test_check_listing_has_no_results(results: Results) -> None:

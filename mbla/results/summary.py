@@ -1,0 +1,55 @@
+"""What the terminal shows of a run: the model in a line, status and load factor of each case, then words."""
+
+from __future__ import annotations
+
+from mbla.results.case_words import WITH_VALUE, bound_words, reasons, verdict
+from mbla.results.mechanism_words import mechanism_summary, not_held_summary
+from mbla.results.results import CaseResult, Results
+from mbla.results.text import counted, number, sentence, table
+from mbla.solution.solution import Status
+
+DETAIL = "    "
+
+
+def summary_lines(results: Results) -> list[str]:
+    """The lines, at most ``WIDTH`` columns wide: model, table of cases, each case in words, warnings."""
+    model, contacts = results.model, results.contacts
+    counts = (
+        f"{results.deck.name}: {counted(len(model.blocks), 'block')}, {counted(len(contacts), 'interface')}, "
+        f"{counted(len(contacts.points), 'contact point')}, weight {number(model.total_weight)} {model.units.force}"
+    )
+    lines = [counts, *_table(results)]
+    for case in results.cases:
+        lines += _in_words(results, case)
+    warnings = [notice for notice in results.notices if notice.severity == "warning"]
+    return lines + [line for notice in warnings for line in sentence(str(notice))]
+
+
+def _table(results: Results) -> list[str]:
+    """Status and load factor of every case; the associative one beside it where the deck's flow rule is another."""
+    if not results.cases:
+        return []
+    rules = sorted({case.solution.flow_rule for case in results.cases} - {"associative"})
+    head = ["load case", "status", "load factor", *(["associative"] if rules else [])]
+    return table(head, [_row(case)[: len(head)] for case in results.cases], left=2)
+
+
+def _row(case: CaseResult) -> list[str]:
+    own, associative = case.solution.mechanics, case.solution.associative
+    status = case.status.value if case.status is Status.SOLVED else case.status.value.replace("_", " ").upper()
+    value = "-" if own is None or case.status not in WITH_VALUE else number(own.load_factor)
+    return [case.load_case.name, status, value, "-" if associative is None else number(associative.load_factor)]
+
+
+def _in_words(results: Results, case: CaseResult) -> list[str]:
+    """How it collapses; where it does not, or that is not known, why and what is known all the same."""
+    model, solution = results.model, case.solution
+    text = f"{case.load_case.name}: {verdict(model, case)}"
+    if solution.mechanics is not None and case.status in WITH_VALUE:
+        text += f": {mechanism_summary(model, results.contacts, solution.mechanics)}"
+    lines = sentence(text)
+    if solution.mechanics is None and solution.certificate is not None:
+        lines += sentence(not_held_summary(model, solution.certificate), DETAIL)
+    for why in (*reasons(case), bound_words(model, case)):
+        lines += sentence(why, DETAIL)
+    return lines

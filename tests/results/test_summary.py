@@ -1,0 +1,79 @@
+import re
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from mbla.results.results import Results
+from mbla.results.summary import summary_lines
+from mbla.results.text import WIDTH
+from mbla.solution.solution import Status
+
+from .synthetic import tower_results
+
+
+@pytest.fixture(scope="module")
+def results() -> Results:
+    return tower_results()
+
+
+def summary(results: Results) -> str:
+    """The lines of the summary with runs of spaces as one."""
+    lines = summary_lines(results)
+    assert max(map(len, lines)) <= WIDTH
+    return " ".join(" ".join(lines).split())
+
+
+def test_model_and_cases_at_a_glance(results: Results) -> None:
+    lines = summary_lines(results)
+    assert lines[0] == "tower.yaml: 3 blocks, 2 interfaces, 8 contact points, weight 65 N"
+    assert lines[1].split() == ["load", "case", "status", "load", "factor", "associative"]
+    assert lines[2].split() == ["push_x", "solved", "0.5", "0.5"]
+    assert lines[3].split() == ["fall", "NO", "EQUILIBRIUM", "-", "-"]
+
+
+def test_cases_in_words(results: Results) -> None:
+    text = summary(results)
+    assert "push_x: collapses at 0.5 g, verified: 1 hinge; 1 of 2 free blocks moves" in text
+    assert "fall: no equilibrium: the structure cannot carry its dead load not held: tower[0] (moves down)" in text
+
+
+def test_warnings_but_no_notices(results: Results) -> None:
+    text = summary(results)
+    assert "near-miss" in text
+    assert "faces-turned-outwards" not in text
+
+
+def test_associative_flow_needs_no_second_column(results: Results) -> None:
+    cases = tuple(replace(case, solution=replace(case.solution, flow_rule="associative")) for case in results.cases)
+    assert summary_lines(replace(results, cases=cases))[1].split() == ["load", "case", "status", "load", "factor"]
+
+
+@pytest.mark.parametrize("status", [Status.NOT_VERIFIED, Status.TIME_LIMIT, Status.ITERATION_LIMIT])
+def test_a_value_that_is_no_result_is_not_in_the_table(results: Results, status: Status) -> None:
+    first = results.cases[0]
+    checks = replace(first.checks, kinematic_bound=0.4, failures=("residual 0.1",))
+    unsure = replace(results, cases=(replace(first, status=status, checks=checks),))
+    assert re.search(r"[A-Z ]+ +- +0\.5$", summary_lines(unsure)[2])
+    text = summary(unsure)
+    assert "the last value, 0.5 g, is no result" in text
+    assert "no more than 0.4 g" in text
+    assert "hinge" not in text
+
+
+def test_no_bound_is_claimed_where_there_is_none(results: Results) -> None:
+    first = results.cases[0]
+    checks = replace(first.checks, kinematic_bound=np.nan)
+    unsure = replace(first, status=Status.NOT_VERIFIED, checks=checks)
+    assert "no more than" not in summary(replace(results, cases=(unsure,)))
+
+
+def test_a_reason_that_is_also_a_failure_stands_once(results: Results) -> None:
+    first = results.cases[0]
+    changed = replace(
+        first,
+        status=Status.TIME_LIMIT,
+        solution=replace(first.solution, mechanics=None, reason="the time limit was reached"),
+        checks=replace(first.checks, failures=("the time limit was reached",)),
+    )
+    assert summary(replace(results, cases=(changed,))).count("the time limit was reached") == 1
