@@ -1,4 +1,10 @@
-"""All checks in one command: format, lint, types, tests. ``python tests/checks.py -m long`` passes options to pytest."""
+"""All checks in one command: format, lint, types, tests; options go to pytest.
+
+::
+
+    python tests/checks.py
+    python tests/checks.py -m long
+"""
 
 from __future__ import annotations
 

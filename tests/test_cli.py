@@ -230,7 +230,11 @@ def test_signals_end_the_run_and_keep_the_earlier_result(tmp_path: Path, number:
     folder = tmp_path / "wall.out"
     before = {path.name: path.read_bytes() for path in folder.iterdir()}
     long = ["--set", "parameters.n=25", "--flow-rule", "non_associative", "--force"]
-    process = subprocess.Popen([sys.executable, "-m", "mbla", "run", str(deck), *long], stderr=subprocess.PIPE)
+    process = subprocess.Popen(
+        [sys.executable, "-m", "mbla", "run", str(deck), *long],
+        stderr=subprocess.PIPE,
+        preexec_fn=lambda: signal.signal(number, signal.SIG_DFL),  # shells start background jobs with SIGINT ignored
+    )
     deadline = time.monotonic() + 60
     while (folder / "wall.sta").read_bytes().count(b"\n") < 5 or (folder / "wall.sta").read_bytes() == before[
         "wall.sta"

@@ -73,7 +73,7 @@ def _planar_parts(polyhedra: Polyhedra, faces: FaceGeometry, parts: IntArray, al
     arms = polyhedra.local_vertices[polyhedra.loops] - centres[part]
     distances = np.abs(np.einsum("ij,ij->i", arms, normals[part]))
     outside = distances > allowed[polyhedra.block_of_face[polyhedra.face_of_corner]]
-    planar = ~closes
+    planar: BoolArray = ~closes
     planar[part[outside]] = False
     return planar
 

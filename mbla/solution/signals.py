@@ -30,7 +30,8 @@ def signals_held() -> Iterator[Callable[[], bool]]:
     def note(number: int, frame: FrameType | None) -> None:
         arrived.append(number)
 
-    earlier: dict[signal.Signals, Any] = {number: signal.signal(number, note) for number in HELD}
+    heeded = [number for number in HELD if signal.getsignal(number) is not signal.SIG_IGN]  # nohup, background jobs
+    earlier: dict[signal.Signals, Any] = {number: signal.signal(number, note) for number in heeded}
     try:
         yield lambda: bool(arrived)
     finally:

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from mbla.errors import FileError, UsageError
-from mbla.results.pictures import HINGE, plot_mechanism, plot_results
+from mbla.results.pictures import HINGE, can_draw, plot_mechanism, plot_results
 from mbla.results.results import Results
 
 from .synthetic import tower_results
@@ -32,6 +32,17 @@ def near(picture: Any, colour: str, distance: int = 40) -> int:
     return int((np.abs(picture - target).max(axis=2) < distance).sum())
 
 
+def test_without_opengl_the_machine_is_told_what_it_lacks(
+    tmp_path: Path, results: Results, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """vtk would end the process with a segmentation fault."""
+    monkeypatch.setattr("mbla.results.pictures.can_draw", lambda: False)
+    with pytest.raises(UsageError, match="libegl1"):
+        plot_results(results, tmp_path, "tower")
+    assert not list(tmp_path.glob("*.png"))
+
+
+@pytest.mark.skipif(not can_draw(), reason="this machine has no OpenGL")
 def test_pictures_show_the_structure_and_its_hinge(tmp_path: Path, results: Results) -> None:
     paths = plot_results(results, tmp_path / "pictures", "tower")
     assert [path.name for path in paths] == ["tower_push_x.png", "tower_fall.png"]
@@ -43,6 +54,7 @@ def test_pictures_show_the_structure_and_its_hinge(tmp_path: Path, results: Resu
     assert near(falling, HINGE) < 20
 
 
+@pytest.mark.skipif(not can_draw(), reason="this machine has no OpenGL")
 def test_one_file_for_one_case(tmp_path: Path, results: Results) -> None:
     target = tmp_path / "mine.png"
     assert plot_results(results, target, "tower", "push_x") == [target]
