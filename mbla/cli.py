@@ -3,29 +3,25 @@
 from __future__ import annotations
 
 import argparse
+import contextlib
+import io
 import json
 import os
+import shlex
 import signal
 import sys
+import traceback
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from types import FrameType
 from typing import TYPE_CHECKING, Any, NoReturn
 
 from mbla import __version__
+from mbla.arguments import build_parser
 from mbla.errors import DeckError, FileError, LimitError, MblaError, UsageError
 
 if TYPE_CHECKING:
     from mbla.run import Progress, RunOptions
-
-EXIT_STATUS = """\
-exit status:
-  0  every case solved and verified        5  valid, but there is no load factor (dead load not carried,
-  1  internal error                           or the live load never brings collapse)
-  2  wrong usage                           6  file input or output
-  3  deck invalid                          7  time or memory limit
-  4  a case not solved or not verified     130, 143  interrupted, terminated
-"""
 
 WORST_FIRST = (1, 6, 7, 3, 4, 5)
 
@@ -37,9 +33,12 @@ class Terminated(BaseException):
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command; the exit status is the return value (argparse exits by itself on --help and wrong usage)."""
     options = build_parser().parse_args(arguments)
-    signal.signal(signal.SIGTERM, _terminate)
+    if signal.getsignal(signal.SIGTERM) is not signal.SIG_IGN:
+        signal.signal(signal.SIGTERM, _terminate)
     try:
-        status = int(options.command(options))
+        _prepare_streams(json_lines=getattr(options, "json", False))
+        _refuse_vanished_folder()
+        status = COMMANDS[options.command](options)
         sys.stdout.flush()
         return status
     except KeyboardInterrupt:
@@ -47,96 +46,12 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except Terminated:
         return _say("terminated", 143)
     except BrokenPipeError:  # the reader of our output went away: not our error, but the output is not whole
-        sys.stdout = Path(os.devnull).open("w")  # noqa: SIM115 - for the interpreter's own flush at exit
-        return 6
+        _drop_output()
+        return FileError.exit_status
     except Exception as error:
-        return _failed(error, options)
-
-
-def build_parser() -> argparse.ArgumentParser:
-    """The commands and their options."""
-    parser = argparse.ArgumentParser(
-        prog="mbla",
-        description="Limit analysis of masonry: load factor, mechanism and verified bounds of rigid-block assemblies.",
-        epilog=EXIT_STATUS,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
-    parser.add_argument("--version", action="version", version=f"mbla {__version__}")
-    commands = parser.add_subparsers(required=True, metavar="COMMAND")
-    _add_run(commands)
-    _add_check(commands)
-    _add_result_commands(commands)
-    _add_plot(commands)
-    _add_schema_and_new(commands)
-    return parser
-
-
-def _add_run(commands: Any) -> None:
-    command = commands.add_parser("run", help="solve every load case of decks and write the results")
-    command.set_defaults(command=_run)
-    command.add_argument("decks", nargs="+", type=Path, metavar="DECK")
-    _add_deck_options(command)
-    command.add_argument("--case", action="append", default=[], metavar="NAME", help="only this load case (repeatable)")
-    command.add_argument("--accuracy", choices=["draft", "standard", "reference"], help="instead of analysis.accuracy")
-    command.add_argument(
-        "--flow-rule", choices=["associative", "non_associative", "dilatancy"], help="instead of analysis.flow_rule"
-    )
-    command.add_argument("--time-limit", type=_seconds, metavar="S", help="instead of analysis.time_limit")
-    command.add_argument(
-        "--threads", type=_threads, default=1, metavar="N", help="threads of the cone solver (default 1)"
-    )
-    command.add_argument("--expected", action="store_true", help="compare with the deck's expected section")
-    volume = command.add_mutually_exclusive_group()
-    volume.add_argument("-q", "--quiet", action="store_true", help="say nothing but errors")
-    volume.add_argument("-v", "--verbose", action="store_true", help="print the listing too")
-
-
-def _add_check(commands: Any) -> None:
-    command = commands.add_parser("check", help="read, build, find contacts, say what the model is; solve nothing")
-    command.set_defaults(command=_check)
-    command.add_argument("decks", nargs="+", type=Path, metavar="DECK")
-    _add_deck_options(command)
-    command.add_argument("--vtu", action="store_true", help="write blocks and interfaces for ParaView")
-
-
-def _add_deck_options(command: argparse.ArgumentParser) -> None:
-    command.add_argument("-o", "--output", type=Path, metavar="DIR", help="folder of the results (default DECK.out)")
-    command.add_argument(
-        "--set", action="append", default=[], metavar="KEY.PATH=VALUE", help="change a value of the deck"
-    )
-    command.add_argument("--force", action="store_true", help="replace an earlier result")
-    command.add_argument(
-        "--json", action="store_true", help="one JSON object per deck on standard output, nothing else"
-    )
-
-
-def _add_result_commands(commands: Any) -> None:
-    for name, action, text in (
-        ("show", _show, "print the listing of a result file"),
-        ("verify", _verify, "recompute residuals and bounds from a result file alone, with no solver"),
-    ):
-        command = commands.add_parser(name, help=text)
-        command.set_defaults(command=action)
-        command.add_argument("result", type=Path, metavar="RESULT.h5")
-        command.add_argument("--json", action="store_true", help="one JSON object on standard output")
-
-
-def _add_plot(commands: Any) -> None:
-    command = commands.add_parser("plot", help="picture of the mechanism of each load case (extra mbla[pictures])")
-    command.set_defaults(command=_plot)
-    command.add_argument("result", type=Path, metavar="RESULT.h5")
-    command.add_argument("-o", "--output", type=Path, metavar="FILE|DIR", help="PNG file (one case) or folder")
-    command.add_argument("--case", metavar="NAME", help="only this load case")
-
-
-def _add_schema_and_new(commands: Any) -> None:
-    command = commands.add_parser("schema", help="print the JSON Schema of decks")
-    command.set_defaults(command=_schema)
-    command.add_argument("kind", nargs="?", choices=["deck"], default="deck")
-    command = commands.add_parser("new", help="write a commented starter deck")
-    command.set_defaults(command=_new)
-    command.add_argument("name", metavar="NAME")
-    command.add_argument("--force", action="store_true", help="replace an existing file")
+        if isinstance(error, OSError) and error.filename is None:
+            _drop_output()
+        return _failed(error)
 
 
 # --- commands -----------------------------------------------------------------------------------------------------
@@ -155,12 +70,13 @@ def _run(options: argparse.Namespace) -> int:
         results = run(deck, run_options, progress)
         _clear_progress(progress)
         if options.json:
-            print(json_line(results_json(results)))
-        elif options.verbose:
-            print(listing(results), end="")
-        if not options.quiet and not options.verbose:
-            target = sys.stderr if options.json else sys.stdout
-            print("\n".join([*summary_lines(results), f"  files: {run_options.folder_for(deck)}/"]), file=target)
+            print(json_line(results_json(results)), flush=True)
+        words = sys.stderr if options.json else sys.stdout
+        if options.verbose:
+            print(listing(results), end="", file=words, flush=True)
+        elif not options.quiet:
+            lines = [*summary_lines(results), f"  files: {run_options.folder_for(deck)}/"]
+            print("\n".join(lines), file=words, flush=True)
         return results.exit_code
 
     _refuse_shared_folder(options.decks, run_options)
@@ -176,9 +92,8 @@ def _check(options: argparse.Namespace) -> int:
 
     def one(deck: Path) -> int:
         results, needs = check(deck, run_options, options.vtu)
-        print(json_line(check_json(results, needs)) if options.json else check_listing(results, needs), end="")
-        if options.json:
-            print()
+        text = json_line(check_json(results, needs)) + "\n" if options.json else check_listing(results, needs)
+        print(text, end="", flush=True)
         return 0
 
     return _each_deck(options, one, None)
@@ -230,6 +145,9 @@ def _new(options: argparse.Namespace) -> int:
     path = Path(options.name if options.name.endswith((".yaml", ".yml")) else f"{options.name}.yaml")
     starter = (Path(__file__).parent / "starter.yaml").read_text(encoding="utf-8")
     text = starter.replace("NAME.yaml", path.name).replace("NAME.out", f"{path.stem}.out")
+    text = text.replace("schemas/deck.schema.json", _schema_address())
+    if not path.parent.is_dir():
+        raise FileError(f"{path}: there is no folder {path.parent}")
     try:
         with path.open("w" if options.force else "x", encoding="utf-8") as file:
             file.write(text)
@@ -237,8 +155,26 @@ def _new(options: argparse.Namespace) -> int:
         raise FileError(f"{path}: exists already; --force replaces it") from None
     except OSError as error:
         raise FileError(f"{path}: {error.strerror or error}") from error
-    print(f"{path} written; run it with: mbla run {path}")
+    print(f"{path} written; run it with: mbla run {shlex.quote(str(path))}")
     return 0
+
+
+def _schema_address() -> str:
+    """Where editors find the schema that came with the program: inside the installed package, or beside its source."""
+    package = Path(__file__).resolve().parent
+    places = [folder / "schemas" / "deck.schema.json" for folder in (package, package.parent)]
+    return next((place.as_uri() for place in places if place.is_file()), "schemas/deck.schema.json")
+
+
+COMMANDS: dict[str, Callable[[argparse.Namespace], int]] = {
+    "run": _run,
+    "check": _check,
+    "show": _show,
+    "verify": _verify,
+    "plot": _plot,
+    "schema": _schema,
+    "new": _new,
+}
 
 
 # --- what the commands share --------------------------------------------------------------------------------------
@@ -264,9 +200,19 @@ def _run_options(options: argparse.Namespace) -> RunOptions:
 
 def _refuse_shared_folder(decks: Sequence[Path], options: RunOptions) -> None:
     """Two decks of one name would write the same files."""
-    targets = [(options.folder_for(deck).resolve(), deck.stem) for deck in decks]
+    targets = [(options.folder_for(deck).resolve(), deck.stem) for deck in decks if deck.name]
     if len(set(targets)) < len(targets):
         raise UsageError("two of the decks would write the same result files: give them different names or folders")
+
+
+def _refuse_unfit_name(deck: Path) -> None:
+    """A name that no result file can have, or that no text can hold."""
+    if not deck.name or deck.is_dir():
+        raise FileError(f"{deck}: is a folder, not a deck")
+    try:
+        str(deck.absolute()).encode("utf-8")
+    except UnicodeEncodeError:
+        raise FileError(f"{deck}: the path is not UTF-8, results cannot name it; rename it") from None
 
 
 def _each_deck(options: argparse.Namespace, one: Callable[[Path], int], progress: Progress | None) -> int:
@@ -274,40 +220,67 @@ def _each_deck(options: argparse.Namespace, one: Callable[[Path], int], progress
     codes = []
     for deck in options.decks:
         try:
+            _refuse_unfit_name(deck)
             codes.append(one(deck))
+        except BrokenPipeError:
+            raise
         except Exception as error:
             _clear_progress(progress)
-            codes.append(_failed(error, options))
+            codes.append(_failed(error))
             if options.json:
-                print(json.dumps(_failure_record(deck, error, codes[-1])))
+                print(json.dumps(_failure_record(deck, error, codes[-1])), flush=True)
     return next((code for code in WORST_FIRST if code in codes), codes[0] if len(set(codes)) == 1 else max(codes))
 
 
 def _failure_record(deck: Path, error: Exception, code: int) -> dict[str, Any]:
-    messages = [str(fault) for fault in error.faults] if isinstance(error, DeckError) else [str(error)]
+    messages = [str(fault) for fault in error.faults] if isinstance(error, DeckError) else [_words_of(error)[1]]
     return {"mbla": __version__, "deck": deck.name, "exit_code": code, "errors": messages}
 
 
-def _failed(error: Exception, options: argparse.Namespace) -> int:
+def _failed(error: Exception) -> int:
     """Say what went wrong in one line per fault; the exit status."""
+    status, text = _words_of(error)
+    if status == MblaError.exit_status and os.environ.get("MBLA_TRACEBACK"):
+        traceback.print_exception(error)
+    return _say(text if isinstance(error, DeckError) else f"mbla: {text}", status)
+
+
+def _words_of(error: Exception) -> tuple[int, str]:
+    """Exit status, and what went wrong in words."""
     if isinstance(error, MblaError):
-        status = error.exit_status
-        text = str(error) if isinstance(error, DeckError) else f"mbla: {error}"
-    elif isinstance(error, MemoryError):
-        status, text = LimitError.exit_status, "mbla: out of memory"
-    elif isinstance(error, OSError):
-        name = f"{error.filename}: " if error.filename else ""
-        status, text = FileError.exit_status, f"mbla: {name}{error.strerror or error}"
-    else:
-        status, text = 1, f"mbla: internal error, please report it with the deck: {type(error).__name__}: {error}"
-        if getattr(options, "verbose", False):
-            raise error
-    return _say(text, status)
+        return error.exit_status, str(error)
+    if isinstance(error, MemoryError):
+        return LimitError.exit_status, "out of memory"
+    if isinstance(error, OSError):
+        return FileError.exit_status, f"{error.filename or 'standard output'}: {error.strerror or error}"
+    words = " ".join(str(error).split())
+    return 1, f"internal error, please report it with the deck: {type(error).__name__}: {words}"
 
 
 def _say(text: str, status: int) -> int:
-    print(text, file=sys.stderr)
+    with contextlib.suppress(OSError):  # nobody listens; the exit status still tells
+        print(text, file=sys.stderr, flush=True)
     return status
+
+
+def _prepare_streams(*, json_lines: bool) -> None:
+    """No name or title may fail to be printed; JSON is UTF-8 whatever the terminal speaks."""
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper):
+            utf8 = json_lines and stream is sys.stdout
+            stream.reconfigure(encoding="utf-8" if utf8 else None, errors="backslashreplace")
+
+
+def _drop_output() -> None:
+    """Standard output cannot be written: keep the interpreter from trying again at its end."""
+    sys.stdout = Path(os.devnull).open("w")  # noqa: SIM115 - for the interpreter's own flush at exit
+
+
+def _refuse_vanished_folder() -> None:
+    try:
+        Path.cwd()
+    except OSError:
+        raise FileError("the current folder does not exist any more") from None
 
 
 def _terminate(number: int, frame: FrameType | None) -> NoReturn:
@@ -329,17 +302,3 @@ def _progress() -> Progress | None:
 def _clear_progress(progress: Progress | None) -> None:
     if progress is not None:
         print(f"\r{'':<78}\r", end="", file=sys.stderr, flush=True)
-
-
-def _seconds(text: str) -> float:
-    value = float(text)
-    if not 0 < value < float("inf"):
-        raise argparse.ArgumentTypeError("must be a positive number of seconds")
-    return value
-
-
-def _threads(text: str) -> int:
-    value = int(text)
-    if value < 1:
-        raise argparse.ArgumentTypeError("must be at least 1")
-    return value

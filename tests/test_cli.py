@@ -252,6 +252,122 @@ def test_signals_end_the_run_and_keep_the_earlier_result(tmp_path: Path, number:
     assert {path.name: path.read_bytes() for path in folder.iterdir()} == before
 
 
+def test_a_folder_is_no_deck(capsys: pytest.CaptureFixture[str]) -> None:
+    for name in (".", "..", str(Path.cwd())):
+        assert main(["run", name]) == 6
+        assert "is a folder, not a deck" in capsys.readouterr().err
+
+
+def test_an_internal_error_is_one_line(
+    deck: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def broken(*_: object) -> None:
+        raise ZeroDivisionError("first\nsecond")
+
+    monkeypatch.setattr("mbla.run.run", broken)
+    for extra in ([], ["-v"], ["-q"]):
+        assert main(["run", str(deck), *extra]) == 1
+        err = capsys.readouterr().err
+        assert err == "mbla: internal error, please report it with the deck: ZeroDivisionError: first second\n"
+    monkeypatch.setenv("MBLA_TRACEBACK", "1")
+    assert main(["run", str(deck)]) == 1
+    assert "Traceback" in capsys.readouterr().err
+
+
+def test_json_and_verbose_keep_the_listing_off_standard_output(deck: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    code, records, err = run_json(capsys, "run", deck, "--json", "-v")
+    assert code == 0
+    assert len(records) == 1
+    assert err == (deck.with_suffix(".out") / "block.lst").read_text()
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["--time-limit", "abc"], "'abc' is not a positive number of seconds"),
+        (["--time-limit", "inf"], "'inf' is not a positive number of seconds"),
+        (["--threads", "1.5"], "'1.5' is not a whole number of threads, at least 1"),
+    ],
+)
+def test_wrong_amounts_are_told_in_words(
+    deck: Path, arguments: list[str], words: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    with pytest.raises(SystemExit):
+        main(["run", str(deck), *arguments])
+    assert words in capsys.readouterr().err
+
+
+def mbla(*arguments: str | Path, **options: Any) -> subprocess.CompletedProcess[bytes]:
+    """The program in a process of its own."""
+    command = [sys.executable, "-m", "mbla", *map(str, arguments)]
+    return subprocess.run(command, stderr=subprocess.PIPE, check=False, **options)
+
+
+def test_names_and_titles_in_any_script_whatever_the_terminal_speaks(tmp_path: Path) -> None:
+    title = "Bögen – 拱"
+    deck = written(tmp_path / "wänd 墙.yaml", f"title: {title}\n" + BLOCK)
+    environment = {"PATH": os.environ["PATH"], "LC_ALL": "C", "PYTHONIOENCODING": "ascii"}
+    done = mbla("run", deck, stdout=subprocess.PIPE, env=environment)
+    assert done.returncode == 0
+    assert b"w\\xe4nd" in done.stdout
+    done = mbla("run", deck, "--force", "--json", stdout=subprocess.PIPE, env=environment)
+    assert json.loads(done.stdout)["deck"] == deck.name
+    listing = mbla("show", tmp_path / "wänd 墙.out" / "wänd 墙.h5", stdout=subprocess.PIPE).stdout.decode()
+    assert title in listing
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="file names are bytes")
+def test_a_file_name_that_is_no_text_is_refused(tmp_path: Path) -> None:
+    name = os.fsdecode(bytes(tmp_path) + b"/q\xff.yaml")
+    written(Path(name), BLOCK)
+    done = mbla("run", name, "--json", stdout=subprocess.PIPE)
+    assert done.returncode == json.loads(done.stdout)["exit_code"] == 6
+    assert b"not UTF-8" in done.stderr
+    assert len(list(tmp_path.iterdir())) == 1
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs /dev/full")
+def test_standard_output_that_takes_nothing(deck: Path) -> None:
+    main(["run", str(deck), "-q"])
+    for arguments in (["show", deck.with_suffix(".out") / "block.h5"], ["schema"], ["check", deck]):
+        with Path("/dev/full").open("w") as full:
+            done = mbla(*arguments, stdout=full)
+        assert done.returncode == 6
+        assert b"standard output: No space left on device" in done.stderr
+        assert b"Exception" not in done.stderr
+
+
+def test_a_reader_that_goes_away_is_no_error_of_ours(deck: Path) -> None:
+    read_end, write_end = os.pipe()
+    os.close(read_end)
+    done = mbla("check", deck, stdout=write_end)
+    os.close(write_end)
+    assert done.returncode == 6
+    assert done.stderr == b""
+
+
+def test_a_current_folder_that_is_gone(tmp_path: Path) -> None:
+    gone = tmp_path / "gone"
+    gone.mkdir()
+    command = f"cd {gone} && rmdir {gone} && exec {sys.executable} -m mbla check x.yaml"
+    done = subprocess.run(["sh", "-c", command], capture_output=True, check=False)
+    assert done.returncode == 6
+    assert b"the current folder does not exist" in done.stderr
+
+
+def test_new_points_editors_to_the_schema(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert main(["new", "a b"]) == 0
+    first = Path("a b.yaml").read_text().splitlines()[0]
+    address = first.removeprefix("# yaml-language-server: $schema=")
+    assert json.loads(Path(address.removeprefix("file://")).read_text())["title"]
+    assert "mbla run 'a b.yaml'" in capsys.readouterr().out
+    assert main(["new", "missing/x"]) == 6
+    assert "no folder missing" in capsys.readouterr().err
+
+
 def test_nothing_is_printed_for_progress_off_a_terminal(deck: Path) -> None:
     environment = {**os.environ, "PYTHONUNBUFFERED": "1"}
     done = subprocess.run(

@@ -1,0 +1,135 @@
+"""The commands of the program and their options; what they do is in :mod:`mbla.cli`."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any, TypeVar
+
+from mbla import __version__
+
+Amount = TypeVar("Amount", int, float)
+
+EXIT_STATUS = """\
+exit status:
+  0  every case solved and verified        5  valid, but there is no load factor (dead load not carried,
+  1  internal error                           or the live load never brings collapse)
+  2  wrong usage                           6  file input or output
+  3  deck invalid                          7  time or memory limit
+  4  a case not solved or not verified     130, 143  interrupted, terminated
+
+MBLA_TRACEBACK=1 in the environment shows where an internal error arose.
+"""
+
+
+def build_parser() -> argparse.ArgumentParser:
+    """The commands and their options; ``command`` of the result is the name of the command."""
+    parser = argparse.ArgumentParser(
+        prog="mbla",
+        description="Limit analysis of masonry: load factor, mechanism and verified bounds of rigid-block assemblies.",
+        epilog=EXIT_STATUS,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.add_argument("--version", action="version", version=f"mbla {__version__}")
+    commands = parser.add_subparsers(required=True, metavar="COMMAND", dest="command")
+    _add_run(commands)
+    _add_check(commands)
+    _add_result_commands(commands)
+    _add_plot(commands)
+    _add_schema_and_new(commands)
+    return parser
+
+
+def _add_run(commands: Any) -> None:
+    command = commands.add_parser("run", help="solve every load case of decks and write the results")
+    command.add_argument("decks", nargs="+", type=Path, metavar="DECK")
+    _add_deck_options(command)
+    command.add_argument("--case", action="append", default=[], metavar="NAME", help="only this load case (repeatable)")
+    command.add_argument("--accuracy", choices=["draft", "standard", "reference"], help="instead of analysis.accuracy")
+    command.add_argument(
+        "--flow-rule", choices=["associative", "non_associative", "dilatancy"], help="instead of analysis.flow_rule"
+    )
+    command.add_argument(
+        "--time-limit", type=seconds, metavar="S", help="seconds for all load cases, instead of analysis.time_limit"
+    )
+    command.add_argument(
+        "--threads", type=threads, default=1, metavar="N", help="threads of the cone solver (default 1)"
+    )
+    command.add_argument("--expected", action="store_true", help="compare with the deck's expected section")
+    volume = command.add_mutually_exclusive_group()
+    volume.add_argument("-q", "--quiet", action="store_true", help="say nothing but errors")
+    volume.add_argument("-v", "--verbose", action="store_true", help="print the listing instead of the summary")
+
+
+def _add_check(commands: Any) -> None:
+    command = commands.add_parser("check", help="read, build, find contacts, say what the model is; solve nothing")
+    command.add_argument("decks", nargs="+", type=Path, metavar="DECK")
+    _add_deck_options(command)
+    command.add_argument("--vtu", action="store_true", help="write blocks and contacts for ParaView")
+
+
+def _add_deck_options(command: argparse.ArgumentParser) -> None:
+    command.add_argument("-o", "--output", type=Path, metavar="DIR", help="folder of the results (default DECK.out)")
+    command.add_argument(
+        "--set",
+        action="append",
+        default=[],
+        metavar="KEY.PATH=VALUE",
+        help="change a value of the deck (repeatable); items of lists by number, from 0",
+    )
+    command.add_argument("--force", action="store_true", help="replace an earlier result")
+    command.add_argument(
+        "--json", action="store_true", help="one JSON object per deck on standard output, nothing else"
+    )
+
+
+def _add_result_commands(commands: Any) -> None:
+    for name, text in (
+        ("show", "print the listing of a result file"),
+        ("verify", "recompute residuals and bounds from a result file alone, with no solver"),
+    ):
+        command = commands.add_parser(name, help=text)
+        command.add_argument("result", type=Path, metavar="RESULT.h5")
+        command.add_argument("--json", action="store_true", help="one JSON object on standard output")
+
+
+def _add_plot(commands: Any) -> None:
+    command = commands.add_parser("plot", help="picture of the mechanism of each load case (extra mbla[pictures])")
+    command.add_argument("result", type=Path, metavar="RESULT.h5")
+    command.add_argument(
+        "-o",
+        "--output",
+        type=Path,
+        metavar="FILE|DIR",
+        help="PNG, SVG or PDF file, by its name, of one load case; or a folder (default: that of the result)",
+    )
+    command.add_argument("--case", metavar="NAME", help="only this load case")
+
+
+def _add_schema_and_new(commands: Any) -> None:
+    command = commands.add_parser("schema", help="print the JSON Schema of decks")
+    command.add_argument("kind", nargs="?", choices=["deck"], default="deck")
+    command = commands.add_parser("new", help="write a commented starter deck")
+    command.add_argument("name", metavar="NAME")
+    command.add_argument("--force", action="store_true", help="replace an existing file")
+
+
+def seconds(text: str) -> float:
+    """A positive number of seconds."""
+    return _number(text, float, lambda value: 0 < value < float("inf"), "a positive number of seconds")
+
+
+def threads(text: str) -> int:
+    """A number of threads."""
+    return _number(text, int, lambda value: value >= 1, "a whole number of threads, at least 1")
+
+
+def _number(text: str, kind: Callable[[str], Amount], allowed: Callable[[Amount], bool], wanted: str) -> Amount:
+    try:
+        value = kind(text)
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"{text!r} is not {wanted}") from None
+    if not allowed(value):
+        raise argparse.ArgumentTypeError(f"{text!r} is not {wanted}")
+    return value
