@@ -36,7 +36,7 @@ def deck_text(thickness: float, voussoirs: int, mu: float) -> str:
         "blocks:",
         f'  - arch: {{material: stone, shape: semicircular, span: "=2*x", thickness: {thickness!r}, width: 0.5,',
         f"           voussoirs: {voussoirs}, springers: ground}}",
-        "analysis: {flow_rule: associative}",
+        "analysis: {flow_rule: associative, accuracy: reference}",
         "load_cases:",
         "  push:",
     ]

@@ -24,17 +24,16 @@ class Case:
     mu: float
     thickness: float
     least: float | None
-    accuracy: str = "standard"
 
 
 CASES = (
-    Case("cocchetti_rizzi_mu_700_stands", 0.7, 0.108, 0.107426, "reference"),
+    Case("cocchetti_rizzi_mu_700_stands", 0.7, 0.1095, 0.107426),
     Case("cocchetti_rizzi_mu_700_falls", 0.7, 0.1073, 0.107426),
-    Case("cocchetti_rizzi_mu_380_stands", 0.38, 0.123, 0.122192, "reference"),
+    Case("cocchetti_rizzi_mu_380_stands", 0.38, 0.126, 0.122192),
     Case("cocchetti_rizzi_mu_380_falls", 0.38, 0.1220, 0.122192),
-    Case("cocchetti_rizzi_mu_350_stands", 0.35, 0.154, 0.152920, "reference"),
+    Case("cocchetti_rizzi_mu_350_stands", 0.35, 0.16, 0.152920),
     Case("cocchetti_rizzi_mu_350_falls", 0.35, 0.1527, 0.152920),
-    Case("cocchetti_rizzi_mu_310_stands", 0.31, 0.201, 0.199653),
+    Case("cocchetti_rizzi_mu_310_stands", 0.31, 0.203, 0.199653),
     Case("cocchetti_rizzi_mu_310_falls", 0.31, 0.1994, 0.199653),
     Case("cocchetti_rizzi_mu_305_falls", 0.305, 0.35, None),
 )
@@ -42,7 +41,7 @@ CASES = (
 
 def deck_text(case: Case) -> str:
     """The whole deck."""
-    return "\n".join([*_head(case), *_structure(), *_loads(case), *_expected(case), ""])
+    return "\n".join([*_head(case), *_structure(), *_loads(), *_expected(case), ""])
 
 
 def _head(case: Case) -> Iterator[str]:
@@ -89,7 +88,7 @@ def _structure() -> Iterator[str]:
     yield ""
 
 
-def _loads(case: Case) -> Iterator[str]:
+def _loads() -> Iterator[str]:
     yield "load_cases:"
     yield "  push_x:"
     for kind, force in (("dead", "[0, 0, -1]"), ("live", "[1, 0, 0]")):
@@ -99,7 +98,7 @@ def _loads(case: Case) -> Iterator[str]:
             point = f'["=xc-r*cos({angle})", "=w/2", "=r*sin({angle})"]'
             yield f"      - {{force: {force}, on: {{group: arch, index: {i}}}, at: {point}}}"
     yield ""
-    yield f"analysis: {{flow_rule: associative, accuracy: {case.accuracy}}}"
+    yield "analysis: {flow_rule: associative, accuracy: reference}"
     yield "output: {vtu: false}"
     yield ""
 
