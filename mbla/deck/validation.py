@@ -122,6 +122,7 @@ _MESSAGES = {
     "reserved": "means something else in expressions: choose another name",
     "reported": "uses a parameter that is at fault itself",
 }
+_BOUNDS = ("greater_than", "greater_than_equal", "less_than", "less_than_equal")
 _TYPES = {"float_type": "must be a number", "int_type": "must be a whole number", "string_type": "must be a text"}
 
 
@@ -145,7 +146,14 @@ def _words(data: Any, path: KeyPath, error: Any) -> tuple[str, bool]:
         return f"must be {listed(allowed)}{hint}", False
     if kind == "string_pattern_mismatch":
         return PATTERNS[context["pattern"]], is_key
-    return _MESSAGES[kind].format(**context) if kind in _MESSAGES else error["msg"], is_key
+    message = _MESSAGES[kind].format(**context) if kind in _MESSAGES else error["msg"]
+    return message + (_comes_to(data, path, value) if kind in _BOUNDS else ""), is_key
+
+
+def _comes_to(data: Any, path: KeyPath, value: Any) -> str:
+    """The number that an expression or a text with a unit gives, where that is out of bounds."""
+    computed = isinstance(_value_at(data, path), str) and isinstance(value, (int, float))
+    return f"; this is {value:.6g}" if computed else ""
 
 
 def _unknown_key(path: KeyPath) -> str:

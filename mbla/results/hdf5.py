@@ -7,6 +7,7 @@ object headers, which carry checksums from HDF5 1.10 on. So a damaged file is fo
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -68,6 +69,7 @@ def read_results_hdf5(path: Path) -> Results:
     """
     import h5py
 
+    _try_opening(path)
     try:
         with h5py.File(path, "r", locking=False) as file:
             attributes = _read_attributes(file, path)
@@ -75,11 +77,7 @@ def read_results_hdf5(path: Path) -> Results:
             return results_from(content, attributes)
     except FileError:
         raise
-    except (FileNotFoundError, IsADirectoryError, PermissionError) as error:
-        raise FileError(f"{path}: {error.strerror}") from error
     except OSError as error:
-        if not path.is_file():
-            raise FileError(f"{path}: not a file") from error
         what = "not an HDF5 file" if "signature not found" in str(error) else f"damaged: {_short(error)}"
         raise FileError(f"{path}: {what}") from error
     except (
@@ -95,10 +93,24 @@ def read_results_hdf5(path: Path) -> Results:
         raise FileError(f"{path}: damaged: {_short(error)}") from error
 
 
+def _try_opening(path: Path) -> None:
+    """What the operating system refuses, in its own words: those of HDF5 are long and name addresses in memory."""
+    try:
+        if path.is_dir():
+            raise FileError(f"{path}: is a folder, not a result file")
+        if path.exists() and not path.is_file():  # opening a pipe would wait for ever
+            raise FileError(f"{path}: is not a regular file")
+        path.open("rb").close()
+    except OSError as error:
+        raise FileError(f"{path}: {error.strerror or error}") from error
+
+
 def _short(error: BaseException) -> str:
-    """The first line of an error in words; a KeyError puts its text in quotes."""
+    """The first line of an error in words, of HDF5 the cause alone; a KeyError puts its text in quotes."""
     text = str(error.args[0]) if isinstance(error, KeyError) and error.args else str(error)
-    return text.splitlines()[0] if text else type(error).__name__
+    line = text.splitlines()[0] if text else type(error).__name__
+    cause = re.fullmatch(r"(?:Unable to|Can't) [a-z ]+\((.+)\)", line)
+    return cause[1] if cause else line
 
 
 def _fields(cases: list[str]) -> list[tuple[str, Field]]:

@@ -1,3 +1,4 @@
+import os
 import random
 from dataclasses import replace
 from pathlib import Path
@@ -251,3 +252,19 @@ def test_overwritten_stretches_are_refused_or_without_effect(path: Path, image: 
         except FileError:
             continue
         assert same(back, results)
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="needs named pipes")
+def test_what_is_no_regular_file_is_told_in_plain_words(tmp_path: Path) -> None:
+    os.mkfifo(tmp_path / "pipe")
+    for name, words in (("missing.h5", "No such file"), (".", "is a folder"), ("pipe", "is not a regular file")):
+        with pytest.raises(FileError, match=words) as caught:
+            read_results_hdf5(tmp_path / name)
+        assert "synchronously" not in str(caught.value)
+
+
+def test_a_file_that_was_cut_off_says_so(tmp_path: Path) -> None:
+    path = tmp_path / "cut.h5"
+    path.write_bytes(write_results_hdf5(tower_results())[:2000])
+    with pytest.raises(FileError, match=r"damaged: truncated file"):
+        read_results_hdf5(path)
