@@ -13,7 +13,7 @@ from mbla import __version__
 from mbla.errors import Notice
 from mbla.model.model import Model
 from mbla.results.results import CaseResult, Results
-from mbla.solution.solution import ContactMode
+from mbla.solution.solution import ContactMode, Status
 
 DIMENSION = 3
 """of the models that this version solves; planar models would say 2"""
@@ -27,7 +27,7 @@ def results_json(results: Results) -> dict[str, Any]:
         "deck_sha256": results.deck.sha256,
         "created": results.created,
         "exit_code": results.exit_code,
-        "model": model_json(results.model) | contacts_json(results),
+        "model": {"standing": standing(results.cases)} | model_json(results.model) | contacts_json(results),
         "cases": [_case(case) for case in results.cases],
         "settings": results.settings,
         "notices": [notice_json(notice) for notice in results.notices],
@@ -50,6 +50,7 @@ def check_json(results: Results, needs: Mapping[str, int]) -> dict[str, Any]:
         },
         "slivers": len(report.slivers),
         "near_misses": len(report.near_misses),
+        "overlaps": len(report.overlaps),
         "isolated_blocks": [results.model.blocks.name(int(b)) for b in report.isolated],
         "unsupported_parts": len(report.unsupported),
     }
@@ -76,15 +77,27 @@ def notice_json(notice: Notice) -> dict[str, str]:
     return {"severity": notice.severity, "identifier": notice.identifier, "message": notice.message}
 
 
+def standing(cases: Sequence[CaseResult]) -> str | None:
+    """Whether the dead load of every case is carried by some state of equilibrium: ``yes``, ``no``, or None if unknown.
+
+    A load factor by the associative rule is claimed only after the dead load alone was found to be carried.
+    """
+    if any(case.status is Status.NO_EQUILIBRIUM for case in cases):
+        return "no"
+    carried = [case.solution.associative is not None or case.status is Status.UNBOUNDED for case in cases]
+    return "yes" if carried and all(carried) else None
+
+
 def model_json(model: Model) -> dict[str, Any]:
-    """Counts and totals; ``standing`` is not assessed and therefore None."""
+    """Counts and totals."""
     units = model.units
+    low, high = model.blocks.vertices.min(axis=0), model.blocks.vertices.max(axis=0)
     return {
-        "standing": None,
         "title": model.title,
         "blocks": len(model.blocks),
         "free_blocks": len(model.free),
         "dimension": DIMENSION,
+        "extents": [[number(value) for value in corner] for corner in (low, high)],
         "total_volume": number(model.blocks.volumes.sum()),
         "total_weight": number(model.total_weight),
         "units": {"length": units.length, "force": units.force, "mass": units.mass},

@@ -11,6 +11,7 @@ from mbla.arrays import IntArray
 from mbla.errors import Notice
 from mbla.model.model import Model
 from mbla.results.case_words import case_lines, figures, verdict
+from mbla.results.contact_words import contact_lines, finding_lines
 from mbla.results.results import Results
 from mbla.results.text import WIDTH, counted, entry, heading, number, sentence, table
 
@@ -21,7 +22,7 @@ def listing(results: Results) -> str:
         *_header(results),
         *_settings(results),
         *model_lines(results.model),
-        *contact_lines(results),
+        *contact_lines(results.model, results.contacts),
         *notice_lines(results.notices),
     ]
     for case in results.cases:
@@ -36,7 +37,8 @@ def check_listing(results: Results, needs: Mapping[str, int]) -> str:
         *_header(results),
         *_settings(results),
         *model_lines(results.model),
-        *contact_lines(results),
+        *contact_lines(results.model, results.contacts),
+        *finding_lines(results.model, results.contacts.report),
         *notice_lines(results.notices),
         *heading("Needed for one load case"),
     ]
@@ -83,6 +85,7 @@ def model_lines(model: Model) -> list[str]:
     blocks, units = model.blocks, model.units
     lines = heading("Model")
     lines += entry("blocks", f"{len(blocks)}, of them {len(model.free)} free and {int(model.fixed.sum())} fixed")
+    lines += _extents(model)
     lines += entry("volume", f"{number(float(blocks.volumes.sum()))} {units.length}3")
     lines += entry("weight (9.81 m/s2)", f"{number(model.total_weight)} {units.force}")
     lines += ["", *_group_table(model), "", *_joint_table(model)]
@@ -93,6 +96,15 @@ def model_lines(model: Model) -> list[str]:
         lines += [line for words in case.dead_words for line in entry("  dead load", words)]
         lines += [line for words in case.live_words for line in entry("  live load", words)]
     return lines
+
+
+def _extents(model: Model) -> list[str]:
+    """The box around the model and the sizes of its blocks: a wrong unit or scale shows here."""
+    blocks, length = model.blocks, model.units.length
+    least, greatest = blocks.vertices.min(axis=0), blocks.vertices.max(axis=0)
+    spans = [f"{axis} {a:.4g} .. {b:.4g}" for axis, a, b in zip("xyz", least + 0.0, greatest + 0.0, strict=True)]
+    sizes = f"{blocks.sizes.min():.3g} .. {blocks.sizes.max():.3g} {length}, cube roots of the volumes"
+    return entry("extents", f"{', '.join(spans)} {length}") + entry("block sizes", sizes)
 
 
 def _group_table(model: Model) -> list[str]:
@@ -149,20 +161,6 @@ def _supports(model: Model) -> list[str]:
         if held:
             lines += sentence(f"{counted(held, 'block')} of group {name} fixed")
     return lines or sentence("none")
-
-
-def contact_lines(results: Results) -> list[str]:
-    """Interfaces, contact points and areas by joint law."""
-    contacts = results.contacts
-    length = results.model.units.length
-    points = np.diff(contacts.point_start)
-    rows = []
-    for row, name in enumerate(contacts.joint_names):
-        chosen = contacts.joints == row
-        area = number(float(contacts.areas[chosen].sum()))
-        rows.append([name, str(int(chosen.sum())), str(int(points[chosen].sum())), area])
-    rows.append(["total", str(len(contacts)), str(len(contacts.points)), number(float(contacts.areas.sum()))])
-    return heading("Contacts") + table(["joint law", "interfaces", "points", f"area [{length}2]"], rows)
 
 
 def notice_lines(notices: tuple[Notice, ...], title: str = "Remarks") -> list[str]:

@@ -4,7 +4,8 @@ from typing import Any
 
 import pytest
 
-from mbla.results.json_record import check_json, json_line, results_json, verification_json
+from mbla.results.json_record import check_json, json_line, results_json, standing, verification_json
+from mbla.solution.solution import Status
 
 from .synthetic import tower_results
 
@@ -60,7 +61,8 @@ def test_values(record: dict[str, Any]) -> None:
     solved, fallen = record["cases"]
     assert (model["blocks"], model["free_blocks"], model["interfaces"], model["contact_points"]) == (3, 2, 2, 8)
     assert model["total_weight"] == pytest.approx(65)
-    assert model["standing"] is None
+    assert model["standing"] == "no"
+    assert model["extents"] == [[-1, -1, 0], [5, 2, 3]]
     assert (solved["status"], solved["load_factor"], solved["iterations"]) == ("solved", 0.5, 23)
     assert solved["mechanism"] == {"open": 2, "slide": 0, "stick": 6}
     assert fallen["status"] == "no_equilibrium"
@@ -95,3 +97,14 @@ def test_verification_record_says_whether_the_file_agrees() -> None:
     record = verification_json(tower_results(), ("x differs",))
     assert record["agrees"] is False
     assert record["disagreements"] == ["x differs"]
+
+
+def test_standing_is_claimed_only_where_it_is_known() -> None:
+    solved, fallen = tower_results().cases
+    undecided = replace(solved, status=Status.TIME_LIMIT, solution=replace(solved.solution, associative=None))
+    assert standing((solved,)) == "yes"
+    assert standing((replace(fallen, status=Status.UNBOUNDED),)) == "yes"
+    assert standing((solved, fallen)) == "no"
+    assert standing((solved, undecided)) is None
+    assert standing((undecided, fallen)) == "no"
+    assert standing(()) is None
