@@ -36,14 +36,13 @@ from mbla.results.picture_geometry import (
     interface_sides,
     live_load_arrow,
 )
+from mbla.results.picture_page import HEIGHT, INK, SHARPNESS, WIDTH, format_of, quiet_matplotlib, write_page
 from mbla.results.results import CaseResult, Results
 from mbla.solution.solution import ContactMode, Mechanics
 
-GROUND, GHOST, INK = "#595959", "#8A8A8A", "#222222"
+GROUND, GHOST = "#595959", "#8A8A8A"
 HINGE, SLIDE, OPEN = "#D55E00", "#009E73", "#CC79A7"
-WIDTH, HEIGHT = 1600, 1000
-"""pixels"""
-FRAME = ((0.05, 0.84), (0.06, 0.86))
+FRAME = ((0.04, 0.86), (0.06, 0.86))
 """part of the picture, from left to right and from bottom to top, that the structure fills; the rest is for words"""
 
 
@@ -66,6 +65,13 @@ class _Scene:
         return self.results.contacts
 
     @property
+    def slabs(self) -> list[FloatArray]:
+        """Corners of the slab under each ground plane that something stands on, (8, 3) each."""
+        rows = range(len(self.model.grounds))
+        slabs = [ground_slab(self.model, self.contacts, row, self.size) for row in rows]
+        return [corners for corners in slabs if corners is not None]
+
+    @property
     def arrow(self) -> FloatArray:
         """Start and tip of the live load's arrow, (2, 3)."""
         low, high = box_of(np.vstack([self.moved, self.model.blocks.vertices]))
@@ -75,7 +81,8 @@ class _Scene:
 def plot_results(results: Results, target: Path, stem: str, case: str | None = None) -> list[Path]:
     """Pictures of every case, or of one; the paths written.
 
-    target : a file with the suffix .png, for a single case; else a folder for ``STEM_CASE.png``, created if missing
+    target : a file with the suffix .png, .svg or .pdf, for a single case; else a folder for ``STEM_CASE.png``, created
+    if missing
 
     Raises
     ------
@@ -104,26 +111,25 @@ def plot_results(results: Results, target: Path, stem: str, case: str | None = N
 
 
 def plot_mechanism(results: Results, case: CaseResult, path: Path) -> None:
-    """Draw the mechanism of one load case to a PNG file; the structure at rest where there is none.
+    """Draw the mechanism of one load case to a PNG, SVG or PDF file; the structure at rest where there is none.
 
     Raises
     ------
     UsageError
-        The extra for pictures is not installed, the machine has no OpenGL, or the file is not to be a PNG.
+        The extra for pictures is not installed, the machine has no OpenGL, or the name asks for another format.
     FileError
         The file cannot be written.
     """
-    if path.suffix.lower() != ".png":
-        raise UsageError(f"{path}: pictures are written as PNG")
+    kind = format_of(path)
     vista = _pyvista()
+    scene = _scene(results, case)
     plotter = vista.Plotter(off_screen=True, window_size=(WIDTH, HEIGHT))
     try:
-        _draw(plotter, _scene(results, case))
-        # vtk reports a file that it cannot write on standard error only, so the file is written here
-        image = plotter.screenshot(None, return_img=True)
+        legend = _draw(plotter, scene)
+        image = plotter.screenshot(None, return_img=True, scale=SHARPNESS[kind])
     finally:
         plotter.close()
-    _write_png(path, image)
+    write_page(path, image, _words(scene), legend)
 
 
 def can_draw() -> bool:
@@ -144,6 +150,7 @@ def can_draw() -> bool:
 
 
 def _pyvista() -> Any:
+    quiet_matplotlib()
     try:
         import pyvista
         from vtkmodules.vtkCommonCore import vtkLogger
@@ -165,7 +172,8 @@ def _scene(results: Results, case: CaseResult) -> _Scene:
     return _Scene(results, case, motion, moved_vertices(blocks, motion), size)
 
 
-def _draw(plotter: Any, scene: _Scene) -> None:
+def _draw(plotter: Any, scene: _Scene) -> list[list[str]]:
+    """Everything but words; the entries of the legend, name and colour."""
     plotter.set_background("white")
     _add_grounds(plotter, scene)
     _add_blocks(plotter, scene)
@@ -174,8 +182,8 @@ def _draw(plotter: Any, scene: _Scene) -> None:
         legend = _add_modes(plotter, scene, scene.case.solution.mechanics) + legend
     legend += _add_live_load(plotter, scene)
     _set_camera(plotter, scene)
-    _add_words(plotter, scene, legend)
     plotter.enable_anti_aliasing("ssaa")
+    return legend
 
 
 # --- the structure ------------------------------------------------------------------------------------------------
@@ -199,11 +207,9 @@ def _lines(points: FloatArray, pairs: IntArray) -> Any:
 
 
 def _add_grounds(plotter: Any, scene: _Scene) -> None:
-    for row in range(len(scene.model.grounds)):
-        corners = ground_slab(scene.model, scene.contacts, row, scene.size)
-        if corners is not None:
-            slab = _pyvista().PolyData(corners).delaunay_3d().extract_surface(algorithm="dataset_surface")
-            plotter.add_mesh(slab, color=GROUND, ambient=0.5)
+    for corners in scene.slabs:
+        slab = _pyvista().PolyData(corners).delaunay_3d().extract_surface(algorithm="dataset_surface")
+        plotter.add_mesh(slab, color=GROUND, ambient=0.5)
 
 
 # --- what the joints do -------------------------------------------------------------------------------------------
@@ -260,7 +266,7 @@ def _add_live_load(plotter: Any, scene: _Scene) -> list[list[str]]:
 def _set_camera(plotter: Any, scene: _Scene) -> None:
     """A front view of what is thin, a slanted one of the rest; parallel lines stay parallel in both."""
     vertices = scene.model.blocks.vertices
-    seen = np.vstack([scene.moved, vertices, scene.arrow])
+    seen = np.vstack([scene.moved, vertices, scene.arrow, *scene.slabs])
     low, high = box_of(seen)
     axis = front_axis(np.ptp(vertices, axis=0), np.abs(scene.moved - vertices).max(axis=0))
     towards = np.array({0: (1.0, 0.0, 0.0), 1: (0.0, -1.0, 0.0), None: (0.9, -1.6, 0.85)}[axis])
@@ -281,21 +287,9 @@ def _set_camera(plotter: Any, scene: _Scene) -> None:
     plotter.renderer.ResetCameraClippingRange()
 
 
-def _add_words(plotter: Any, scene: _Scene, legend: list[list[str]]) -> None:
+def _words(scene: _Scene) -> list[str]:
     case, model = scene.case, scene.model
     lines = [model.title or scene.results.deck.name, f"load case {case.load_case.name}: {verdict(model, case)}"]
     if case.solution.mechanics is not None:
         lines.append(mechanism_summary(model, scene.contacts, case.solution.mechanics))
-    plotter.add_text("\n".join(lines), position=(0.015 * WIDTH, 0.905 * HEIGHT), font_size=12, color=INK)
-    if legend:
-        size = (0.12, 0.032 * len(legend))
-        plotter.add_legend(legend, bcolor=None, face="rectangle", size=size, loc="lower right")
-
-
-def _write_png(path: Path, image: Any) -> None:
-    from PIL import Image
-
-    try:
-        Image.fromarray(image).save(path, format="PNG")
-    except OSError as error:
-        raise FileError(f"{path}: {error.strerror or error}") from error
+    return lines

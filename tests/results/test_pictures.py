@@ -72,8 +72,9 @@ def test_unknown_case_is_refused(tmp_path: Path, results: Results) -> None:
 
 
 def test_other_formats_are_refused(tmp_path: Path, results: Results) -> None:
-    with pytest.raises(UsageError, match="PNG"):
-        plot_results(results, tmp_path / "mine.svg", "tower", "push_x")
+    with pytest.raises(UsageError, match="PNG, SVG or PDF"):
+        plot_results(results, tmp_path / "mine.gif", "tower", "push_x")
+    assert not list(tmp_path.iterdir())
 
 
 def test_place_that_cannot_be_written(tmp_path: Path, results: Results) -> None:
