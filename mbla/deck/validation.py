@@ -142,7 +142,7 @@ def _words(data: Any, path: KeyPath, error: Any) -> tuple[str, bool]:
         return _TYPES[kind] + _remedy(kind, value), is_key
     if kind == "literal_error":
         allowed = [choice.strip("'") for choice in context["expected"].replace(" or ", ", ").split(", ")]
-        hint = did_you_mean(value, allowed) if isinstance(value, str) else ""
+        hint = did_you_mean(value, allowed) if isinstance(value, str) and len(allowed) > 1 else ""
         return f"must be {listed(allowed)}{hint}", False
     if kind == "string_pattern_mismatch":
         return PATTERNS[context["pattern"]], is_key

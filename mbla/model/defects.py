@@ -165,7 +165,7 @@ def planarity_defects(polyhedra: Polyhedra, faces: FaceGeometry, sizes: FloatArr
     sizes : (n,) cube roots of the volumes; tolerance : relative to them
     """
     size = sizes[polyhedra.block_of_face]
-    bent = np.flatnonzero(faces.deviations > tolerance * size)
+    bent = np.flatnonzero((faces.deviations > tolerance * size) & (size > 0))  # what has no volume is told as that
     defects = []
     for block in np.unique(polyhedra.block_of_face[bent]).tolist():
         rows = bent[polyhedra.block_of_face[bent] == block]

@@ -24,6 +24,8 @@ OUTSIDE = 0.01
 """distance of a force from the bounding box of its block, relative to the diagonal, from which it is remarked on"""
 CANCELLED = 1e-12
 """sum of live loads, relative to the loads themselves, at which nothing is left of them"""
+COMPUTABLE = (1e-100, 1e100)
+"""largest load of a case, in units of force"""
 
 
 @dataclass
@@ -64,7 +66,20 @@ def build_load_case(
     rest = np.abs(live.total[free]).max(initial=0.0)
     if judged and rest <= CANCELLED * live.gross[free].max(initial=0.0):
         faults.append(site.roster.fault_at((*path, "live"), "the live loads cancel each other: they have no effect"))
+    elif judged:
+        faults += _beyond_computing((*path, "live"), live.total[free], site)
+        faults += _beyond_computing((*path, "dead") if section.dead is not None else path, dead.total[free], site)
     return LoadCase(name, dead.total, live.total, tuple(dead.words), tuple(live.words))
+
+
+def _beyond_computing(path: KeyPath, loads: FloatArray, site: LoadSite) -> list[Fault]:
+    """Loads so small or so large that their squares leave the range of numbers."""
+    largest = float(np.abs(loads).max(initial=0.0))
+    least, most = COMPUTABLE
+    if largest == 0.0 or least <= largest <= most:
+        return []
+    size = f"{largest:.1e} {site.units.force}"
+    return [site.roster.fault_at(path, f"the loads reach {size}: {least:.0e} to {most:.0e} can be computed with")]
 
 
 def _add_up(
@@ -142,7 +157,7 @@ def _add_force(load: Load, block: int, site: LoadSite, result: _Sum, notices: li
     if load.at is not None:
         point = np.array(load.at)
         wrench[3:] = np.cross(point - blocks.centroids[block], force)
-        words += f" at {vector(load.at)}"
+        words += f" at {vector(load.at)} {site.units.length}"
         _remark_outside(block, point, words, site, notices)
     else:
         words += " at its centroid"

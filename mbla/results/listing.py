@@ -93,7 +93,7 @@ def model_lines(model: Model) -> list[str]:
     lines += heading("Loads")
     for case in model.load_cases:
         lines += sentence(f"{case.name}")
-        lines += [line for words in case.dead_words for line in entry("  dead load", words)]
+        lines += [line for words in case.dead_words or ("none",) for line in entry("  dead load", words)]
         lines += [line for words in case.live_words for line in entry("  live load", words)]
     return lines
 
@@ -103,7 +103,7 @@ def _extents(model: Model) -> list[str]:
     blocks, length = model.blocks, model.units.length
     least, greatest = blocks.vertices.min(axis=0), blocks.vertices.max(axis=0)
     spans = [f"{axis} {a:.4g} .. {b:.4g}" for axis, a, b in zip("xyz", least + 0.0, greatest + 0.0, strict=True)]
-    sizes = f"{blocks.sizes.min():.3g} .. {blocks.sizes.max():.3g} {length}, cube roots of the volumes"
+    sizes = f"{number(blocks.sizes.min())} .. {number(blocks.sizes.max())} {length}, cube roots of the volumes"
     return entry("extents", f"{', '.join(spans)} {length}") + entry("block sizes", sizes)
 
 

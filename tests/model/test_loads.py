@@ -76,7 +76,7 @@ def test_force_at_the_centroid_has_no_moment(tmp_path: Path) -> None:
 def test_force_at_a_point_brings_its_moment(tmp_path: Path) -> None:
     found = case(tmp_path, "live: [{force: [10, 20, 30], on: {group: top, index: 0}, at: [1, 0.5, 2.5]}]")
     assert found.live_load[1] == pytest.approx([10, 20, 30, *np.cross([0.5, 0, 0.5], [10, 20, 30])])
-    assert found.live_words == ("force (10, 20, 30) N on top[0] at (1, 0.5, 2.5)",)
+    assert found.live_words == ("force (10, 20, 30) N on top[0] at (1, 0.5, 2.5) m",)
 
 
 def test_loads_add_up(tmp_path: Path) -> None:
@@ -113,7 +113,7 @@ def test_force_outside_its_block(tmp_path: Path, x: float, remarked: bool) -> No
 def test_words_of_a_force_outside_its_block(tmp_path: Path) -> None:
     found = model(tmp_path, "live: [{force: [1, 0, 0], on: {group: top, index: 0}, at: [1.5, 0.5, 2]}]")
     assert found.notices[0].message == (
-        "the force (1, 0, 0) N on top[0] at (1.5, 0.5, 2) acts 0.5 m outside that block; its moment is kept"
+        "the force (1, 0, 0) N on top[0] at (1.5, 0.5, 2) m acts 0.5 m outside that block; its moment is kept"
     )
 
 
