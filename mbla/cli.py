@@ -94,6 +94,9 @@ def _check(options: argparse.Namespace) -> int:
         results, needs = check(deck, run_options, options.vtu)
         text = json_line(check_json(results, needs)) + "\n" if options.json else check_listing(results, needs)
         print(text, end="", flush=True)
+        if options.vtu:
+            files = run_options.folder_for(deck) / f"{deck.stem}_check_*.vtu"
+            print(f"  files: {files}", file=sys.stderr if options.json else sys.stdout, flush=True)
         return 0
 
     return _each_deck(options, one, None)

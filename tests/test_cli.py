@@ -168,6 +168,7 @@ def test_check_solves_nothing_and_writes_nothing(deck: Path, capsys: pytest.Capt
     assert record["needs"]["cones"] == 4
     assert not deck.with_suffix(".out").exists()
     assert main(["check", str(deck), "--vtu"]) == 0
+    assert f"files: {deck.with_suffix('.out') / 'block_check_*.vtu'}" in capsys.readouterr().out
     assert {path.suffix for path in deck.with_suffix(".out").iterdir()} == {".vtu"}
 
 
