@@ -7,7 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from mbla.cli import build_parser, main
+from mbla.arguments import build_parser
+from mbla.cli import main
 
 ROOT = Path(__file__).parents[1]
 README = (ROOT / "README.md").read_text(encoding="utf-8")

@@ -190,6 +190,12 @@ class PublishedScheme(Section):
     max_programs: Count = Field(60, description="cone programs before the sequence is given up")
 
 
+class ProximalScheme(Section):
+    """Parameters of the proximal scheme for non-associative flow."""
+
+    max_programs: Count = Field(60, description="proximal steps before the scheme is given up")
+
+
 class AnalysisSection(Section):
     """How the load factor is computed."""
 
@@ -197,8 +203,15 @@ class AnalysisSection(Section):
         "non_associative", description="associative; non-associative without dilatancy; or with the joints' dilatancy"
     )
     contact_model: Literal["concave"] = Field("concave", description="contact points at the corners of each interface")
-    scheme: Literal["published"] = Field("published", description="how non-associative flow is solved")
-    published: PublishedScheme = Field(default_factory=PublishedScheme, description="its parameters")
+    scheme: Literal["proximal", "published"] = Field(
+        "proximal",
+        description="how non-associative flow is solved: proximal steps from the gravity state to the exact law; or "
+        "the published procedure, which flow with dilatancy always uses",
+    )
+    proximal: ProximalScheme = Field(default_factory=ProximalScheme, description="parameters of the proximal scheme")
+    published: PublishedScheme = Field(
+        default_factory=PublishedScheme, description="parameters of the published procedure"
+    )
     accuracy: Literal["draft", "standard", "reference"] = Field("standard", description="one word for every knob")
     tolerance: Annotated[float, Quantity("number", gt=0, le=1e-3)] | None = Field(
         None, description="relative tolerance of the cone solver; set by accuracy unless given"

@@ -29,13 +29,18 @@ from mbla.program.yield_conditions.limits import YieldLimits
 
 @dataclass(frozen=True)
 class ConeProgram:
-    """min cost·x subject to matrix x + s = rhs; s = 0 (first row), ≥ 0 (next n_half_lines), in 3-cones (the rest)."""
+    """min cost·x + ½ Σ quadratic x² subject to matrix x + s = rhs.
+
+    s = 0 in the first ``n_equations`` rows, ≥ 0 in the next ``n_half_lines``, in cones of dimension 3 in the rest.
+    """
 
     cost: FloatArray
     matrix: sp.csc_array
     rhs: FloatArray
     n_half_lines: int
     n_cones: int
+    n_equations: int = 1
+    quadratic: FloatArray | None = None
 
 
 @dataclass(frozen=True)

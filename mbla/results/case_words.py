@@ -30,6 +30,9 @@ PURPOSES = {
     "associative": "associative",
     "reverse": "reversed live load",
     "published": "reduced dilatancy",
+    "gravity": "dead load alone",
+    "proximal": "step without dilatancy",
+    "exact law": "exact joint law",
 }
 """what a cone program is for, in words"""
 

@@ -7,7 +7,6 @@ interval the dead load alone is not carried, and the mechanism of the violated e
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -15,17 +14,15 @@ import numpy as np
 from mbla.arrays import FloatArray
 from mbla.program.kinematic import KinematicForm, kinematic_form
 from mbla.program.program import Program
-from mbla.solution.clarabel_adapter import ClarabelProgram, ConeSolution
+from mbla.solution.clarabel_adapter import ClarabelProgram, ConeSolution, Log
 from mbla.solution.mechanics import mechanics_of
 from mbla.solution.settings import SolverSettings
-from mbla.solution.solution import IterationRecord, Mechanics, ProgramRecord, Status
+from mbla.solution.solution import Mechanics, ProgramRecord, Status
 
 STANDS_MARGIN = 1e-7
 """A load factor is taken as negative only beyond this share of (dead load over live load): below it is solver noise."""
 
 WITH_VALUE = (Status.SOLVED, Status.APPROXIMATE)
-
-Log = Callable[[IterationRecord], None]
 
 
 @dataclass(frozen=True)

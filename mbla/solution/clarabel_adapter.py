@@ -17,6 +17,8 @@ from mbla.solution.settings import SolverSettings
 from mbla.solution.signals import signals_held
 from mbla.solution.solution import IterationRecord, Status
 
+Log = Callable[[IterationRecord], None]
+
 STATUS_MAP = {
     "Solved": Status.SOLVED,
     "AlmostSolved": Status.APPROXIMATE,
@@ -70,7 +72,7 @@ class ClarabelProgram:
 
     cone_program: ConeProgram
     settings: SolverSettings
-    log: Callable[[IterationRecord], None]
+    log: Log
     _solver: Any = field(init=False, default=None)
     _raised: BaseException | None = field(init=False, default=None)
     _logged: int = field(init=False, default=-1)
@@ -127,13 +129,7 @@ class ClarabelProgram:
         if rhs is not None:
             changed["b"] = rhs
         old = self.cone_program
-        self.cone_program = ConeProgram(
-            cost=old.cost if cost is None else cost,
-            matrix=old.matrix,
-            rhs=old.rhs if rhs is None else rhs,
-            n_half_lines=old.n_half_lines,
-            n_cones=old.n_cones,
-        )
+        self.cone_program = replace(old, cost=old.cost if cost is None else cost, rhs=old.rhs if rhs is None else rhs)
         if self._solver is not None:
             self._check_finite()
             self._solver.update(**changed)
@@ -145,13 +141,13 @@ class ClarabelProgram:
 
     def _new_solver(self, clarabel: Any) -> Any:
         program = self.cone_program
-        n = len(program.cost)
-        cones = [clarabel.ZeroConeT(1)]
+        quadratic = np.zeros(len(program.cost)) if program.quadratic is None else program.quadratic
+        cones = [clarabel.ZeroConeT(program.n_equations)]
         if program.n_half_lines:
             cones.append(clarabel.NonnegativeConeT(program.n_half_lines))
         cones += [clarabel.SecondOrderConeT(3)] * program.n_cones
         return clarabel.DefaultSolver(
-            sp.csc_matrix((n, n)),
+            sp.csc_matrix(sp.diags_array(quadratic)),
             program.cost,
             sp.csc_matrix(program.matrix),
             program.rhs,

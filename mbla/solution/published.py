@@ -21,7 +21,7 @@ the true cones. The solution found is one of many.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
@@ -29,12 +29,12 @@ from mbla.arrays import FloatArray
 from mbla.deck.types import PublishedScheme
 from mbla.program.kinematic import kinematic_form
 from mbla.program.program import Program
-from mbla.program.yield_conditions import YieldLimits, yield_violation
-from mbla.solution.associative import AssociativeResult, Log
-from mbla.solution.clarabel_adapter import ClarabelProgram, ConeSolution
-from mbla.solution.mechanics import mechanics_of
+from mbla.program.yield_conditions import YieldLimits
+from mbla.solution.associative import AssociativeResult
+from mbla.solution.clarabel_adapter import ClarabelProgram, ConeSolution, Log
+from mbla.solution.law_state import LawState, SequenceResult, law_state, sequence_mechanics
 from mbla.solution.settings import SolverSettings
-from mbla.solution.solution import Mechanics, ProgramRecord, Status
+from mbla.solution.solution import ProgramRecord, Status
 
 SPREAD_PROGRAMS = 10
 """Last programs of a sequence over which forces are averaged, and its spread is reported where it did not settle."""
@@ -46,26 +46,6 @@ to and fro between two states for ever."""
 FLOOR = 1e-9
 """Least fictitious cohesion, in mean block loads: without it the sliding multiplier of an open point has no cost and
 no bound."""
-
-
-@dataclass(frozen=True)
-class SequenceResult:
-    """Best pair of forces and mechanism of the sequence; status SOLVED where it converged, APPROXIMATE where not."""
-
-    status: Status
-    mechanics: Mechanics | None
-    reason: str
-    programs: tuple[ProgramRecord, ...]
-
-
-@dataclass(frozen=True)
-class State:
-    """Forces (n_points, 3), velocities (6 n_free,) and load factor of the program, and how badly they fit the law."""
-
-    forces: FloatArray
-    velocities: FloatArray
-    load_factor: float
-    residual: float
 
 
 def solve_published(
@@ -104,7 +84,7 @@ def solve_published(
         recent = [*recent, (forces, factors[-1])][-SPREAD_PROGRAMS:]
         now = min(_states(program, slope, recent, velocities), key=lambda state: state.residual)
         if max(change, now.residual) <= scheme.tolerance and solution.status is Status.SOLVED:
-            return SequenceResult(Status.SOLVED, _mechanics(program, now), "", tuple(records))
+            return SequenceResult(Status.SOLVED, sequence_mechanics(program, now), "", tuple(records))
         best = now if best is None or now.residual < best.residual else best
         turned_back = len(factors) > 2 and (factors[-1] - factors[-2]) * (factors[-2] - factors[-3]) < 0
         if turned_back and change > scheme.tolerance:
@@ -117,7 +97,7 @@ def solve_published(
     )
     if solution.status is Status.APPROXIMATE:
         reason = f"its programs end short of the solver's tolerance (clarabel: {solution.solver_status}); " + reason
-    return SequenceResult(Status.APPROXIMATE, _mechanics(program, best), reason, tuple(records))
+    return SequenceResult(Status.APPROXIMATE, sequence_mechanics(program, best), reason, tuple(records))
 
 
 def _fictitious(limits: YieldLimits, slope: FloatArray, normal: FloatArray) -> YieldLimits:
@@ -128,37 +108,14 @@ def _fictitious(limits: YieldLimits, slope: FloatArray, normal: FloatArray) -> Y
 
 def _states(
     program: Program, slope: FloatArray, recent: list[tuple[FloatArray, float]], velocities: FloatArray
-) -> list[State]:
+) -> list[LawState]:
     """The newest forces, and means over the last 2, 3, ... programs: each mean balances the mean load factor."""
     states = []
     for count in range(1, len(recent) + 1):
         forces = np.mean([forces for forces, _ in recent[-count:]], axis=0)
         factor = float(np.mean([factor for _, factor in recent[-count:]]))
-        states.append(_state(program, slope, forces, velocities, factor))
+        states.append(law_state(program, slope, forces, velocities, factor))
     return states
-
-
-def _state(program: Program, slope: FloatArray, forces: FloatArray, velocities: FloatArray, factor: float) -> State:
-    """A state with its residual, the larger of two.
-
-    Excess over the true yield conditions, in mean block loads; share of the power balance that the scheme's law (true
-    friction, dilatancy ``slope``) does not explain.
-    """
-    limits = program.limits
-    v = (program.equilibrium_matrix.T @ velocities).reshape(-1, 3)
-    sliding = np.hypot(v[:, 1], v[:, 2])
-    strength = limits.friction * forces[:, 0] + limits.cohesion
-    opening = np.maximum(v[:, 0] - slope * sliding, 0.0)
-    unexplained = np.abs(strength * sliding + (forces[:, 1:] * v[:, 1:]).sum(axis=1)) + np.abs(
-        (forces[:, 0] + limits.tension) * opening
-    )
-    balance = max(abs(factor), float(np.abs(strength) @ sliding), abs(float(program.dead_load @ velocities)), 1e-300)
-    excess = float(yield_violation(forces, limits).max(initial=0.0))
-    return State(forces, velocities, factor, max(excess, float(unexplained.sum()) / balance))
-
-
-def _mechanics(program: Program, state: State) -> Mechanics:
-    return mechanics_of(program, state.load_factor, state.forces.ravel(), state.velocities)
 
 
 def _record(number: int, solution: ConeSolution, load_factor: float, change: float) -> ProgramRecord:
@@ -168,7 +125,7 @@ def _record(number: int, solution: ConeSolution, load_factor: float, change: flo
 
 
 def _broken_off(
-    program: Program, best: State | None, solution: ConeSolution, records: list[ProgramRecord]
+    program: Program, best: LawState | None, solution: ConeSolution, records: list[ProgramRecord]
 ) -> SequenceResult:
     number = len(records) + 1
     records.append(_record(number, solution, np.nan, np.nan))
@@ -181,5 +138,5 @@ def _broken_off(
             f"in program {number} of the sequence the friction that belongs to the forces before does not {what}; "
             "the structure may stand only by friction that something has locked in"
         )
-    mechanics = None if best is None else _mechanics(program, best)
+    mechanics = None if best is None else sequence_mechanics(program, best)
     return SequenceResult(status, mechanics, reason, tuple(records))

@@ -8,8 +8,11 @@ import numpy as np
 
 from mbla.deck.types import AnalysisSection
 from mbla.program.program import Program
-from mbla.solution.associative import AssociativeResult, Log, solve_associative
-from mbla.solution.published import SequenceResult, solve_published
+from mbla.solution.associative import AssociativeResult, solve_associative
+from mbla.solution.clarabel_adapter import Log
+from mbla.solution.law_state import SequenceResult
+from mbla.solution.proximal import solve_proximal
+from mbla.solution.published import solve_published
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import IterationRecord, Solution, Status
 
@@ -28,10 +31,13 @@ def solve(program: Program, analysis: AnalysisSection, settings: SolverSettings,
             log(iteration)
 
     associative = solve_associative(program, settings, record)
-    if analysis.flow_rule == "associative" or associative.status is not Status.SOLVED:
+    if analysis.flow_rule == "associative" or associative.mechanics is None:
         return _associative_solution(analysis.flow_rule, associative, iterations, time.perf_counter() - started)
-    dilatancy = program.limits.dilatancy if analysis.flow_rule == "dilatancy" else np.zeros(program.n_points)
-    sequence = solve_published(program, associative, analysis.published, dilatancy, settings, record)
+    if analysis.flow_rule == "non_associative" and analysis.scheme == "proximal":
+        sequence = solve_proximal(program, associative, analysis.proximal.max_programs, settings, record)
+    else:
+        dilatancy = program.limits.dilatancy if analysis.flow_rule == "dilatancy" else np.zeros(program.n_points)
+        sequence = solve_published(program, associative, analysis.published, dilatancy, settings, record)
     return _sequence_solution(analysis.flow_rule, associative, sequence, iterations, time.perf_counter() - started)
 
 
@@ -65,11 +71,11 @@ def _sequence_solution(
 ) -> Solution:
     return Solution(
         flow_rule=flow_rule,
-        status=sequence.status,
+        status=associative.status if sequence.status is Status.SOLVED else sequence.status,
         mechanics=sequence.mechanics,
         associative=associative.mechanics,
         certificate=None,
-        reason=sequence.reason,
+        reason=sequence.reason or associative.reason,
         programs=sequence.programs,
         iterations=tuple(iterations),
         seconds=seconds,

@@ -6,7 +6,7 @@ import pytest
 from mbla.solution.solution import Status
 from tests.line import BLOCK, WALL, line_of, load_factor, verified
 
-NON_ASSOCIATIVE = "analysis.flow_rule=non_associative"
+NON_ASSOCIATIVE = "analysis={flow_rule: non_associative, scheme: published}"
 
 
 def test_a_sliding_block_needs_its_friction_with_either_flow_rule() -> None:

@@ -1,0 +1,135 @@
+"""The default non-associative scheme: closed forms, published walls, and states of the exact law."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from mbla.solution.exact_law import _residual, _tangent
+from mbla.solution.solution import Checks, Solution, Status
+from tests.line import BLOCK, HEAD, WALL, line_of, verified
+
+NON_ASSOCIATIVE = "analysis.flow_rule=non_associative"
+
+FERRIS_3 = (
+    HEAD
+    + """\
+joints: {dry: {friction: 0.65}}
+blocks:
+  - wall:
+      material: stone
+      unit: [0.4, 0.2, 0.175]
+      length: 1.6
+      courses: 11
+      openings: [{from: [0.6, 0.525], to: [1.0, 1.4]}]
+supports: [{ground: {z: 0}}]
+load_cases:
+  push: {live: [{acceleration: [1, 0, 0]}]}
+"""
+)
+"""Wall 3 of Ferris and Tin-Loi 2001 (Int. J. Mech. Sci. 43, 209-224)."""
+
+
+def solved(text: str, *overrides: str, case: int = 0) -> tuple[float, Solution, Checks]:
+    """Load factor of a case that must be solved, and that must fit the exact law far better than is asked."""
+    solution, checks, status = verified(line_of(text, *overrides, case=case))
+    assert status is Status.SOLVED, (status, solution.reason, checks.failures)
+    assert solution.mechanics is not None
+    assert checks.complementarity_residual < 1e-9
+    assert checks.yield_violation < 1e-9
+    assert checks.equilibrium_residual < 1e-9
+    return solution.mechanics.load_factor, solution, checks
+
+
+def test_a_sliding_block_does_not_lift() -> None:
+    factor, solution, _ = solved(BLOCK, NON_ASSOCIATIVE, "parameters.h=0.5")
+    assert factor == pytest.approx(0.5, rel=1e-9)
+    assert solution.mechanics is not None
+    assert solution.mechanics.contact_velocities[:, 0] == pytest.approx(0, abs=1e-12)
+
+
+@pytest.mark.parametrize("angle", [0, 25, 45, 70])
+def test_sliding_strength_is_the_same_in_every_direction(angle: float) -> None:
+    direction = f"[{math.cos(math.radians(angle))!r}, {math.sin(math.radians(angle))!r}, 0]"
+    live = f"load_cases.push.live=[{{acceleration: {direction}}}]"
+    factor, _, _ = solved(BLOCK, NON_ASSOCIATIVE, "parameters.h=0.3", "parameters.mu=0.4", live)
+    assert factor == pytest.approx(0.4, rel=1e-8)
+
+
+def test_cohesion_is_kept_while_sliding() -> None:
+    factor, _, _ = solved(BLOCK, NON_ASSOCIATIVE, "parameters.h=0.5", "parameters.c=1000")
+    assert factor == pytest.approx(0.5 + 1000 / (0.5 * 2000 * 9.81), rel=1e-9)
+
+
+def test_a_wedge_in_a_groove_slides_along_it() -> None:
+    """mu / cos b without dilatancy; with it the wedge locks: mu / sqrt(cos^2 b - mu^2 sin^2 b)."""
+    b, mu = math.radians(30), 0.5
+    text = HEAD + (
+        f"joints: {{dry: {{friction: {mu}}}}}\n"
+        "blocks:\n"
+        "  - polyhedron:\n"
+        "      material: stone\n"
+        f"      vertices: [[0, 0, 0], [4, 0, 0], [0, -1, {math.tan(b)!r}], [0, 1, {math.tan(b)!r}],\n"
+        f"                 [4, -1, {math.tan(b)!r}], [4, 1, {math.tan(b)!r}]]\n"
+        "      faces: [[0, 2, 3], [1, 4, 5], [0, 1, 4, 2], [0, 1, 5, 3], [2, 3, 5, 4]]\n"
+        "supports:\n"
+        f"  - ground: {{point: [0, 0, 0], normal: [0, {math.sin(b)!r}, {math.cos(b)!r}]}}\n"
+        f"  - ground: {{point: [0, 0, 0], normal: [0, {-math.sin(b)!r}, {math.cos(b)!r}]}}\n"
+        "load_cases: {along: {live: [{acceleration: [1, 0, 0]}]}}\n"
+    )
+    factor, solution, _ = solved(text)
+    assert factor == pytest.approx(mu / math.cos(b), rel=1e-6)
+    assert solution.associative is not None
+    locked = mu / math.sqrt(math.cos(b) ** 2 - (mu * math.sin(b)) ** 2)
+    assert solution.associative.load_factor == pytest.approx(locked, rel=1e-6)
+
+
+def test_wall_with_an_opening_gives_the_published_factor() -> None:
+    """MPEC of 2001: 0.356, with 13 % between it and the associative factor; the published scheme ends at 0.373."""
+    factor, solution, _ = solved(FERRIS_3)
+    assert factor == pytest.approx(0.35582, abs=2e-5)
+    assert solution.associative is not None
+    assert solution.associative.load_factor == pytest.approx(0.403694, abs=1e-6)
+    assert {program.kind for program in solution.programs} == {
+        "associative",
+        "reverse",
+        "gravity",
+        "proximal",
+        "exact law",
+    }
+
+
+@pytest.mark.parametrize(
+    "overrides",
+    [
+        ("units.length=mm", "blocks.0.wall.unit=[400, 200, 175]", "blocks.0.wall.length=2400"),
+        ("materials.stone.density=2e-3",),
+        ("materials.stone.density=2e9",),
+    ],
+)
+def test_the_factor_does_not_know_units(overrides: tuple[str, ...]) -> None:
+    here, _, _ = solved(WALL, NON_ASSOCIATIVE, "parameters.n=6")
+    there, _, _ = solved(WALL, NON_ASSOCIATIVE, "parameters.n=6", *overrides)
+    assert there == pytest.approx(here, rel=1e-6)
+
+
+def test_steps_that_may_not_go_on_say_how_far_they_came() -> None:
+    solution, _, status = verified(line_of(FERRIS_3, "analysis.proximal={max_programs: 2}"))
+    assert status in (Status.APPROXIMATE, Status.NOT_VERIFIED)
+    assert "did not come to rest in 2 programs" in solution.reason
+
+
+def test_the_exact_law_agrees_with_its_tangent() -> None:
+    """Consistent linearisation: the directional derivative of the residual, by differences."""
+    line = line_of(WALL, "parameters.n=3")
+    program, rng = line.program, np.random.default_rng(3)
+    anchor = rng.normal(size=(program.n_points, 3)) + np.array([1.0, 0, 0])
+    u, du = rng.normal(size=(2, len(program.dead_load)))
+    rho = 0.7
+    _, forces, state = _residual(program, anchor, rho, u, 0.3)
+    _, moved, _ = _residual(program, anchor, rho, u + 1e-7 * du, 0.3)
+    tangent = _tangent(program.limits.friction, rho, state)
+    expected = -(tangent @ (program.equilibrium_matrix.T @ du))
+    assert (moved - forces).ravel() / 1e-7 == pytest.approx(expected, abs=1e-5)
