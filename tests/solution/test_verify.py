@@ -126,3 +126,15 @@ def test_bounds_hold_whatever_the_tolerance_of_the_solver(tolerance: float) -> N
     exact = 0.50720395
     assert checks.static_bound <= exact + 1e-8
     assert checks.kinematic_bound >= exact - 1e-8
+
+
+@pytest.mark.parametrize("share", [1e-3, 1e-7, 1e-10])
+def test_a_light_block_that_falls_is_not_lost_in_the_mean(share: float) -> None:
+    """Its weight may be below the solver's tolerance; the structure is never called solved."""
+    light = "  - box: {group: light, material: feather, min: [5, 0, 1], max: [6, 1, 2]}\n"
+    text = BLOCK.replace("blocks:\n", f"blocks:\n{light}").replace(
+        "stone: {density: 2000}", f"stone: {{density: 2000}}, feather: {{density: {2000 * share!r}}}"
+    )
+    line = line_of(text)
+    status, _ = judged(line, solution_of(line))
+    assert status in (Status.NO_EQUILIBRIUM, Status.APPROXIMATE, Status.NOT_VERIFIED)
