@@ -48,7 +48,9 @@ def _add_run(commands: Any) -> None:
     command.add_argument("--case", action="append", default=[], metavar="NAME", help="only this load case (repeatable)")
     command.add_argument("--accuracy", choices=["draft", "standard", "reference"], help="instead of analysis.accuracy")
     command.add_argument(
-        "--flow-rule", choices=["associative", "non_associative", "dilatancy"], help="instead of analysis.flow_rule"
+        "--flow-rule",
+        choices=["associative", "non_associative", "dilatancy", "livesley"],
+        help="instead of analysis.flow_rule",
     )
     command.add_argument(
         "--time-limit", type=seconds, metavar="S", help="seconds for all load cases, instead of analysis.time_limit"

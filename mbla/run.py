@@ -157,10 +157,10 @@ def settings_in_words(deck: Deck, settings: SolverSettings) -> dict[str, str]:
         "contact_tolerance": f"{deck.contacts.tolerance:g}",
     }
     if analysis.flow_rule != "associative":
-        scheme = "published" if analysis.flow_rule == "dilatancy" else analysis.scheme
-        parameters = analysis.published if scheme == "published" else analysis.proximal
-        words["scheme"] = scheme
-        words |= {f"scheme_{name}": f"{value:g}" for name, value in parameters.model_dump().items()}
+        words["scheme"] = "published" if analysis.flow_rule == "dilatancy" else analysis.scheme
+        parameters = getattr(analysis, words["scheme"], None)  # none for auto
+        if parameters is not None:
+            words |= {f"scheme_{name}": f"{value:g}" for name, value in parameters.model_dump().items()}
     if analysis.time_limit is not None:
         words["time_limit"] = f"{analysis.time_limit:g} s"
     return words

@@ -2,7 +2,7 @@
 
 Numbers are in the deck's own units; a string with a unit (``"18 kN/m^3"``) is converted while it is read.
 Checks that need more than one key are in :mod:`mbla.deck.rules`; the items of `blocks` are in :mod:`mbla.deck.items`
-and can be had from here.
+and can be had from here, like the analysis section of :mod:`mbla.deck.analysis`.
 """
 
 from __future__ import annotations
@@ -11,6 +11,13 @@ from typing import Annotated, Any, Literal, TypeAlias
 
 from pydantic import BeforeValidator, Discriminator, Field, Tag
 
+from mbla.deck.analysis import AnalysisSection as AnalysisSection
+from mbla.deck.analysis import InteriorScheme as InteriorScheme
+from mbla.deck.analysis import LowestScheme as LowestScheme
+from mbla.deck.analysis import PathScheme as PathScheme
+from mbla.deck.analysis import ProximalScheme as ProximalScheme
+from mbla.deck.analysis import PublishedScheme as PublishedScheme
+from mbla.deck.analysis import ReductionSwitches as ReductionSwitches
 from mbla.deck.items import ArchItem as ArchItem
 from mbla.deck.items import BlockItem as BlockItem
 from mbla.deck.items import BoxItem as BoxItem
@@ -25,7 +32,6 @@ from mbla.deck.items import WallItem as WallItem
 from mbla.deck.names import Line, Name, ParameterName
 from mbla.deck.quantities import (
     Acceleration,
-    Count,
     Direction,
     Force,
     FrictionAngle,
@@ -41,7 +47,6 @@ from mbla.deck.quantities import (
     PositiveUnitWeight,
     Quantity,
     Switch,
-    Time,
     Whole,
 )
 from mbla.deck.section import Section, shape
@@ -119,6 +124,12 @@ class ContactsSection(Section):
     tolerance: Annotated[float, Quantity("number", gt=0, le=0.1)] = Field(
         1e-3, description="greatest gap, overlap and sliver width, relative to block size"
     )
+    refine: Annotated[int, Whole(ge=1, le=50)] = Field(
+        1, description="contact points along each edge of an interface, and rings of them inside; 1: its corners alone"
+    )
+    inset: Annotated[float, Quantity("number", ge=0, lt=1)] = Field(
+        0.0, description="share of the way to the centroid that the contact points are moved inwards"
+    )
     overrides: list[ContactOverride] = Field(default_factory=list, description="the last that fits a contact holds")
 
 
@@ -168,56 +179,7 @@ class LoadCaseSection(Section):
     live: list[Load] = Field(min_length=1, description="the loads that the load factor multiplies")
 
 
-# --- analysis, output, expectations -------------------------------------------------------------------------------
-
-
-class PublishedScheme(Section):
-    """Parameters of the iterative procedure of Portioli et al. 2014 for non-associative flow."""
-
-    slope: Annotated[float, Quantity("number", ge=0, le=1)] = Field(
-        0.0,
-        description="alpha: share of the friction coefficient kept as slope of each program's yield line; "
-        "published runs use small values above 0, which are a small dilatancy; 0 is none",
-    )
-    averaging: Annotated[float, Quantity("number", gt=0, le=1)] = Field(
-        0.6, description="beta: weight of the newest normal forces in the average that sets the fictitious cohesion"
-    )
-    tolerance: Annotated[float, Quantity("number", gt=0, le=0.1)] = Field(
-        1e-4,
-        description="the sequence stops when the load factor changes by less, relatively, and no force exceeds "
-        "its true friction by more than this share of the mean block load",
-    )
-    max_programs: Count = Field(60, description="cone programs before the sequence is given up")
-
-
-class ProximalScheme(Section):
-    """Parameters of the proximal scheme for non-associative flow."""
-
-    max_programs: Count = Field(60, description="proximal steps before the scheme is given up")
-
-
-class AnalysisSection(Section):
-    """How the load factor is computed."""
-
-    flow_rule: Literal["associative", "non_associative", "dilatancy"] = Field(
-        "non_associative", description="associative; non-associative without dilatancy; or with the joints' dilatancy"
-    )
-    contact_model: Literal["concave"] = Field("concave", description="contact points at the corners of each interface")
-    scheme: Literal["proximal", "published"] = Field(
-        "proximal",
-        description="how non-associative flow is solved: proximal steps from the gravity state to the exact law; or "
-        "the published procedure, which flow with dilatancy always uses",
-    )
-    proximal: ProximalScheme = Field(default_factory=ProximalScheme, description="parameters of the proximal scheme")
-    published: PublishedScheme = Field(
-        default_factory=PublishedScheme, description="parameters of the published procedure"
-    )
-    accuracy: Literal["draft", "standard", "reference"] = Field("standard", description="one word for every knob")
-    tolerance: Annotated[float, Quantity("number", gt=0, le=1e-3)] | None = Field(
-        None, description="relative tolerance of the cone solver; set by accuracy unless given"
-    )
-    max_iterations: Count | None = Field(None, description="iterations of the cone solver for one program")
-    time_limit: Time | None = Field(None, description="seconds for all load cases together")
+# --- output, expectations -------------------------------------------------------------------------------
 
 
 class OutputSection(Section):

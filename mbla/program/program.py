@@ -48,14 +48,31 @@ class Scaling:
 
 
 @dataclass(frozen=True)
+class Reduction:
+    """A program restricted to fewer unknowns, and the exact way back: u = velocities @ q, x = forces @ y.
+
+    full       : the program that was reduced
+    velocities : (n_rows of the full program, n_rows)
+    forces     : (n_force components of the full program, n_force components)
+    """
+
+    full: Program
+    velocities: sp.csr_array
+    forces: sp.csr_array
+
+
+@dataclass(frozen=True)
 class Program:
     """One load case, non-dimensional.
 
-    equilibrium_matrix : (6 n_free, 3 n_points), rows force and moment x, y, z of each free block
-    dead_load, live_load : (6 n_free,)
+    equilibrium_matrix : (n_rows, components n_points); in a spatial program the rows are force and moment x, y, z of
+                         each free block
+    dead_load, live_load : (n_rows,)
     limits             : yield limits of the contact points, forces in units of ``scaling.force``
-    free               : (n_free,) the block to which each six rows belong
+    free               : (n_free,) the block to which each six rows of the spatial program belong
     n_blocks           : blocks of the model
+    components         : of the force at a contact point: 3 (N, T1, T2), or 2 (N, T) in a planar program
+    reduction          : where this program came from, None for that of the whole model
     """
 
     equilibrium_matrix: sp.csr_array
@@ -65,6 +82,8 @@ class Program:
     free: IntArray
     n_blocks: int
     scaling: Scaling
+    components: int = 3
+    reduction: Reduction | None = None
 
     @property
     def n_points(self) -> int:

@@ -31,44 +31,44 @@ class StaticForm:
     cone_program: ConeProgram
 
     def forces(self, x: FloatArray) -> FloatArray:
-        """Contact forces, (n_points, 3)."""
-        return x[: 3 * self.program.n_points].reshape(-1, 3)
+        """Contact forces, (n_points, components)."""
+        return x[: self.program.components * self.program.n_points].reshape(-1, self.program.components)
 
     def load_factor(self, x: FloatArray) -> float:
         """Load factor of the program; only of a proximal step."""
         return float(x[-1])
 
     def velocities(self, z: FloatArray) -> FloatArray:
-        """Velocities of the free blocks, (6 n_free,)."""
+        """Velocities of the free blocks, (n_rows,)."""
         return z[: len(self.program.dead_load)]
 
 
 def gravity_form(program: Program) -> StaticForm:
     """The least forces that carry the dead load alone."""
-    n = program.n_points
-    rows = sp.diags_array(np.column_stack([program.limits.friction, np.ones((n, 2))]).ravel(), format="csr")
+    size = program.components * program.n_points
     half_lines, room = _normal_limits(program)
-    matrix = sp.vstack([program.equilibrium_matrix, -half_lines, -rows])
-    cohesion = np.column_stack([program.limits.cohesion, np.zeros((n, 2))]).ravel()
+    shear, limit = _shear_limits(program, program.limits.friction, program.limits.cohesion)
+    matrix = sp.vstack([program.equilibrium_matrix, -half_lines, -shear])
     return StaticForm(
         program,
         ConeProgram(
-            cost=np.zeros(3 * n),
+            cost=np.zeros(size),
             matrix=_tidy(matrix),
-            rhs=np.concatenate([-program.dead_load, room, cohesion]),
-            n_half_lines=len(room),
-            n_cones=n,
+            rhs=np.concatenate([-program.dead_load, room, limit]),
+            n_half_lines=len(room) + (len(limit) if program.components == 2 else 0),
+            n_cones=program.n_points if program.components == 3 else 0,
             n_equations=len(program.dead_load),
-            quadratic=np.ones(3 * n),
+            quadratic=np.ones(size),
         ),
     )
 
 
 def proximal_form(program: Program, rho: float) -> StaticForm:
     """A proximal step; its anchor and limits come with ``proximal_data``."""
-    n = program.n_points
-    shear = sp.diags_array(np.tile([0.0, 1.0, 1.0], n), format="csr")
+    size = program.components * program.n_points
     half_lines, room = _normal_limits(program)
+    none = np.zeros(program.n_points)
+    shear, limit = _shear_limits(program, none, none)
     forces = sp.vstack([program.equilibrium_matrix, -half_lines, -shear])
     n_rows = forces.shape[0] - len(program.dead_load)
     load = np.concatenate([program.live_load, np.zeros(n_rows)])
@@ -76,28 +76,44 @@ def proximal_form(program: Program, rho: float) -> StaticForm:
     return StaticForm(
         program,
         ConeProgram(
-            cost=np.append(np.zeros(3 * n), -1.0),
+            cost=np.append(np.zeros(size), -1.0),
             matrix=_tidy(matrix),
-            rhs=np.concatenate([-program.dead_load, room, np.zeros(3 * n)]),
-            n_half_lines=len(room),
-            n_cones=n,
+            rhs=np.concatenate([-program.dead_load, room, limit]),
+            n_half_lines=len(room) + (len(limit) if program.components == 2 else 0),
+            n_cones=program.n_points if program.components == 3 else 0,
             n_equations=len(program.dead_load),
-            quadratic=np.append(np.full(3 * n, rho), 0.0),
+            quadratic=np.append(np.full(size, rho), 0.0),
         ),
     )
 
 
 def proximal_data(form: StaticForm, rho: float, anchor: FloatArray, limit: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Cost and right-hand side of a proximal step from forces x̄, (n_points, 3), with shear limits l, (n_points,)."""
-    rhs = form.cone_program.rhs.copy()
-    rhs[len(rhs) - 3 * form.program.n_points :: 3] = np.maximum(limit, LEAST_LIMIT)
+    """Cost and right-hand side of a proximal step from forces x̄, (n_points, components), with shear limits l."""
+    program, rhs = form.program, form.cone_program.rhs.copy()
+    limit = np.maximum(limit, LEAST_LIMIT)
+    if program.components == 3:
+        rhs[len(rhs) - 3 * program.n_points :: 3] = limit
+    else:
+        rhs[len(rhs) - 2 * program.n_points :] = np.repeat(limit, 2)
     return np.append(-rho * anchor.ravel(), -1.0), rhs
+
+
+def _shear_limits(program: Program, slope: FloatArray, offset: FloatArray) -> tuple[sp.csr_array, FloatArray]:
+    """Rows and offsets of offset + slope N ≥ ‖T‖: cones of a spatial program, pairs of half-lines of a planar one."""
+    n = program.n_points
+    if program.components == 3:
+        diagonal = sp.diags_array(np.column_stack([slope, np.ones((n, 2))]).ravel(), format="csr")
+        return sp.csr_array(diagonal), np.column_stack([offset, np.zeros((n, 2))]).ravel()
+    row, point = np.arange(2 * n), np.repeat(np.arange(n), 2)
+    sign = np.tile([1.0, -1.0], n)
+    entries = (np.concatenate([slope[point], sign]), (np.tile(row, 2), np.concatenate([2 * point, 2 * point + 1])))
+    return sp.csr_array(sp.coo_array(entries, shape=(2 * n, 2 * n))), np.repeat(offset, 2)
 
 
 def _normal_limits(program: Program) -> tuple[sp.csr_array, FloatArray]:
     """Rows and offsets of N + f_t ≥ 0 at every point and f_c − N ≥ 0 where the strength is finite."""
     limits = program.limits
-    normal = sp.eye_array(3 * program.n_points, format="csr")[::3]
+    normal = sp.eye_array(program.components * program.n_points, format="csr")[:: program.components]
     crushable = np.flatnonzero(np.isfinite(limits.compression))
     rows = sp.csr_array(sp.vstack([normal, -normal[crushable]]))
     return rows, np.concatenate([limits.tension, limits.compression[crushable]])

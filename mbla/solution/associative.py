@@ -15,9 +15,9 @@ from mbla.arrays import FloatArray
 from mbla.program.kinematic import KinematicForm, kinematic_form
 from mbla.program.program import Program
 from mbla.solution.clarabel_adapter import ClarabelProgram, ConeSolution, Log
-from mbla.solution.mechanics import mechanics_of
+from mbla.solution.law_state import LawState, law_state
 from mbla.solution.settings import SolverSettings
-from mbla.solution.solution import Mechanics, ProgramRecord, Status
+from mbla.solution.solution import ProgramRecord, Status
 
 STANDS_MARGIN = 1e-7
 """A load factor is taken as negative only beyond this share of (dead load over live load): below it is solver noise."""
@@ -27,10 +27,14 @@ WITH_VALUE = (Status.SOLVED, Status.APPROXIMATE)
 
 @dataclass(frozen=True)
 class AssociativeResult:
-    """What the associative program says: mechanics with a load factor, a certificate without equilibrium."""
+    """What the associative program says: a state with a load factor, a certificate without equilibrium.
+
+    certificate : (n_rows,) velocities, non-dimensional, of a motion in which the dead load does more work than the
+                  joints dissipate
+    """
 
     status: Status
-    mechanics: Mechanics | None
+    state: LawState | None
     certificate: FloatArray | None
     reason: str
     programs: tuple[ProgramRecord, ...]
@@ -45,9 +49,9 @@ def solve_associative(program: Program, settings: SolverSettings, log: Log) -> A
     if forward.status not in (Status.SOLVED, Status.APPROXIMATE, Status.UNBOUNDED, Status.NO_EQUILIBRIUM):
         return AssociativeResult(forward.status, None, None, _words_of(forward), tuple(records))
     if forward.status is Status.NO_EQUILIBRIUM:
-        return _no_equilibrium(program, form, forward.x, records)
+        return _no_equilibrium(form, forward.x, records)
     if forward.status in WITH_VALUE and _negative(program, forward.objective):
-        return _no_equilibrium(program, form, forward.x, records)
+        return _no_equilibrium(form, forward.x, records)
 
     solver.update(rhs=-form.cone_program.rhs)
     reverse = solver.solve(2, -program.scaling.live)
@@ -55,7 +59,7 @@ def solve_associative(program: Program, settings: SolverSettings, log: Log) -> A
     if reverse.status is Status.NO_EQUILIBRIUM or (
         reverse.status in WITH_VALUE and _negative(program, reverse.objective)
     ):
-        return _no_equilibrium(program, form, reverse.x, records)
+        return _no_equilibrium(form, reverse.x, records)
     if reverse.status not in (Status.SOLVED, Status.APPROXIMATE, Status.UNBOUNDED):
         reason = "whether the dead load alone is carried could not be decided: " + _words_of(reverse)
         return AssociativeResult(reverse.status, None, None, reason, tuple(records))
@@ -65,7 +69,7 @@ def solve_associative(program: Program, settings: SolverSettings, log: Log) -> A
     almost = next((solution for solution in (forward, reverse) if solution.status is Status.APPROXIMATE), None)
     reason = "" if almost is None else _words_of(almost)
     status = Status.SOLVED if almost is None else Status.APPROXIMATE
-    return AssociativeResult(status, _mechanics(form, forward), None, reason, tuple(records))
+    return AssociativeResult(status, _state(form, forward), None, reason, tuple(records))
 
 
 def _negative(program: Program, objective: float) -> bool:
@@ -74,17 +78,15 @@ def _negative(program: Program, objective: float) -> bool:
     return objective < -STANDS_MARGIN * dead_over_live
 
 
-def _mechanics(form: KinematicForm, solution: ConeSolution) -> Mechanics:
-    return mechanics_of(form.program, solution.objective, form.contact_forces(solution.z), form.velocities(solution.x))
+def _state(form: KinematicForm, solution: ConeSolution) -> LawState:
+    program, velocities = form.program, form.velocities(solution.x)
+    forces = form.contact_forces(solution.z)
+    return law_state(program, program.limits.friction, forces, velocities, solution.objective)
 
 
-def _no_equilibrium(
-    program: Program, form: KinematicForm, x: FloatArray, records: list[ProgramRecord]
-) -> AssociativeResult:
+def _no_equilibrium(form: KinematicForm, x: FloatArray, records: list[ProgramRecord]) -> AssociativeResult:
     """The mechanism that proves it: compatible, and the dead load does more work than the joints dissipate."""
-    certificate = program.mechanism(form.velocities(x))
-    largest = np.abs(certificate).max(initial=0.0)
-    certificate = certificate / largest if largest > 0 else certificate
+    certificate = form.velocities(x)
     reason = (
         "the dead load alone is not carried: a mechanism exists in which it does more work than the joints dissipate"
     )

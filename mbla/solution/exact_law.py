@@ -36,7 +36,7 @@ REGULARIZATION = 1e-12
 
 @dataclass(frozen=True)
 class LawStep:
-    """Velocities (6 n_free,), load factor, forces (n_points, 3) and unbalanced force of one step of the exact law."""
+    """One step of the exact law: velocities (n_rows,), load factor, forces (n_points, components), unbalanced force."""
 
     velocities: FloatArray
     load_factor: float
@@ -46,7 +46,7 @@ class LawStep:
 
 
 def exact_step(program: Program, anchor: FloatArray, rho: float, velocities: FloatArray, load_factor: float) -> LawStep:
-    """Solve one step from forces ``anchor``, (n_points, 3), starting from velocities and a load factor.
+    """Solve one step from forces ``anchor``, (n_points, components), starting from velocities and a load factor.
 
     The best iterate is returned; whether it is good enough its residual says.
     """
@@ -88,12 +88,12 @@ class _JointState:
 def _residual(
     program: Program, anchor: FloatArray, rho: float, u: FloatArray, factor: float
 ) -> tuple[FloatArray, FloatArray, _JointState]:
-    """Unbalanced forces and f_L·u − 1, (6 n_free + 1,); the forces; the state of the joints."""
+    """Unbalanced forces and f_L·u − 1, (n_rows + 1,); the forces; the state of the joints."""
     limits = program.limits
-    trial = anchor - (program.equilibrium_matrix.T @ u).reshape(-1, 3) / rho
+    trial = anchor - (program.equilibrium_matrix.T @ u).reshape(-1, program.components) / rho
     normal = np.clip(trial[:, 0], -limits.tension, limits.compression)
     limit = np.maximum(limits.friction * normal + limits.cohesion, 0.0)
-    size = np.hypot(trial[:, 1], trial[:, 2])
+    size = np.linalg.norm(trial[:, 1:], axis=1)
     shorten = np.minimum(1.0, limit / np.maximum(size, 1e-300))
     forces = np.column_stack([normal, trial[:, 1:] * shorten[:, None]])
     balance = program.equilibrium_matrix @ forces.ravel() + program.dead_load + factor * program.live_load
@@ -116,15 +116,15 @@ def _newton_direction(
 
 
 def _tangent(friction: FloatArray, rho: float, state: _JointState) -> sp.csr_array:
-    """C of every joint as a block-diagonal matrix, (3 n_points, 3 n_points)."""
-    n = len(friction)
-    tangent = np.zeros((n, 3, 3))
+    """C of every joint as a block-diagonal matrix, (components n_points, components n_points)."""
+    n, size = len(friction), 1 + state.shear.shape[1]
+    tangent = np.zeros((n, size, size))
     tangent[:, 0, 0] = state.in_contact / rho
     direction = state.shear / np.maximum(state.size, 1e-300)[:, None]
     slips = state.size > state.limit
     share = np.where(slips, state.limit / np.maximum(state.size, 1e-300), 1.0)
-    across = np.eye(2) - np.where(slips, 1.0, 0.0)[:, None, None] * direction[:, :, None] * direction[:, None, :]
+    across = np.eye(size - 1) - np.where(slips, 1.0, 0.0)[:, None, None] * direction[:, :, None] * direction[:, None, :]
     tangent[:, 1:, 1:] = share[:, None, None] * across / rho
     follows = slips & state.in_contact
     tangent[follows, 1:, 0] = friction[follows, None] * direction[follows] / rho
-    return sp.csr_array(sp.bsr_array((tangent, np.arange(n), np.arange(n + 1)), shape=(3 * n, 3 * n)))
+    return sp.csr_array(sp.bsr_array((tangent, np.arange(n), np.arange(n + 1)), shape=(size * n, size * n)))

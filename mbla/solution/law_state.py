@@ -9,13 +9,17 @@ import numpy as np
 from mbla.arrays import FloatArray
 from mbla.program.program import Program
 from mbla.program.yield_conditions import yield_violation
-from mbla.solution.mechanics import mechanics_of
-from mbla.solution.solution import Mechanics, ProgramRecord, Status
+from mbla.solution.solution import PathPoint, ProgramRecord, Status
 
 
 @dataclass(frozen=True)
 class LawState:
-    """Forces (n_points, 3), velocities (6 n_free,) and load factor of the program, and how badly they fit the law."""
+    """A state of the non-dimensional program, and how badly it fits the law.
+
+    forces     : (n_points, components)
+    velocities : (n_rows,)
+    residual   : largest of the relative residuals, see ``law_state``
+    """
 
     forces: FloatArray
     velocities: FloatArray
@@ -25,12 +29,20 @@ class LawState:
 
 @dataclass(frozen=True)
 class SequenceResult:
-    """Best pair of forces and mechanism of a sequence; status SOLVED where it converged, APPROXIMATE where not."""
+    """Best state of a sequence; status SOLVED where it converged, APPROXIMATE where not.
+
+    spread  : least and greatest load factor of several tries that did not agree, non-dimensional
+    remarks : what a reader of the figure must know, one sentence each
+    path    : the load path, where one was followed, load factors of the model
+    """
 
     status: Status
-    mechanics: Mechanics | None
+    state: LawState | None
     reason: str
     programs: tuple[ProgramRecord, ...]
+    spread: tuple[float, float] | None = None
+    remarks: tuple[str, ...] = ()
+    path: tuple[PathPoint, ...] = ()
 
 
 def law_state(
@@ -42,8 +54,8 @@ def law_state(
     joint cannot crush; share of the power balance that the law (dilatancy ``slope``, a tangent) does not explain.
     """
     limits = program.limits
-    v = (program.equilibrium_matrix.T @ velocities).reshape(-1, 3)
-    sliding = np.hypot(v[:, 1], v[:, 2])
+    v = (program.equilibrium_matrix.T @ velocities).reshape(-1, program.components)
+    sliding = np.linalg.norm(v[:, 1:], axis=1)
     strength = limits.friction * forces[:, 0] + limits.cohesion
     surplus = v[:, 0] - slope * sliding
     crushable = np.isfinite(limits.compression)
@@ -57,8 +69,3 @@ def law_state(
     closing = float(np.where(crushable, 0.0, np.maximum(-v[:, 0], 0.0)).max(initial=0.0)) / speed
     excess = float(yield_violation(forces, limits).max(initial=0.0))
     return LawState(forces, velocities, load_factor, max(excess, closing, float(unexplained.sum()) / balance))
-
-
-def sequence_mechanics(program: Program, state: LawState) -> Mechanics:
-    """Forces, velocities and mechanism of the model that belong to a state."""
-    return mechanics_of(program, state.load_factor, state.forces.ravel(), state.velocities)

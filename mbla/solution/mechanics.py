@@ -6,25 +6,59 @@ import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
 from mbla.program.program import Program
+from mbla.solution.law_state import LawState
 from mbla.solution.solution import ContactMode, Mechanics
 
 
-def mechanics_of(program: Program, load_factor: float, forces: FloatArray, velocities: FloatArray) -> Mechanics:
-    """Mechanics of the model from the program's load factor, forces (3 n_points,) and block velocities (6 n_free,)."""
+def mechanics_of(program: Program, state: LawState) -> Mechanics:
+    """Mechanics of the model from a state of a program, reduced or not."""
+    while program.reduction is not None:
+        state, program = lifted(program, state), program.reduction.full
     scaling = program.scaling
-    velocities = velocities / (program.live_load @ velocities)
-    physical = scaling.velocities(velocities).ravel()
-    matrix = program.equilibrium_matrix
-    # the rows of the matrix carry the program's units; undo them to get velocities in the deck's units
-    contact_velocities = (matrix.T @ (physical / (scaling.row * scaling.force))).reshape(-1, 3)
-    contact_forces = scaling.forces(forces)
+    velocities = state.velocities / (program.live_load @ state.velocities)
+    contact_forces = scaling.forces(state.forces)
+    velocities_of_points = contact_velocities(program, velocities)
     return Mechanics(
-        load_factor=scaling.load_factor(load_factor),
+        load_factor=scaling.load_factor(state.load_factor),
         contact_forces=contact_forces,
-        contact_velocities=contact_velocities,
+        contact_velocities=velocities_of_points,
         mechanism=program.mechanism(velocities),
-        modes=contact_modes(contact_forces, contact_velocities),
+        modes=contact_modes(contact_forces, velocities_of_points),
     )
+
+
+def motion_of(program: Program, velocities: FloatArray) -> FloatArray:
+    """Motion of all blocks, (n_blocks, 6), largest entry 1, from the velocities of a program, reduced or not."""
+    while program.reduction is not None:
+        velocities, program = program.reduction.velocities @ velocities, program.reduction.full
+    motion = program.mechanism(velocities)
+    largest = np.abs(motion).max(initial=0.0)
+    return motion / largest if largest > 0 else motion
+
+
+def forces_of(program: Program, forces: FloatArray) -> FloatArray:
+    """Contact forces of the model, (n_points, 3), from those of a program, reduced or not."""
+    while program.reduction is not None:
+        full = program.reduction.full
+        forces = (program.reduction.forces @ forces.ravel()).reshape(-1, full.components)
+        program = full
+    return program.scaling.forces(forces)
+
+
+def lifted(program: Program, state: LawState) -> LawState:
+    """The same state in the program that was reduced to this one."""
+    assert program.reduction is not None
+    full = program.reduction.full
+    forces = (program.reduction.forces @ state.forces.ravel()).reshape(-1, full.components)
+    return LawState(forces, program.reduction.velocities @ state.velocities, state.load_factor, state.residual)
+
+
+def contact_velocities(program: Program, velocities: FloatArray) -> FloatArray:
+    """Velocities at the contact points of the whole model in the deck's units, (n_points, 3)."""
+    # the rows of the matrix carry the program's units; undo them to get velocities in the deck's units
+    scaling = program.scaling
+    physical = scaling.velocities(velocities).ravel()
+    return (program.equilibrium_matrix.T @ (physical / (scaling.row * scaling.force))).reshape(-1, 3)
 
 
 def contact_modes(contact_forces: FloatArray, contact_velocities: FloatArray) -> IntArray:

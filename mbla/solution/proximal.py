@@ -28,7 +28,7 @@ from mbla.program.static import StaticForm, gravity_form, proximal_data, proxima
 from mbla.solution.associative import AssociativeResult
 from mbla.solution.clarabel_adapter import ClarabelProgram, ConeSolution, Log
 from mbla.solution.exact_law import exact_step
-from mbla.solution.law_state import LawState, SequenceResult, law_state, sequence_mechanics
+from mbla.solution.law_state import LawState, SequenceResult, law_state
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import ProgramRecord, Status
 
@@ -96,7 +96,7 @@ def solve_proximal(
         if step >= FIRST_TRY and (step - FIRST_TRY) % TRY_EVERY == 0 and state.residual < NEAR:
             exact = _exact_state(run, anchor, rho, state)
             if exact is not None:
-                return SequenceResult(Status.SOLVED, sequence_mechanics(program, exact), "", tuple(run.records))
+                return SequenceResult(Status.SOLVED, exact, "", tuple(run.records))
         anchor = MOVE * state.forces + (1.0 - MOVE) * anchor
     assert run.best is not None  # there is at least one step
     status = Status.SOLVED if run.best.residual <= ACCEPTED else Status.APPROXIMATE
@@ -104,11 +104,11 @@ def solve_proximal(
         f"the proximal steps did not come to rest in {max_programs} programs: "
         f"forces and velocities miss the law by {run.best.residual:.2g}"
     )
-    return SequenceResult(status, sequence_mechanics(program, run.best), reason, tuple(run.records))
+    return SequenceResult(status, run.best, reason, tuple(run.records))
 
 
 def _gravity_state(run: _Run, settings: SolverSettings, log: Log) -> FloatArray | SequenceResult:
-    """Forces of the gravity state, (n_points, 3), or how the scheme ends where there is none."""
+    """Forces of the gravity state, (n_points, components), or how the scheme ends where there is none."""
     form = gravity_form(run.program)
     solution = ClarabelProgram(form.cone_program, settings, log).solve(len(run.records) + 1, 0.0)
     _record(run, "gravity", solution, None)
@@ -161,5 +161,4 @@ def _broken_off(run: _Run, solution: ConeSolution) -> SequenceResult:
     reason = (
         f"program {len(run.records) + 1} of the sequence ended without a solution (clarabel: {solution.solver_status})"
     )
-    mechanics = None if run.best is None else sequence_mechanics(run.program, run.best)
-    return SequenceResult(status, mechanics, reason, tuple(run.records))
+    return SequenceResult(status, run.best, reason, tuple(run.records))

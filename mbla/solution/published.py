@@ -32,7 +32,7 @@ from mbla.program.program import Program
 from mbla.program.yield_conditions import YieldLimits
 from mbla.solution.associative import AssociativeResult
 from mbla.solution.clarabel_adapter import ClarabelProgram, ConeSolution, Log
-from mbla.solution.law_state import LawState, SequenceResult, law_state, sequence_mechanics
+from mbla.solution.law_state import LawState, SequenceResult, law_state
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import ProgramRecord, Status
 
@@ -60,15 +60,15 @@ def solve_published(
 
     dilatancy : (n_points,) tangent of the dilatancy angle, zero for non-associative flow
     """
-    assert associative.mechanics is not None
+    assert associative.state is not None
     limits, live = program.limits, program.scaling.live
     slope = np.minimum(limits.friction, np.maximum(scheme.slope * limits.friction, dilatancy))
-    normal = associative.mechanics.contact_forces[:, 0] / program.scaling.force
+    normal = associative.state.forces[:, 0]
     form = kinematic_form(program, _fictitious(limits, slope, normal), reduce_dry=False)
     solver = ClarabelProgram(form.cone_program, settings, log)
 
     weight, best = scheme.averaging, None
-    records, factors = list(associative.programs), [associative.mechanics.load_factor / live]
+    records, factors = list(associative.programs), [associative.state.load_factor]
     recent: list[tuple[FloatArray, float]] = []
     for _ in range(scheme.max_programs):
         number = len(records) + 1
@@ -79,12 +79,12 @@ def solve_published(
         factors.append(solution.objective)
         change = abs(factors[-1] - factors[-2]) / max(abs(factors[-1]), 1e-12)
         records.append(_record(number, solution, program.scaling.load_factor(factors[-1]), change))
-        forces, velocities = form.contact_forces(solution.z).reshape(-1, 3), form.velocities(solution.x)
+        forces, velocities = form.contact_forces(solution.z), form.velocities(solution.x)
         normal = weight * forces[:, 0] + (1 - weight) * normal
         recent = [*recent, (forces, factors[-1])][-SPREAD_PROGRAMS:]
         now = min(_states(program, slope, recent, velocities), key=lambda state: state.residual)
         if max(change, now.residual) <= scheme.tolerance and solution.status is Status.SOLVED:
-            return SequenceResult(Status.SOLVED, sequence_mechanics(program, now), "", tuple(records))
+            return SequenceResult(Status.SOLVED, now, "", tuple(records))
         best = now if best is None or now.residual < best.residual else best
         turned_back = len(factors) > 2 and (factors[-1] - factors[-2]) * (factors[-2] - factors[-3]) < 0
         if turned_back and change > scheme.tolerance:
@@ -97,7 +97,7 @@ def solve_published(
     )
     if solution.status is Status.APPROXIMATE:
         reason = f"its programs end short of the solver's tolerance (clarabel: {solution.solver_status}); " + reason
-    return SequenceResult(Status.APPROXIMATE, sequence_mechanics(program, best), reason, tuple(records))
+    return SequenceResult(Status.APPROXIMATE, best, reason, tuple(records))
 
 
 def _fictitious(limits: YieldLimits, slope: FloatArray, normal: FloatArray) -> YieldLimits:
@@ -138,5 +138,4 @@ def _broken_off(
             f"in program {number} of the sequence the friction that belongs to the forces before does not {what}; "
             "the structure may stand only by friction that something has locked in"
         )
-    mechanics = None if best is None else sequence_mechanics(program, best)
-    return SequenceResult(status, mechanics, reason, tuple(records))
+    return SequenceResult(status, best, reason, tuple(records))

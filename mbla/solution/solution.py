@@ -59,6 +59,60 @@ class ProgramRecord:
     seconds: float
 
 
+class Standing(StrEnum):
+    """Whether the structure stands under its dead load alone, before any live load."""
+
+    YES = "yes"
+    SELF_STRESS = "only by self-stress"
+    NO = "no"
+    DOUBTFUL = "doubtful"
+
+
+@dataclass(frozen=True)
+class StandingResult:
+    """What the assessment of standing found.
+
+    verdict : YES: equilibrium arises from the stress-free assembly; SELF_STRESS: only from forces locked in before
+    block   : the block that falls or would fall first; None where none does
+    reason  : one sentence in words
+    """
+
+    verdict: Standing
+    block: int | None
+    reason: str
+
+
+@dataclass(frozen=True)
+class PathPoint:
+    """One step of a load path: load factor, contact points open and sliding, and how well the state fits the law."""
+
+    step: int
+    load_factor: float
+    open: int
+    slide: int
+    residual: float
+
+
+@dataclass(frozen=True)
+class ModelSize:
+    """What reached the solver.
+
+    dimension     : 2 where the structure was solved as planar, else 3
+    mirror_planes : planes of symmetry that were used besides
+    parts         : parts that cannot interact, solved apart
+    free_blocks   : blocks with unknowns
+    contact_points: points with unknowns
+    dropped_points: points of the model that cannot matter, or follow from others by symmetry
+    """
+
+    dimension: int
+    mirror_planes: int
+    parts: int
+    free_blocks: int
+    contact_points: int
+    dropped_points: int
+
+
 @dataclass(frozen=True)
 class Mechanics:
     """Forces and velocities that belong to one load factor.
@@ -69,6 +123,9 @@ class Mechanics:
     mechanism          : (n_blocks, 6) velocity and angular velocity about the centroid, live load power = 1; zero on
                          fixed blocks
     modes              : (n_points,) ContactMode
+    resultants         : convex contact model only: (n_interfaces, 6) N, T1, T2 [N] and the moments about normal,
+                         tangent 1 and tangent 2 at the centroid of the interface [N m], on body b; the contact forces
+                         are then a distribution over the corners with these resultants
     """
 
     load_factor: float
@@ -76,6 +133,7 @@ class Mechanics:
     contact_velocities: FloatArray
     mechanism: FloatArray
     modes: IntArray
+    resultants: FloatArray | None = None
 
 
 @dataclass(frozen=True)
@@ -88,6 +146,17 @@ class Solution:
     certificate : (n_blocks, 6) for no_equilibrium: motion in which the dead load does more work than the joints
                   dissipate; None otherwise
     reason      : for every status but solved, one sentence in words
+    scheme      : how a flow without normality was solved; empty for associative flow
+    remarks     : what a reader of the figure must know, one sentence each
+    lower, upper: non-associative flow: least and greatest load factor for the mechanism found, with the forces
+    outer       : polyhedral friction: answer with the circumscribed polyhedron, ``associative`` having the inscribed
+    spread      : least and greatest load factor of several tries that did not agree
+    standing    : assessment of the dead load alone
+    lock        : unbounded: (n_points, 3) contact forces that balance the live load alone, so that any multiple is
+                  carried
+    force_ranges: (n_interfaces, 2) least and greatest normal force at the load factor, on request
+    path        : steps of the load path that was followed
+    size        : what reached the solver
     """
 
     flow_rule: str
@@ -99,6 +168,17 @@ class Solution:
     programs: tuple[ProgramRecord, ...]
     iterations: tuple[IterationRecord, ...]
     seconds: float
+    scheme: str = ""
+    remarks: tuple[str, ...] = ()
+    lower: Mechanics | None = None
+    upper: Mechanics | None = None
+    outer: Mechanics | None = None
+    spread: tuple[float, float] | None = None
+    standing: StandingResult | None = None
+    lock: FloatArray | None = None
+    force_ranges: FloatArray | None = None
+    path: tuple[PathPoint, ...] = ()
+    size: ModelSize | None = None
 
 
 @dataclass(frozen=True)
@@ -114,6 +194,10 @@ class Checks:
     power_balance            : dissipation minus external power, over the larger of the two
     static_bound, kinematic_bound : of the associative load factor, valid whatever the solver did
     gap                      : their relative distance
+    tension_violation        : largest tension beyond tensile strength, over mean block weight
+    slip_residual            : share of the power balance that sliding against friction leaves unexplained; the rest of
+                               the complementarity residual is opening under force
+    lower, upper             : verified ends of the range of a non-associative load factor, NaN where there are none
     verified                 : true where everything is within tolerance
     failures                 : what is not, in words
     """
@@ -129,3 +213,7 @@ class Checks:
     gap: float
     verified: bool
     failures: tuple[str, ...]
+    tension_violation: float = float("nan")
+    slip_residual: float = float("nan")
+    lower: float = float("nan")
+    upper: float = float("nan")

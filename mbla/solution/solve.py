@@ -11,6 +11,7 @@ from mbla.program.program import Program
 from mbla.solution.associative import AssociativeResult, solve_associative
 from mbla.solution.clarabel_adapter import Log
 from mbla.solution.law_state import SequenceResult
+from mbla.solution.mechanics import mechanics_of, motion_of
 from mbla.solution.proximal import solve_proximal
 from mbla.solution.published import solve_published
 from mbla.solution.settings import SolverSettings
@@ -31,30 +32,33 @@ def solve(program: Program, analysis: AnalysisSection, settings: SolverSettings,
             log(iteration)
 
     associative = solve_associative(program, settings, record)
-    if analysis.flow_rule == "associative" or associative.mechanics is None:
-        return _associative_solution(analysis.flow_rule, associative, iterations, time.perf_counter() - started)
-    if analysis.flow_rule == "non_associative" and analysis.scheme == "proximal":
+    if analysis.flow_rule == "associative" or associative.state is None:
+        return _associative_solution(
+            program, analysis.flow_rule, associative, iterations, time.perf_counter() - started
+        )
+    if analysis.flow_rule == "non_associative" and analysis.scheme != "published":
         sequence = solve_proximal(program, associative, analysis.proximal.max_programs, settings, record)
     else:
         dilatancy = program.limits.dilatancy if analysis.flow_rule == "dilatancy" else np.zeros(program.n_points)
         sequence = solve_published(program, associative, analysis.published, dilatancy, settings, record)
-    return _sequence_solution(analysis.flow_rule, associative, sequence, iterations, time.perf_counter() - started)
+    return _sequence_solution(program, analysis, associative, sequence, iterations, time.perf_counter() - started)
 
 
 def _associative_solution(
-    flow_rule: str, result: AssociativeResult, iterations: list[IterationRecord], seconds: float
+    program: Program, flow_rule: str, result: AssociativeResult, iterations: list[IterationRecord], seconds: float
 ) -> Solution:
     reason = result.reason
     if result.status is Status.UNBOUNDED and flow_rule != "associative":
         reason += (
             "; this holds for associative flow, and does not decide whether there is a load factor without dilatancy"
         )
+    mechanics = None if result.state is None else mechanics_of(program, result.state)
     return Solution(
         flow_rule=flow_rule,
         status=result.status,
-        mechanics=result.mechanics,
-        associative=result.mechanics,
-        certificate=result.certificate,
+        mechanics=mechanics,
+        associative=mechanics,
+        certificate=None if result.certificate is None else motion_of(program, result.certificate),
         reason=reason,
         programs=result.programs,
         iterations=tuple(iterations),
@@ -63,20 +67,26 @@ def _associative_solution(
 
 
 def _sequence_solution(
-    flow_rule: str,
+    program: Program,
+    analysis: AnalysisSection,
     associative: AssociativeResult,
     sequence: SequenceResult,
     iterations: list[IterationRecord],
     seconds: float,
 ) -> Solution:
+    assert associative.state is not None
+    live = program.scaling.live
     return Solution(
-        flow_rule=flow_rule,
+        flow_rule=analysis.flow_rule,
         status=associative.status if sequence.status is Status.SOLVED else sequence.status,
-        mechanics=sequence.mechanics,
-        associative=associative.mechanics,
+        mechanics=None if sequence.state is None else mechanics_of(program, sequence.state),
+        associative=mechanics_of(program, associative.state),
         certificate=None,
         reason=sequence.reason or associative.reason,
         programs=sequence.programs,
         iterations=tuple(iterations),
         seconds=seconds,
+        remarks=sequence.remarks,
+        spread=None if sequence.spread is None else (sequence.spread[0] * live, sequence.spread[1] * live),
+        path=sequence.path,
     )

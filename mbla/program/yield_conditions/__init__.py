@@ -55,10 +55,10 @@ CONDITIONS: tuple[type[YieldCondition], ...] = (Coulomb, TensionCutOff, Crushing
 def yield_violation(contact_forces: FloatArray, limits: YieldLimits) -> FloatArray:
     """Largest excess of a force over its limits at each point, zero where all hold, (n_points,) [force].
 
-    contact_forces : (n_points, 3)  N, T1, T2, compression positive
+    contact_forces : (n_points, 3) N, T1, T2, or (n_points, 2) N, T; compression positive
     """
     normal = contact_forces[:, 0]
-    shear = np.hypot(contact_forces[:, 1], contact_forces[:, 2])
+    shear = np.linalg.norm(contact_forces[:, 1:], axis=1)
     excess = np.zeros(len(normal))
     for condition in CONDITIONS:
         demand = shear if condition.bounds_shear else 0.0

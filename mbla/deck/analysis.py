@@ -1,0 +1,125 @@
+"""The analysis section of a deck: flow rule, formulation, scheme, reductions, solver, each with its default."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from mbla.deck.quantities import Count, Quantity, Switch, Time, Whole
+from mbla.deck.section import Section
+
+
+class PublishedScheme(Section):
+    """Parameters of the iterative procedure of Portioli et al. 2014 for non-associative flow."""
+
+    slope: Annotated[float, Quantity("number", ge=0, le=1)] = Field(
+        0.0,
+        description="alpha: share of the friction coefficient kept as slope of each program's yield line; "
+        "published runs use small values above 0, which are a small dilatancy; 0 is none",
+    )
+    averaging: Annotated[float, Quantity("number", gt=0, le=1)] = Field(
+        0.6, description="beta: weight of the newest normal forces in the average that sets the fictitious cohesion"
+    )
+    tolerance: Annotated[float, Quantity("number", gt=0, le=0.1)] = Field(
+        1e-4,
+        description="the sequence stops when the load factor changes by less, relatively, and no force exceeds "
+        "its true friction by more than this share of the mean block load",
+    )
+    max_programs: Count = Field(60, description="cone programs before the sequence is given up")
+
+
+class ProximalScheme(Section):
+    """Parameters of the proximal scheme for non-associative flow."""
+
+    max_programs: Count = Field(60, description="proximal steps before the scheme is given up")
+
+
+class InteriorScheme(Section):
+    """Parameters of the interior path for non-associative flow."""
+
+    tries: Count = Field(4, description="starts with other anchors and disturbances before the scheme is given up")
+    max_factorizations: Count = Field(4000, description="factorisations of one try")
+
+
+class PathScheme(Section):
+    """Parameters of the load path."""
+
+    steps: Annotated[int, Whole(ge=2, le=10_000)] = Field(40, description="steps from zero to the associative factor")
+
+
+class LowestScheme(Section):
+    """Parameters of the search for lower load factors."""
+
+    seconds: Time = Field(10.0, description="time for the search")
+    seed: Annotated[int, Whole(ge=0, le=2**32 - 1)] = Field(1, description="of the random mechanisms that are tried")
+
+
+class ReductionSwitches(Section):
+    """What is found by itself and left out before the solver; the answer is the same without."""
+
+    planar: Switch = Field(True, description="planar structures are solved with three unknowns a block")
+    mirror: Switch = Field(True, description="associative flow: only one half of a symmetric structure is solved")
+    parts: Switch = Field(True, description="parts that cannot interact are solved apart")
+    points: Switch = Field(True, description="contact points that cannot matter are left out")
+
+
+class AnalysisSection(Section):
+    """How the load factor is computed."""
+
+    flow_rule: Literal["associative", "non_associative", "dilatancy", "livesley"] = Field(
+        "non_associative",
+        description="associative; non-associative without dilatancy; with the joints' dilatancy; or livesley: "
+        "associative with one correction of the mechanism that dilates",
+    )
+    contact_model: Literal["concave", "convex"] = Field(
+        "concave",
+        description="concave: contact points at the corners of each interface; convex: resultants of each interface, "
+        "with its torsion",
+    )
+    friction_cone: Literal["circular", "polyhedral"] = Field(
+        "circular", description="circular; or polyhedral: linear programs with inscribed and circumscribed polyhedra"
+    )
+    sides: Annotated[int, Whole(ge=3, le=360)] = Field(8, description="of the friction polyhedron")
+    form: Literal["kinematic", "static"] = Field(
+        "kinematic", description="unknowns of the associative program: velocities, the more accurate; or forces"
+    )
+    solver: Literal["clarabel", "highs"] = Field(
+        "clarabel", description="highs solves linear programs only: planar structures, polyhedral friction"
+    )
+    second_opinion: Switch = Field(
+        False, description="solve linear programs with the other solver too and compare; polyhedral ones always are"
+    )
+    scheme: Literal["auto", "proximal", "interior", "path", "lowest", "published"] = Field(
+        "auto",
+        description="how non-associative flow is solved. proximal: steps from the gravity state to the exact law; "
+        "interior: a path of states inside the cones; auto: proximal, and interior where that stalls; path: the live "
+        "load raised step by step; lowest: search for lower load factors from the solution; published: the procedure "
+        "of Portioli et al. 2014",
+    )
+    proximal: ProximalScheme = Field(default_factory=ProximalScheme, description="parameters of the proximal scheme")
+    interior: InteriorScheme = Field(default_factory=InteriorScheme, description="parameters of the interior path")
+    path: PathScheme = Field(default_factory=PathScheme, description="parameters of the load path")
+    lowest: LowestScheme = Field(default_factory=LowestScheme, description="parameters of the search")
+    published: PublishedScheme = Field(
+        default_factory=PublishedScheme, description="parameters of the published procedure"
+    )
+    range: Switch = Field(
+        True, description="non-associative flow: least and greatest load factor for the mechanism found"
+    )
+    standing: Switch = Field(True, description="assess whether the structure stands before any live load")
+    forces: Literal["least_squares", "solver"] = Field(
+        "least_squares",
+        description="contact forces of associative flow, which are not unique: the least ones, the same with every "
+        "solver; or as the solver left them",
+    )
+    force_ranges: Switch = Field(
+        False, description="how far the normal force of each interface can range at the load factor"
+    )
+    reductions: ReductionSwitches = Field(default_factory=ReductionSwitches, description="what is left out")
+    accuracy: Literal["draft", "standard", "reference"] = Field("standard", description="one word for every knob")
+    tolerance: Annotated[float, Quantity("number", gt=0, le=1e-3)] | None = Field(
+        None, description="relative tolerance of the cone solver; set by accuracy unless given"
+    )
+    max_iterations: Count | None = Field(None, description="iterations of the cone solver for one program")
+    time_limit: Time | None = Field(None, description="seconds for all load cases together")
