@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from enum import IntEnum, StrEnum
 
 from mbla.arrays import FloatArray, IntArray
+from mbla.program.reductions import ModelSize as ModelSize
 
 
 class Status(StrEnum):
@@ -91,26 +92,6 @@ class PathPoint:
     open: int
     slide: int
     residual: float
-
-
-@dataclass(frozen=True)
-class ModelSize:
-    """What reached the solver.
-
-    dimension     : 2 where the structure was solved as planar, else 3
-    mirror_planes : planes of symmetry that were used besides
-    parts         : parts that cannot interact, solved apart
-    free_blocks   : blocks with unknowns
-    contact_points: points with unknowns
-    dropped_points: points of the model that cannot matter, or follow from others by symmetry
-    """
-
-    dimension: int
-    mirror_planes: int
-    parts: int
-    free_blocks: int
-    contact_points: int
-    dropped_points: int
 
 
 @dataclass(frozen=True)

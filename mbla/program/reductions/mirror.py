@@ -1,0 +1,136 @@
+"""Mirror symmetry of structure and load, found on what the program is made of: centroids, contact points, loads.
+
+A mirror plane with unit normal m and reflection R = I − 2 m mᵀ maps block b to block σb and contact point k to πk. A
+motion (v, ω) of b becomes (R v, −R ω) of σb: an angular velocity is an axial vector. A force F on body b of a point
+becomes R F on σb. Under associative flow the program is convex, so that the mean of an optimum and its mirror image is
+an optimum too: it is enough to look among symmetric motions and forces.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.spatial import cKDTree
+
+from mbla.arrays import FloatArray, IntArray
+from mbla.program.reductions.scene import Scene
+
+SYMMETRIC = 1e-9
+"""Relative to block size, and to the mean load of a block: deviation from symmetry that counts as rounding. The load
+factor moves by no more than about that much."""
+
+
+@dataclass(frozen=True)
+class Mirror:
+    """One plane of symmetry.
+
+    normal        : (3,) unit
+    block_of      : (n_free,) σ
+    point_of      : (n_points,) π
+    velocity_maps : (6, 6) on the motion of a block
+    force_maps    : (n_points, 3, 3) from the components of the force at k to those at πk
+    """
+
+    normal: FloatArray
+    block_of: IntArray
+    point_of: IntArray
+    velocity_map: FloatArray
+    force_maps: FloatArray
+
+
+def mirror_candidates(scene: Scene) -> Iterator[FloatArray]:
+    """Unit normals that a mirror plane could have, the likely ones first.
+
+    Loads lie in the plane, or they come in mirrored pairs; so the plane holds the resultants. Where all joints have
+    their normals in one plane, that plane is the likely one; then the axes, and the principal axes of the structure.
+    """
+    dead, live = (load[:, :3].sum(axis=0) for load in scene.loads())
+    _, sizes, rows = np.linalg.svd(scene.frames[:, 0], full_matrices=len(scene.points) < 3)
+    spread = scene.centroids - scene.centroids.mean(axis=0)
+    normals = [
+        row for row, size in zip(rows[::-1], [*sizes, 0, 0, 0][:3][::-1], strict=False) if size <= 1e-9 * sizes[0]
+    ]
+    normals += [np.cross(dead, live), *np.eye(3), *np.linalg.eigh(spread.T @ spread)[1].T]
+    largest = max(float(np.linalg.norm(dead)), float(np.linalg.norm(live)), 1e-300)
+    tried: list[FloatArray] = []
+    for normal in normals:
+        length = float(np.linalg.norm(normal))
+        if length <= 1e-9 * largest**2 and length < 0.5:
+            continue
+        unit = normal / length
+        unit = unit * np.sign(unit[np.abs(unit).argmax()])
+        in_plane = max(abs(float(unit @ dead)), abs(float(unit @ live))) <= 1e-8 * largest
+        if in_plane and not any(abs(abs(float(unit @ other)) - 1.0) < 1e-12 for other in tried):
+            tried.append(unit)
+            yield unit
+
+
+def mirror_about(scene: Scene, normal: FloatArray) -> Mirror | None:
+    """The mirror symmetry about the plane through the mean of the centroids with that normal; None if there is none."""
+    reflect = np.eye(3) - 2.0 * np.outer(normal, normal)
+    middle = scene.centroids.mean(axis=0)
+    block_of = _matched(scene.centroids - middle, (scene.centroids - middle) @ reflect, scene.length, scene.arms)
+    if block_of is None or np.any(block_of[block_of] != np.arange(len(block_of))):
+        return None
+    if np.abs(scene.arms[block_of] / scene.arms - 1.0).max(initial=0.0) > SYMMETRIC:
+        return None
+    velocity_map = np.zeros((6, 6))
+    velocity_map[:3, :3], velocity_map[3:, 3:] = reflect, -reflect
+    if not _loads_match(scene, block_of, velocity_map):
+        return None
+    return _with_points(scene, normal, reflect, middle, block_of, velocity_map)
+
+
+def _matched(there: FloatArray, image: FloatArray, length: float, sizes: FloatArray) -> IntArray | None:
+    """Row of ``there`` at each row of ``image``, each used once; None where one has no partner."""
+    distance, nearest = cKDTree(there).query(image)
+    row = np.asarray(nearest, dtype=np.int64)
+    if np.any(distance > SYMMETRIC * np.maximum(sizes, length)) or len(np.unique(row)) < len(row):
+        return None
+    return row
+
+
+def _loads_match(scene: Scene, block_of: IntArray, velocity_map: FloatArray) -> bool:
+    for load in scene.loads():
+        size = np.abs(load).max(initial=0.0)
+        image = np.zeros_like(load)
+        image[block_of] = load @ velocity_map.T
+        if np.abs(image - load).max(initial=0.0) > SYMMETRIC * size:
+            return False
+    return True
+
+
+def _with_points(
+    scene: Scene,
+    normal: FloatArray,
+    reflect: FloatArray,
+    middle: FloatArray,
+    block_of: IntArray,
+    velocity_map: FloatArray,
+) -> Mirror | None:
+    """The symmetry with its contact points; None where they or their joint laws do not match."""
+    image_bodies = np.append(block_of, -1)[scene.bodies]
+    images = (scene.points - middle) @ reflect
+    here = _features(scene.points - middle, scene.bodies, scene.frames[:, 0], scene.length)
+    there = _features(images, image_bodies, scene.frames[:, 0] @ reflect, scene.length)
+    point_of = _matched(here, there, 1.0, np.ones(len(here)))
+    if point_of is None or np.any(point_of[point_of] != np.arange(len(point_of))):
+        return None
+    limits = scene.program.limits
+    laws = np.column_stack([limits.friction, limits.dilatancy, limits.cohesion, limits.tension, limits.compression])
+    if not np.allclose(laws[point_of], laws, rtol=SYMMETRIC, atol=0.0):
+        return None
+    same_side = (scene.bodies[point_of] == image_bodies).all(axis=1)
+    sign = np.where(same_side, 1.0, -1.0)[:, None, None]
+    force_maps = sign * (scene.frames[point_of] @ reflect @ scene.frames.transpose(0, 2, 1))
+    if np.abs(force_maps[:, 0, 0] - 1.0).max(initial=0.0) > SYMMETRIC:
+        return None
+    return Mirror(normal, block_of, point_of, velocity_map, force_maps)
+
+
+def _features(points: FloatArray, bodies: IntArray, normals: FloatArray, length: float) -> FloatArray:
+    """Position, pair of bodies and normal (from the lower body to the higher one) of contact points, as coordinates."""
+    turned = np.where(bodies[:, 0] <= bodies[:, 1], 1.0, -1.0)[:, None]
+    return np.column_stack([points / length, 10.0 * np.sort(bodies, axis=1), normals * turned])

@@ -1,0 +1,33 @@
+"""Parts that cannot interact: free blocks connected through contacts; what does not move connects nothing."""
+
+from __future__ import annotations
+
+import numpy as np
+import scipy.sparse as sp
+from scipy.sparse.csgraph import connected_components
+
+from mbla.program.reductions.restrict import chosen_limits, restricted, selection
+from mbla.program.reductions.scene import Scene, part_of
+
+
+def split_into_parts(scene: Scene) -> list[Scene]:
+    """One scene a part, in the order of their first blocks; the same scene where all blocks are connected."""
+    n = len(scene.centroids)
+    both = (scene.bodies >= 0).all(axis=1)
+    pairs = scene.bodies[both]
+    graph = sp.coo_array((np.ones(len(pairs)), (pairs[:, 0], pairs[:, 1])), shape=(n, n))
+    count, label = connected_components(graph, directed=False)
+    if count == 1:
+        return [scene]
+    part_of_point = label[scene.bodies.max(axis=1)]  # the greater body is free: contacts of fixed bodies are left out
+    parts = []
+    for part in range(count):
+        blocks, points = np.flatnonzero(label == part), np.flatnonzero(part_of_point == part)
+        program = restricted(
+            scene.program,
+            selection(blocks, n, 6),
+            selection(points, scene.program.n_points, 3),
+            chosen_limits(scene.program.limits, points),
+        )
+        parts.append(part_of(scene, program, blocks, points))
+    return parts

@@ -1,0 +1,73 @@
+"""Planar structures: three unknowns a block, two force components a contact point, and a linear program.
+
+A structure is planar if a mirror plane maps every block onto itself and all joints have their normals in that plane.
+Then symmetric motions are motions in the plane, contact points one behind the other move alike, and one of them with
+the strength of all stands for them. Forces go back to the points in proportion to their areas, which keeps each within
+its own limits and leaves no moment out of the plane.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from mbla.arrays import FloatArray, IntArray
+from mbla.program.program import Program
+from mbla.program.reductions.half import in_plane_motions
+from mbla.program.reductions.mirror import SYMMETRIC, Mirror
+from mbla.program.reductions.restrict import block_matrix, restricted
+from mbla.program.reductions.scene import Scene
+from mbla.program.yield_conditions.limits import YieldLimits
+
+BEHIND = 1e-8
+"""Relative to block size: points whose places in the plane differ by less are one behind the other."""
+
+
+def is_planar(scene: Scene, mirror: Mirror) -> bool:
+    """Every block its own image, every joint seen edge-on."""
+    itself = bool(np.all(mirror.block_of == np.arange(len(mirror.block_of))))
+    return itself and float(np.abs(scene.frames[:, 0] @ mirror.normal).max(initial=0.0)) <= SYMMETRIC
+
+
+def planar_program(scene: Scene, mirror: Mirror) -> Program:
+    """The program of motions in the plane."""
+    n = len(scene.centroids)
+    motions = np.broadcast_to(in_plane_motions(mirror.normal), (n, 6, 3))
+    velocities = block_matrix(motions, np.arange(n), np.arange(n), (n, n))
+    shear = np.cross(mirror.normal, scene.frames[:, 0])
+    group = _one_behind_the_other(scene, shear)
+    n_groups = int(group.max(initial=-1)) + 1
+    share = scene.areas / np.bincount(group, scene.areas, n_groups)[group]
+    maps = np.zeros((len(group), 3, 2))
+    maps[:, 0, 0] = share
+    maps[:, 1:, 1] = share[:, None] * np.einsum("ptx,px->pt", scene.frames[:, 1:], shear)
+    forces = block_matrix(maps, np.arange(len(group)), group, (len(group), n_groups))
+    return restricted(scene.program, velocities, forces, _added(scene.program.limits, group, n_groups), components=2)
+
+
+def _one_behind_the_other(scene: Scene, shear: FloatArray) -> IntArray:
+    """Group of each point, numbered in the order of the first points: same interface, same place in the plane."""
+    place = ((scene.points - scene.centroids.mean(axis=0)) * shear).sum(axis=1) / scene.length
+    order = np.lexsort((place, scene.interfaces))
+    new = np.diff(scene.interfaces[order], prepend=-1) != 0
+    new |= np.diff(place[order], prepend=-np.inf) > BEHIND
+    group = np.empty(len(order), dtype=np.int64)
+    group[order] = np.cumsum(new) - 1
+    return group
+
+
+def _added(limits: YieldLimits, group: IntArray, n_groups: int) -> YieldLimits:
+    """Limits of the groups: strengths add up, coefficients are those of the interface's joint law."""
+    first = np.full(n_groups, -1)
+    first[group[::-1]] = np.arange(len(group))[::-1]
+
+    def total(values: FloatArray) -> FloatArray:
+        return np.asarray(np.bincount(group, values, n_groups), dtype=np.float64)
+
+    crushable = np.isfinite(limits.compression)
+    return YieldLimits(
+        friction=limits.friction[first],
+        dilatancy=limits.dilatancy[first],
+        cohesion=total(limits.cohesion),
+        tension=total(limits.tension),
+        compression=np.where(crushable[first], total(np.where(crushable, limits.compression, 0.0)), np.inf),
+    )

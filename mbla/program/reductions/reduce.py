@@ -1,0 +1,96 @@
+"""What a scene requires: the program of a load case as programs of its parts, each as small as it may be."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from mbla.contacts.contacts import Contacts
+from mbla.deck.analysis import ReductionSwitches
+from mbla.model.model import Model
+from mbla.program.program import Program
+from mbla.program.reductions.half import half_of
+from mbla.program.reductions.mirror import Mirror, mirror_about, mirror_candidates
+from mbla.program.reductions.parts import split_into_parts
+from mbla.program.reductions.planar import is_planar, planar_program
+from mbla.program.reductions.points import without_inner_points
+from mbla.program.reductions.scene import Scene, scene_of
+
+
+@dataclass(frozen=True)
+class ModelSize:
+    """What reached the solver.
+
+    dimension     : 2 where the structure was solved as planar, else 3
+    mirror_planes : planes of symmetry that were used besides, largest number of any part
+    parts         : parts that cannot interact, solved apart
+    free_blocks   : blocks with unknowns
+    contact_points: points with unknowns
+    dropped_points: points of the model that cannot matter, or follow from others by symmetry
+    """
+
+    dimension: int
+    mirror_planes: int
+    parts: int
+    free_blocks: int
+    contact_points: int
+    dropped_points: int
+
+
+@dataclass(frozen=True)
+class Reduced:
+    """The programs of the parts, in the order of their first blocks, and what was left out."""
+
+    parts: tuple[Program, ...]
+    size: ModelSize
+
+
+def reduce_program(
+    model: Model, contacts: Contacts, program: Program, switches: ReductionSwitches, *, associative: bool
+) -> Reduced:
+    """Find and apply the reductions that are switched on.
+
+    associative : only then may points inside the hull of others and one of two symmetric halves be left out, since
+                  the answer is unique
+    """
+    scene = scene_of(model, contacts, program)
+    if switches.points and associative:
+        scene = without_inner_points(scene)
+    parts = split_into_parts(scene) if switches.parts else [scene]
+    reduced, planes, blocks = [], 0, 0
+    for part in parts:
+        smaller, mirror = _reduced_part(part, switches, associative)
+        reduced.append(smaller)
+        planes = max(planes, int(mirror is not None))
+        own = np.arange(len(part.centroids))
+        blocks += len(own) if mirror is None else int(np.sum(mirror.block_of >= own))
+    points = sum(part.n_points for part in reduced)
+    dimension = 2 if all(part.components == 2 for part in reduced) else 3
+    size = ModelSize(dimension, planes, len(parts), blocks, points, program.n_points - points)
+    return Reduced(tuple(reduced), size)
+
+
+def _reduced_part(part: Scene, switches: ReductionSwitches, associative: bool) -> tuple[Program, Mirror | None]:
+    """The planar program, that of one half with its mirror, or the part's own."""
+    mirror = _first_mirror(part, switches) if len(part.points) else None
+    if mirror is None:
+        return part.program, None
+    if switches.planar and is_planar(part, mirror):
+        return planar_program(part, mirror), None
+    if switches.mirror and associative:
+        return half_of(part, mirror), mirror
+    return part.program, None
+
+
+def _first_mirror(part: Scene, switches: ReductionSwitches) -> Mirror | None:
+    """The first plane that makes the part planar, else the first plane of symmetry."""
+    first = None
+    for normal in mirror_candidates(part):
+        mirror = mirror_about(part, normal)
+        if mirror is None:
+            continue
+        if switches.planar and is_planar(part, mirror):
+            return mirror
+        first = first or mirror
+    return first

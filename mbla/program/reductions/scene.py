@@ -1,0 +1,74 @@
+"""What the search for reductions looks at: free blocks and contact points of a part, with their geometry."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from mbla.arrays import FloatArray, IntArray
+from mbla.contacts.contacts import Contacts
+from mbla.model.model import Model
+from mbla.program.equilibrium import lever_arms
+from mbla.program.program import Program
+
+
+@dataclass(frozen=True)
+class Scene:
+    """Free blocks and contact points of a spatial program, in the order of its rows and columns.
+
+    centroids : (n_free, 3); arms : (n_free,) length of each block in the program's scaling
+    points    : (n_points, 3); frames : (n_points, 3, 3); areas : (n_points,)
+    bodies    : (n_points, 2) row of each free block, −1 for what does not move
+    interfaces: (n_points,) number of the interface
+    """
+
+    program: Program
+    centroids: FloatArray
+    arms: FloatArray
+    points: FloatArray
+    frames: FloatArray
+    areas: FloatArray
+    bodies: IntArray
+    interfaces: IntArray
+
+    @property
+    def length(self) -> float:
+        """Mean size of a block."""
+        return float(self.arms.mean())
+
+    def loads(self) -> tuple[FloatArray, FloatArray]:
+        """Dead and live load, (n_free, 6) each, non-dimensional."""
+        return self.program.dead_load.reshape(-1, 6), self.program.live_load.reshape(-1, 6)
+
+
+def scene_of(model: Model, contacts: Contacts, program: Program) -> Scene:
+    """The scene of the program of the whole model."""
+    row = np.full(len(model.blocks) + len(model.grounds), -1, dtype=np.int64)
+    row[program.free] = np.arange(len(program.free))
+    return Scene(
+        program=program,
+        centroids=model.blocks.centroids[program.free],
+        arms=lever_arms(model, contacts, program.free),
+        points=contacts.points,
+        frames=contacts.frames,
+        areas=contacts.point_areas,
+        bodies=row[contacts.bodies[contacts.interface_of_point]],
+        interfaces=contacts.interface_of_point,
+    )
+
+
+def part_of(scene: Scene, program: Program, blocks: IntArray, points: IntArray) -> Scene:
+    """The scene of some of the blocks and points, with their own program."""
+    row = np.full(len(scene.centroids) + 1, -1, dtype=np.int64)  # the last entry answers for −1
+    row[blocks] = np.arange(len(blocks))
+    return Scene(
+        program=program,
+        centroids=scene.centroids[blocks],
+        arms=scene.arms[blocks],
+        points=scene.points[points],
+        frames=scene.frames[points],
+        areas=scene.areas[points],
+        bodies=row[scene.bodies[points]],
+        interfaces=scene.interfaces[points],
+    )
