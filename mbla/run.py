@@ -15,6 +15,7 @@ from mbla.expected import compare_with_expected
 from mbla.model import Model, build_model
 from mbla.model.model import LoadCase
 from mbla.program import assemble
+from mbla.program.reductions import reduce_program
 from mbla.program.remarks import program_notices
 from mbla.results.files import OutputFolder
 from mbla.results.provenance import collect_provenance
@@ -108,7 +109,9 @@ def solve_case(
             progress(load_case.name, record)
 
     program = assemble(model, contacts, load_case)
-    solution = solve(program, deck.analysis, settings, log)
+    associative = deck.analysis.flow_rule == "associative"
+    reduced = reduce_program(model, contacts, program, deck.analysis.reductions, associative=associative)
+    solution = solve(reduced, deck.analysis, settings, log)
     checks = verify(model, contacts, load_case, solution)
     status = verified_status(solution, checks)
     status_file.remark(f"{load_case.name}: {status}")

@@ -11,6 +11,7 @@ from mbla.deck import Deck, read_deck
 from mbla.model import Model, build_model
 from mbla.model.model import LoadCase
 from mbla.program import Program, assemble
+from mbla.program.reductions import reduce_program
 from mbla.solution import Checks, Solution, solve, verified_status, verify
 from mbla.solution.settings import solver_settings
 from mbla.solution.solution import Status
@@ -77,7 +78,10 @@ def line_of(text: str, *overrides: str, case: int = 0) -> Line:
 
 def solution_of(line: Line) -> Solution:
     """Solve without verification."""
-    return solve(line.program, line.deck.analysis, solver_settings(line.deck.analysis))
+    analysis = line.deck.analysis
+    associative = analysis.flow_rule == "associative"
+    reduced = reduce_program(line.model, line.contacts, line.program, analysis.reductions, associative=associative)
+    return solve(reduced, analysis, solver_settings(analysis))
 
 
 def verified(line: Line) -> tuple[Solution, Checks, Status]:

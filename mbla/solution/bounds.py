@@ -188,7 +188,7 @@ def _kinematic_correction(program: Program, u: FloatArray, opening: float) -> Fl
     target[:, 0] = np.maximum(v[:, 0], mu * sliding + least)
     weights = _velocity_barrier_hessian(mu, target)
     # joints that can crush need not open: they only keep the velocity from straying
-    speed = max(float(np.abs(v).max(initial=0.0)), 1e-300)
+    speed = max(float(np.abs(v).max(initial=0.0)), 1e-9 * float(np.abs(u).max(initial=0.0)), 1e-150)
     weights[np.isfinite(program.limits.compression)] = np.eye(3) / speed**2
     metric = _block_diagonal(weights)
     matrix = program.equilibrium_matrix

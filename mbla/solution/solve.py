@@ -1,24 +1,42 @@
-"""One load case through the solver stage: associative first, then the sequence that the flow rule asks for."""
+"""One load case through the solver stage: its parts one after the other, then the whole structure."""
 
 from __future__ import annotations
 
 import time
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from mbla.deck.types import AnalysisSection
+from mbla.deck.analysis import AnalysisSection
 from mbla.program.program import Program
-from mbla.solution.associative import AssociativeResult, solve_associative
+from mbla.program.reductions import Reduced
 from mbla.solution.clarabel_adapter import Log
-from mbla.solution.law_state import SequenceResult
+from mbla.solution.law_state import LawState
 from mbla.solution.mechanics import mechanics_of, motion_of
-from mbla.solution.proximal import solve_proximal
-from mbla.solution.published import solve_published
+from mbla.solution.part import PartResult, solve_part
 from mbla.solution.settings import SolverSettings
-from mbla.solution.solution import IterationRecord, Solution, Status
+from mbla.solution.solution import IterationRecord, Mechanics, ProgramRecord, Solution, Status
+from mbla.solution.whole import whole_state
+
+WITH_VALUE = (Status.SOLVED, Status.APPROXIMATE)
 
 
-def solve(program: Program, analysis: AnalysisSection, settings: SolverSettings, log: Log | None = None) -> Solution:
+@dataclass(frozen=True)
+class _Stage:
+    """What every step of one load case needs."""
+
+    parts: tuple[Program, ...]
+    settings: SolverSettings
+    log: Log
+
+    def mechanics(self, part: int, state: LawState | None) -> Mechanics | None:
+        """A state of one part as mechanics of the whole model; None where the other parts do not carry it."""
+        whole = None if state is None else whole_state(self.parts, part, state, self.settings, self.log)
+        return None if whole is None else mechanics_of(*whole)
+
+
+def solve(reduced: Reduced, analysis: AnalysisSection, settings: SolverSettings, log: Log | None = None) -> Solution:
     """Load factor of one load case by the flow rule of ``analysis``.
 
     log : called once per iteration of a cone program, as it goes
@@ -31,62 +49,90 @@ def solve(program: Program, analysis: AnalysisSection, settings: SolverSettings,
         if log is not None:
             log(iteration)
 
-    associative = solve_associative(program, settings, record)
-    if analysis.flow_rule == "associative" or associative.state is None:
-        return _associative_solution(
-            program, analysis.flow_rule, associative, iterations, time.perf_counter() - started
-        )
-    if analysis.flow_rule == "non_associative" and analysis.scheme != "published":
-        sequence = solve_proximal(program, associative, analysis.proximal.max_programs, settings, record)
-    else:
-        dilatancy = program.limits.dilatancy if analysis.flow_rule == "dilatancy" else np.zeros(program.n_points)
-        sequence = solve_published(program, associative, analysis.published, dilatancy, settings, record)
-    return _sequence_solution(program, analysis, associative, sequence, iterations, time.perf_counter() - started)
-
-
-def _associative_solution(
-    program: Program, flow_rule: str, result: AssociativeResult, iterations: list[IterationRecord], seconds: float
-) -> Solution:
-    reason = result.reason
-    if result.status is Status.UNBOUNDED and flow_rule != "associative":
-        reason += (
-            "; this holds for associative flow, and does not decide whether there is a load factor without dilatancy"
-        )
-    mechanics = None if result.state is None else mechanics_of(program, result.state)
-    return Solution(
-        flow_rule=flow_rule,
-        status=result.status,
-        mechanics=mechanics,
-        associative=mechanics,
-        certificate=None if result.certificate is None else motion_of(program, result.certificate),
-        reason=reason,
-        programs=result.programs,
+    stage = _Stage(reduced.parts, settings, record)
+    results = [solve_part(program, analysis, settings, record) for program in reduced.parts]
+    solution = _combined(stage, analysis, results)
+    return replace(
+        solution,
+        programs=_renumbered(results),
         iterations=tuple(iterations),
-        seconds=seconds,
+        seconds=time.perf_counter() - started,
+        size=reduced.size,
     )
 
 
-def _sequence_solution(
-    program: Program,
-    analysis: AnalysisSection,
-    associative: AssociativeResult,
-    sequence: SequenceResult,
-    iterations: list[IterationRecord],
-    seconds: float,
+def _combined(stage: _Stage, analysis: AnalysisSection, results: Sequence[PartResult]) -> Solution:
+    """The part that decides: one that cannot stand, one that could not be solved, or the first to collapse."""
+    for status in (Status.NO_EQUILIBRIUM, Status.TIME_LIMIT, Status.NUMERICAL_ERROR, Status.ITERATION_LIMIT):
+        for part, result in enumerate(results):
+            if result.associative.status is status:
+                return _without_load_factor(stage, analysis, part, result)
+    bounded = [part for part, result in enumerate(results) if result.associative.state is not None]
+    if not bounded:
+        loaded = [part for part, result in enumerate(results) if result.loaded]
+        return _without_load_factor(stage, analysis, loaded[0], results[loaded[0]])
+    first = min(bounded, key=lambda part: _load_factor(results[part]))
+    first_associative = min(bounded, key=lambda part: _factor(results[part].associative.state))
+    return _with_load_factor(stage, analysis, results, first, first_associative)
+
+
+def _load_factor(result: PartResult) -> float:
+    """By the flow rule of the analysis, the associative one where that gave none."""
+    return _factor(result.state if result.state is not None else result.associative.state)
+
+
+def _factor(state: LawState | None) -> float:
+    return np.inf if state is None else state.load_factor
+
+
+def _without_load_factor(stage: _Stage, analysis: AnalysisSection, part: int, result: PartResult) -> Solution:
+    associative = result.associative
+    reason = associative.reason
+    if associative.status is Status.UNBOUNDED and analysis.flow_rule != "associative":
+        reason += (
+            "; this holds for associative flow, and does not decide whether there is a load factor without dilatancy"
+        )
+    certificate = associative.certificate
+    motion = None if certificate is None else motion_of(stage.parts[part], certificate)
+    return replace(_solution(analysis, associative.status, reason), certificate=motion)
+
+
+def _with_load_factor(
+    stage: _Stage, analysis: AnalysisSection, results: Sequence[PartResult], first: int, first_associative: int
 ) -> Solution:
-    assert associative.state is not None
-    live = program.scaling.live
-    return Solution(
-        flow_rule=analysis.flow_rule,
-        status=associative.status if sequence.status is Status.SOLVED else sequence.status,
-        mechanics=None if sequence.state is None else mechanics_of(program, sequence.state),
-        associative=mechanics_of(program, associative.state),
-        certificate=None,
-        reason=sequence.reason or associative.reason,
-        programs=sequence.programs,
-        iterations=tuple(iterations),
-        seconds=seconds,
+    result = results[first]
+    solution = _solution(analysis, result.status, result.reason)
+    associative = stage.mechanics(first_associative, results[first_associative].associative.state)
+    if result.sequence is None:
+        return replace(solution, mechanics=associative, associative=associative)
+    sequence, live = result.sequence, stage.parts[first].scaling.live
+    return replace(
+        solution,
+        mechanics=stage.mechanics(first, sequence.state),
+        associative=associative,
+        scheme=analysis.scheme,
         remarks=sequence.remarks,
         spread=None if sequence.spread is None else (sequence.spread[0] * live, sequence.spread[1] * live),
         path=sequence.path,
     )
+
+
+def _solution(analysis: AnalysisSection, status: Status, reason: str) -> Solution:
+    """A solution without forces and mechanism."""
+    return Solution(
+        flow_rule=analysis.flow_rule,
+        status=status,
+        mechanics=None,
+        associative=None,
+        certificate=None,
+        reason=reason,
+        programs=(),
+        iterations=(),
+        seconds=0.0,
+    )
+
+
+def _renumbered(results: Sequence[PartResult]) -> tuple[ProgramRecord, ...]:
+    """Programs of all parts, numbered in the order in which they were solved."""
+    records = [record for result in results for record in result.programs]
+    return tuple(replace(record, program=number) for number, record in enumerate(records, start=1))

@@ -11,6 +11,7 @@ from mbla.deck import read_deck
 from mbla.deck.types import Expectation
 from mbla.model import build_model
 from mbla.program import assemble
+from mbla.program.reductions import unreduced
 from mbla.solution import Checks, Solution, Status, solve, verified_status, verify
 from mbla.solution.settings import solver_settings
 
@@ -48,7 +49,7 @@ def answers(deck: str, *overrides: str) -> Iterator[Answer]:
     model = build_model(read)
     contacts = find_contacts(model, read.contacts)
     for load_case in model.load_cases:
-        solution = solve(assemble(model, contacts, load_case), read.analysis, solver_settings(read.analysis))
+        solution = solve(unreduced(assemble(model, contacts, load_case)), read.analysis, solver_settings(read.analysis))
         checks = verify(model, contacts, load_case, solution)
         expected = read.content.expected[load_case.name]
         yield Answer(load_case.name, expected, solution, checks, verified_status(solution, checks))

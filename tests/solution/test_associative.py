@@ -29,7 +29,7 @@ def test_sliding_strength_is_the_same_in_every_direction(angle: float) -> None:
 
 def test_a_wall_of_twenty_courses() -> None:
     """20 x 20 units on the ground: the published figure of the wall on a slab, re-solved, is 0.507204."""
-    assert load_factor(WALL, "parameters.n=20") == pytest.approx(0.50720395, abs=2e-8)
+    assert load_factor(WALL, "parameters.n=20") == pytest.approx(0.50720395, abs=5e-8)
 
 
 def test_pushing_into_the_ground_never_brings_collapse() -> None:

@@ -1,5 +1,5 @@
 """Reductions: planar, mirrored and separate parts found by themselves, with the exact way back to the whole model."""
 
-from mbla.program.reductions.reduce import ModelSize, Reduced, reduce_program
+from mbla.program.reductions.reduce import ModelSize, Reduced, reduce_program, unreduced
 
-__all__ = ["ModelSize", "Reduced", "reduce_program"]
+__all__ = ["ModelSize", "Reduced", "reduce_program", "unreduced"]

@@ -94,3 +94,8 @@ def _first_mirror(part: Scene, switches: ReductionSwitches) -> Mirror | None:
             return mirror
         first = first or mirror
     return first
+
+
+def unreduced(program: Program) -> Reduced:
+    """The program as it is."""
+    return Reduced((program,), ModelSize(3, 0, 1, len(program.free), program.n_points, 0))

@@ -60,14 +60,12 @@ def block_matrix(blocks: FloatArray, rows: IntArray, columns: IntArray, shape: t
     row = np.broadcast_to((r * rows[:, None] + np.arange(r))[:, :, None], (n, r, c))
     column = np.broadcast_to((c * columns[:, None] + np.arange(c))[:, None, :], (n, r, c))
     entries = (blocks.ravel(), (row.ravel(), column.ravel()))
-    matrix = sp.csr_array(sp.coo_array(entries, shape=(r * shape[0], c * shape[1])))
-    matrix.eliminate_zeros()
-    return sp.csr_array(matrix)
+    return tidy(sp.coo_array(entries, shape=(r * shape[0], c * shape[1])))
 
 
 def tidy(matrix: sp.sparray) -> sp.csr_array:
     """Entries that are rounding of zero left out: they would fill the factorisations."""
-    clean = sp.csr_array(matrix)
+    clean = sp.csr_array(sp.csc_array(matrix))
     largest = np.abs(clean.data).max(initial=0.0)
     clean.data[np.abs(clean.data) < 1e-14 * largest] = 0.0
     clean.eliminate_zeros()
