@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from typing import TypeAlias
 
 import numpy as np
 
@@ -12,25 +11,10 @@ from mbla.arrays import FloatArray, IntArray, starts
 from mbla.contacts.contacts import Contacts
 from mbla.errors import Notice
 from mbla.model.model import LoadCase, Model
+from mbla.results.case_content import Content, case_content
 from mbla.results.layout import FILETYPE, VERSION
-from mbla.results.results import CaseResult, Results
-from mbla.solution.solution import Mechanics
+from mbla.results.results import Results
 
-Value: TypeAlias = "np.typing.NDArray[np.generic] | str | Sequence[str] | float | int | bool"
-Content: TypeAlias = dict[str, Value]
-
-CHECKED = (
-    "equilibrium_residual",
-    "yield_violation",
-    "penetration",
-    "complementarity_residual",
-    "live_power",
-    "power_balance",
-    "static_bound",
-    "kinematic_bound",
-    "gap",
-)
-"""numbers of Checks"""
 BLOCK_ARRAYS = (
     "vertices",
     "vertex_start",
@@ -69,18 +53,6 @@ REPORT_FIELDS = (
     "isolated",
     "fixed_contacts",
 )
-MECHANICS_FIELDS = ("load_factor", "contact_forces", "contact_velocities", "mechanism", "modes")
-PROGRAM_FIELDS = ("program", "kind", "status", "load_factor", "change", "iterations", "seconds")
-ITERATION_FIELDS = (
-    "program",
-    "iteration",
-    "load_factor",
-    "gap",
-    "primal_residual",
-    "dual_residual",
-    "step",
-    "seconds",
-)
 
 
 def root_attributes(results: Results) -> dict[str, str | int]:
@@ -115,7 +87,7 @@ def content_of(results: Results) -> Content:
     for load_case in results.model.load_cases:
         content |= {f"cases/{load_case.name}/{key}": value for key, value in _loads(load_case).items()}
     for case in results.cases:
-        content |= {f"cases/{case.load_case.name}/{key}": value for key, value in _case(case).items()}
+        content |= {f"cases/{case.load_case.name}/{key}": value for key, value in case_content(case).items()}
     return content
 
 
@@ -200,46 +172,3 @@ def _contacts(contacts: Contacts) -> Content:
 
 def _loads(load_case: LoadCase) -> Content:
     return {name: getattr(load_case, name) for name in ("dead_load", "live_load", "dead_words", "live_words")}
-
-
-def _case(case: CaseResult) -> Content:
-    solution, checks = case.solution, case.checks
-    content: Content = {
-        "status": case.status.value,
-        "claimed_status": solution.status.value,
-        "flow_rule": solution.flow_rule,
-        "reason": solution.reason,
-        "seconds": solution.seconds,
-        **{name: getattr(checks, name) for name in CHECKED},
-        "verified": checks.verified,
-        "failures": checks.failures,
-        **_table("programs", PROGRAM_FIELDS, solution.programs),
-        **_table("iterations", ITERATION_FIELDS, solution.iterations),
-    }
-    if solution.mechanics is not None:
-        content |= _mechanics("", solution.mechanics)
-    if solution.associative is not None and not associative_is_own(solution.flow_rule, case):
-        content |= _mechanics("associative/", solution.associative)
-    if solution.certificate is not None:
-        content["certificate"] = solution.certificate
-    return content
-
-
-def associative_is_own(flow_rule: str, case: CaseResult) -> bool:
-    """The associative answer is the case's own answer, so that the file need not hold it twice."""
-    return flow_rule == "associative" and case.solution.associative is case.solution.mechanics
-
-
-def _mechanics(prefix: str, mechanics: Mechanics) -> Content:
-    return {prefix + name: getattr(mechanics, name) for name in MECHANICS_FIELDS}
-
-
-def _table(group: str, fields: Sequence[str], records: Sequence[object]) -> Content:
-    """Columns of a list of records; text columns as lists, the others as arrays."""
-    columns: Content = {}
-    for field in fields:
-        column = [getattr(record, field) for record in records]
-        columns[f"{group}/{field}"] = (
-            [str(value) for value in column] if field in ("kind", "status") else np.array(column)
-        )
-    return columns

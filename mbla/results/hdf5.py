@@ -15,16 +15,16 @@ import numpy as np
 
 from mbla.deck.units import Units
 from mbla.errors import FileError
-from mbla.results.content import Content, Value, content_of, root_attributes
+from mbla.results.case_content import Content, Value
+from mbla.results.content import content_of, root_attributes
+from mbla.results.field import Field, unit_text
 from mbla.results.layout import (
     ATTRIBUTES,
     COMMON_FIELDS,
     FILETYPE,
     SHARED_DIMENSIONS,
     VERSION,
-    Field,
     fields_of_case,
-    unit_text,
 )
 from mbla.results.restore import results_from
 from mbla.results.results import Results
@@ -204,7 +204,11 @@ def _read_attributes(file: h5py.File, path: Path) -> dict[str, str | int]:
         raise FileError(f"{path}: not an mbla result file")
     version = int(file.attrs["version"])
     if version != VERSION:
-        raise FileError(f"{path}: layout version {version}; this mbla reads version {VERSION}")
+        wrote = _text(file.attrs.get("mbla_version", "of unknown version"))
+        remedy = "run the deck again; its text is in /deck/source_texts" if version < VERSION else "use a newer mbla"
+        raise FileError(
+            f"{path}: layout version {version}, written by mbla {wrote}; this mbla reads version {VERSION}: {remedy}"
+        )
     if int(file.attrs["complete"]) != 1:
         raise FileError(f"{path}: incomplete")
     return {
@@ -219,7 +223,7 @@ def _text(value: Any) -> str:
 
 def _read_content(file: h5py.File, file_bytes: int) -> Content:
     content: Content = {}
-    sizes: dict[str, int] = {"axis": 3, "direction": 3, "component": 6, "pair": 2, "unit": 3}
+    sizes: dict[str, int] = {"axis": 3, "direction": 3, "component": 6, "pair": 2, "end": 2, "unit": 3}
     cases = _strings(_dataset(file, "model/load_cases", file_bytes))
     parts: dict[str, set[bool]] = {}
     fields = _fields(cases)

@@ -5,9 +5,8 @@ The content has been checked against the layout already; what is checked here is
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import fields
-from typing import Any, TypeVar, cast
+from typing import Any, cast
 
 import numpy as np
 
@@ -16,20 +15,10 @@ from mbla.deck.units import KILOGRAMS, METRES, NEWTONS, Units
 from mbla.errors import Notice
 from mbla.model.blocks import Blocks
 from mbla.model.model import Ground, Joint, LoadCase, Model
-from mbla.results.content import (
-    BLOCK_ARRAYS,
-    CHECKED,
-    CONTACT_ARRAYS,
-    ITERATION_FIELDS,
-    MECHANICS_FIELDS,
-    PROGRAM_FIELDS,
-    REPORT_FIELDS,
-    Content,
-)
-from mbla.results.results import CaseResult, DeckRecord, Results
-from mbla.solution.solution import Checks, ContactMode, IterationRecord, Mechanics, ProgramRecord, Solution, Status
-
-Record = TypeVar("Record", ProgramRecord, IterationRecord)
+from mbla.results.case_content import Content
+from mbla.results.case_restore import case_from
+from mbla.results.content import BLOCK_ARRAYS, CONTACT_ARRAYS, REPORT_FIELDS
+from mbla.results.results import DeckRecord, Results
 
 
 def results_from(content: Content, attributes: dict[str, str | int]) -> Results:
@@ -49,7 +38,7 @@ def results_from(content: Content, attributes: dict[str, str | int]) -> Results:
         ),
         model=_model(_part(get, "model/"), tuple(load_cases.values())),
         contacts=_contacts(_part(get, "contacts/")),
-        cases=tuple(_case(load_cases[name], _part(get, f"cases/{name}/")) for name in solved),
+        cases=tuple(case_from(load_cases[name], _part(get, f"cases/{name}/")) for name in solved),
         notices=_notices(_part(get, "notices/")),
         provenance=dict(zip(get["provenance/names"], get["provenance/values"], strict=True)),
         settings=dict(zip(get["provenance/setting_names"], get["provenance/setting_values"], strict=True)),
@@ -128,36 +117,3 @@ def _contacts(get: dict[str, Any]) -> Contacts:
 
 def _load_case(name: str, get: dict[str, Any]) -> LoadCase:
     return LoadCase(name, get["dead_load"], get["live_load"], tuple(get["dead_words"]), tuple(get["live_words"]))
-
-
-def _case(load_case: LoadCase, get: dict[str, Any]) -> CaseResult:
-    mechanics = _mechanics(get) if "load_factor" in get else None
-    associative = _mechanics(_part(get, "associative/")) if "associative/load_factor" in get else None
-    if associative is None and get["flow_rule"] == "associative":
-        associative = mechanics
-    solution = Solution(
-        flow_rule=get["flow_rule"],
-        status=Status(get["claimed_status"]),
-        mechanics=mechanics,
-        associative=associative,
-        certificate=get.get("certificate"),
-        reason=get["reason"],
-        programs=_records(ProgramRecord, PROGRAM_FIELDS, _part(get, "programs/")),
-        iterations=_records(IterationRecord, ITERATION_FIELDS, _part(get, "iterations/")),
-        seconds=get["seconds"],
-    )
-    checks = Checks(**{name: get[name] for name in CHECKED}, verified=get["verified"], failures=tuple(get["failures"]))
-    return CaseResult(load_case, solution, checks, Status(get["status"]))
-
-
-def _mechanics(get: dict[str, Any]) -> Mechanics:
-    if not np.isin(get["modes"], [int(mode) for mode in ContactMode]).all():
-        raise ValueError("contact modes")
-    return Mechanics(**{name: get[name] for name in MECHANICS_FIELDS})
-
-
-def _records(kind: Callable[..., Record], names: tuple[str, ...], get: dict[str, Any]) -> tuple[Record, ...]:
-    columns = [get[name] if isinstance(get[name], list) else get[name].tolist() for name in names]
-    if "status" in names:
-        columns[names.index("status")] = [Status(value) for value in columns[names.index("status")]]
-    return tuple(kind(*row) for row in zip(*columns, strict=True))

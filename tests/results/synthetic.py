@@ -5,6 +5,7 @@ A tower 1 x 1 x 2 on a fixed base and a flat brick 1 x 1 x 0.5 on the ground z =
 """
 
 import itertools
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -19,8 +20,12 @@ from mbla.solution.solution import (
     Checks,
     IterationRecord,
     Mechanics,
+    ModelSize,
+    PathPoint,
     ProgramRecord,
     Solution,
+    Standing,
+    StandingResult,
     Status,
 )
 
@@ -200,6 +205,33 @@ def tower_results(flow_rule: str = "non_associative") -> Results:
     )
 
 
+def full_results() -> Results:
+    """Every field of every record filled: nothing that a solver stage may say is missing, however unlikely together."""
+    results = tower_results()
+    case = results.cases[0]
+    mechanics = replace(tower_mechanics(), resultants=np.arange(12.0).reshape(2, 6))
+    solution = replace(
+        case.solution,
+        mechanics=mechanics,
+        associative=replace(mechanics, load_factor=0.55),
+        certificate=np.arange(18.0).reshape(3, 6),
+        reason="the steps came to rest late",
+        scheme="proximal",
+        remarks=("the factor is the peak of the path", "one more"),
+        lower=replace(mechanics, load_factor=0.45),
+        upper=replace(mechanics, load_factor=0.52),
+        outer=replace(mechanics, load_factor=0.56),
+        spread=(0.49, 0.51),
+        standing=StandingResult(Standing.SELF_STRESS, 1, "the tower hangs between two walls"),
+        lock=np.arange(24.0).reshape(8, 3),
+        force_ranges=np.array([[0.0, 10.0], [5.0, np.inf]]),
+        path=(PathPoint(0, 0.0, 0, 0, 1e-9), PathPoint(1, 0.6, 2, 0, 1e-8), PathPoint(2, 0.5, 2, 1, np.nan)),
+        size=ModelSize(2, 1, 3, 2, 4, 4),
+    )
+    checks = replace(case.checks, tension_violation=1e-9, slip_residual=2e-9, lower=0.45, upper=0.52, failures=("x",))
+    return replace(results, cases=(replace(case, solution=solution, checks=checks), results.cases[1]))
+
+
 def same(first: Any, second: Any) -> bool:
     """Deep equality of records, arrays (type, shape, values, nan equal to nan) and containers."""
     if isinstance(first, np.ndarray) or isinstance(second, np.ndarray):
@@ -213,7 +245,7 @@ def same(first: Any, second: Any) -> bool:
         return type(first) is type(second) and all(
             same(getattr(first, name), getattr(second, name)) for name in first.__dataclass_fields__
         )
-    if isinstance(first, (tuple, list)):
+    if isinstance(first, (tuple, list)) and isinstance(second, (tuple, list)):
         return len(first) == len(second) and all(map(same, first, second))
     if isinstance(first, dict):
         return list(first) == list(second) and all(same(first[key], second[key]) for key in first)

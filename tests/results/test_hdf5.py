@@ -1,6 +1,6 @@
 import os
 import random
-from dataclasses import replace
+from dataclasses import MISSING, fields, replace
 from pathlib import Path
 from typing import Any
 
@@ -13,7 +13,7 @@ from mbla.errors import FileError
 from mbla.results.hdf5 import read_results_hdf5, write_results_hdf5
 from mbla.results.results import Results
 
-from .synthetic import same, tower_results
+from .synthetic import full_results, same, tower_results
 
 
 @pytest.fixture(scope="module")
@@ -42,6 +42,25 @@ def test_everything_comes_back(tmp_path: Path, flow_rule: str) -> None:
     assert same(back, results)
     own = back.cases[0].solution.associative is back.cases[0].solution.mechanics
     assert own == (flow_rule == "associative")
+
+
+def test_every_field_of_every_record_comes_back(tmp_path: Path) -> None:
+    results = full_results()
+    path = tmp_path / "full.h5"
+    path.write_bytes(write_results_hdf5(results))
+    assert same(read_results_hdf5(path), results)
+
+
+def test_the_full_results_leave_no_field_at_its_default() -> None:
+    """So that a field that is added to these records cannot be left out of the file unnoticed."""
+    case = full_results().cases[0]
+    for record in (case.solution, case.solution.mechanics, case.checks):
+        assert record is not None
+        for field in fields(record):
+            if field.default is not MISSING:
+                assert not same(getattr(record, field.name), field.default), field.name
+            else:
+                assert getattr(record, field.name) is not None, field.name
 
 
 def test_lists_that_are_empty_come_back(tmp_path: Path, results: Results) -> None:
@@ -162,6 +181,14 @@ def test_other_version_is_named(path: Path) -> None:
     assert "layout version 99" in refused(path)
 
 
+def test_an_older_version_says_who_wrote_it_and_what_to_do(path: Path) -> None:
+    with h5py.File(path, "r+") as file:
+        file.attrs["version"] = 1
+    words = refused(path)
+    assert "layout version 1, written by mbla 0.1.0; this mbla reads version 2" in words
+    assert "run the deck again" in words
+
+
 def test_incomplete_file(path: Path) -> None:
     with h5py.File(path, "r+") as file:
         file.attrs["complete"] = 0
@@ -207,6 +234,8 @@ def replace_dataset(path: Path, name: str, array: Any) -> None:
         (lambda p: change(p, "contacts/outline", 5), "outline"),
         (lambda p: change(p, "cases/push_x/modes", 7), "contact modes"),
         (lambda p: change(p, "cases/push_x/status", b"fine"), "'fine' is not a valid Status"),
+        (lambda p: remove(p, "cases/push_x/range"), "incomplete"),
+        (lambda p: replace_dataset(p, "cases/push_x/range", np.zeros(3)), "along end"),
         (lambda p: change(p, "model/units", b"x"), "units"),
         (lambda p: change(p, "notices/severity", b"x"), "severity"),
         (lambda p: change(p, "model/ground_joints", b"x"), "joint law"),
@@ -215,6 +244,38 @@ def replace_dataset(path: Path, name: str, array: Any) -> None:
 def test_contradictions(path: Path, spoil: Any, words: Any) -> None:
     spoil(path)
     assert words in refused(path)
+
+
+@pytest.mark.parametrize(
+    ("spoil", "words"),
+    [
+        (lambda p: remove(p, "cases/push_x/lower/modes"), "incomplete: push_x: lower"),
+        (lambda p: remove(p, "cases/push_x/outer/load_factor"), "incomplete: push_x: outer"),
+        (lambda p: remove(p, "cases/push_x/standing/falls"), "incomplete: push_x: standing"),
+        (lambda p: remove(p, "cases/push_x/size/parts"), "incomplete: push_x: size"),
+        (lambda p: change(p, "cases/push_x/size/dimension", 4), "dimension of the model"),
+        (lambda p: change(p, "cases/push_x/standing/verdict", b"maybe"), "'maybe' is not a valid Standing"),
+        (lambda p: change(p, "cases/push_x/standing/falls", 3), "points outside block"),
+        (lambda p: change(p, "cases/push_x/upper/modes", 7), "contact modes"),
+        (lambda p: change(p, "cases/push_x/lock", np.nan), "not finite"),
+        (lambda p: replace_dataset(p, "cases/push_x/force_ranges", np.zeros((3, 2))), "along interface"),
+        (lambda p: replace_dataset(p, "cases/push_x/path/open", np.zeros(2, dtype=np.int64)), "along path_row"),
+    ],
+)
+def test_contradictions_of_further_answers(tmp_path: Path, spoil: Any, words: Any) -> None:
+    path = tmp_path / "full.h5"
+    path.write_bytes(write_results_hdf5(full_results()))
+    spoil(path)
+    assert words in refused(path)
+
+
+def test_resultants_without_forces_are_refused(tmp_path: Path) -> None:
+    path = tmp_path / "full.h5"
+    path.write_bytes(write_results_hdf5(full_results()))
+    with h5py.File(path, "r+") as file:
+        for name in ("load_factor", "contact_forces", "contact_velocities", "mechanism", "modes"):
+            del file[f"cases/push_x/upper/{name}"]
+    assert "resultants without forces: upper" in refused(path)
 
 
 def test_truncated_files_are_refused(path: Path, image: bytes) -> None:

@@ -7,10 +7,11 @@ import h5py
 import pytest
 
 from mbla.deck.units import Units
+from mbla.results.field import unit_text
 from mbla.results.hdf5 import write_results_hdf5
-from mbla.results.layout import ATTRIBUTES, LAYOUT, SHARED_DIMENSIONS, VERSION, layout_table, unit_text
+from mbla.results.layout import ATTRIBUTES, LAYOUT, SHARED_DIMENSIONS, VERSION, layout_table
 
-from .synthetic import tower_results
+from .synthetic import full_results
 
 PAGE = Path(__file__).parents[2] / "schemas" / "results.md"
 
@@ -18,7 +19,7 @@ PAGE = Path(__file__).parents[2] / "schemas" / "results.md"
 @pytest.fixture(scope="module")
 def file(tmp_path_factory: pytest.TempPathFactory) -> Iterator[h5py.File]:
     path = tmp_path_factory.mktemp("layout") / "tower.h5"
-    path.write_bytes(write_results_hdf5(tower_results()))
+    path.write_bytes(write_results_hdf5(full_results()))
     with h5py.File(path) as opened:
         yield opened
 

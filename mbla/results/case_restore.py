@@ -1,0 +1,115 @@
+"""A load case's results from the content of a result file: the way back from ``case_content``."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, TypeVar
+
+import numpy as np
+
+from mbla.model.model import LoadCase
+from mbla.results.case_content import (
+    CHECKED,
+    ITERATION_FIELDS,
+    MECHANICS_FIELDS,
+    PATH_FIELDS,
+    PROGRAM_FIELDS,
+    SIZE_FIELDS,
+)
+from mbla.results.case_fields import MECHANICS_GROUPS
+from mbla.results.results import CaseResult
+from mbla.solution.solution import (
+    Checks,
+    ContactMode,
+    IterationRecord,
+    Mechanics,
+    ModelSize,
+    PathPoint,
+    ProgramRecord,
+    Solution,
+    Standing,
+    StandingResult,
+    Status,
+)
+
+Record = TypeVar("Record", ProgramRecord, IterationRecord, PathPoint)
+
+
+def case_from(load_case: LoadCase, get: dict[str, Any]) -> CaseResult:
+    """The results of a load case from the content below it; ValueError where it contradicts itself."""
+    answers = {part: _mechanics(get, group, part) for group, part, _ in MECHANICS_GROUPS}
+    if answers["associative"] is None and get["flow_rule"] == "associative":
+        answers["associative"] = answers["mechanics"]
+    lower, upper = get["range"].tolist()
+    solution = Solution(
+        flow_rule=get["flow_rule"],
+        status=Status(get["claimed_status"]),
+        **answers,
+        certificate=get.get("certificate"),
+        reason=get["reason"],
+        programs=_records(ProgramRecord, PROGRAM_FIELDS, get, "programs/"),
+        iterations=_records(IterationRecord, ITERATION_FIELDS, get, "iterations/"),
+        seconds=get["seconds"],
+        scheme=get["scheme"],
+        remarks=tuple(get["remarks"]),
+        spread=_spread(get),
+        standing=_standing(get),
+        lock=get.get("lock"),
+        force_ranges=get.get("force_ranges"),
+        path=_records(PathPoint, PATH_FIELDS, get, "path/"),
+        size=_size(get),
+    )
+    checks = Checks(
+        **{name: get[name] for name in CHECKED},
+        lower=lower,
+        upper=upper,
+        verified=get["verified"],
+        failures=tuple(get["failures"]),
+    )
+    return CaseResult(load_case, solution, checks, Status(get["status"]))
+
+
+def _mechanics(get: dict[str, Any], group: str, part: str) -> Mechanics | None:
+    if f"{group}load_factor" not in get:
+        if f"{group}resultants" in get:
+            raise ValueError(f"resultants without forces: {part}")
+        return None
+    if not np.isin(get[f"{group}modes"], [int(mode) for mode in ContactMode]).all():
+        raise ValueError("contact modes")
+    values = {name: get[group + name] for name in MECHANICS_FIELDS}
+    return Mechanics(**values, resultants=get.get(f"{group}resultants"))
+
+
+def _spread(get: dict[str, Any]) -> tuple[float, float] | None:
+    if "spread" not in get:
+        return None
+    least, greatest = get["spread"].tolist()
+    return least, greatest
+
+
+def _standing(get: dict[str, Any]) -> StandingResult | None:
+    if "standing/verdict" not in get:
+        return None
+    falls = get["standing/falls"].tolist()
+    if len(falls) > 1:
+        raise ValueError("more than one block that falls first")
+    return StandingResult(Standing(get["standing/verdict"]), falls[0] if falls else None, get["standing/reason"])
+
+
+def _size(get: dict[str, Any]) -> ModelSize | None:
+    if "size/dimension" not in get:
+        return None
+    size = ModelSize(**{name: get[f"size/{name}"] for name in SIZE_FIELDS})
+    if size.dimension not in (2, 3):
+        raise ValueError("dimension of the model")
+    return size
+
+
+def _records(
+    kind: Callable[..., Record], names: tuple[str, ...], get: dict[str, Any], group: str
+) -> tuple[Record, ...]:
+    found = [get[group + name] for name in names]
+    columns = [column if isinstance(column, list) else column.tolist() for column in found]
+    if "status" in names:
+        columns[names.index("status")] = [Status(value) for value in columns[names.index("status")]]
+    return tuple(kind(*row) for row in zip(*columns, strict=True))

@@ -1,0 +1,62 @@
+"""One dataset of a result file as a record: path, type, dimensions, unit, meaning."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+from mbla.deck.units import Units
+
+UnitKind = Literal[
+    "1", "time", "length", "area", "volume", "density", "stress", "force", "load", "velocity", "velocities", "motion"
+]
+
+
+@dataclass(frozen=True)
+class Field:
+    """One dataset.
+
+    dims     : names of its dimensions; none for a single value
+    index_of : for indices: the dimension they count (``body`` for blocks and then grounds)
+    start_of : for offsets of ragged arrays: the dimension they divide
+    open     : non-finite values are allowed: nan for "nothing to say", inf for "unlimited"
+    part     : fields of one part are all there or all missing; empty: always there
+    """
+
+    path: str
+    kind: Literal["float", "int", "bool", "text"]
+    dims: tuple[str, ...]
+    unit: UnitKind
+    long_name: str
+    index_of: str = ""
+    start_of: str = ""
+    open: bool = False
+    part: str = ""
+
+
+def unit_text(kind: UnitKind, units: Units) -> str:
+    """The ``units`` attribute, in the deck's units."""
+    length, force = units.length, units.force
+    return {
+        "1": "1",
+        "time": "s",
+        "length": length,
+        "area": f"{length}2",
+        "volume": f"{length}3",
+        "density": f"{units.mass}/{length}3",
+        "stress": f"{force}/{length}2",
+        "force": force,
+        "load": f"{force}; {force} {length}",
+        "velocity": f"1/{force}",
+        "velocities": f"1/{force}; 1/({force} {length})",
+        "motion": f"1; 1/{length}",
+    }[kind]
+
+
+def notice_fields(group: str, what: str) -> tuple[Field, ...]:
+    """Columns of a list of notices."""
+    return (
+        Field(f"{group}/severity", "text", ("notice",), "1", f"{what}: notice or warning"),
+        Field(f"{group}/identifier", "text", ("notice",), "1", f"{what}: stable identifier"),
+        Field(f"{group}/message", "text", ("notice",), "1", f"{what}: in words"),
+    )
