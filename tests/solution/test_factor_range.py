@@ -82,9 +82,10 @@ def test_a_second_solver_finds_the_same_ends() -> None:
     planar = planar_program(line_of(WALL, "parameters.n=5", "blocks.0.wall.courses=8", "parameters.mu=0.84"))
     state = solved(planar)
     cone = fixed_mechanism_form(planar, point_motion(planar, state, 1e-6)).cone_program
-    matrix, equations = cone.matrix.tocsr(), cone.n_equations
-    simplex = [
-        linprog(
+    matrix, equations = cone.matrix.toarray(), cone.n_equations
+
+    def simplex(sign: float) -> float:
+        solution = linprog(
             sign * cone.cost,
             A_ub=matrix[equations:],
             b_ub=cone.rhs[equations:],
@@ -92,12 +93,12 @@ def test_a_second_solver_finds_the_same_ends() -> None:
             b_eq=cone.rhs[:equations],
             bounds=(None, None),
             method="highs-ds",
-        ).x[-1]
-        * planar.scaling.live
-        for sign in (1.0, -1.0)
-    ]
+        )
+        assert solution.x is not None
+        return float(solution.x[-1]) * planar.scaling.live
+
     lower, upper = ends(planar, state)
-    assert (lower, upper) == pytest.approx(simplex, rel=1e-8)
+    assert (lower, upper) == pytest.approx((simplex(1.0), simplex(-1.0)), rel=1e-8)
     assert upper - lower > 1e-3  # else the comparison would say little
 
 
