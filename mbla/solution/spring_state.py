@@ -1,0 +1,229 @@
+"""State of a stress-free assembly that weak springs hold, by the exact non-associative joint law.
+
+Joints are stress-free where nothing has moved, k_N = 1 and k_T are their stiffnesses, v = Aᵀu their displacements::
+
+    N = −k_N v_N within −f_t ... f_c,    τ = −k_T v_T,    T = τ min(1, (μN + c)/‖τ‖)
+    A x(v) + f − κ W u = 0
+
+with a load f and springs κ W, W the sizes of the blocks' loads. All of it is homogeneous: only k_T/k_N, and κ over k_N,
+matter.
+
+Semismooth Newton (Alart and Curnier 1991, doi:10.1016/0045-7825(91)90022-X) on this, whose tangent is not symmetric::
+
+    −dx/dv:   open 0;   stick diag(k_N, k_T);   slip C_NN = k_N, C_TN = μ k_N θ, C_TT = k_T (l/‖τ‖)(I − θθᵀ), θ = τ/‖τ‖
+
+Where Newton's method fails the limits of shear are held at l = μN + c of the last iterate. What is left is the minimum
+of a convex function, which Newton's method with a line search always finds; limits and minima alternate until Newton's
+method on the whole law takes over.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+import scipy.sparse as sp
+import scipy.sparse.linalg as spla
+
+from mbla.arrays import BoolArray, FloatArray
+from mbla.program.yield_conditions.limits import YieldLimits
+from mbla.solution.stiffness_pattern import StiffnessPattern, stiffness_pattern
+
+BALANCED = 1e-9
+"""Unbalanced force of a block, over its own load, that counts as equilibrium."""
+
+ROUNDING = 64 * np.finfo(float).eps
+"""Unbalanced force, per unit of the largest displacement, that rounding leaves: falling blocks go as far as 1/κ."""
+
+NEWTON_STEPS = 40
+BACKTRACKS = 8
+
+LAGS, TRY_EVERY = 60, 3
+"""Times that the limits of shear are brought up to date at one κ; Newton's method is tried after every third."""
+
+CONVEX_STEPS = 30
+LINE_STEPS = 20
+FLAT = 0.5
+"""Share of the slope along a search direction that may be left where a line search ends."""
+
+
+@dataclass(frozen=True)
+class SpringProblem:
+    """A load on an assembly that springs hold.
+
+    equilibrium_matrix : A, (n_rows, components n_points)
+    load               : f, (n_rows,)
+    springs            : W, (n_rows, n_rows), and the size of the load that it gives each row, (n_rows,)
+    deadline           : time.monotonic() at which to stop, or None
+    shear_stiffness    : k_T, with k_N = 1
+    """
+
+    equilibrium_matrix: sp.csr_array
+    transpose: sp.csr_array
+    load: FloatArray
+    limits: YieldLimits
+    springs: sp.csr_array
+    sizes: FloatArray
+    components: int
+    pattern: StiffnessPattern
+    deadline: float | None
+    shear_stiffness: float = 1.0
+
+    @property
+    def late(self) -> bool:
+        """Whether the time is up."""
+        return self.deadline is not None and time.monotonic() > self.deadline
+
+
+def spring_problem(
+    equilibrium_matrix: sp.csr_array,
+    load: FloatArray,
+    limits: YieldLimits,
+    springs: sp.csr_array,
+    deadline: float | None,
+) -> SpringProblem:
+    """Precompute what all states of the problem share."""
+    components = equilibrium_matrix.shape[1] // max(len(limits.friction), 1) or 3
+    return SpringProblem(
+        equilibrium_matrix=equilibrium_matrix,
+        transpose=sp.csr_array(equilibrium_matrix.T),
+        load=load,
+        limits=limits,
+        springs=springs,
+        sizes=springs.diagonal(),
+        components=components,
+        pattern=stiffness_pattern(equilibrium_matrix, components, springs),
+        deadline=deadline,
+    )
+
+
+@dataclass(frozen=True)
+class _Joints:
+    """Where each joint is on its law: trial shear, its norm and limit, whether N follows v_N; unbalanced forces."""
+
+    shear: FloatArray
+    size: FloatArray
+    limit: FloatArray
+    follows: BoolArray
+    unbalanced: FloatArray
+
+
+def spring_state(problem: SpringProblem, kappa: float, start: FloatArray) -> FloatArray | None:
+    """Displacements, (n_rows,), in equilibrium on springs κ, from ``start``; None where they are not found."""
+    found, u = _newton(problem, kappa, start)
+    for lag in range(LAGS):
+        if found or problem.late:
+            break
+        u = _convex_minimum(problem, kappa, u)
+        if lag % TRY_EVERY == TRY_EVERY - 1:
+            found, near = _newton(problem, kappa, u)
+            u = near if found else u
+    return u if found else None
+
+
+def _newton(problem: SpringProblem, kappa: float, u: FloatArray) -> tuple[bool, FloatArray]:
+    """Newton's method on the whole law, backtracking on the norm; whether it converged, and the last iterate."""
+    now = _joints(problem, kappa, u, None)
+    for _ in range(NEWTON_STEPS):
+        if _balanced(problem, u, now):
+            return True, u
+        step = _direction(problem, kappa, now, lagged=False)
+        if step is None:
+            return False, u
+        norm, size = float(np.linalg.norm(now.unbalanced)), 1.0
+        for _ in range(BACKTRACKS):
+            trial = _joints(problem, kappa, u + size * step, None)
+            if np.linalg.norm(trial.unbalanced) < (1.0 - 1e-4 * size) * norm:
+                break
+            size *= 0.5
+        else:
+            return False, u
+        u, now = u + size * step, trial
+    return _balanced(problem, u, now), u
+
+
+def _convex_minimum(problem: SpringProblem, kappa: float, u: FloatArray) -> FloatArray:
+    """Equilibrium under the limits of shear that belong to u; the unbalanced force is the negative gradient."""
+    limit = _joints(problem, kappa, u, None).limit
+    now = _joints(problem, kappa, u, limit)
+    for _ in range(CONVEX_STEPS):
+        if _balanced(problem, u, now):
+            break
+        step = _direction(problem, kappa, now, lagged=True)
+        if step is None:
+            break
+        descent = float(now.unbalanced @ step)
+        if not descent > 0.0:
+            break
+
+        def slope_at(size: float, u: FloatArray = u, step: FloatArray = step) -> float:
+            return -float(_joints(problem, kappa, u + size * step, limit).unbalanced @ step)
+
+        u = u + _line_minimum(slope_at, descent) * step
+        now = _joints(problem, kappa, u, limit)
+    return u
+
+
+def _line_minimum(slope_at: Callable[[float], float], descent: float) -> float:
+    """Size of a step at which a convex function, of slope −descent at zero, is nearly flat; 1 wherever that will do."""
+    lower, lower_slope, upper, size = 0.0, -descent, np.inf, 1.0
+    for _ in range(LINE_STEPS):
+        slope = slope_at(size)
+        if slope <= FLAT * descent and (upper == np.inf or slope >= -FLAT * descent):
+            break
+        if slope > 0.0:
+            upper, upper_slope = size, slope
+        else:
+            lower, lower_slope = size, slope
+        share = -lower_slope / (upper_slope - lower_slope)
+        size = lower + (upper - lower) * min(max(share, 0.1), 0.9)
+    return size
+
+
+def _balanced(problem: SpringProblem, u: FloatArray, joints: _Joints) -> bool:
+    rounding = ROUNDING * float(np.abs(u).max(initial=0.0))
+    return bool(np.all(np.abs(joints.unbalanced) <= np.maximum(BALANCED * problem.sizes, rounding)))
+
+
+def _joints(problem: SpringProblem, kappa: float, u: FloatArray, limit: FloatArray | None) -> _Joints:
+    """State of the joints at displacements u, with their own limits of shear or given ones, (n_points,)."""
+    limits = problem.limits
+    trial = -(problem.transpose @ u).reshape(-1, problem.components)
+    normal = np.clip(trial[:, 0], -limits.tension, limits.compression)
+    shear = problem.shear_stiffness * trial[:, 1:]
+    size = np.linalg.norm(shear, axis=1)
+    if limit is None:
+        limit = np.maximum(limits.friction * normal + limits.cohesion, 0.0)
+    forces = np.column_stack([normal, shear * np.minimum(1.0, limit / np.maximum(size, 1e-300))[:, None]])
+    unbalanced = problem.equilibrium_matrix @ forces.ravel() + problem.load - kappa * (problem.springs @ u)
+    return _Joints(shear, size, limit, normal == trial[:, 0], unbalanced)
+
+
+def _direction(problem: SpringProblem, kappa: float, joints: _Joints, *, lagged: bool) -> FloatArray | None:
+    """Newton's step, None where the tangent is singular."""
+    matrix = problem.pattern.matrix(_joint_stiffness(problem, joints, lagged), kappa)
+    try:
+        factors = spla.splu(matrix, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.01, options={"SymmetricMode": True})
+    except RuntimeError:  # exactly singular
+        return None
+    step = factors.solve(joints.unbalanced)
+    step = step + factors.solve(joints.unbalanced - matrix @ step)  # springs are 1e-12 of the joints
+    return step if np.isfinite(step).all() else None
+
+
+def _joint_stiffness(problem: SpringProblem, joints: _Joints, lagged: bool) -> FloatArray:
+    """C = −dx/dv of every joint, (n_points, components, components); with limits held where lagged."""
+    n, tangents = joints.shear.shape
+    slips = joints.size > joints.limit
+    direction = joints.shear / np.maximum(joints.size, 1e-300)[:, None]
+    share = np.where(slips, joints.limit / np.maximum(joints.size, 1e-300), 1.0)
+    across = np.eye(tangents) - np.where(slips, 1.0, 0.0)[:, None, None] * direction[:, :, None] * direction[:, None, :]
+    stiffness = np.zeros((n, 1 + tangents, 1 + tangents))
+    stiffness[:, 0, 0] = joints.follows
+    stiffness[:, 1:, 1:] = problem.shear_stiffness * share[:, None, None] * across
+    if not lagged:
+        coupled = slips & joints.follows
+        stiffness[coupled, 1:, 0] = problem.limits.friction[coupled, None] * direction[coupled]
+    return stiffness

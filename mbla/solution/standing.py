@@ -1,0 +1,61 @@
+"""Whether the structure stands under its dead load alone, before any live load.
+
+That an equilibrium exists is weaker than that the structure stands. A bar between two fixed walls, touching both with
+vertical faces, has an equilibrium for every friction above zero, since any thrust may be assumed; it falls unless
+someone presses the walls together. Coupled rigid-block analysis rejects such states (Kao et al. 2022,
+doi:10.1016/j.cad.2022.103216); limit analysis does not, and reports a load factor that means nothing. Here equilibrium
+has to arise from the assembly without stress, by the exact law of the joints: see :mod:`mbla.solution.weakening`.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from mbla.arrays import FloatArray
+from mbla.program.program import Program
+from mbla.solution.mechanics import motion_of
+from mbla.solution.settings import SolverSettings
+from mbla.solution.solution import Standing, StandingResult
+from mbla.solution.weakening import Outcome, weaken_springs
+
+YES = "the dead load is carried from the stress-free assembly"
+NO_DEAD_LOAD = "there is no dead load to carry"
+SELF_STRESS = (
+    "from the stress-free assembly it falls: it stands only if forces are locked in between the blocks beforehand"
+)
+NO = "no contact forces carry the dead load"
+UNKNOWN = "from the stress-free assembly it falls; whether it could stand with forces locked in was not decided"
+
+
+def assess_standing(program: Program, settings: SolverSettings, carried: bool | None = True) -> StandingResult:
+    """Assess the dead load of a program, reduced or not.
+
+    carried : whether some contact forces within the yield conditions are known to carry the dead load; None where that
+              was not decided. False needs no springs: see ``standing_without_equilibrium``
+    """
+    if not np.any(program.dead_load):
+        return StandingResult(Standing.YES, None, NO_DEAD_LOAD)
+    weakening = weaken_springs(program, "dead_load", program.limits, settings)
+    if weakening.outcome is Outcome.CARRIED:
+        return StandingResult(Standing.YES, None, YES)
+    if weakening.outcome is Outcome.UNDECIDED:
+        reason = f"whether it stands from the stress-free assembly is doubtful: {weakening.reason}"
+        return StandingResult(Standing.DOUBTFUL, weakening.block, reason)
+    if carried is None:
+        return StandingResult(Standing.DOUBTFUL, weakening.block, UNKNOWN)
+    if carried:
+        return StandingResult(Standing.SELF_STRESS, weakening.block, SELF_STRESS)
+    return StandingResult(Standing.NO, weakening.block, NO)
+
+
+def standing_without_equilibrium(program: Program, certificate: FloatArray) -> StandingResult:
+    """What a motion, (n_rows,), in which the dead load does more work than the joints dissipate says of standing.
+
+    The block named is the one whose load does most of that work.
+    """
+    motion = motion_of(program, certificate)
+    while program.reduction is not None:
+        program = program.reduction.full
+    load = (program.dead_load / program.scaling.row).reshape(-1, 6)
+    work = (load * motion[program.free]).sum(axis=1)
+    return StandingResult(Standing.NO, int(program.free[work.argmax()]), NO)
