@@ -3,22 +3,30 @@
 from __future__ import annotations
 
 import time
+from dataclasses import asdict
 from pathlib import Path
 
-from mbla.deck import read_deck
-from mbla.model import build_model
+import numpy as np
+
+from mbla.contacts import Contacts
+from mbla.deck import Deck, read_deck
+from mbla.model import Model, build_model
+from mbla.model.model import LoadCase
 from mbla.program import assemble
 from mbla.program.kinematic import kinematic_form
 from mbla.results.files import OutputFolder
 from mbla.results.provenance import collect_provenance
 from mbla.results.results import Results
 from mbla.results.vtu import write_model_vtu
-from mbla.run import RunOptions, contacts_of, deck_record, notices_of, settings_in_words
+from mbla.run import RunOptions, contacts_of, deck_record, notices_of, reduced_program, select_cases, settings_in_words
 from mbla.solution.settings import solver_settings
 
+Needs = dict[str, dict[str, int]]
+"""Load case by name: what is counted, and how many."""
 
-def check(deck_path: Path, options: RunOptions, vtu: bool = False) -> tuple[Results, dict[str, int]]:
-    """Results without cases, and the size of the cone program of one load case by name of what is counted.
+
+def check(deck_path: Path, options: RunOptions, vtu: bool = False) -> tuple[Results, Needs]:
+    """Results without cases, and what solving each load case needs.
 
     vtu : also write STEM_check_blocks.vtu and STEM_check_interfaces.vtu into the output folder
 
@@ -46,12 +54,16 @@ def check(deck_path: Path, options: RunOptions, vtu: bool = False) -> tuple[Resu
     if vtu:
         with OutputFolder(options.folder_for(deck_path), f"{deck_path.stem}_check", options.force) as out:
             write_model_vtu(results, out)
-    program = assemble(model, contacts, model.load_cases[0])
-    cone_program = kinematic_form(program, program.limits).cone_program
-    needs = {
-        "unknown_velocities": len(program.dead_load),
-        "cones": cone_program.n_cones,
-        "half_lines": cone_program.n_half_lines,
-        "matrix_entries": int(cone_program.matrix.nnz),
+    return results, {case.name: needs_of(deck, model, contacts, case) for case in select_cases(model, options.cases)}
+
+
+def needs_of(deck: Deck, model: Model, contacts: Contacts, load_case: LoadCase) -> dict[str, int]:
+    """What of the model reaches the solver, and the size of its first cone programs."""
+    reduced = reduced_program(deck, model, contacts, assemble(model, contacts, load_case))
+    programs = [kinematic_form(part, part.limits).cone_program for part in reduced.parts if np.any(part.live_load)]
+    return asdict(reduced.size) | {
+        "unknown_velocities": sum(len(part.dead_load) for part in reduced.parts),
+        "cones": sum(program.n_cones for program in programs),
+        "half_lines": sum(program.n_half_lines for program in programs),
+        "matrix_entries": sum(int(program.matrix.nnz) for program in programs),
     }
-    return results, needs

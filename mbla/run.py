@@ -14,8 +14,8 @@ from mbla.errors import DeckError, Notice, UsageError
 from mbla.expected import compare_with_expected
 from mbla.model import Model, build_model
 from mbla.model.model import LoadCase
-from mbla.program import assemble
-from mbla.program.reductions import reduce_program
+from mbla.program import Program, assemble
+from mbla.program.reductions import Reduced, reduce_program
 from mbla.program.remarks import program_notices
 from mbla.results.files import OutputFolder
 from mbla.results.provenance import collect_provenance
@@ -109,13 +109,17 @@ def solve_case(
             progress(load_case.name, record)
 
     program = assemble(model, contacts, load_case)
-    associative = deck.analysis.flow_rule == "associative"
-    reduced = reduce_program(model, contacts, program, deck.analysis.reductions, associative=associative)
-    solution = solve(reduced, deck.analysis, settings, log)
+    solution = solve(reduced_program(deck, model, contacts, program), deck.analysis, settings, log)
     checks = verify(model, contacts, load_case, solution)
     status = verified_status(solution, checks)
     status_file.remark(f"{load_case.name}: {status}")
     return CaseResult(load_case, solution, checks, status)
+
+
+def reduced_program(deck: Deck, model: Model, contacts: Contacts, program: Program) -> Reduced:
+    """What of the program has to be solved."""
+    associative = deck.analysis.flow_rule == "associative"
+    return reduce_program(model, contacts, program, deck.analysis.reductions, associative=associative)
 
 
 def contacts_of(deck: Deck, model: Model) -> Contacts:

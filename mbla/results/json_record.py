@@ -36,8 +36,8 @@ def results_json(results: Results) -> dict[str, Any]:
     }
 
 
-def check_json(results: Results, needs: Mapping[str, int]) -> dict[str, Any]:
-    """The record of a check: no cases; ``needs`` is the size of the cone program of one load case."""
+def check_json(results: Results, needs: Mapping[str, Mapping[str, int]]) -> dict[str, Any]:
+    """The record of a check: no cases; ``needs`` says by load case what reaches the solver."""
     report = results.contacts.report
     record = results_json(results)
     for key in ("cases", "files"):
@@ -54,7 +54,7 @@ def check_json(results: Results, needs: Mapping[str, int]) -> dict[str, Any]:
         "isolated_blocks": [results.model.blocks.name(int(b)) for b in report.isolated],
         "unsupported_parts": len(report.unsupported),
     }
-    return record | {"needs": dict(needs)}
+    return record | {"needs": {case: dict(counts) for case, counts in needs.items()}}
 
 
 def verification_json(results: Results, disagreements: Sequence[str]) -> dict[str, Any]:

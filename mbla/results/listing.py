@@ -31,8 +31,8 @@ def listing(results: Results) -> str:
     return "\n".join(line.rstrip() for line in lines) + "\n"
 
 
-def check_listing(results: Results, needs: Mapping[str, int]) -> str:
-    """What ``mbla check`` prints: the model and its contacts as in the listing, and the size of the cone program."""
+def check_listing(results: Results, needs: Mapping[str, Mapping[str, int]]) -> str:
+    """What ``mbla check`` prints: the model and its contacts as in the listing, and what each load case needs."""
     lines = [
         *_header(results),
         *_settings(results),
@@ -40,11 +40,15 @@ def check_listing(results: Results, needs: Mapping[str, int]) -> str:
         *contact_lines(results.model, results.contacts),
         *finding_lines(results.model, results.contacts.report),
         *notice_lines(results.notices),
-        *heading("Needed for one load case"),
+        *(line for case, counts in needs.items() for line in _needs(case, counts)),
     ]
-    lines += [line for name, count in needs.items() for line in entry(name.replace("_", " "), str(count))]
     lines += sentence("Nothing was solved.")
     return "\n".join(line.rstrip() for line in lines) + "\n"
+
+
+def _needs(case: str, counts: Mapping[str, int]) -> list[str]:
+    lines = heading(f"Needed for load case {case}")
+    return lines + [line for name, count in counts.items() for line in entry(name.replace("_", " "), str(count))]
 
 
 def verification_lines(results: Results, disagreements: Sequence[str]) -> list[str]:

@@ -85,9 +85,9 @@ def test_a_number_that_is_none_cannot_slip_through() -> None:
 
 
 def test_check_record_has_no_cases() -> None:
-    record = check_json(tower_results(), {"cones": 8})
+    record = check_json(tower_results(), {"push": {"cones": 8}})
     assert "cases" not in record
-    assert record["needs"] == {"cones": 8}
+    assert record["needs"] == {"push": {"cones": 8}}
     assert record["model"]["joints"] == {"dry": {"interfaces": 2, "area": 2.0}}
     json_line(record)
 
