@@ -24,7 +24,11 @@ def sections(root: type[Section]) -> list[type[Section]]:
 
 def test_every_key_of_every_section_has_a_row() -> None:
     found = sorted(tuple(keys) for keys in rows().values())
-    used = [each for each in sections(Section) if each.__module__ in ("mbla.deck.types", "mbla.deck.items", "mbla.deck.analysis")]
+    used = [
+        each
+        for each in sections(Section)
+        if each.__module__ in ("mbla.deck.types", "mbla.deck.items", "mbla.deck.analysis")
+    ]
     expected = sorted(tuple(section_keys(each)) for each in used if each.__name__ != "Item")
     assert found == expected
 
