@@ -90,12 +90,16 @@ def weaken_springs(program: Program, load: Load, limits: YieldLimits, settings: 
             kappa, u = 1.0, np.zeros_like(u)
         if outcome.outcome is Outcome.UNDECIDED:
             return outcome
-    first, second = found
-    if first.outcome is not second.outcome:
-        falls = first if first.outcome is Outcome.FALLS else second
-        reason = "it depends on how stiff joints are in shear against compression"
-        return Weakening(Outcome.UNDECIDED, falls.block, falls.share, reason)
-    return first
+    return agreed(*found)
+
+
+def agreed(first: Weakening, second: Weakening) -> Weakening:
+    """What two ratios of stiffness say together: nothing where they differ."""
+    if first.outcome is second.outcome:
+        return first
+    falls = first if first.outcome is Outcome.FALLS else second
+    reason = "it depends on how stiff the joints are in shear against compression"
+    return Weakening(Outcome.UNDECIDED, falls.block, falls.share, reason)
 
 
 @dataclass(frozen=True)

@@ -1,0 +1,116 @@
+"""Standing before any live load: structures that statics decides, the distance from thresholds, and invariances."""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+
+from mbla.program.program import Program
+from mbla.solution.associative import solve_associative
+from mbla.solution.settings import SolverSettings
+from mbla.solution.solution import Standing, StandingResult, Status
+from mbla.solution.standing import assess_standing, standing_without_equilibrium
+from mbla.solution.weakening import Outcome, Weakening, agreed, weaken_springs
+from tests.line import WALL, line_of
+from tests.solution.standing_structures import STRUCTURES, Structure, arch, bar, incline, leaning, overhang
+
+SETTINGS = SolverSettings(tolerance=1e-8)
+
+
+def standing(program: Program) -> StandingResult:
+    """Assessment of the dead load as the solver stage does it."""
+    associative = solve_associative(program, SETTINGS, lambda record: None)
+    if associative.certificate is not None:
+        return standing_without_equilibrium(program, associative.certificate)
+    return assess_standing(program, SETTINGS, carried=True)
+
+
+@pytest.mark.parametrize("structure", STRUCTURES, ids=lambda structure: structure.name)
+def test_standing_is_what_statics_says(structure: Structure) -> None:
+    program = line_of(structure.text).program
+    result = standing(program)
+    assert result.verdict is structure.verdict, result
+    assert (result.block is None) if structure.verdict is Standing.YES else (result.block in structure.blocks)
+    # the springs know nothing of what the cone program said, and must not contradict it
+    outcome = weaken_springs(program, "dead_load", program.limits, SETTINGS).outcome
+    assert outcome is (Outcome.CARRIED if structure.verdict is Standing.YES else Outcome.FALLS)
+
+
+def slope(excess: float) -> str:
+    """An incline whose tangent is the friction times 1 + excess."""
+    return incline(math.degrees(math.atan(0.5 * (1 + excess))), 0.5)
+
+
+@pytest.mark.parametrize("distance", [1e-3, 1e-5])
+@pytest.mark.parametrize(
+    "text",
+    [slope, lambda excess: overhang(1 + excess), lambda excess: leaning(0.14615384615384616 * (1 - excess))],
+    ids=["incline", "overhang", "leaning"],
+)
+def test_thresholds_are_met_closely(text: Callable[[float], str], distance: float) -> None:
+    """One part in 100,000 on either side; the share on springs is of the order of the load that is not carried."""
+    below, above = (line_of(text(sign * distance)).program for sign in (-1, 1))
+    assert weaken_springs(below, "dead_load", below.limits, SETTINGS).outcome is Outcome.CARRIED
+    fall = weaken_springs(above, "dead_load", above.limits, SETTINGS)
+    assert fall.outcome is Outcome.FALLS
+    assert 0.1 * distance < fall.share < 3 * distance
+
+
+@pytest.mark.parametrize(
+    "override",
+    ["units.length=mm", "materials.stone.density=2e-6", "materials.stone.density=2e9"],
+)
+@pytest.mark.parametrize("text", [bar("friction: 0.5"), overhang(1.001), arch(0.108)], ids=["bar", "overhang", "arch"])
+def test_units_do_not_matter(text: str, override: str) -> None:
+    here, there = (line_of(text, *overrides).program for overrides in ((), (override,)))
+    first, second = (weaken_springs(program, "dead_load", program.limits, SETTINGS) for program in (here, there))
+    assert second.outcome is first.outcome
+    assert second.share == pytest.approx(first.share, rel=1e-3, abs=1e-7)
+
+
+def test_a_tall_column_leans_on_strong_springs_only() -> None:
+    """The foot of 300 blocks settles by 1e4 units: its spring carries more than the block weighs until κ = 1e-4."""
+    wall = WALL.replace('length: "=0.4*n", courses: "=n"', "length: 0.4, courses: 300, bond: stack")
+    program = line_of(wall).program
+    assert len(program.free) == 300
+    assert assess_standing(program, SETTINGS, carried=True).verdict is Standing.YES
+
+
+def test_an_equilibrium_that_was_not_decided_leaves_a_fall_doubtful() -> None:
+    program = line_of(bar("friction: 0.5")).program
+    result = assess_standing(program, SETTINGS, carried=None)
+    assert result.verdict is Standing.DOUBTFUL
+    assert "was not decided" in result.reason
+    assert assess_standing(program, SETTINGS, carried=False).verdict is Standing.NO
+
+
+def test_no_time_leaves_it_doubtful() -> None:
+    program = line_of(arch(0.108)).program
+    late = SolverSettings(tolerance=1e-8, deadline=time.monotonic() - 1.0)
+    result = assess_standing(program, late, carried=True)
+    assert result.verdict is Standing.DOUBTFUL
+    assert "time limit" in result.reason
+
+
+def test_ratios_of_stiffness_that_disagree_leave_it_doubtful() -> None:
+    carried, falls = Weakening(Outcome.CARRIED, 3, 1e-8), Weakening(Outcome.FALLS, 7, 0.2)
+    assert agreed(falls, falls) is falls
+    for pair in ((carried, falls), (falls, carried)):
+        both = agreed(*pair)
+        assert (both.outcome, both.block) == (Outcome.UNDECIDED, 7)
+
+
+def test_a_load_that_is_zero_is_carried() -> None:
+    program = line_of(bar("friction: 0.5", dead="[]")).program
+    assert not np.any(program.dead_load)
+    assert weaken_springs(program, "dead_load", program.limits, SETTINGS).outcome is Outcome.CARRIED
+
+
+def test_status_of_the_equilibrium_does_not_decide_standing() -> None:
+    """What limit analysis alone says of the bar between two walls: that no load ever moves it."""
+    program = line_of(bar("friction: 0.01")).program
+    assert solve_associative(program, SETTINGS, lambda record: None).status is Status.UNBOUNDED
