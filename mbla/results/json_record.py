@@ -3,20 +3,15 @@
 from __future__ import annotations
 
 import json
-import math
 from collections.abc import Mapping, Sequence
 from typing import Any
-
-import numpy as np
 
 from mbla import __version__
 from mbla.errors import Notice
 from mbla.model.model import Model
-from mbla.results.results import CaseResult, Results
-from mbla.solution.solution import ContactMode, Status
-
-DIMENSION = 3
-"""of the models that this version solves; planar models would say 2"""
+from mbla.results.case_json import case_json, number
+from mbla.results.outcome import dimension_of, notices_of, standing_of
+from mbla.results.results import Results
 
 
 def results_json(results: Results) -> dict[str, Any]:
@@ -27,10 +22,12 @@ def results_json(results: Results) -> dict[str, Any]:
         "deck_sha256": results.deck.sha256,
         "created": results.created,
         "exit_code": results.exit_code,
-        "model": {"standing": standing(results.cases)} | model_json(results.model) | contacts_json(results),
-        "cases": [_case(case) for case in results.cases],
+        "model": {"standing": standing_of(results.cases), "dimension": dimension_of(results.cases)}
+        | model_json(results.model)
+        | contacts_json(results),
+        "cases": [case_json(results.model, results.contacts, case) for case in results.cases],
         "settings": results.settings,
-        "notices": [notice_json(notice) for notice in results.notices],
+        "notices": [notice_json(notice) for notice in notices_of(results)],
         "time": {stage: number(seconds) for stage, seconds in results.time.items()},
         "files": list(results.files),
     }
@@ -67,25 +64,9 @@ def json_line(record: dict[str, Any]) -> str:
     return json.dumps(record, ensure_ascii=False, allow_nan=False, separators=(", ", ": "))
 
 
-def number(value: float | None) -> float | None:
-    """A finite number or None."""
-    return None if value is None or not math.isfinite(value) else float(value)
-
-
 def notice_json(notice: Notice) -> dict[str, str]:
     """A notice with its keys."""
     return {"severity": notice.severity, "identifier": notice.identifier, "message": notice.message}
-
-
-def standing(cases: Sequence[CaseResult]) -> str | None:
-    """Whether the dead load of every case is carried by some state of equilibrium: ``yes``, ``no``, or None if unknown.
-
-    A load factor by the associative rule is claimed only after the dead load alone was found to be carried.
-    """
-    if any(case.status is Status.NO_EQUILIBRIUM for case in cases):
-        return "no"
-    carried = [case.solution.associative is not None or case.status is Status.UNBOUNDED for case in cases]
-    return "yes" if carried and all(carried) else None
 
 
 def model_json(model: Model) -> dict[str, Any]:
@@ -96,7 +77,6 @@ def model_json(model: Model) -> dict[str, Any]:
         "title": model.title,
         "blocks": len(model.blocks),
         "free_blocks": len(model.free),
-        "dimension": DIMENSION,
         "extents": [[number(value) for value in corner] for corner in (low, high)],
         "total_volume": number(model.blocks.volumes.sum()),
         "total_weight": number(model.total_weight),
@@ -111,41 +91,4 @@ def contacts_json(results: Results) -> dict[str, Any]:
         "interfaces": len(contacts),
         "contact_points": len(contacts.points),
         "contact_area": number(contacts.areas.sum()),
-    }
-
-
-def _case(case: CaseResult) -> dict[str, Any]:
-    solution, checks = case.solution, case.checks
-    mechanics, associative = solution.mechanics, solution.associative
-    solver = float(sum(program.seconds for program in solution.programs))
-    return {
-        "name": case.load_case.name,
-        "status": case.status.value,
-        "reason": solution.reason or None,
-        "flow_rule": solution.flow_rule,
-        "load_factor": None if mechanics is None else number(mechanics.load_factor),
-        "static_bound": number(checks.static_bound),
-        "kinematic_bound": number(checks.kinematic_bound),
-        "gap": number(checks.gap),
-        "associative_load_factor": None if associative is None else number(associative.load_factor),
-        "equilibrium_residual": number(checks.equilibrium_residual),
-        "yield_violation": number(checks.yield_violation),
-        "penetration": number(checks.penetration),
-        "complementarity_residual": number(checks.complementarity_residual),
-        "live_power": number(checks.live_power),
-        "power_balance": number(checks.power_balance),
-        "verified": checks.verified,
-        "failures": list(checks.failures),
-        "programs": len(solution.programs),
-        "iterations": sum(program.iterations for program in solution.programs),
-        "mechanism": None if mechanics is None else _mode_counts(mechanics.modes),
-        "time": {"total": number(solution.seconds), "solver": number(solver)},
-    }
-
-
-def _mode_counts(modes: np.typing.NDArray[np.int64]) -> dict[str, int]:
-    """Contact points by mode."""
-    return {
-        mode.name.lower(): int(np.sum(modes == mode))
-        for mode in (ContactMode.OPEN, ContactMode.SLIDE, ContactMode.STICK)
     }

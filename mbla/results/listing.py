@@ -10,10 +10,13 @@ from mbla import __version__
 from mbla.arrays import IntArray
 from mbla.errors import Notice
 from mbla.model.model import Model
-from mbla.results.case_words import case_lines, figures, verdict
+from mbla.results.case_words import case_lines
 from mbla.results.contact_words import contact_lines, finding_lines
+from mbla.results.figure_words import figures
+from mbla.results.outcome import notices_of
 from mbla.results.results import Results
 from mbla.results.text import WIDTH, counted, entry, heading, number, sentence, table
+from mbla.results.verdict_words import verdict
 
 
 def listing(results: Results) -> str:
@@ -175,7 +178,7 @@ def notice_lines(notices: tuple[Notice, ...], title: str = "Remarks") -> list[st
 
 
 def _recap(results: Results) -> list[str]:
-    warnings = tuple(notice for notice in results.notices if notice.severity == "warning")
+    warnings = tuple(notice for notice in notices_of(results) if notice.severity == "warning")
     lines = heading("Summary")
     for case in results.cases:
         lines += entry(case.load_case.name, verdict(results.model, case))

@@ -20,7 +20,6 @@ from mbla.arrays import FloatArray, IntArray
 from mbla.contacts.contacts import Contacts
 from mbla.errors import FileError, UsageError
 from mbla.model.model import Model
-from mbla.results.case_words import verdict
 from mbla.results.mechanics import InterfaceMode, interface_modes
 from mbla.results.mechanism_words import mechanism_summary
 from mbla.results.motion import drawn_motion, moved_contact_points, moved_vertices
@@ -38,6 +37,7 @@ from mbla.results.picture_geometry import (
 )
 from mbla.results.picture_page import HEIGHT, INK, SHARPNESS, WIDTH, format_of, quiet_matplotlib, write_page
 from mbla.results.results import CaseResult, Results
+from mbla.results.verdict_words import verdict
 from mbla.solution.solution import ContactMode, Mechanics
 
 GROUND, GHOST = "#595959", "#8A8A8A"

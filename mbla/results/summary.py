@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from mbla.results.case_words import WITH_VALUE, bound_words, reasons, verdict
 from mbla.results.mechanism_words import mechanism_summary, not_held_summary
+from mbla.results.outcome import associative_of, notices_of, result_of
 from mbla.results.results import CaseResult, Results
 from mbla.results.text import counted, number, sentence, table
+from mbla.results.verdict_words import bound_words, range_summary, reasons, verdict
 from mbla.solution.solution import Status
 
 DETAIL = "    "
@@ -21,7 +22,7 @@ def summary_lines(results: Results) -> list[str]:
     lines = [counts, *_table(results)]
     for case in results.cases:
         lines += _in_words(results, case)
-    warnings = [notice for notice in results.notices if notice.severity == "warning"]
+    warnings = [notice for notice in notices_of(results) if notice.severity == "warning"]
     return lines + [line for notice in warnings for line in sentence(str(notice))]
 
 
@@ -35,21 +36,21 @@ def _table(results: Results) -> list[str]:
 
 
 def _row(case: CaseResult) -> list[str]:
-    own, associative = case.solution.mechanics, case.solution.associative
+    own, associative = result_of(case), associative_of(case)
     status = case.status.value if case.status is Status.SOLVED else case.status.value.replace("_", " ").upper()
-    value = "-" if own is None or case.status not in WITH_VALUE else number(own.load_factor)
+    value = "-" if own is None else number(own.load_factor)
     return [case.load_case.name, status, value, "-" if associative is None else number(associative.load_factor)]
 
 
 def _in_words(results: Results, case: CaseResult) -> list[str]:
     """How it collapses; where it does not, or that is not known, why and what is known all the same."""
-    model, solution = results.model, case.solution
+    model, solution, mechanics = results.model, case.solution, result_of(case)
     text = f"{case.load_case.name}: {verdict(model, case)}"
-    if solution.mechanics is not None and case.status in WITH_VALUE:
-        text += f": {mechanism_summary(model, results.contacts, solution.mechanics)}"
+    if mechanics is not None:
+        text += f": {mechanism_summary(model, results.contacts, mechanics)}"
     lines = sentence(text)
     if solution.mechanics is None and solution.certificate is not None:
         lines += sentence(not_held_summary(model, solution.certificate), DETAIL)
-    for why in (*reasons(case), bound_words(model, case)):
+    for why in (range_summary(model, case), *reasons(case), bound_words(model, case)):
         lines += sentence(why, DETAIL)
     return lines

@@ -74,7 +74,8 @@ def write_contacts_vtu(path: Path, model: Model, contacts: Contacts, case: CaseR
 
     Point data: ``interface``, ``body_a``, ``body_b``, ``displacement``; with a mechanism also ``contact_force``,
     ``normal_force``, ``shear_force``, ``contact_velocity`` (b relative to a), ``opening``, ``sliding``, ``mode``
-    (0 stick, 1 slide, 2 open).
+    (0 stick, 1 slide, 2 open). Without a load factor because the structure is locked: the forces that balance the live
+    load alone as ``contact_force``, ``normal_force``, ``shear_force``.
     """
     owners = contacts.interface_of_point
     data: Arrays = {
@@ -83,13 +84,17 @@ def write_contacts_vtu(path: Path, model: Model, contacts: Contacts, case: CaseR
         "body_b": contacts.bodies[owners, 1],
         "displacement": contact_displacements(model, contacts, drawn_motion(model, case)),
     }
-    mechanics = None if case is None else case.solution.mechanics
-    if mechanics is not None:
-        forces, velocities = mechanics.contact_forces, mechanics.contact_velocities
+    forces = _shown_forces(case)
+    if forces is not None:
         data |= {
             "contact_force": global_forces(contacts, forces),
             "normal_force": forces[:, 0],
             "shear_force": np.hypot(forces[:, 1], forces[:, 2]),
+        }
+    mechanics = None if case is None else case.solution.mechanics
+    if mechanics is not None:
+        velocities = mechanics.contact_velocities
+        data |= {
             "contact_velocity": global_forces(contacts, velocities),
             "opening": velocities[:, 0],
             "sliding": np.hypot(velocities[:, 1], velocities[:, 2]),
@@ -99,12 +104,21 @@ def write_contacts_vtu(path: Path, model: Model, contacts: Contacts, case: CaseR
     write_mesh(path, contacts.points, [("vertex", vertices)], point_data=data, cell_data={})
 
 
+def _shown_forces(case: CaseResult | None) -> FloatArray | None:
+    """Contact forces at the load factor; without one those that lock the structure."""
+    if case is None:
+        return None
+    mechanics = case.solution.mechanics
+    return case.solution.lock if mechanics is None else mechanics.contact_forces
+
+
 def write_interfaces_vtu(path: Path, model: Model, contacts: Contacts, case: CaseResult | None) -> None:
     """Interfaces as polygons, by their outer boundary; holes are not drawn, areas and forces count them.
 
-    Cell data: ``interface``, ``body_a``, ``body_b``, ``area``, ``gap``, ``joint``, ``normal``; with a mechanism also
-    ``resultant_force``, ``resultant_moment`` (on body b, about the centroid), ``normal_force``, ``shear_force``,
-    ``mode`` (0 stick, 1 slide, 2 open, 3 hinge, 4 twist). Point data: ``displacement``.
+    Cell data: ``interface``, ``body_a``, ``body_b``, ``area``, ``gap``, ``joint``, ``normal``; with forces (at the load
+    factor, or those that lock the structure) also ``resultant_force``, ``resultant_moment`` (on body b, about the
+    centroid), ``normal_force``, ``shear_force``; with a mechanism also ``mode`` (0 stick, 1 slide, 2 open, 3 hinge,
+    4 twist). Point data: ``displacement``.
     """
     data: Arrays = {
         "interface": np.arange(len(contacts)),
@@ -115,9 +129,9 @@ def write_interfaces_vtu(path: Path, model: Model, contacts: Contacts, case: Cas
         "joint": contacts.joints,
         "normal": contacts.normals,
     }
-    mechanics = None if case is None else case.solution.mechanics
-    if mechanics is not None:
-        resultants = interface_resultants(contacts, mechanics.contact_forces)
+    forces = _shown_forces(case)
+    if forces is not None:
+        resultants = interface_resultants(contacts, forces)
         normal_force = np.einsum("ij,ij->i", resultants[:, :3], contacts.normals)
         shear = resultants[:, :3] - normal_force[:, None] * contacts.normals
         data |= {
@@ -125,8 +139,10 @@ def write_interfaces_vtu(path: Path, model: Model, contacts: Contacts, case: Cas
             "resultant_moment": resultants[:, 3:],
             "normal_force": normal_force,
             "shear_force": np.linalg.norm(shear, axis=1),
-            "mode": interface_modes(contacts, mechanics),
         }
+    mechanics = None if case is None else case.solution.mechanics
+    if mechanics is not None:
+        data["mode"] = interface_modes(contacts, mechanics)
     rows = [np.flatnonzero(contacts.outline == n) for n in np.unique(contacts.outline)]
     cells = [("polygon", _outlines(contacts, each)) for each in rows]
     write_mesh(

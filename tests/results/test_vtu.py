@@ -117,3 +117,25 @@ def test_case_without_anything_has_displacement_zero(path: Path, results: Result
     case = replace(case, solution=replace(case.solution, certificate=None))
     write_blocks_vtu(path, results.model, case)
     assert not meshio.read(path).point_data["displacement"].any()
+
+
+def test_forces_that_lock_a_structure_are_shown_where_there_is_no_load_factor(path: Path, results: Results) -> None:
+    lock = np.zeros((8, 3))
+    lock[:4] = [2.0, -1.0, 0.0]
+    solution = replace(results.cases[0].solution, mechanics=None, lock=lock)
+    case = replace(results.cases[0], solution=solution)
+    write_contacts_vtu(path, results.model, results.contacts, case)
+    data = meshio.read(path).point_data
+    assert data["contact_force"][:4].sum(axis=0) == pytest.approx([-4, 0, 8])
+    assert "mode" not in data
+    write_interfaces_vtu(path, results.model, results.contacts, case)
+    cells = {name: np.concatenate(values) for name, values in meshio.read(path).cell_data.items()}
+    assert cells["normal_force"] == pytest.approx([8, 0])
+    assert "mode" not in cells
+
+
+def test_forces_at_the_load_factor_go_before_those_that_lock(path: Path, results: Results) -> None:
+    solution = replace(results.cases[0].solution, lock=np.ones((8, 3)))
+    write_contacts_vtu(path, results.model, results.contacts, replace(results.cases[0], solution=solution))
+    forces = tower_mechanics().contact_forces
+    assert meshio.read(path).point_data["normal_force"] == pytest.approx(forces[:, 0])

@@ -1,0 +1,141 @@
+"""What may be said of a case: which figures are results, which only the best that was reached.
+
+A load factor is a result where the case is solved or approximate. Without associative flow it is none where the
+structure stands only by forces that someone would have to lock in: equilibrium under that load exists, but nothing
+brings it about. Everything that shows figures (listing, JSON, summary, pictures) asks here, so that none says more.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from mbla.errors import Notice
+from mbla.results.results import CaseResult, Results
+from mbla.solution.solution import Checks, Mechanics, Standing, Status
+from mbla.solution.verify import APPROXIMATE_RESIDUAL
+
+WITH_VALUE = (Status.SOLVED, Status.APPROXIMATE)
+"""statuses whose load factor is a result"""
+UNIQUE = 1e-6
+"""ends of a range closer than this, relatively, are one figure: the accuracy to which both are found"""
+CLEAN_RESIDUAL = 1e-6
+"""residual up to which a solved case without associative flow needs no warning"""
+WORST_STANDING = (Standing.NO, Standing.SELF_STRESS, Standing.DOUBTFUL)
+"""verdicts that speak for the whole structure as soon as one case has them, the worst first"""
+
+
+def result_of(case: CaseResult) -> Mechanics | None:
+    """Forces, velocities and load factor that are a result; None where there are none."""
+    return case.solution.mechanics if case.status in WITH_VALUE and not locked_in(case) else None
+
+
+def best_iterate(case: CaseResult) -> Mechanics | None:
+    """The best that was reached where that is no result."""
+    return None if result_of(case) is not None else case.solution.mechanics
+
+
+def associative_of(case: CaseResult) -> Mechanics | None:
+    """The associative answer where it is a result: bounds confirm it whatever became of the deck's own flow rule."""
+    associative = case.solution.associative
+    if case.solution.flow_rule == "associative":
+        return None if result_of(case) is None else associative
+    confirmed = case.status in WITH_VALUE or case.checks.gap <= APPROXIMATE_RESIDUAL
+    return associative if confirmed else None
+
+
+def locked_in(case: CaseResult) -> bool:
+    """Whether a load factor without associative flow rests on forces that only self-stress would bring about."""
+    standing = case.solution.standing
+    return (
+        case.solution.flow_rule != "associative"
+        and standing is not None
+        and standing.verdict in (Standing.SELF_STRESS, Standing.NO)
+    )
+
+
+def range_of(case: CaseResult) -> tuple[float, float] | None:
+    """Verified least and greatest load factor for the mechanism found, one of them nan where it was not verified."""
+    lower, upper = case.checks.lower, case.checks.upper
+    if result_of(case) is None or (np.isnan(lower) and np.isnan(upper)):
+        return None
+    return lower, upper
+
+
+def range_is_a_point(ends: tuple[float, float]) -> bool:
+    """Whether both ends are known and one figure."""
+    return bool(abs(ends[1] - ends[0]) <= UNIQUE * max(abs(ends[0]), abs(ends[1])))
+
+
+def factor_unique(case: CaseResult) -> bool | None:
+    """True where a theorem says so (associative flow), False where two verified factors differ, None if not known.
+
+    A range that is a point says that this mechanism has one factor; another mechanism may have another.
+    """
+    if result_of(case) is None:
+        return None
+    if case.solution.flow_rule == "associative":
+        return True
+    ends = range_of(case)
+    return False if ends is not None and np.isfinite(ends).all() and not range_is_a_point(ends) else None
+
+
+def law_residual(checks: Checks) -> float:
+    """The largest of the residuals that say how badly forces and velocities fit the joint law; nan without any."""
+    parts = [
+        checks.equilibrium_residual,
+        checks.yield_violation,
+        checks.tension_violation,
+        checks.penetration,
+        checks.complementarity_residual,
+        checks.slip_residual,
+    ]
+    known = [value for value in parts if not np.isnan(value)]
+    return max(known, default=float("nan"))
+
+
+def standing_of(cases: Sequence[CaseResult]) -> str | None:
+    """The worst verdict over the cases; ``yes`` only where every case has it, None where one was not assessed."""
+    verdicts = [
+        Standing.NO
+        if case.status is Status.NO_EQUILIBRIUM
+        else None
+        if case.solution.standing is None
+        else case.solution.standing.verdict
+        for case in cases
+    ]
+    for worst in WORST_STANDING:
+        if worst in verdicts:
+            return worst.value
+    return Standing.YES.value if verdicts and None not in verdicts else None
+
+
+def dimension_of(cases: Sequence[CaseResult]) -> int:
+    """2 where every case was solved as planar, else 3."""
+    planar = [case.solution.size is not None and case.solution.size.dimension == 2 for case in cases]
+    return 2 if planar and all(planar) else 3
+
+
+def case_notices(case: CaseResult) -> tuple[Notice, ...]:
+    """What a reader must know of a case's figures, as warnings."""
+    name, standing, notices = case.load_case.name, case.solution.standing, []
+    if standing is not None and standing.verdict is Standing.SELF_STRESS:
+        what = "" if case.solution.flow_rule == "associative" else "; its load factor is no collapse load"
+        text = (
+            f"{name}: the structure stands only by self-stress, that is by forces locked in before it is loaded{what}"
+        )
+        notices.append(Notice("warning", "only-by-self-stress", f"{text}. {standing.reason}"))
+    if standing is not None and standing.verdict is Standing.DOUBTFUL:
+        text = f"{name}: whether the structure stands without forces locked in could not be decided"
+        notices.append(Notice("warning", "standing-doubtful", f"{text}. {standing.reason}"))
+    residual = law_residual(case.checks)
+    if case.status is Status.SOLVED and case.solution.flow_rule != "associative" and residual > CLEAN_RESIDUAL:
+        text = f"{name}: forces and velocities miss the joint law by {residual:.1e}, more than {CLEAN_RESIDUAL:g}"
+        notices.append(Notice("warning", "residual", f"{text}; the load factor is good to about that share"))
+    return tuple(notices)
+
+
+def notices_of(results: Results) -> tuple[Notice, ...]:
+    """Notices of the run, and those of its cases."""
+    return (*results.notices, *(notice for case in results.cases for notice in case_notices(case)))

@@ -1,0 +1,94 @@
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from mbla.results.outcome import case_notices, dimension_of, factor_unique, law_residual, result_of, standing_of
+from mbla.results.results import CaseResult
+from mbla.solution.solution import ModelSize, Standing, StandingResult, Status
+
+from .synthetic import tower_results
+
+SOLVED, FALLEN = tower_results().cases
+YES, SELF, NO, DOUBT = Standing.YES, Standing.SELF_STRESS, Standing.NO, Standing.DOUBTFUL
+
+
+def with_standing(verdict: Standing | None, case: CaseResult = SOLVED) -> CaseResult:
+    standing = None if verdict is None else StandingResult(verdict, 1, "why")
+    return replace(case, solution=replace(case.solution, standing=standing))
+
+
+@pytest.mark.parametrize(
+    ("verdicts", "worst"),
+    [
+        ([YES], "yes"),
+        ([YES, YES], "yes"),
+        ([YES, None], None),
+        ([None], None),
+        ([], None),
+        ([YES, DOUBT, None], "doubtful"),
+        ([DOUBT, SELF], "only by self-stress"),
+        ([SELF, NO, YES], "no"),
+    ],
+)
+def test_the_worst_verdict_speaks_for_the_structure(verdicts: list[Standing | None], worst: str | None) -> None:
+    assert standing_of([with_standing(verdict) for verdict in verdicts]) == worst
+
+
+def test_a_structure_without_equilibrium_does_not_stand_whatever_was_assessed() -> None:
+    assert standing_of([with_standing(YES), FALLEN]) == "no"
+
+
+def test_equilibrium_alone_is_not_called_standing() -> None:
+    """A bar pressed between two walls is in equilibrium; whether it stands is another question."""
+    assert SOLVED.solution.associative is not None
+    assert standing_of([SOLVED]) is None
+
+
+@pytest.mark.parametrize("status", list(Status))
+def test_only_solved_and_approximate_cases_have_a_result(status: Status) -> None:
+    found = result_of(replace(SOLVED, status=status))
+    assert (found is not None) == (status in (Status.SOLVED, Status.APPROXIMATE))
+
+
+@pytest.mark.parametrize(("verdict", "has_result"), [(YES, True), (DOUBT, True), (SELF, False), (NO, False)])
+def test_self_stress_takes_the_factor_away_but_not_the_associative_one(verdict: Standing, has_result: bool) -> None:
+    case = with_standing(verdict)
+    assert (result_of(case) is not None) == has_result
+    associative = replace(case, solution=replace(case.solution, flow_rule="associative"))
+    assert result_of(associative) is not None
+    assert factor_unique(associative) is True
+
+
+def test_dimension_is_two_only_where_every_case_was_planar() -> None:
+    def case(dimension: int) -> CaseResult:
+        return replace(SOLVED, solution=replace(SOLVED.solution, size=ModelSize(dimension, 0, 1, 2, 4, 0)))
+
+    assert dimension_of([case(2), case(2)]) == 2
+    assert dimension_of([case(2), case(3)]) == 3
+    assert dimension_of([case(2), SOLVED]) == 3
+    assert dimension_of([]) == 3
+
+
+def test_law_residual_is_the_largest_that_is_known() -> None:
+    nan = float("nan")
+    assert law_residual(replace(SOLVED.checks, slip_residual=0.25, complementarity_residual=nan)) == 0.25
+    assert np.isnan(law_residual(FALLEN.checks))
+
+
+@pytest.mark.parametrize(
+    ("case", "identifiers"),
+    [
+        (SOLVED, []),
+        (with_standing(YES), []),
+        (with_standing(SELF), ["only-by-self-stress"]),
+        (with_standing(DOUBT), ["standing-doubtful"]),
+        (replace(SOLVED, checks=replace(SOLVED.checks, slip_residual=2e-6)), ["residual"]),
+        (replace(SOLVED, checks=replace(SOLVED.checks, slip_residual=5e-7)), []),
+    ],
+)
+def test_warnings(case: CaseResult, identifiers: Any) -> None:
+    notices = case_notices(case)
+    assert [notice.identifier for notice in notices] == identifiers
+    assert all(notice.severity == "warning" and notice.message.startswith("push_x: ") for notice in notices)
