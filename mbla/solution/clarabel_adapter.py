@@ -13,11 +13,11 @@ import scipy.sparse as sp
 from mbla.arrays import FloatArray
 from mbla.errors import SolverError
 from mbla.program.kinematic import ConeProgram
+from mbla.solution.cone_solution import ConeSolution as ConeSolution
+from mbla.solution.cone_solution import Log as Log
 from mbla.solution.settings import SolverSettings
 from mbla.solution.signals import signals_held
 from mbla.solution.solution import IterationRecord, Status
-
-Log = Callable[[IterationRecord], None]
 
 STATUS_MAP = {
     "Solved": Status.SOLVED,
@@ -44,23 +44,6 @@ FALLBACK_REGULARIZATION = 1e-8
 
 FALLBACK_TOLERANCE = 1e-8
 """Third try: beyond this the solver often ends short; the verified bounds tell what the answer is worth."""
-
-
-@dataclass(frozen=True)
-class ConeSolution:
-    """What the solver returned.
-
-    x : primal variables; a ray where the status is NO_EQUILIBRIUM
-    z : dual variables; a ray where the status is UNBOUNDED
-    """
-
-    status: Status
-    solver_status: str
-    x: FloatArray
-    z: FloatArray
-    objective: float
-    iterations: int
-    seconds: float
 
 
 @dataclass

@@ -25,6 +25,7 @@ class SolverSettings:
     max_iterations : for one program
     regularization : static regularisation of the KKT matrix
     threads        : of the linear algebra
+    solver         : library that solves cone programs: clarabel, or highs for linear ones
     deadline       : time.monotonic() at which to stop, or None
     """
 
@@ -33,6 +34,7 @@ class SolverSettings:
     regularization: float = REGULARIZATION
     threads: int = 1
     deadline: float | None = None
+    solver: str = "clarabel"
 
 
 def solver_settings(analysis: AnalysisSection, threads: int = 1) -> SolverSettings:
@@ -43,4 +45,5 @@ def solver_settings(analysis: AnalysisSection, threads: int = 1) -> SolverSettin
         max_iterations=analysis.max_iterations or MAX_ITERATIONS,
         threads=threads,
         deadline=None if analysis.time_limit is None else time.monotonic() + analysis.time_limit,
+        solver=analysis.solver,
     )

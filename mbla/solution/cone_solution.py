@@ -1,0 +1,64 @@
+"""What a cone solver is asked and what it answers, whichever library it is."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Protocol
+
+from mbla.arrays import FloatArray
+from mbla.program.kinematic import ConeProgram
+from mbla.solution.solution import IterationRecord, Status
+
+Log = Callable[[IterationRecord], None]
+
+
+@dataclass(frozen=True)
+class ConeSolution:
+    """What the solver returned.
+
+    x      : primal variables; a ray where the status is NO_EQUILIBRIUM
+    z      : dual variables, cost + matrixᵀ z = 0, z ≥ 0 on half-lines; a ray where the status is UNBOUNDED
+    solver : the library's name, for words about its status
+    """
+
+    status: Status
+    solver_status: str
+    x: FloatArray
+    z: FloatArray
+    objective: float
+    iterations: int
+    seconds: float
+    solver: str = "clarabel"
+
+    @property
+    def verdict(self) -> str:
+        """The library's own word for the outcome, ``clarabel: Solved``."""
+        return f"{self.solver}: {self.solver_status}"
+
+
+class ConeSolver(Protocol):
+    """A cone program held by a solver: ``solve`` it, ``update`` its data, solve it again.
+
+    Statuses are given for a program in kinematic form: UNBOUNDED where it is infeasible (no mechanism in which the live
+    load does work), NO_EQUILIBRIUM where its objective has no lower bound. A static form has them the other way round.
+    """
+
+    @property
+    def cone_program(self) -> ConeProgram:
+        """The program as it was last updated."""
+        ...
+
+    def solve(self, program_number: int, to_load_factor: float) -> ConeSolution:
+        """Solve what is loaded.
+
+        program_number : number in the sequence of the load case, for the log
+        to_load_factor : factor from the objective to the load factor, for the log
+
+        Raises SolverError if the data are not finite or the solver's status is not known.
+        """
+        ...
+
+    def update(self, *, cost: FloatArray | None = None, rhs: FloatArray | None = None) -> None:
+        """Change cost or right-hand side; the matrix stays."""
+        ...
