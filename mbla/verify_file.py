@@ -9,7 +9,8 @@ import numpy as np
 from mbla.results.results import Results
 from mbla.run import exit_code
 from mbla.solution.solution import Checks
-from mbla.solution.verify import verified_status, verify
+from mbla.solution.verification import verify
+from mbla.solution.verify import verified_status
 
 AGREEMENT = 1e-6
 """Difference of stored and recomputed figures, relative and absolute, beyond which the file is not what a run wrote;

@@ -2,6 +2,7 @@
 
 from mbla.solution.solution import Checks, ContactMode, Mechanics, Solution, Status
 from mbla.solution.solve import solve
-from mbla.solution.verify import verified_status, verify
+from mbla.solution.verification import verify
+from mbla.solution.verify import verified_status
 
 __all__ = ["Checks", "ContactMode", "Mechanics", "Solution", "Status", "solve", "verified_status", "verify"]

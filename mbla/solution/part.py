@@ -10,11 +10,16 @@ from mbla.deck.analysis import AnalysisSection
 from mbla.program.program import Program
 from mbla.solution.associative import AssociativeResult, solve_associative
 from mbla.solution.clarabel_adapter import Log
+from mbla.solution.factor_range import FactorRange, factor_range
 from mbla.solution.law_state import LawState, SequenceResult
 from mbla.solution.proximal import solve_proximal
 from mbla.solution.published import solve_published
 from mbla.solution.settings import SolverSettings
-from mbla.solution.solution import ProgramRecord, Status
+from mbla.solution.solution import ProgramRecord, StandingResult, Status
+from mbla.solution.standing import assess_standing, standing_without_equilibrium
+
+RANGE_RESIDUAL = 1e-4
+"""Residual of a state up to which the range of its load factor is asked for."""
 
 
 @dataclass(frozen=True)
@@ -24,12 +29,16 @@ class PartResult:
     associative : by the associative flow rule
     sequence    : by the flow rule of the analysis where that is another one, None where it did not come to it
     loaded      : false where no live load acts on the part; then it only has to carry its dead load
+    standing    : assessment of the dead load alone, None where it was not asked for
+    range       : of the load factor without normality, for the mechanism found
     """
 
     program: Program
     associative: AssociativeResult
     sequence: SequenceResult | None
     loaded: bool
+    standing: StandingResult | None = None
+    range: FactorRange | None = None
 
     @property
     def state(self) -> LawState | None:
@@ -51,11 +60,19 @@ class PartResult:
     @property
     def programs(self) -> tuple[ProgramRecord, ...]:
         """All cone programs that were solved for it."""
-        return self.associative.programs if self.sequence is None else self.sequence.programs
+        own = self.associative.programs if self.sequence is None else self.sequence.programs
+        return own if self.range is None else (*own, *self.range.programs)
 
 
 def solve_part(program: Program, analysis: AnalysisSection, settings: SolverSettings, log: Log) -> PartResult:
-    """Associative first, then the sequence that the flow rule asks for."""
+    """Associative first, then the sequence that the flow rule asks for, its range, and whether the part stands."""
+    result = _by_flow_rule(program, analysis, settings, log)
+    if analysis.range:
+        result = replace(result, range=_range_of(result, settings, log))
+    return replace(result, standing=_standing_of(result, settings)) if analysis.standing else result
+
+
+def _by_flow_rule(program: Program, analysis: AnalysisSection, settings: SolverSettings, log: Log) -> PartResult:
     if not np.any(program.live_load):
         return _unloaded_part(program, settings, log)
     associative = solve_associative(program, settings, log)
@@ -67,6 +84,22 @@ def solve_part(program: Program, analysis: AnalysisSection, settings: SolverSett
         dilatancy = program.limits.dilatancy if analysis.flow_rule == "dilatancy" else np.zeros(program.n_points)
         sequence = solve_published(program, associative, analysis.published, dilatancy, settings, log)
     return PartResult(program, associative, sequence, loaded=True)
+
+
+def _range_of(result: PartResult, settings: SolverSettings, log: Log) -> FactorRange | None:
+    """Only of a state that fits the law: the mechanism of another one belongs to nothing."""
+    state = None if result.sequence is None else result.sequence.state
+    if state is None or state.residual > RANGE_RESIDUAL:
+        return None
+    return factor_range(result.program, state, settings, log, len(result.programs) + 1)
+
+
+def _standing_of(result: PartResult, settings: SolverSettings) -> StandingResult:
+    associative = result.associative
+    if associative.certificate is not None:
+        return standing_without_equilibrium(result.program, associative.certificate)
+    decided = associative.state is not None or associative.status is Status.UNBOUNDED
+    return assess_standing(result.program, settings, True if decided else None)
 
 
 def _unloaded_part(program: Program, settings: SolverSettings, log: Log) -> PartResult:

@@ -16,10 +16,14 @@ from mbla.solution.law_state import LawState
 from mbla.solution.mechanics import mechanics_of, motion_of
 from mbla.solution.part import PartResult, solve_part
 from mbla.solution.settings import SolverSettings
-from mbla.solution.solution import IterationRecord, Mechanics, ProgramRecord, Solution, Status
+from mbla.solution.solution import IterationRecord, Mechanics, ProgramRecord, Solution, Standing, StandingResult, Status
 from mbla.solution.whole import whole_state
 
 WITH_VALUE = (Status.SOLVED, Status.APPROXIMATE)
+
+ONLY_BY_SELF_STRESS = (
+    "it stands only by forces locked in between the blocks beforehand: without knowing these there is no collapse load"
+)
 
 
 @dataclass(frozen=True)
@@ -52,8 +56,12 @@ def solve(reduced: Reduced, analysis: AnalysisSection, settings: SolverSettings,
     stage = _Stage(reduced.parts, settings, record)
     results = [solve_part(program, analysis, settings, record) for program in reduced.parts]
     solution = _combined(stage, analysis, results)
+    standing = _worst_standing(results)
+    if standing is not None and standing.verdict is Standing.SELF_STRESS:
+        solution = _without_claim(solution)
     return replace(
         solution,
+        standing=standing,
         programs=_renumbered(results),
         iterations=tuple(iterations),
         seconds=time.perf_counter() - started,
@@ -106,9 +114,12 @@ def _with_load_factor(
     if result.sequence is None:
         return replace(solution, mechanics=associative, associative=associative)
     sequence, live = result.sequence, stage.parts[first].scaling.live
+    ends = result.range
     return replace(
         solution,
         mechanics=stage.mechanics(first, sequence.state),
+        lower=None if ends is None else stage.mechanics(first, ends.lower),
+        upper=None if ends is None else stage.mechanics(first, ends.upper),
         associative=associative,
         scheme=analysis.scheme,
         remarks=sequence.remarks,
@@ -130,6 +141,22 @@ def _solution(analysis: AnalysisSection, status: Status, reason: str) -> Solutio
         iterations=(),
         seconds=0.0,
     )
+
+
+GRAVEST_STANDING = (Standing.NO, Standing.SELF_STRESS, Standing.DOUBTFUL, Standing.YES)
+
+
+def _worst_standing(results: Sequence[PartResult]) -> StandingResult | None:
+    """The gravest verdict of any part; None where none was assessed."""
+    found = [result.standing for result in results if result.standing is not None]
+    return min(found, key=lambda standing: GRAVEST_STANDING.index(standing.verdict), default=None)
+
+
+def _without_claim(solution: Solution) -> Solution:
+    """What stands by forces locked in beforehand has no load factor without them, save the associative upper value."""
+    if solution.status not in WITH_VALUE or solution.flow_rule == "associative":
+        return solution
+    return replace(solution, status=Status.NOT_VERIFIED, reason=ONLY_BY_SELF_STRESS)
 
 
 def _renumbered(results: Sequence[PartResult]) -> tuple[ProgramRecord, ...]:
