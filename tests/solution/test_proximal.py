@@ -93,6 +93,8 @@ def test_wall_with_an_opening_gives_the_published_factor() -> None:
     assert solution.associative is not None
     assert solution.associative.load_factor == pytest.approx(0.403694, abs=1e-6)
     assert {program.kind for program in solution.programs} == {
+        "range, lower",
+        "range, upper",
         "associative",
         "reverse",
         "gravity",
