@@ -9,11 +9,14 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
+from mbla.deck.analysis import ReductionSwitches
 from mbla.program.program import Program
+from mbla.program.reductions import reduce_program
+from mbla.program.yield_conditions import yield_violation
 from mbla.solution.associative import solve_associative
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Standing, StandingResult, Status
-from mbla.solution.standing import assess_standing, standing_without_equilibrium
+from mbla.solution.standing import assess_dead_load, assess_standing, standing_without_equilibrium, worst_standing
 from mbla.solution.weakening import Outcome, Weakening, agreed, weaken_springs
 from tests.line import WALL, line_of
 from tests.solution.standing_structures import STRUCTURES, Structure, arch, bar, incline, leaning, overhang
@@ -38,6 +41,33 @@ def test_standing_is_what_statics_says(structure: Structure) -> None:
     # the springs know nothing of what the cone program said, and must not contradict it
     outcome = weaken_springs(program, "dead_load", program.limits, SETTINGS).outcome
     assert outcome is (Outcome.CARRIED if structure.verdict is Standing.YES else Outcome.FALLS)
+
+
+@pytest.mark.parametrize("structure", STRUCTURES, ids=lambda structure: structure.name)
+def test_reduced_programs_give_the_same_verdict_and_block(structure: Structure) -> None:
+    line = line_of(structure.text)
+    reduced = reduce_program(line.model, line.contacts, line.program, ReductionSwitches(), associative=False)
+    parts = [standing(program) for program in reduced.parts]
+    assert worst_standing(parts).verdict is structure.verdict
+    assert worst_standing(parts).block in (structure.blocks or (None,))
+
+
+def test_forces_of_the_dead_load_balance_it_within_the_joints_limits() -> None:
+    for structure in STRUCTURES:
+        program = line_of(structure.text).program
+        state = assess_dead_load(program, SETTINGS)
+        assert (state.forces is not None) is (structure.verdict is Standing.YES)
+        if state.forces is not None:
+            unbalanced = program.equilibrium_matrix @ state.forces.ravel() + program.dead_load
+            assert np.abs(unbalanced).max() < 1e-6
+            assert yield_violation(state.forces, program.limits).max(initial=0.0) < 1e-12
+
+
+def test_the_gravest_part_speaks_for_the_structure() -> None:
+    order = [Standing.NO, Standing.SELF_STRESS, Standing.DOUBTFUL, Standing.YES]
+    results = [StandingResult(verdict, i, "") for i, verdict in enumerate(order)]
+    for i in range(len(order)):
+        assert worst_standing(results[: i - 1 : -1] if i else results[::-1]) is results[i]
 
 
 def slope(excess: float) -> str:
