@@ -107,7 +107,7 @@ PLANAR_FACETS = np.array([[1.0], [-1.0]])
 def friction_polygon(sides: int, circumscribed: bool) -> FloatArray:
     """Directions g_i whose hull is a regular polygon in the unit circle, or about it, (sides, 2).
 
-    ‖T‖ ≤ h is replaced by T = Σ q_i g_i with Σ q_i ≤ h: its dual is p ≥ g_i·v_T.
+    ‖T‖ ≤ h is replaced by −T = Σ q_i g_i with Σ q_i ≤ h: its dual is p ≥ g_i·v_T.
     """
     angle = 2.0 * np.pi * np.arange(sides) / sides
     radius = 1.0 / np.cos(np.pi / sides) if circumscribed else 1.0

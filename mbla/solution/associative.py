@@ -7,14 +7,15 @@ interval the dead load alone is not carried, and the mechanism of the violated e
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from mbla.arrays import FloatArray
-from mbla.program.kinematic import KinematicForm, kinematic_form
 from mbla.program.program import Program
-from mbla.solution.clarabel_adapter import ClarabelProgram, ConeSolution, Log
+from mbla.solution.associative_form import AssociativeForm, in_velocities
+from mbla.solution.cone_solution import ConeSolution, Log
+from mbla.solution.cone_solver import cone_solver
 from mbla.solution.law_state import LawState, law_state
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import ProgramRecord, Status
@@ -40,26 +41,33 @@ class AssociativeResult:
     programs: tuple[ProgramRecord, ...]
 
 
-def solve_associative(program: Program, settings: SolverSettings, log: Log) -> AssociativeResult:
-    """Solve the program of one load case with associative flow."""
-    form = kinematic_form(program, program.limits)
-    solver = ClarabelProgram(form.cone_program, settings, log)
-    forward = solver.solve(1, program.scaling.live)
-    records = [_record(program, 1, "associative", forward)]
+def solve_associative(
+    program: Program, settings: SolverSettings, log: Log, *, form: AssociativeForm | None = None, first: int = 1
+) -> AssociativeResult:
+    """Solve the program of one load case with associative flow.
+
+    form  : kinematic with the friction cone, unless another is given (:mod:`mbla.solution.associative_form`)
+    first : number of its first program in the sequence of the load case
+    """
+    form = form or in_velocities(program)
+    settings = replace(settings, tolerance=form.tolerance(settings.tolerance))
+    solver = cone_solver(form.cone_program, settings, log)
+    forward = form.read(solver.solve(first, form.sign * program.scaling.live))
+    records = [_record(program, first, "associative", forward)]
     if forward.status not in (Status.SOLVED, Status.APPROXIMATE, Status.UNBOUNDED, Status.NO_EQUILIBRIUM):
         return AssociativeResult(forward.status, None, None, _words_of(forward), tuple(records))
     if forward.status is Status.NO_EQUILIBRIUM:
-        return _no_equilibrium(form, forward.x, records)
+        return _no_equilibrium(form, forward, records)
     if forward.status in WITH_VALUE and _negative(program, forward.objective):
-        return _no_equilibrium(form, forward.x, records)
+        return _no_equilibrium(form, forward, records)
 
-    solver.update(rhs=-form.cone_program.rhs)
-    reverse = solver.solve(2, -program.scaling.live)
-    records.append(_record(program, 2, "reverse", reverse, sign=-1.0))
+    solver.update(**form.reverse)
+    reverse = form.read(solver.solve(first + 1, -form.sign * program.scaling.live))
+    records.append(_record(program, first + 1, "reverse", reverse, sign=-1.0))
     if reverse.status is Status.NO_EQUILIBRIUM or (
         reverse.status in WITH_VALUE and _negative(program, reverse.objective)
     ):
-        return _no_equilibrium(form, reverse.x, records)
+        return _no_equilibrium(form, reverse, records)
     if reverse.status not in (Status.SOLVED, Status.APPROXIMATE, Status.UNBOUNDED):
         reason = "whether the dead load alone is carried could not be decided: " + _words_of(reverse)
         return AssociativeResult(reverse.status, None, None, reason, tuple(records))
@@ -78,15 +86,15 @@ def _negative(program: Program, objective: float) -> bool:
     return objective < -STANDS_MARGIN * dead_over_live
 
 
-def _state(form: KinematicForm, solution: ConeSolution) -> LawState:
-    program, velocities = form.program, form.velocities(solution.x)
-    forces = form.contact_forces(solution.z)
+def _state(form: AssociativeForm, solution: ConeSolution) -> LawState:
+    program = form.program
+    forces, velocities = form.forces(solution), form.velocities(solution)
     return law_state(program, program.limits.friction, forces, velocities, solution.objective)
 
 
-def _no_equilibrium(form: KinematicForm, x: FloatArray, records: list[ProgramRecord]) -> AssociativeResult:
+def _no_equilibrium(form: AssociativeForm, solution: ConeSolution, records: list[ProgramRecord]) -> AssociativeResult:
     """The mechanism that proves it: compatible, and the dead load does more work than the joints dissipate."""
-    certificate = form.velocities(x)
+    certificate = form.velocities(solution)
     reason = (
         "the dead load alone is not carried: a mechanism exists in which it does more work than the joints dissipate"
     )
@@ -112,4 +120,4 @@ def _words_of(solution: ConeSolution) -> str:
         Status.ITERATION_LIMIT: "the solver reached its limit of iterations",
         Status.TIME_LIMIT: "the time limit was reached",
         Status.NUMERICAL_ERROR: "the solver broke down numerically",
-    }.get(solution.status, str(solution.status)) + f" (clarabel: {solution.solver_status})"
+    }.get(solution.status, str(solution.status)) + f" ({solution.verdict})"
