@@ -181,7 +181,6 @@ class Checks:
     lower, upper             : verified ends of the range of a non-associative load factor, NaN where there are none
     verified                 : true where everything is within tolerance
     failures                 : what is not, in words
-    warnings                 : what is within tolerance, but less well than usual, in words
     """
 
     equilibrium_residual: float
@@ -199,4 +198,3 @@ class Checks:
     slip_residual: float = float("nan")
     lower: float = float("nan")
     upper: float = float("nan")
-    warnings: tuple[str, ...] = ()

@@ -9,7 +9,7 @@ What may be claimed follows from the figures alone:
 - associative flow: the load factor lies between its bounds, and they are no further apart than 1e-5. Forces and
   mechanism then fit the law to 1e-4;
 - flow without normality: no bound proves the factor, its residuals speak for it. The largest is at most 1e-6: solved;
-  1e-4: solved, with a warning; 1e-2: approximate; beyond: not verified.
+  1e-4: solved, with a warning among the results' notices; 1e-2: approximate; beyond: not verified.
 """
 
 from __future__ import annotations
@@ -26,17 +26,17 @@ from mbla.solution.proofs import associative_bounds, certificate_failures
 from mbla.solution.residuals import Residuals, residuals_of
 from mbla.solution.solution import Checks, Solution, Status
 
-EXACT_RESIDUAL = 1e-6
-"""Residual up to which a factor without proof counts as solved without a word: it is an error of the load factor."""
-
 SOLVED_RESIDUAL = 1e-4
-"""Up to this a factor counts as solved, without proof with a warning."""
+"""Residual up to which a factor counts as solved; without a proof the results warn of it from 1e-6 on."""
 
 APPROXIMATE_RESIDUAL = 1e-2
 """Up to this it is approximate; beyond, it is not a result."""
 
 ASSOCIATIVE_EQUILIBRIUM = 1e-5
 """Unbalanced force of associative flow: the forces must carry the load factor to as many digits as the bounds give."""
+
+LIVE_POWER = 1e-6
+"""Deviation of the live power from 1: a mechanism of another size is another one."""
 
 GAP_TOLERANCE = 1e-5
 """Greatest relative distance of static and kinematic bound at which an associative factor counts as verified."""
@@ -63,7 +63,7 @@ def verify(model: Model, contacts: Contacts, load_case: LoadCase, solution: Solu
         size = max(abs(kinematic), scale.least_factor(solution.associative.mechanism))
         if 0.0 < static - kinematic <= ROUNDING * size:
             static = kinematic
-    failures, warnings = _judged(residuals, solution, static, kinematic, size)
+    failures = _failures(residuals, solution, static, kinematic, size)
     return Checks(
         equilibrium_residual=residuals.equilibrium,
         yield_violation=residuals.yielding,
@@ -78,7 +78,6 @@ def verify(model: Model, contacts: Contacts, load_case: LoadCase, solution: Solu
         failures=failures,
         tension_violation=residuals.tension,
         slip_residual=residuals.slip,
-        warnings=warnings,
     )
 
 
@@ -115,38 +114,29 @@ def _dilatancy(limits: YieldLimits, flow_rule: str) -> FloatArray:
     }[flow_rule]
 
 
-def _judged(
+def _failures(
     residuals: Residuals, solution: Solution, static: float, kinematic: float, size: float
-) -> tuple[tuple[str, ...], tuple[str, ...]]:
-    """What is not within tolerance and what is just within, in words; ``size`` is the unit of load factors."""
+) -> tuple[str, ...]:
+    """What is not within tolerance, in words; ``size`` is the unit of differences of load factors."""
     associative = solution.flow_rule == "associative"
-    named = (
+    limits = (
         ("equilibrium residual", residuals.equilibrium, ASSOCIATIVE_EQUILIBRIUM if associative else SOLVED_RESIDUAL),
         ("yield violation", residuals.yielding, SOLVED_RESIDUAL),
         ("penetration", residuals.penetration, SOLVED_RESIDUAL),
         ("complementarity residual", residuals.complementarity, SOLVED_RESIDUAL),
         ("power balance", residuals.power_balance, SOLVED_RESIDUAL),
-        ("deviation of the live power from 1", abs(residuals.live_power - 1.0), EXACT_RESIDUAL),
+        ("deviation of the live power from 1", abs(residuals.live_power - 1.0), LIVE_POWER),
     )
-    failures = [f"{name} {value:.2g} exceeds {limit:g}" for name, value, limit in named if not value <= limit]
-    warnings: list[str] = []
+    failures = [f"{name} {value:.2g} exceeds {limit:g}" for name, value, limit in limits if not value <= limit]
     if associative:
         failures += _bound_failures(solution, static, kinematic, size)
-        return tuple(failures), ()
-    room = SOLVED_RESIDUAL * size
-    if _above(solution, kinematic, room):
+    elif _above(solution, kinematic, SOLVED_RESIDUAL * size):
         assert solution.mechanics is not None
         failures.append(
             f"the load factor {solution.mechanics.load_factor:.8g} exceeds the kinematic bound {kinematic:.8g} "
             "of the associative one"
         )
-    if not failures and not residuals.largest <= EXACT_RESIDUAL:
-        name, value, _ = max(named, key=lambda row: row[1])
-        warnings.append(
-            f"forces and mechanism fit the flow rule less well than is usual: {name} {value:.2g} exceeds "
-            f"{EXACT_RESIDUAL:g}"
-        )
-    return tuple(failures), tuple(warnings)
+    return tuple(failures)
 
 
 def _bound_failures(solution: Solution, static: float, kinematic: float, size: float) -> list[str]:

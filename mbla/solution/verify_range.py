@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from mbla.arrays import FloatArray
 from mbla.contacts.contacts import Contacts
 from mbla.model.model import LoadCase, Model
 from mbla.program.assemble import yield_limits
