@@ -12,20 +12,23 @@ stays inside all cones if it is short (Dikin's ellipsoid; Nesterov and Nemirovsk
 solver's mechanism is moved, in the same kind of metric, towards contact velocities strictly inside their cones.
 
 Nothing here needs to be believed: what the repaired forces and velocities prove is evaluated by ``verify`` with its own
-statics and kinematics.
+statics and kinematics. ``certified_gap`` is the solver stage's own reckoning of the same, on the program alone.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass, replace
 
 import numpy as np
 import scipy.sparse as sp
-import scipy.sparse.linalg as spla
 
 from mbla.arrays import FloatArray
 from mbla.program.program import Program
 from mbla.program.yield_conditions import YieldLimits, yield_violation
+from mbla.solution.barriers import block_diagonal, force_metric, velocity_hessian
+from mbla.solution.law_state import LawState
+from mbla.solution.linear_solver import factorize
 
 ROUNDS = 6
 """Corrections in a row; each solves one sparse system. Two are usual."""
@@ -34,9 +37,15 @@ EQUILIBRIUM_TOLERANCE = 1e-9
 """Residual, relative to the mean load of a block, that counts as equilibrium: where all joints of a sliding plane are
 on their cones at once, double precision does not get far below 1e-10."""
 
-OPENINGS = (1e-10, 1e-8)
-"""Opening velocities, relative to the largest contact speed, that the mechanism is moved towards; the better one
-counts. Confined joints cannot open at all: there the smaller one leaves less to be charged."""
+BALANCED = 1e-13
+"""Residual at which nothing is left to be mended."""
+
+PROGRESS = 0.2
+"""Share of the residual or incompatibility that a round may leave and still be followed by another."""
+
+OPENINGS = (1e-13, 1e-11, 1e-9)
+"""Opening velocities, relative to the largest contact speed, that the mechanism is moved towards in turn until it is
+compatible; the best one counts. Confined joints cannot open at all: there the smallest leaves least to be charged."""
 
 REGULARIZATION = 1e-15
 """On the unit diagonal of the factorised matrix; refinement removes its trace."""
@@ -44,93 +53,141 @@ REGULARIZATION = 1e-15
 INSIDE = 1e-13
 """Excess over a yield condition, relative to the mean load of a block, that is rounding."""
 
+STEEP = 10.0
+"""Friction up to which the metric follows the cone: beyond it shear could move so much more freely than normal force
+that nothing is left of the latter in double precision."""
 
-def repaired_forces(program: Program, forces: FloatArray, load_factor: float) -> tuple[FloatArray, float] | None:
+CHARGED = 2.0
+"""Normal force, over the largest of the solution, with which rounding in a mechanism's compatibility is charged."""
+
+ZERO_FACTOR = 1e-3
+"""Load factors below this share of dead over live load are taken for that share in relative measures."""
+
+
+@dataclass(frozen=True)
+class CertifiedGap:
+    """What the repaired forces and velocities of a state prove about the associative factor of a program.
+
+    static, kinematic : bounds, NaN where none could be proved
+    gap               : their distance over the load factor, or over a thousandth of dead over live load if that is more
+    forces, load_factor: the repaired forces, (n_points, components), and what they carry; as given where not repaired
+    velocities        : (n_rows,) of the least kinematic bound
+    """
+
+    static: float
+    kinematic: float
+    gap: float
+    forces: FloatArray
+    load_factor: float
+    velocities: FloatArray
+
+
+def certified_gap(program: Program, state: LawState) -> CertifiedGap:
+    """Bounds of the associative load factor that a state proves; no solver is asked."""
+    repaired = repaired_forces(program, state.forces, state.load_factor)
+    forces, factor = (state.forces, state.load_factor) if repaired is None else repaired
+    charge = CHARGED * float(np.abs(state.forces[:, 0]).max(initial=0.0))
+    mechanisms = repaired_mechanisms(program, state.velocities)
+    values = [kinematic_value(program, u, charge) for u in mechanisms]
+    best = int(np.argmin(np.nan_to_num(values, nan=np.inf)))
+    static, kinematic = (np.nan if repaired is None else factor), values[best]
+    least = ZERO_FACTOR * float(np.linalg.norm(program.dead_load) / np.linalg.norm(program.live_load))
+    gap = abs(kinematic - static) / max(abs(kinematic), least, 1e-300)
+    return CertifiedGap(static, kinematic, gap, forces, factor, mechanisms[best])
+
+
+def kinematic_value(program: Program, velocities: FloatArray, charge: float) -> float:
+    """Load factor that velocities, (n_rows,), prove to be at or above the collapse value, NaN where none.
+
+    charge : normal force with which what is left of incompatibility is charged
+    """
+    live_power = float(program.live_load @ velocities)
+    if not live_power > 0.0:
+        return float("nan")
+    limits = program.limits
+    v = (program.equilibrium_matrix.T @ velocities).reshape(-1, program.components)
+    sliding = np.linalg.norm(v[:, 1:], axis=1)
+    surplus = v[:, 0] - limits.friction * sliding
+    resistance = np.where(np.isinf(limits.compression), charge, limits.compression)
+    dissipated = limits.cohesion * sliding + limits.tension * np.maximum(surplus, 0.0)
+    dissipated += resistance * np.maximum(-surplus, 0.0)
+    return float((dissipated.sum() - program.dead_load @ velocities) / live_power)
+
+
+def repaired_forces(
+    program: Program, forces: FloatArray, load_factor: float, inside: float = INSIDE
+) -> tuple[FloatArray, float] | None:
     """Forces near the given ones that balance the loads within the yield conditions, and the load factor they carry.
 
-    forces : (n_points, 3), non-dimensional as ``program``, like the load factor. None where no repair is found.
+    forces : (n_points, components), non-dimensional as ``program``, like the load factor. None where no repair is found
+    inside : excess over a yield condition that is allowed
     """
-    x, factor = _pulled_inside(program.limits, forces), load_factor
-    for _ in range(ROUNDS):
+    x, factor, best, least = forces, load_factor, None, np.inf
+    for _ in range(ROUNDS + 1):
+        off = float(np.abs(_unbalanced(program, x, factor)).max(initial=0.0))
+        excess = float(yield_violation(x, program.limits).max(initial=0.0))
+        if excess <= inside and off <= min(least, EQUILIBRIUM_TOLERANCE):
+            enough = off <= BALANCED or off > PROGRESS * least
+            best, least = (x, factor), off
+            if enough:
+                break
+        x = _pulled_inside(program.limits, x)
         step = _static_correction(program, x, factor)
         if step is None:
-            return None
+            break
         x, factor = x + step[0], factor + step[1]
-        residual = np.abs(_residual(program, x, factor)).max(initial=0.0)
-        excess = yield_violation(x, program.limits).max(initial=0.0)
-        if residual <= EQUILIBRIUM_TOLERANCE and excess <= INSIDE:
-            return x, factor
-        x = _pulled_inside(program.limits, x)
-    return None
+    return best
 
 
 def repaired_mechanisms(program: Program, velocities: FloatArray) -> list[FloatArray]:
-    """The given velocities, (6 n_free,) non-dimensional, and versions of them moved towards compatibility."""
-    moved = [_kinematic_correction(program, velocities, opening) for opening in OPENINGS]
-    return [velocities, *(u for u in moved if u is not None)]
+    """The given velocities, (n_rows,) non-dimensional, and versions of them moved towards compatibility."""
+    found = [velocities]
+    for opening in OPENINGS:
+        u, lack = velocities, np.inf
+        for _ in range(ROUNDS):
+            moved = _kinematic_correction(program, u, opening)
+            if moved is None:
+                break
+            found.append(moved)
+            u, before, lack = moved, lack, incompatibility(program, moved)
+            if lack == 0.0:
+                return found
+            if lack > PROGRESS * before:
+                break
+    return found
 
 
-def _residual(program: Program, x: FloatArray, factor: float) -> FloatArray:
+def incompatibility(program: Program, velocities: FloatArray) -> float:
+    """Sum of μ s − v_N over points that cannot crush, where that is positive."""
+    v = (program.equilibrium_matrix.T @ velocities).reshape(-1, program.components)
+    lack = np.maximum(program.limits.friction * np.linalg.norm(v[:, 1:], axis=1) - v[:, 0], 0.0)
+    return float(lack[np.isinf(program.limits.compression)].sum())
+
+
+def _unbalanced(program: Program, x: FloatArray, factor: float) -> FloatArray:
     return np.asarray(program.equilibrium_matrix @ x.ravel() + program.dead_load + factor * program.live_load)
 
 
 def _pulled_inside(limits: YieldLimits, x: FloatArray) -> FloatArray:
     """The nearest simple change that puts every force strictly inside: normal force off its ends, shear shortened."""
     inside = x.copy()
-    scale = max(float(np.abs(x[:, 0]).max(initial=0.0)), 1e-300)
-    margin = 1e-12 * scale
-    lower = -np.minimum(
-        limits.tension, np.where(limits.friction > 0, limits.cohesion / np.maximum(limits.friction, 1e-300), np.inf)
-    )
-    upper = limits.compression
-    room = np.minimum(margin, 0.25 * (upper - lower))
+    largest = max(float(np.abs(x[:, 0]).max(initial=0.0)), 1e-300)
+    apex = np.where(limits.friction > 0, limits.cohesion / np.maximum(limits.friction, 1e-300), np.inf)
+    lower, upper = -np.minimum(limits.tension, apex), limits.compression
+    room = np.minimum(1e-12 * largest, 0.25 * (upper - lower))
     inside[:, 0] = np.clip(x[:, 0], lower + room, upper - room)
-    capacity = limits.cohesion + limits.friction * inside[:, 0]
-    shear = np.hypot(x[:, 1], x[:, 2])
-    allowed = np.maximum(capacity * (1 - 1e-10), 0.0)
+    shear = np.linalg.norm(x[:, 1:], axis=1)
+    allowed = np.maximum((limits.cohesion + limits.friction * inside[:, 0]) * (1 - 1e-10), 0.0)
     factor = np.where(shear > allowed, allowed / np.maximum(shear, 1e-300), 1.0)
     inside[:, 1:] *= factor[:, None]
     return inside
 
 
-def _barrier_inverse_hessian(limits: YieldLimits, x: FloatArray) -> FloatArray:
-    """Inverse Hessian of the barriers of all yield conditions at forces strictly inside, (n_points, 3, 3).
-
-    Cone ‖T‖ ≤ s = c + μN: −log(s² − ‖T‖²); half-lines: −log of their slack. Points without shear strength keep T = 0.
-    """
-    n = len(x)
-    mu, s = limits.friction, limits.cohesion + limits.friction * x[:, 0]
-    t = x[:, 1:]
-    shearless = (mu == 0) & (limits.cohesion == 0)
-    s = np.where(shearless, 1.0, s)
-    det = np.maximum(s**2 - (t**2).sum(axis=1), 1e-300)
-    gradient = np.column_stack([-mu * s, t]) * (2.0 / det)[:, None]
-    hessian = gradient[:, :, None] * gradient[:, None, :]
-    hessian[:, 0, 0] -= 2.0 * mu**2 / det
-    hessian[:, 1, 1] += 2.0 / det
-    hessian[:, 2, 2] += 2.0 / det
-    slack = np.maximum(x[:, 0] + limits.tension, 1e-300)
-    cut_off = (limits.cohesion > 0) | (mu == 0)
-    hessian[:, 0, 0] += np.where(cut_off, slack**-2, 0.0)
-    finite = np.isfinite(limits.compression)
-    hessian[finite, 0, 0] += np.maximum(limits.compression[finite] - x[finite, 0], 1e-300) ** -2
-    # a scaling to unit diagonal keeps the inversion accurate at points whose forces are 1e-12 of the others
-    size = 1.0 / np.sqrt(np.maximum(np.einsum("nii->ni", hessian), 1e-300))
-    inverse = np.linalg.inv(hessian * size[:, :, None] * size[:, None, :] + 1e-14 * np.eye(3)[None])
-    inverse *= size[:, :, None] * size[:, None, :]
-    inverse[shearless, 1:, :] = 0.0
-    inverse[shearless, :, 1:] = 0.0
-    return inverse.reshape(n, 3, 3)
-
-
-def _block_diagonal(blocks: FloatArray) -> sp.csr_array:
-    n = len(blocks)
-    return sp.csr_array(sp.bsr_array((blocks, np.arange(n), np.arange(n + 1)), shape=(3 * n, 3 * n)))
-
-
 def _static_correction(program: Program, x: FloatArray, factor: float) -> tuple[FloatArray, float] | None:
     """Least change of forces and load factor, in the barrier's metric, that restores equilibrium."""
-    weights = _block_diagonal(_barrier_inverse_hessian(program.limits, x))
+    limits = program.limits
+    needed = 2.0 * np.linalg.norm(x[:, 1:], axis=1) / np.maximum(x[:, 0], 1e-300)
+    weights = force_metric(replace(limits, friction=np.minimum(limits.friction, np.maximum(STEEP, needed))), x)
     matrix = program.equilibrium_matrix
     normal = sp.csc_array(matrix @ weights @ matrix.T)
     solve = _bordered_solver(normal, program.live_load, (1e-4 * max(abs(factor), 1e-3)) ** 2)
@@ -138,11 +195,10 @@ def _static_correction(program: Program, x: FloatArray, factor: float) -> tuple[
         return None
     delta, delta_factor = np.zeros_like(x), 0.0
     for _ in range(4):  # refinement: the metric spans many decades
-        residual = _residual(program, x + delta, factor + delta_factor)
-        y = solve(-residual)
+        y = solve(-_unbalanced(program, x + delta, factor + delta_factor))
         if not np.isfinite(y).all():
             return None
-        delta = delta + (weights @ (matrix.T @ y[:-1])).reshape(-1, 3)
+        delta = delta + (weights @ (matrix.T @ y[:-1])).reshape(x.shape)
         delta_factor += float(y[-1])
     return delta, delta_factor
 
@@ -165,14 +221,12 @@ def _bordered_solver(
     size = float(np.linalg.norm(border))
     corner = -1.0 / (weight * size**2) if np.isfinite(weight) else 0.0
     column = sp.csc_array((border / size)[:, None])
-    system = sp.csc_matrix(sp.block_array([[scaled, column], [column.T, sp.csc_array([[corner]])]]))
-    try:
-        factors = spla.splu(system, permc_spec="MMD_AT_PLUS_A", options={"SymmetricMode": True})
-    except RuntimeError:  # exactly singular
+    solve_scaled = factorize(sp.block_array([[scaled, column], [column.T, sp.csc_array([[corner]])]]), symmetric=True)
+    if solve_scaled is None:
         return None
 
     def solve(rhs: FloatArray) -> FloatArray:
-        solution = factors.solve(np.append(scale * rhs, 0.0))
+        solution = solve_scaled(np.append(scale * rhs, 0.0))
         return np.append(scale * solution[:-1], solution[-1] / size)
 
     return solve
@@ -180,18 +234,15 @@ def _bordered_solver(
 
 def _kinematic_correction(program: Program, u: FloatArray, opening: float) -> FloatArray | None:
     """Least change, in the barrier's metric, towards velocities that open by ``opening`` of the largest speed."""
-    mu = program.limits.friction
-    v = (program.equilibrium_matrix.T @ u).reshape(-1, 3)
-    target = v.copy()
-    sliding = np.hypot(v[:, 1], v[:, 2])
-    least = opening * float(np.abs(v).max(initial=0.0))
-    target[:, 0] = np.maximum(v[:, 0], mu * sliding + least)
-    weights = _velocity_barrier_hessian(mu, target)
-    # joints that can crush need not open: they only keep the velocity from straying
+    mu, matrix = program.limits.friction, program.equilibrium_matrix
+    v = (matrix.T @ u).reshape(-1, program.components)
     speed = max(float(np.abs(v).max(initial=0.0)), 1e-9 * float(np.abs(u).max(initial=0.0)), 1e-150)
-    weights[np.isfinite(program.limits.compression)] = np.eye(3) / speed**2
-    metric = _block_diagonal(weights)
-    matrix = program.equilibrium_matrix
+    target = v.copy()
+    target[:, 0] = np.maximum(v[:, 0], mu * np.linalg.norm(v[:, 1:], axis=1) + opening * speed)
+    weights = velocity_hessian(mu, target)
+    # joints that can crush need not open: they only keep the velocity from straying
+    weights[np.isfinite(program.limits.compression)] = np.eye(program.components) / speed**2
+    metric = block_diagonal(weights)
     solve = _bordered_solver(sp.csc_array(matrix @ metric @ matrix.T), program.live_load, np.inf)
     if solve is None:
         return None
@@ -200,14 +251,3 @@ def _kinematic_correction(program: Program, u: FloatArray, opening: float) -> Fl
         misfit = target.ravel() - matrix.T @ (u + delta)
         delta = delta + solve(matrix @ (metric @ misfit))[:-1]
     return u + delta if np.isfinite(delta).all() else None
-
-
-def _velocity_barrier_hessian(mu: FloatArray, v: FloatArray) -> FloatArray:
-    """Hessian of −log(v_N² − μ² ‖v_T‖²) at velocities strictly inside, (n_points, 3, 3); −log v_N where μ = 0."""
-    det = np.maximum(v[:, 0] ** 2 - mu**2 * (v[:, 1] ** 2 + v[:, 2] ** 2), 1e-300)
-    gradient = np.column_stack([-v[:, 0], (mu**2)[:, None] * v[:, 1:]]) * (2.0 / det)[:, None]
-    hessian = gradient[:, :, None] * gradient[:, None, :]
-    hessian[:, 0, 0] -= 2.0 / det
-    hessian[:, 1, 1] += 2.0 * mu**2 / det
-    hessian[:, 2, 2] += 2.0 * mu**2 / det
-    return np.asarray(hessian)

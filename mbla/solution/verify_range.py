@@ -10,12 +10,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from mbla.arrays import FloatArray
 from mbla.contacts.contacts import Contacts
 from mbla.model.model import LoadCase, Model
 from mbla.program.assemble import yield_limits
+from mbla.solution.residuals import residuals_of
 from mbla.solution.solution import Mechanics, Solution
-from mbla.solution.verify import residuals_of
 
 END_RESIDUAL = 1e-6
 """Largest residual of an end; that of the load factor reported where that is larger."""
@@ -34,7 +33,7 @@ def range_checks(model: Model, contacts: Contacts, load_case: LoadCase, solution
         return np.nan, np.nan
     limits = yield_limits(model, contacts)
     dilatancy = limits.dilatancy if solution.flow_rule == "dilatancy" else np.zeros_like(limits.dilatancy)
-    allowed = max(END_RESIDUAL, _worst(model, contacts, load_case, found, dilatancy))
+    allowed = max(END_RESIDUAL, residuals_of(model, contacts, load_case, found, dilatancy).largest)
     if not allowed <= MOST_RESIDUAL:
         return np.nan, np.nan
 
@@ -44,23 +43,7 @@ def range_checks(model: Model, contacts: Contacts, load_case: LoadCase, solution
         speed = float(np.abs(found.mechanism).max(initial=0.0))
         if np.abs(end.mechanism - found.mechanism).max(initial=0.0) > SAME * speed:
             return np.nan
-        fits = _worst(model, contacts, load_case, end, dilatancy) <= allowed
+        fits = residuals_of(model, contacts, load_case, end, dilatancy).largest <= allowed
         return end.load_factor if fits else np.nan
 
     return verified(solution.lower, -1.0), verified(solution.upper, 1.0)
-
-
-def _worst(model: Model, contacts: Contacts, load_case: LoadCase, mechanics: Mechanics, dilatancy: FloatArray) -> float:
-    """Largest of the residuals of a state; NaN where one of them is."""
-    residuals = residuals_of(model, contacts, load_case, mechanics, dilatancy)
-    return float(
-        np.max(
-            [
-                residuals.equilibrium,
-                residuals.yielding,
-                residuals.penetration,
-                residuals.complementarity,
-                abs(residuals.live_power - 1.0),
-            ]
-        )
-    )

@@ -1,0 +1,140 @@
+"""What forces and velocities prove, evaluated with the statics and kinematics of the verification.
+
+- Static: forces in equilibrium with λ within the yield conditions prove that collapse needs at least λ.
+- Kinematic: velocities compatible with the yield conditions prove that it needs no more than −f_D·u plus dissipation,
+  per live power. The same velocities prove that the dead load alone is not carried where it does more work than the
+  joints dissipate.
+
+Rounding leaves velocities incompatible by δ = μ s − v_N here and there. By virtual work each δ is worth at most N δ: it
+is charged with a normal force that no solution comes near.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from mbla.arrays import FloatArray
+from mbla.contacts.contacts import Contacts
+from mbla.model.model import LoadCase, Model
+from mbla.program import assemble
+from mbla.program.yield_conditions import YieldLimits, yield_violation
+from mbla.solution.bounds import repaired_forces, repaired_mechanisms
+from mbla.solution.load_scale import LoadScale
+from mbla.solution.residuals import unbalanced_loads
+from mbla.solution.solution import Mechanics
+from mbla.solution.statics import contact_velocities, power
+
+PROVED_RESIDUAL = 2e-9
+"""Unbalanced force and excess over yield, relative to the scale of the block, with which forces still prove a bound."""
+
+ROUNDING = 1e-6
+"""Share of the forces on a block that its scale is not less than there: thin light blocks pass on forces whose rounding
+is more than their weight."""
+
+LOCKED_IN = 1e4
+"""Normal force, over the whole dead load, that would have to be locked in to hold a structure that a certificate with
+rounding says to fall."""
+
+
+def associative_bounds(
+    model: Model,
+    contacts: Contacts,
+    load_case: LoadCase,
+    associative: Mechanics,
+    limits: YieldLimits,
+    scale: LoadScale,
+) -> tuple[float, float]:
+    """Static and kinematic bound of the associative load factor, NaN where none could be proved."""
+    program = assemble(model, contacts, load_case)
+    scaling = program.scaling
+    repaired = repaired_forces(
+        program, associative.contact_forces / scaling.force, associative.load_factor / scaling.live
+    )
+    static = np.nan
+    if repaired is not None:
+        forces, factor = scaling.forces(repaired[0]), scaling.load_factor(repaired[1])
+        if _forces_prove(model, contacts, load_case, forces, factor, limits, scale):
+            static = factor
+    if not np.any(load_case.dead_load[model.free]):
+        static = float(np.fmax(static, 0.0))  # no forces balance no load
+    largest = 2.0 * float(np.abs(associative.contact_forces[:, 0]).max(initial=0.0))
+    velocities = associative.mechanism[program.free].ravel() / (scaling.row * scaling.live)
+    values = [
+        _proved_kinematic(model, contacts, load_case, program.mechanism(u), limits, largest)
+        for u in repaired_mechanisms(program, velocities)
+    ]
+    return static, min((value for value in values if np.isfinite(value)), default=np.nan)
+
+
+def certificate_failures(
+    model: Model,
+    contacts: Contacts,
+    load_case: LoadCase,
+    certificate: FloatArray,
+    limits: YieldLimits,
+    scale: LoadScale,
+) -> tuple[str, ...]:
+    """Why a mechanism, (n_blocks, 6), does not prove that the dead load alone is not carried; nothing where it does."""
+    program = assemble(model, contacts, load_case)
+    velocities = certificate[program.free].ravel() / (program.scaling.row * program.scaling.live)
+    failures: tuple[str, ...] = ()
+    for u in repaired_mechanisms(program, velocities):
+        v = contact_velocities(model, contacts, program.mechanism(u))
+        dissipated, lack = _dissipation(limits, v)
+        work = power(load_case.dead_load, program.mechanism(u)) - dissipated
+        charge = LOCKED_IN * float(scale.own.sum()) * lack
+        if work > charge:
+            return ()
+        failures = failures or (_words(work, lack, float(np.abs(v).max(initial=0.0))),)
+    return failures
+
+
+def _words(work: float, lack: float, speed: float) -> str:
+    if not work > 0:
+        return "the dead load does no work in the mechanism that should show the lack of equilibrium"
+    return f"the mechanism that shows the lack of equilibrium closes joints by {lack / speed:.1g} of its speed"
+
+
+def _forces_prove(
+    model: Model,
+    contacts: Contacts,
+    load_case: LoadCase,
+    forces: FloatArray,
+    factor: float,
+    limits: YieldLimits,
+    scale: LoadScale,
+) -> bool:
+    """Whether forces balance the loads within the yield conditions up to rounding."""
+    unbalanced = unbalanced_loads(model, contacts, load_case, forces, factor, scale)
+    excess = yield_violation(forces, limits)
+    rounding = ROUNDING * float(np.abs(forces).max(initial=0.0))
+    block_scale = np.maximum(scale.block_scale(contacts, forces), rounding)
+    point_scale = np.maximum(scale.point_scale(contacts, forces), rounding)
+    return bool(np.all(unbalanced <= PROVED_RESIDUAL * block_scale) and np.all(excess <= PROVED_RESIDUAL * point_scale))
+
+
+def _proved_kinematic(
+    model: Model,
+    contacts: Contacts,
+    load_case: LoadCase,
+    mechanism: FloatArray,
+    limits: YieldLimits,
+    largest: float,
+) -> float:
+    """Load factor at or above the collapse value; ``largest`` is the normal force with which rounding is charged."""
+    live_power = power(load_case.live_load, mechanism)
+    if not live_power > 0.0:
+        return np.nan
+    dissipated, lack = _dissipation(limits, contact_velocities(model, contacts, mechanism))
+    return (dissipated + largest * lack - power(load_case.dead_load, mechanism)) / live_power
+
+
+def _dissipation(limits: YieldLimits, v: FloatArray) -> tuple[float, float]:
+    """Power that the joints dissipate at most by associative flow, and Σ δ over the points that cannot crush."""
+    sliding = np.hypot(v[:, 1], v[:, 2])
+    surplus = v[:, 0] - limits.friction * sliding
+    short = np.maximum(-surplus, 0.0)
+    crushable = np.isfinite(limits.compression)
+    crushed = np.where(crushable, limits.compression, 0.0) * short
+    dissipated = limits.cohesion * sliding + limits.tension * np.maximum(surplus, 0.0) + crushed
+    return float(dissipated.sum()), float(short[~crushable].sum())
