@@ -34,10 +34,10 @@ class _Stage:
     settings: SolverSettings
     log: Log
 
-    def mechanics(self, part: int, state: LawState | None) -> Mechanics | None:
+    def mechanics(self, part: int, state: LawState | None, flow_rule: str) -> Mechanics | None:
         """A state of one part as mechanics of the whole model; None where the other parts do not carry it."""
         whole = None if state is None else whole_state(self.parts, part, state, self.settings, self.log)
-        return None if whole is None else mechanics_of(*whole)
+        return None if whole is None else mechanics_of(*whole, flow_rule)
 
 
 def solve(reduced: Reduced, analysis: AnalysisSection, settings: SolverSettings, log: Log | None = None) -> Solution:
@@ -110,16 +110,16 @@ def _with_load_factor(
 ) -> Solution:
     result = results[first]
     solution = _solution(analysis, result.status, result.reason)
-    associative = stage.mechanics(first_associative, results[first_associative].associative.state)
+    associative = stage.mechanics(first_associative, results[first_associative].associative.state, "associative")
     if result.sequence is None:
         return replace(solution, mechanics=associative, associative=associative)
     sequence, live = result.sequence, stage.parts[first].scaling.live
     ends = result.range
     return replace(
         solution,
-        mechanics=stage.mechanics(first, sequence.state),
-        lower=None if ends is None else stage.mechanics(first, ends.lower),
-        upper=None if ends is None else stage.mechanics(first, ends.upper),
+        mechanics=stage.mechanics(first, sequence.state, analysis.flow_rule),
+        lower=None if ends is None else stage.mechanics(first, ends.lower, analysis.flow_rule),
+        upper=None if ends is None else stage.mechanics(first, ends.upper, analysis.flow_rule),
         associative=associative,
         scheme=analysis.scheme,
         remarks=sequence.remarks,
