@@ -18,7 +18,7 @@ from mbla.results.outcome import (
 from mbla.results.results import CaseResult
 from mbla.results.text import number, small
 from mbla.solution.solution import Status
-from mbla.solution.verify import SOLVED_COMPLEMENTARITY
+from mbla.solution.verify import SOLVED_RESIDUAL
 
 STOPPED_BY = {
     Status.ITERATION_LIMIT: "out of iterations",
@@ -67,7 +67,7 @@ def _without_load_factor(model: Model, case: CaseResult) -> str:
         return f"no collapse load: it stands only by self-stress; with the forces that this takes, {value}"
     label = "NOT VERIFIED" if case.status is Status.NOT_VERIFIED else f"NOT SOLVED ({_stopped(case)})"
     residual = law_residual(case.checks)
-    misses = f"misses the law by {small(residual)}" if residual > SOLVED_COMPLEMENTARITY else "is not confirmed"
+    misses = f"misses the law by {small(residual)}" if residual > SOLVED_RESIDUAL else "is not confirmed"
     return f"{label}: no load factor; the best iterate, {value}, {misses}"
 
 
