@@ -9,6 +9,7 @@ import numpy as np
 from mbla.deck.analysis import AnalysisSection
 from mbla.program.program import Program
 from mbla.solution.associative import AssociativeResult, solve_associative
+from mbla.solution.boundedness import Boundedness, non_associative_bounded
 from mbla.solution.clarabel_adapter import Log
 from mbla.solution.factor_range import FactorRange, factor_range
 from mbla.solution.law_state import LawState, SequenceResult
@@ -48,9 +49,10 @@ class PartResult:
     @property
     def status(self) -> Status:
         """Of the flow rule of the analysis; never better than that of the associative program it started from."""
-        if self.sequence is None or (self.sequence.status is Status.SOLVED and self.associative.state is not None):
+        if self.sequence is None:
             return self.associative.status
-        return self.sequence.status
+        weak_start = self.associative.state is not None and self.sequence.status is Status.SOLVED
+        return self.associative.status if weak_start else self.sequence.status
 
     @property
     def reason(self) -> str:
@@ -76,14 +78,36 @@ def _by_flow_rule(program: Program, analysis: AnalysisSection, settings: SolverS
     if not np.any(program.live_load):
         return _unloaded_part(program, settings, log)
     associative = solve_associative(program, settings, log)
-    if analysis.flow_rule == "associative" or associative.state is None:
+    if analysis.flow_rule == "associative" or not (associative.state or associative.status is Status.UNBOUNDED):
         return PartResult(program, associative, None, loaded=True)
+    if associative.state is None:
+        return _locked_by_dilatancy(program, associative, analysis, settings, log)
+    return PartResult(program, associative, _sequence(program, associative, analysis, settings, log), loaded=True)
+
+
+def _sequence(
+    program: Program, associative: AssociativeResult, analysis: AnalysisSection, settings: SolverSettings, log: Log
+) -> SequenceResult:
+    """The flow rule and the scheme of the analysis."""
     if analysis.flow_rule == "non_associative" and analysis.scheme != "published":
-        sequence = solve_proximal(program, associative, analysis.proximal.max_programs, settings, log)
-    else:
-        dilatancy = program.limits.dilatancy if analysis.flow_rule == "dilatancy" else np.zeros(program.n_points)
-        sequence = solve_published(program, associative, analysis.published, dilatancy, settings, log)
-    return PartResult(program, associative, sequence, loaded=True)
+        return solve_proximal(program, associative, analysis.proximal.max_programs, settings, log)
+    dilatancy = program.limits.dilatancy if analysis.flow_rule == "dilatancy" else np.zeros(program.n_points)
+    return solve_published(program, associative, analysis.published, dilatancy, settings, log)
+
+
+def _locked_by_dilatancy(
+    program: Program, associative: AssociativeResult, analysis: AnalysisSection, settings: SolverSettings, log: Log
+) -> PartResult:
+    """Associative flow locks: without dilatancy joints may still give way, which is decided first."""
+    decision = non_associative_bounded(program, settings)
+    if analysis.flow_rule != "non_associative" or decision.verdict is Boundedness.UNBOUNDED:
+        return PartResult(program, replace(associative, reason=decision.reason), None, loaded=True)
+    if decision.verdict is Boundedness.DOUBTFUL:
+        undecided = replace(associative, status=Status.NOT_VERIFIED, reason=decision.reason)
+        return PartResult(program, undecided, None, loaded=True)
+    sequence = _sequence(program, associative, analysis.model_copy(update={"scheme": "proximal"}), settings, log)
+    sequence = replace(sequence, remarks=(decision.reason, *sequence.remarks))
+    return PartResult(program, replace(associative, reason=""), sequence, loaded=True)
 
 
 def _range_of(result: PartResult, settings: SolverSettings, log: Log) -> FactorRange | None:

@@ -84,7 +84,7 @@ def verify(model: Model, contacts: Contacts, load_case: LoadCase, solution: Solu
 def verified_status(solution: Solution, checks: Checks) -> Status:
     """What may be claimed: the solver's status, lowered to what verification found."""
     if solution.status not in (Status.SOLVED, Status.APPROXIMATE):
-        if solution.status is Status.NO_EQUILIBRIUM and not checks.verified:
+        if solution.status in (Status.NO_EQUILIBRIUM, Status.UNBOUNDED) and not checks.verified:
             return Status.NOT_VERIFIED
         return solution.status
     if checks.verified and solution.status is Status.SOLVED:
