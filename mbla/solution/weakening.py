@@ -87,7 +87,7 @@ def weaken_springs(program: Program, load: Load, limits: YieldLimits, settings: 
     """
     if not np.any(getattr(program, load)):
         return Weakening(Outcome.CARRIED, None, 0.0)
-    blocks = _Blocks(*_springs(program, load))
+    blocks = _Blocks(*springs_of(program, load))
     whole = spring_problem(
         program.equilibrium_matrix, getattr(program, load), limits, blocks.springs, settings.deadline
     )
@@ -129,7 +129,7 @@ class _Blocks:
         return np.asarray(kappa * np.linalg.norm((self.way_back @ u).reshape(-1, 6), axis=1))
 
 
-def _springs(program: Program, load: Load) -> tuple[sp.csr_array, sp.csr_array, IntArray]:
+def springs_of(program: Program, load: Load) -> tuple[sp.csr_array, sp.csr_array, IntArray]:
     """W by the size of each block's load, the mean of the others' where it has none; see ``_Blocks``."""
     way_back = sp.csr_array(sp.eye_array(len(program.dead_load), format="csr"))
     while program.reduction is not None:
