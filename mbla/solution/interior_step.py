@@ -387,9 +387,7 @@ def _wanted(
         growth = step.law.slope * predictor.normal
         opening = opening - second * predictor.normal * predictor.opening
         crushing = crushing + second * predictor.normal[step.crushable] * predictor.crushing
-        sliding = sliding - second * (
-            growth * predictor.speed + (predictor.shear * predictor.slip).sum(axis=1)
-        )
+        sliding = sliding - second * (growth * predictor.speed + (predictor.shear * predictor.slip).sum(axis=1))
         turning = turning - second * (growth[:, None] * predictor.slip + predictor.speed[:, None] * predictor.shear)
     return opening, crushing, sliding, turning
 
