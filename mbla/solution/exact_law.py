@@ -79,7 +79,7 @@ def exact_step(
     The last iterate is returned; whether it is good enough its residual says.
     """
     program, u, factor, count = stiffness.program, velocities, load_factor, 0
-    residual, state = _residual(program, slope, anchor, rho, u, factor, fixed_load)
+    residual, state = _residual(stiffness, slope, anchor, rho, u, factor, fixed_load)
     norm = float(np.linalg.norm(residual))
     while np.abs(residual).max(initial=0.0) > CONVERGED and count < most_steps:
         solve = stiffness.factorized(
@@ -94,7 +94,7 @@ def exact_step(
         size = 1.0
         for _ in range(BACKTRACKS):
             u_new, factor_new = u + size * step[:-1], factor + size * float(step[-1])
-            trial, trial_state = _residual(program, slope, anchor, rho, u_new, factor_new, fixed_load)
+            trial, trial_state = _residual(stiffness, slope, anchor, rho, u_new, factor_new, fixed_load)
             if np.linalg.norm(trial) < (1.0 - 1e-4 * size) * norm:
                 break
             size *= 0.5
@@ -106,11 +106,11 @@ def exact_step(
 
 
 def joint_state(
-    program: Program, slope: FloatArray, anchor: FloatArray, rho: float, velocities: FloatArray
+    stiffness: Stiffness, slope: FloatArray, anchor: FloatArray, rho: float, velocities: FloatArray
 ) -> JointState:
     """Return map of every joint."""
-    limits = program.limits
-    trial = anchor - (program.equilibrium_matrix.T @ velocities).reshape(-1, program.components) / rho
+    limits = stiffness.program.limits
+    trial = anchor - stiffness.velocities(velocities) / rho
     size = np.linalg.norm(trial[:, 1:], axis=1)
     direction = trial[:, 1:] / np.maximum(size, 1e-300)[:, None]
     normal = np.clip(trial[:, 0], -limits.tension, limits.compression)
@@ -140,7 +140,7 @@ def joint_tangents(program: Program, slope: FloatArray, rho: float, state: Joint
 
 
 def _residual(
-    program: Program,
+    stiffness: Stiffness,
     slope: FloatArray,
     anchor: FloatArray,
     rho: float,
@@ -149,6 +149,7 @@ def _residual(
     fixed_load: bool,
 ) -> tuple[FloatArray, JointState]:
     """Unbalanced forces and f_L·u − 1 (0 at a fixed load), (n_rows + 1,); the state of the joints."""
-    state = joint_state(program, slope, anchor, rho, u)
+    program = stiffness.program
+    state = joint_state(stiffness, slope, anchor, rho, u)
     balance = program.equilibrium_matrix @ state.forces.ravel() + program.dead_load + factor * program.live_load
     return np.append(balance, 0.0 if fixed_load else program.live_load @ u - 1.0), state

@@ -185,7 +185,7 @@ def _start(step: _Step, load_factor: float) -> _Iterate:
     normal = np.full(program.n_points, size) + limits.tension
     half = 0.5 * (limits.compression + limits.tension)
     normal = np.minimum(normal, half)
-    product = size * (float(np.abs(program.equilibrium_matrix.T @ u).mean()) + step.rho * size)
+    product = size * (float(np.abs(step.stiffness.velocities(u)).mean()) + step.rho * size)
     nothing = np.zeros((program.n_points, program.components - 1))
     return _Iterate(
         u=u,
@@ -202,7 +202,7 @@ def _start(step: _Step, load_factor: float) -> _Iterate:
 def _residuals(step: _Step, now: _Iterate) -> _Residuals:
     program = step.program
     forces = np.column_stack([now.normal - program.limits.tension, now.shear])
-    v = (program.equilibrium_matrix.T @ now.u).reshape(-1, program.components)
+    v = step.stiffness.velocities(now.u)
     balance = program.equilibrium_matrix @ forces.ravel() + program.dead_load + now.factor * program.live_load
     elastic = step.rho * (forces - step.anchor)
     limit = step.limit(now.normal)
@@ -333,7 +333,7 @@ class _Joints:
         g[:, 0, 0] = 1.0
         g[:, 0, 1:] = (law.dilatancy * over)[:, None] * now.shear
         g[:, 1:, 1:] = cone
-        inverse = np.linalg.inv(h)
+        inverse: FloatArray = np.linalg.inv(h)
         return _Joints(step, limit, cone, inverse, np.matmul(inverse, g))
 
     def direction(
@@ -358,7 +358,7 @@ class _Joints:
         rhs = -missing.balance
         rhs[:-1] -= program.equilibrium_matrix @ free.ravel()
         answer = solve(rhs)
-        dv = (program.equilibrium_matrix.T @ answer[:-1]).reshape(-1, program.components)
+        dv = step.stiffness.velocities(answer[:-1])
         dx = free - np.einsum("pij,pj->pi", self.tangents, dv)
         slip = dv[:, 1:] + step.rho * dx[:, 1:] + missing.shear
         speed = sliding - now.speed * law.slope * dx[:, 0]

@@ -111,7 +111,7 @@ def continued(
 ) -> tuple[FloatArray, float] | None:
     """Velocities and load factor if every joint goes on as at the end of a step, open, sliding or sticking."""
     program, stiffness = stepper.program, stepper.stiffness
-    state = joint_state(program, stepper.slope, before.anchor, before.rho, before.velocities)
+    state = joint_state(stiffness, stepper.slope, before.anchor, before.rho, before.velocities)
     solve = stiffness.factorized(
         joint_tangents(program, stepper.slope, before.rho, state),
         REGULARIZATION * stiffness.size / before.rho,

@@ -51,6 +51,7 @@ class Stiffness:
     diagonal : (n_rows,) place of the diagonal entries in the order of the program's rows
     border   : places of column and row of the live load, in the order of the program's rows, and of the corner
     size     : (n_rows,) diagonal of A Aᵀ: stiffness of every row when all joints stick with stiffness 1
+    compatibility : Aᵀ, by rows
     """
 
     program: Program
@@ -61,6 +62,11 @@ class Stiffness:
     diagonal: IntArray
     border: tuple[IntArray, IntArray, int]
     size: FloatArray
+    compatibility: sp.csr_array
+
+    def velocities(self, u: FloatArray) -> FloatArray:
+        """Velocities at the contact points, (n_points, components)."""
+        return (self.compatibility @ u).reshape(-1, self.program.components)
 
     def factorized(self, tangents: FloatArray, shift: FloatArray, *, fixed_load: bool = False) -> Solve | None:
         """Factorise with C, (n_points, components, components), and a shift of the diagonal, (n_rows,).
@@ -145,6 +151,7 @@ def stiffness_of(program: Program) -> Stiffness:
         diagonal=places(every, every),
         border=(places(every, end), places(end, every), int(places(end[:1], end[:1])[0])),
         size=np.asarray(program.equilibrium_matrix.multiply(program.equilibrium_matrix).sum(axis=1)),
+        compatibility=sp.csr_array(program.equilibrium_matrix.T),
     )
 
 

@@ -8,6 +8,7 @@ import pytest
 from mbla.arrays import FloatArray
 from mbla.program.program import Program
 from mbla.solution.exact_law import joint_state, joint_tangents
+from mbla.solution.stiffness import stiffness_of
 from tests.line import WALL, line_of
 
 RHO = 0.7
@@ -32,14 +33,15 @@ def test_what_the_forces_leave_of_the_motion_obeys_the_law(share: float, overrid
     program = wall(*overrides)
     limits, slope = program.limits, share * program.limits.friction
     anchor, u = scattered(program)
-    x = joint_state(program, slope, anchor, RHO, u).forces
+    x = joint_state(stiffness_of(program), slope, anchor, RHO, u).forces
     v = (program.equilibrium_matrix.T @ u).reshape(-1, 3) + RHO * (x - anchor)
     strength = limits.friction * x[:, 0] + limits.cohesion
     sliding = np.linalg.norm(v[:, 1:], axis=1)
     surplus = v[:, 0] - slope * sliding
     inside = (x[:, 0] > -limits.tension + 1e-9) & (x[:, 0] < limits.compression - 1e-9)
     assert 0 < np.count_nonzero(inside) < program.n_points
-    assert np.all(x[:, 0] >= -limits.tension) and np.all(x[:, 0] <= limits.compression)
+    assert np.all(x[:, 0] >= -limits.tension)
+    assert np.all(x[:, 0] <= limits.compression)
     assert np.all(np.linalg.norm(x[:, 1:], axis=1) <= strength + 1e-12)
     assert surplus[inside] == pytest.approx(0.0, abs=1e-12)
     assert np.all(surplus[x[:, 0] <= -limits.tension] >= -1e-12)
@@ -55,8 +57,8 @@ def test_the_exact_law_agrees_with_its_tangent(share: float, overrides: tuple[st
     slope = share * program.limits.friction
     anchor, u = scattered(program)
     du = np.random.default_rng(5).normal(size=len(u))
-    here = joint_state(program, slope, anchor, RHO, u)
-    there = joint_state(program, slope, anchor, RHO, u + 1e-7 * du)
+    here = joint_state(stiffness_of(program), slope, anchor, RHO, u)
+    there = joint_state(stiffness_of(program), slope, anchor, RHO, u + 1e-7 * du)
     velocity = (program.equilibrium_matrix.T @ du).reshape(-1, 3)
     expected = -np.einsum("pij,pj->pi", joint_tangents(program, slope, RHO, here), velocity)
     assert (there.forces - here.forces) / 1e-7 == pytest.approx(expected, abs=1e-5)
@@ -67,7 +69,7 @@ def test_with_the_friction_angle_it_is_the_projection_on_the_cone() -> None:
     program = wall()
     anchor, u = scattered(program)
     trial = anchor - (program.equilibrium_matrix.T @ u).reshape(-1, 3) / RHO
-    x = joint_state(program, program.limits.friction, anchor, RHO, u).forces
+    x = joint_state(stiffness_of(program), program.limits.friction, anchor, RHO, u).forces
     cut = trial - x
     assert (x * cut).sum(axis=1) == pytest.approx(0.0, abs=1e-12)
     assert np.all(cut[:, 0] + program.limits.friction * np.linalg.norm(cut[:, 1:], axis=1) <= 1e-12)
