@@ -333,7 +333,7 @@ class _Joints:
         g[:, 0, 0] = 1.0
         g[:, 0, 1:] = (law.dilatancy * over)[:, None] * now.shear
         g[:, 1:, 1:] = cone
-        inverse: FloatArray = np.linalg.inv(h)
+        inverse: FloatArray = np.asarray(np.linalg.inv(h), dtype=np.float64)
         return _Joints(step, limit, cone, inverse, np.matmul(inverse, g))
 
     def direction(
