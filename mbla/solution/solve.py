@@ -126,8 +126,10 @@ def _with_load_factor(
     result = results[first]
     solution = _solution(analysis, result.status, result.reason)
     associative = stage.mechanics(first_associative, results[first_associative].associative.state, "associative")
+    outer = _outer(stage, results)
+    remarks = tuple(remark for result in results for remark in result.remarks)
     if result.sequence is None:
-        return replace(solution, mechanics=associative, associative=associative)
+        return replace(solution, mechanics=associative, associative=associative, outer=outer, remarks=remarks)
     sequence, live = result.sequence, stage.parts[first].scaling.live
     ends = result.range
     return replace(
@@ -137,10 +139,20 @@ def _with_load_factor(
         upper=None if ends is None else stage.mechanics(first, ends.upper, analysis.flow_rule),
         associative=associative,
         scheme=analysis.scheme,
-        remarks=sequence.remarks,
+        outer=outer,
+        remarks=(*remarks, *sequence.remarks),
         spread=None if sequence.spread is None else (sequence.spread[0] * live, sequence.spread[1] * live),
         path=sequence.path,
     )
+
+
+def _outer(stage: _Stage, results: Sequence[PartResult]) -> Mechanics | None:
+    """With circumscribed friction polyhedra: the part that collapses first; None where none were asked for."""
+    states = [None if result.outer is None else result.outer.state for result in results]
+    if all(state is None for state in states):
+        return None
+    first = min(range(len(states)), key=lambda part: _factor(states[part]))
+    return stage.mechanics(first, states[first], "associative")
 
 
 def _solution(analysis: AnalysisSection, status: Status, reason: str) -> Solution:
