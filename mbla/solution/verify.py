@@ -113,7 +113,7 @@ def verified_status(solution: Solution, checks: Checks) -> Status:
 
 
 def _of_the_true_cone(solution: Solution) -> tuple[Mechanics, Mechanics | None]:
-    """By the flow rule claimed and by the associative one; of polyhedra the forces of the inner, the motion of the outer."""
+    """By the flow rule claimed and the associative one; of polyhedra the inner forces and the outer motion."""
     assert solution.mechanics is not None
     if solution.outer is None or solution.associative is None:
         return solution.mechanics, solution.associative
