@@ -43,10 +43,9 @@ def failures(line: Line, forces: FloatArray, settlement: FloatArray) -> tuple[st
 def test_what_stands_is_shown_to_stand_by_whole_and_reduced_programs(structure: Structure) -> None:
     line = line_of(structure.text)
     assert failures(line, *shown(line, (line.program,))) == ()
-    for associative in (False, True):
-        switches = ReductionSwitches()
-        reduced = reduce_program(line.model, line.contacts, line.program, switches, associative=associative)
-        assert failures(line, *shown(line, reduced.parts)) == ()
+    # the most that is ever left out: halves, points inside the hull of others
+    reduced = reduce_program(line.model, line.contacts, line.program, ReductionSwitches(), associative=True)
+    assert failures(line, *shown(line, reduced.parts)) == ()
 
 
 def test_thrust_that_was_locked_in_does_not_come_from_displacements() -> None:
