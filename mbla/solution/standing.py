@@ -37,12 +37,14 @@ GRAVEST_FIRST = (Standing.NO, Standing.SELF_STRESS, Standing.DOUBTFUL, Standing.
 class DeadLoadState:
     """Standing, and the forces that arise from the stress-free assembly.
 
-    forces : (n_points, components), non-dimensional, in balance with the dead load up to 1e-6 of each block's; None
-             where they do not balance it
+    forces        : (n_points, components), non-dimensional, in balance with the dead load up to 1e-6 of each block's;
+                    None where they do not balance it
+    displacements : (n_rows,) that bring them about: what ``verify_standing`` needs beside the forces
     """
 
     standing: StandingResult
     forces: FloatArray | None
+    displacements: FloatArray | None
 
 
 def assess_standing(program: Program, settings: SolverSettings, carried: bool | None = True) -> StandingResult:
@@ -58,16 +60,28 @@ def assess_dead_load(program: Program, settings: SolverSettings, carried: bool |
     """
     if not np.any(program.dead_load):
         none = np.zeros((program.n_points, program.components))
-        return DeadLoadState(StandingResult(Standing.YES, None, NO_DEAD_LOAD), none)
+        return DeadLoadState(StandingResult(Standing.YES, None, NO_DEAD_LOAD), none, np.zeros_like(program.dead_load))
     weakening = weaken_springs(program, "dead_load", program.limits, settings)
     if weakening.outcome is Outcome.CARRIED:
-        return DeadLoadState(StandingResult(Standing.YES, None, YES), weakening.forces)
+        return DeadLoadState(StandingResult(Standing.YES, None, YES), weakening.forces, weakening.displacements)
     verdict, reason = (Standing.SELF_STRESS, SELF_STRESS) if carried else (Standing.NO, NO)
     if carried is None:
         verdict, reason = Standing.DOUBTFUL, UNKNOWN
     if weakening.outcome is Outcome.UNDECIDED:
         verdict, reason = Standing.DOUBTFUL, f"{DOUBTFUL}: {weakening.reason}"
-    return DeadLoadState(StandingResult(verdict, weakening.block, reason), None)
+    return DeadLoadState(StandingResult(verdict, weakening.block, reason), None, None)
+
+
+def settlement_of(program: Program, displacements: FloatArray) -> FloatArray:
+    """Displacements and rotations of all blocks on joints of unit stiffness, (n_blocks, 6), zero where fixed.
+
+    With a force of 1 per length of 1 in the deck's units, contact forces are what these displacements bring about; with
+    joints k times as stiff everything moves 1/k as far. Those of parts add up.
+    """
+    while program.reduction is not None:
+        displacements, program = program.reduction.velocities @ displacements, program.reduction.full
+    scaling = program.scaling
+    return program.mechanism(displacements) * (scaling.force**2 / scaling.live)
 
 
 def worst_standing(results: Sequence[StandingResult]) -> StandingResult:

@@ -7,13 +7,17 @@ mean of the others' where it has none: a light block that breaks away must not b
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.contacts.contacts import Contacts
 from mbla.model.model import LoadCase, Model
 from mbla.program.assemble import yield_limits
-from mbla.solution.statics import bodies_of_points, contact_resultants
+from mbla.program.yield_conditions import YieldLimits
+from mbla.solution.load_scale import load_scale, load_sizes
+from mbla.solution.statics import contact_resultants
 
 LASTING = 1e-6
 """Unbalanced share of a block's live load, and excess over the yield conditions, with which forces still prove it: they
@@ -30,56 +34,26 @@ def lock_failures(model: Model, contacts: Contacts, load_case: LoadCase, lock: F
     """
     if not np.isfinite(lock).all():
         return ("the forces that should show that the structure locks are not finite",)
-    arms, gross = _arms_and_gross(model, contacts, lock)
-    live = _sizes(load_case.live_load, arms) * ~model.fixed
-    if not np.any(live):
+    limits = yield_limits(model, contacts)
+    if not np.any(load_case.live_load[model.free]):
         return ("there is no live load on blocks that can move",)
-    own = np.where(live > 0, live, live[live > 0].mean())
-    allowed = LASTING * own + ROUNDING * gross
-    unbalanced = _sizes(contact_resultants(model, contacts, lock) + load_case.live_load, arms) * ~model.fixed
+    scale = load_scale(model, contacts, replace(load_case, dead_load=load_case.live_load), limits)
+    allowed = np.where(model.fixed, np.inf, scale.allowed(contacts, lock, LASTING, ROUNDING))
+    unbalanced = load_sizes(contact_resultants(model, contacts, lock) + load_case.live_load, scale.arms)
     failures = []
     worst = int((unbalanced / allowed).argmax())
     if unbalanced[worst] > allowed[worst]:
         failures.append(
-            f"the forces that should show that the structure locks leave {unbalanced[worst] / own[worst]:.2g} of the "
-            f"live load of block {worst} unbalanced"
+            f"the forces that should show that the structure locks leave {unbalanced[worst] / scale.own[worst]:.2g} of "
+            f"the live load of block {worst} unbalanced"
         )
-    excess = _lasting_excess(model, contacts, lock) / _of_lighter(model, contacts, allowed)
-    if excess.max(initial=0.0) > 1.0:
+    if np.any(_lasting_excess(lock, limits) > scale.of_lighter(contacts, allowed)):
         failures.append("the forces that should show that the structure locks do not stay within the yield conditions")
     return tuple(failures)
 
 
-def _lasting_excess(model: Model, contacts: Contacts, lock: FloatArray) -> FloatArray:
+def _lasting_excess(lock: FloatArray, limits: YieldLimits) -> FloatArray:
     """Excess over the conditions that hold for every multiple of the forces, (n_points,) [N]."""
-    limits = yield_limits(model, contacts)
     normal, shear = lock[:, 0], np.linalg.norm(lock[:, 1:], axis=1)
     dry = np.maximum(shear - limits.friction * normal, -normal)
     return np.asarray(np.where(np.isfinite(limits.compression), np.linalg.norm(lock, axis=1), np.maximum(dry, 0.0)))
-
-
-def _of_lighter(model: Model, contacts: Contacts, values: FloatArray) -> FloatArray:
-    """The lesser value of the free blocks at each point, of (n_blocks,); infinite where both bodies are fixed."""
-    bodies = bodies_of_points(contacts)
-    outside = np.full(max(int(bodies.max(initial=0)) + 1 - len(values), 0), np.inf)
-    return np.asarray(np.append(np.where(model.fixed, np.inf, values), outside)[bodies].min(axis=1))
-
-
-def _arms_and_gross(model: Model, contacts: Contacts, lock: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Mean distance of each block's points from its centroid, its size where it has none; sum of the forces on it."""
-    n_blocks = len(model.blocks)
-    arm, gross, count = np.zeros(n_blocks), np.zeros(n_blocks), np.zeros(n_blocks)
-    size = np.linalg.norm(lock, axis=1)
-    for bodies in bodies_of_points(contacts).T:
-        here = bodies < n_blocks
-        block = bodies[here]
-        distance = np.linalg.norm(contacts.points[here] - model.blocks.centroids[block], axis=1)
-        arm += np.bincount(block, distance, n_blocks)
-        gross += np.bincount(block, size[here], n_blocks)
-        count += np.bincount(block, minlength=n_blocks)
-    return np.where(count > 0, arm / np.maximum(count, 1.0), model.blocks.sizes), gross
-
-
-def _sizes(load: FloatArray, arms: FloatArray) -> FloatArray:
-    """Forces, and moments over the lever arms, of loads (n_blocks, 6), (n_blocks,)."""
-    return np.asarray(np.hypot(np.linalg.norm(load[:, :3], axis=1), np.linalg.norm(load[:, 3:], axis=1) / arms))

@@ -68,6 +68,7 @@ class Weakening:
     share  : that share
     reason : why nothing was decided
     forces : (n_points, components) in the joints on the weakest springs, non-dimensional; None where there is no load
+    displacements : (n_rows,) that go with them
     """
 
     outcome: Outcome
@@ -75,6 +76,7 @@ class Weakening:
     share: float
     reason: str = ""
     forces: FloatArray | None = None
+    displacements: FloatArray | None = None
 
 
 Load = Literal["dead_load", "live_load"]
@@ -96,7 +98,7 @@ def weaken_springs(program: Program, load: Load, limits: YieldLimits, settings: 
     for ratio in SHEAR_STIFFNESSES:
         problem = replace(whole, shear_stiffness=ratio)
         outcome, kappa, u = _weaken(problem, blocks, kappa, u)
-        found.append(replace(outcome, forces=joint_forces(problem, u)))
+        found.append(replace(outcome, forces=joint_forces(problem, u), displacements=u))
         if outcome.outcome is not Outcome.CARRIED:  # only where nothing moved on is the state a start for the next
             kappa, u = 1.0, np.zeros_like(u)
         if outcome.outcome is Outcome.UNDECIDED:

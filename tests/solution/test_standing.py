@@ -12,11 +12,10 @@ import pytest
 from mbla.deck.analysis import ReductionSwitches
 from mbla.program.program import Program
 from mbla.program.reductions import reduce_program
-from mbla.program.yield_conditions import yield_violation
 from mbla.solution.associative import solve_associative
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Standing, StandingResult, Status
-from mbla.solution.standing import assess_dead_load, assess_standing, standing_without_equilibrium, worst_standing
+from mbla.solution.standing import assess_standing, standing_without_equilibrium, worst_standing
 from mbla.solution.weakening import Outcome, Weakening, agreed, weaken_springs
 from tests.line import WALL, line_of
 from tests.solution.standing_structures import STRUCTURES, Structure, arch, bar, incline, leaning, overhang
@@ -50,17 +49,6 @@ def test_reduced_programs_give_the_same_verdict_and_block(structure: Structure) 
     parts = [standing(program) for program in reduced.parts]
     assert worst_standing(parts).verdict is structure.verdict
     assert worst_standing(parts).block in (structure.blocks or (None,))
-
-
-def test_forces_of_the_dead_load_balance_it_within_the_joints_limits() -> None:
-    for structure in STRUCTURES:
-        program = line_of(structure.text).program
-        state = assess_dead_load(program, SETTINGS)
-        assert (state.forces is not None) is (structure.verdict is Standing.YES)
-        if state.forces is not None:
-            unbalanced = program.equilibrium_matrix @ state.forces.ravel() + program.dead_load
-            assert np.abs(unbalanced).max() < 1e-6
-            assert yield_violation(state.forces, program.limits).max(initial=0.0) < 1e-12
 
 
 def test_the_gravest_part_speaks_for_the_structure() -> None:
@@ -103,10 +91,10 @@ def test_units_do_not_matter(text: str, override: str) -> None:
 
 
 def test_a_tall_column_leans_on_strong_springs_only() -> None:
-    """The foot of 300 blocks settles by 1e4 units: its spring carries more than the block weighs until κ = 1e-4."""
-    wall = WALL.replace('length: "=0.4*n", courses: "=n"', "length: 0.4, courses: 300, bond: stack")
+    """The head of 150 blocks settles by 3000 units: its spring would carry more than the block weighs at κ = 1e-3."""
+    wall = WALL.replace('length: "=0.4*n", courses: "=n"', "length: 0.4, courses: 150, bond: stack")
     program = line_of(wall).program
-    assert len(program.free) == 300
+    assert len(program.free) == 150
     assert assess_standing(program, SETTINGS, carried=True).verdict is Standing.YES
 
 
