@@ -30,6 +30,7 @@ class AssociativeForm:
     read       : a solution with the load factor as its objective, and the status said of the structure
     sign       : of the load factor in the program's own objective
     share      : of the tolerance asked for that the solver is given
+    exact      : false where a polyhedron stands for the friction cone: solutions prove nothing of the cone then
     """
 
     program: Program
@@ -40,6 +41,16 @@ class AssociativeForm:
     read: Callable[[ConeSolution], ConeSolution]
     sign: float
     share: float = 1.0
+    exact: bool = True
+
+    def in_units(self, unit: float) -> ConeProgram:
+        """The program with the live power in units of the load factor given; only in velocities."""
+        return replace(self.cone_program, rhs=self.cone_program.rhs / unit)
+
+    @property
+    def has_units(self) -> bool:
+        """Whether ``in_units`` applies."""
+        return "rhs" in self.reverse
 
     def tolerance(self, asked: float) -> float:
         """Tolerance for the solver where ``asked`` is asked of the load factor."""
@@ -57,6 +68,7 @@ def in_velocities(program: Program, facets: FloatArray | None = None) -> Associa
         reverse={"rhs": -form.cone_program.rhs},
         read=lambda solution: solution,
         sign=1.0,
+        exact=facets is None or program.components == 2,
     )
 
 
@@ -72,6 +84,7 @@ def in_forces(program: Program, facets: FloatArray | None = None) -> Associative
         read=_of_the_dual,
         sign=-1.0,
         share=STATIC_SHARE,
+        exact=facets is None or program.components == 2,
     )
 
 
