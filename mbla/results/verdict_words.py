@@ -108,7 +108,9 @@ def uniqueness_words(model: Model, case: CaseResult) -> str:
     def value(load_factor: float) -> str:
         return load_factor_words(model, case.load_case, load_factor)
 
-    above = f"; the associative factor, {value(associative.load_factor)}, is a limit to all" if associative else ""
+    above = (
+        f"; the associative factor, {value(associative.load_factor)}, is an upper limit to all" if associative else ""
+    )
     if ends is None or not np.isfinite(ends).all():
         known = "" if ends is None else f" (of the range for this mechanism only one end is verified: {_ends(ends)})"
         return f"The load factor without normality need not be unique, and its range is not known{known}{above}."
