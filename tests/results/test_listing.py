@@ -99,7 +99,20 @@ def with_case(results: Results, **changes: Any) -> Results:
         ({"status": Status.NOT_VERIFIED, "checks": {"verified": False, "failures": ("residual 0.1",)}}, "NOT VERIFIED"),
         ({"status": Status.NOT_VERIFIED, "checks": {"verified": False, "failures": ("residual 0.1",)}}, "residual 0.1"),
         ({"status": Status.UNBOUNDED, "solution": {"mechanics": None, "flow_rule": "associative"}}, "no collapse: no"),
-        ({"status": Status.UNBOUNDED, "solution": {"mechanics": None}}, "undecided for non-associative flow"),
+        ({"status": Status.UNBOUNDED, "solution": {"mechanics": None}}, "no collapse: no"),
+        (
+            {"status": Status.UNBOUNDED, "solution": {"mechanics": None, "flow_rule": "dilatancy"}},
+            "undecided for dilatancy flow",
+        ),
+        (
+            {"status": Status.NOT_VERIFIED, "solution": {"mechanics": None, "lock": np.ones((8, 3))}},
+            "NOT VERIFIED: that no load brings the structure down could not be confirmed",
+        ),
+        (
+            {"status": Status.NOT_VERIFIED, "solution": {"mechanics": None, "certificate": np.ones((3, 6))}},
+            "NOT VERIFIED: the lack of equilibrium could not be confirmed",
+        ),
+        ({"status": Status.NOT_VERIFIED, "solution": {"mechanics": None}}, "NOT VERIFIED: no load factor."),
         ({"status": Status.UNBOUNDED, "solution": {"mechanics": None, "reason": "locked"}}, "locked"),
         ({"status": Status.TIME_LIMIT, "solution": {"mechanics": None}}, "out of time"),
         (
