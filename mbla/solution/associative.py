@@ -42,8 +42,8 @@ ZERO_SIZE = 1e-7
 
 SHARPER = ((0.0, 1e-2, None), (1.0, 1e-2, None), (0.5, 1e-4, 1e-8), (0.0, 1e-4, 1e-9))
 """How a program is solved again, in turn: power of the load factor's size that is its unit, factor on the solver's
-tolerance, regularisation. In units of its size an arch at its least thickness is sharpest, which is too much for a stack
-at its greatest overhang: half-way, or the unit of dead loads, does better there."""
+tolerance, regularisation. In units of its size an arch at its least thickness is sharpest, which is too much for a
+stack at its greatest overhang: half-way, or the unit of dead loads, does better there."""
 
 SHARPEST = 1e-12
 """Least tolerance of the solver."""
@@ -218,7 +218,7 @@ def _size(run: _Run, answer: _Answer) -> float:
 def _with_dead_load(run: _Run, form: AssociativeForm, answer: _Answer) -> AssociativeResult:
     """The result, once it is known that the dead load alone is carried."""
     settings = replace(run.settings, tolerance=form.tolerance(run.settings.tolerance))
-    solver = cone_solver(replace(form.cone_program, **form.reverse), settings, run.log)
+    solver = cone_solver(form.reversed_program, settings, run.log)
     reverse = _solved(run, form, solver, "reverse", -1.0, ENOUGH)
     carried = _carried(run, form, reverse)
     if carried is None and reverse.status is not Status.TIME_LIMIT:

@@ -48,6 +48,16 @@ class AssociativeForm:
         return replace(self.cone_program, rhs=self.cone_program.rhs / unit)
 
     @property
+    def reversed_program(self) -> ConeProgram:
+        """The program that finds the least load factor instead, negated."""
+        cone_program = self.cone_program
+        return replace(
+            cone_program,
+            cost=self.reverse.get("cost", cone_program.cost),
+            rhs=self.reverse.get("rhs", cone_program.rhs),
+        )
+
+    @property
     def has_units(self) -> bool:
         """Whether ``in_units`` applies."""
         return "rhs" in self.reverse

@@ -7,15 +7,19 @@ they converge within a few factorisations, to rounding.
 
 from __future__ import annotations
 
+import numpy as np
+
 from mbla.program.program import Program
 from mbla.solution.exact_law import exact_step
 from mbla.solution.interior.central_path import with_balance
 from mbla.solution.law_state import LawState, law_state
+from mbla.solution.stiffness import stiffness_of
 
 STEPS = (1e-2, 1e-1, 1.0)
 """ρ ‖x̄‖² of the exact steps, tried in turn: the smaller, the further a step may move."""
 
 MOST_STEPS = 6
+MOST_FACTORIZATIONS = 30
 EXACT = 1e-12
 """Residual at which nothing is left to gain."""
 
@@ -28,13 +32,16 @@ def polished(program: Program, state: LawState, sizes: tuple[float, ...]) -> tup
 
     sizes : ρ ‖x̄‖² to try in turn
     """
+    stiffness, slope = stiffness_of(program), np.zeros(program.n_points)
     best, count = state, 0
     for size in sizes:
         current, reached = state, float("inf")
         for _ in range(MOST_STEPS):
             anchor = current.forces
             rho = size / max(float((anchor**2).sum()), 1e-300)
-            step = exact_step(program, anchor, rho, current.velocities, current.load_factor)
+            step = exact_step(
+                stiffness, slope, anchor, rho, current.velocities, current.load_factor, MOST_FACTORIZATIONS
+            )
             count += step.factorizations
             current = with_balance(program, law_state(program, 0.0, step.forces, step.velocities, step.load_factor))
             if current.residual < best.residual:
