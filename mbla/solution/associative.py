@@ -42,8 +42,8 @@ ZERO_SIZE = 1e-7
 
 SHARPER = ((0.0, 1e-2, None), (1.0, 1e-2, None), (0.5, 1e-4, 1e-8), (0.0, 1e-4, 1e-9))
 """How a program is solved again, in turn: power of the load factor's size that is its unit, factor on the solver's
-tolerance, regularisation. In units of its size an arch at its least thickness is sharpest, which is too much for a stack
-at its greatest overhang: half-way, or the unit of dead loads, does better there."""
+tolerance, regularisation. An arch at its least thickness is sharpest in units of its own size, which is too much for a
+stack at its greatest overhang: half-way, or the unit of dead loads, does better there."""
 
 SHARPEST = 1e-12
 """Least tolerance of the solver."""
@@ -142,7 +142,7 @@ def solve_associative(
     form = form or in_velocities(program)
     if answer.certificate is not None:
         return _no_equilibrium(run, answer.certificate)
-    if answer.solution.status not in (*WITH_VALUE, Status.UNBOUNDED):
+    if answer.gap is None and answer.solution.status is not Status.UNBOUNDED:
         return _undecided(run, answer.solution)
     return _with_dead_load(run, form, answer)
 
@@ -169,14 +169,21 @@ def _answer(run: _Run, form: AssociativeForm, unit: float, settings: SolverSetti
     solution = _solved(run, form, solver, "associative", unit)
     if unit != 1.0:
         solution = replace(solution, x=solution.x * unit, objective=solution.objective * unit)
-    if solution.status in WITH_VALUE and not _falls(form, solution):
-        return _Answer(solution, _proved(form, solution))
     if solution.status in (Status.TIME_LIMIT, Status.ITERATION_LIMIT, Status.UNBOUNDED):
         return _Answer(solution)
+    certificate = _certificate(run, form, solution)
+    has_value = certificate is None and solution.status in WITH_VALUE and not _falls(run, solution)
+    return _Answer(solution, _proved(form, solution) if has_value else None, certificate)
+
+
+def _certificate(run: _Run, form: AssociativeForm, solution: ConeSolution) -> FloatArray | None:
+    """Velocities that prove that the dead load alone is not carried, where the solution has them."""
+    if solution.status in WITH_VALUE and not solution.objective < 0.0:
+        return None
     motion = form.velocities(solution)
     if form.exact:
-        return _Answer(solution, certificate=falling_motion(run.program, motion))
-    return _Answer(solution, certificate=motion if _falls(form, solution) else None)
+        return falling_motion(run.program, motion) if np.isfinite(motion).all() else None
+    return motion if _falls(run, solution) else None
 
 
 def _proved(form: AssociativeForm, solution: ConeSolution) -> CertifiedGap:
@@ -218,16 +225,19 @@ def _size(run: _Run, answer: _Answer) -> float:
 def _with_dead_load(run: _Run, form: AssociativeForm, answer: _Answer) -> AssociativeResult:
     """The result, once it is known that the dead load alone is carried."""
     settings = replace(run.settings, tolerance=form.tolerance(run.settings.tolerance))
-    solver = cone_solver(replace(form.cone_program, **form.reverse), settings, run.log)
-    reverse = _solved(run, form, solver, "reverse", -1.0, ENOUGH)
-    carried = _carried(run, form, reverse)
-    if carried is None and reverse.status is not Status.TIME_LIMIT:
-        reverse = _solved(run, form, solver, "reverse", -1.0)
+    solver = cone_solver(form.cone_program, settings, run.log)
+    solver.update(**form.reverse)
+    reverse, carried = answer.solution, None
+    for enough in (ENOUGH, 0.0) if isinstance(solver, ClarabelProgram) else (0.0,):
+        reverse = _solved(run, form, solver, "reverse", -1.0, enough)
         carried = _carried(run, form, reverse)
-    if carried is None and _falls(form, reverse):
-        motion = form.velocities(reverse)
-        proved = falling_motion(run.program, motion) if form.exact else None
-        return _no_equilibrium(run, motion if proved is None else proved)
+        if carried is not None or reverse.status is Status.TIME_LIMIT:
+            break
+    certificate = None if carried is not None else _certificate(run, form, reverse)
+    if certificate is not None:
+        return _no_equilibrium(run, certificate)
+    if carried is None and _falls(run, reverse):
+        return _undecided(run, reverse)
     if carried is None and reverse.status not in (*WITH_VALUE, Status.UNBOUNDED):
         reason = "whether the dead load alone is carried could not be decided: " + _words_of(reverse)
         return run.result(reverse.status, reason)
@@ -292,12 +302,11 @@ def _fall_of_what_nothing_touches(program: Program) -> FloatArray:
     return np.where(untouched, program.dead_load, 0.0)
 
 
-def _falls(form: AssociativeForm, solution: ConeSolution) -> bool:
+def _falls(run: _Run, solution: ConeSolution) -> bool:
     """Whether a program, of either sign of the live load, says that there is no equilibrium without live load."""
-    dead, motion = form.program.dead_load, form.velocities(solution)
-    if not dead.any():  # no forces balance no load
+    if not run.program.dead_load.any():  # no forces balance no load
         return False
-    negative = solution.objective < -STANDS_MARGIN * min(float(np.abs(dead) @ np.abs(motion)), 1.0)
+    negative = solution.objective < -STANDS_MARGIN * run.dead_over_live
     return solution.status is Status.NO_EQUILIBRIUM or (solution.status in WITH_VALUE and negative)
 
 

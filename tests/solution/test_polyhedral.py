@@ -93,9 +93,7 @@ def test_a_wedge_in_a_groove_is_bracketed_ever_more_closely() -> None:
         inner, outer = bracket(program, sides)
         assert inner < exact < outer
         widths.append(sides**2 * (outer - inner) / exact)
-    assert (
-        max(widths) < 1.5 * math.pi**2
-    )  # each polygon is off by π²/2k² of the friction, λ grows 1.14 times as fast
+    assert max(widths) < 1.5 * math.pi**2  # each polygon is off by π²/2k² of the friction, λ grows 1.14 times as fast
 
 
 @pytest.mark.parametrize("direction", ["[1, 0, 0]", "[0, 1, 0]", "[0.8, 0.6, 0]"])
