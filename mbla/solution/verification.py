@@ -2,6 +2,7 @@
 
 - :mod:`mbla.solution.verify`: residuals of forces and mechanism, bounds of the associative load factor, certificates;
 - :mod:`mbla.solution.verify_polyhedral`: the bracket of friction polyhedra, each by its own law;
+- :mod:`mbla.solution.verify_polyhedral`: the same with friction polyhedra;
 - :mod:`mbla.solution.verify_range`: both ends of the range of a load factor without normality;
 - :mod:`mbla.solution.verify_lock`: forces that carry every multiple of the live load.
 """
