@@ -59,6 +59,7 @@ def case_content(model: Model, contacts: Contacts, case: CaseResult) -> Content:
         "reason": solution.reason,
         "remarks": solution.remarks,
         "seconds": solution.seconds,
+        "sides": solution.sides,
         **{name: getattr(checks, name) for name in CHECKED},
         "range": np.array([checks.lower, checks.upper]),
         "verified": checks.verified,

@@ -18,7 +18,7 @@ PURPOSES = {
     "livesley": "corrected mechanism",
     "range, lower": "range, lower end",
     "range, upper": "range, upper end",
-    "lowest": "search for a lower factor",
+    "lower": "search for a lower factor",
     "polyhedral, inscribed": "inscribed polyhedron",
     "polyhedral, circumscribed": "circumscribed polyhedron",
     "second opinion": "second solver",

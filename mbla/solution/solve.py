@@ -76,6 +76,7 @@ def solve(reduced: Reduced, analysis: AnalysisSection, settings: SolverSettings,
         solution = _without_claim(solution)
     return replace(
         solution,
+        sides=0 if solution.outer is None else analysis.sides,
         standing=standing,
         programs=_renumbered(results),
         iterations=tuple(iterations),

@@ -109,12 +109,27 @@ def test_the_associative_factor_of_what_hangs_by_self_stress_keeps_its_value_wit
     assert "warning [only-by-self-stress]" in text
 
 
+@pytest.mark.parametrize(
+    ("outer", "status", "words"),
+    [
+        (0.55, Status.SOLVED, "collapses between 0.5 g and 0.55 g, with the inscribed and the circumscribed"),
+        (0.55, Status.SOLVED, "polyhedron, verified"),
+        (0.55, Status.APPROXIMATE, "polyhedron, approximate"),
+        (0.5 + 1e-8, Status.SOLVED, "collapses at 0.5 g, verified"),
+    ],
+)
+def test_a_bracket_is_not_told_as_one_factor(outer: float, status: Status, words: str) -> None:
+    case = tower_results("associative").cases[0]
+    bracket = replace(case.solution, outer=tower_mechanics(outer), sides=8)
+    assert words in verdict(MODEL, replace(case, status=status, solution=bracket))
+
+
 def test_everything_together_keeps_to_the_width_and_names_everything() -> None:
     results: Results = full_results()
     text = " ".join(listing(results).split())
     for words in (
         "inscribed polyhedron 0.55",
-        "circumscribed polyhedron 0.56",
+        "circumscribed polyhedron 0.56 (8 sides; the cone lies between)",
         "solved as planar, 2 free blocks, 4 contact points, 1 mirror plane used, 3 parts solved apart, "
         "4 contact points left out",
         "Load path of 3 steps: its peak, 0.6 g at step 1, is a limit point",
