@@ -42,7 +42,13 @@ class AssociativeResult:
 
 def solve_associative(program: Program, settings: SolverSettings, log: Log) -> AssociativeResult:
     """Solve the program of one load case with associative flow."""
-    form = kinematic_form(program, program.limits)
+    return solve_associative_form(kinematic_form(program, program.limits), program, settings, log)
+
+
+def solve_associative_form(
+    form: KinematicForm, program: Program, settings: SolverSettings, log: Log
+) -> AssociativeResult:
+    """The same for a kinematic form that may have more unknowns than the program whose loads and units it has."""
     solver = ClarabelProgram(form.cone_program, settings, log)
     forward = solver.solve(1, program.scaling.live)
     records = [_record(program, 1, "associative", forward)]
