@@ -211,6 +211,31 @@ def live_load_effect(case: types.LoadCaseSection) -> Iterator[Finding]:
                 yield ("live", number, key), "is a live load with no effect"
 
 
+# --- analysis -----------------------------------------------------------------------------------------------------
+
+
+@rule(types.AnalysisSection)
+def linear_programs(analysis: types.AnalysisSection) -> Iterator[Finding]:
+    """Polyhedra and HiGHS go with flow rules whose programs are linear."""
+    normality = analysis.flow_rule in ("associative", "livesley")
+    for key, value, default in (
+        ("friction_cone", analysis.friction_cone, "circular"),
+        ("solver", analysis.solver, "clarabel"),
+    ):
+        if value == default:
+            continue
+        if not normality:
+            yield (
+                (key,),
+                f"applies to flow_rule: associative or livesley only ({analysis.flow_rule} here): use {default}",
+            )
+        elif analysis.contact_model != "concave":
+            yield (key,), f"applies to contact_model: concave only ({analysis.contact_model} here): use {default}"
+
+
+# --- expectations -------------------------------------------------------------------------------------------------
+
+
 @rule(types.Expectation)
 def expectation(item: types.Expectation) -> Iterator[Finding]:
     """Something must be expected."""

@@ -111,9 +111,13 @@ PLANAR_FACETS = np.array([[1.0], [-1.0]])
 def friction_polygon(sides: int, circumscribed: bool) -> FloatArray:
     """Directions g_i whose hull is a regular polygon in the unit circle, or about it, (sides, 2).
 
-    ‖T‖ ≤ h is replaced by T = Σ q_i g_i with Σ q_i ≤ h: its dual is p ≥ g_i·v_T.
+    ‖T‖ ≤ h is replaced by −T = Σ q_i g_i with Σ q_i ≤ h: its dual is p ≥ g_i·v_T. The inscribed polygon has a corner
+    on the first tangent, and the circumscribed one touches the circle where the inscribed one has its corners: both
+    are exact there, which is where most joints of buildings slide. Anywhere else they are within a factor cos(π/sides)
+    of the circle.
     """
-    angle = 2.0 * np.pi * np.arange(sides) / sides
+    turned = 0.5 if circumscribed else 0.0
+    angle = 2.0 * np.pi * (np.arange(sides) + turned) / sides
     radius = 1.0 / np.cos(np.pi / sides) if circumscribed else 1.0
     return radius * np.column_stack([np.cos(angle), np.sin(angle)])
 

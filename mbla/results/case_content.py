@@ -7,7 +7,10 @@ from typing import TypeAlias
 
 import numpy as np
 
+from mbla.contacts.contacts import Contacts
+from mbla.model.model import Model
 from mbla.results.case_fields import MECHANICS_GROUPS
+from mbla.results.collapse import collapse_of
 from mbla.results.results import CaseResult
 from mbla.solution.solution import Mechanics, Solution, StandingResult
 
@@ -45,7 +48,7 @@ SIZE_FIELDS = ("dimension", "mirror_planes", "parts", "free_blocks", "contact_po
 TEXT_COLUMNS = ("kind", "status")
 
 
-def case_content(case: CaseResult) -> Content:
+def case_content(model: Model, contacts: Contacts, case: CaseResult) -> Content:
     """Everything of one load case but its loads."""
     solution, checks = case.solution, case.checks
     content: Content = {
@@ -64,7 +67,7 @@ def case_content(case: CaseResult) -> Content:
         **_table("programs", PROGRAM_FIELDS, solution.programs, whole=("program", "iterations")),
         **_table("iterations", ITERATION_FIELDS, solution.iterations, whole=("program", "iteration")),
     }
-    return content | _answers(case) | _further(solution)
+    return content | _answers(case) | _collapse(model, contacts, case) | _further(solution)
 
 
 def _answers(case: CaseResult) -> Content:
@@ -78,6 +81,24 @@ def _answers(case: CaseResult) -> Content:
         if mechanics.resultants is not None:
             content[f"{group}resultants"] = mechanics.resultants
     return content
+
+
+def _collapse(model: Model, contacts: Contacts, case: CaseResult) -> Content:
+    """What follows from the mechanism, for readers of the file."""
+    mechanics = case.solution.mechanics
+    if mechanics is None:
+        return {}
+    collapse = collapse_of(model, contacts, case.load_case, mechanics)
+    motion = collapse.interfaces
+    return {
+        "parts": collapse.parts,
+        "interfaces/modes": motion.modes,
+        "interfaces/translations": motion.translation,
+        "interfaces/rotations": motion.rotation,
+        "interfaces/hinge_points": motion.hinge_points,
+        "interfaces/hinge_directions": motion.hinge_directions,
+        "interfaces/work": collapse.work.dissipated,
+    }
 
 
 def associative_is_own(case: CaseResult) -> bool:

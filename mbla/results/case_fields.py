@@ -94,6 +94,68 @@ ANSWER = (
     Field(f"{CASE}/seconds", "float", (), "time", "time of the solver stage", part="solution"),
 )
 
+COLLAPSE = (
+    Field(
+        f"{CASE}/parts",
+        "int",
+        ("block",),
+        "1",
+        "rigid part of each block, 0 at rest, the others from the heaviest on; follows from the mechanism",
+        part="mechanics",
+    ),
+    Field(
+        f"{CASE}/interfaces/modes",
+        "int",
+        ("interface",),
+        "1",
+        "mode: 0 stick, 1 slide, 2 open, 3 hinge, 4 twist; follows from the mechanism, as do the next four",
+        part="mechanics",
+    ),
+    Field(
+        f"{CASE}/interfaces/translations",
+        "float",
+        ("interface", "axis"),
+        "velocity",
+        "velocity of b relative to a at the centroid",
+        part="mechanics",
+    ),
+    Field(
+        f"{CASE}/interfaces/rotations",
+        "float",
+        ("interface", "axis"),
+        "rotation",
+        "angular velocity of b relative to a",
+        part="mechanics",
+    ),
+    Field(
+        f"{CASE}/interfaces/hinge_points",
+        "float",
+        ("interface", "axis"),
+        "length",
+        "a point on the axis of a hinge, nan for other modes",
+        open=True,
+        part="mechanics",
+    ),
+    Field(
+        f"{CASE}/interfaces/hinge_directions",
+        "float",
+        ("interface", "axis"),
+        "1",
+        "its direction, by the right hand for b against a, nan for other modes",
+        open=True,
+        part="mechanics",
+    ),
+    Field(
+        f"{CASE}/interfaces/work",
+        "float",
+        ("interface",),
+        "1",
+        "power dissipated, that of the live load being the load factor; follows from forces and mechanism",
+        part="mechanics",
+    ),
+)
+"""written for others to read; mbla finds them anew from forces and mechanism, so that nothing can contradict these"""
+
 FURTHER_ANSWERS = (
     Field(
         f"{CASE}/certificate",
@@ -234,6 +296,7 @@ CASE_FIELDS: tuple[Field, ...] = (
     *LOADS,
     *ANSWER,
     *(field for group, part, what in MECHANICS_GROUPS for field in _mechanics(f"{CASE}/{group}", part, what)),
+    *COLLAPSE,
     *FURTHER_ANSWERS,
     *CHECKS,
     *HISTORY,

@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import asdict
 from typing import Any
 
 from mbla.contacts.contacts import Contacts
 from mbla.model.model import Model
+from mbla.results.mechanism_json import mechanism_json
+from mbla.results.numbers import number
 from mbla.results.outcome import associative_of, best_iterate, factor_unique, range_of, result_of
 from mbla.results.results import CaseResult
-from mbla.solution.solution import Checks, ContactMode, Mechanics, Solution
+from mbla.solution.solution import Checks, Mechanics, Solution
 
 
 def case_json(model: Model, contacts: Contacts, case: CaseResult) -> dict[str, Any]:
@@ -52,14 +53,9 @@ def case_json(model: Model, contacts: Contacts, case: CaseResult) -> dict[str, A
         "iterations": sum(program.iterations for program in solution.programs),
         "size": None if solution.size is None else asdict(solution.size),
         "path": [{name: finite(value) for name, value in asdict(point).items()} for point in solution.path],
-        "mechanism": None if mechanics is None else _mechanism(mechanics),
+        "mechanism": None if mechanics is None else mechanism_json(model, contacts, case.load_case, mechanics),
         "time": {"total": number(solution.seconds), "solver": number(solver)},
     }
-
-
-def number(value: float | None) -> float | None:
-    """A finite number or None."""
-    return None if value is None or not math.isfinite(value) else float(value)
 
 
 def finite(value: float | int) -> float | int | None:
@@ -106,9 +102,3 @@ def _certificate(solution: Solution) -> str | None:
     if solution.certificate is not None:
         return "motion"
     return "forces" if solution.lock is not None else None
-
-
-def _mechanism(mechanics: Mechanics) -> dict[str, Any]:
-    """Contact points by mode."""
-    modes = (ContactMode.OPEN, ContactMode.SLIDE, ContactMode.STICK)
-    return {mode.name.lower(): int((mechanics.modes == mode).sum()) for mode in modes}

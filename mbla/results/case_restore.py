@@ -44,7 +44,11 @@ def case_from(load_case: LoadCase, get: dict[str, Any]) -> CaseResult:
     solution = Solution(
         flow_rule=get["flow_rule"],
         status=Status(get["claimed_status"]),
-        **answers,
+        mechanics=answers["mechanics"],
+        associative=answers["associative"],
+        lower=answers["lower"],
+        upper=answers["upper"],
+        outer=answers["outer"],
         certificate=get.get("certificate"),
         reason=get["reason"],
         programs=_records(ProgramRecord, PROGRAM_FIELDS, get, "programs/"),

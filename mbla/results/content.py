@@ -87,7 +87,8 @@ def content_of(results: Results) -> Content:
     for load_case in results.model.load_cases:
         content |= {f"cases/{load_case.name}/{key}": value for key, value in _loads(load_case).items()}
     for case in results.cases:
-        content |= {f"cases/{case.load_case.name}/{key}": value for key, value in case_content(case).items()}
+        found = case_content(results.model, results.contacts, case)
+        content |= {f"cases/{case.load_case.name}/{key}": value for key, value in found.items()}
     return content
 
 

@@ -8,7 +8,19 @@ from typing import Literal
 from mbla.deck.units import Units
 
 UnitKind = Literal[
-    "1", "time", "length", "area", "volume", "density", "stress", "force", "load", "velocity", "velocities", "motion"
+    "1",
+    "time",
+    "length",
+    "area",
+    "volume",
+    "density",
+    "stress",
+    "force",
+    "load",
+    "velocity",
+    "rotation",
+    "velocities",
+    "motion",
 ]
 
 
@@ -48,6 +60,7 @@ def unit_text(kind: UnitKind, units: Units) -> str:
         "force": force,
         "load": f"{force}; {force} {length}",
         "velocity": f"1/{force}",
+        "rotation": f"1/({force} {length})",
         "velocities": f"1/{force}; 1/({force} {length})",
         "motion": f"1; 1/{length}",
     }[kind]

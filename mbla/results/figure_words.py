@@ -27,8 +27,8 @@ def _factors(case: CaseResult) -> list[str]:
     """The factor by the deck's flow rule with all that surrounds it, then the associative one."""
     solution = case.solution
     own, best, associative = result_of(case), best_iterate(case), associative_of(case)
-    rule = solution.flow_rule + (f" ({solution.scheme})" if solution.scheme else "")
-    lines = []
+    rule = solution.flow_rule
+    lines = entry("scheme", solution.scheme) if solution.scheme else []
     if own is not None:
         lines += entry(f"load factor, {rule}", number(own.load_factor))
     if best is not None:

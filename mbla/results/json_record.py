@@ -9,7 +9,8 @@ from typing import Any
 from mbla import __version__
 from mbla.errors import Notice
 from mbla.model.model import Model
-from mbla.results.case_json import case_json, number
+from mbla.results.case_json import case_json
+from mbla.results.numbers import number, numbers
 from mbla.results.outcome import dimension_of, notices_of, standing_of
 from mbla.results.results import Results
 
@@ -77,7 +78,7 @@ def model_json(model: Model) -> dict[str, Any]:
         "title": model.title,
         "blocks": len(model.blocks),
         "free_blocks": len(model.free),
-        "extents": [[number(value) for value in corner] for corner in (low, high)],
+        "extents": [numbers(corner) for corner in (low, high)],
         "total_volume": number(model.blocks.volumes.sum()),
         "total_weight": number(model.total_weight),
         "units": {"length": units.length, "force": units.force, "mass": units.mass},

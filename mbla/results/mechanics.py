@@ -1,40 +1,21 @@
-"""What forces and velocities say about whole interfaces, supports and blocks.
+"""What forces say about whole interfaces and supports, and where a chain of blocks is curved.
 
 Signs as in :mod:`mbla.solution.solution`: contact forces act on body b along the frame and on body a against it,
-compression positive; contact velocities are those of b relative to a, opening positive.
+compression positive.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from enum import IntEnum
 
 import numpy as np
 
-from mbla.arrays import BoolArray, FloatArray, IntArray
+from mbla.arrays import FloatArray, IntArray
 from mbla.contacts.contacts import Contacts
 from mbla.model.model import LoadCase, Model
-from mbla.solution.solution import ContactMode, Mechanics
-
-MOVING = 1e-6
-"""share of the largest velocity from which a block counts as moving"""
-TWISTING = 0.5
-"""mean over largest tangential velocity below which a sliding interface is said to turn about its normal"""
 
 MOST_SINGLE_SUPPORTS = 12
 """fixed blocks up to this number have their reactions listed one by one"""
-
-
-class InterfaceMode(IntEnum):
-    """What an interface does in the mechanism."""
-
-    STICK = 0
-    SLIDE = 1
-    OPEN = 2
-    HINGE = 3
-    """some of its points open, others stay closed"""
-    TWIST = 4
-    """it slides by turning about its normal"""
 
 
 def global_forces(contacts: Contacts, contact_forces: FloatArray) -> FloatArray:
@@ -54,32 +35,6 @@ def interface_resultants(contacts: Contacts, contact_forces: FloatArray) -> Floa
     forces = global_forces(contacts, contact_forces)
     arms = contacts.points - contacts.centroids[contacts.interface_of_point]
     return sum_by_interface(contacts, np.hstack([forces, np.cross(arms, forces)]))
-
-
-def interface_modes(contacts: Contacts, mechanics: Mechanics) -> IntArray:
-    """InterfaceMode of each interface, (n_interfaces,)."""
-    n_points = np.diff(contacts.point_start)
-    n_open = sum_by_interface(contacts, (mechanics.modes == ContactMode.OPEN).astype(float))
-    n_slide = sum_by_interface(contacts, (mechanics.modes == ContactMode.SLIDE).astype(float))
-    tangential = mechanics.contact_velocities[:, 1:]
-    mean = np.linalg.norm(sum_by_interface(contacts, tangential), axis=1) / n_points
-    largest = np.zeros(len(contacts))
-    np.maximum.at(largest, contacts.interface_of_point, np.linalg.norm(tangential, axis=1))
-    modes = np.full(len(contacts), int(InterfaceMode.STICK), dtype=np.int64)
-    modes[n_slide > 0] = InterfaceMode.SLIDE
-    modes[(n_slide > 0) & (mean < TWISTING * largest)] = InterfaceMode.TWIST
-    modes[n_open > 0] = InterfaceMode.HINGE
-    modes[n_open == n_points] = InterfaceMode.OPEN
-    return modes
-
-
-def hinge_positions(contacts: Contacts, mechanics: Mechanics) -> FloatArray:
-    """Mean of the points that stay closed, (n_interfaces, 3) m; the centroid where none or all do."""
-    closed = (mechanics.modes != ContactMode.OPEN).astype(float)
-    count = sum_by_interface(contacts, closed)
-    total = sum_by_interface(contacts, closed[:, None] * contacts.points)
-    partly = (count > 0) & (count < np.diff(contacts.point_start))
-    return np.where(partly[:, None], total / np.maximum(count, 1.0)[:, None], contacts.centroids)
 
 
 def curvature_sides(model: Model, contacts: Contacts) -> FloatArray:
@@ -106,17 +61,6 @@ def curvature_sides(model: Model, contacts: Contacts) -> FloatArray:
     end, side = np.nonzero(in_chain[contacts.bodies] & ~inner[:, None])
     outward[end] = of_body[contacts.bodies[end, side]]
     return outward
-
-
-def moving_blocks(mechanism: FloatArray, sizes: FloatArray) -> BoolArray:
-    """Blocks that move, (n_blocks,); rotations count with half the block size as arm.
-
-    mechanism : (n_blocks, 6) velocity and angular velocity
-    sizes     : (n_blocks,) m
-    """
-    speeds = np.linalg.norm(mechanism[:, :3], axis=1) + np.linalg.norm(mechanism[:, 3:], axis=1) * sizes / 2
-    largest = speeds.max(initial=0.0)
-    return np.asarray(speeds > MOVING * largest) if largest > 0 else np.zeros(len(speeds), dtype=bool)
 
 
 @dataclass(frozen=True)
@@ -165,35 +109,6 @@ def load_on_structure(model: Model, load_case: LoadCase, load_factor: float) -> 
     load = (load_case.dead_load + load_factor * load_case.live_load)[model.free]
     moments = load[:, 3:] + np.cross(model.blocks.centroids[model.free], load[:, :3])
     return np.concatenate([load[:, :3].sum(axis=0), moments.sum(axis=0)])
-
-
-@dataclass(frozen=True)
-class PowerShares:
-    """Where the power goes that the live load puts in, all with the mechanism scaled to unit live power.
-
-    live     : load factor times live load power
-    dead     : power of the dead load, negative where weights are lifted
-    friction : power dissipated by sliding under friction (tangential forces times sliding)
-    joints   : power dissipated in the joints by normal forces (cohesive opening, crushing; negative: dilatancy)
-    """
-
-    live: float
-    dead: float
-    friction: float
-    joints: float
-
-
-def power_shares(model: Model, load_case: LoadCase, mechanics: Mechanics) -> PowerShares:
-    """Powers of loads and joints in the mechanism."""
-    free = model.free
-    mechanism = mechanics.mechanism[free]
-    power = mechanics.contact_forces * mechanics.contact_velocities
-    return PowerShares(
-        live=float(mechanics.load_factor * np.sum(load_case.live_load[free] * mechanism)),
-        dead=float(np.sum(load_case.dead_load[free] * mechanism)),
-        friction=float(-power[:, 1:].sum()),
-        joints=float(-power[:, 0].sum()),
-    )
 
 
 def live_load_in_g(model: Model, load_case: LoadCase) -> float | None:

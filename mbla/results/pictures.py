@@ -20,7 +20,8 @@ from mbla.arrays import FloatArray, IntArray
 from mbla.contacts.contacts import Contacts
 from mbla.errors import FileError, UsageError
 from mbla.model.model import Model
-from mbla.results.mechanics import InterfaceMode, interface_modes
+from mbla.results.collapse import collapse_of
+from mbla.results.interface_modes import InterfaceMode, interface_motion
 from mbla.results.mechanism_words import mechanism_summary
 from mbla.results.motion import drawn_motion, moved_contact_points, moved_vertices
 from mbla.results.picture_geometry import (
@@ -218,7 +219,7 @@ def _add_grounds(plotter: Any, scene: _Scene) -> None:
 def _add_modes(plotter: Any, scene: _Scene, mechanics: Mechanics) -> list[list[str]]:
     """Marks on hinges, sliding interfaces and corners that part; what the legend says of them."""
     contacts = scene.contacts
-    modes = interface_modes(contacts, mechanics)
+    modes = interface_motion(scene.model, contacts, mechanics).modes
     sides = [moved_contact_points(scene.model, contacts, scene.motion, side) for side in (0, 1)]
     middle = (sides[0] + sides[1]) / 2
     opened = mechanics.modes == ContactMode.OPEN
@@ -291,5 +292,6 @@ def _words(scene: _Scene) -> list[str]:
     case, model = scene.case, scene.model
     lines = [model.title or scene.results.deck.name, f"load case {case.load_case.name}: {verdict(model, case)}"]
     if case.solution.mechanics is not None:
-        lines.append(mechanism_summary(model, scene.contacts, case.solution.mechanics))
+        collapse = collapse_of(model, scene.contacts, case.load_case, case.solution.mechanics)
+        lines.append(mechanism_summary(model, collapse))
     return lines

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from mbla.results.mechanism_words import mechanism_summary, not_held_summary
+from mbla.results.certificate_words import not_held_summary
+from mbla.results.collapse import collapse_of
+from mbla.results.mechanism_words import mechanism_summary
 from mbla.results.outcome import associative_of, notices_of, result_of
 from mbla.results.results import CaseResult, Results
 from mbla.results.text import counted, number, sentence, table
@@ -47,7 +49,7 @@ def _in_words(results: Results, case: CaseResult) -> list[str]:
     model, solution, mechanics = results.model, case.solution, result_of(case)
     text = f"{case.load_case.name}: {verdict(model, case)}"
     if mechanics is not None:
-        text += f": {mechanism_summary(model, results.contacts, mechanics)}"
+        text += f": {mechanism_summary(model, collapse_of(model, results.contacts, case.load_case, mechanics))}"
     lines = sentence(text)
     if solution.mechanics is None and solution.certificate is not None:
         lines += sentence(not_held_summary(model, solution.certificate), DETAIL)

@@ -18,7 +18,7 @@ from mbla.results.outcome import (
 from mbla.results.results import CaseResult
 from mbla.results.text import number, small
 from mbla.solution.solution import Status
-from mbla.solution.verify import SOLVED_COMPLEMENTARITY
+from mbla.solution.verify import SOLVED_RESIDUAL
 
 STOPPED_BY = {
     Status.ITERATION_LIMIT: "out of iterations",
@@ -26,6 +26,9 @@ STOPPED_BY = {
     Status.NUMERICAL_ERROR: "numerical failure",
 }
 """what ended a case without a result"""
+
+DECIDED = ("associative", "non_associative")
+"""flow rules for which it is decided whether the load factor is bounded at all"""
 
 SCHEMES = {
     "published": "The published procedure starts from the associative forces and ends high in the range of load "
@@ -67,19 +70,23 @@ def _without_load_factor(model: Model, case: CaseResult) -> str:
         return f"no collapse load: it stands only by self-stress; with the forces that this takes, {value}"
     label = "NOT VERIFIED" if case.status is Status.NOT_VERIFIED else f"NOT SOLVED ({_stopped(case)})"
     residual = law_residual(case.checks)
-    misses = f"misses the law by {small(residual)}" if residual > SOLVED_COMPLEMENTARITY else "is not confirmed"
+    misses = f"misses the law by {small(residual)}" if residual > SOLVED_RESIDUAL else "is not confirmed"
     return f"{label}: no load factor; the best iterate, {value}, {misses}"
 
 
 def _without_figures(case: CaseResult) -> str:
     if case.status is Status.NO_EQUILIBRIUM:
         return "no equilibrium: the structure cannot carry its dead load"
-    if case.status is Status.UNBOUNDED and case.solution.flow_rule == "associative":
+    if case.status is Status.UNBOUNDED and case.solution.flow_rule in DECIDED:
         return "no collapse: no multiple of the live load brings the structure down"
     if case.status is Status.UNBOUNDED:
         return f"no collapse by associative flow; undecided for {case.solution.flow_rule.replace('_', '-')} flow"
-    if case.status is Status.NOT_VERIFIED:
+    if case.status is Status.NOT_VERIFIED and case.solution.certificate is not None:
         return "NOT VERIFIED: the lack of equilibrium could not be confirmed"
+    if case.status is Status.NOT_VERIFIED and case.solution.lock is not None:
+        return "NOT VERIFIED: that no load brings the structure down could not be confirmed"
+    if case.status is Status.NOT_VERIFIED:
+        return "NOT VERIFIED: no load factor"
     return f"NOT SOLVED ({_stopped(case)})"
 
 
@@ -108,7 +115,9 @@ def uniqueness_words(model: Model, case: CaseResult) -> str:
     def value(load_factor: float) -> str:
         return load_factor_words(model, case.load_case, load_factor)
 
-    above = f"; the associative factor, {value(associative.load_factor)}, is a limit to all" if associative else ""
+    above = (
+        f"; the associative factor, {value(associative.load_factor)}, is an upper limit to all" if associative else ""
+    )
     if ends is None or not np.isfinite(ends).all():
         known = "" if ends is None else f" (of the range for this mechanism only one end is verified: {_ends(ends)})"
         return f"The load factor without normality need not be unique, and its range is not known{known}{above}."

@@ -18,22 +18,29 @@ from mbla.model.geometry.meshio_files import write_mesh
 from mbla.model.model import Model
 from mbla.results.cells import BlockCells, block_cells
 from mbla.results.files import OutputFolder
-from mbla.results.mechanics import global_forces, interface_modes, interface_resultants, moving_blocks
+from mbla.results.interface_modes import interface_motion
+from mbla.results.mechanics import global_forces, interface_resultants
 from mbla.results.motion import contact_displacements, drawn_motion, vertex_displacements
 from mbla.results.results import CaseResult, Results
+from mbla.results.rigid_parts import rigid_parts
+from mbla.results.work import work_of
 
 Arrays = dict[str, np.typing.NDArray[Any]]
 
 
-def write_blocks_vtu(path: Path, model: Model, case: CaseResult | None, cells: BlockCells | None = None) -> None:
+def write_blocks_vtu(
+    path: Path, model: Model, contacts: Contacts, case: CaseResult | None, cells: BlockCells | None = None
+) -> None:
     """Blocks as cells.
 
-    Point data: ``displacement``. Cell data: ``block``, ``group``, ``weight``, ``fixed``, ``moves``, ``velocity``,
-    ``rotation`` (as drawn, m and rad).
+    Point data: ``displacement``. Cell data: ``block``, ``group``, ``weight``, ``fixed``, ``moves``, ``part`` (blocks
+    that move together; 0 at rest), ``velocity``, ``rotation`` (as drawn, m and rad).
     """
     motion = drawn_motion(model, case)
+    parts = rigid_parts(model, contacts, motion)
     data = block_data(model) | {
-        "moves": moving_blocks(motion, model.blocks.sizes).astype(np.int8),
+        "moves": (parts > 0).astype(np.int8),
+        "part": parts,
         "velocity": motion[:, :3],
         "rotation": motion[:, 3:],
     }
@@ -118,7 +125,7 @@ def write_interfaces_vtu(path: Path, model: Model, contacts: Contacts, case: Cas
     Cell data: ``interface``, ``body_a``, ``body_b``, ``area``, ``gap``, ``joint``, ``normal``; with forces (at the load
     factor, or those that lock the structure) also ``resultant_force``, ``resultant_moment`` (on body b, about the
     centroid), ``normal_force``, ``shear_force``; with a mechanism also ``mode`` (0 stick, 1 slide, 2 open, 3 hinge,
-    4 twist). Point data: ``displacement``.
+    4 twist) and ``work`` (power dissipated, that of the live load being the load factor). Point data: ``displacement``.
     """
     data: Arrays = {
         "interface": np.arange(len(contacts)),
@@ -141,8 +148,9 @@ def write_interfaces_vtu(path: Path, model: Model, contacts: Contacts, case: Cas
             "shear_force": np.linalg.norm(shear, axis=1),
         }
     mechanics = None if case is None else case.solution.mechanics
-    if mechanics is not None:
-        data["mode"] = interface_modes(contacts, mechanics)
+    if case is not None and mechanics is not None:
+        data["work"] = work_of(model, contacts, case.load_case, mechanics).dissipated
+        data["mode"] = interface_motion(model, contacts, mechanics).modes
     rows = [np.flatnonzero(contacts.outline == n) for n in np.unique(contacts.outline)]
     cells = [("polygon", _outlines(contacts, each)) for each in rows]
     write_mesh(
@@ -169,7 +177,7 @@ CONTACT_FILES: tuple[tuple[str, Callable[[Path, Model, Contacts, CaseResult | No
 def write_model_vtu(results: Results, out: OutputFolder) -> None:
     """``STEM_blocks.vtu`` and, where there are contacts, ``STEM_contacts.vtu`` and ``STEM_interfaces.vtu``, no case."""
     with out.writing(f"{out.stem}_blocks.vtu") as path:
-        write_blocks_vtu(path, results.model, None)
+        write_blocks_vtu(path, results.model, results.contacts, None)
     for kind, write in CONTACT_FILES if len(results.contacts) else ():
         with out.writing(f"{out.stem}_{kind}.vtu") as path:
             write(path, results.model, results.contacts, None)

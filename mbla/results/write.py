@@ -69,7 +69,7 @@ def _write_mesh_files(results: Results, case: CaseResult, out: OutputFolder, fra
     stem = f"{out.stem}_{case.load_case.name}"
     cells = block_cells(model.blocks)
     with out.writing(f"{stem}_blocks.vtu") as path:
-        write_blocks_vtu(path, model, case, cells)
+        write_blocks_vtu(path, model, contacts, case, cells)
     for kind, write in CONTACT_FILES if len(contacts) else ():
         with out.writing(f"{stem}_{kind}.vtu") as path:
             write(path, model, contacts, case)

@@ -60,6 +60,13 @@ that nothing is left of the latter in double precision."""
 CHARGED = 2.0
 """Normal force, over the largest of the solution, with which rounding in a mechanism's compatibility is charged."""
 
+LOCKED_IN = 1e4
+"""Normal force, over the whole dead load, that would have to be locked in to hold a structure that a motion with
+rounding says to fall."""
+
+WORK_ROUNDING = 1e-13
+"""Work of the dead load, over the sum of its parts, that may be rounding."""
+
 ZERO_FACTOR = 1e-3
 """Load factors below this share of dead over live load are taken for that share in relative measures."""
 
@@ -96,6 +103,20 @@ def certified_gap(program: Program, state: LawState) -> CertifiedGap:
     return CertifiedGap(static, kinematic, gap, forces, factor, mechanisms[best])
 
 
+def falling_motion(program: Program, velocities: FloatArray) -> FloatArray | None:
+    """Velocities near the given ones, (n_rows,), proving that the dead load alone is not carried; None where none do.
+
+    They are compatible, what rounding leaves is charged as if the whole dead load were locked in many times over, and
+    the dead load does more work in them than the joints dissipate.
+    """
+    charge = LOCKED_IN * float(np.abs(program.dead_load).sum())
+    for u in repaired_mechanisms(program, velocities):
+        work = float(program.dead_load @ u) - dissipation(program, u, charge)
+        if work > WORK_ROUNDING * float(np.abs(program.dead_load) @ np.abs(u)):
+            return u
+    return None
+
+
 def kinematic_value(program: Program, velocities: FloatArray, charge: float) -> float:
     """Load factor that velocities, (n_rows,), prove to be at or above the collapse value, NaN where none.
 
@@ -104,14 +125,18 @@ def kinematic_value(program: Program, velocities: FloatArray, charge: float) -> 
     live_power = float(program.live_load @ velocities)
     if not live_power > 0.0:
         return float("nan")
+    return float((dissipation(program, velocities, charge) - program.dead_load @ velocities) / live_power)
+
+
+def dissipation(program: Program, velocities: FloatArray, charge: float) -> float:
+    """Power of the joints by associative flow; incompatibility where they cannot crush costs ``charge`` as force."""
     limits = program.limits
     v = (program.equilibrium_matrix.T @ velocities).reshape(-1, program.components)
     sliding = np.linalg.norm(v[:, 1:], axis=1)
     surplus = v[:, 0] - limits.friction * sliding
     resistance = np.where(np.isinf(limits.compression), charge, limits.compression)
-    dissipated = limits.cohesion * sliding + limits.tension * np.maximum(surplus, 0.0)
-    dissipated += resistance * np.maximum(-surplus, 0.0)
-    return float((dissipated.sum() - program.dead_load @ velocities) / live_power)
+    opening = limits.cohesion * sliding + limits.tension * np.maximum(surplus, 0.0)
+    return float((opening + resistance * np.maximum(-surplus, 0.0)).sum())
 
 
 def repaired_forces(

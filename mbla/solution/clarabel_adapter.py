@@ -40,6 +40,15 @@ never brings collapse; an unbounded mechanism (dual infeasible) means that no eq
 
 UNDECIDED = (Status.APPROXIMATE, Status.NUMERICAL_ERROR, Status.ITERATION_LIMIT)
 
+QUADRATIC_REGULARIZATION = 1e-11
+"""Static regularisation of strictly convex programs: on a wall of 410 blocks 1e-8 cost 34 iterations, this 24."""
+
+LINEAR_REGULARIZATION = 1e-8
+"""Of programs with a linear cost: of 123 small structures 1e-11 left 42 short of a tolerance of 1e-8, this one."""
+
+MANY, LINEAR_REGULARIZATION_OF_MANY = 3000, 1e-9
+"""Unknowns from which the larger value costs iterations: 39 instead of 32 on a wall of 1,012 blocks."""
+
 FALLBACK_REGULARIZATION = 1e-8
 """Second try where the solver does not finish: programs whose feasible set has no interior want the larger value."""
 
@@ -60,6 +69,8 @@ class ClarabelProgram:
     _solver: Any = field(init=False, default=None)
     _raised: BaseException | None = field(init=False, default=None)
     _logged: int = field(init=False, default=-1)
+    _enough: float = field(init=False, default=0.0)
+    _had_enough: bool = field(init=False, default=False)
 
     def solve(self, program_number: int, to_load_factor: float) -> ConeSolution:
         """Solve what is loaded; where the solver does not finish, again with settings that are easier for it.
@@ -67,17 +78,23 @@ class ClarabelProgram:
         to_load_factor : factor from the objective to the load factor, for the log
         Raises SolverError if the data are not finite (the solver would answer with a confident verdict).
         """
-        solution = self._solve_once(program_number, to_load_factor)
-        for easier in _easier(self.settings):
+        solution = self.solve_once(program_number, to_load_factor)
+        for easier in _easier(self.settings, _regularization(self.cone_program, self.settings)):
             if solution.status not in UNDECIDED:
                 break
             self.settings, self._solver = easier, None
-            again = self._solve_once(program_number, to_load_factor)
+            again = self.solve_once(program_number, to_load_factor)
             solution = again if again.status not in UNDECIDED or solution.status is not Status.APPROXIMATE else solution
         return solution
 
-    def _solve_once(self, program_number: int, to_load_factor: float) -> ConeSolution:
+    def solve_once(self, program_number: int, to_load_factor: float, enough: float = 0.0) -> ConeSolution:
+        """Solve what is loaded once, for callers that judge the answer themselves.
+
+        enough : residuals and gap at which to stop, well inside the cones; the status is APPROXIMATE then
+        """
         import clarabel
+
+        self._enough, self._had_enough = enough, False
 
         self._check_finite()
         if self._solver is None:
@@ -96,7 +113,7 @@ class ClarabelProgram:
         if name not in STATUS_MAP:
             raise SolverError(f"clarabel returned a status that is not known: {name}")
         return ConeSolution(
-            status=STATUS_MAP[name],
+            status=Status.APPROXIMATE if self._had_enough else STATUS_MAP[name],
             solver_status=name,
             x=np.asarray(result.x),
             z=np.asarray(result.z),
@@ -150,7 +167,7 @@ class ClarabelProgram:
             "qdldl"  # reruns bit-identically; "auto" may take faer, whose digits depend on threads
         )
         settings.max_threads = self.settings.threads
-        settings.static_regularization_constant = self.settings.regularization
+        settings.static_regularization_constant = _regularization(self.cone_program, self.settings)
         settings.max_iter = self.settings.max_iterations
         for name in ("tol_gap_abs", "tol_gap_rel", "tol_feas"):
             setattr(settings, name, self.settings.tolerance)
@@ -167,7 +184,10 @@ class ClarabelProgram:
             except BaseException as error:  # the solver would print it and go on: kept, and raised after solve()
                 self._raised = error
                 return True
-            return signalled() or (deadline is not None and time.monotonic() > deadline)
+            if signalled() or (deadline is not None and time.monotonic() > deadline):
+                return True
+            self._had_enough = max(info.gap_rel, info.res_primal, info.res_dual) <= self._enough
+            return self._had_enough
 
         return callback
 
@@ -186,8 +206,18 @@ class ClarabelProgram:
         self.log(record)
 
 
-def _easier(settings: SolverSettings) -> tuple[SolverSettings, ...]:
-    """Settings to try in turn where a program was not decided; none that were tried already."""
+def _regularization(program: ConeProgram, settings: SolverSettings) -> float:
+    """The one asked for, or the one that kind and size of the program want."""
+    if settings.regularization is not None:
+        return settings.regularization
+    if program.quadratic is not None:
+        return QUADRATIC_REGULARIZATION
+    return LINEAR_REGULARIZATION_OF_MANY if len(program.cost) > MANY else LINEAR_REGULARIZATION
+
+
+def _easier(settings: SolverSettings, used: float) -> tuple[SolverSettings, ...]:
+    """Settings to try in turn where a program was not decided with regularisation ``used``; none tried already."""
+    first = replace(settings, regularization=used)
     regular = replace(settings, regularization=FALLBACK_REGULARIZATION)
     loose = replace(regular, tolerance=max(settings.tolerance, FALLBACK_TOLERANCE))
-    return tuple(dict.fromkeys(easier for easier in (regular, loose) if easier != settings))
+    return tuple(dict.fromkeys(easier for easier in (regular, loose) if easier != first))

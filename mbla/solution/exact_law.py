@@ -1,17 +1,22 @@
-"""The exact non-associative joint law as a return map, and Newton's method on it.
+"""The exact joint law as a return map, and Newton's method on it.
 
-From anchor forces x̄ a joint that moves with velocity v goes to::
+From anchor forces x̄ a joint that moves with velocity v goes, with dilatancy δ = tan ψ (zero without), to::
 
-    a = N̄ − v_N/ρ          N = a within −f_t ... f_c
-    τ = T̄ − v_T/ρ          T = τ min(1, (μN + c)/‖τ‖)
+    a = N̄ − v_N/ρ,   τ = T̄ − v_T/ρ
+    stick   N = a,                                   T = τ            where ‖τ‖ ≤ μN + c
+    slip    N = (a + δ (‖τ‖ − c)) / (1 + δ μ),       T = (μN + c) θ,  θ = τ/‖τ‖
+    and N within −f_t ... f_c in both: open at the one end, crushing at the other
 
-where the exact law (opening without force, sliding against friction without dilatancy) holds for the part of the motion
-that x = x̄ leaves. Equilibrium A x(v) + f_D + λ f_L = 0 with v = Aᵀu, and f_L·u = 1, is solved for u and λ by semismooth
-Newton with the consistent tangent (Alart and Curnier 1991, doi:10.1016/0045-7825(91)90022-X)::
+so that the part of the motion that x − x̄ leaves, v + ρ(x − x̄), obeys the law: opening without force, sliding against
+friction, v_N = δ ‖v_T‖ while sliding. With δ = μ this is the projection on the cone, with δ = 0 sliding does not lift.
+Equilibrium A x(v) + f_D + λ f_L = 0 with v = Aᵀu, and f_L·u = 1, is solved for u and λ by semismooth Newton with the
+consistent tangent (Alart and Curnier 1991, doi:10.1016/0045-7825(91)90022-X)::
 
-    dx = −C dv:   open C = 0;   stick C = I/ρ;   slip C_NN = 1/ρ, C_TN = μ θ/ρ, C_TT = (l/‖τ‖)(I − θθᵀ)/ρ,  θ = τ/‖τ‖
+    dx = −C dv:   stick C = I/ρ;   open and crushing C_NN = 0;
+                  slip  C_NN = 1/(1 + δμ)/ρ,  C_NT = δ C_NN θᵀ,  C_T· = μ θ C_N· + (0, (l/‖τ‖)(I − θθᵀ)/ρ)
 
-The tangent is not symmetric: sliding depends on the normal force, the normal force not on sliding.
+The tangent is symmetric for δ = μ only: without dilatancy sliding depends on the normal force, not the other way round.
+At a fixed load factor f_L·u is free and the same equations are solved for u alone.
 """
 
 from __future__ import annotations
@@ -19,14 +24,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-import scipy.sparse as sp
-import scipy.sparse.linalg as spla
 
-from mbla.arrays import FloatArray
+from mbla.arrays import BoolArray, FloatArray
 from mbla.program.program import Program
+from mbla.solution.stiffness import Stiffness
 
-MOST_STEPS = 30
-BACKTRACKS = 10
+BACKTRACKS = 8
 CONVERGED = 1e-11
 """Unbalanced force, in mean block loads."""
 
@@ -45,86 +48,108 @@ class LawStep:
     factorizations: int
 
 
-def exact_step(program: Program, anchor: FloatArray, rho: float, velocities: FloatArray, load_factor: float) -> LawStep:
+@dataclass(frozen=True)
+class JointState:
+    """Where each joint is on its law: forces, direction θ and norm of the trial shear, shear limit, and the branch."""
+
+    forces: FloatArray
+    direction: FloatArray
+    size: FloatArray
+    limit: FloatArray
+    slips: BoolArray
+    in_contact: BoolArray
+
+
+def exact_step(
+    stiffness: Stiffness,
+    slope: FloatArray,
+    anchor: FloatArray,
+    rho: float,
+    velocities: FloatArray,
+    load_factor: float,
+    most_steps: int,
+    *,
+    fixed_load: bool = False,
+) -> LawStep:
     """Solve one step from forces ``anchor``, (n_points, components), starting from velocities and a load factor.
 
-    The best iterate is returned; whether it is good enough its residual says.
+    slope      : (n_points,) tangent of the dilatancy angle
+    fixed_load : the load factor stays as given and f_L·u is free
+
+    The last iterate is returned; whether it is good enough its residual says.
     """
-    stiffness = REGULARIZATION * (program.equilibrium_matrix.multiply(program.equilibrium_matrix)).sum(axis=1) / rho
-    u, factor = velocities, load_factor
-    residual, forces, state = _residual(program, anchor, rho, u, factor)
-    best = LawStep(u, factor, forces, float(np.abs(residual).max(initial=0.0)), 0)
-    for count in range(1, MOST_STEPS + 1):
-        step = _newton_direction(program, rho, state, stiffness, residual)
-        if step is None:
-            return best
-        size, norm = 1.0, float(np.linalg.norm(residual))
+    program, u, factor, count = stiffness.program, velocities, load_factor, 0
+    residual, state = _residual(stiffness, slope, anchor, rho, u, factor, fixed_load)
+    norm = float(np.linalg.norm(residual))
+    while np.abs(residual).max(initial=0.0) > CONVERGED and count < most_steps:
+        solve = stiffness.factorized(
+            joint_tangents(program, slope, rho, state), REGULARIZATION * stiffness.size / rho, fixed_load=fixed_load
+        )
+        count += 1
+        if solve is None:
+            break
+        step = solve(-residual)
+        if not np.isfinite(step).all():
+            break
+        size = 1.0
         for _ in range(BACKTRACKS):
-            trial = _residual(program, anchor, rho, u + size * step[:-1], factor + size * float(step[-1]))
-            if np.linalg.norm(trial[0]) < (1.0 - 1e-4 * size) * norm:
+            u_new, factor_new = u + size * step[:-1], factor + size * float(step[-1])
+            trial, trial_state = _residual(stiffness, slope, anchor, rho, u_new, factor_new, fixed_load)
+            if np.linalg.norm(trial) < (1.0 - 1e-4 * size) * norm:
                 break
             size *= 0.5
         else:
-            return LawStep(best.velocities, best.load_factor, best.forces, best.residual, count)
-        u, factor = u + size * step[:-1], factor + size * float(step[-1])
-        residual, forces, state = trial
-        best = LawStep(u, factor, forces, float(np.abs(residual).max(initial=0.0)), count)
-        if best.residual <= CONVERGED:
             break
-    return best
+        u, factor, residual, state = u_new, factor_new, trial, trial_state
+        norm = float(np.linalg.norm(residual))
+    return LawStep(u, factor, state.forces, float(np.abs(residual).max(initial=0.0)), count)
 
 
-@dataclass(frozen=True)
-class _JointState:
-    """Where each joint is on its law: trial forces, norm of the trial shear, shear limit."""
+def joint_state(
+    stiffness: Stiffness, slope: FloatArray, anchor: FloatArray, rho: float, velocities: FloatArray
+) -> JointState:
+    """Return map of every joint."""
+    limits = stiffness.program.limits
+    trial = anchor - stiffness.velocities(velocities) / rho
+    size = np.linalg.norm(trial[:, 1:], axis=1)
+    direction = trial[:, 1:] / np.maximum(size, 1e-300)[:, None]
+    normal = np.clip(trial[:, 0], -limits.tension, limits.compression)
+    slips = size > np.maximum(limits.friction * normal + limits.cohesion, 0.0)
+    sliding = (trial[:, 0] + slope * (size - limits.cohesion)) / (1.0 + slope * limits.friction)
+    sliding = np.where(slips, sliding, trial[:, 0])
+    normal = np.clip(sliding, -limits.tension, limits.compression)
+    limit = np.maximum(limits.friction * normal + limits.cohesion, 0.0)
+    shear = np.where(slips, limit, size)[:, None] * direction
+    return JointState(np.column_stack([normal, shear]), direction, size, limit, slips, normal == sliding)
 
-    normal: FloatArray
-    shear: FloatArray
-    size: FloatArray
-    limit: FloatArray
-    in_contact: np.typing.NDArray[np.bool_]
+
+def joint_tangents(program: Program, slope: FloatArray, rho: float, state: JointState) -> FloatArray:
+    """C of every joint, (n_points, components, components)."""
+    friction, theta = program.limits.friction, state.direction
+    slips, size = state.slips, program.components
+    tangents = np.zeros((program.n_points, size, size))
+    dilates = np.where(slips, slope, 0.0)
+    tangents[:, 0, 0] = np.where(state.in_contact, 1.0 / (1.0 + dilates * friction), 0.0)
+    tangents[:, 0, 1:] = (tangents[:, 0, 0] * dilates)[:, None] * theta
+    share = np.where(slips, state.limit / np.maximum(state.size, 1e-300), 1.0)
+    across = np.eye(size - 1) - np.where(slips, 1.0, 0.0)[:, None, None] * theta[:, :, None] * theta[:, None, :]
+    tangents[:, 1:, 1:] = share[:, None, None] * across
+    follows = np.where(slips & (state.limit > 0.0), friction, 0.0)
+    tangents[:, 1:, :] += (follows[:, None] * theta)[:, :, None] * tangents[:, None, 0, :]
+    return tangents / rho
 
 
 def _residual(
-    program: Program, anchor: FloatArray, rho: float, u: FloatArray, factor: float
-) -> tuple[FloatArray, FloatArray, _JointState]:
-    """Unbalanced forces and f_L·u − 1, (n_rows + 1,); the forces; the state of the joints."""
-    limits = program.limits
-    trial = anchor - (program.equilibrium_matrix.T @ u).reshape(-1, program.components) / rho
-    normal = np.clip(trial[:, 0], -limits.tension, limits.compression)
-    limit = np.maximum(limits.friction * normal + limits.cohesion, 0.0)
-    size = np.linalg.norm(trial[:, 1:], axis=1)
-    shorten = np.minimum(1.0, limit / np.maximum(size, 1e-300))
-    forces = np.column_stack([normal, trial[:, 1:] * shorten[:, None]])
-    balance = program.equilibrium_matrix @ forces.ravel() + program.dead_load + factor * program.live_load
-    state = _JointState(normal, trial[:, 1:], size, limit, normal == trial[:, 0])
-    return np.append(balance, program.live_load @ u - 1.0), forces, state
-
-
-def _newton_direction(
-    program: Program, rho: float, state: _JointState, stiffness: FloatArray, residual: FloatArray
-) -> FloatArray | None:
-    tangent = _tangent(program.limits.friction, rho, state)
-    matrix, live = program.equilibrium_matrix, program.live_load
-    jacobian = -(matrix @ tangent @ matrix.T) - sp.diags_array(stiffness)
-    system = sp.block_array([[jacobian, sp.csr_array(live[:, None])], [sp.csr_array(live[None, :]), None]])
-    try:
-        step = spla.splu(sp.csc_matrix(system)).solve(-residual)
-    except RuntimeError:  # exactly singular
-        return None
-    return step if np.isfinite(step).all() else None
-
-
-def _tangent(friction: FloatArray, rho: float, state: _JointState) -> sp.csr_array:
-    """C of every joint as a block-diagonal matrix, (components n_points, components n_points)."""
-    n, size = len(friction), 1 + state.shear.shape[1]
-    tangent = np.zeros((n, size, size))
-    tangent[:, 0, 0] = state.in_contact / rho
-    direction = state.shear / np.maximum(state.size, 1e-300)[:, None]
-    slips = state.size > state.limit
-    share = np.where(slips, state.limit / np.maximum(state.size, 1e-300), 1.0)
-    across = np.eye(size - 1) - np.where(slips, 1.0, 0.0)[:, None, None] * direction[:, :, None] * direction[:, None, :]
-    tangent[:, 1:, 1:] = share[:, None, None] * across / rho
-    follows = slips & state.in_contact
-    tangent[follows, 1:, 0] = friction[follows, None] * direction[follows] / rho
-    return sp.csr_array(sp.bsr_array((tangent, np.arange(n), np.arange(n + 1)), shape=(size * n, size * n)))
+    stiffness: Stiffness,
+    slope: FloatArray,
+    anchor: FloatArray,
+    rho: float,
+    u: FloatArray,
+    factor: float,
+    fixed_load: bool,
+) -> tuple[FloatArray, JointState]:
+    """Unbalanced forces and f_L·u − 1 (0 at a fixed load), (n_rows + 1,); the state of the joints."""
+    program = stiffness.program
+    state = joint_state(stiffness, slope, anchor, rho, u)
+    balance = program.equilibrium_matrix @ state.forces.ravel() + program.dead_load + factor * program.live_load
+    return np.append(balance, 0.0 if fixed_load else program.live_load @ u - 1.0), state

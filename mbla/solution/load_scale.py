@@ -36,19 +36,22 @@ class LoadScale:
     mean: float
     live: float
 
+    def allowed(self, contacts: Contacts, contact_forces: FloatArray, share: float, rounding: float) -> FloatArray:
+        """What may be left unbalanced on each block: shares of its own load and of the forces on it, (n_blocks,)."""
+        return np.asarray(share * self.own + rounding * forces_on_blocks(contacts, contact_forces, len(self.own)))
+
     def block_scale(self, contacts: Contacts, contact_forces: FloatArray) -> FloatArray:
         """Load and contact forces that each block has to balance, at most the mean load, (n_blocks,)."""
-        n_blocks = len(self.own)
-        size = np.linalg.norm(contact_forces, axis=1)
-        total = self.own.copy()
-        for bodies in bodies_of_points(contacts).T:
-            here = bodies < n_blocks
-            total += np.bincount(bodies[here], size[here], n_blocks)
+        total = self.own + forces_on_blocks(contacts, contact_forces, len(self.own))
         return np.asarray(np.minimum(total, self.mean))
 
     def point_scale(self, contacts: Contacts, contact_forces: FloatArray) -> FloatArray:
         """The scale of the lighter free block at every contact point, (n_points,)."""
-        scale = np.where(self.own > 0, self.block_scale(contacts, contact_forces), np.inf)
+        return self.of_lighter(contacts, self.block_scale(contacts, contact_forces))
+
+    def of_lighter(self, contacts: Contacts, values: FloatArray) -> FloatArray:
+        """The lesser of the values, (n_blocks,), of the free blocks at every contact point, (n_points,)."""
+        scale = np.where(self.own > 0, values, np.inf)
         bodies = bodies_of_points(contacts)
         outside = np.full(max(int(bodies.max(initial=0)) + 1 - len(scale), 0), np.inf)
         return np.asarray(np.append(scale, outside)[bodies].min(axis=1))
@@ -67,8 +70,8 @@ class LoadScale:
 
 def load_scale(model: Model, contacts: Contacts, load_case: LoadCase, limits: YieldLimits) -> LoadScale:
     """Sizes of the loads of one case."""
-    arms = _lever_arms(model, contacts)
-    dead, live = (_sizes(load, arms) * ~model.fixed for load in (load_case.dead_load, load_case.live_load))
+    arms = lever_arms(model, contacts)
+    dead, live = (load_sizes(load, arms) * ~model.fixed for load in (load_case.dead_load, load_case.live_load))
     strength = float((limits.cohesion + limits.tension).sum()) / len(model.free)
     candidates = (dead, np.where(model.fixed, 0.0, strength), live)
     own = next(sizes for sizes in candidates if np.any(sizes > 0))
@@ -77,11 +80,22 @@ def load_scale(model: Model, contacts: Contacts, load_case: LoadCase, limits: Yi
     return LoadScale(arms, own, mean, float(np.linalg.norm(live)))
 
 
-def _sizes(load: FloatArray, arms: FloatArray) -> FloatArray:
+def forces_on_blocks(contacts: Contacts, contact_forces: FloatArray, n_blocks: int) -> FloatArray:
+    """Sum of the sizes of the contact forces on each block, (n_blocks,)."""
+    size, total = np.linalg.norm(contact_forces, axis=1), np.zeros(n_blocks)
+    for bodies in bodies_of_points(contacts).T:
+        here = bodies < n_blocks
+        total += np.bincount(bodies[here], size[here], n_blocks)
+    return total
+
+
+def load_sizes(load: FloatArray, arms: FloatArray) -> FloatArray:
+    """Forces and moments over the lever arms of loads, (n_blocks, 6), as one size each, (n_blocks,)."""
     return np.asarray(np.hypot(np.linalg.norm(load[:, :3], axis=1), np.linalg.norm(load[:, 3:], axis=1) / arms))
 
 
-def _lever_arms(model: Model, contacts: Contacts) -> FloatArray:
+def lever_arms(model: Model, contacts: Contacts) -> FloatArray:
+    """Mean distance of each block's contact points from its centroid, its size where it has none, (n_blocks,)."""
     n_blocks = len(model.blocks)
     total, count = np.zeros(n_blocks), np.zeros(n_blocks)
     for bodies in bodies_of_points(contacts).T:

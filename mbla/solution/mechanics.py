@@ -4,14 +4,16 @@ from __future__ import annotations
 
 import numpy as np
 
-from mbla.arrays import FloatArray, IntArray
+from mbla.arrays import FloatArray
 from mbla.program.program import Program
+from mbla.program.yield_conditions import YieldLimits
+from mbla.solution.contact_modes import contact_modes
 from mbla.solution.law_state import LawState
-from mbla.solution.solution import ContactMode, Mechanics
+from mbla.solution.solution import Mechanics
 
 
-def mechanics_of(program: Program, state: LawState) -> Mechanics:
-    """Mechanics of the model from a state of a program, reduced or not."""
+def mechanics_of(program: Program, state: LawState, flow_rule: str = "non_associative") -> Mechanics:
+    """Mechanics of the model from a state of a program, reduced or not, that was found by the given flow rule."""
     while program.reduction is not None:
         state, program = lifted(program, state), program.reduction.full
     scaling = program.scaling
@@ -23,7 +25,9 @@ def mechanics_of(program: Program, state: LawState) -> Mechanics:
         contact_forces=contact_forces,
         contact_velocities=velocities_of_points,
         mechanism=program.mechanism(velocities),
-        modes=contact_modes(contact_forces, velocities_of_points),
+        modes=contact_modes(
+            state.forces.reshape(-1, 3), velocities_of_points, program.limits, slope_of(flow_rule, program.limits)
+        ),
     )
 
 
@@ -61,21 +65,8 @@ def contact_velocities(program: Program, velocities: FloatArray) -> FloatArray:
     return (program.equilibrium_matrix.T @ (physical / (scaling.row * scaling.force))).reshape(-1, 3)
 
 
-def contact_modes(contact_forces: FloatArray, contact_velocities: FloatArray) -> IntArray:
-    """Mode of every contact point, (n_points,).
-
-    Complementarity leaves one of two small: a point is open where its opening velocity over the largest contact speed
-    exceeds its normal force over the largest one, else it slides where its sliding speed is not negligible. Ratios, not
-    a threshold on velocities, so that the verdict does not depend on how far the solver went.
-    """
-    normal_force, normal_velocity = contact_forces[:, 0], contact_velocities[:, 0]
-    sliding = np.hypot(contact_velocities[:, 1], contact_velocities[:, 2])
-    speed = np.linalg.norm(contact_velocities, axis=1).max(initial=0.0)
-    force = np.abs(normal_force).max(initial=0.0)
-    modes = np.full(len(normal_force), ContactMode.STICK, dtype=np.int64)
-    if speed == 0.0 or force == 0.0:
-        return modes
-    modes[sliding > 1e-5 * speed] = ContactMode.SLIDE
-    opens = (normal_velocity / speed > np.maximum(normal_force / force, 0.0)) & (normal_velocity > 1e-5 * speed)
-    modes[opens] = ContactMode.OPEN
-    return modes
+def slope_of(flow_rule: str, limits: YieldLimits) -> FloatArray:
+    """Tangent of the dilatancy angle that a flow rule asks of every contact point, (n_points,)."""
+    if flow_rule == "associative":
+        return limits.friction
+    return limits.dilatancy if flow_rule == "dilatancy" else np.zeros_like(limits.friction)

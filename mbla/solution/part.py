@@ -9,9 +9,12 @@ import numpy as np
 from mbla.deck.analysis import AnalysisSection
 from mbla.program.program import Program
 from mbla.solution.associative import AssociativeResult, solve_associative
+from mbla.solution.associative_form import FORMS
+from mbla.solution.boundedness import Boundedness, non_associative_bounded
 from mbla.solution.clarabel_adapter import Log
 from mbla.solution.factor_range import FactorRange, factor_range
 from mbla.solution.law_state import LawState, SequenceResult
+from mbla.solution.polyhedral import solve_polyhedral, solve_with_opinion
 from mbla.solution.proximal import solve_proximal
 from mbla.solution.published import solve_published
 from mbla.solution.settings import SolverSettings
@@ -31,6 +34,8 @@ class PartResult:
     loaded      : false where no live load acts on the part; then it only has to carry its dead load
     standing    : assessment of the dead load alone, None where it was not asked for
     range       : of the load factor without normality, for the mechanism found
+    outer       : with the circumscribed friction polyhedron, ``associative`` having the inscribed one
+    remarks     : on the associative answer, one sentence each
     """
 
     program: Program
@@ -39,6 +44,8 @@ class PartResult:
     loaded: bool
     standing: StandingResult | None = None
     range: FactorRange | None = None
+    outer: AssociativeResult | None = None
+    remarks: tuple[str, ...] = ()
 
     @property
     def state(self) -> LawState | None:
@@ -48,9 +55,10 @@ class PartResult:
     @property
     def status(self) -> Status:
         """Of the flow rule of the analysis; never better than that of the associative program it started from."""
-        if self.sequence is None or (self.sequence.status is Status.SOLVED and self.associative.state is not None):
+        if self.sequence is None:
             return self.associative.status
-        return self.sequence.status
+        weak_start = self.associative.state is not None and self.sequence.status is Status.SOLVED
+        return self.associative.status if weak_start else self.sequence.status
 
     @property
     def reason(self) -> str:
@@ -75,15 +83,52 @@ def solve_part(program: Program, analysis: AnalysisSection, settings: SolverSett
 def _by_flow_rule(program: Program, analysis: AnalysisSection, settings: SolverSettings, log: Log) -> PartResult:
     if not np.any(program.live_load):
         return _unloaded_part(program, settings, log)
-    associative = solve_associative(program, settings, log)
-    if analysis.flow_rule == "associative" or associative.state is None:
-        return PartResult(program, associative, None, loaded=True)
+    result = _associative(program, analysis, settings, log)
+    associative = result.associative
+    if analysis.flow_rule == "associative" or not (associative.state or associative.status is Status.UNBOUNDED):
+        return result
+    if associative.state is None:
+        return _locked_by_dilatancy(result, analysis, settings, log)
+    return replace(result, sequence=_sequence(program, associative, analysis, settings, log))
+
+
+def _associative(program: Program, analysis: AnalysisSection, settings: SolverSettings, log: Log) -> PartResult:
+    """The associative answer in the form asked for, with a second opinion where that was asked for."""
+    if analysis.friction_cone == "polyhedral":
+        both = solve_polyhedral(program, analysis.sides, analysis.form, settings, log)
+        inner = replace(both.inner, programs=both.programs)
+        outer = None if program.components == 2 else both.outer
+        return PartResult(program, inner, None, loaded=True, outer=outer, remarks=both.remarks)
+    if analysis.second_opinion:
+        answer, remark = solve_with_opinion(program, None, analysis.form, "", settings, log)
+        return PartResult(program, answer, None, loaded=True, remarks=(remark,) if remark else ())
+    answer = solve_associative(program, settings, log, form=FORMS[analysis.form](program, None))
+    return PartResult(program, answer, None, loaded=True)
+
+
+def _sequence(
+    program: Program, associative: AssociativeResult, analysis: AnalysisSection, settings: SolverSettings, log: Log
+) -> SequenceResult:
+    """The flow rule and the scheme of the analysis."""
     if analysis.flow_rule == "non_associative" and analysis.scheme != "published":
-        sequence = solve_proximal(program, associative, analysis.proximal.max_programs, settings, log)
-    else:
-        dilatancy = program.limits.dilatancy if analysis.flow_rule == "dilatancy" else np.zeros(program.n_points)
-        sequence = solve_published(program, associative, analysis.published, dilatancy, settings, log)
-    return PartResult(program, associative, sequence, loaded=True)
+        return solve_proximal(program, associative, analysis.proximal.max_programs, settings, log)
+    dilatancy = program.limits.dilatancy if analysis.flow_rule == "dilatancy" else np.zeros(program.n_points)
+    return solve_published(program, associative, analysis.published, dilatancy, settings, log)
+
+
+def _locked_by_dilatancy(
+    result: PartResult, analysis: AnalysisSection, settings: SolverSettings, log: Log
+) -> PartResult:
+    """Associative flow locks: without dilatancy joints may still give way, which is decided first."""
+    program, associative = result.program, result.associative
+    decision = non_associative_bounded(program, settings)
+    if analysis.flow_rule != "non_associative" or decision.verdict is Boundedness.UNBOUNDED:
+        return replace(result, associative=replace(associative, reason=decision.reason))
+    if decision.verdict is Boundedness.DOUBTFUL:
+        return replace(result, associative=replace(associative, status=Status.NOT_VERIFIED, reason=decision.reason))
+    sequence = _sequence(program, associative, analysis.model_copy(update={"scheme": "proximal"}), settings, log)
+    sequence = replace(sequence, remarks=(decision.reason, *sequence.remarks))
+    return replace(result, associative=replace(associative, reason=""), sequence=sequence)
 
 
 def _range_of(result: PartResult, settings: SolverSettings, log: Log) -> FactorRange | None:

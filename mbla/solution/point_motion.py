@@ -57,3 +57,19 @@ def _shear_direction(v: FloatArray, speed: FloatArray, shear: FloatArray, size: 
     of_force = shear / np.maximum(np.linalg.norm(shear, axis=1), 1e-300)[:, None]
     of_velocity = -v / np.maximum(np.linalg.norm(v, axis=1), 1e-300)[:, None]
     return np.asarray(np.where((size > speed)[:, None], of_force, of_velocity))
+
+
+def motion_of(program: Program, velocities: FloatArray, at_rest: float) -> PointMotion:
+    """Motion of every point in a mechanism without dilatancy whose velocities are exact.
+
+    at_rest : velocity over the largest contact speed below which a point is at rest
+    """
+    v = (program.equilibrium_matrix.T @ velocities).reshape(-1, program.components)
+    least = at_rest * float(np.linalg.norm(v, axis=1).max(initial=0.0))
+    sliding = np.linalg.norm(v[:, 1:], axis=1)
+    return PointMotion(
+        opens=v[:, 0] > least,
+        crushes=(v[:, 0] < -least) & np.isfinite(program.limits.compression),
+        slides=sliding > least,
+        shear=-v[:, 1:] / np.maximum(sliding, 1e-300)[:, None],
+    )

@@ -65,13 +65,18 @@ def residuals_of(
     load_case: LoadCase,
     mechanics: Mechanics,
     dilatancy: FloatArray,
+    polygon: FloatArray | None = None,
 ) -> Residuals:
-    """Residuals under a flow rule with the given dilatancy (tangent), (n_points,)."""
+    """Residuals under a flow rule with the given dilatancy (tangent), (n_points,).
+
+    polygon : (n, 2) corners that bound the shear of a unit circle; the speed against which sliding dissipates is then
+              s = max g·v_T over the corners g
+    """
     limits = yield_limits(model, contacts)
     scale = load_scale(model, contacts, load_case, limits)
     u, x, factor = mechanics.mechanism, mechanics.contact_forces, mechanics.load_factor
     v = contact_velocities(model, contacts, u)
-    sliding = np.hypot(v[:, 1], v[:, 2])
+    sliding = np.hypot(v[:, 1], v[:, 2]) if polygon is None else (v[:, 1:] @ polygon.T).max(axis=1)
     speed = float(np.linalg.norm(v, axis=1).max(initial=0.0))
     closing = np.where(np.isinf(limits.compression), np.maximum(-v[:, 0], 0.0), 0.0)
     live_power, dead_power = power(load_case.live_load, u), power(load_case.dead_load, u)

@@ -13,8 +13,8 @@ SOLVER_TOLERANCE = {"draft": 1e-6, "standard": 1e-8, "reference": 1e-10}
 MAX_ITERATIONS = 300
 """Iterations of one program; walls of 10,000 blocks need about 70."""
 
-REGULARIZATION = 1e-11
-"""Static regularisation of the KKT matrix: the solver's own 1e-8 costs two to four times the iterations here."""
+GAP = {"draft": 5e-6, "standard": 1e-6, "reference": 1e-7}
+"""Distance of the proved bounds, relative, beyond which an associative program is solved again, more sharply."""
 
 
 @dataclass(frozen=True)
@@ -23,18 +23,20 @@ class SolverSettings:
 
     tolerance      : relative, on gap and feasibility of the scaled program
     max_iterations : for one program
-    regularization : static regularisation of the KKT matrix
+    regularization : static regularisation of the KKT matrix; None: by kind and size of the program
     threads        : of the linear algebra
     solver         : library that solves cone programs: clarabel, or highs for linear ones
     deadline       : time.monotonic() at which to stop, or None
+    gap            : relative distance of the proved bounds that an associative load factor should have
     """
 
     tolerance: float
     max_iterations: int = MAX_ITERATIONS
-    regularization: float = REGULARIZATION
+    regularization: float | None = None
     threads: int = 1
     deadline: float | None = None
     solver: str = "clarabel"
+    gap: float = GAP["standard"]
 
 
 def solver_settings(analysis: AnalysisSection, threads: int = 1) -> SolverSettings:
@@ -46,4 +48,5 @@ def solver_settings(analysis: AnalysisSection, threads: int = 1) -> SolverSettin
         threads=threads,
         deadline=None if analysis.time_limit is None else time.monotonic() + analysis.time_limit,
         solver=analysis.solver,
+        gap=GAP[analysis.accuracy],
     )

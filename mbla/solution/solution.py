@@ -135,7 +135,9 @@ class Solution:
     scheme      : how a flow without normality was solved; empty for associative flow
     remarks     : what a reader of the figure must know, one sentence each
     lower, upper: non-associative flow: least and greatest load factor for the mechanism found, with the forces
-    outer       : polyhedral friction: answer with the circumscribed polyhedron, ``associative`` having the inscribed
+    outer       : polyhedral friction: answer with the circumscribed polyhedron, ``associative`` having the inscribed;
+                  None where the two do not differ, as in a plane
+    sides       : of the friction polyhedron; 0 for the circular cone
     spread      : least and greatest load factor of several tries that did not agree
     standing    : assessment of the dead load alone
     lock        : unbounded: (n_points, 3) contact forces that balance the live load alone, so that any multiple is
@@ -159,6 +161,7 @@ class Solution:
     lower: Mechanics | None = None
     upper: Mechanics | None = None
     outer: Mechanics | None = None
+    sides: int = 0
     spread: tuple[float, float] | None = None
     standing: StandingResult | None = None
     lock: FloatArray | None = None

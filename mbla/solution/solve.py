@@ -13,6 +13,7 @@ from mbla.program.program import Program
 from mbla.program.reductions import Reduced
 from mbla.solution.clarabel_adapter import Log
 from mbla.solution.law_state import LawState
+from mbla.solution.locking import locking_forces
 from mbla.solution.mechanics import mechanics_of, motion_of
 from mbla.solution.part import PartResult, solve_part
 from mbla.solution.settings import SolverSettings
@@ -20,6 +21,20 @@ from mbla.solution.solution import IterationRecord, Mechanics, ProgramRecord, So
 from mbla.solution.whole import whole_state
 
 WITH_VALUE = (Status.SOLVED, Status.APPROXIMATE)
+
+FAILED = (
+    Status.NO_EQUILIBRIUM,
+    Status.TIME_LIMIT,
+    Status.NUMERICAL_ERROR,
+    Status.ITERATION_LIMIT,
+    Status.NOT_VERIFIED,
+)
+"""what of one part decides for all, the gravest first"""
+
+LOCK_NOT_PROVED = (
+    "the solver finds no mechanism in which the live load does work, but no forces that carry every multiple of it "
+    "were found to prove that"
+)
 
 ONLY_BY_SELF_STRESS = (
     "it stands only by forces locked in between the blocks beforehand: without knowing these there is no collapse load"
@@ -34,10 +49,10 @@ class _Stage:
     settings: SolverSettings
     log: Log
 
-    def mechanics(self, part: int, state: LawState | None) -> Mechanics | None:
+    def mechanics(self, part: int, state: LawState | None, flow_rule: str) -> Mechanics | None:
         """A state of one part as mechanics of the whole model; None where the other parts do not carry it."""
         whole = None if state is None else whole_state(self.parts, part, state, self.settings, self.log)
-        return None if whole is None else mechanics_of(*whole)
+        return None if whole is None else mechanics_of(*whole, flow_rule)
 
 
 def solve(reduced: Reduced, analysis: AnalysisSection, settings: SolverSettings, log: Log | None = None) -> Solution:
@@ -71,16 +86,16 @@ def solve(reduced: Reduced, analysis: AnalysisSection, settings: SolverSettings,
 
 def _combined(stage: _Stage, analysis: AnalysisSection, results: Sequence[PartResult]) -> Solution:
     """The part that decides: one that cannot stand, one that could not be solved, or the first to collapse."""
-    for status in (Status.NO_EQUILIBRIUM, Status.TIME_LIMIT, Status.NUMERICAL_ERROR, Status.ITERATION_LIMIT):
+    for status in FAILED:
         for part, result in enumerate(results):
             if result.associative.status is status:
                 return _without_load_factor(stage, analysis, part, result)
-    bounded = [part for part, result in enumerate(results) if result.associative.state is not None]
+    bounded = [part for part, result in enumerate(results) if _load_factor(result) < np.inf]
     if not bounded:
         loaded = [part for part, result in enumerate(results) if result.loaded]
         return _without_load_factor(stage, analysis, loaded[0], results[loaded[0]])
     first = min(bounded, key=lambda part: _load_factor(results[part]))
-    first_associative = min(bounded, key=lambda part: _factor(results[part].associative.state))
+    first_associative = min(range(len(results)), key=lambda part: _factor(results[part].associative.state))
     return _with_load_factor(stage, analysis, results, first, first_associative)
 
 
@@ -94,15 +109,15 @@ def _factor(state: LawState | None) -> float:
 
 
 def _without_load_factor(stage: _Stage, analysis: AnalysisSection, part: int, result: PartResult) -> Solution:
-    associative = result.associative
-    reason = associative.reason
-    if associative.status is Status.UNBOUNDED and analysis.flow_rule != "associative":
-        reason += (
-            "; this holds for associative flow, and does not decide whether there is a load factor without dilatancy"
-        )
+    associative, lock = result.associative, None
+    status, reason = associative.status, associative.reason
+    if status is Status.UNBOUNDED:
+        lock = locking_forces(stage.parts, stage.settings, stage.log)
+        if lock is None:
+            status, reason = Status.NOT_VERIFIED, LOCK_NOT_PROVED
     certificate = associative.certificate
     motion = None if certificate is None else motion_of(stage.parts[part], certificate)
-    return replace(_solution(analysis, associative.status, reason), certificate=motion)
+    return replace(_solution(analysis, status, reason), certificate=motion, lock=lock)
 
 
 def _with_load_factor(
@@ -110,22 +125,34 @@ def _with_load_factor(
 ) -> Solution:
     result = results[first]
     solution = _solution(analysis, result.status, result.reason)
-    associative = stage.mechanics(first_associative, results[first_associative].associative.state)
+    associative = stage.mechanics(first_associative, results[first_associative].associative.state, "associative")
+    outer = _outer(stage, results)
+    remarks = tuple(remark for result in results for remark in result.remarks)
     if result.sequence is None:
-        return replace(solution, mechanics=associative, associative=associative)
+        return replace(solution, mechanics=associative, associative=associative, outer=outer, remarks=remarks)
     sequence, live = result.sequence, stage.parts[first].scaling.live
     ends = result.range
     return replace(
         solution,
-        mechanics=stage.mechanics(first, sequence.state),
-        lower=None if ends is None else stage.mechanics(first, ends.lower),
-        upper=None if ends is None else stage.mechanics(first, ends.upper),
+        mechanics=stage.mechanics(first, sequence.state, analysis.flow_rule),
+        lower=None if ends is None else stage.mechanics(first, ends.lower, analysis.flow_rule),
+        upper=None if ends is None else stage.mechanics(first, ends.upper, analysis.flow_rule),
         associative=associative,
         scheme=analysis.scheme,
-        remarks=sequence.remarks,
+        outer=outer,
+        remarks=(*remarks, *sequence.remarks),
         spread=None if sequence.spread is None else (sequence.spread[0] * live, sequence.spread[1] * live),
         path=sequence.path,
     )
+
+
+def _outer(stage: _Stage, results: Sequence[PartResult]) -> Mechanics | None:
+    """With circumscribed friction polyhedra: the part that collapses first; None where none were asked for."""
+    states = [None if result.outer is None else result.outer.state for result in results]
+    if all(state is None for state in states):
+        return None
+    first = min(range(len(states)), key=lambda part: _factor(states[part]))
+    return stage.mechanics(first, states[first], "associative")
 
 
 def _solution(analysis: AnalysisSection, status: Status, reason: str) -> Solution:

@@ -29,7 +29,6 @@ import scipy.sparse.linalg as spla
 
 from mbla.arrays import BoolArray, FloatArray
 from mbla.program.yield_conditions.limits import YieldLimits
-from mbla.solution.stiffness_pattern import StiffnessPattern, stiffness_pattern
 
 BALANCED = 1e-9
 """Unbalanced force of a block, over its own load, that counts as equilibrium."""
@@ -67,7 +66,6 @@ class SpringProblem:
     springs: sp.csr_array
     sizes: FloatArray
     components: int
-    pattern: StiffnessPattern
     deadline: float | None
     shear_stiffness: float = 1.0
 
@@ -84,7 +82,7 @@ def spring_problem(
     springs: sp.csr_array,
     deadline: float | None,
 ) -> SpringProblem:
-    """Precompute what all states of the problem share."""
+    """A problem with joints as stiff in shear as in compression."""
     components = equilibrium_matrix.shape[1] // max(len(limits.friction), 1) or 3
     return SpringProblem(
         equilibrium_matrix=equilibrium_matrix,
@@ -94,19 +92,19 @@ def spring_problem(
         springs=springs,
         sizes=springs.diagonal(),
         components=components,
-        pattern=stiffness_pattern(equilibrium_matrix, components, springs),
         deadline=deadline,
     )
 
 
 @dataclass(frozen=True)
 class _Joints:
-    """Where each joint is on its law: trial shear, its norm and limit, whether N follows v_N; unbalanced forces."""
+    """Joints on their law: trial shear, its norm and limit; whether N follows v_N; forces; unbalanced forces."""
 
     shear: FloatArray
     size: FloatArray
     limit: FloatArray
     follows: BoolArray
+    forces: FloatArray
     unbalanced: FloatArray
 
 
@@ -121,6 +119,11 @@ def spring_state(problem: SpringProblem, kappa: float, start: FloatArray) -> Flo
             found, near = _newton(problem, kappa, u)
             u = near if found else u
     return u if found else None
+
+
+def joint_forces(problem: SpringProblem, u: FloatArray) -> FloatArray:
+    """Contact forces at displacements u, (n_points, components)."""
+    return _joints(problem, 0.0, u, None).forces
 
 
 def _newton(problem: SpringProblem, kappa: float, u: FloatArray) -> tuple[bool, FloatArray]:
@@ -198,12 +201,12 @@ def _joints(problem: SpringProblem, kappa: float, u: FloatArray, limit: FloatArr
         limit = np.maximum(limits.friction * normal + limits.cohesion, 0.0)
     forces = np.column_stack([normal, shear * np.minimum(1.0, limit / np.maximum(size, 1e-300))[:, None]])
     unbalanced = problem.equilibrium_matrix @ forces.ravel() + problem.load - kappa * (problem.springs @ u)
-    return _Joints(shear, size, limit, normal == trial[:, 0], unbalanced)
+    return _Joints(shear, size, limit, normal == trial[:, 0], forces, unbalanced)
 
 
 def _direction(problem: SpringProblem, kappa: float, joints: _Joints, *, lagged: bool) -> FloatArray | None:
     """Newton's step, None where the tangent is singular."""
-    matrix = problem.pattern.matrix(_joint_stiffness(problem, joints, lagged), kappa)
+    matrix = _stiffness(problem, kappa, joints, lagged)
     try:
         factors = spla.splu(matrix, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.01, options={"SymmetricMode": True})
     except RuntimeError:  # exactly singular
@@ -211,6 +214,14 @@ def _direction(problem: SpringProblem, kappa: float, joints: _Joints, *, lagged:
     step = factors.solve(joints.unbalanced)
     step = step + factors.solve(joints.unbalanced - matrix @ step)  # springs are 1e-12 of the joints
     return step if np.isfinite(step).all() else None
+
+
+def _stiffness(problem: SpringProblem, kappa: float, joints: _Joints, lagged: bool) -> sp.csc_matrix:
+    """A C Aᵀ + κ W."""
+    blocks = _joint_stiffness(problem, joints, lagged)
+    n, size = len(blocks), problem.components * len(blocks)
+    diagonal = sp.csr_array(sp.bsr_array((blocks, np.arange(n), np.arange(n + 1)), shape=(size, size)))
+    return sp.csc_matrix(problem.equilibrium_matrix @ diagonal @ problem.transpose + kappa * problem.springs)
 
 
 def _joint_stiffness(problem: SpringProblem, joints: _Joints, lagged: bool) -> FloatArray:

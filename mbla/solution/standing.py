@@ -9,6 +9,9 @@ has to arise from the assembly without stress, by the exact law of the joints: s
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from dataclasses import dataclass
+
 import numpy as np
 
 from mbla.arrays import FloatArray
@@ -23,29 +26,67 @@ NO_DEAD_LOAD = "there is no dead load to carry"
 SELF_STRESS = (
     "from the stress-free assembly it falls: it stands only if forces are locked in between the blocks beforehand"
 )
+DOUBTFUL = "whether it stands from the stress-free assembly is doubtful"
 NO = "no contact forces carry the dead load"
 UNKNOWN = "from the stress-free assembly it falls; whether it could stand with forces locked in was not decided"
 
+GRAVEST_FIRST = (Standing.NO, Standing.SELF_STRESS, Standing.DOUBTFUL, Standing.YES)
+
+
+@dataclass(frozen=True)
+class DeadLoadState:
+    """Standing, and the forces that arise from the stress-free assembly.
+
+    forces        : (n_points, components), non-dimensional, in balance with the dead load up to 1e-6 of each block's;
+                    None where they do not balance it
+    displacements : (n_rows,) that bring them about: what ``verify_standing`` needs beside the forces
+    """
+
+    standing: StandingResult
+    forces: FloatArray | None
+    displacements: FloatArray | None
+
 
 def assess_standing(program: Program, settings: SolverSettings, carried: bool | None = True) -> StandingResult:
+    """Assess the dead load of a program, reduced or not; see ``assess_dead_load``."""
+    return assess_dead_load(program, settings, carried).standing
+
+
+def assess_dead_load(program: Program, settings: SolverSettings, carried: bool | None = True) -> DeadLoadState:
     """Assess the dead load of a program, reduced or not.
 
     carried : whether some contact forces within the yield conditions are known to carry the dead load; None where that
               was not decided. False needs no springs: see ``standing_without_equilibrium``
     """
     if not np.any(program.dead_load):
-        return StandingResult(Standing.YES, None, NO_DEAD_LOAD)
+        none = np.zeros((program.n_points, program.components))
+        return DeadLoadState(StandingResult(Standing.YES, None, NO_DEAD_LOAD), none, np.zeros_like(program.dead_load))
     weakening = weaken_springs(program, "dead_load", program.limits, settings)
     if weakening.outcome is Outcome.CARRIED:
-        return StandingResult(Standing.YES, None, YES)
-    if weakening.outcome is Outcome.UNDECIDED:
-        reason = f"whether it stands from the stress-free assembly is doubtful: {weakening.reason}"
-        return StandingResult(Standing.DOUBTFUL, weakening.block, reason)
+        return DeadLoadState(StandingResult(Standing.YES, None, YES), weakening.forces, weakening.displacements)
+    verdict, reason = (Standing.SELF_STRESS, SELF_STRESS) if carried else (Standing.NO, NO)
     if carried is None:
-        return StandingResult(Standing.DOUBTFUL, weakening.block, UNKNOWN)
-    if carried:
-        return StandingResult(Standing.SELF_STRESS, weakening.block, SELF_STRESS)
-    return StandingResult(Standing.NO, weakening.block, NO)
+        verdict, reason = Standing.DOUBTFUL, UNKNOWN
+    if weakening.outcome is Outcome.UNDECIDED:
+        verdict, reason = Standing.DOUBTFUL, f"{DOUBTFUL}: {weakening.reason}"
+    return DeadLoadState(StandingResult(verdict, weakening.block, reason), None, None)
+
+
+def settlement_of(program: Program, displacements: FloatArray) -> FloatArray:
+    """Displacements and rotations of all blocks on joints of unit stiffness, (n_blocks, 6), zero where fixed.
+
+    With a force of 1 per length of 1 in the deck's units, contact forces are what these displacements bring about; with
+    joints k times as stiff everything moves 1/k as far. Those of parts add up.
+    """
+    while program.reduction is not None:
+        displacements, program = program.reduction.velocities @ displacements, program.reduction.full
+    scaling = program.scaling
+    return program.mechanism(displacements) * (scaling.force**2 / scaling.live)
+
+
+def worst_standing(results: Sequence[StandingResult]) -> StandingResult:
+    """Standing of a structure from that of its parts: the gravest, the first of several."""
+    return min(results, key=lambda result: GRAVEST_FIRST.index(result.verdict))
 
 
 def standing_without_equilibrium(program: Program, certificate: FloatArray) -> StandingResult:

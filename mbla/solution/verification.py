@@ -1,7 +1,9 @@
 """Verification of one load case: each claim of a solution is recomputed by the file that knows it.
 
 - :mod:`mbla.solution.verify`: residuals of forces and mechanism, bounds of the associative load factor, certificates;
-- :mod:`mbla.solution.verify_range`: both ends of the range of a load factor without normality.
+- :mod:`mbla.solution.verify_polyhedral`: the bracket of friction polyhedra, each by its own law;
+- :mod:`mbla.solution.verify_range`: both ends of the range of a load factor without normality;
+- :mod:`mbla.solution.verify_lock`: forces that carry every multiple of the live load.
 """
 
 from __future__ import annotations
@@ -10,8 +12,10 @@ from dataclasses import replace
 
 from mbla.contacts.contacts import Contacts
 from mbla.model.model import LoadCase, Model
-from mbla.solution.solution import Checks, Solution
+from mbla.solution.solution import Checks, Solution, Status
 from mbla.solution.verify import verify as verify_mechanics
+from mbla.solution.verify_lock import lock_failures
+from mbla.solution.verify_polyhedral import verify_polyhedral
 from mbla.solution.verify_range import range_checks
 
 
@@ -20,6 +24,16 @@ def verify(model: Model, contacts: Contacts, load_case: LoadCase, solution: Solu
 
     No solver is asked, and no matrix of the program stage is used for a verdict.
     """
-    checks = verify_mechanics(model, contacts, load_case, solution)
+    of_mechanics = verify_mechanics if solution.outer is None else verify_polyhedral
+    checks = of_mechanics(model, contacts, load_case, solution)
     lower, upper = range_checks(model, contacts, load_case, solution)
+    if solution.status is Status.UNBOUNDED:
+        failures = _lock_failures(model, contacts, load_case, solution)
+        checks = replace(checks, verified=not failures, failures=failures)
     return replace(checks, lower=lower, upper=upper)
+
+
+def _lock_failures(model: Model, contacts: Contacts, load_case: LoadCase, solution: Solution) -> tuple[str, ...]:
+    if solution.lock is None:
+        return ("no forces are given that carry every multiple of the live load",)
+    return lock_failures(model, contacts, load_case, solution.lock)

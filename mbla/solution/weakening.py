@@ -23,7 +23,7 @@ from mbla.arrays import FloatArray, IntArray
 from mbla.program.program import Program
 from mbla.program.yield_conditions.limits import YieldLimits
 from mbla.solution.settings import SolverSettings
-from mbla.solution.spring_state import SpringProblem, spring_problem, spring_state
+from mbla.solution.spring_state import SpringProblem, joint_forces, spring_problem, spring_state
 
 SHEAR_STIFFNESSES = (1.0, 0.4)
 """Shear over normal stiffness of a joint. How forces share between joints before anything slides depends on it, and so
@@ -48,6 +48,10 @@ PROPORTION = 1.25
 """Largest ratio of shares over ratio of κ that counts as falling in proportion."""
 
 
+ALIKE = 1 - 1e-6
+"""Ratio of shares that counts as equal: of blocks that fall alike the first is named, whatever the rounding."""
+
+
 class Outcome(Enum):
     """What became of the load as the springs got weaker."""
 
@@ -58,12 +62,21 @@ class Outcome(Enum):
 
 @dataclass(frozen=True)
 class Weakening:
-    """Outcome, the block of the model with the greatest share, that share, and why nothing was decided."""
+    """What was found.
+
+    block  : of the model, the one with the greatest share of its load on its spring
+    share  : that share
+    reason : why nothing was decided
+    forces : (n_points, components) in the joints on the weakest springs, non-dimensional; None where there is no load
+    displacements : (n_rows,) that go with them
+    """
 
     outcome: Outcome
     block: int | None
     share: float
     reason: str = ""
+    forces: FloatArray | None = None
+    displacements: FloatArray | None = None
 
 
 Load = Literal["dead_load", "live_load"]
@@ -76,7 +89,7 @@ def weaken_springs(program: Program, load: Load, limits: YieldLimits, settings: 
     """
     if not np.any(getattr(program, load)):
         return Weakening(Outcome.CARRIED, None, 0.0)
-    blocks = _Blocks(*_springs(program, load))
+    blocks = _Blocks(*springs_of(program, load))
     whole = spring_problem(
         program.equilibrium_matrix, getattr(program, load), limits, blocks.springs, settings.deadline
     )
@@ -85,11 +98,11 @@ def weaken_springs(program: Program, load: Load, limits: YieldLimits, settings: 
     for ratio in SHEAR_STIFFNESSES:
         problem = replace(whole, shear_stiffness=ratio)
         outcome, kappa, u = _weaken(problem, blocks, kappa, u)
-        found.append(outcome)
+        found.append(replace(outcome, forces=joint_forces(problem, u), displacements=u))
         if outcome.outcome is not Outcome.CARRIED:  # only where nothing moved on is the state a start for the next
             kappa, u = 1.0, np.zeros_like(u)
         if outcome.outcome is Outcome.UNDECIDED:
-            return outcome
+            return found[-1]
     return agreed(*found)
 
 
@@ -118,7 +131,7 @@ class _Blocks:
         return np.asarray(kappa * np.linalg.norm((self.way_back @ u).reshape(-1, 6), axis=1))
 
 
-def _springs(program: Program, load: Load) -> tuple[sp.csr_array, sp.csr_array, IntArray]:
+def springs_of(program: Program, load: Load) -> tuple[sp.csr_array, sp.csr_array, IntArray]:
     """W by the size of each block's load, the mean of the others' where it has none; see ``_Blocks``."""
     way_back = sp.csr_array(sp.eye_array(len(program.dead_load), format="csr"))
     while program.reduction is not None:
@@ -147,7 +160,7 @@ def _weaken(
             why = "the time limit was reached" if problem.late else "no state on weak springs was found"
             return Weakening(Outcome.UNDECIDED, block, share, why), kappa, u
         u, shares = state, blocks.shares(kappa, state)
-        worst = int(shares.argmax())
+        worst = int(np.flatnonzero(shares >= ALIKE * shares.max())[0])
         block, share = int(blocks.index[worst]), float(shares[worst])
         history.append((kappa, share))
         if share < CARRIED_SHARE:

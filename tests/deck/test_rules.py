@@ -36,6 +36,8 @@ LIVE = "[{acceleration: [1, 0, 0]}]"
         (LIVE, LIVE + "\n    dead: [{acceleration: [0, 0, -1]}]"),
         ("supports:\n  - {ground: {z: 0}}\n", ""),
         ("{ground: {z: 0}}", "{ground: {z: 0}, blocks: block, joint: dry}"),
+        (LIVE, LIVE + "\nanalysis: {flow_rule: associative, friction_cone: polyhedral, solver: highs}"),
+        (LIVE, LIVE + "\nanalysis: {flow_rule: livesley, solver: highs, second_opinion: true}"),
     ],
 )
 def test_accepted(tmp_path: Path, old: str, new: str) -> None:
@@ -68,6 +70,7 @@ def test_every_rule_is_registered_and_broken_by_a_faulty_deck() -> None:
         types.Support: ["needs one of ground or blocks", "applies with ground only"],
         types.Load: ["a force needs `on`", "applies to a force only", "does not apply to gravity"],
         types.LoadCaseSection: ["is a live load with no effect"],
+        types.AnalysisSection: ["applies to flow_rule: associative", "applies to contact_model: concave"],
         types.Expectation: ["needs at least one of load_factor"],
     }
     assert set(words) | set(rules.EXACTLY_ONE) == set(RULES)

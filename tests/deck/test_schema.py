@@ -44,6 +44,7 @@ BEYOND_SCHEMA = (
         "expectation_of_nothing",
         "group_named",
         "named_like",
+        "linear_programs",
     ),
 )
 BEYOND_BUT_SEEN = (

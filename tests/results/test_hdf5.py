@@ -127,6 +127,24 @@ def test_deck_text_is_readable_without_mbla(path: Path, results: Results) -> Non
         assert float(file["cases/push_x/load_factor"][()]) == 0.5
 
 
+def test_what_follows_from_the_mechanism_is_there_for_others(path: Path, results: Results) -> None:
+    with h5py.File(path) as file:
+        case = file["cases/push_x"]
+        assert case["parts"][()].tolist() == [0, 1, 0]
+        assert case["interfaces/modes"][()].tolist() == [3, 0]
+        assert case["interfaces/hinge_points"][0].tolist() == [1, 0.5, 1]
+        assert case["interfaces/hinge_directions"][0].tolist() == [0, 1, 0]
+        assert np.isnan(case["interfaces/hinge_points"][1]).all()
+        assert case["interfaces/rotations"].attrs["units"] == b"1/(N m)"
+
+
+def test_what_follows_from_the_mechanism_is_found_anew(path: Path, results: Results) -> None:
+    """So that a file cannot contradict itself there."""
+    change(path, "cases/push_x/parts", 7)
+    change(path, "cases/push_x/interfaces/modes", 2)
+    assert same(read_results_hdf5(path), results)
+
+
 def test_a_changed_value_is_read_as_changed(path: Path) -> None:
     """Checksums guard against damage, not against someone's own edits: those are for ``verify`` to judge."""
     with h5py.File(path, "r+") as file:

@@ -65,7 +65,12 @@ def test_values(record: dict[str, Any]) -> None:
     assert model["standing"] == "no"
     assert model["extents"] == [[-1, -1, 0], [5, 2, 3]]
     assert (solved["status"], solved["load_factor"], solved["iterations"]) == ("solved", 0.5, 23)
-    assert solved["mechanism"] == {"open": 2, "slide": 0, "stick": 6}
+    assert {mode: solved["mechanism"][mode] for mode in ("open", "slide", "stick")} == {
+        "open": 2,
+        "slide": 0,
+        "stick": 6,
+    }
+    assert solved["mechanism"]["hinges"] == 1
     assert fallen["status"] == "no_equilibrium"
     assert fallen["load_factor"] is None
     assert fallen["static_bound"] is None

@@ -7,22 +7,15 @@ import pytest
 from mbla.contacts.contacts import Contacts
 from mbla.model.model import Model
 from mbla.results.mechanics import (
-    InterfaceMode,
     curvature_sides,
-    hinge_positions,
-    interface_modes,
     interface_resultants,
     live_load_in_g,
     load_on_structure,
-    moving_blocks,
-    power_shares,
     support_reactions,
 )
-from mbla.solution.solution import ContactMode, Mechanics
+from mbla.solution.solution import Mechanics
 
 from .synthetic import cuboids, horizontal_contacts, tower_contacts, tower_mechanics, tower_model
-
-STICK, SLIDE, OPEN = ContactMode.STICK, ContactMode.SLIDE, ContactMode.OPEN
 
 
 @pytest.fixture(scope="module")
@@ -45,39 +38,6 @@ def test_resultants_carry_weight_and_push(model: Model, contacts: Contacts, mech
     assert resultants[:, :3] == pytest.approx(np.array([[-5, 0, 10], [-5, 0, 10]]))
     # tower: 10 N at the edge, 0.5 m from the centroid of the bed; brick: the push at 0.25 m above it
     assert resultants[:, 3:] == pytest.approx(np.array([[0, -5, 0], [0, -1.25, 0]]))
-
-
-@pytest.mark.parametrize(
-    ("modes", "tangential", "expected"),
-    [
-        ([STICK] * 4, 0, InterfaceMode.STICK),
-        ([SLIDE] * 4, 1, InterfaceMode.SLIDE),
-        ([SLIDE, STICK, STICK, STICK], 1, InterfaceMode.SLIDE),
-        ([OPEN] * 4, 0, InterfaceMode.OPEN),
-        ([OPEN, STICK, STICK, OPEN], 0, InterfaceMode.HINGE),
-        ([OPEN, SLIDE, SLIDE, OPEN], 1, InterfaceMode.HINGE),
-        ([SLIDE] * 4, "about", InterfaceMode.TWIST),
-    ],
-)
-def test_modes_of_interfaces(
-    contacts: Contacts, mechanics: Mechanics, modes: list[int], tangential: Any, expected: Any
-) -> None:
-    velocities = np.zeros((8, 3))
-    velocities[:4, 1] = 0 if tangential == "about" else tangential
-    if tangential == "about":
-        arms = contacts.points[:4] - contacts.centroids[0]
-        velocities[:4, 1:] = np.column_stack([-arms[:, 1], arms[:, 0]])
-    changed = replace(mechanics, modes=np.array([*modes, *[STICK] * 4]), contact_velocities=velocities)
-    assert interface_modes(contacts, changed).tolist() == [expected, InterfaceMode.STICK]
-
-
-def test_hinge_lies_where_points_stay_closed(contacts: Contacts, mechanics: Mechanics) -> None:
-    assert hinge_positions(contacts, mechanics) == pytest.approx(np.array([[1, 0.5, 1], [4.5, 0.5, 0]]))
-
-
-def test_only_the_tower_moves(model: Model, mechanics: Mechanics) -> None:
-    assert moving_blocks(mechanics.mechanism, model.blocks.sizes).tolist() == [False, True, False]
-    assert not moving_blocks(np.zeros((3, 6)), model.blocks.sizes).any()
 
 
 def test_reactions_balance_the_loads(model: Model, contacts: Contacts, mechanics: Mechanics) -> None:
@@ -122,24 +82,6 @@ def test_many_fixed_blocks_are_summed_by_group() -> None:
     assert reaction.wrench[:3] == pytest.approx([0, 0, n])
     few = replace(model, fixed=np.array([True] * 3 + [False] * (n - 2)))
     assert [each.support for each in support_reactions(few, contacts, forces)] == [f"plinth[{i}]" for i in range(3)]
-
-
-def test_power_of_a_rocking_tower_lifts_it(model: Model, mechanics: Mechanics) -> None:
-    shares = power_shares(model, model.load_cases[0], mechanics)
-    assert (shares.live, shares.dead, shares.friction, shares.joints) == pytest.approx((0.5, -0.5, 0, 0))
-
-
-def test_power_of_a_sliding_brick_goes_into_friction(model: Model, mechanics: Mechanics) -> None:
-    mechanism = np.zeros((3, 6))
-    mechanism[2, 0] = 0.1
-    velocities, forces = np.zeros((8, 3)), np.zeros((8, 3))
-    velocities[4:, 1] = 0.1
-    forces[4:] = [2.5, -0.65 * 2.5, 0]
-    sliding = replace(
-        mechanics, load_factor=0.65, mechanism=mechanism, contact_velocities=velocities, contact_forces=forces
-    )
-    shares = power_shares(model, model.load_cases[0], sliding)
-    assert (shares.live, shares.dead, shares.friction, shares.joints) == pytest.approx((0.65, 0, 0.65, 0))
 
 
 def test_acceleration_counts_in_g(model: Model) -> None:

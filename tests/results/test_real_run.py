@@ -6,7 +6,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from mbla.results.collapse import collapse_of
 from mbla.results.hdf5 import read_results_hdf5
+from mbla.results.interface_modes import InterfaceMode
 from mbla.results.listing import listing
 from mbla.results.results import Results
 from mbla.run import RunOptions, run
@@ -80,3 +82,23 @@ def test_status_file_has_every_iteration(folder: Path, results: Results) -> None
     iterations = [line for line in lines[2:] if not line.startswith("#")]
     assert len(iterations) == len(results.cases[0].solution.iterations) > 5
     assert {len(line) for line in iterations} == {len(lines[1])}
+
+
+def test_the_arch_falls_in_three_parts_that_turn_about_their_hinges(results: Results) -> None:
+    """Outer parts turn about the hinges at their feet, the middle one about where the lines through its hinges meet."""
+    case = results.cases[0]
+    assert case.solution.mechanics is not None
+    collapse = collapse_of(results.model, results.contacts, case.load_case, case.solution.mechanics)
+    assert len(collapse.motions) == 3
+    assert all(part.turns and abs(part.direction[1]) == pytest.approx(1) for part in collapse.motions)
+    rows = np.flatnonzero(collapse.interfaces.modes == InterfaceMode.HINGE)
+    points = collapse.interfaces.hinge_points[rows][:, [0, 2]]
+    chain = sorted(collapse.motions, key=lambda part: part.blocks[0])
+    centres = np.array([part.axis_point[[0, 2]] for part in chain])
+    assert centres[0] == pytest.approx(points[0], abs=1e-6)
+    assert centres[2] == pytest.approx(points[3], abs=1e-6)
+    for foot, inner in ((points[0], points[1]), (points[3], points[2])):
+        assert np.cross(np.append(inner - foot, 0), np.append(centres[1] - foot, 0)) == pytest.approx(0, abs=1e-6)
+    work = collapse.work
+    assert work.live + work.dead == pytest.approx(work.dissipated.sum(), abs=1e-6)
+    assert work.dissipated == pytest.approx(0, abs=1e-6)

@@ -47,7 +47,7 @@ def test_whether_the_factor_is_unique(lower: float, upper: float, words: str) ->
     case = case_with(solution={"associative": tower_mechanics(0.625)}, checks={"lower": lower, "upper": upper})
     text = text_of(case)
     assert words in text
-    assert "the associative factor, 0.625 g, is a limit to all" in text
+    assert "the associative factor, 0.625 g, is an upper limit to all" in text
 
 
 def test_the_associative_factor_needs_no_such_words() -> None:
@@ -58,7 +58,7 @@ def test_a_verified_range_stands_among_the_figures_and_in_the_summary() -> None:
     case = case_with(checks={"lower": 0.45, "upper": 0.52}, solution={"scheme": "proximal"})
     text = text_of(case)
     assert "range for this mechanism 0.45 .. 0.52 (verified)" in text
-    assert "load factor, non_associative (proximal) 0.5 " in text
+    assert "scheme proximal load factor, non_associative 0.5 " in text
     summary = " ".join(summary_lines(replace(RESULTS, cases=(case,))))
     assert "not unique: 0.45 g to 0.52 g for this mechanism, verified" in summary
 

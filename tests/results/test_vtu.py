@@ -6,7 +6,7 @@ import meshio
 import numpy as np
 import pytest
 
-from mbla.results.mechanics import InterfaceMode
+from mbla.results.interface_modes import InterfaceMode
 from mbla.results.motion import SHARE_OF_SIZE, movable_size
 from mbla.results.results import Results
 from mbla.results.vtu import group_names, write_blocks_vtu, write_contacts_vtu, write_interfaces_vtu
@@ -26,7 +26,7 @@ def path(tmp_path: Path) -> Path:
 
 
 def test_blocks(path: Path, results: Results) -> None:
-    write_blocks_vtu(path, results.model, results.cases[0])
+    write_blocks_vtu(path, results.model, results.contacts, results.cases[0])
     for points, displacement, cells, data in (by_meshio(path), by_vtk(path)):
         assert points == pytest.approx(results.model.blocks.vertices)
         assert cells == 3
@@ -38,12 +38,13 @@ def test_blocks(path: Path, results: Results) -> None:
         assert data["weight"] == pytest.approx([45, 10, 10])
         assert data["fixed"].tolist() == [1, 0, 0]
         assert data["moves"].tolist() == [0, 1, 0]
+        assert data["part"].tolist() == [0, 1, 0]
         assert data["rotation"][1, 1] > 0
         assert data["velocity"].shape == (3, 3)
     assert vtk_volumes(path).sum() == pytest.approx(results.model.blocks.volumes.sum())
 
 
-NAMES = ("block", "group", "weight", "fixed", "moves", "rotation", "velocity")
+NAMES = ("block", "group", "weight", "fixed", "moves", "part", "rotation", "velocity")
 
 
 def by_meshio(path: Path) -> Any:
@@ -88,6 +89,7 @@ def test_interfaces(path: Path, results: Results) -> None:
     assert data["shear_force"] == pytest.approx([5, 5])
     assert data["resultant_moment"][0] == pytest.approx([0, -5, 0])
     assert data["mode"].tolist() == [InterfaceMode.HINGE, InterfaceMode.STICK]
+    assert data["work"] == pytest.approx([0, 0])
     assert vtk_array(grid.GetCellData(), "gap") == pytest.approx([0, 0])
 
 
@@ -106,7 +108,7 @@ def test_case_without_mechanism_shows_the_model_and_what_falls(path: Path, resul
     assert "contact_force" not in meshio.read(path).point_data
     write_interfaces_vtu(path, results.model, results.contacts, results.cases[1])
     assert "mode" not in meshio.read(path).cell_data
-    write_blocks_vtu(path, results.model, results.cases[1])
+    write_blocks_vtu(path, results.model, results.contacts, results.cases[1])
     mesh = meshio.read(path)
     assert mesh.point_data["displacement"][8:16, 2].max() < 0
     assert np.concatenate(mesh.cell_data["moves"]).tolist() == [0, 1, 0]
@@ -115,7 +117,7 @@ def test_case_without_mechanism_shows_the_model_and_what_falls(path: Path, resul
 def test_case_without_anything_has_displacement_zero(path: Path, results: Results) -> None:
     case = results.cases[1]
     case = replace(case, solution=replace(case.solution, certificate=None))
-    write_blocks_vtu(path, results.model, case)
+    write_blocks_vtu(path, results.model, results.contacts, case)
     assert not meshio.read(path).point_data["displacement"].any()
 
 

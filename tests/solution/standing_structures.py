@@ -55,7 +55,7 @@ def deck(blocks: str, supports: str = LEVEL, joint: str = "friction: 0.5", dead:
     dead = f"dead: {dead}, " if dead else ""
     return (
         f"{HEAD}joints: {{dry: {{{joint}}}}}\nblocks:\n{blocks}supports:\n{supports}"
-        f"load_cases: {{push: {{{dead}live: [{{acceleration: [1, 0.3, 0]}}]}}}}\n"
+        f"load_cases: {{push: {{{dead}live: [{{acceleration: [1, 0, 0]}}]}}}}\n"
     )
 
 

@@ -1,0 +1,175 @@
+"""What each interface does in a mechanism: stick, slide, open, hinge about an axis, twist about its normal.
+
+Two rigid bodies move against each other by one velocity v of body b relative to a at the centroid c of the interface
+and one rotation ω; the velocity at a point x of it is v + ω × (x − c). What that is called is decided by ratios of the
+motion of the interface itself and by the modes of its contact points (:mod:`mbla.solution.contact_modes`), so that
+neither units nor the size of the mechanism matter:
+
+- stick: nothing in it moves, measured by the fastest contact of the structure;
+- open: all of its points open, or it opens without tilting;
+- hinge: some open, others stay closed and slide less than those open; its axis runs through the closed ones;
+- slide: closed points move along the interface (and lift by dilatancy, or open less than they slide elsewhere);
+- twist: it slides, and the centre about which it turns lies nearer to its centroid than its farthest point does.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import IntEnum
+
+import numpy as np
+
+from mbla.arrays import BoolArray, FloatArray, IntArray
+from mbla.contacts.contacts import Contacts
+from mbla.model.model import Model
+from mbla.solution.solution import ContactMode, Mechanics
+from mbla.solution.statics import contact_velocities
+
+TOGETHER = 1e-4
+"""Share of the largest contact speed up to which two blocks count as moving together: residuals up to 1e-4 count as
+solved, and motions below that are not known."""
+
+
+class InterfaceMode(IntEnum):
+    """What an interface does in the mechanism."""
+
+    STICK = 0
+    SLIDE = 1
+    OPEN = 2
+    HINGE = 3
+    """some of its points open, others stay closed"""
+    TWIST = 4
+    """it slides by turning about its normal"""
+
+
+@dataclass(frozen=True)
+class InterfaceMotion:
+    """Relative motion of the bodies of each interface, in the deck's axes, scaled as the mechanism.
+
+    modes           : (n_interfaces,) InterfaceMode
+    slides          : (n_interfaces,) closed points slide too, whatever the mode
+    translation     : (n_interfaces, 3) velocity of b relative to a at the centroid
+    rotation        : (n_interfaces, 3) angular velocity of b relative to a
+    hinge_points    : (n_interfaces, 3) m, a point on the axis of a hinge; nan for other modes
+    hinge_directions: (n_interfaces, 3) its unit direction, b turns about it relative to a by the right hand; nan for
+                      other modes
+    """
+
+    modes: IntArray
+    slides: BoolArray
+    translation: FloatArray
+    rotation: FloatArray
+    hinge_points: FloatArray
+    hinge_directions: FloatArray
+
+    def count(self, mode: InterfaceMode) -> int:
+        """Interfaces of that mode."""
+        return int(np.sum(self.modes == mode))
+
+
+def interface_motion(model: Model, contacts: Contacts, mechanics: Mechanics) -> InterfaceMotion:
+    """Modes, relative motion and hinge axes of every interface."""
+    translation, rotation = relative_motion(model, contacts, mechanics.mechanism)
+    opening = mechanics.contact_velocities[:, 0]
+    sliding = np.hypot(mechanics.contact_velocities[:, 1], mechanics.contact_velocities[:, 2])
+    is_open = mechanics.modes == ContactMode.OPEN
+    n_open = _sums(contacts, is_open)
+    moving = ~moves_together(contacts, mechanics.contact_velocities)
+    slides = moving & (_sums(contacts, mechanics.modes == ContactMode.SLIDE) > 0)
+    opens_more = _largest(contacts, np.where(is_open, opening, 0.0)) >= _largest(
+        contacts, np.where(is_open, 0.0, sliding)
+    )
+    modes = np.full(len(contacts), int(InterfaceMode.STICK), dtype=np.int64)
+    modes[slides] = InterfaceMode.SLIDE
+    modes[slides & _turns_about_normal(contacts, translation, rotation)] = InterfaceMode.TWIST
+    partly = moving & (n_open > 0)
+    modes[partly] = InterfaceMode.SLIDE
+    modes[partly & opens_more] = InterfaceMode.HINGE
+    apart = (n_open == np.diff(contacts.point_start)) | (opens_more & ~_tilts(contacts, translation, rotation))
+    modes[partly & apart] = InterfaceMode.OPEN
+    points, directions = _axes(contacts, modes == InterfaceMode.HINGE, is_open, opening, rotation)
+    return InterfaceMotion(modes, slides, translation, rotation, points, directions)
+
+
+def relative_motion(model: Model, contacts: Contacts, motion: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Velocity at the centroid of each interface and angular velocity, of b relative to a, (n_interfaces, 3) each."""
+    translation, rotation = np.zeros((len(contacts), 3)), np.zeros((len(contacts), 3))
+    for side, sign in ((0, -1.0), (1, 1.0)):
+        here = np.flatnonzero(contacts.bodies[:, side] < len(model.blocks))  # grounds do not move
+        block = contacts.bodies[here, side]
+        arm = contacts.centroids[here] - model.blocks.centroids[block]
+        translation[here] += sign * (motion[block, :3] + np.cross(motion[block, 3:], arm))
+        rotation[here] += sign * motion[block, 3:]
+    return translation, rotation
+
+
+def moves_together(contacts: Contacts, velocities: FloatArray) -> BoolArray:
+    """Interfaces whose bodies move as one, (n_interfaces,), from velocities at the contact points, (n_points, 3)."""
+    speeds = np.linalg.norm(velocities, axis=1)
+    return np.asarray(_largest(contacts, speeds) <= TOGETHER * speeds.max(initial=0.0))
+
+
+def stuck_interfaces(model: Model, contacts: Contacts, motion: FloatArray) -> BoolArray:
+    """The same for any motion of the blocks, (n_blocks, 6), as that which shows a lack of equilibrium."""
+    return moves_together(contacts, contact_velocities(model, contacts, motion))
+
+
+def _turns_about_normal(contacts: Contacts, translation: FloatArray, rotation: FloatArray) -> BoolArray:
+    """The centre of the rotation about the normal, ‖v_t‖/|ω_n| from the centroid, lies within the farthest point."""
+    along = np.linalg.norm(_in_plane(contacts, translation), axis=1)
+    spin = np.abs(np.einsum("ij,ij->i", rotation, contacts.normals))
+    return np.asarray(along < spin * _radii(contacts))
+
+
+def _tilts(contacts: Contacts, translation: FloatArray, rotation: FloatArray) -> BoolArray:
+    """The faces do not stay parallel as they part: without a tilt there is no axis."""
+    tilt = np.linalg.norm(_in_plane(contacts, rotation), axis=1) * _radii(contacts)
+    return np.asarray(tilt > TOGETHER * np.abs(np.einsum("ij,ij->i", translation, contacts.normals)))
+
+
+def _radii(contacts: Contacts) -> FloatArray:
+    """Distance of the farthest point of each interface from its centroid."""
+    arms = contacts.points - contacts.centroids[contacts.interface_of_point]
+    return _largest(contacts, np.linalg.norm(arms, axis=1))
+
+
+def _in_plane(contacts: Contacts, vectors: FloatArray) -> FloatArray:
+    """The part of vectors that lies in the plane of each interface."""
+    normal = np.einsum("ij,ij->i", vectors, contacts.normals)
+    return np.asarray(vectors - normal[:, None] * contacts.normals)
+
+
+def _axes(
+    contacts: Contacts, hinges: BoolArray, is_open: BoolArray, opening: FloatArray, rotation: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    """Point and direction of the axis of every hinge.
+
+    The axis lies in the plane of the interface through the mean of its closed points. Where these crush it is the line
+    between those that close and those that open, at which the normal velocity w + (n × ω)·(x − mean) vanishes.
+    """
+    closed = np.where(is_open, 0.0, 1.0)
+    weight = np.maximum(_sums(contacts, closed), 1.0)
+    points = _sums(contacts, closed[:, None] * contacts.points) / weight[:, None]
+    normal_velocity = np.minimum(_sums(contacts, closed * opening) / weight, 0.0)
+    in_plane = _in_plane(contacts, rotation)
+    size = np.linalg.norm(in_plane, axis=1)
+    gradient = np.cross(contacts.normals, in_plane)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        points -= (normal_velocity / size**2)[:, None] * gradient
+        directions = in_plane / size[:, None]
+    points[~hinges], directions[~hinges] = np.nan, np.nan
+    return points, directions
+
+
+def _sums(contacts: Contacts, values: FloatArray | BoolArray) -> FloatArray:
+    """Sum over the points of each interface."""
+    total = np.zeros((len(contacts), *values.shape[1:]))
+    np.add.at(total, contacts.interface_of_point, values.astype(float))
+    return total
+
+
+def _largest(contacts: Contacts, values: FloatArray) -> FloatArray:
+    """Largest over the points of each interface, 0 or more."""
+    largest = np.zeros(len(contacts))
+    np.maximum.at(largest, contacts.interface_of_point, values)
+    return largest

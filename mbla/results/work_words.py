@@ -1,0 +1,51 @@
+"""Where the power of a mechanism goes, in words: loads and joints, and laws and groups where there are several."""
+
+from __future__ import annotations
+
+from mbla.contacts.contacts import Contacts
+from mbla.model.model import LoadCase, Model
+from mbla.results.text import sentence, table
+from mbla.results.work import Work, dissipated_by_joint, loads_by_group
+from mbla.solution.solution import Mechanics
+
+MOST_ROWS = 20
+"""groups of a table"""
+
+
+def work_lines(model: Model, contacts: Contacts, load_case: LoadCase, mechanics: Mechanics, work: Work) -> list[str]:
+    """Shares of the power of the live load; nothing where that does no work (load factor zero)."""
+    if work.live <= 0:
+        return []
+    parts = (
+        ("the dead load", -work.dead, True),
+        ("friction", float(work.friction.sum()), True),
+        ("cohesion", float(work.cohesion.sum()), False),
+        ("the joints' normal forces", float(work.normal.sum()), False),
+    )
+    shares = [(name, _share(power, work), always) for name, power, always in parts]
+    text = ", ".join(f"{share} % into {name}" for name, share, always in shares if always or float(share) != 0.0)
+    lines = sentence(f"Of the power of the live load {text.replace(' % into', ' % goes into', 1)}.")
+    return lines + _joint_table(contacts, work) + _group_table(model, load_case, mechanics, work)
+
+
+def _share(power: float, work: Work) -> str:
+    return f"{round(100 * power / work.live, 1) + 0.0:.1f}"
+
+
+def _joint_table(contacts: Contacts, work: Work) -> list[str]:
+    joints = dissipated_by_joint(contacts, work)
+    if len(joints) < 2:
+        return []
+    rows = [[name, *(_share(power, work) for power in powers)] for name, powers in joints.items()]
+    return table(["joint law", "friction [%]", "cohesion [%]", "normal forces [%]"], rows)
+
+
+def _group_table(model: Model, load_case: LoadCase, mechanics: Mechanics, work: Work) -> list[str]:
+    """Groups by the size of what they add, live or dead."""
+    groups = loads_by_group(model, load_case, mechanics)
+    ordered = sorted(groups.items(), key=lambda item: -max(abs(power) for power in item[1]))
+    rows = [[name, _share(live, work), _share(-dead, work)] for name, (live, dead) in ordered if live or dead]
+    if len(rows) < 2:
+        return []
+    more = sentence(f"and {len(rows) - MOST_ROWS} more groups") if len(rows) > MOST_ROWS else []
+    return table(["group", "live load [%]", "into its dead load [%]"], rows[:MOST_ROWS]) + more

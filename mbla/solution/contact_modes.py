@@ -1,0 +1,52 @@
+"""What each contact point does in a mechanism: stick, slide or open.
+
+The joint law leaves one of two small at every point: opening or normal force, sliding or reserve of shear. In numbers
+neither is zero, so that pairs of ratios are compared, velocities over the largest contact speed v and forces over the
+largest of their kind::
+
+    opens    (v_N − s tan ψ)/v > (N + f_t)/N_max          slides   s/v > (μN + c − ‖T‖)/(μN + c)_max
+
+with s = ‖v_T‖ and ψ the dilatancy angle of the flow rule: a joint that slides by associative flow lifts by μ s, and
+that is no opening. So the verdict does not depend on how far the solver went.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from mbla.arrays import FloatArray, IntArray
+from mbla.program.yield_conditions import YieldLimits
+from mbla.solution.solution import ContactMode
+
+AT_REST = 1e-5
+"""Share of the largest contact speed up to which a point that carries nothing, free to open or slide, counts as at
+rest: velocities of resting points are noise of that size in programs solved to 1e-6."""
+
+
+def contact_modes(
+    forces: FloatArray, velocities: FloatArray, limits: YieldLimits, slope: FloatArray | float
+) -> IntArray:
+    """Mode of every contact point, (n_points,).
+
+    forces, velocities : (n_points, 3) normal and two tangents, in any units
+    limits             : in the units of the forces
+    slope              : tangent of the dilatancy angle of the flow rule, (n_points,) or one for all
+    """
+    modes = np.full(len(forces), ContactMode.STICK, dtype=np.int64)
+    speed = float(np.linalg.norm(velocities, axis=1).max(initial=0.0))
+    if speed == 0.0:
+        return modes
+    sliding = np.hypot(velocities[:, 1], velocities[:, 2])
+    strength = np.maximum(limits.friction * forces[:, 0] + limits.cohesion, 0.0)
+    reserve = np.maximum(strength - np.hypot(forces[:, 1], forces[:, 2]), 0.0)
+    surplus = velocities[:, 0] - slope * sliding
+    modes[sliding / speed > np.maximum(_ratio(reserve, strength), AT_REST)] = ContactMode.SLIDE
+    pressed = _ratio(np.maximum(forces[:, 0] + limits.tension, 0.0), np.abs(forces[:, 0]))
+    modes[surplus / speed > np.maximum(pressed, AT_REST)] = ContactMode.OPEN
+    return modes
+
+
+def _ratio(values: FloatArray, scale: FloatArray) -> FloatArray:
+    """Values over the largest of their kind; zero where all of these are."""
+    largest = float(scale.max(initial=0.0))
+    return values / largest if largest > 0.0 else np.zeros_like(values)

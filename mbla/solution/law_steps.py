@@ -1,0 +1,141 @@
+"""Steps of the exact joint law from one state to the next: what the proximal scheme and the load path are made of.
+
+A step of size 1/ρ from forces x̄ is the exact law for joints of stiffness ρ (see :mod:`mbla.solution.exact_law`). It is
+tried in turn by
+
+1. Newton's method from the tangents of the step before: the joints go on as they do, found by one factorisation;
+2. the interior-point method (:mod:`mbla.solution.interior_step`) from the same start as ever, polished by 1;
+3. the same for shorter steps, of 1/8 of the length each time.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from mbla.arrays import FloatArray
+from mbla.program.program import Program
+from mbla.solution.clarabel_adapter import Log
+from mbla.solution.exact_law import REGULARIZATION, LawStep, exact_step, joint_state, joint_tangents
+from mbla.solution.interior_step import InteriorLaw, InteriorResult, exact_law, interior_step, lagged_law
+from mbla.solution.settings import SolverSettings
+from mbla.solution.stiffness import Stiffness
+
+FITS = 1e-9
+"""Unbalanced force, in mean block loads, at which a step counts as one of the exact law."""
+
+NEWTON_STEPS = 10
+"""Factorisations of one attempt by Newton's method; close by it takes one to three, far away it leads nowhere."""
+
+SHORTER = 8.0
+SHORTEST = 3
+"""Steps shortened as many times before the exact law is given up from a state."""
+
+
+@dataclass(frozen=True)
+class Stepper:
+    """What all steps of a sequence share.
+
+    slope : (n_points,) tangent of the dilatancy angle
+    log   : called once per iteration of an interior-point method
+    """
+
+    stiffness: Stiffness
+    slope: FloatArray
+    settings: SolverSettings
+    log: Log
+
+    @property
+    def program(self) -> Program:
+        """The program that is stepped through."""
+        return self.stiffness.program
+
+
+@dataclass(frozen=True)
+class Step:
+    """One step that was made.
+
+    anchor : (n_points, components) forces that it started from
+    exact  : whether the exact law holds to ``FITS``; else as far as the interior-point method got, or a lagged step
+    work   : factorisations
+    """
+
+    anchor: FloatArray
+    rho: float
+    velocities: FloatArray
+    load_factor: float
+    forces: FloatArray
+    exact: bool
+    work: int
+
+
+def next_step(stepper: Stepper, anchor: FloatArray, rho: float, before: Step | None, number: int) -> Step | None:
+    """The next step of the exact law, or a shorter one; None where there is none in reach.
+
+    before : the step that led to ``anchor``
+    number : of the step in the sequence, for the log
+    """
+    work = 0
+    if before is not None and before.exact:
+        start = continued(stepper, before, anchor)
+        if start is not None:
+            step = exact_step(stepper.stiffness, stepper.slope, anchor, rho, *start, NEWTON_STEPS)
+            work = 1 + step.factorizations
+            if step.residual <= FITS:
+                return _step_of(anchor, rho, step, work)
+    law = exact_law(stepper.program, stepper.slope)
+    for shorter in range(SHORTEST):
+        size = rho * SHORTER**shorter
+        result = _interior(stepper, law, anchor, size, number)
+        work += result.iterations
+        if result.converged:
+            polished = exact_step(
+                stepper.stiffness, stepper.slope, anchor, size, result.velocities, result.load_factor, NEWTON_STEPS
+            )
+            work += polished.factorizations
+            if polished.residual <= FITS:
+                return _step_of(anchor, size, polished, work)
+            return _step_of(anchor, size, result, work)
+    return None
+
+
+def lagged_step(stepper: Stepper, anchor: FloatArray, rho: float, number: int) -> Step | None:
+    """A step with the friction of the anchor's normal forces: convex, and there is always one."""
+    result = _interior(stepper, lagged_law(stepper.program, stepper.slope, anchor), anchor, rho, number)
+    return _step_of(anchor, rho, result, result.iterations) if result.converged else None
+
+
+def continued(
+    stepper: Stepper, before: Step, anchor: FloatArray, *, fixed_load: float | None = None
+) -> tuple[FloatArray, float] | None:
+    """Velocities and load factor if every joint goes on as at the end of a step, open, sliding or sticking."""
+    program, stiffness = stepper.program, stepper.stiffness
+    state = joint_state(stiffness, stepper.slope, before.anchor, before.rho, before.velocities)
+    solve = stiffness.factorized(
+        joint_tangents(program, stepper.slope, before.rho, state),
+        REGULARIZATION * stiffness.size / before.rho,
+        fixed_load=fixed_load is not None,
+    )
+    if solve is None:
+        return None
+    unbalanced = program.equilibrium_matrix @ anchor.ravel() + program.dead_load
+    rhs = np.append(-unbalanced, 1.0 if fixed_load is None else fixed_load)
+    if fixed_load is not None:
+        rhs[:-1] -= fixed_load * program.live_load
+        rhs[-1] = 0.0
+    answer = solve(rhs)
+    if not np.isfinite(answer).all():
+        return None
+    return answer[:-1], float(answer[-1]) if fixed_load is None else fixed_load
+
+
+def _interior(stepper: Stepper, law: InteriorLaw, anchor: FloatArray, rho: float, number: int) -> InteriorResult:
+    return interior_step(
+        stepper.stiffness, law, anchor, rho, 0.0, stepper.log, number, deadline=stepper.settings.deadline
+    )
+
+
+def _step_of(anchor: FloatArray, rho: float, result: LawStep | InteriorResult, work: int) -> Step:
+    exact = isinstance(result, LawStep)
+    return Step(anchor, rho, result.velocities, result.load_factor, result.forces, exact, work)

@@ -1,0 +1,176 @@
+"""The interior scheme against closed forms and published walls; every answer is a state of the exact law."""
+
+from __future__ import annotations
+
+import math
+import time
+
+import numpy as np
+import pytest
+
+from mbla.deck.analysis import InteriorScheme
+from mbla.program.program import Program
+from mbla.solution.associative import AssociativeResult
+from mbla.solution.interior.solve_interior import solve_interior
+from mbla.solution.law_state import LawState, SequenceResult, law_state
+from mbla.solution.settings import SolverSettings
+from mbla.solution.solution import IterationRecord, ProgramRecord, Status
+from tests.line import BLOCK, HEAD, line_of
+from tests.solution.test_proximal import FERRIS_3
+
+NOTHING_BEFORE = AssociativeResult(Status.SOLVED, None, None, "", ())
+
+
+def result_of(program: Program, tries: int = 1, most: int = 2000, **others: object) -> SequenceResult:
+    scheme = InteriorScheme(tries=tries, max_factorizations=most)
+    settings = SolverSettings(1e-8, deadline=others.pop("deadline", None))  # type: ignore[arg-type]
+    log = others.pop("log", lambda record: None)
+    return solve_interior(program, NOTHING_BEFORE, scheme, settings, log, **others)  # type: ignore[arg-type]
+
+
+def solved(text: str, *overrides: str) -> tuple[float, Program, LawState]:
+    """Load factor of the model; the state is one of the exact law and in equilibrium, to far less than is asked."""
+    program = line_of(text, *overrides).program
+    result = result_of(program)
+    assert result.status is Status.SOLVED, result.reason
+    assert result.state is not None
+    state = result.state
+    again = law_state(program, 0.0, state.forces, state.velocities, state.load_factor)
+    assert again.residual < 1e-9
+    forces = program.equilibrium_matrix @ state.forces.ravel()
+    assert np.abs(forces + program.dead_load + state.load_factor * program.live_load).max() < 1e-9
+    assert program.live_load @ state.velocities == pytest.approx(1.0, abs=1e-9)
+    return program.scaling.load_factor(state.load_factor), program, state
+
+
+@pytest.mark.parametrize(("mu", "h"), [(0.3, 2.0), (0.7, 2.0), (0.49, 2.0)])
+def test_a_block_slides_or_rocks(mu: float, h: float) -> None:
+    factor, _, _ = solved(BLOCK, f"parameters.mu={mu}", f"parameters.h={h}")
+    assert factor == pytest.approx(min(mu, 1.0 / h), rel=1e-8)
+
+
+@pytest.mark.parametrize("angle", [17, 70])
+def test_a_block_slides_alike_in_every_direction(angle: float) -> None:
+    direction = f"[{math.cos(math.radians(angle))!r}, {math.sin(math.radians(angle))!r}, 0]"
+    live = f"load_cases.push.live=[{{acceleration: {direction}}}]"
+    factor, _, _ = solved(BLOCK, "parameters.h=0.3", "parameters.mu=0.4", live)
+    assert factor == pytest.approx(0.4, rel=1e-8)
+
+
+def test_cohesion_is_kept_while_sliding() -> None:
+    factor, _, _ = solved(BLOCK, "parameters.h=0.5", "parameters.c=1000")
+    assert factor == pytest.approx(0.5 + 1000 / (0.5 * 2000 * 9.81), rel=1e-8)
+
+
+def test_tension_holds_a_rocking_block() -> None:
+    """About the edge: W h/2 λ = W b/2 + f_t (half the area) b, the tension acting at the two far corners."""
+    factor, _, _ = solved(BLOCK, "parameters.mu=2", "parameters.c=20000", "parameters.ft=3000")
+    weight = 2 * 2000 * 9.81
+    assert factor == pytest.approx((weight / 2 + 3000 / 2) / weight, rel=1e-8)
+
+
+def test_crushing_moves_the_edge_about_which_a_block_rocks() -> None:
+    """Four corners of a quarter of the area each: those at the edge carry half the weight at most, f_c A/4 each.
+
+    At f_c A = 1.6 W the edge cannot carry the whole weight: 0.8 W there, 0.2 W at the other edge, a lever of 0.3 b.
+    """
+    weight = 2 * 2000 * 9.81
+    factor, _, _ = solved(BLOCK, "parameters.mu=2", f"joints.dry.compressive_strength={1.6 * weight!r}")
+    assert factor == pytest.approx(0.3, rel=1e-8)
+
+
+def test_a_joint_without_friction_beside_one_with_it() -> None:
+    """A block on a rough floor pushed against nothing; a smooth one beside it that the push does not reach."""
+    text = HEAD + (
+        "joints: {dry: {friction: 0.5}, smooth: {friction: 0}}\n"
+        "blocks:\n"
+        "  - box: {group: low, material: stone, min: [0, 0, 0], max: [2, 1, 1]}\n"
+        "  - box: {group: high, material: stone, min: [0.5, 0, 1], max: [1.5, 1, 1.5]}\n"
+        "supports: [{ground: {z: 0}}]\n"
+        "load_cases: {push: {live: [{force: [1000, 0, 0], on: low}]}}\n"
+    )
+    text = text.replace(
+        "contacts: {joint: dry}", "contacts: {joint: dry, overrides: [{between: [low, high], joint: smooth}]}"
+    )
+    factor, _, state = solved(text)
+    assert factor * 1000 == pytest.approx(0.5 * (2 + 0.5) * 2000 * 9.81, rel=1e-8)
+    assert state.residual < 1e-9
+
+
+def test_a_wedge_in_a_groove_slides_along_it() -> None:
+    """mu / cos b: the associative program says that it locks, at 0.84/sqrt(cos^2 b - mu^2 sin^2 b) = 1.109."""
+    b, mu = math.radians(30), 0.84
+    text = HEAD + (
+        f"joints: {{dry: {{friction: {mu}}}}}\n"
+        "blocks:\n"
+        "  - polyhedron:\n"
+        "      material: stone\n"
+        f"      vertices: [[0, 0, 0], [4, 0, 0], [0, -1, {math.tan(b)!r}], [0, 1, {math.tan(b)!r}],\n"
+        f"                 [4, -1, {math.tan(b)!r}], [4, 1, {math.tan(b)!r}]]\n"
+        "      faces: [[0, 2, 3], [1, 4, 5], [0, 1, 4, 2], [0, 1, 5, 3], [2, 3, 5, 4]]\n"
+        "supports:\n"
+        f"  - ground: {{point: [0, 0, 0], normal: [0, {math.sin(b)!r}, {math.cos(b)!r}]}}\n"
+        f"  - ground: {{point: [0, 0, 0], normal: [0, {-math.sin(b)!r}, {math.cos(b)!r}]}}\n"
+        "load_cases: {along: {live: [{acceleration: [1, 0, 0]}]}}\n"
+    )
+    factor, _, _ = solved(text)
+    assert factor == pytest.approx(mu / math.cos(b), rel=1e-6)
+
+
+def test_wall_with_an_opening() -> None:
+    """MPEC of 2001: 0.356; least exact solution known 0.35582, greatest for its mechanism 0.37938."""
+    factor, _, _ = solved(FERRIS_3)
+    assert 0.3558 < factor < 0.3600
+
+
+@pytest.mark.parametrize(
+    "overrides",
+    [
+        ("units.length=mm", "blocks.0.wall.unit=[400, 200, 175]", "blocks.0.wall.length=1600",
+         "blocks.0.wall.openings=[{from: [600, 525], to: [1000, 1400]}]"),
+        ("materials.stone.density=2e9",),
+    ],
+)  # fmt: skip
+def test_the_factor_does_not_know_units(overrides: tuple[str, ...]) -> None:
+    """The path is a curve of the non-dimensional program: its end moves by rounding alone."""
+    here, _, _ = solved(FERRIS_3)
+    there, _, _ = solved(FERRIS_3, *overrides)
+    assert there == pytest.approx(here, rel=1e-4)
+
+
+def test_every_try_is_recorded_and_the_log_moves() -> None:
+    program, lines = line_of(FERRIS_3).program, list[IterationRecord]()
+    result = result_of(program, log=lines.append)
+    assert [record.kind for record in result.programs] == ["gravity", "interior"]
+    path = [line for line in lines if line.program == 2]
+    assert len(path) > 2
+    assert path[-1].gap < path[0].gap
+    assert path[-1].load_factor == pytest.approx(result.programs[-1].load_factor, rel=0.1)
+
+
+def test_a_path_cut_short_is_not_called_solved() -> None:
+    """Twenty factorisations are too few for the wall: the state is far from the law, and says so."""
+    result = result_of(line_of(FERRIS_3).program, tries=2, most=20)
+    assert result.status is Status.NOT_VERIFIED
+    assert result.state is not None
+    assert result.state.residual > 1e-2
+    assert "no interior path ended" in result.reason
+    assert [record.kind for record in result.programs] == ["gravity", "interior", "interior"]
+
+
+def test_the_time_limit_is_kept() -> None:
+    result = result_of(line_of(FERRIS_3).program, deadline=time.monotonic())
+    assert result.status is Status.TIME_LIMIT
+    assert "time limit" in result.reason
+
+
+def test_a_stalled_sequence_is_continued() -> None:
+    """Its records come first, and its state is kept where no path does better."""
+    program = line_of(FERRIS_3).program
+    good = result_of(program)
+    before = ProgramRecord(1, "proximal", Status.APPROXIMATE, 0.36, float("nan"), 5, 0.1)
+    stalled = SequenceResult(Status.APPROXIMATE, good.state, "stalled", (before,))
+    result = result_of(program, most=20, start=stalled)
+    assert result.programs[0] is before
+    assert result.programs[1].program == 2
+    assert result.state is good.state

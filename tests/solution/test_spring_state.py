@@ -1,0 +1,85 @@
+"""The law of the stress-free assembly, its tangent, and states on springs."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import scipy.sparse as sp
+
+from mbla.solution.settings import SolverSettings
+from mbla.solution.spring_state import (
+    SpringProblem,
+    _convex_minimum,
+    _joints,
+    _stiffness,
+    spring_problem,
+    spring_state,
+)
+from mbla.solution.weakening import weaken_springs
+from tests.line import BLOCK, WALL, line_of
+from tests.solution.standing_structures import rafters
+
+
+def problem_of(text: str, *overrides: str) -> SpringProblem:
+    """The dead load of a deck on springs of unit size."""
+    program = line_of(text, *overrides).program
+    springs = sp.csr_array(sp.eye_array(len(program.dead_load), format="csr"))
+    return spring_problem(program.equilibrium_matrix, program.dead_load, program.limits, springs, None)
+
+
+@pytest.mark.parametrize("lagged", [False, True])
+def test_the_tangent_is_that_of_the_law(lagged: bool) -> None:
+    """By differences, at displacements at which joints are open, stick and slide."""
+    problem = replace(problem_of(WALL, "parameters.n=3"), shear_stiffness=0.4)
+    rng = np.random.default_rng(3)
+    u, du = rng.normal(size=(2, len(problem.load)))
+    limit = np.full(len(problem.limits.friction), 0.3) if lagged else None
+    here, there = _joints(problem, 0.2, u, limit), _joints(problem, 0.2, u + 1e-7 * du, limit)
+    slips, open_ = here.size > here.limit, ~here.follows
+    assert 0 < slips.sum() < len(slips)
+    assert 0 < open_.sum() < len(open_)
+    tangent = _stiffness(problem, 0.2, here, lagged)
+    assert (here.unbalanced - there.unbalanced) / 1e-7 == pytest.approx(tangent @ du, abs=1e-5)
+
+
+@pytest.mark.parametrize("kappa", [1.0, 1e-3])
+def test_a_block_on_springs_settles_as_two_springs_in_parallel(kappa: float) -> None:
+    """Four joints of stiffness 1 and one of κ under a weight of 1."""
+    problem = problem_of(BLOCK)
+    u = spring_state(problem, kappa, np.zeros(6))
+    assert u is not None
+    assert u[2] == pytest.approx(-1 / (4 + kappa), rel=1e-9)
+    assert np.delete(u, 2) == pytest.approx(0, abs=1e-12)
+
+
+def test_held_limits_of_shear_leave_a_minimum_that_is_found() -> None:
+    """From a start far off, and with other limits than those that belong to it: balance under the held limits."""
+    problem = problem_of(rafters(0.6))
+    start = np.random.default_rng(1).normal(size=len(problem.load))
+    limit = _joints(problem, 1e-3, start, None).limit
+    u = _convex_minimum(problem, 1e-3, start)
+    assert np.abs(_joints(problem, 1e-3, u, limit).unbalanced).max() < 1e-9
+
+
+def test_alternating_limits_find_a_state_where_newtons_method_does_not(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Newton's method may try again only close by: one step of it, from the lagged states."""
+    problem = problem_of(rafters(0.6))
+    direct = spring_state(problem, 1e-3, np.zeros(len(problem.load)))
+    monkeypatch.setattr("mbla.solution.spring_state.NEWTON_STEPS", 2)
+    lagged = spring_state(problem, 1e-3, np.zeros(len(problem.load)))
+    assert direct is not None
+    assert lagged is not None
+    assert lagged == pytest.approx(direct, abs=1e-6)
+
+
+def test_the_share_is_what_friction_leaves_over() -> None:
+    """A block pushed by 0.6 of its weight on friction 0.5: its spring keeps 0.1, whatever its stiffness."""
+    line = line_of(
+        BLOCK, "parameters.h=0.2", "load_cases.push.dead=[{acceleration: [0.6, 0, 0]}, {gravity: [0, 0, -9.81]}]"
+    )
+    settings = SolverSettings(tolerance=1e-8)
+    weakening = weaken_springs(line.program, "dead_load", line.program.limits, settings)
+    # the load is sqrt(1 + 0.6²) weights; the moment of the push is balanced by the joints
+    assert weakening.share == pytest.approx(0.1 / np.hypot(1, 0.6), rel=1e-2)
