@@ -3,25 +3,29 @@
 from __future__ import annotations
 
 import time
-from dataclasses import replace
 
 import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
 from mbla.deck.analysis import AnalysisSection
-from mbla.program.convex import ConvexProgram, convex_form
-from mbla.solution.associative import AssociativeResult, solve_associative_form
-from mbla.solution.clarabel_adapter import FALLBACK_REGULARIZATION, Log
-from mbla.solution.law_state import LawState
-from mbla.solution.mechanics import contact_modes, contact_velocities
+from mbla.program.convex import ConvexProgram
+from mbla.program.convex.friction_limit import torsion_reserve
+from mbla.solution.clarabel_adapter import Log
+from mbla.solution.contact_modes import AT_REST, contact_modes
+from mbla.solution.convex_associative import ConvexAssociative, solve_convex_associative
+from mbla.solution.convex_proximal import ConvexSequence, solve_convex_proximal
+from mbla.solution.convex_state import ConvexState
+from mbla.solution.mechanics import contact_velocities
 from mbla.solution.settings import SolverSettings
-from mbla.solution.solution import IterationRecord, Mechanics, ProgramRecord, Solution, Status
+from mbla.solution.solution import ContactMode, IterationRecord, Mechanics, Solution, Status
+
+NO_RANGE = "with interface resultants the range of the load factor for the mechanism found is not computed"
 
 
 def solve_convex(
     convex: ConvexProgram, analysis: AnalysisSection, settings: SolverSettings, log: Log | None = None
 ) -> Solution:
-    """Load factor of one load case by the flow rule of ``analysis``.
+    """Load factor of one load case by the flow rule of ``analysis``: associative, or non-associative.
 
     log : called once per iteration of a cone program, as it goes
     """
@@ -33,86 +37,96 @@ def solve_convex(
         if log is not None:
             log(iteration)
 
-    associative = _associative(convex, settings, record)
-    solution = _associative_solution(convex, associative, analysis.flow_rule)
-    return replace(solution, iterations=tuple(iterations), seconds=time.perf_counter() - started)
+    associative = solve_convex_associative(convex, settings, record)
+    sequence = None
+    if analysis.flow_rule != "associative" and associative.state is not None:
+        max_programs = analysis.proximal.max_programs
+        sequence = solve_convex_proximal(convex, associative.programs, max_programs, settings, record)
+    mechanics = of_associative = _mechanics(convex, associative.state, convex.points.limits.friction)
+    status, reason, programs = associative.status, associative.reason, associative.programs
+    if sequence is not None:
+        mechanics = _mechanics(convex, sequence.state, np.zeros(convex.points.n_points))
+        status, reason, programs = _status(associative, sequence), sequence.reason or reason, sequence.programs
+    elif status is Status.UNBOUNDED and analysis.flow_rule != "associative":
+        reason += "; this holds for associative flow, and does not decide whether there is a load factor without it"
+    certificate, motions = _certificate(convex, associative)
+    live = convex.points.scaling.live
+    return Solution(
+        flow_rule=analysis.flow_rule,
+        status=status,
+        mechanics=mechanics,
+        associative=of_associative,
+        certificate=certificate,
+        reason=reason,
+        programs=programs,
+        iterations=tuple(iterations),
+        seconds=time.perf_counter() - started,
+        scheme="" if sequence is None else "proximal",
+        remarks=() if sequence is None else (*sequence.remarks, NO_RANGE),
+        spread=None if sequence is None or sequence.spread is None else _scaled(sequence.spread, live),
+        certificate_motions=motions,
+        lock=None if associative.lock is None else convex.points.scaling.forces(associative.lock) / live,
+    )
 
 
-def _associative(convex: ConvexProgram, settings: SolverSettings, log: Log) -> AssociativeResult:
-    """The stabilised program, and where that finds no load factor the plain one, whose rays are certificates."""
-    settings = replace(settings, regularization=FALLBACK_REGULARIZATION)
-    result = solve_associative_form(convex_form(convex, stabilised=True), convex.points, settings, log)
-    if result.status is Status.SOLVED:
-        return result
-    plain = solve_associative_form(convex_form(convex), convex.points, settings, log)
-    keeps = result.state is not None and plain.status not in (Status.SOLVED, Status.NO_EQUILIBRIUM, Status.UNBOUNDED)
-    best = result if keeps else plain
-    return replace(best, programs=_renumbered((*result.programs, *plain.programs)))
-
-
-def _renumbered(records: tuple[ProgramRecord, ...]) -> tuple[ProgramRecord, ...]:
-    return tuple(replace(record, program=number) for number, record in enumerate(records, start=1))
-
-
-def convex_mechanics(convex: ConvexProgram, state: LawState, dilatancy: FloatArray) -> Mechanics:
+def convex_mechanics(convex: ConvexProgram, state: ConvexState, dilatancy: FloatArray) -> Mechanics:
     """Mechanics of the model from a state of the program.
 
     dilatancy : (n_points,) tangent of the dilatancy angle of the flow rule; a point is open where what torsion,
                 crushing and dilatancy leave of its motion opens it
     """
     program, scaling = convex.points, convex.points.scaling
-    live_power = float(convex.program.live_load @ state.velocities)
-    velocities = state.velocities / live_power
-    blocks = velocities[: convex.n_block_rows]
-    forces = scaling.forces(state.forces)
-    moved = contact_velocities(program, blocks)
+    live_power = float(program.live_load @ state.velocities)
+    velocities, motions = state.velocities / live_power, state.motions / live_power
     to_deck = scaling.live / scaling.force
-    own = to_deck * (convex.program.equilibrium_matrix.T @ velocities).reshape(-1, 3)
+    forces, moved = scaling.forces(state.forces), contact_velocities(program, velocities)
     return Mechanics(
         load_factor=scaling.load_factor(state.load_factor),
         contact_forces=forces,
         contact_velocities=moved,
-        mechanism=program.mechanism(blocks),
-        modes=_modes(forces, moved, own, dilatancy),
+        mechanism=program.mechanism(velocities),
+        modes=_modes(convex, state, dilatancy),
         resultants=(convex.resultants @ forces.ravel()).reshape(-1, 6),
-        interface_motions=to_deck * convex.flows(velocities),
+        interface_motions=to_deck * motions,
     )
 
 
-def _modes(forces: FloatArray, moved: FloatArray, own: FloatArray, dilatancy: FloatArray) -> IntArray:
-    """Modes of the contact points: open by their own motion without its dilatancy, sliding by the whole of it."""
-    opening = np.maximum(own[:, 0] - dilatancy * np.hypot(own[:, 1], own[:, 2]), 0.0)
-    return contact_modes(forces, np.column_stack([opening, moved[:, 1:]]))
+def _mechanics(convex: ConvexProgram, state: ConvexState | None, dilatancy: FloatArray) -> Mechanics | None:
+    return None if state is None else convex_mechanics(convex, state, dilatancy)
 
 
-def _associative_solution(convex: ConvexProgram, result: AssociativeResult, flow_rule: str) -> Solution:
-    mechanics = None if result.state is None else convex_mechanics(convex, result.state, convex.points.limits.friction)
-    reason = result.reason
-    if result.status is Status.UNBOUNDED and flow_rule != "associative":
-        reason += (
-            "; this holds for associative flow, and does not decide whether there is a load factor without dilatancy"
-        )
-    certificate = motions = None
-    if result.certificate is not None:
-        certificate, motions = _certificate(convex, result.certificate)
-    return Solution(
-        flow_rule=flow_rule,
-        status=result.status,
-        mechanics=mechanics,
-        associative=mechanics,
-        certificate=certificate,
-        reason=reason,
-        programs=result.programs,
-        iterations=(),
-        seconds=0.0,
-        certificate_motions=motions,
+def _scaled(ends: tuple[float, float], factor: float) -> tuple[float, float]:
+    return ends[0] * factor, ends[1] * factor
+
+
+def _status(associative: ConvexAssociative, sequence: ConvexSequence) -> Status:
+    """Never better than that of the associative program."""
+    return associative.status if sequence.status is Status.SOLVED else sequence.status
+
+
+def _modes(convex: ConvexProgram, state: ConvexState, dilatancy: FloatArray) -> IntArray:
+    """Modes of the contact points: by their own motion, and sliding where their interface slips or twists.
+
+    As for points, an interface slips where its speed, as a share of the largest, exceeds what torsion has in reserve.
+    """
+    program = convex.points
+    moved = (program.equilibrium_matrix.T @ state.velocities).reshape(-1, 3)
+    by_torsion = (convex.resultants.T @ state.motions[:, 0].ravel()).reshape(-1, 3)
+    by_crushing = (convex.resultants.T @ state.motions[:, 1].ravel()).reshape(-1, 3)
+    modes = contact_modes(state.forces, moved - by_torsion - by_crushing, program.limits, dilatancy)
+    speed = float(np.linalg.norm(moved, axis=1).max(initial=0.0))
+    reserve = torsion_reserve(convex.torsion, (convex.resultants @ state.forces.ravel()).reshape(-1, 6))
+    slips = (
+        np.hypot(by_torsion[:, 1], by_torsion[:, 2]) > np.maximum(reserve, AT_REST)[convex.interface_of_point] * speed
     )
+    return np.where(slips & (modes == ContactMode.STICK), ContactMode.SLIDE, modes)
 
 
-def _certificate(convex: ConvexProgram, velocities: FloatArray) -> tuple[FloatArray, FloatArray]:
+def _certificate(convex: ConvexProgram, result: ConvexAssociative) -> tuple[FloatArray | None, FloatArray | None]:
     """Motion of the blocks, largest entry 1, and the motions of the interfaces that belong to it."""
+    if result.velocities is None or result.motions is None:
+        return None, None
     scaling = convex.points.scaling
-    motion = convex.points.mechanism(velocities[: convex.n_block_rows])
-    largest = float(np.abs(motion).max(initial=0.0))
-    flows = scaling.live / scaling.force * convex.flows(velocities)
-    return (motion / largest, flows / largest) if largest > 0 else (motion, flows)
+    motion = convex.points.mechanism(result.velocities)
+    size = max(float(np.abs(motion).max(initial=0.0)), 1e-300)
+    return motion / size, scaling.live / scaling.force * result.motions / size

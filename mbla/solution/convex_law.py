@@ -4,12 +4,12 @@ Points as in :mod:`mbla.solution.exact_law`, by what the motion of their interfa
 An interface slips by η and twists by ω against its friction, without opening::
 
     v = Aᵀu − Sᵀη,  η = (η_1, η_2, ρω),  S x = (T_1, T_2, M_n/ρ)
-    y = nearest point to S x̄ − η/ρ_c of the set that friction allows at the normal forces of x
+    y = nearest point to S x̄ − η/ρ of the set that friction allows at the normal forces of x
 
 Equilibrium A x + f_D + λ f_L = 0, the interface y = S x, and f_L·u = 1 are solved for u, η and λ by semismooth Newton.
 With the tangent C of the points, P of the interfaces, G the derivative of y by the forces x::
 
-    J = −(B − G) C Bᵀ − P/ρ_c,    B = [A; −S]
+    J = −(B + G) C Bᵀ − P/ρ,    B = [A; −S]
 """
 
 from __future__ import annotations
@@ -19,30 +19,16 @@ from dataclasses import dataclass, replace
 import numpy as np
 import scipy.sparse as sp
 
-from mbla.arrays import FloatArray
+from mbla.arrays import BoolArray, FloatArray
 from mbla.program.convex import ConvexProgram
-from mbla.program.convex.friction_limit import curve_size, friction_limit, nearest
+from mbla.program.convex.friction_limit import friction_limit, nearest
 from mbla.program.program import Program
-from mbla.solution.exact_law import BACKTRACKS, CONVERGED, MOST_STEPS, REGULARIZATION, joint_state, joint_tangent
-from mbla.solution.law_state import law_state
+from mbla.solution.convex_state import with_motions
+from mbla.solution.exact_law import CONVERGED, REGULARIZATION
 from mbla.solution.linear_solver import factorize
 
-
-@dataclass(frozen=True)
-class ConvexState:
-    """A state of the program with the convex contact model, non-dimensional.
-
-    forces     : (n_points, 3)
-    velocities : (n_block_rows,)
-    motions    : (n_interfaces, 2, 6) of the interfaces by torsion and crushing
-    residual   : how badly it fits the law, see ``law_state``; excess and unexplained power of torsion included
-    """
-
-    forces: FloatArray
-    velocities: FloatArray
-    motions: FloatArray
-    load_factor: float
-    residual: float
+MOST_STEPS = 30
+BACKTRACKS = 10
 
 
 @dataclass(frozen=True)
@@ -66,6 +52,13 @@ class ConvexLaw:
         motions[limits.interfaces, 0, 3] = eta[:, 2] / limits.radii
         return motions
 
+    def slip_of(self, motions: FloatArray) -> FloatArray:
+        """η from motions of the interfaces."""
+        limits = self.convex.torsion
+        of_torsion = motions[limits.interfaces, 0, 1:4].copy()
+        of_torsion[:, 2] *= limits.radii
+        return of_torsion.ravel()
+
 
 def convex_law(convex: ConvexProgram) -> ConvexLaw:
     """The law of a program."""
@@ -73,42 +66,7 @@ def convex_law(convex: ConvexProgram) -> ConvexLaw:
     rows = (6 * limits.interfaces[:, None] + np.array([1, 2, 3])).ravel()
     scale = np.column_stack([np.ones((len(limits.radii), 2)), 1.0 / limits.radii]).ravel()
     slips = sp.csr_array(sp.diags_array(scale) @ convex.resultants[rows])
-    return ConvexLaw(convex, slips, _with_motions(convex.points, slips))
-
-
-def _with_motions(program: Program, motions: sp.csr_array) -> Program:
-    none = np.zeros(motions.shape[0])
-    return replace(
-        program,
-        equilibrium_matrix=sp.csr_array(sp.vstack([program.equilibrium_matrix, -motions])),
-        dead_load=np.concatenate([program.dead_load, none]),
-        live_load=np.concatenate([program.live_load, none]),
-    )
-
-
-def convex_state(
-    convex: ConvexProgram, forces: FloatArray, velocities: FloatArray, motions: FloatArray, load_factor: float
-) -> ConvexState:
-    """A state with its residual under the non-associative law."""
-    limits = convex.torsion
-    moving = _with_motions(convex.points, convex.resultants)
-    state = law_state(
-        moving, 0.0, forces, np.concatenate([velocities, motions.sum(axis=1).ravel()]), load_factor
-    )
-    resultants = (convex.resultants @ forces.ravel()).reshape(-1, 6)
-    size = friction_limit(limits, resultants)
-    r, motion = resultants[limits.interfaces], motions[limits.interfaces, 0]
-    slip, twist = np.hypot(motion[:, 1], motion[:, 2]), np.abs(motion[:, 3]) * limits.radii
-    support = curve_support(slip, twist, limits.thetas)
-    rest = np.maximum(size.total - size.share, 0.0)
-    dissipated = size.share * support + rest * slip
-    beyond = np.maximum(np.hypot(r[:, 1], r[:, 2]) - rest, 0.0)
-    excess = curve_size(beyond, np.abs(r[:, 3]) / limits.radii, limits.thetas) - size.share
-    unexplained = np.abs(dissipated + (r * motion).sum(axis=1)).sum()
-    dead_power = abs(float(convex.points.dead_load @ velocities))
-    balance = max(abs(load_factor), dead_power, float(dissipated.sum()), 1e-300)
-    worst = max(state.residual, float(excess.max(initial=0.0)), float(unexplained) / balance)
-    return ConvexState(forces, velocities, motions, load_factor, worst)
+    return ConvexLaw(convex, slips, with_motions(convex.points, slips))
 
 
 @dataclass(frozen=True)
@@ -164,7 +122,8 @@ class _Trial:
     def at(cls, law: ConvexLaw, anchor: FloatArray, rho: float, u: FloatArray, factor: float) -> _Trial:
         program, convex = law.program, law.convex
         n_blocks, limits = convex.n_block_rows, convex.torsion
-        forces, state = joint_state(program, anchor, rho, u)
+        points = _Points.at(program, anchor, rho, u)
+        forces = points.forces
         size = friction_limit(limits, (convex.resultants @ forces.ravel()).reshape(-1, 6))
         wanted = (law.slips @ anchor.ravel() - u[n_blocks:] / rho).reshape(-1, 3)
         found = nearest(wanted, size, limits.thetas)
@@ -175,7 +134,7 @@ class _Trial:
         return cls(
             forces=forces,
             residual=np.append(balance, program.live_load @ u - 1.0),
-            tangent=joint_tangent(program.limits.friction, rho, state),
+            tangent=points.tangent(program.limits.friction, rho),
             by_slip=_blocks(found.by_point / rho),
             by_forces=sp.csr_array(by_sizes @ convex.resultants),
         )
@@ -198,6 +157,40 @@ class _Trial:
             return None
         step = solve(-self.residual)
         return step if np.isfinite(step).all() else None
+
+
+@dataclass(frozen=True)
+class _Points:
+    """Return map of the points without dilatancy: forces, direction and size of the trial shear, the branch."""
+
+    forces: FloatArray
+    direction: FloatArray
+    share: FloatArray
+    slips: BoolArray
+    in_contact: BoolArray
+
+    @classmethod
+    def at(cls, program: Program, anchor: FloatArray, rho: float, u: FloatArray) -> _Points:
+        limits = program.limits
+        trial = anchor - (program.equilibrium_matrix.T @ u).reshape(-1, 3) / rho
+        normal = np.clip(trial[:, 0], -limits.tension, limits.compression)
+        limit = np.maximum(limits.friction * normal + limits.cohesion, 0.0)
+        size = np.hypot(trial[:, 1], trial[:, 2])
+        slips = size > limit
+        share = np.where(slips, limit / np.maximum(size, 1e-300), 1.0)
+        direction = trial[:, 1:] / np.maximum(size, 1e-300)[:, None]
+        forces = np.column_stack([normal, trial[:, 1:] * share[:, None]])
+        return cls(forces, direction, share, slips, normal == trial[:, 0])
+
+    def tangent(self, friction: FloatArray, rho: float) -> sp.csr_array:
+        """C with dx = −C dv, block-diagonal."""
+        theta, tangents = self.direction, np.zeros((len(friction), 3, 3))
+        tangents[:, 0, 0] = self.in_contact
+        across = np.eye(2) - self.slips[:, None, None] * theta[:, :, None] * theta[:, None, :]
+        tangents[:, 1:, 1:] = self.share[:, None, None] * across
+        follows = self.slips & self.in_contact
+        tangents[follows, 1:, 0] = friction[follows, None] * theta[follows]
+        return _blocks(tangents / rho)
 
 
 def _blocks(blocks: FloatArray) -> sp.csr_array:

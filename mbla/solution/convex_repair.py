@@ -1,4 +1,4 @@
-"""Bounds of the associative load factor of the convex contact model: forces and motions repaired so that they prove them.
+"""Forces and motions of the convex contact model repaired so that they prove bounds of the associative load factor.
 
 As in :mod:`mbla.solution.bounds`, with the conditions on interfaces. *Static:* the dual variables z of the kinematic
 form are contact forces and the slacks of all conditions; any z in the cones with Mᵀz = −cost is in equilibrium and
@@ -26,8 +26,9 @@ EQUILIBRIUM_TOLERANCE, GOOD_EQUILIBRIUM = 1e-11, 3e-10
 """Residual of Mᵀz = −cost, in mean block loads, at which corrections stop, and at which no other start is tried."""
 
 INSIDES = (1e-10, 1e-8, 1e-7)
-"""Distances from the borders of the cones, relative to the size of a vector, from which corrections start: where a whole
-plane slides all its forces are on their cones, and rounding keeps corrections from succeeding too close to them."""
+"""Distances from the borders of the cones, relative to the size of a vector, from which corrections start: where a
+whole plane slides all its forces are on their cones, and rounding keeps corrections from succeeding too close to
+them."""
 
 THRESHOLDS = (0.0, 1e-6, np.inf)
 """Share of the largest contact speed below which the motion of an interface is taken for rounding and left out."""

@@ -88,7 +88,7 @@ def _at_corners(limits: TorsionLimits, moment: FloatArray) -> tuple[FloatArray, 
     y = np.zeros(len(q))
     np.add.at(y, edge, np.maximum(first[edge], 0.0))
     np.add.at(y, after[edge], np.maximum(second[edge], 0.0))
-    return y, np.bincount(owner, y, len(limits.interfaces))
+    return y, np.asarray(np.bincount(owner, y, len(limits.interfaces)), dtype=np.float64)
 
 
 def _even_weights(limits: TorsionLimits) -> FloatArray:

@@ -1,4 +1,4 @@
-"""Conditions of the convex contact model on resultants and motions of interfaces, written a second time for verification.
+"""Conditions of the convex contact model on resultants and motions, written a second time for verification.
 
 Closed forms in place of the rows of the cone program. With N' = N + f_t A, m = (−M_2, M_1), V = μN + cA:
 
@@ -191,7 +191,8 @@ def crushing_power(laws: InterfaceLaws, motions: FloatArray) -> FloatArray:
     block = np.where(shapes.rectangles, of_rectangle, of_other)
     strength = np.where(laws.crushable, laws.strength, 0.0)
     dissipated = strength * block + laws.tension * motions[:, 0]
-    return np.where(laws.crushable, dissipated, np.where(np.any(motions != 0, axis=1), np.inf, 0.0))
+    impossible = np.where(np.any(motions != 0, axis=1), np.inf, 0.0)
+    return np.asarray(np.where(laws.crushable, dissipated, impossible))
 
 
 def _largest_block(total: FloatArray, alpha: FloatArray, beta: FloatArray) -> FloatArray:

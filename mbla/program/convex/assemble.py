@@ -17,7 +17,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 import scipy.sparse as sp
 
-from mbla.arrays import FloatArray
+from mbla.arrays import FloatArray, IntArray
 from mbla.contacts.contacts import Contacts
 from mbla.model.model import LoadCase, Model
 from mbla.program.assemble import assemble
@@ -39,6 +39,7 @@ class ConvexProgram:
     shapes     : of the interfaces, in the deck's units
     torsion, rectangles, others : limits of the conditions: torsion, stress blocks on rectangles and on other outlines
     conditions : torsion, crushing as rows
+    interface_of_point : (n_points,)
     resultants : (6 n_interfaces, 3 n_points) from contact forces to N, T1, T2 and moments about normal, tangent 1 and
                  tangent 2 at the centroid; lengths in the deck's units
     """
@@ -50,6 +51,7 @@ class ConvexProgram:
     rectangles: CrushingLimits
     others: CrushingLimits
     conditions: tuple[ConditionRows, ConditionRows]
+    interface_of_point: IntArray
     resultants: sp.csr_array
 
     @property
@@ -90,6 +92,7 @@ def assemble_convex(model: Model, contacts: Contacts, load_case: LoadCase) -> Co
         rectangles=rectangles,
         others=others,
         conditions=conditions,
+        interface_of_point=contacts.interface_of_point,
         resultants=resultants,
     )
 

@@ -47,7 +47,7 @@ class CrushingLimits:
 def crushing_limits(
     shapes: InterfaceShapes, strength: FloatArray, tension: FloatArray
 ) -> tuple[CrushingLimits, CrushingLimits]:
-    """Limits of rectangles, and of other convex outlines; strength (inf where unlimited) and tension (n_interfaces,)."""
+    """Limits of rectangles, and of other convex outlines; strength (inf: none) and tension, (n_interfaces,)."""
     applies = np.isfinite(strength) & shapes.convex
     slopes = shapes.edge_slopes()
     rectangular = np.flatnonzero(applies & shapes.rectangles)

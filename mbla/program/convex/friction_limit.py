@@ -11,9 +11,9 @@ import numpy as np
 import scipy.sparse as sp
 
 from mbla.arrays import FloatArray
+from mbla.model.ragged import next_item
 from mbla.program.convex.conditions import M1, M2, Entries, N
 from mbla.program.convex.torsion import TorsionLimits
-from mbla.model.ragged import next_item
 
 BISECTIONS = 60
 """Of the multiplier of a projection; each halves its error."""
@@ -52,13 +52,11 @@ def friction_limit(limits: TorsionLimits, resultants: FloatArray) -> FrictionLim
     of_share.add(rows, columns + M1, -some * active[:, 1])
     of_share.add(rows, columns + M2, some * active[:, 0])
     shape = (n, 6 * len(resultants))
-    return FrictionLimit(
-        np.maximum(total, 0.0), np.maximum(share, 0.0), of_total.matrix(shape), of_share.matrix(shape)
-    )
+    return FrictionLimit(np.maximum(total, 0.0), np.maximum(share, 0.0), of_total.matrix(shape), of_share.matrix(shape))
 
 
 def _slopes(limits: TorsionLimits) -> FloatArray:
-    """s of the edge that leaves each corner q: s·q = 1 at both ends."""
+    """S of the edge that leaves each corner q: s·q = 1 at both ends."""
     q = limits.corners
     after = q[next_item(limits.start)]
     det = q[:, 0] * after[:, 1] - q[:, 1] * after[:, 0]
@@ -123,7 +121,9 @@ def _on_curve(
     normal = np.stack([2.0 * t, 2.0 * (1.0 - theta) * m + theta * radius], axis=1)
     weighted = metric * normal
     whole = np.maximum((normal * weighted).sum(axis=1), 1e-300)
-    by_point = np.einsum("ni,ij->nij", metric, np.eye(2)) - weighted[:, :, None] * weighted[:, None, :] / whole[:, None, None]
+    by_point = (
+        np.einsum("ni,ij->nij", metric, np.eye(2)) - weighted[:, :, None] * weighted[:, None, :] / whole[:, None, None]
+    )
     by_radius = -by_point[:, :, 1] * (kappa * theta)[:, None]
     by_radius -= weighted * ((theta * m - 2.0 * radius) / whole)[:, None]
     return t, m, by_point, by_radius
@@ -153,3 +153,21 @@ def _in_space(
         by_total=by_total,
         by_share=np.einsum("nia,na->ni", radial, by_share) - by_total,
     )
+
+
+def curve_support(slip: FloatArray, twist: FloatArray, theta: FloatArray) -> FloatArray:
+    """Greatest power of forces on the curve of size 1 with slip ‖η‖ and twist |ρω|, (n,)."""
+    inner = 4.0 * twist**2 + (2.0 - theta) ** 2 * slip**2
+    root = np.sqrt(theta**2 * twist**2 + (1.0 - theta) * inner)
+    curved = inner / np.maximum(2.0 * (theta * twist + root), 1e-300)
+    return np.asarray(np.where(2.0 * twist <= theta * slip, slip, curved))
+
+
+def torsion_reserve(limits: TorsionLimits, resultants: FloatArray) -> FloatArray:
+    """R − R' over the largest V, (n_interfaces,); infinite where there is no condition."""
+    size, r = friction_limit(limits, resultants), resultants[limits.interfaces]
+    beyond = np.hypot(r[:, 1], r[:, 2]) - np.maximum(size.total - size.share, 0.0)
+    needed = curve_size(np.maximum(beyond, 0.0), np.abs(r[:, 3]) / limits.radii, limits.thetas)
+    reserve = np.full(len(resultants), np.inf)
+    reserve[limits.interfaces] = np.maximum(size.share - needed, 0.0) / max(float(size.total.max(initial=0.0)), 1e-300)
+    return reserve

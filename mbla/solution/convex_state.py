@@ -1,0 +1,67 @@
+"""States of the program with the convex contact model, and how badly they fit the law of points and interfaces."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+import scipy.sparse as sp
+
+from mbla.arrays import FloatArray
+from mbla.program.convex import ConvexProgram
+from mbla.program.convex.friction_limit import curve_size, curve_support, friction_limit
+from mbla.program.program import Program
+from mbla.solution.law_state import law_state
+
+
+@dataclass(frozen=True)
+class ConvexState:
+    """A state, non-dimensional.
+
+    forces     : (n_points, 3)
+    velocities : (n_block_rows,)
+    motions    : (n_interfaces, 2, 6) of the interfaces by torsion and by crushing
+    residual   : how badly it fits the law
+    """
+
+    forces: FloatArray
+    velocities: FloatArray
+    motions: FloatArray
+    load_factor: float
+    residual: float
+
+
+def with_motions(program: Program, motions: sp.csr_array) -> Program:
+    """The program with motions of interfaces behind the velocities of the blocks: v = Aᵀu − motionsᵀ w."""
+    none = np.zeros(motions.shape[0])
+    return replace(
+        program,
+        equilibrium_matrix=sp.csr_array(sp.vstack([program.equilibrium_matrix, -motions])),
+        dead_load=np.concatenate([program.dead_load, none]),
+        live_load=np.concatenate([program.live_load, none]),
+    )
+
+
+def state_without_dilatancy(
+    convex: ConvexProgram, forces: FloatArray, velocities: FloatArray, motions: FloatArray, load_factor: float
+) -> ConvexState:
+    """A state with its residual: that of the points (``law_state``), or what is worse of the interfaces' torsion.
+
+    Excess over the condition, in mean block loads; share of the power balance that slip and twist leave unexplained.
+    """
+    limits = convex.torsion
+    moving = with_motions(convex.points, convex.resultants)
+    own = law_state(moving, 0.0, forces, np.concatenate([velocities, motions.sum(axis=1).ravel()]), load_factor)
+    resultants = (convex.resultants @ forces.ravel()).reshape(-1, 6)
+    size = friction_limit(limits, resultants)
+    r, motion = resultants[limits.interfaces], motions[limits.interfaces, 0]
+    slip, twist = np.hypot(motion[:, 1], motion[:, 2]), np.abs(motion[:, 3]) * limits.radii
+    rest = np.maximum(size.total - size.share, 0.0)
+    dissipated = size.share * curve_support(slip, twist, limits.thetas) + rest * slip
+    beyond = np.maximum(np.hypot(r[:, 1], r[:, 2]) - rest, 0.0)
+    excess = curve_size(beyond, np.abs(r[:, 3]) / limits.radii, limits.thetas) - size.share
+    unexplained = float(np.abs(dissipated + (r * motion).sum(axis=1)).sum())
+    dead_power = abs(float(convex.points.dead_load @ velocities))
+    balance = max(abs(load_factor), dead_power, float(dissipated.sum()), 1e-300)
+    residual = max(own.residual, float(excess.max(initial=0.0)), unexplained / balance)
+    return ConvexState(forces, velocities, motions, load_factor, residual)
