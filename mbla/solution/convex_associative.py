@@ -24,6 +24,10 @@ from mbla.solution.solution import ProgramRecord, Status
 STANDS_MARGIN = 1e-7
 """A load factor is taken as negative only beyond this share of (dead load over live load): below it is solver noise."""
 
+DOUBTFUL = 1e-4
+"""Share below which the sign of a load factor is not certain where the solver ended short of its tolerance. A load factor
+itself need not be solved to tolerance: its verified bounds tell what it is worth."""
+
 REGULARIZATION = 1e-8
 """Static regularisation: with 1e-11 the solver broke down on a wall of 410 blocks."""
 
@@ -89,9 +93,8 @@ def solve_convex_associative(convex: ConvexProgram, settings: SolverSettings, lo
             return _without_equilibrium(run, form, solution)
     if forward.status is Status.UNBOUNDED:
         return _unbounded(run, form, forward)
-    almost = Status.APPROXIMATE in (forward.status, reverse.status)
-    status = Status.APPROXIMATE if almost else Status.SOLVED
-    reason = _words(forward if forward.status is Status.APPROXIMATE else reverse) if almost else ""
+    doubtful = reverse.status is Status.APPROXIMATE and _near_zero(convex, reverse.objective)
+    status, reason = (Status.APPROXIMATE, _words(reverse)) if doubtful else (Status.SOLVED, "")
     velocities = form.velocities(forward.x)
     state = ConvexState(
         forces=form.contact_forces(forward.z),
@@ -118,9 +121,16 @@ def _solved(run: _Run, sense: float) -> tuple[KinematicForm, ConeSolution]:
 
 def _negative(convex: ConvexProgram, objective: float) -> bool:
     """Whether the optimum says that equilibrium needs a live load of the other sign."""
+    return objective < -_noise(convex)
+
+
+def _noise(convex: ConvexProgram) -> float:
     program = convex.points
-    dead_over_live = float(np.linalg.norm(program.dead_load) / np.linalg.norm(program.live_load))
-    return objective < -STANDS_MARGIN * dead_over_live
+    return STANDS_MARGIN * float(np.linalg.norm(program.dead_load) / np.linalg.norm(program.live_load))
+
+
+def _near_zero(convex: ConvexProgram, objective: float) -> bool:
+    return abs(objective) < DOUBTFUL / STANDS_MARGIN * _noise(convex)
 
 
 def _without_value(run: _Run, form: KinematicForm, solution: ConeSolution, words: str) -> ConvexAssociative:

@@ -4,8 +4,8 @@
 2. Proximal step (:mod:`mbla.program.convex.static`), with the friction of points and interfaces that belongs to x̄,
    after which x̄ moves 0.7 of the way. Every forces at which the steps stand still are a state of the exact law.
 3. Now and then the step is repeated with the exact law (:mod:`mbla.solution.convex_law`), and from there on again until
-   forces and motions fit it. Where stress blocks crush there is no exact step, and the proximal steps have to get there
-   by themselves.
+   forces and motions fit it. It leaves crushing of stress blocks out: where these crush its states miss the law, and
+   the proximal steps have to get there by themselves.
 """
 
 from __future__ import annotations
@@ -99,7 +99,6 @@ def solve_convex_proximal(
         return gravity
     anchor, rho = gravity, STEP / max(float((gravity**2).sum()), 1e-300)
     form, law = convex_proximal_form(convex, rho), convex_law(convex)
-    exact_law_holds = len(convex.rectangles.interfaces) + len(convex.others.interfaces) == 0
     solver = ClarabelProgram(form.cone_program, run.settings, log)
     for step in range(1, max_programs + 1):
         cost, rhs = _data(form, rho, anchor)
@@ -113,7 +112,7 @@ def solve_convex_proximal(
         if state.residual <= EXACT:
             break
         due = step >= FIRST_TRY and (step - FIRST_TRY) % TRY_EVERY == 0 and state.residual < NEAR
-        if due and exact_law_holds and _exact(run, law, anchor, rho, state):
+        if due and _exact(run, law, anchor, rho, state):
             break
         anchor = MOVE * state.forces + (1.0 - MOVE) * anchor
     return _finished(run, max_programs)

@@ -207,4 +207,4 @@ def _largest_block(total: FloatArray, alpha: FloatArray, beta: FloatArray) -> Fl
     one = np.ones_like(total)
     inside = value(ratio(total, 3.0 * alpha), ratio(total, 3.0 * beta))
     on_x, on_y = value(one, ratio(total - alpha, 2.0 * beta)), value(ratio(total - beta, 2.0 * alpha), one)
-    return np.maximum.reduce([inside, on_x, on_y, np.zeros_like(total)])
+    return np.asarray(np.maximum.reduce([inside, on_x, on_y, np.zeros_like(total)]))

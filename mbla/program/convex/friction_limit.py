@@ -15,8 +15,8 @@ from mbla.model.ragged import next_item
 from mbla.program.convex.conditions import M1, M2, Entries, N
 from mbla.program.convex.torsion import TorsionLimits
 
-BISECTIONS = 60
-"""Of the multiplier of a projection; each halves its error."""
+BISECTIONS, NEWTON_STEPS = 30, 4
+"""Of the multiplier of a projection: to 1e-9, and from there to rounding."""
 
 
 @dataclass(frozen=True)
@@ -113,10 +113,13 @@ def _on_curve(
     least, most = np.zeros_like(p), np.ones_like(p)  # of κ/(1 + κ)
     for _ in range(BISECTIONS):
         middle = 0.5 * (least + most)
-        kappa = middle / (1.0 - middle)
-        t, m = p / (1.0 + 2.0 * kappa), (a - kappa * theta * radius) / (1.0 + 2.0 * kappa * (1.0 - theta))
-        outside = (t**2 + (1.0 - theta) * m**2 + theta * radius * m > radius**2) & (m > -radius)
-        least, most = np.where(outside, middle, least), np.where(outside, most, middle)
+        value, _, _, _ = _misfit(middle / (1.0 - middle), p, a, radius, theta)
+        least, most = np.where(value > 0, middle, least), np.where(value > 0, most, middle)
+    kappa = least / (1.0 - least)
+    for _ in range(NEWTON_STEPS):
+        value, fall, _, _ = _misfit(kappa, p, a, radius, theta)
+        kappa = np.maximum(kappa + value / np.maximum(fall, 1e-300), 0.0)
+    _, _, t, m = _misfit(kappa, p, a, radius, theta)
     metric = np.stack([1.0 / (1.0 + 2.0 * kappa), 1.0 / (1.0 + 2.0 * kappa * (1.0 - theta))], axis=1)
     normal = np.stack([2.0 * t, 2.0 * (1.0 - theta) * m + theta * radius], axis=1)
     weighted = metric * normal
@@ -127,6 +130,18 @@ def _on_curve(
     by_radius = -by_point[:, :, 1] * (kappa * theta)[:, None]
     by_radius -= weighted * ((theta * m - 2.0 * radius) / whole)[:, None]
     return t, m, by_point, by_radius
+
+
+def _misfit(
+    kappa: FloatArray, p: FloatArray, a: FloatArray, radius: FloatArray, theta: FloatArray
+) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
+    """t² + (1 − θ) m² + θ R m − R² at a multiplier (negative where m is), −1 times its derivative, t and m."""
+    across, along = 1.0 + 2.0 * kappa, 1.0 + 2.0 * kappa * (1.0 - theta)
+    t, m = p / across, (a - kappa * theta * radius) / along
+    slope = 2.0 * (1.0 - theta) * m + theta * radius
+    value = t**2 + (1.0 - theta) * m**2 + theta * radius * m - radius**2
+    fall = 4.0 * t**2 / across + slope**2 / along
+    return np.where(m < 0, -(radius**2), value), fall, t, m
 
 
 def _in_space(
