@@ -7,7 +7,7 @@ import numpy as np
 from mbla.arrays import IntArray
 from mbla.model.model import Model
 
-MOST_STRETCHES = 3
+MOST_STRETCHES = 2
 """stretches of blocks that are named; the others are counted"""
 
 

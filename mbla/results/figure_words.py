@@ -36,7 +36,7 @@ def _factors(case: CaseResult) -> list[str]:
     ends = range_of(case)
     if ends is not None:
         lines += entry("range for this mechanism", f"{_digits(ends[0])} .. {_digits(ends[1])}   (verified)")
-    elif solution.lower is not None or solution.upper is not None:
+    elif own is not None and (solution.lower is not None or solution.upper is not None):
         claimed = [number(np.nan if end is None else end.load_factor) for end in (solution.lower, solution.upper)]
         lines += entry("range for this mechanism", f"{' .. '.join(claimed)}   (NOT verified)")
     if solution.spread is not None:
@@ -97,7 +97,7 @@ def _standing(model: Model, case: CaseResult) -> list[str]:
     block = "" if standing.block is None else f": {model.blocks.name(standing.block)} would fall first"
     lines = entry("stands under dead load", f"{standing.verdict.value}{block}")
     lines += sentence(standing.reason, "    ")
-    if locked_in(case):
+    if locked_in(case) and case.solution.mechanics is not None:
         lines += sentence("WARNING: the load factor presumes forces locked in before; it is no collapse load", "    ")
     return lines
 

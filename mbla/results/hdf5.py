@@ -38,6 +38,9 @@ COMPACT_BYTES = 60_000
 LARGEST_RATIO = 2000
 """an array cannot be larger than this many times its file: gzip reaches about 1000"""
 
+DAMAGE = (KeyError, RuntimeError, ValueError, TypeError, IndexError, AttributeError, OverflowError, MemoryError)
+"""what reading a damaged file may end with"""
+
 
 def write_results_hdf5(results: Results) -> bytes:
     """The result file as bytes; the same results give the same bytes.
@@ -80,16 +83,7 @@ def read_results_hdf5(path: Path) -> Results:
     except OSError as error:
         what = "not an HDF5 file" if "signature not found" in str(error) else f"damaged: {_short(error)}"
         raise FileError(f"{path}: {what}") from error
-    except (
-        KeyError,
-        RuntimeError,
-        ValueError,
-        TypeError,
-        IndexError,
-        AttributeError,
-        OverflowError,
-        MemoryError,
-    ) as error:
+    except DAMAGE as error:
         raise FileError(f"{path}: damaged: {_short(error)}") from error
 
 
@@ -299,6 +293,3 @@ def _check_indices(path: str, field: Field, value: Value, sizes: dict[str, int])
         not len(value) or value[0] != 0 or value[-1] != size(field.start_of) or np.any(np.diff(value) < 0)
     ):
         raise ValueError(f"{path} does not divide {field.start_of}")
-
-
-__all__ = ["read_results_hdf5", "write_results_hdf5"]

@@ -12,6 +12,7 @@ from mbla.results.interface_modes import InterfaceMode
 from mbla.results.mechanics import curvature_sides
 from mbla.results.part_words import direction_words, part_lines
 from mbla.results.text import counted, sentence, table, vector
+from mbla.results.work_words import power_share
 
 MOST_ROWS = 20
 """rows of a table in the listing; the result files hold all of them"""
@@ -90,12 +91,18 @@ def _side(offset: FloatArray, outward: FloatArray) -> str:
 
 
 def _sliding_lines(model: Model, contacts: Contacts, collapse: Collapse) -> list[str]:
-    """What slides over what, the direction in the plane of the interface, the share of the live load's power."""
+    """What slides over what, the direction in the plane of the interface, the share of the power."""
     motion = collapse.interfaces
     normal = np.einsum("ij,ij->i", motion.translation, contacts.normals)
     along = motion.translation - normal[:, None] * contacts.normals
     rows, total = _chosen(contacts, collapse, InterfaceMode.SLIDE)
-    named = [[*_slide(model, contacts, collapse, i, along[i]), _power(collapse, i)] for i in rows]
+    named = [
+        [
+            *_slide(model, contacts, collapse, i, along[i]),
+            power_share(float(collapse.work.dissipated[i]), collapse.work),
+        ]
+        for i in rows
+    ]
     head = ["interface", "parts", f"at [{model.units.length}]", "along", "power [%]"]
     return _titled("Sliding", head, named, total, 4)
 
@@ -109,12 +116,6 @@ def _slide(model: Model, contacts: Contacts, collapse: Collapse, interface: int,
     direction = vector(np.round(along / (float(np.linalg.norm(along)) or 1.0), 3))
     names = f"{model.body_name(b)} over {model.body_name(a)}"
     return [names, f"{parts[0]}/{parts[1]}", _position(contacts.centroids[interface], model), direction]
-
-
-def _power(collapse: Collapse, interface: int) -> str:
-    """Share of the power of the live load that an interface dissipates."""
-    work = collapse.work
-    return f"{round(100 * float(work.dissipated[interface]) / work.live, 1) + 0.0:.1f}" if work.live > 0 else "-"
 
 
 def _titled(title: str, head: list[str], rows: list[list[str]], total: int, left: int) -> list[str]:

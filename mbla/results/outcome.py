@@ -121,14 +121,16 @@ def case_notices(case: CaseResult) -> tuple[Notice, ...]:
     """What a reader must know of a case's figures, as warnings."""
     name, standing, notices = case.load_case.name, case.solution.standing, []
     if standing is not None and standing.verdict is Standing.SELF_STRESS:
-        what = "" if case.solution.flow_rule == "associative" else "; its load factor is no collapse load"
+        what = (
+            "; its load factor is no collapse load" if locked_in(case) and case.solution.mechanics is not None else ""
+        )
         text = (
             f"{name}: the structure stands only by self-stress, that is by forces locked in before it is loaded{what}"
         )
-        notices.append(Notice("warning", "only-by-self-stress", f"{text}. {standing.reason}"))
+        notices.append(Notice("warning", "only-by-self-stress", f"{text}: {standing.reason}"))
     if standing is not None and standing.verdict is Standing.DOUBTFUL:
         text = f"{name}: whether the structure stands without forces locked in could not be decided"
-        notices.append(Notice("warning", "standing-doubtful", f"{text}. {standing.reason}"))
+        notices.append(Notice("warning", "standing-doubtful", f"{text}: {standing.reason}"))
     residual = law_residual(case.checks)
     if case.status is Status.SOLVED and case.solution.flow_rule != "associative" and residual > CLEAN_RESIDUAL:
         text = f"{name}: forces and velocities miss the joint law by {residual:.1e}, more than {CLEAN_RESIDUAL:g}"

@@ -38,6 +38,11 @@ class Work:
     normal: FloatArray
 
     @property
+    def given(self) -> float:
+        """Power put in, by the live load and, where it drives the mechanism, the dead load."""
+        return max(self.live, 0.0) + max(self.dead, 0.0)
+
+    @property
     def dissipated(self) -> FloatArray:
         """Power dissipated in each interface, (n_interfaces,)."""
         return self.friction + self.cohesion + self.normal

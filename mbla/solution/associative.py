@@ -19,6 +19,7 @@ import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.program.program import Program
+from mbla.program.static import gravity_form
 from mbla.solution.associative_form import AssociativeForm, in_velocities
 from mbla.solution.bounds import CertifiedGap, certified_gap, falling_motion, repaired_forces
 from mbla.solution.clarabel_adapter import ClarabelProgram
@@ -42,7 +43,7 @@ ZERO_SIZE = 1e-7
 
 SHARPER = ((0.0, 1e-2, None), (1.0, 1e-2, None), (0.5, 1e-4, 1e-8), (0.0, 1e-4, 1e-9))
 """How a program is solved again, in turn: power of the load factor's size that is its unit, factor on the solver's
-tolerance, regularisation. In units of its size an arch at its least thickness is sharpest, which is too much for a
+tolerance, regularisation. An arch at its least thickness is sharpest in units of its own size, which is too much for a
 stack at its greatest overhang: half-way, or the unit of dead loads, does better there."""
 
 SHARPEST = 1e-12
@@ -58,6 +59,8 @@ be repaired in 121, after five iterations instead of nine on average, six instea
 ROUGH = 1e3
 """Friction beyond which the solver may break down. Where it does, its forces are sought within this friction, which the
 true one contains; whether the answer is good enough is for the proved bounds to say."""
+
+LOCKED = "no mechanism exists in which the live load does work: friction locks the structure under any multiple"
 
 WITH_VALUE = (Status.SOLVED, Status.APPROXIMATE)
 
@@ -142,7 +145,7 @@ def solve_associative(
     form = form or in_velocities(program)
     if answer.certificate is not None:
         return _no_equilibrium(run, answer.certificate)
-    if answer.solution.status not in (*WITH_VALUE, Status.UNBOUNDED):
+    if answer.gap is None and answer.solution.status is not Status.UNBOUNDED:
         return _undecided(run, answer.solution)
     return _with_dead_load(run, form, answer)
 
@@ -169,14 +172,21 @@ def _answer(run: _Run, form: AssociativeForm, unit: float, settings: SolverSetti
     solution = _solved(run, form, solver, "associative", unit)
     if unit != 1.0:
         solution = replace(solution, x=solution.x * unit, objective=solution.objective * unit)
-    if solution.status in WITH_VALUE and not _falls(form, solution):
-        return _Answer(solution, _proved(form, solution))
     if solution.status in (Status.TIME_LIMIT, Status.ITERATION_LIMIT, Status.UNBOUNDED):
         return _Answer(solution)
+    certificate = _certificate(run, form, solution)
+    has_value = certificate is None and solution.status in WITH_VALUE and not _falls(run, solution)
+    return _Answer(solution, _proved(form, solution) if has_value else None, certificate)
+
+
+def _certificate(run: _Run, form: AssociativeForm, solution: ConeSolution) -> FloatArray | None:
+    """Velocities that prove that the dead load alone is not carried, where the solution has them."""
+    if solution.status in WITH_VALUE and not solution.objective < 0.0:
+        return None
     motion = form.velocities(solution)
     if form.exact:
-        return _Answer(solution, certificate=falling_motion(run.program, motion))
-    return _Answer(solution, certificate=motion if _falls(form, solution) else None)
+        return falling_motion(run.program, motion) if np.isfinite(motion).all() else None
+    return motion if _falls(run, solution) else None
 
 
 def _proved(form: AssociativeForm, solution: ConeSolution) -> CertifiedGap:
@@ -219,22 +229,42 @@ def _with_dead_load(run: _Run, form: AssociativeForm, answer: _Answer) -> Associ
     """The result, once it is known that the dead load alone is carried."""
     settings = replace(run.settings, tolerance=form.tolerance(run.settings.tolerance))
     solver = cone_solver(form.reversed_program, settings, run.log)
-    reverse = _solved(run, form, solver, "reverse", -1.0, ENOUGH)
-    carried = _carried(run, form, reverse)
-    if carried is None and reverse.status is not Status.TIME_LIMIT:
-        reverse = _solved(run, form, solver, "reverse", -1.0)
+    reverse, carried = answer.solution, None
+    for enough in (ENOUGH, 0.0) if isinstance(solver, ClarabelProgram) else (0.0,):
+        reverse = _solved(run, form, solver, "reverse", -1.0, enough)
         carried = _carried(run, form, reverse)
-    if carried is None and _falls(form, reverse):
-        motion = form.velocities(reverse)
-        proved = falling_motion(run.program, motion) if form.exact else None
-        return _no_equilibrium(run, motion if proved is None else proved)
+        if carried is not None or reverse.status is Status.TIME_LIMIT:
+            break
+    certificate = None if carried is not None else _certificate(run, form, reverse)
+    if certificate is not None:
+        return _no_equilibrium(run, certificate)
+    if carried is None and _falls(run, reverse):
+        return _undecided(run, reverse)
     if carried is None and reverse.status not in (*WITH_VALUE, Status.UNBOUNDED):
         reason = "whether the dead load alone is carried could not be decided: " + _words_of(reverse)
         return run.result(reverse.status, reason)
+    if answer.solution.status is Status.UNBOUNDED and reverse.status is Status.UNBOUNDED:
+        return _locked_both_ways(run, settings)
     if answer.solution.status is Status.UNBOUNDED:
-        reason = "no mechanism exists in which the live load does work: friction locks the structure under any multiple"
-        return run.result(Status.UNBOUNDED, reason)
+        return run.result(Status.UNBOUNDED, LOCKED)
     return _with_load_factor(run, answer, carried)
+
+
+def _locked_both_ways(run: _Run, settings: SolverSettings) -> AssociativeResult:
+    """No mechanism in which the live load does work, of either sign: that says nothing of the dead load, so ask."""
+    form = gravity_form(run.program)
+    solution = cone_solver(form.cone_program, replace(settings, solver="clarabel"), run.log).solve(
+        run.first + len(run.records), 0.0
+    )
+    status, seconds = solution.status, solution.seconds
+    number = run.first + len(run.records)
+    run.records.append(ProgramRecord(number, "gravity", status, np.nan, np.nan, solution.iterations, seconds))
+    if status in WITH_VALUE:
+        return run.result(Status.UNBOUNDED, LOCKED)
+    certificate = falling_motion(run.program, -form.velocities(solution.z))
+    if certificate is None:
+        certificate = falling_motion(run.program, form.velocities(solution.z))
+    return _undecided(run, solution) if certificate is None else _no_equilibrium(run, certificate)
 
 
 def _with_load_factor(run: _Run, answer: _Answer, carried: tuple[FloatArray, float] | None) -> AssociativeResult:
@@ -292,12 +322,11 @@ def _fall_of_what_nothing_touches(program: Program) -> FloatArray:
     return np.where(untouched, program.dead_load, 0.0)
 
 
-def _falls(form: AssociativeForm, solution: ConeSolution) -> bool:
+def _falls(run: _Run, solution: ConeSolution) -> bool:
     """Whether a program, of either sign of the live load, says that there is no equilibrium without live load."""
-    dead, motion = form.program.dead_load, form.velocities(solution)
-    if not dead.any():  # no forces balance no load
+    if not run.program.dead_load.any():  # no forces balance no load
         return False
-    negative = solution.objective < -STANDS_MARGIN * min(float(np.abs(dead) @ np.abs(motion)), 1.0)
+    negative = solution.objective < -STANDS_MARGIN * run.dead_over_live
     return solution.status is Status.NO_EQUILIBRIUM or (solution.status in WITH_VALUE and negative)
 
 

@@ -15,7 +15,7 @@ from .synthetic import cuboids, tower_model
         ([0, 2, 3], "wall[2..3], wall[0]"),
         ([2, 6], "arch[0], wall[2]"),  # groups are not run together though blocks may follow each other
         ([5, 6], "arch[0], wall[5]"),
-        ([0, 2, 4, 6, 7], "arch[0..1], wall[0], wall[2] and 1 more"),
+        ([0, 2, 4, 6, 7], "arch[0..1], wall[0] and 2 more"),
     ],
 )
 def test_stretches(blocks: list[int], words: str) -> None:

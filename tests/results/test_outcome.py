@@ -77,6 +77,13 @@ def test_law_residual_is_the_largest_that_is_known() -> None:
     assert np.isnan(law_residual(FALLEN.checks))
 
 
+def test_a_warning_speaks_of_a_load_factor_only_where_there_is_one() -> None:
+    case = with_standing(SELF)
+    assert "its load factor is no collapse load: why" in case_notices(case)[0].message
+    unbounded = replace(case, solution=replace(case.solution, mechanics=None), status=Status.UNBOUNDED)
+    assert "load factor" not in case_notices(unbounded)[0].message
+
+
 @pytest.mark.parametrize(
     ("case", "identifiers"),
     [

@@ -107,8 +107,27 @@ def test_work_in_words() -> None:
     assert "68.4 % into friction, 31.6 % into cohesion" in words(model, CONTACTS, sliding(3.0))
 
 
-def test_no_shares_where_the_live_load_does_no_work() -> None:
+def test_no_shares_where_no_load_does_work() -> None:
     assert words(MODEL, CONTACTS, replace(sliding(), load_factor=0.0)) == ""
+
+
+@pytest.mark.parametrize(
+    ("factor", "start"),
+    [
+        (0.5, "The live load gives 33.3 % of the power, the dead load 66.7 %. Of both 0.0 % goes into friction"),
+        (1e-9, "The live load gives 0.0 % of the power, the dead load 100.0 %. Of both 0.0 % goes into friction"),
+        (-0.5, "The dead load drives the mechanism. Of its power 50.0 % goes into the live load, 0.0 % into friction"),
+    ],
+)
+def test_a_dead_load_that_drives_is_a_source_too(factor: float, start: str) -> None:
+    """The brick falls while it is pushed: its weight gives W 0.1 = 1, whatever the load factor is."""
+    mechanics = sliding()
+    mechanism = mechanics.mechanism.copy()
+    mechanism[2, 2] = -0.1
+    falling = replace(
+        mechanics, load_factor=factor, mechanism=mechanism, contact_velocities=np.zeros_like(mechanics.contact_forces)
+    )
+    assert words(MODEL, CONTACTS, falling).startswith(start)
 
 
 def test_groups_that_move_have_their_share() -> None:
