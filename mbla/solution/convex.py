@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from dataclasses import replace
 
 import numpy as np
 
@@ -17,8 +18,14 @@ from mbla.solution.convex_proximal import ConvexSequence, solve_convex_proximal
 from mbla.solution.convex_state import ConvexState
 from mbla.solution.mechanics import contact_velocities
 from mbla.solution.settings import SolverSettings
-from mbla.solution.solution import ContactMode, IterationRecord, Mechanics, Solution, Status
+from mbla.solution.solution import ContactMode, IterationRecord, Mechanics, Solution, Standing, Status
+from mbla.solution.solve import ONLY_BY_SELF_STRESS
+from mbla.solution.standing import assess_standing, standing_without_equilibrium
 
+LOCKED = (
+    "with dilatancy friction locks the structure under any multiple of the live load; "
+    "without dilatancy no state of collapse was found"
+)
 NO_RANGE = "with interface resultants the range of the load factor for the mechanism found is not computed"
 
 
@@ -37,18 +44,26 @@ def solve_convex(
         if log is not None:
             log(iteration)
 
-    associative = solve_convex_associative(convex, settings, record)
+    solution = _solved(convex, analysis, settings, record)
+    if analysis.standing:
+        solution = _with_standing(convex, solution, settings)
+    return replace(solution, iterations=tuple(iterations), seconds=time.perf_counter() - started)
+
+
+def _solved(convex: ConvexProgram, analysis: AnalysisSection, settings: SolverSettings, log: Log) -> Solution:
+    associative = solve_convex_associative(convex, settings, log)
     sequence = None
-    if analysis.flow_rule != "associative" and associative.state is not None:
+    locked = associative.status is Status.UNBOUNDED
+    if analysis.flow_rule != "associative" and (associative.state is not None or locked):
         max_programs = analysis.proximal.max_programs
-        sequence = solve_convex_proximal(convex, associative.programs, max_programs, settings, record)
+        sequence = solve_convex_proximal(convex, associative.programs, max_programs, settings, log)
+        if locked and sequence.status is not Status.SOLVED:
+            sequence = replace(sequence, status=Status.NOT_VERIFIED, state=None, reason=LOCKED)
     mechanics = of_associative = _mechanics(convex, associative.state, convex.points.limits.friction)
     status, reason, programs = associative.status, associative.reason, associative.programs
     if sequence is not None:
         mechanics = _mechanics(convex, sequence.state, np.zeros(convex.points.n_points))
         status, reason, programs = _status(associative, sequence), sequence.reason or reason, sequence.programs
-    elif status is Status.UNBOUNDED and analysis.flow_rule != "associative":
-        reason += "; this holds for associative flow, and does not decide whether there is a load factor without it"
     certificate, motions = _certificate(convex, associative)
     live = convex.points.scaling.live
     return Solution(
@@ -59,14 +74,28 @@ def solve_convex(
         certificate=certificate,
         reason=reason,
         programs=programs,
-        iterations=tuple(iterations),
-        seconds=time.perf_counter() - started,
+        iterations=(),
+        seconds=0.0,
         scheme="" if sequence is None else "proximal",
         remarks=() if sequence is None else (*sequence.remarks, NO_RANGE),
         spread=None if sequence is None or sequence.spread is None else _scaled(sequence.spread, live),
         certificate_motions=motions,
+        contact_model="convex",
         lock=None if associative.lock is None else convex.points.scaling.forces(associative.lock) / live,
     )
+
+
+def _with_standing(convex: ConvexProgram, solution: Solution, settings: SolverSettings) -> Solution:
+    """The standing of the blocks on their contact points; torsion of interfaces is left out."""
+    if solution.certificate is not None:
+        velocities = solution.certificate[convex.points.free].ravel() / convex.points.scaling.row
+        return replace(solution, standing=standing_without_equilibrium(convex.points, velocities))
+    decided = solution.associative is not None or solution.status is Status.UNBOUNDED
+    standing = assess_standing(convex.points, settings, True if decided else None)
+    claimed = solution.status in (Status.SOLVED, Status.APPROXIMATE) and solution.flow_rule != "associative"
+    if claimed and standing.verdict is Standing.SELF_STRESS:
+        solution = replace(solution, status=Status.NOT_VERIFIED, reason=ONLY_BY_SELF_STRESS)
+    return replace(solution, standing=standing)
 
 
 def convex_mechanics(convex: ConvexProgram, state: ConvexState, dilatancy: FloatArray) -> Mechanics:
@@ -100,8 +129,9 @@ def _scaled(ends: tuple[float, float], factor: float) -> tuple[float, float]:
 
 
 def _status(associative: ConvexAssociative, sequence: ConvexSequence) -> Status:
-    """Never better than that of the associative program."""
-    return associative.status if sequence.status is Status.SOLVED else sequence.status
+    """Never better than that of an associative program with a load factor."""
+    weak_start = associative.state is not None and sequence.status is Status.SOLVED
+    return associative.status if weak_start else sequence.status
 
 
 def _modes(convex: ConvexProgram, state: ConvexState, dilatancy: FloatArray) -> IntArray:

@@ -25,7 +25,7 @@ STANDS_MARGIN = 1e-7
 """A load factor is taken as negative only beyond this share of (dead load over live load): below it is solver noise."""
 
 DOUBTFUL = 1e-4
-"""Share below which the sign of a load factor is not certain where the solver ended short of its tolerance. A load factor
+"""Share below which the sign of a load factor is not certain where the solver ended short of its tolerance. A factor
 itself need not be solved to tolerance: its verified bounds tell what it is worth."""
 
 REGULARIZATION = 1e-8

@@ -111,6 +111,7 @@ def unbalanced_loads(
 
 
 def share_of(part: float, whole: float) -> float:
+    """A part over the whole, NaN where there is none."""
     return part / whole if whole > 0 else np.nan
 
 
@@ -131,6 +132,7 @@ def flow_power(
     sliding: FloatArray,
     strength: FloatArray,
 ) -> FlowPower:
+    """Power of points with forces x and velocities v, sliding speeds and shear strengths, (n_points,)."""
     surplus = v[:, 0] - dilatancy * sliding
     crushable = np.isfinite(limits.compression)
     capacity = np.where(crushable, limits.compression, 0.0)

@@ -131,6 +131,7 @@ class Solution:
     certificate : (n_blocks, 6) for no_equilibrium: motion in which the dead load does more work than the joints
                   dissipate; None otherwise
     certificate_motions : its interface_motions, convex contact model only
+    contact_model : concave, or convex: conditions on the resultants of interfaces hold too
     reason      : for every status but solved, one sentence in words
     scheme      : how a flow without normality was solved; empty for associative flow
     remarks     : what a reader of the figure must know, one sentence each
@@ -169,6 +170,7 @@ class Solution:
     path: tuple[PathPoint, ...] = ()
     size: ModelSize | None = None
     certificate_motions: FloatArray | None = None
+    contact_model: str = "concave"
 
 
 @dataclass(frozen=True)

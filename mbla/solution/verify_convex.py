@@ -34,6 +34,7 @@ from mbla.solution.solution import Checks, Mechanics, Solution, Status
 from mbla.solution.statics import contact_velocities, power
 from mbla.solution.verify import ROUNDING as CROSSING
 from mbla.solution.verify import dilatancy_of, failures_of
+from mbla.solution.verify_lock import LASTING
 
 WRONG_RESULTANTS = 1e-9
 """Relative distance of stored resultants from those of the stored contact forces that is rounding."""
@@ -260,6 +261,19 @@ def _residuals(case: _Case, mechanics: Mechanics, flow_rule: str) -> Residuals:
         live_power=live_power,
         power_balance=share_of(abs(dead_power + factor * live_power - dissipated), balance),
     )
+
+
+def convex_lock_failures(model: Model, contacts: Contacts, lock: FloatArray) -> tuple[str, ...]:
+    """Why forces, (n_points, 3) [N], are not within the conditions on interfaces however often they are taken."""
+    case = _Case(model, contacts, model.load_cases[0])
+    none = np.zeros(len(contacts))
+    dry = replace(case.laws, cohesion=none, tension=none)
+    resultants = case.resultants(lock)
+    allowed = LASTING * np.maximum.reduceat(np.linalg.norm(lock, axis=1), contacts.point_start[:-1])
+    crushed = case.laws.crushable & (np.abs(resultants).max(axis=1) > allowed)
+    if np.any(torsion_excess(dry, resultants) > allowed) or crushed.any():
+        return ("the forces that should show that the structure locks do not stay within the conditions on interfaces",)
+    return ()
 
 
 def _wrong_resultants(case: _Case, mechanics: Mechanics) -> tuple[str, ...]:
