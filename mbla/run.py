@@ -15,6 +15,7 @@ from mbla.expected import compare_with_expected
 from mbla.model import Model, build_model
 from mbla.model.model import LoadCase
 from mbla.program import Program, assemble
+from mbla.program.convex import assemble_convex
 from mbla.program.reductions import Reduced, reduce_program
 from mbla.program.remarks import program_notices
 from mbla.results.files import OutputFolder
@@ -23,6 +24,7 @@ from mbla.results.results import CaseResult, DeckRecord, Results
 from mbla.results.sta import StatusFile
 from mbla.results.write import write_results
 from mbla.solution import Status, solve, verified_status, verify
+from mbla.solution.convex import solve_convex
 from mbla.solution.settings import SolverSettings, solver_settings
 from mbla.solution.solution import IterationRecord
 
@@ -108,8 +110,11 @@ def solve_case(
         if progress is not None:
             progress(load_case.name, record)
 
-    program = assemble(model, contacts, load_case)
-    solution = solve(reduced_program(deck, model, contacts, program), deck.analysis, settings, log)
+    if deck.analysis.contact_model == "convex":
+        solution = solve_convex(assemble_convex(model, contacts, load_case), deck.analysis, settings, log)
+    else:
+        program = assemble(model, contacts, load_case)
+        solution = solve(reduced_program(deck, model, contacts, program), deck.analysis, settings, log)
     checks = verify(model, contacts, load_case, solution)
     status = verified_status(solution, checks)
     status_file.remark(f"{load_case.name}: {status}")

@@ -107,6 +107,18 @@ def convex_loops(points: FloatArray, loop_start: IntArray) -> BoolArray:
     return once
 
 
+def convex_hulls(points: FloatArray, loop_start: IntArray) -> tuple[FloatArray, IntArray]:
+    """Corners of the convex hulls of loops, counter-clockwise, (n_corners, 2), and their starts, (n_loops + 1,).
+
+    points     : (n_points, 2)
+    loop_start : (n_loops + 1,) no loop has its points all on a line
+    """
+    row = np.repeat(np.arange(len(loop_start) - 1), np.diff(loop_start))
+    hulls = shapely.convex_hull(np.atleast_1d(shapely.multipoints(points, indices=row)))
+    corners_of_hulls, start, _ = rings(hulls)
+    return corners_of_hulls, start
+
+
 def union_by_row(polygons: Polygons, row: IntArray, n_rows: int, grid: float | None = None) -> Polygons:
     """Union of the polygons of each row, (n_rows,).
 

@@ -34,7 +34,8 @@ from mbla.program.yield_conditions.limits import YieldLimits
 class ConeProgram:
     """min cost·x + ½ Σ quadratic x² subject to matrix x + s = rhs.
 
-    s = 0 in the first ``n_equations`` rows, ≥ 0 in the next ``n_half_lines``, in cones of dimension 3 in the rest.
+    s = 0 in the first ``n_equations`` rows, ≥ 0 in the next ``n_half_lines``, in cones of dimension 3 in the next
+    3 ``n_cones``, and in cones of the dimensions ``further_cones`` in the rest, 1 being a half-line.
     """
 
     cost: FloatArray
@@ -44,6 +45,7 @@ class ConeProgram:
     n_cones: int
     n_equations: int = 1
     quadratic: FloatArray | None = None
+    further_cones: tuple[int, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -84,10 +86,12 @@ class KinematicForm:
         rows, limits = self.rows, self.limits
         forces = np.zeros((self.program.n_points, self.program.components))
         n_dry, n_normal = len(rows.dry), len(rows.cut_off) + len(rows.crushing)
+        width = 3 if self.facets is None else len(self.facets)
+        shear_duals = z[1 + n_normal : 1 + n_normal + width * (n_dry + len(rows.frictional))]
         if self.facets is None:
-            shear = z[1 + n_normal :].reshape(-1, 3)
+            shear = shear_duals.reshape(-1, 3)
         else:
-            facet_forces = z[1 + n_normal :].reshape(-1, len(self.facets))
+            facet_forces = shear_duals.reshape(-1, len(self.facets))
             shear = np.column_stack([facet_forces.sum(axis=1), -facet_forces @ self.facets])
         forces[rows.dry, 0] = shear[:n_dry, 0] / limits.friction[rows.dry]
         forces[rows.dry, 1:] = shear[:n_dry, 1:]

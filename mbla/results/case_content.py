@@ -58,6 +58,7 @@ def case_content(model: Model, contacts: Contacts, case: CaseResult) -> Content:
         "scheme": solution.scheme,
         "reason": solution.reason,
         "remarks": solution.remarks,
+        "contact_model": solution.contact_model,
         "seconds": solution.seconds,
         "sides": solution.sides,
         **{name: getattr(checks, name) for name in CHECKED},
@@ -81,6 +82,9 @@ def _answers(case: CaseResult) -> Content:
         content |= {group + name: getattr(mechanics, name) for name in MECHANICS_FIELDS}
         if mechanics.resultants is not None:
             content[f"{group}resultants"] = mechanics.resultants
+        if mechanics.interface_motions is not None:
+            content[f"{group}torsion_motions"] = mechanics.interface_motions[:, 0]
+            content[f"{group}crushing_motions"] = mechanics.interface_motions[:, 1]
     return content
 
 
@@ -114,6 +118,9 @@ def _further(solution: Solution) -> Content:
         for name in ("certificate", "lock", "force_ranges")
         if getattr(solution, name) is not None
     }
+    if solution.certificate_motions is not None:
+        content["certificate_torsion_motions"] = solution.certificate_motions[:, 0]
+        content["certificate_crushing_motions"] = solution.certificate_motions[:, 1]
     if solution.spread is not None:
         content["spread"] = np.array(solution.spread, dtype=float)
     if solution.size is not None:

@@ -52,6 +52,17 @@ def _mechanics(group: str, part: str, what: str) -> tuple[Field, ...]:
             "convex contact model: N, T1, T2 and moments about normal, tangent 1, tangent 2 at the centroid, on body b",
             part=f"{part} resultants",
         ),
+        *(
+            Field(
+                f"{group}{name}_motions",
+                "float",
+                ("interface", "component"),
+                "velocities",
+                f"convex contact model: motion of the interface that {name} allows it, dual to the resultants",
+                part=f"{part} resultants",
+            )
+            for name in ("torsion", "crushing")
+        ),
     )
 
 
@@ -81,6 +92,7 @@ ANSWER = (
     Field(
         f"{CASE}/flow_rule", "text", (), "1", "flow rule of load_factor, contact_forces and mechanism", part="solution"
     ),
+    Field(f"{CASE}/contact_model", "text", (), "1", "concave, or convex: interface resultants", part="solution"),
     Field(
         f"{CASE}/scheme",
         "text",
@@ -165,6 +177,17 @@ FURTHER_ANSWERS = (
         "motion",
         "no equilibrium: motion under which the dead load does positive work and no joint resists",
         part="certificate",
+    ),
+    *(
+        Field(
+            f"{CASE}/certificate_{name}_motions",
+            "float",
+            ("interface", "component"),
+            "motion",
+            f"convex contact model: motion of the interfaces by {name} that belongs to the certificate",
+            part="certificate motions",
+        )
+        for name in ("torsion", "crushing")
     ),
     Field(
         f"{CASE}/lock",

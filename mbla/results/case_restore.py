@@ -7,6 +7,7 @@ from typing import Any, TypeVar
 
 import numpy as np
 
+from mbla.arrays import FloatArray
 from mbla.model.model import LoadCase
 from mbla.results.case_content import (
     CHECKED,
@@ -55,6 +56,8 @@ def case_from(load_case: LoadCase, get: dict[str, Any]) -> CaseResult:
         iterations=_records(IterationRecord, ITERATION_FIELDS, get, "iterations/"),
         seconds=get["seconds"],
         scheme=get["scheme"],
+        contact_model=get["contact_model"],
+        certificate_motions=_motions(get, "certificate_"),
         remarks=tuple(get["remarks"]),
         spread=_spread(get),
         standing=_standing(get),
@@ -82,7 +85,14 @@ def _mechanics(get: dict[str, Any], group: str, part: str) -> Mechanics | None:
     if not np.isin(get[f"{group}modes"], [int(mode) for mode in ContactMode]).all():
         raise ValueError("contact modes")
     values = {name: get[group + name] for name in MECHANICS_FIELDS}
-    return Mechanics(**values, resultants=get.get(f"{group}resultants"))
+    return Mechanics(**values, resultants=get.get(f"{group}resultants"), interface_motions=_motions(get, group))
+
+
+def _motions(get: dict[str, Any], group: str) -> FloatArray | None:
+    """Motions of interfaces by torsion and by crushing."""
+    if f"{group}torsion_motions" not in get:
+        return None
+    return np.stack([get[f"{group}torsion_motions"], get[f"{group}crushing_motions"]], axis=1)
 
 
 def _spread(get: dict[str, Any]) -> tuple[float, float] | None:

@@ -236,7 +236,7 @@ def _static_correction(program: Program, x: FloatArray, factor: float) -> tuple[
     weights = force_metric(replace(limits, friction=np.minimum(limits.friction, np.maximum(STEEP, needed))), x)
     matrix = program.equilibrium_matrix
     normal = sp.csc_array(matrix @ weights @ matrix.T)
-    solve = _bordered_solver(normal, program.live_load, (1e-4 * max(abs(factor), 1e-3)) ** 2)
+    solve = bordered_solver(normal, program.live_load, (1e-4 * max(abs(factor), 1e-3)) ** 2)
     if solve is None:
         return None
     delta, delta_factor = np.zeros_like(x), 0.0
@@ -249,9 +249,7 @@ def _static_correction(program: Program, x: FloatArray, factor: float) -> tuple[
     return delta, delta_factor
 
 
-def _bordered_solver(
-    normal: sp.csc_array, live: FloatArray, weight: float
-) -> Callable[[FloatArray], FloatArray] | None:
+def bordered_solver(normal: sp.csc_array, live: FloatArray, weight: float) -> Callable[[FloatArray], FloatArray] | None:
     """Solver of [[N, f], [fᵀ, −1/weight]] (y, t) = (rhs, 0); weight inf makes f·y = 0 a constraint.
 
     N is scaled to unit diagonal first; its one tiny eigenvalue is the collapse mechanism, which the border controls.
@@ -289,7 +287,7 @@ def _kinematic_correction(program: Program, u: FloatArray, opening: float) -> Fl
     # joints that can crush need not open: they only keep the velocity from straying
     weights[np.isfinite(program.limits.compression)] = np.eye(program.components) / speed**2
     metric = block_diagonal(weights)
-    solve = _bordered_solver(sp.csc_array(matrix @ metric @ matrix.T), program.live_load, np.inf)
+    solve = bordered_solver(sp.csc_array(matrix @ metric @ matrix.T), program.live_load, np.inf)
     if solve is None:
         return None
     delta = np.zeros_like(u)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
+from itertools import groupby
 from typing import Any
 
 import numpy as np
@@ -146,6 +147,9 @@ class ClarabelProgram:
         if program.n_half_lines:
             cones.append(clarabel.NonnegativeConeT(program.n_half_lines))
         cones += [clarabel.SecondOrderConeT(3)] * program.n_cones
+        for size, run in groupby(program.further_cones):
+            count = len(list(run))
+            cones += [clarabel.NonnegativeConeT(count)] if size == 1 else [clarabel.SecondOrderConeT(size)] * count
         return clarabel.DefaultSolver(
             sp.csc_matrix(sp.diags_array(quadratic)),
             program.cost,

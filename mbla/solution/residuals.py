@@ -81,7 +81,7 @@ def residuals_of(
     closing = np.where(np.isinf(limits.compression), np.maximum(-v[:, 0], 0.0), 0.0)
     live_power, dead_power = power(load_case.live_load, u), power(load_case.dead_load, u)
     strength = limits.friction * x[:, 0] + limits.cohesion
-    flow = _flow_power(limits, dilatancy, x, v, sliding, strength)
+    flow = flow_power(limits, dilatancy, x, v, sliding, strength)
     frictional = float(np.abs(strength * sliding).sum())
     balance = max(abs(factor * live_power), abs(dead_power), frictional, scale.least_factor(u))
     external = dead_power + factor * live_power
@@ -92,11 +92,11 @@ def residuals_of(
         equilibrium=float((unbalanced / scale.block_scale(contacts, x)[model.free]).max(initial=0.0)),
         yielding=float((yield_violation(x, limits) / point_scale).max(initial=0.0)),
         tension=float((tension / point_scale).max(initial=0.0)),
-        penetration=_share(float(closing.max(initial=0.0)), speed),
-        complementarity=_share(flow.normal + flow.slip, balance),
-        slip=_share(flow.slip, balance),
+        penetration=share_of(float(closing.max(initial=0.0)), speed),
+        complementarity=share_of(flow.normal + flow.slip, balance),
+        slip=share_of(flow.slip, balance),
         live_power=live_power,
-        power_balance=_share(abs(external - flow.dissipated), balance),
+        power_balance=share_of(abs(external - flow.dissipated), balance),
     )
 
 
@@ -110,12 +110,13 @@ def unbalanced_loads(
     return np.where(model.fixed, 0.0, unbalanced.max(axis=1))
 
 
-def _share(part: float, whole: float) -> float:
+def share_of(part: float, whole: float) -> float:
+    """A part over the whole, NaN where there is none."""
     return part / whole if whole > 0 else np.nan
 
 
 @dataclass(frozen=True)
-class _FlowPower:
+class FlowPower:
     """Power that the flow rule leaves unexplained, across and along the joints, and what the joints dissipate."""
 
     normal: float
@@ -123,14 +124,15 @@ class _FlowPower:
     dissipated: float
 
 
-def _flow_power(
+def flow_power(
     limits: YieldLimits,
     dilatancy: FloatArray,
     x: FloatArray,
     v: FloatArray,
     sliding: FloatArray,
     strength: FloatArray,
-) -> _FlowPower:
+) -> FlowPower:
+    """Power of points with forces x and velocities v, sliding speeds and shear strengths, (n_points,)."""
     surplus = v[:, 0] - dilatancy * sliding
     crushable = np.isfinite(limits.compression)
     capacity = np.where(crushable, limits.compression, 0.0)
@@ -140,4 +142,4 @@ def _flow_power(
     normal += np.where(crushable, 0.0, np.abs(x[:, 0] * np.minimum(surplus, 0.0)))
     slip = np.abs(strength * sliding + x[:, 1] * v[:, 1] + x[:, 2] * v[:, 2])
     dissipated = (strength - dilatancy * x[:, 0]) * sliding + limits.tension * opening + capacity * crushing
-    return _FlowPower(float(normal.sum()), float(slip.sum()), float(dissipated.sum()))
+    return FlowPower(float(normal.sum()), float(slip.sum()), float(dissipated.sum()))

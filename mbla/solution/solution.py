@@ -107,6 +107,9 @@ class Mechanics:
     resultants         : convex contact model only: (n_interfaces, 6) N, T1, T2 [N] and the moments about normal,
                          tangent 1 and tangent 2 at the centroid of the interface [N m], on body b; the contact forces
                          are then a distribution over the corners with these resultants
+    interface_motions  : convex contact model only: (n_interfaces, 2, 6) motion of each interface that torsion [0] and
+                         crushing [1] allow it, dual to the resultants: opening, slips, rotations about normal, tangent
+                         1 and tangent 2, scaled as mechanism; the contact points move by the rest
     """
 
     load_factor: float
@@ -115,6 +118,7 @@ class Mechanics:
     mechanism: FloatArray
     modes: IntArray
     resultants: FloatArray | None = None
+    interface_motions: FloatArray | None = None
 
 
 @dataclass(frozen=True)
@@ -126,6 +130,8 @@ class Solution:
     associative : by the associative flow rule; the same object where that is the deck's flow rule
     certificate : (n_blocks, 6) for no_equilibrium: motion in which the dead load does more work than the joints
                   dissipate; None otherwise
+    certificate_motions : its interface_motions, convex contact model only
+    contact_model : concave, or convex: conditions on the resultants of interfaces hold too
     reason      : for every status but solved, one sentence in words
     scheme      : how a flow without normality was solved; empty for associative flow
     remarks     : what a reader of the figure must know, one sentence each
@@ -163,6 +169,8 @@ class Solution:
     force_ranges: FloatArray | None = None
     path: tuple[PathPoint, ...] = ()
     size: ModelSize | None = None
+    certificate_motions: FloatArray | None = None
+    contact_model: str = "concave"
 
 
 @dataclass(frozen=True)

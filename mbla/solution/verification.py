@@ -2,7 +2,7 @@
 
 - :mod:`mbla.solution.verify`: residuals of forces and mechanism, bounds of the associative load factor, certificates;
 - :mod:`mbla.solution.verify_polyhedral`: the bracket of friction polyhedra, each by its own law;
-- :mod:`mbla.solution.verify_polyhedral`: the same with friction polyhedra;
+- :mod:`mbla.solution.verify_convex`: the first with the conditions on interfaces of the convex contact model;
 - :mod:`mbla.solution.verify_range`: both ends of the range of a load factor without normality;
 - :mod:`mbla.solution.verify_lock`: forces that carry every multiple of the live load.
 """
@@ -15,6 +15,7 @@ from mbla.contacts.contacts import Contacts
 from mbla.model.model import LoadCase, Model
 from mbla.solution.solution import Checks, Solution, Status
 from mbla.solution.verify import verify as verify_mechanics
+from mbla.solution.verify_convex import convex_lock_failures, verify_convex
 from mbla.solution.verify_lock import lock_failures
 from mbla.solution.verify_polyhedral import verify_polyhedral
 from mbla.solution.verify_range import range_checks
@@ -26,6 +27,8 @@ def verify(model: Model, contacts: Contacts, load_case: LoadCase, solution: Solu
     No solver is asked, and no matrix of the program stage is used for a verdict.
     """
     of_mechanics = verify_mechanics if solution.outer is None else verify_polyhedral
+    if solution.contact_model == "convex":
+        of_mechanics = verify_convex
     checks = of_mechanics(model, contacts, load_case, solution)
     lower, upper = range_checks(model, contacts, load_case, solution)
     if solution.status is Status.UNBOUNDED:
@@ -37,4 +40,7 @@ def verify(model: Model, contacts: Contacts, load_case: LoadCase, solution: Solu
 def _lock_failures(model: Model, contacts: Contacts, load_case: LoadCase, solution: Solution) -> tuple[str, ...]:
     if solution.lock is None:
         return ("no forces are given that carry every multiple of the live load",)
-    return lock_failures(model, contacts, load_case, solution.lock)
+    failures = lock_failures(model, contacts, load_case, solution.lock)
+    if solution.contact_model == "convex":
+        failures += convex_lock_failures(model, contacts, solution.lock)
+    return failures

@@ -57,7 +57,7 @@ def verify(model: Model, contacts: Contacts, load_case: LoadCase, solution: Solu
         if solution.certificate is not None:
             failures = certificate_failures(model, contacts, load_case, solution.certificate, limits, scale)
         return Checks(nan, nan, nan, nan, nan, nan, nan, nan, nan, verified=not failures, failures=failures)
-    dilatancy = _dilatancy(limits, solution.flow_rule)
+    dilatancy = dilatancy_of(limits, solution.flow_rule)
     residuals = residuals_of(model, contacts, load_case, solution.mechanics, dilatancy)
     static = kinematic = size = nan
     if solution.associative is not None:
@@ -65,7 +65,7 @@ def verify(model: Model, contacts: Contacts, load_case: LoadCase, solution: Solu
         size = max(abs(kinematic), scale.least_factor(solution.associative.mechanism))
         if 0.0 < static - kinematic <= ROUNDING * size:
             static = kinematic
-    failures = _failures(residuals, solution, static, kinematic, size)
+    failures = failures_of(residuals, solution, static, kinematic, size)
     return Checks(
         equilibrium_residual=residuals.equilibrium,
         yield_violation=residuals.yielding,
@@ -107,7 +107,7 @@ def verified_status(solution: Solution, checks: Checks) -> Status:
     return Status.APPROXIMATE if all(value <= APPROXIMATE_RESIDUAL for value in measures) else Status.NOT_VERIFIED
 
 
-def _dilatancy(limits: YieldLimits, flow_rule: str) -> FloatArray:
+def dilatancy_of(limits: YieldLimits, flow_rule: str) -> FloatArray:
     """Tangent of the dilatancy angle that a flow rule claims, (n_points,)."""
     return {
         "associative": limits.friction,
@@ -117,7 +117,7 @@ def _dilatancy(limits: YieldLimits, flow_rule: str) -> FloatArray:
     }[flow_rule]
 
 
-def _failures(
+def failures_of(
     residuals: Residuals, solution: Solution, static: float, kinematic: float, size: float
 ) -> tuple[str, ...]:
     """What is not within tolerance, in words; ``size`` is the unit of differences of load factors."""

@@ -1,0 +1,5 @@
+"""Convex contact model: conditions on the six resultants of each interface."""
+
+from mbla.program.convex.assemble import ConvexProgram, assemble_convex, convex_form
+
+__all__ = ["ConvexProgram", "assemble_convex", "convex_form"]

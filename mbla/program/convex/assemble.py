@@ -1,0 +1,165 @@
+"""From model, contacts and load case to the program of the convex contact model.
+
+The convex contact model keeps the contact forces at the corners of the interfaces, each in its own cone: they hold the
+force point of an interface inside its outline, exactly for any convex outline, and tie shear to where the pressure is.
+Conditions on the six resultants of every interface are added: torsion, and crushing in place of the crushing of points.
+An associative load factor is therefore never above that of the concave model, and equal where no interface twists.
+
+Every condition lets its interface move by itself (see :mod:`mbla.program.convex.conditions`). Its unknowns ψ stand
+behind the velocities of the blocks, as if they were blocks too: rows "−W R x = cost" below the equilibrium matrix, R
+being the map from contact forces to resultants, W = motionᵀ.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+import scipy.sparse as sp
+
+from mbla.arrays import FloatArray, IntArray
+from mbla.contacts.contacts import Contacts
+from mbla.model.model import LoadCase, Model
+from mbla.program.assemble import assemble
+from mbla.program.convex.conditions import ConditionRows, joined
+from mbla.program.convex.crushing import CrushingLimits, crushing_limits, crushing_rows
+from mbla.program.convex.shapes import InterfaceShapes, interface_shapes, local_points
+from mbla.program.convex.torsion import TorsionLimits, torsion_limits, torsion_rows
+from mbla.program.kinematic import KinematicForm, kinematic_form
+from mbla.program.program import Program
+from mbla.program.yield_conditions import YieldLimits
+
+
+@dataclass(frozen=True)
+class ConvexProgram:
+    """One load case with conditions on interfaces, non-dimensional as ``Program``.
+
+    points     : the program of the contact points alone; points of interfaces with a stress block do not crush
+    program    : the same with the unknowns of the conditions behind the velocities of the blocks
+    shapes     : of the interfaces, in the deck's units
+    torsion, rectangles, others : limits of the conditions: torsion, stress blocks on rectangles and on other outlines
+    conditions : torsion, crushing as rows
+    interface_of_point : (n_points,)
+    resultants : (6 n_interfaces, 3 n_points) from contact forces to N, T1, T2 and moments about normal, tangent 1 and
+                 tangent 2 at the centroid; lengths in the deck's units
+    """
+
+    points: Program
+    program: Program
+    shapes: InterfaceShapes
+    torsion: TorsionLimits
+    rectangles: CrushingLimits
+    others: CrushingLimits
+    conditions: tuple[ConditionRows, ConditionRows]
+    interface_of_point: IntArray
+    resultants: sp.csr_array
+
+    @property
+    def n_block_rows(self) -> int:
+        """Velocities of the free blocks; those of the conditions follow."""
+        return len(self.points.dead_load)
+
+    def flows(self, velocities: FloatArray) -> FloatArray:
+        """Motion of every interface by torsion and by crushing, (n_interfaces, 2, 6), in the program's units."""
+        torsion, crushing = self.conditions
+        psi = velocities[self.n_block_rows :]
+        n_torsion = torsion.motion.shape[1]
+        motions = (torsion.motion @ psi[:n_torsion], crushing.motion @ psi[n_torsion:])
+        return np.stack([motion.reshape(-1, 6) for motion in motions], axis=1)
+
+
+def assemble_convex(model: Model, contacts: Contacts, load_case: LoadCase) -> ConvexProgram:
+    """Build the program of one load case with the convex contact model."""
+    program = assemble(model, contacts, load_case)
+    shapes = interface_shapes(contacts)
+    laws = [model.joints[contacts.joint_names[joint]] for joint in contacts.joints]
+    scale = contacts.areas / program.scaling.force
+    strength = np.array([law.compressive_strength for law in laws]) * scale
+    torsion = torsion_limits(
+        shapes, np.array([law.friction for law in laws]), np.array([law.cohesion for law in laws]) * scale
+    )
+    tension = np.array([law.tensile_strength for law in laws]) * scale
+    rectangles, others = crushing_limits(shapes, strength, tension)
+    n_interfaces = len(contacts)
+    conditions = (torsion_rows(torsion, n_interfaces), crushing_rows(rectangles, others, n_interfaces))
+    points = replace(program, limits=_point_limits(program.limits, contacts, shapes))
+    resultants = resultants_map(contacts)
+    return ConvexProgram(
+        points=points,
+        program=_with_conditions(points, joined(conditions), resultants),
+        shapes=shapes,
+        torsion=torsion,
+        rectangles=rectangles,
+        others=others,
+        conditions=conditions,
+        interface_of_point=contacts.interface_of_point,
+        resultants=resultants,
+    )
+
+
+def resultants_map(contacts: Contacts) -> sp.csr_array:
+    """The map from contact forces to the resultants of the interfaces, (6 n_interfaces, 3 n_points)."""
+    x1, x2 = local_points(contacts).T
+    interface = contacts.interface_of_point
+    point = np.arange(len(interface))
+    one = np.ones(len(interface))
+    # N, T1, T2; M_n = x1 T2 − x2 T1; M_1 = x2 N; M_2 = −x1 N
+    terms = [(0, 0, one), (1, 1, one), (2, 2, one), (3, 2, x1), (3, 1, -x2), (4, 0, x2), (5, 0, -x1)]
+    rows = np.concatenate([6 * interface + row for row, _, _ in terms])
+    columns = np.concatenate([3 * point + column for _, column, _ in terms])
+    values = np.concatenate([value for _, _, value in terms])
+    shape = (6 * len(contacts), 3 * len(interface))
+    size = np.hypot(x1, x2).max(initial=0.0)
+    values[np.abs(values) < 1e-14 * size] = 0.0
+    return sp.csr_array(sp.coo_array((values, (rows, columns)), shape=shape))
+
+
+STABILISING, AT_MOST = 1e-9, 1e-7
+"""Weight of ½ ‖x‖² in the stabilised form, per free block, and its greatest value. Unknowns of conditions fill the KKT
+matrix so that its factors, taken without pivoting, break down at 400 blocks without it. Velocities are small (the
+square of their norm is about one over the number of blocks), so that the load factor moves by less than 1e-8."""
+
+
+def convex_form(convex: ConvexProgram, stabilised: bool = False) -> KinematicForm:
+    """The kinematic form of the program, its conditions as further rows.
+
+    stabilised : with a small quadratic term; without, unbounded programs have rays
+    """
+    form = kinematic_form(convex.program, convex.program.limits)
+    base = form.cone_program
+    rows = joined(convex.conditions)
+    n_others = base.matrix.shape[1] - len(convex.program.dead_load)
+    cones = sp.hstack(
+        [
+            sp.csr_array((rows.cones.shape[0], convex.n_block_rows)),
+            -rows.cones,
+            sp.csr_array((rows.cones.shape[0], n_others)),
+        ]
+    )
+    matrix = sp.csc_array(sp.vstack([base.matrix, cones]))
+    matrix.eliminate_zeros()
+    matrix.sort_indices()
+    cone_program = replace(
+        base,
+        matrix=matrix,
+        rhs=np.concatenate([base.rhs, np.zeros(rows.cones.shape[0])]),
+        further_cones=tuple(rows.cone_sizes.tolist()),
+        quadratic=np.full(matrix.shape[1], min(STABILISING * len(convex.points.free), AT_MOST)) if stabilised else None,
+    )
+    return replace(form, cone_program=cone_program)
+
+
+def _with_conditions(program: Program, rows: ConditionRows, resultants: sp.csr_array) -> Program:
+    motion = -(rows.motion.T @ resultants)
+    return replace(
+        program,
+        equilibrium_matrix=sp.csr_array(sp.vstack([program.equilibrium_matrix, motion])),
+        dead_load=np.concatenate([program.dead_load, -rows.cost]),
+        live_load=np.concatenate([program.live_load, np.zeros(len(rows.cost))]),
+    )
+
+
+def _point_limits(limits: YieldLimits, contacts: Contacts, shapes: InterfaceShapes) -> YieldLimits:
+    """Limits of the points: no crushing where the interface has a stress block."""
+    compression = np.where(shapes.convex[contacts.interface_of_point], np.inf, limits.compression)
+    return replace(limits, compression=compression)

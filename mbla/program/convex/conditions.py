@@ -1,0 +1,83 @@
+"""Form in which a condition on interface resultants enters the cone program.
+
+A condition says that vectors G r + g + H y lie in cones C (second-order cones and half-lines, which are their own
+duals), r being the resultants of an interface and y helping unknowns without meaning. With multipliers ζ in C and
+Hᵀζ = 0 any admissible r has
+
+    −r·v ≤ −r·(v − Gᵀζ) + g·ζ
+
+so that an interface that moves by v may move by Gᵀζ at the power g·ζ, and its points by the rest. The equation Hᵀζ = 0
+is solved beforehand: ζ = cones @ ψ with free unknowns ψ.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import scipy.sparse as sp
+
+from mbla.arrays import FloatArray, IntArray
+
+N, T1, T2, MN, M1, M2 = range(6)
+"""Resultants in their order."""
+
+
+@dataclass(frozen=True)
+class ConditionRows:
+    """A condition on all interfaces to which it applies.
+
+    motion     : (6 n_interfaces, n_unknowns) Gᵀζ: motion of the interfaces, dual to their resultants
+    cost       : (n_unknowns,) g·ζ
+    cones      : (n_rows, n_unknowns) ζ
+    cone_sizes : dimensions of the cones in their order, 1 for half-lines
+    """
+
+    motion: sp.csr_array
+    cost: FloatArray
+    cones: sp.csr_array
+    cone_sizes: IntArray
+
+
+@dataclass
+class Entries:
+    """Entries of a sparse matrix as they come."""
+
+    rows: list[IntArray]
+    columns: list[IntArray]
+    values: list[FloatArray]
+
+    @classmethod
+    def none(cls) -> Entries:
+        """Nothing yet."""
+        return cls([], [], [])
+
+    def add(self, rows: IntArray, columns: IntArray, values: FloatArray | float) -> None:
+        """Add entries; values of one place are summed up."""
+        self.rows.append(rows)
+        self.columns.append(columns)
+        self.values.append(np.broadcast_to(np.asarray(values, dtype=np.float64), np.shape(rows)))
+
+    def matrix(self, shape: tuple[int, int]) -> sp.csr_array:
+        """All entries as a matrix."""
+        if not self.rows:
+            return sp.csr_array(shape)
+        place = (np.concatenate(self.rows), np.concatenate(self.columns))
+        return sp.csr_array(sp.coo_array((np.concatenate(self.values), place), shape=shape))
+
+
+def joined(conditions: Sequence[ConditionRows]) -> ConditionRows:
+    """Several conditions as one."""
+    return ConditionRows(
+        motion=sp.csr_array(sp.hstack([condition.motion for condition in conditions])),
+        cost=np.concatenate([condition.cost for condition in conditions]),
+        cones=sp.csr_array(sp.block_diag([condition.cones for condition in conditions])),
+        cone_sizes=np.concatenate([condition.cone_sizes for condition in conditions]),
+    )
+
+
+def nothing(n_interfaces: int) -> ConditionRows:
+    """The condition that never applies."""
+    none = np.zeros(0, dtype=np.int64)
+    return ConditionRows(sp.csr_array((6 * n_interfaces, 0)), np.zeros(0), sp.csr_array((0, 0)), none)

@@ -1,0 +1,153 @@
+"""Shapes of interfaces as the convex contact model needs them: hull, rectangle or not, torsional radius."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from mbla.arrays import BoolArray, FloatArray, IntArray, row_of_item, starts
+from mbla.contacts.contacts import Contacts
+from mbla.contacts.polygons import convex_hulls, convex_loops
+from mbla.model.ragged import items_of_rows, next_item, row_sums
+from mbla.program.convex.friction_curve import disc_radius, fitted_curves, rectangle_curve
+
+STRAIGHT = 1e-6
+"""Sine of the turn at a corner below which it is no corner: points on an edge are needless here."""
+
+SQUARE_CORNERS = 1e-6
+"""Relative deviation up to which an outline counts as a rectangle."""
+
+SOLID = 1e-6
+"""Relative area that holes must take to count."""
+
+
+@dataclass(frozen=True)
+class InterfaceShapes:
+    """Interfaces in their planes, coordinates along tangent 1 and tangent 2 from the centroid [m].
+
+    corners    : (n_corners, 2) of the convex hulls, counter-clockwise
+    start      : (n_interfaces + 1,)
+    convex     : (n_interfaces,) the interface is its hull, without holes
+    rectangles : (n_interfaces,) the hull is a rectangle and the interface fills it
+    sides      : (n_interfaces, 2) lengths of a rectangle, else zero
+    axes       : (n_interfaces, 2, 2) unit vectors along both sides of a rectangle (rows)
+    radii      : (n_interfaces,) torsional radius ρ [m]
+    thetas     : (n_interfaces,) θ of the friction curve
+    """
+
+    corners: FloatArray
+    start: IntArray
+    convex: BoolArray
+    rectangles: BoolArray
+    sides: FloatArray
+    axes: FloatArray
+    radii: FloatArray
+    thetas: FloatArray
+
+    @property
+    def interface_of_corner(self) -> IntArray:
+        """(n_corners,)."""
+        return row_of_item(self.start)
+
+    def edge_slopes(self) -> FloatArray:
+        """ν/d of the edge that leaves each corner, (n_corners, 2) [1/m]: x is inside where 1 − x·ν/d ≥ 0 for all."""
+        following = self.corners[next_item(self.start)]
+        edge = following - self.corners
+        outward = np.column_stack([edge[:, 1], -edge[:, 0]])
+        return np.asarray(outward / (outward * self.corners).sum(axis=1)[:, None])
+
+
+def local_points(contacts: Contacts) -> FloatArray:
+    """Contact points along tangent 1 and tangent 2 from the centroid of their interface, (n_points, 2) [m]."""
+    arm = contacts.points - contacts.centroids[contacts.interface_of_point]
+    return np.asarray(np.einsum("pjx,px->pj", contacts.frames[:, 1:], arm))
+
+
+def interface_shapes(contacts: Contacts) -> InterfaceShapes:
+    """Shapes of all interfaces."""
+    n = len(contacts)
+    if n == 0:
+        none, empty = np.zeros(0, dtype=bool), np.zeros((0, 2))
+        return InterfaceShapes(empty, starts(none), none, none, empty, np.zeros((0, 2, 2)), np.zeros(0), np.zeros(0))
+    outlines, outline_start = _outlines(contacts)
+    convex_outline = convex_loops(outlines, outline_start)
+    solid = _loop_areas(outlines, outline_start) <= contacts.areas * (1.0 + SOLID)
+    corners, start = _hulls(outlines, outline_start, convex_outline)
+    rectangles, sides, axes = _rectangles(corners, start, convex_outline & solid)
+    radii, thetas = disc_radius(contacts.areas), np.ones(n)  # outlines with holes: the least that is possible
+    radii[rectangles], thetas[rectangles] = rectangle_curve(sides[rectangles])[:2]
+    _fit(outlines, outline_start, solid & ~rectangles & ~convex_outline, radii, thetas)
+    _fit(corners, start, solid & ~rectangles & convex_outline, radii, thetas)
+    return InterfaceShapes(corners, start, convex_outline & solid, rectangles, sides, axes, radii, thetas)
+
+
+def _outlines(contacts: Contacts) -> tuple[FloatArray, IntArray]:
+    """Outer boundaries, (n_corners, 2), and their starts."""
+    position = np.arange(len(contacts.points)) - contacts.point_start[contacts.interface_of_point]
+    outer = position < contacts.outline[contacts.interface_of_point]
+    return local_points(contacts)[outer], starts(contacts.outline.astype(np.int64))
+
+
+def _loop_areas(points: FloatArray, start: IntArray) -> FloatArray:
+    after = points[next_item(start)]
+    return np.asarray(0.5 * row_sums(points[:, 0] * after[:, 1] - points[:, 1] * after[:, 0], start))
+
+
+def _hulls(outlines: FloatArray, start: IntArray, convex: BoolArray) -> tuple[FloatArray, IntArray]:
+    """Convex hulls: convex outlines without the points on their edges, the hulls of the others."""
+    loops = items_of_rows(start, np.flatnonzero(convex))
+    straight_start = starts(np.diff(start)[convex])
+    corner = _turns(outlines[loops], straight_start) > STRAIGHT
+    counts = np.zeros(len(convex), dtype=np.int64)
+    counts[convex] = row_sums(corner.astype(np.float64), straight_start).astype(np.int64) if convex.any() else 0
+    if convex.all():
+        return outlines[loops][corner], starts(counts)
+    rest = np.flatnonzero(~convex)
+    hull_points, hull_start = convex_hulls(outlines[items_of_rows(start, rest)], starts(np.diff(start)[rest]))
+    counts[rest] = np.diff(hull_start)
+    hulls_at = starts(counts)
+    corners = np.zeros((hulls_at[-1], 2))
+    corners[items_of_rows(hulls_at, np.flatnonzero(convex))] = outlines[loops][corner]
+    corners[items_of_rows(hulls_at, rest)] = hull_points
+    return corners, hulls_at
+
+
+def _turns(points: FloatArray, start: IntArray) -> FloatArray:
+    """Sine of the turn at each corner, positive to the left."""
+    following = next_item(start)
+    leaving = points[following] - points
+    arriving = np.empty_like(leaving)
+    arriving[following] = leaving
+    cross = arriving[:, 0] * leaving[:, 1] - arriving[:, 1] * leaving[:, 0]
+    return np.asarray(cross / np.maximum(np.hypot(*arriving.T) * np.hypot(*leaving.T), 1e-300))
+
+
+def _rectangles(
+    corners: FloatArray, start: IntArray, candidates: BoolArray
+) -> tuple[BoolArray, FloatArray, FloatArray]:
+    """Which hulls are rectangles, with their sides and the directions of these."""
+    n = len(candidates)
+    rectangles, sides, axes = np.zeros(n, dtype=bool), np.zeros((n, 2)), np.zeros((n, 2, 2))
+    rows = np.flatnonzero(candidates & (np.diff(start) == 4))
+    if len(rows):
+        loops = corners[items_of_rows(start, rows)].reshape(-1, 4, 2)
+        edges = np.roll(loops, -1, axis=1) - loops
+        length = np.hypot(edges[..., 0], edges[..., 1])
+        skew = np.abs((edges[:, 0] * edges[:, 1]).sum(axis=1)) / (length[:, 0] * length[:, 1])
+        open_by = np.abs(edges[:, 0] + edges[:, 2]).max(axis=1) / length.max(axis=1)
+        right = (skew <= SQUARE_CORNERS) & (open_by <= SQUARE_CORNERS * length.min(axis=1) / length.max(axis=1))
+        chosen = rows[right]
+        rectangles[chosen] = True
+        sides[chosen] = length[right, :2]
+        axes[chosen] = edges[right, :2] / length[right, :2, None]
+    return rectangles, sides, axes
+
+
+def _fit(points: FloatArray, start: IntArray, chosen: BoolArray, radii: FloatArray, thetas: FloatArray) -> None:
+    """Radii and θ of the chosen outlines, in place; outlines with alike numbers of corners together."""
+    counts = np.diff(start)
+    for count in np.unique(counts[chosen]):
+        rows = np.flatnonzero(chosen & (counts == count))
+        loops = points[items_of_rows(start, rows)].reshape(len(rows), int(count), 2)
+        radii[rows], thetas[rows] = fitted_curves(loops)

@@ -1,0 +1,67 @@
+"""Vectors of a product of half-lines and second-order cones: inside or not, how far to the border, the barrier."""
+
+from __future__ import annotations
+
+import numpy as np
+import scipy.sparse as sp
+
+from mbla.arrays import FloatArray, IntArray
+from mbla.program.kinematic import ConeProgram
+
+LEAST = 1e-13
+"""Least distance from the border of its cone, relative to the largest vector, that a vector is moved to."""
+
+
+class ConeVectors:
+    """The half-lines and cones of a cone program, in the order of its rows behind the equations."""
+
+    def __init__(self, sizes: IntArray) -> None:
+        self.sizes = sizes
+        self.start = np.concatenate([[0], np.cumsum(sizes)]).astype(np.int64)
+        self.head = self.start[:-1]
+        self.cone_of_row = np.repeat(np.arange(len(sizes)), sizes)
+        self.is_head = np.zeros(self.start[-1], dtype=bool)
+        self.is_head[self.head] = True
+
+    @classmethod
+    def of(cls, program: ConeProgram) -> ConeVectors:
+        """Of a cone program."""
+        return cls(
+            np.concatenate(
+                [np.ones(program.n_half_lines), np.full(program.n_cones, 3), np.array(program.further_cones)]
+            ).astype(np.int64)
+        )
+
+    def products(self, x: FloatArray, y: FloatArray) -> FloatArray:
+        """x_0 y_0 − x̄·ȳ of every cone."""
+        signed = np.where(self.is_head, 1.0, -1.0) * x * y
+        return np.asarray(np.bincount(self.cone_of_row, signed, len(self.sizes)))
+
+    def tails(self, x: FloatArray) -> FloatArray:
+        """‖x̄‖ of every cone."""
+        return np.asarray(np.sqrt(np.bincount(self.cone_of_row, np.where(self.is_head, 0.0, x**2), len(self.sizes))))
+
+    def pulled_inside(self, z: FloatArray, distance: float) -> FloatArray:
+        """Heads raised until every vector is inside by a distance relative to its size."""
+        inside, tail = z.copy(), self.tails(z)
+        least = LEAST * max(float(np.abs(z).max(initial=0.0)), 1e-300)
+        inside[self.head] = np.maximum(z[self.head], tail * (1.0 + distance) + least)
+        return inside
+
+    def longest_step(self, z: FloatArray, step: FloatArray) -> float:
+        """Largest factor with which z + factor step stays inside."""
+        a, b, c = self.products(step, step), self.products(z, step), self.products(z, z)
+        half_line = self.sizes == 1
+        root = np.sqrt(np.maximum(b**2 - a * c, 0.0))
+        with np.errstate(divide="ignore", invalid="ignore"):
+            reach = np.where(root - b > 0, c / (root - b), np.inf)
+            line = np.where(step[self.head] < 0, -z[self.head] / step[self.head], np.inf)
+        return float(np.where(half_line, line, np.where((a < 0) | (b < 0), reach, np.inf)).min(initial=np.inf))
+
+    def inverse_hessian(self, z: FloatArray) -> sp.csr_array:
+        """Block-diagonal, of the barrier −log(z_0² − ‖z̄‖²)."""
+        determinant = np.maximum(self.products(z, z), 0.0)
+        reflection = np.where(self.is_head, -0.5, 0.5) * determinant[self.cone_of_row]
+        reflection[self.sizes[self.cone_of_row] == 1] = 0.0
+        membership = sp.csr_array((z, (np.arange(len(z)), self.cone_of_row)), shape=(len(z), len(self.sizes)))
+        return sp.csr_array(membership @ membership.T + sp.diags_array(reflection))

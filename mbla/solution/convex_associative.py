@@ -1,0 +1,170 @@
+"""The associative load factor with the convex contact model, and whether the dead load is carried at all.
+
+The program is solved in its stabilised form first, which has a value even where the plain one has none; where that
+gives no load factor, or none to the solver's satisfaction, the plain form decides: its rays are certificates. A second
+program, with the live load reversed, finds the least load factor under which there is equilibrium; if zero is not
+between the two the dead load alone is not carried.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from mbla.arrays import FloatArray
+from mbla.program.convex import ConvexProgram, convex_form
+from mbla.program.kinematic import KinematicForm
+from mbla.solution.clarabel_adapter import ClarabelProgram
+from mbla.solution.cone_solution import ConeSolution, Log
+from mbla.solution.convex_state import ConvexState
+from mbla.solution.settings import SolverSettings
+from mbla.solution.solution import ProgramRecord, Status
+
+STANDS_MARGIN = 1e-7
+"""A load factor is taken as negative only beyond this share of (dead load over live load): below it is solver noise."""
+
+DOUBTFUL = 1e-4
+"""Share below which the sign of a load factor is not certain where the solver ended short of its tolerance. A factor
+itself need not be solved to tolerance: its verified bounds tell what it is worth."""
+
+REGULARIZATION = 1e-8
+"""Static regularisation: with 1e-11 the solver broke down on a wall of 410 blocks."""
+
+WITH_VALUE = (Status.SOLVED, Status.APPROXIMATE)
+DECIDED = (Status.SOLVED, Status.NO_EQUILIBRIUM, Status.UNBOUNDED)
+
+
+@dataclass(frozen=True)
+class ConvexAssociative:
+    """What the associative program says.
+
+    state    : where there is a load factor
+    velocities, motions : without equilibrium, of a motion in which the dead load does more work than is dissipated
+    lock     : (n_points, 3) unbounded: forces that balance the live load alone, for a load factor of 1 of the program
+    """
+
+    status: Status
+    reason: str
+    programs: tuple[ProgramRecord, ...]
+    state: ConvexState | None = None
+    velocities: FloatArray | None = None
+    motions: FloatArray | None = None
+    lock: FloatArray | None = None
+
+
+@dataclass
+class _Run:
+    convex: ConvexProgram
+    settings: SolverSettings
+    log: Log
+    records: list[ProgramRecord]
+
+    def solve(self, form: KinematicForm, sense: float) -> ConeSolution:
+        """The program with the live load as it is, or reversed."""
+        program = replace(form.cone_program, rhs=sense * form.cone_program.rhs)
+        number, live = len(self.records) + 1, sense * self.convex.points.scaling.live
+        solution = ClarabelProgram(program, self.settings, self.log).solve(number, live)
+        value = solution.objective * live if solution.status in WITH_VALUE else np.nan
+        kind = "associative" if sense > 0 else "reverse"
+        self.records.append(
+            ProgramRecord(number, kind, solution.status, value, np.nan, solution.iterations, solution.seconds)
+        )
+        return solution
+
+    def result(self, status: Status, reason: str) -> ConvexAssociative:
+        """A result without state."""
+        return ConvexAssociative(status, reason, tuple(self.records))
+
+
+def solve_convex_associative(convex: ConvexProgram, settings: SolverSettings, log: Log) -> ConvexAssociative:
+    """Solve the program of one load case with associative flow."""
+    run = _Run(convex, replace(settings, regularization=REGULARIZATION), log, [])
+    form, forward = _solved(run, 1.0)
+    if forward.status not in (*WITH_VALUE, Status.UNBOUNDED):
+        return _without_value(run, form, forward, _words(forward))
+    _, reverse = _solved(run, -1.0)
+    if reverse.status not in (*WITH_VALUE, Status.UNBOUNDED):
+        return _without_value(
+            run, form, reverse, f"whether the dead load alone is carried is not known: {_words(reverse)}"
+        )
+    for solution in (forward, reverse):
+        if solution.status in WITH_VALUE and _negative(convex, solution.objective):
+            return _without_equilibrium(run, form, solution)
+    if forward.status is Status.UNBOUNDED:
+        return _unbounded(run, form, forward)
+    doubtful = reverse.status is Status.APPROXIMATE and _near_zero(convex, reverse.objective)
+    status, reason = (Status.APPROXIMATE, _words(reverse)) if doubtful else (Status.SOLVED, "")
+    velocities = form.velocities(forward.x)
+    state = ConvexState(
+        forces=form.contact_forces(forward.z),
+        velocities=velocities[: convex.n_block_rows],
+        motions=convex.flows(velocities),
+        load_factor=forward.objective,
+        residual=np.nan,
+    )
+    return replace(run.result(status, reason), state=state)
+
+
+def _solved(run: _Run, sense: float) -> tuple[KinematicForm, ConeSolution]:
+    """The stabilised program, or the plain one where that decides more."""
+    form = convex_form(run.convex, stabilised=True)
+    solution = run.solve(form, sense)
+    if solution.status is Status.SOLVED and not _negative(run.convex, solution.objective):
+        return form, solution
+    plain_form = convex_form(run.convex)
+    plain = run.solve(plain_form, sense)
+    if plain.status in DECIDED or solution.status not in WITH_VALUE:
+        return plain_form, plain
+    return form, solution
+
+
+def _negative(convex: ConvexProgram, objective: float) -> bool:
+    """Whether the optimum says that equilibrium needs a live load of the other sign."""
+    return objective < -_noise(convex)
+
+
+def _noise(convex: ConvexProgram) -> float:
+    program = convex.points
+    return STANDS_MARGIN * float(np.linalg.norm(program.dead_load) / np.linalg.norm(program.live_load))
+
+
+def _near_zero(convex: ConvexProgram, objective: float) -> bool:
+    return abs(objective) < DOUBTFUL / STANDS_MARGIN * _noise(convex)
+
+
+def _without_value(run: _Run, form: KinematicForm, solution: ConeSolution, words: str) -> ConvexAssociative:
+    if solution.status is Status.NO_EQUILIBRIUM:
+        return _without_equilibrium(run, form, solution)
+    return run.result(solution.status, words)
+
+
+def _without_equilibrium(run: _Run, form: KinematicForm, solution: ConeSolution) -> ConvexAssociative:
+    """The mechanism that proves it."""
+    velocities = form.velocities(solution.x)
+    reason = (
+        "the dead load alone is not carried: a mechanism exists in which it does more work than the joints dissipate"
+    )
+    blocks, motions = velocities[: run.convex.n_block_rows], run.convex.flows(velocities)
+    return replace(run.result(Status.NO_EQUILIBRIUM, reason), velocities=blocks, motions=motions)
+
+
+def _unbounded(run: _Run, form: KinematicForm, solution: ConeSolution) -> ConvexAssociative:
+    """The dual ray: −z_0 is a load factor, and the forces of z balance that multiple of the live load alone."""
+    reason = "no mechanism exists in which the live load does work: friction locks the structure under any multiple"
+    ray = solution.z / max(-float(solution.z[0]), 1e-300)
+    return replace(run.result(Status.UNBOUNDED, reason), lock=_homogeneous(form).contact_forces(ray))
+
+
+def _homogeneous(form: KinematicForm) -> KinematicForm:
+    """The form that reads rays: tension, from which normal forces are counted, has no part in them."""
+    return replace(form, limits=replace(form.limits, tension=np.zeros_like(form.limits.tension)))
+
+
+def _words(solution: ConeSolution) -> str:
+    return {
+        Status.APPROXIMATE: "the solver ended short of its tolerance",
+        Status.ITERATION_LIMIT: "the solver reached its limit of iterations",
+        Status.TIME_LIMIT: "the time limit was reached",
+        Status.NUMERICAL_ERROR: "the solver broke down numerically",
+    }.get(solution.status, str(solution.status)) + f" ({solution.verdict})"

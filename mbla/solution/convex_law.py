@@ -1,0 +1,204 @@
+"""The exact non-associative law of interfaces and their points as a return map, and Newton's method on it.
+
+Points as in :mod:`mbla.solution.exact_law`, by what the motion of their interface leaves of the motion of the blocks.
+An interface slips by η and twists by ω against its friction, without opening::
+
+    v = Aᵀu − Sᵀη,  η = (η_1, η_2, ρω),  S x = (T_1, T_2, M_n/ρ)
+    y = nearest point to S x̄ − η/ρ of the set that friction allows at the normal forces of x
+
+Equilibrium A x + f_D + λ f_L = 0, the interface y = S x, and f_L·u = 1 are solved for u, η and λ by semismooth Newton.
+With the tangent C of the points, P of the interfaces, G the derivative of y by the forces x::
+
+    J = −(B + G) C Bᵀ − P/ρ,    B = [A; −S]
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+import scipy.sparse as sp
+
+from mbla.arrays import BoolArray, FloatArray
+from mbla.program.convex import ConvexProgram
+from mbla.program.convex.friction_limit import friction_limit, nearest
+from mbla.program.program import Program
+from mbla.solution.convex_state import with_motions
+from mbla.solution.exact_law import CONVERGED, REGULARIZATION
+from mbla.solution.linear_solver import factorize
+
+MOST_STEPS = 30
+BACKTRACKS = 10
+
+
+@dataclass(frozen=True)
+class ConvexLaw:
+    """What every step needs.
+
+    slips   : (3 n_torsion, 3 n_points) S
+    program : of the points, with motions of the interfaces, dual to S x, behind the velocities of the blocks
+    """
+
+    convex: ConvexProgram
+    slips: sp.csr_array
+    program: Program
+
+    def motions(self, slip: FloatArray) -> FloatArray:
+        """Motions of the interfaces from η, (3 n_torsion,)."""
+        limits, n_interfaces = self.convex.torsion, len(self.convex.shapes.radii)
+        motions = np.zeros((n_interfaces, 2, 6))
+        eta = slip.reshape(-1, 3)
+        motions[limits.interfaces, 0, 1:3] = eta[:, :2]
+        motions[limits.interfaces, 0, 3] = eta[:, 2] / limits.radii
+        return motions
+
+    def slip_of(self, motions: FloatArray) -> FloatArray:
+        """η from motions of the interfaces."""
+        limits = self.convex.torsion
+        of_torsion = motions[limits.interfaces, 0, 1:4].copy()
+        of_torsion[:, 2] *= limits.radii
+        return of_torsion.ravel()
+
+
+def convex_law(convex: ConvexProgram) -> ConvexLaw:
+    """The law of a program."""
+    limits = convex.torsion
+    rows = (6 * limits.interfaces[:, None] + np.array([1, 2, 3])).ravel()
+    scale = np.column_stack([np.ones((len(limits.radii), 2)), 1.0 / limits.radii]).ravel()
+    slips = sp.csr_array(sp.diags_array(scale) @ convex.resultants[rows])
+    return ConvexLaw(convex, slips, with_motions(convex.points, slips))
+
+
+@dataclass(frozen=True)
+class ConvexStep:
+    """One step of the exact law: velocities and slips (n_rows,), load factor, forces, unbalanced force."""
+
+    velocities: FloatArray
+    load_factor: float
+    forces: FloatArray
+    residual: float
+    factorizations: int
+
+
+def exact_convex_step(
+    law: ConvexLaw, anchor: FloatArray, rho: float, velocities: FloatArray, load_factor: float
+) -> ConvexStep:
+    """Solve one step from forces ``anchor``, (n_points, 3), starting from velocities, slips and a load factor."""
+    matrix = law.program.equilibrium_matrix
+    stiffness = REGULARIZATION * (matrix.multiply(matrix)).sum(axis=1) / rho
+    u, factor = velocities, load_factor
+    trial = _Trial.at(law, anchor, rho, u, factor)
+    best = ConvexStep(u, factor, trial.forces, trial.largest, 0)
+    for count in range(1, MOST_STEPS + 1):
+        step = trial.direction(law, rho, stiffness)
+        if step is None:
+            return best
+        size, norm = 1.0, float(np.linalg.norm(trial.residual))
+        for _ in range(BACKTRACKS):
+            moved = _Trial.at(law, anchor, rho, u + size * step[:-1], factor + size * float(step[-1]))
+            if np.linalg.norm(moved.residual) < (1.0 - 1e-4 * size) * norm:
+                break
+            size *= 0.5
+        else:
+            return replace(best, factorizations=count)
+        u, factor, trial = u + size * step[:-1], factor + size * float(step[-1]), moved
+        best = ConvexStep(u, factor, trial.forces, trial.largest, count)
+        if best.residual <= CONVERGED:
+            break
+    return best
+
+
+@dataclass(frozen=True)
+class _Trial:
+    """Forces at given velocities, what they leave unbalanced, and the tangents there."""
+
+    forces: FloatArray
+    residual: FloatArray
+    tangent: sp.csr_array
+    by_slip: sp.csr_array
+    by_forces: sp.csr_array
+
+    @classmethod
+    def at(cls, law: ConvexLaw, anchor: FloatArray, rho: float, u: FloatArray, factor: float) -> _Trial:
+        program, convex = law.program, law.convex
+        n_blocks, limits = convex.n_block_rows, convex.torsion
+        points = _Points.at(program, anchor, rho, u)
+        forces = points.forces
+        size = friction_limit(limits, (convex.resultants @ forces.ravel()).reshape(-1, 6))
+        wanted = (law.slips @ anchor.ravel() - u[n_blocks:] / rho).reshape(-1, 3)
+        found = nearest(wanted, size, limits.thetas)
+        balance = program.equilibrium_matrix @ forces.ravel() + program.dead_load + factor * program.live_load
+        balance[n_blocks:] += found.point.ravel()
+        n = len(limits.radii)
+        by_sizes = _columns(found.by_total, n) @ size.of_total + _columns(found.by_share, n) @ size.of_share
+        return cls(
+            forces=forces,
+            residual=np.append(balance, program.live_load @ u - 1.0),
+            tangent=points.tangent(program.limits.friction, rho),
+            by_slip=_blocks(found.by_point / rho),
+            by_forces=sp.csr_array(by_sizes @ convex.resultants),
+        )
+
+    @property
+    def largest(self) -> float:
+        return float(np.abs(self.residual).max(initial=0.0))
+
+    def direction(self, law: ConvexLaw, rho: float, stiffness: FloatArray) -> FloatArray | None:
+        """Newton's step of velocities, slips and load factor."""
+        program, n_blocks = law.program, law.convex.n_block_rows
+        matrix, live = program.equilibrium_matrix, program.live_load
+        no_rows = sp.csr_array((n_blocks, matrix.shape[1]))
+        left = sp.csr_array(matrix + sp.vstack([no_rows, self.by_forces]))
+        own = sp.block_diag([sp.csr_array((n_blocks, n_blocks)), self.by_slip])
+        jacobian = -(left @ self.tangent @ matrix.T) - own - sp.diags_array(stiffness)
+        system = sp.block_array([[jacobian, sp.csr_array(live[:, None])], [sp.csr_array(live[None, :]), None]])
+        solve = factorize(system)
+        if solve is None:
+            return None
+        step = solve(-self.residual)
+        return step if np.isfinite(step).all() else None
+
+
+@dataclass(frozen=True)
+class _Points:
+    """Return map of the points without dilatancy: forces, direction and size of the trial shear, the branch."""
+
+    forces: FloatArray
+    direction: FloatArray
+    share: FloatArray
+    slips: BoolArray
+    in_contact: BoolArray
+
+    @classmethod
+    def at(cls, program: Program, anchor: FloatArray, rho: float, u: FloatArray) -> _Points:
+        limits = program.limits
+        trial = anchor - (program.equilibrium_matrix.T @ u).reshape(-1, 3) / rho
+        normal = np.clip(trial[:, 0], -limits.tension, limits.compression)
+        limit = np.maximum(limits.friction * normal + limits.cohesion, 0.0)
+        size = np.hypot(trial[:, 1], trial[:, 2])
+        slips = size > limit
+        share = np.where(slips, limit / np.maximum(size, 1e-300), 1.0)
+        direction = trial[:, 1:] / np.maximum(size, 1e-300)[:, None]
+        forces = np.column_stack([normal, trial[:, 1:] * share[:, None]])
+        return cls(forces, direction, share, slips, normal == trial[:, 0])
+
+    def tangent(self, friction: FloatArray, rho: float) -> sp.csr_array:
+        """C with dx = −C dv, block-diagonal."""
+        theta, tangents = self.direction, np.zeros((len(friction), 3, 3))
+        tangents[:, 0, 0] = self.in_contact
+        across = np.eye(2) - self.slips[:, None, None] * theta[:, :, None] * theta[:, None, :]
+        tangents[:, 1:, 1:] = self.share[:, None, None] * across
+        follows = self.slips & self.in_contact
+        tangents[follows, 1:, 0] = friction[follows, None] * theta[follows]
+        return _blocks(tangents / rho)
+
+
+def _blocks(blocks: FloatArray) -> sp.csr_array:
+    n = len(blocks)
+    return sp.csr_array(sp.bsr_array((blocks, np.arange(n), np.arange(n + 1)), shape=(3 * n, 3 * n)))
+
+
+def _columns(vectors: FloatArray, n: int) -> sp.csr_array:
+    """Vectors (n, 3) as the blocks of a (3 n, n) matrix."""
+    rows, columns = np.arange(3 * n), np.repeat(np.arange(n), 3)
+    return sp.csr_array(sp.coo_array((vectors.ravel(), (rows, columns)), shape=(3 * n, n)))

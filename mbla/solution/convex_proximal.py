@@ -1,0 +1,190 @@
+"""Non-associative flow with the convex contact model: proximal steps from the gravity state, and the exact law.
+
+1. Gravity state x̄: the least forces that carry the dead load alone, by the conditions of the points.
+2. Proximal step (:mod:`mbla.program.convex.static`), with the friction of points and interfaces that belongs to x̄,
+   after which x̄ moves 0.7 of the way. Every forces at which the steps stand still are a state of the exact law.
+3. Now and then the step is repeated with the exact law (:mod:`mbla.solution.convex_law`), and from there on again until
+   forces and motions fit it. It leaves crushing of stress blocks out: where these crush its states miss the law, and
+   the proximal steps have to get there by themselves.
+"""
+
+from __future__ import annotations
+
+import time
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from mbla.arrays import FloatArray
+from mbla.program.convex import ConvexProgram
+from mbla.program.convex.friction_limit import friction_limit
+from mbla.program.convex.static import ConvexStaticForm, convex_proximal_data, convex_proximal_form
+from mbla.program.static import gravity_form
+from mbla.solution.clarabel_adapter import ClarabelProgram
+from mbla.solution.cone_solution import ConeSolution, Log
+from mbla.solution.convex_law import ConvexLaw, convex_law, exact_convex_step
+from mbla.solution.convex_state import ConvexState, state_without_dilatancy
+from mbla.solution.settings import SolverSettings
+from mbla.solution.solution import ProgramRecord, Status
+
+STEP = 0.01
+"""ε: size of a proximal step relative to the gravity state."""
+
+MOVE = 0.7
+"""Share of each step that the anchor moves."""
+
+FIRST_TRY, TRY_EVERY = 4, 3
+"""The exact law is tried at the fourth step and every third after it."""
+
+NEAR = 0.2
+"""Residual below which it is tried at all."""
+
+EXACT_STEPS = 25
+"""Steps of the exact law in one try."""
+
+EXACT = 1e-9
+"""Residual at which a state counts as one of the exact law."""
+
+SOLVED, WARNED, APPROXIMATE = 1e-6, 1e-4, 1e-2
+"""Residuals up to which a state that did not come to rest is solved, solved with a warning, approximate."""
+
+QUIET = 1e-8
+"""Tolerance of the proximal programs: velocities are divided by ρ."""
+
+SPREAD_STEPS = 10
+"""Last steps that give the spread of a load factor that did not come to rest."""
+
+
+@dataclass(frozen=True)
+class ConvexSequence:
+    """Best state of a sequence; spread of load factors non-dimensional; remarks one sentence each."""
+
+    status: Status
+    state: ConvexState | None
+    reason: str
+    programs: tuple[ProgramRecord, ...]
+    spread: tuple[float, float] | None = None
+    remarks: tuple[str, ...] = ()
+
+
+@dataclass
+class _Run:
+    """What a sequence has so far; ``states`` in the order in which they were reached."""
+
+    convex: ConvexProgram
+    settings: SolverSettings
+    log: Log
+    records: list[ProgramRecord]
+    states: list[ConvexState] = field(default_factory=list)
+
+    def add(self, kind: str, status: Status, factor: float, work: int, seconds: float) -> None:
+        """Record a program."""
+        before = [record.load_factor for record in self.records if record.kind == kind]
+        value = self.convex.points.scaling.load_factor(factor)
+        change = abs(value - before[-1]) / max(abs(value), 1e-300) if before else np.nan
+        self.records.append(ProgramRecord(len(self.records) + 1, kind, status, value, change, work, seconds))
+
+
+def solve_convex_proximal(
+    convex: ConvexProgram,
+    records: tuple[ProgramRecord, ...],
+    max_programs: int,
+    settings: SolverSettings,
+    log: Log,
+) -> ConvexSequence:
+    """Run the scheme; ``records`` are those of the programs before it."""
+    run = _Run(convex, replace(settings, tolerance=min(settings.tolerance, QUIET)), log, list(records))
+    gravity = _gravity_state(run)
+    if isinstance(gravity, ConvexSequence):
+        return gravity
+    anchor, rho = gravity, STEP / max(float((gravity**2).sum()), 1e-300)
+    form, law = convex_proximal_form(convex, rho), convex_law(convex)
+    solver = ClarabelProgram(form.cone_program, run.settings, log)
+    for step in range(1, max_programs + 1):
+        cost, rhs = _data(form, rho, anchor)
+        solver.update(cost=cost, rhs=rhs)
+        solution = solver.solve(len(run.records) + 1, -convex.points.scaling.live)
+        if solution.status not in (Status.SOLVED, Status.APPROXIMATE):
+            return _broken_off(run, solution)
+        state = _state_of(form, solution)
+        run.states.append(state)
+        run.add("proximal", solution.status, state.load_factor, solution.iterations, solution.seconds)
+        if state.residual <= EXACT:
+            break
+        due = step >= FIRST_TRY and (step - FIRST_TRY) % TRY_EVERY == 0 and state.residual < NEAR
+        if due and _exact(run, law, anchor, rho, state):
+            break
+        anchor = MOVE * state.forces + (1.0 - MOVE) * anchor
+    return _finished(run, max_programs)
+
+
+def _data(form: ConvexStaticForm, rho: float, anchor: FloatArray) -> tuple[FloatArray, FloatArray]:
+    convex, limits = form.convex, form.convex.points.limits
+    limit = np.maximum(limits.friction * anchor[:, 0] + limits.cohesion, 0.0)
+    size = friction_limit(convex.torsion, (convex.resultants @ anchor.ravel()).reshape(-1, 6))
+    return convex_proximal_data(form, rho, anchor, limit, size.share, np.maximum(size.total - size.share, 0.0))
+
+
+def _gravity_state(run: _Run) -> FloatArray | ConvexSequence:
+    """Forces of the gravity state, (n_points, 3), or how the scheme ends where there is none."""
+    form = gravity_form(run.convex.points)
+    solution = ClarabelProgram(form.cone_program, run.settings, run.log).solve(len(run.records) + 1, 0.0)
+    run.add("gravity", solution.status, np.nan, solution.iterations, solution.seconds)
+    if solution.status in (Status.SOLVED, Status.APPROXIMATE):
+        return form.forces(solution.x)
+    return _broken_off(run, solution)
+
+
+def _state_of(form: ConvexStaticForm, solution: ConeSolution) -> ConvexState:
+    """State of a proximal step; its velocities are those of unit live power."""
+    x, z = solution.x, solution.z
+    return state_without_dilatancy(
+        form.convex, form.forces(x), form.velocities(z), form.motions(z), form.load_factor(x)
+    )
+
+
+def _exact(run: _Run, law: ConvexLaw, anchor: FloatArray, rho: float, state: ConvexState) -> bool:
+    """Steps of the exact law from the anchor of a proximal step; whether they came to rest."""
+    started, count = time.perf_counter(), 0
+    u, factor = np.concatenate([state.velocities, law.slip_of(state.motions)]), state.load_factor
+    n_blocks, fits = run.convex.n_block_rows, False
+    for _ in range(EXACT_STEPS):
+        step = exact_convex_step(law, anchor, rho, u, factor)
+        count += step.factorizations
+        if step.residual > EXACT:
+            break
+        u, factor, anchor = step.velocities, step.load_factor, step.forces
+        motions = law.motions(u[n_blocks:])
+        run.states.append(state_without_dilatancy(run.convex, anchor, u[:n_blocks], motions, factor))
+        fits = run.states[-1].residual <= EXACT
+        if fits:
+            break
+    status = Status.SOLVED if fits else Status.APPROXIMATE
+    run.add("exact law", status, factor, count, time.perf_counter() - started)
+    return fits
+
+
+def _finished(run: _Run, max_programs: int) -> ConvexSequence:
+    best = min(run.states, key=lambda state: state.residual)
+    records = tuple(run.records)
+    if best.residual <= SOLVED:
+        return ConvexSequence(Status.SOLVED, best, "", records)
+    words = (
+        f"the steps did not come to rest in {max_programs} programs: "
+        f"forces and motions miss the law by {best.residual:.2g}"
+    )
+    factors = [state.load_factor for state in run.states[-SPREAD_STEPS:]]
+    spread = (min(factors), max(factors))
+    if best.residual <= WARNED:
+        return ConvexSequence(Status.SOLVED, best, "", records, spread, (words,))
+    status = Status.APPROXIMATE if best.residual <= APPROXIMATE else Status.NOT_VERIFIED
+    return ConvexSequence(status, best, words, records, spread)
+
+
+def _broken_off(run: _Run, solution: ConeSolution) -> ConvexSequence:
+    status = solution.status
+    if status in (Status.NO_EQUILIBRIUM, Status.UNBOUNDED):  # said of a program of the scheme, not of the structure
+        status = Status.NOT_VERIFIED
+    reason = f"program {len(run.records) + 1} of the sequence ended without a solution ({solution.verdict})"
+    best = min(run.states, key=lambda state: state.residual, default=None)
+    return ConvexSequence(status, best, reason, tuple(run.records))

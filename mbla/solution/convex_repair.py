@@ -1,0 +1,108 @@
+"""Forces and motions of the convex contact model repaired so that they prove bounds of the associative load factor.
+
+As in :mod:`mbla.solution.bounds`, with the conditions on interfaces. *Static:* the dual variables z of the kinematic
+form are contact forces and the slacks of all conditions; any z in the cones with Mᵀz = −cost is in equilibrium and
+within all conditions. They are rebuilt from the contact forces, moved strictly inside and corrected in the metric of
+the barrier, whose inverse Hessian for a cone z_0 ≥ ‖z̄‖ is z zᵀ − ½ (z_0² − ‖z̄‖²) diag(1, −1, ...).
+*Kinematic:* blocks and, all together, interfaces move towards points strictly inside their cones.
+What the repaired forces and motions prove is evaluated by ``verify_convex`` with its own statics.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import scipy.sparse as sp
+
+from mbla.arrays import FloatArray
+from mbla.program.convex import ConvexProgram, convex_form
+from mbla.solution.bounds import bordered_solver, repaired_mechanisms
+from mbla.solution.cone_vectors import ConeVectors
+from mbla.solution.convex_slacks import slacks_of
+
+ROUNDS = 6
+EQUILIBRIUM_TOLERANCE, GOOD_EQUILIBRIUM = 1e-11, 3e-10
+"""Residual of Mᵀz = −cost, in mean block loads, at which corrections stop, and at which no other start is tried."""
+
+INSIDES = (1e-10, 1e-8, 1e-7)
+"""Distances from the borders of the cones, relative to the size of a vector, from which corrections start: where a
+whole plane slides all its forces are on their cones, and rounding keeps corrections from succeeding too close to
+them."""
+
+THRESHOLDS = (0.0, 1e-6, np.inf)
+"""Share of the largest contact speed below which the motion of an interface is taken for rounding and left out."""
+
+
+def repaired_convex_forces(
+    convex: ConvexProgram, forces: FloatArray, load_factor: float
+) -> tuple[FloatArray, float] | None:
+    """Forces near the given ones in equilibrium and within all conditions, and the load factor that they carry.
+
+    forces : (n_points, 3), non-dimensional like the load factor. None where no repair is found.
+    """
+    form = convex_form(convex)
+    cones = ConeVectors.of(form.cone_program)
+    cost = form.cone_program.cost
+    rows = sp.csr_array(form.cone_program.matrix)
+    live, matrix = rows[[0]].toarray().ravel(), rows[1:]
+    slacks = slacks_of(convex, form, forces)
+    best, least = None, np.inf
+    for inside in INSIDES:
+        z = np.concatenate([[-load_factor], cones.pulled_inside(slacks, inside)])
+        for _ in range(ROUNDS):
+            step = _static_step(matrix, cost, live, cones, z)
+            if step is None:
+                break
+            z = z + min(1.0, 0.999 * cones.longest_step(z[1:], step[1:])) * step
+            residual = float(np.abs(matrix.T @ z[1:] + live * z[0] + cost).max(initial=0.0))
+            if residual < least:
+                best, least = z, residual
+            if residual <= EQUILIBRIUM_TOLERANCE:
+                break
+        if least <= GOOD_EQUILIBRIUM:
+            break
+    return None if best is None else (form.contact_forces(best), -float(best[0]))
+
+
+def repaired_convex_motions(
+    convex: ConvexProgram, velocities: FloatArray, motions: FloatArray
+) -> list[tuple[FloatArray, FloatArray]]:
+    """Versions of the velocities of the blocks, (n_block_rows,), moved towards compatibility, with motions.
+
+    motions : (n_interfaces, 2, 6) of the interfaces, in the program's units. They are taken as they are, without those
+              that are rounding, and left out; all of them count as one more velocity, whose value is 1 at first
+    """
+    program, found = convex.points, [(velocities, motions)]
+    speed = float(np.abs(program.equilibrium_matrix.T @ velocities).max(initial=0.0))
+    size = np.abs(motions).max(axis=2, keepdims=True)
+    for threshold in THRESHOLDS:
+        kept = np.where(size > threshold * speed, motions, 0.0)
+        by_interface = convex.resultants.T @ kept.sum(axis=1).ravel()
+        with_motions = replace(
+            program,
+            equilibrium_matrix=sp.csr_array(sp.vstack([program.equilibrium_matrix, -by_interface[None, :]])),
+            dead_load=np.append(program.dead_load, 0.0),
+            live_load=np.append(program.live_load, 0.0),
+        )
+        moved = repaired_mechanisms(with_motions, np.append(velocities, 1.0))
+        found += [(u[:-1], float(u[-1]) * kept) for u in moved]
+    return found
+
+
+def _static_step(
+    matrix: sp.csr_array, cost: FloatArray, live: FloatArray, cones: ConeVectors, z: FloatArray
+) -> FloatArray | None:
+    """Least change of z = (−λ, rest), in the barrier's metric, that restores live z_0 + Mᵀ(rest) = −cost."""
+    weights = cones.inverse_hessian(z[1:])
+    normal = sp.csc_array(matrix.T @ weights @ matrix)
+    solve = bordered_solver(normal, live, (1e-4 * max(abs(float(z[0])), 1e-3)) ** 2)
+    if solve is None:
+        return None
+    step = np.zeros_like(z)
+    for _ in range(4):  # refinement: the metric spans many decades
+        change = solve(-(matrix.T @ (z + step)[1:] + live * (z[0] + step[0]) + cost))
+        if not np.isfinite(change).all():
+            return None
+        step = step + np.append(change[-1], weights @ (matrix @ change[:-1]))
+    return step
