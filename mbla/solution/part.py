@@ -13,10 +13,9 @@ from mbla.solution.associative_form import FORMS
 from mbla.solution.boundedness import Boundedness, non_associative_bounded
 from mbla.solution.clarabel_adapter import Log
 from mbla.solution.factor_range import FactorRange, factor_range
+from mbla.solution.flow import Flow, solve_flow
 from mbla.solution.law_state import LawState, SequenceResult
 from mbla.solution.polyhedral import solve_polyhedral, solve_with_opinion
-from mbla.solution.proximal import solve_proximal
-from mbla.solution.published import solve_published
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import ProgramRecord, StandingResult, Status
 from mbla.solution.standing import assess_standing, standing_without_equilibrium
@@ -89,7 +88,7 @@ def _by_flow_rule(program: Program, analysis: AnalysisSection, settings: SolverS
         return result
     if associative.state is None:
         return _locked_by_dilatancy(result, analysis, settings, log)
-    return replace(result, sequence=_sequence(program, associative, analysis, settings, log))
+    return replace(result, sequence=solve_flow(Flow(program, associative, analysis, settings, log)))
 
 
 def _associative(program: Program, analysis: AnalysisSection, settings: SolverSettings, log: Log) -> PartResult:
@@ -106,16 +105,6 @@ def _associative(program: Program, analysis: AnalysisSection, settings: SolverSe
     return PartResult(program, answer, None, loaded=True)
 
 
-def _sequence(
-    program: Program, associative: AssociativeResult, analysis: AnalysisSection, settings: SolverSettings, log: Log
-) -> SequenceResult:
-    """The flow rule and the scheme of the analysis."""
-    if analysis.flow_rule == "non_associative" and analysis.scheme != "published":
-        return solve_proximal(program, associative, analysis.proximal.max_programs, settings, log)
-    dilatancy = program.limits.dilatancy if analysis.flow_rule == "dilatancy" else np.zeros(program.n_points)
-    return solve_published(program, associative, analysis.published, dilatancy, settings, log)
-
-
 def _locked_by_dilatancy(
     result: PartResult, analysis: AnalysisSection, settings: SolverSettings, log: Log
 ) -> PartResult:
@@ -126,7 +115,7 @@ def _locked_by_dilatancy(
         return replace(result, associative=replace(associative, reason=decision.reason))
     if decision.verdict is Boundedness.DOUBTFUL:
         return replace(result, associative=replace(associative, status=Status.NOT_VERIFIED, reason=decision.reason))
-    sequence = _sequence(program, associative, analysis.model_copy(update={"scheme": "proximal"}), settings, log)
+    sequence = solve_flow(Flow(program, associative, analysis, settings, log))
     sequence = replace(sequence, remarks=(decision.reason, *sequence.remarks))
     return replace(result, associative=replace(associative, reason=""), sequence=sequence)
 

@@ -167,6 +167,7 @@ def _solution(analysis: AnalysisSection, status: Status, reason: str) -> Solutio
         programs=(),
         iterations=(),
         seconds=0.0,
+        sides=analysis.sides if analysis.friction_cone == "polyhedral" else 0,
     )
 
 

@@ -8,15 +8,13 @@ What may be claimed follows from the figures alone:
 
 - associative flow: the load factor lies between its bounds, and they are no further apart than 1e-5. Forces and
   mechanism then fit the law to 1e-4;
-- associative flow with friction polyhedra: forces of the inscribed one and the mechanism of the circumscribed one prove
-  a bracket of the true cone. The case is solved where that is no wider than 1e-5, else approximate however wide;
+- associative flow with friction polyhedra (:mod:`mbla.solution.verify_polyhedral`): the two prove a bracket of the true
+  cone. The case is solved where that is no wider than 1e-5, else approximate;
 - flow without normality: no bound proves the factor, its residuals speak for it. The largest is at most 1e-6: solved;
   1e-4: solved, with a warning among the results' notices; 1e-2: approximate; beyond: not verified.
 """
 
 from __future__ import annotations
-
-from dataclasses import replace
 
 import numpy as np
 
@@ -28,7 +26,7 @@ from mbla.program.yield_conditions import YieldLimits
 from mbla.solution.load_scale import load_scale
 from mbla.solution.proofs import associative_bounds, certificate_failures
 from mbla.solution.residuals import Residuals, residuals_of
-from mbla.solution.solution import Checks, Mechanics, Solution, Status
+from mbla.solution.solution import Checks, Solution, Status
 
 SOLVED_RESIDUAL = 1e-4
 """Residual up to which a factor counts as solved; without a proof the results warn of it from 1e-6 on."""
@@ -60,12 +58,11 @@ def verify(model: Model, contacts: Contacts, load_case: LoadCase, solution: Solu
             failures = certificate_failures(model, contacts, load_case, solution.certificate, limits, scale)
         return Checks(nan, nan, nan, nan, nan, nan, nan, nan, nan, verified=not failures, failures=failures)
     dilatancy = dilatancy_of(limits, solution.flow_rule)
-    mechanics, associative = _of_the_true_cone(solution)
-    residuals = residuals_of(model, contacts, load_case, mechanics, dilatancy)
+    residuals = residuals_of(model, contacts, load_case, solution.mechanics, dilatancy)
     static = kinematic = size = nan
-    if associative is not None:
-        static, kinematic = associative_bounds(model, contacts, load_case, associative, limits, scale)
-        size = max(abs(kinematic), scale.least_factor(associative.mechanism))
+    if solution.associative is not None:
+        static, kinematic = associative_bounds(model, contacts, load_case, solution.associative, limits, scale)
+        size = max(abs(kinematic), scale.least_factor(solution.associative.mechanism))
         if 0.0 < static - kinematic <= ROUNDING * size:
             static = kinematic
     failures = failures_of(residuals, solution, static, kinematic, size)
@@ -92,11 +89,9 @@ def verified_status(solution: Solution, checks: Checks) -> Status:
         if solution.status in (Status.NO_EQUILIBRIUM, Status.UNBOUNDED) and not checks.verified:
             return Status.NOT_VERIFIED
         return solution.status
+    brackets = solution.outer is not None and solution.flow_rule == "associative"
     if checks.verified and solution.status is Status.SOLVED:
-        return Status.SOLVED
-    if solution.outer is not None and solution.flow_rule == "associative":
-        proved = checks.static_bound <= checks.kinematic_bound
-        return Status.APPROXIMATE if proved and solution.status is Status.SOLVED else Status.NOT_VERIFIED
+        return Status.SOLVED if not brackets or checks.gap <= GAP_TOLERANCE else Status.APPROXIMATE
     measures = [
         checks.equilibrium_residual,
         checks.yield_violation,
@@ -110,21 +105,6 @@ def verified_status(solution: Solution, checks: Checks) -> Status:
     elif _above(solution, checks.kinematic_bound, APPROXIMATE_RESIDUAL * abs(checks.kinematic_bound)):
         return Status.NOT_VERIFIED
     return Status.APPROXIMATE if all(value <= APPROXIMATE_RESIDUAL for value in measures) else Status.NOT_VERIFIED
-
-
-def _of_the_true_cone(solution: Solution) -> tuple[Mechanics, Mechanics | None]:
-    """By the flow rule claimed and the associative one; of polyhedra the inner forces and the outer motion."""
-    assert solution.mechanics is not None
-    if solution.outer is None or solution.associative is None:
-        return solution.mechanics, solution.associative
-    motion = solution.outer
-    pair = replace(
-        solution.associative,
-        mechanism=motion.mechanism,
-        contact_velocities=motion.contact_velocities,
-        modes=motion.modes,
-    )
-    return (pair if solution.flow_rule == "associative" else solution.mechanics), pair
 
 
 def dilatancy_of(limits: YieldLimits, flow_rule: str) -> FloatArray:

@@ -1,0 +1,107 @@
+"""Flow rules other than the associative one, and the schemes that solve them: from the deck's words to a sequence."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from mbla.deck.analysis import AnalysisSection
+from mbla.program.kinematic import friction_polygon
+from mbla.program.program import Program
+from mbla.solution.associative import AssociativeResult
+from mbla.solution.cone_solution import Log
+from mbla.solution.interior.solve_interior import solve_interior
+from mbla.solution.law_state import SequenceResult
+from mbla.solution.livesley import solve_livesley
+from mbla.solution.lowest import solve_lowest
+from mbla.solution.proximal import solve_proximal
+from mbla.solution.published import solve_published
+from mbla.solution.settings import SolverSettings
+from mbla.solution.solution import Status
+
+STALLED = 1e-6
+"""Residual of the proximal scheme beyond which ``auto`` goes on to the interior path."""
+
+
+@dataclass(frozen=True)
+class Flow:
+    """What every scheme gets."""
+
+    program: Program
+    associative: AssociativeResult
+    analysis: AnalysisSection
+    settings: SolverSettings
+    log: Log
+
+    @property
+    def locked(self) -> bool:
+        """No associative load factor: friction with normality carries every multiple."""
+        return self.associative.state is None
+
+
+Scheme = Callable[[Flow], SequenceResult]
+
+
+def solve_flow(flow: Flow) -> SequenceResult:
+    """The sequence that the flow rule and the scheme of the analysis ask for."""
+    if flow.analysis.flow_rule == "livesley":
+        return _livesley(flow)
+    if flow.analysis.flow_rule == "dilatancy":
+        return _dilatancy(flow)
+    return SCHEMES[flow.analysis.scheme](flow)
+
+
+def _proximal(flow: Flow) -> SequenceResult:
+    return solve_proximal(flow.program, flow.associative, flow.analysis.proximal.max_programs, flow.settings, flow.log)
+
+
+def _interior(flow: Flow) -> SequenceResult:
+    return solve_interior(flow.program, flow.associative, flow.analysis.interior, flow.settings, flow.log)
+
+
+def _auto(flow: Flow) -> SequenceResult:
+    """The proximal scheme, and the interior path where that stalls."""
+    sequence = _proximal(flow)
+    if sequence.state is not None and sequence.state.residual <= STALLED:
+        return sequence
+    if sequence.status is Status.TIME_LIMIT:
+        return sequence
+    return solve_interior(
+        flow.program, flow.associative, flow.analysis.interior, flow.settings, flow.log, start=sequence
+    )
+
+
+def _lowest(flow: Flow) -> SequenceResult:
+    return solve_lowest(flow.program, _auto(flow), flow.analysis.lowest, flow.settings, flow.log)
+
+
+def _published(flow: Flow) -> SequenceResult:
+    """The published procedure starts from associative forces; where there are none the proximal scheme has to do."""
+    if flow.locked:
+        return _proximal(flow)
+    none = np.zeros(flow.program.n_points)
+    return solve_published(flow.program, flow.associative, flow.analysis.published, none, flow.settings, flow.log)
+
+
+def _dilatancy(flow: Flow) -> SequenceResult:
+    dilatancy = flow.program.limits.dilatancy
+    return solve_published(flow.program, flow.associative, flow.analysis.published, dilatancy, flow.settings, flow.log)
+
+
+def _livesley(flow: Flow) -> SequenceResult:
+    facets = None
+    if flow.analysis.friction_cone == "polyhedral" and flow.program.components == 3:
+        facets = friction_polygon(flow.analysis.sides, circumscribed=False)
+    return solve_livesley(flow.program, flow.associative, flow.settings, flow.log, facets=facets)
+
+
+SCHEMES: Mapping[str, Scheme] = {
+    "auto": _auto,
+    "proximal": _proximal,
+    "interior": _interior,
+    "lowest": _lowest,
+    "published": _published,
+}
+"""By the deck's word."""
