@@ -138,7 +138,12 @@ def contacts_of(deck: Deck, model: Model) -> Contacts:
 
 def notices_of(deck: Deck, model: Model, contacts: Contacts) -> tuple[Notice, ...]:
     """What every stage before the solver remarked, in their order."""
-    return (*deck.notices, *model.notices, *contacts.report.notices, *program_notices(model, contacts))
+    return (
+        *deck.notices,
+        *model.notices,
+        *contacts.report.notices,
+        *program_notices(model, contacts, deck.analysis.contact_model),
+    )
 
 
 def select_cases(model: Model, names: Sequence[str]) -> tuple[LoadCase, ...]:

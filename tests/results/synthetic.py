@@ -209,12 +209,16 @@ def full_results() -> Results:
     """Every field of every record filled: nothing that a solver stage may say is missing, however unlikely together."""
     results = tower_results()
     case = results.cases[0]
-    mechanics = replace(tower_mechanics(), resultants=np.arange(12.0).reshape(2, 6))
+    mechanics = replace(
+        tower_mechanics(), resultants=np.arange(12.0).reshape(2, 6), interface_motions=np.arange(24.0).reshape(2, 2, 6)
+    )
     solution = replace(
         case.solution,
         mechanics=mechanics,
         associative=replace(mechanics, load_factor=0.55),
         certificate=np.arange(18.0).reshape(3, 6),
+        certificate_motions=np.arange(24.0).reshape(2, 2, 6),
+        contact_model="convex",
         reason="the steps came to rest late",
         scheme="proximal",
         remarks=("the factor is the peak of the path", "one more"),
