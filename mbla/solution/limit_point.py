@@ -16,7 +16,7 @@ found without a peak. The peak belongs to joints of equal stiffness and to the l
 from __future__ import annotations
 
 import time
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -154,7 +154,7 @@ def _follow(stepper: Stepper, gravity: FloatArray, size: float, most: int, numbe
         _add(path, step, state)
         if path.rests or path.fell or (settings.deadline is not None and time.monotonic() > settings.deadline):
             break
-        anchor, before = step.forces, step
+        anchor, before = step.forces, replace(step, by_continuation=False)  # else steps grow and jump over peaks
     return path
 
 
