@@ -210,7 +210,7 @@ FURTHER_ANSWERS = (
         "float",
         ("interface", "end"),
         "force",
-        "least and greatest normal force at the load factor, inf: unlimited",
+        "least and greatest normal force at the load factor, inf: unlimited, nan: not found",
         open=True,
         part="force_ranges",
     ),

@@ -1,10 +1,13 @@
 """What the listing says of a case's figure: unique or not, how far tries differ, what hangs by self-stress."""
 
 from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 import pytest
 
+from mbla.results.hdf5 import read_results_hdf5, write_results_hdf5
+from mbla.results.json_record import results_json
 from mbla.results.listing import listing
 from mbla.results.results import CaseResult, Results
 from mbla.results.summary import summary_lines
@@ -148,3 +151,12 @@ def test_what_locks_a_structure_is_listed() -> None:
         Status.UNBOUNDED, solution={"mechanics": None, "associative": None, "lock": lock, "flow_rule": "associative"}
     )
     assert "Locked: these forces, within the strength of the joints, balance the live load alone" in text_of(case)
+
+
+def test_everything_reads_the_same_from_the_file(tmp_path: Path) -> None:
+    results = full_results()
+    path = tmp_path / "full.h5"
+    path.write_bytes(write_results_hdf5(results))
+    back = read_results_hdf5(path)
+    assert listing(back) == listing(results)
+    assert results_json(back) == results_json(results)
