@@ -95,8 +95,7 @@ def least_forces(
     settings = replace(settings, tolerance=TOLERANCE, regularization=REGULARIZATION, max_iterations=iterations)
     search = _Search(program, state, weights, settings, log, first)
     motion = point_motion(program, state, TOUCHING, program.limits.friction)
-    all_move = float(np.mean(motion.opens | motion.slides | motion.crushes)) >= ALL
-    by_mechanism = search.solve(motion, 0.0)
+    by_mechanism, all_move = search.solve(motion, 0.0), _all_move(motion)
     if by_mechanism is not None and not all_move:
         return LeastForces(by_mechanism, tuple(search.records))
     plain = point_motion(program, state, PLAINLY, program.limits.friction)
@@ -162,6 +161,16 @@ class _Search:
         rise = (least.load_factor - self.state.load_factor) / self._factor_size()
         fits = least.residual <= max(FITS, self.state.residual)
         return bool(fits and unbalanced <= BALANCED and -fall <= rise <= RISE)
+
+
+def trusted_motion(program: Program, state: LawState) -> PointMotion:
+    """What the points do in an associative state; nothing where all of them move."""
+    motion = point_motion(program, state, TOUCHING, program.limits.friction)
+    return _at_rest(program) if _all_move(motion) else motion
+
+
+def _all_move(motion: PointMotion) -> bool:
+    return float(np.mean(motion.opens | motion.slides | motion.crushes)) >= ALL
 
 
 def _at_rest(program: Program) -> PointMotion:
