@@ -11,6 +11,7 @@ MECHANICS_GROUPS = (
     ("associative/", "associative", "by the associative flow rule, where that is not the deck's"),
     ("lower/", "lower", "the least for the mechanism found"),
     ("upper/", "upper", "the greatest for the mechanism found"),
+    ("peak/", "peak", "the greatest of the load path, passed before the structure comes to rest"),
     ("outer/", "outer", "with the circumscribed friction polyhedron"),
 )
 """group below the case, name of the part, and whose forces and velocities they are"""
@@ -271,6 +272,7 @@ CHECKS = (
             ("static_bound", "lower bound of the associative load factor"),
             ("kinematic_bound", "upper bound of the associative load factor"),
             ("gap", "relative distance of the two bounds"),
+            ("peak", "verified greatest load factor of the load path, where that lies above the load factor"),
         ),
     ),
     Field(

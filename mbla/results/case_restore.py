@@ -49,6 +49,7 @@ def case_from(load_case: LoadCase, get: dict[str, Any]) -> CaseResult:
         associative=answers["associative"],
         lower=answers["lower"],
         upper=answers["upper"],
+        peak=answers["peak"],
         outer=answers["outer"],
         certificate=get.get("certificate"),
         reason=get["reason"],
