@@ -5,7 +5,7 @@
    forces leaves, v + ρ (x − x̄); x̄ then moves to x. Every point at which the steps stand still is a state of the exact
    law, for any ρ. A step works as a step of the load with joints of stiffness ρ; ρ = ε/‖x̄‖² with ε = 0.03 is free of
    units and of the number of contact points, and so large a step that a few lead to the end
-   (:mod:`mbla.solution.law_steps`).
+   (:mod:`mbla.solution.law_steps`). It falls where the forces grow, as they do in joints that dilatancy locks.
 3. Where no step of the exact law is found, a convex one is made, with the friction of the forces before::
 
        max λ − ρ/2 ‖x − x̄‖²   s.t.   A x + f_D + λ f_L = 0,   ‖T‖ ≤ (μ − δ) N̄ + c + δ N,   −f_t ≤ N ≤ f_c
@@ -43,8 +43,11 @@ STEP = 0.03
 MOVE = 0.7
 """Share of a convex step that the anchor moves."""
 
-EXACT = 1e-9
-"""Residual at which a state counts as one of the exact law."""
+EXACT, SETTLED = 1e-12, 1e-9
+FITTING, LAST_STEPS = 1e-9, 8
+"""Residual and relative change of the load factor at which the steps have come to rest; or a residual, and the steps
+after it. Sliding at an angle to friction counts in the residual with the square of the angle, in the load factor with
+the angle itself: the residual alone does not tell."""
 
 SOLVED = 1e-6
 WARNED = 1e-4
@@ -53,6 +56,9 @@ APPROXIMATE = 1e-2
 
 BELOW_PEAK = 1e-3
 """Share by which the load factor may lie below one that the steps passed through before that is remarked on."""
+
+PATIENCE, PROGRESS = 12, 0.5
+"""Steps in which the residual must fall to this share."""
 
 SPREAD_STEPS = 10
 """Last steps that give the spread of a load factor that did not come to rest."""
@@ -87,7 +93,7 @@ def solve_proximal(
     gravity = gravity_state(run)
     if isinstance(gravity, SequenceResult):
         return gravity
-    return steps_from(run, gravity, STEP / max(float((gravity**2).sum()), 1e-300), max_programs)
+    return steps_from(run, gravity, max_programs)
 
 
 def gravity_state(run: ProximalRun) -> FloatArray | SequenceResult:
@@ -103,9 +109,10 @@ def gravity_state(run: ProximalRun) -> FloatArray | SequenceResult:
     return _broken_off(run, solution)
 
 
-def steps_from(run: ProximalRun, anchor: FloatArray, rho: float, max_programs: int) -> SequenceResult:
+def steps_from(run: ProximalRun, anchor: FloatArray, max_programs: int) -> SequenceResult:
     """Steps from given forces, (n_points, components), until they come to rest."""
     before: Step | None = None
+    fitting, rho, first = 0, step_size(anchor), len(run.states)
     deadline = run.stepper.settings.deadline
     for _ in range(max_programs):
         started, number = time.perf_counter(), len(run.records) + 1
@@ -115,13 +122,31 @@ def steps_from(run: ProximalRun, anchor: FloatArray, rho: float, max_programs: i
         if step is None:
             return finished(run, "no further step was found")
         state = _keep(run, kind, step, time.perf_counter() - started)
-        if state.residual <= EXACT:
+        fitting += state.residual <= FITTING
+        if (state.residual <= EXACT and _settled(run.states[first:])) or fitting > LAST_STEPS:
             return finished(run, "")
+        if _stands_still(run.states[first:]):
+            return finished(run, "the steps came no closer")
         if deadline is not None and time.monotonic() > deadline:
             return SequenceResult(Status.TIME_LIMIT, run.best, "the time limit was reached", tuple(run.records))
         anchor = step.forces if kind == "exact step" else MOVE * step.forces + (1.0 - MOVE) * anchor
-        before = step
+        before, rho = step, min(rho, step_size(anchor))
     return finished(run, f"the steps did not come to rest in {max_programs} programs")
+
+
+def _settled(states: list[LawState]) -> bool:
+    """Whether the last step left the load factor where it was."""
+    here, before = states[-1].load_factor, states[-2].load_factor if len(states) > 1 else np.inf
+    return abs(here - before) <= SETTLED * max(abs(here), abs(before)) or (here == 0.0 and before == 0.0)
+
+
+def _stands_still(states: list[LawState]) -> bool:
+    """Whether the last steps brought nothing: the law does not hold better, and no worse than it must."""
+    earlier, later = states[:-PATIENCE], states[-PATIENCE:]
+    if not earlier:
+        return False
+    best = min(state.residual for state in earlier)
+    return best <= APPROXIMATE and min(state.residual for state in later) > PROGRESS * best
 
 
 def finished(run: ProximalRun, cause: str) -> SequenceResult:
@@ -167,3 +192,8 @@ def _broken_off(run: ProximalRun, solution: ConeSolution) -> SequenceResult:
         status = Status.NOT_VERIFIED
     reason = f"program {len(run.records)} of the sequence ended without a solution (clarabel: {solution.solver_status})"
     return SequenceResult(status, None, reason, tuple(run.records))
+
+
+def step_size(forces: FloatArray) -> float:
+    """ρ of a step from given forces, (n_points, components)."""
+    return STEP / max(float((forces**2).sum()), 1e-300)
