@@ -40,7 +40,7 @@ def _without_stress_block(model: Model, contacts: Contacts) -> tuple[Notice, ...
         return ()
     text = (
         f"{count} interface{'s' if count > 1 else ''} with a compressive strength and an outline that is not convex, "
-        "or with holes: there it limits each contact point to its share of the area, which overstates an interface under "
-        "eccentric load"
+        "or with holes: there it limits each contact point to its share of the area, which overstates an interface "
+        "under eccentric load"
     )
     return (Notice("warning", "crushing-by-points", text),)
