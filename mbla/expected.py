@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import math
+
 from mbla.deck.types import Expectation
 from mbla.results.results import CaseResult
+from mbla.solution.solution import Mechanics
 
 
 def compare_with_expected(case: CaseResult, expected: Expectation) -> list[str]:
@@ -13,18 +16,22 @@ def compare_with_expected(case: CaseResult, expected: Expectation) -> list[str]:
     if expected.status is not None and case.status.value != expected.status:
         differences.append(f"{name}: status {case.status.value}, expected {expected.status} ({expected.source})")
     found = {
-        "load_factor": case.solution.mechanics,
-        "associative_load_factor": case.solution.associative,
+        "load_factor": _factor(case.solution.mechanics),
+        "associative_load_factor": _factor(case.solution.associative),
+        "lower": None if math.isnan(case.checks.lower) else case.checks.lower,
     }
-    for key, mechanics in found.items():
+    for key, value in found.items():
         wanted = getattr(expected, key)
         if wanted is None:
             continue
-        if mechanics is None:
+        if value is None:
             differences.append(f"{name}: no {key}, expected {wanted:g} ({expected.source})")
-        elif abs(mechanics.load_factor - wanted) > expected.tolerance * max(abs(wanted), 1e-12):
+        elif abs(value - wanted) > expected.tolerance * max(abs(wanted), 1e-12):
             differences.append(
-                f"{name}: {key} {mechanics.load_factor:.10g}, expected {wanted:.10g} "
-                f"within {expected.tolerance:g} ({expected.source})"
+                f"{name}: {key} {value:.10g}, expected {wanted:.10g} within {expected.tolerance:g} ({expected.source})"
             )
     return differences
+
+
+def _factor(mechanics: Mechanics | None) -> float | None:
+    return None if mechanics is None else mechanics.load_factor

@@ -58,7 +58,7 @@ def _triangle_shares(corners: Corners, chosen: BoolArray) -> FloatArray:
     spots, row = triangles(polygons_from_rings(part.points, part.ring_start, polygon_of_ring))
     edge1, edge2 = spots[:, 1] - spots[:, 0], spots[:, 2] - spots[:, 0]
     third = np.abs(edge1[:, 0] * edge2[:, 1] - edge1[:, 1] * edge2[:, 0]) / 6
-    key = _places(
+    key = places(
         np.concatenate([corner_polygon, np.repeat(row, 3)]), np.concatenate([part.points, spots.reshape(-1, 2)])
     )
     own, used = key[: len(corner_polygon)], key[len(corner_polygon) :]
@@ -68,7 +68,7 @@ def _triangle_shares(corners: Corners, chosen: BoolArray) -> FloatArray:
     return shares
 
 
-def _places(polygon: IntArray, points: FloatArray) -> IntArray:
+def places(polygon: IntArray, points: FloatArray) -> IntArray:
     """Number of each distinct (polygon, x, y), (n,); triangles repeat the corners exactly, bit by bit."""
     order = np.lexsort((points[:, 1], points[:, 0], polygon))
     step = (np.diff(polygon[order]) != 0) | (np.diff(points[order], axis=0) != 0).any(axis=1)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from mbla.arrays import FloatArray, IntArray, starts
+from mbla.arrays import FloatArray, IntArray
 from mbla.contacts.broad_phase import find_block_pairs
 from mbla.contacts.contacts import Contacts
 from mbla.contacts.corners import areas_and_centroids, needed_corners
@@ -13,8 +13,8 @@ from mbla.contacts.joints import joints_of_interfaces
 from mbla.contacts.narrow_phase import Patches, find_patches, judge
 from mbla.contacts.near_misses import without_covered
 from mbla.contacts.overlaps import find_overlaps
-from mbla.contacts.point_areas import point_areas
 from mbla.contacts.polygons import centroids
+from mbla.contacts.refine import interface_points, point_starts
 from mbla.contacts.report import Findings, both_fixed, build_report
 from mbla.deck.types import ContactsSection
 from mbla.model.model import Model
@@ -38,6 +38,9 @@ def find_contacts(model: Model, section: ContactsSection) -> Contacts:
     overlaps = find_overlaps(blocks, facets, pairs, tolerance)
     kept = _sorted(verdicts.contacts.take(~both_fixed(model, touching)))
     joints, joint_names, notices = joints_of_interfaces(model, section, kept.overlays.bodies)
+    corners = needed_corners(kept.polygons, tolerance)
+    area, centroid = areas_and_centroids(corners, len(kept))
+    found, left_alone = interface_points(corners, centroid, section.refine, section.inset)
     report = build_report(
         model,
         section,
@@ -47,12 +50,9 @@ def find_contacts(model: Model, section: ContactsSection) -> Contacts:
             near_misses=without_covered(verdicts.near_misses, verdicts.contacts),
             overlaps=overlaps,
         ),
-        notices,
+        [*notices, *left_alone],
     )
-    corners = needed_corners(kept.polygons, tolerance)
-    area, centroid = areas_and_centroids(corners, len(kept))
-    interface, size = corners.polygon_of_corner, kept.overlays.sizes
-    first_ring = np.searchsorted(corners.polygon_of_ring, np.arange(len(kept)))
+    interface, size = found.polygon, kept.overlays.sizes
     return Contacts(
         bodies=kept.overlays.bodies,
         normals=kept.overlays.frames[:, 0],
@@ -61,11 +61,11 @@ def find_contacts(model: Model, section: ContactsSection) -> Contacts:
         gaps=kept.gaps * size,
         joints=joints,
         joint_names=joint_names,
-        point_start=starts(np.bincount(interface, minlength=len(kept)).astype(np.int64)),
-        outline=np.diff(corners.ring_start)[first_ring],
-        points=_in_space(kept, interface, corners.points),
+        point_start=point_starts(found),
+        outline=found.outline,
+        points=_in_space(kept, interface, found.points),
         frames=kept.overlays.frames[interface],
-        point_areas=point_areas(corners, len(kept)) * size[interface] ** 2,
+        point_areas=found.areas * size[interface] ** 2,
         report=report,
     )
 

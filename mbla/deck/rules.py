@@ -265,5 +265,5 @@ def convex_outlines(deck: types.DeckContent) -> Iterator[Finding]:
 @rule(types.Expectation)
 def expectation(item: types.Expectation) -> Iterator[Finding]:
     """Something must be expected."""
-    if not _given(item, ("load_factor", "associative_load_factor", "status")):
-        yield (), "needs at least one of load_factor, associative_load_factor or status"
+    if not _given(item, ("load_factor", "associative_load_factor", "lower", "status")):
+        yield (), "needs at least one of load_factor, associative_load_factor, lower or status"

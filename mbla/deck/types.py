@@ -195,6 +195,7 @@ class Expectation(Section):
 
     load_factor: Number | None = Field(None, description="by the deck's own flow rule")
     associative_load_factor: Number | None = Field(None, description="by the associative flow rule")
+    lower: Number | None = Field(None, description="least load factor for the mechanism found, without normality")
     status: Literal["solved", "approximate", "not_verified", "no_equilibrium", "unbounded"] | None = Field(
         None, description="status of the case"
     )

@@ -60,6 +60,7 @@ def case_content(model: Model, contacts: Contacts, case: CaseResult) -> Content:
         "remarks": solution.remarks,
         "contact_model": solution.contact_model,
         "seconds": solution.seconds,
+        "sides": solution.sides,
         **{name: getattr(checks, name) for name in CHECKED},
         "range": np.array([checks.lower, checks.upper]),
         "verified": checks.verified,

@@ -104,6 +104,7 @@ ANSWER = (
     Field(f"{CASE}/reason", "text", (), "1", "why it is not plainly solved, in words", part="solution"),
     Field(f"{CASE}/remarks", "text", ("remark",), "1", "what a reader of the figure must know", part="solution"),
     Field(f"{CASE}/seconds", "float", (), "time", "time of the solver stage", part="solution"),
+    Field(f"{CASE}/sides", "int", (), "1", "of the friction polyhedron, 0: circular cone", part="solution"),
 )
 
 COLLAPSE = (
@@ -209,7 +210,7 @@ FURTHER_ANSWERS = (
         "float",
         ("interface", "end"),
         "force",
-        "least and greatest normal force at the load factor, inf: unlimited",
+        "least and greatest normal force at the load factor, inf: unlimited, nan: not found",
         open=True,
         part="force_ranges",
     ),

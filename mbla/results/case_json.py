@@ -82,11 +82,12 @@ def _best_iterate(case: CaseResult) -> dict[str, Any] | None:
     return {"load_factor": number(best.load_factor), "residuals": residuals_json(case.checks)}
 
 
-def _bracket(solution: Solution, associative: Mechanics | None) -> dict[str, float | None] | None:
+def _bracket(solution: Solution, associative: Mechanics | None) -> dict[str, float | int | None] | None:
     """Polyhedral friction: associative factors with the inscribed and the circumscribed polyhedron."""
     if solution.outer is None or associative is None:
         return None
-    return {"inner": number(associative.load_factor), "outer": number(solution.outer.load_factor)}
+    inner, outer = number(associative.load_factor), number(solution.outer.load_factor)
+    return {"inner": inner, "outer": outer, "sides": solution.sides}
 
 
 def _standing(model: Model, solution: Solution) -> dict[str, str | None] | None:

@@ -65,6 +65,7 @@ def case_from(load_case: LoadCase, get: dict[str, Any]) -> CaseResult:
         force_ranges=get.get("force_ranges"),
         path=_records(PathPoint, PATH_FIELDS, get, "path/"),
         size=_size(get),
+        sides=get["sides"],
     )
     checks = Checks(
         **{name: get[name] for name in CHECKED},

@@ -52,7 +52,8 @@ def _bracket(case: CaseResult) -> list[str]:
     if solution.outer is None:
         return []
     inner = "-" if solution.associative is None else _digits(solution.associative.load_factor)
-    return entry("inscribed polyhedron", inner) + entry("circumscribed polyhedron", _digits(solution.outer.load_factor))
+    outer = f"{_digits(solution.outer.load_factor)}   ({solution.sides} sides; the cone lies between)"
+    return entry("inscribed polyhedron", inner) + entry("circumscribed polyhedron", outer)
 
 
 def _bounds(case: CaseResult) -> list[str]:

@@ -134,7 +134,7 @@ def case_notices(case: CaseResult) -> tuple[Notice, ...]:
     residual = law_residual(case.checks)
     if case.status is Status.SOLVED and case.solution.flow_rule != "associative" and residual > CLEAN_RESIDUAL:
         text = f"{name}: forces and velocities miss the joint law by {residual:.1e}, more than {CLEAN_RESIDUAL:g}"
-        notices.append(Notice("warning", "residual", f"{text}; the load factor is good to about that share"))
+        notices.append(Notice("warning", "law-residual", f"{text}; the load factor is good to about that share"))
     return tuple(notices)
 
 

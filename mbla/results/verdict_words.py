@@ -56,9 +56,13 @@ def verdict(model: Model, case: CaseResult) -> str:
     if mechanics is None:
         return _without_load_factor(model, case)
     value = load_factor_words(model, case.load_case, mechanics.load_factor)
-    if case.status is Status.SOLVED:
-        return f"collapses at {value}, verified"
-    return f"collapses at about {value}, approximate"
+    verified = case.status is Status.SOLVED
+    outer = case.solution.outer
+    if outer is not None and not range_is_a_point((mechanics.load_factor, outer.load_factor)):
+        highest = load_factor_words(model, case.load_case, outer.load_factor)
+        known = "verified" if verified else "approximate"
+        return f"collapses between {value} and {highest}, with the inscribed and the circumscribed polyhedron, {known}"
+    return f"collapses at {value}, verified" if verified else f"collapses at about {value}, approximate"
 
 
 def _without_load_factor(model: Model, case: CaseResult) -> str:

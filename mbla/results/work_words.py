@@ -61,7 +61,8 @@ def _group_table(model: Model, load_case: LoadCase, mechanics: Mechanics, work: 
     """Groups by the size of what they add, live or dead."""
     groups = loads_by_group(model, load_case, mechanics)
     ordered = sorted(groups.items(), key=lambda item: -max(abs(power) for power in item[1]))
-    rows = [[name, power_share(live, work), power_share(-dead, work)] for name, (live, dead) in ordered if live or dead]
+    shares = [[name, power_share(live, work), power_share(-dead, work)] for name, (live, dead) in ordered]
+    rows = [row for row in shares if float(row[1]) or float(row[2])]
     if len(rows) < 2:
         return []
     more = sentence(f"and {len(rows) - MOST_ROWS} more groups") if len(rows) > MOST_ROWS else []

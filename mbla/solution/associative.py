@@ -20,9 +20,9 @@ import numpy as np
 from mbla.arrays import FloatArray
 from mbla.program.program import Program
 from mbla.program.static import gravity_form
-from mbla.solution.associative_form import AssociativeForm, in_velocities
+from mbla.solution.associative_form import AssociativeForm, in_own_units, in_velocities
 from mbla.solution.bounds import CertifiedGap, certified_gap, falling_motion, repaired_forces
-from mbla.solution.clarabel_adapter import ClarabelProgram
+from mbla.solution.clarabel_adapter import ClarabelProgram, regularization
 from mbla.solution.cone_solution import ConeSolution, ConeSolver, Log
 from mbla.solution.cone_solver import cone_solver
 from mbla.solution.law_state import LawState, law_state
@@ -155,13 +155,20 @@ def _forward(run: _Run, form: AssociativeForm) -> _Answer:
     best = _answer(run, form, 1.0, run.settings)
     if not form.exact:
         return best
-    for power, share, regularization in SHARPER:
+    tried: set[tuple[float, float, bool]] = set()
+    for power, share, shift in SHARPER:
         if _is_decided(run, best) or best.solution.status in (Status.TIME_LIMIT, Status.ITERATION_LIMIT):
             break
-        tolerance = max(share * run.settings.tolerance, SHARPEST)
-        sharper = replace(run.settings, tolerance=tolerance, regularization=regularization)
+        own = None if best.gap is None or not form.has_units else in_own_units(run.program, best.gap.forces)
         unit = _size(run, best) ** power if form.has_units else 1.0
-        best = _better(best, _answer(run, form, unit, sharper))
+        shifted = regularization(form.cone_program, replace(run.settings, regularization=shift))
+        if (unit, shifted, own is None) in tried:
+            continue
+        tolerance = max(share * run.settings.tolerance, SHARPEST)
+        answer = _answer(run, own or form, unit, replace(run.settings, tolerance=tolerance, regularization=shifted))
+        if answer.solution.status is not Status.SOLVED:  # a tolerance still smaller would change nothing
+            tried.add((unit, shifted, own is None))
+        best = _better(best, answer)
     return best
 
 

@@ -5,10 +5,14 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 
+import numpy as np
+import scipy.sparse as sp
+
 from mbla.arrays import FloatArray
 from mbla.program.associative_static import associative_static_form
 from mbla.program.kinematic import ConeProgram, kinematic_form
 from mbla.program.program import Program
+from mbla.solution.bounds import carried_loads
 from mbla.solution.cone_solution import ConeSolution
 from mbla.solution.solution import Status
 
@@ -82,6 +86,27 @@ def in_velocities(program: Program, facets: FloatArray | None = None) -> Associa
     )
 
 
+def in_own_units(program: Program, forces: FloatArray) -> AssociativeForm | None:
+    """Kinematic form with the equilibrium of lightly loaded blocks in units of what they carry; None without such.
+
+    The solver's tolerance is one for all: a block that carries a hundred millionth of the others is lost in it.
+
+    forces : (n_points, components) of a first solution, which need not be sharp
+    """
+    unit = np.clip(carried_loads(program, forces), LIGHTEST, 1.0)
+    if not np.any(unit < LIGHT):
+        return None
+    rows = sp.diags_array(1.0 / unit)
+    scaled = replace(
+        program,
+        equilibrium_matrix=sp.csr_array(rows @ program.equilibrium_matrix),
+        dead_load=program.dead_load / unit,
+        live_load=program.live_load / unit,
+    )
+    form = in_velocities(scaled)
+    return replace(form, program=program, velocities=lambda solution: form.velocities(solution) / unit)
+
+
 def in_forces(program: Program, facets: FloatArray | None = None) -> AssociativeForm:
     """Static form; ``facets`` bound shear instead of cones."""
     form = associative_static_form(program, facets)
@@ -103,6 +128,12 @@ FORMS: Mapping[str, Callable[[Program, FloatArray | None], AssociativeForm]] = {
     "static": in_forces,
 }
 """By the deck's word."""
+
+LIGHT = 1e-2
+"""Load of a block, in mean loads, below which its equilibrium deserves units of its own."""
+
+LIGHTEST = 1e-12
+"""Least unit of a block's equilibrium, in mean loads."""
 
 _TURNED = {Status.UNBOUNDED: Status.NO_EQUILIBRIUM, Status.NO_EQUILIBRIUM: Status.UNBOUNDED}
 

@@ -25,7 +25,7 @@ import scipy.sparse as sp
 
 from mbla.arrays import FloatArray
 from mbla.program.program import Program
-from mbla.program.yield_conditions import YieldLimits, yield_violation
+from mbla.program.yield_conditions import yield_violation
 from mbla.solution.barriers import block_diagonal, force_metric, velocity_hessian
 from mbla.solution.law_state import LawState
 from mbla.solution.linear_solver import factorize
@@ -52,6 +52,9 @@ REGULARIZATION = 1e-15
 
 INSIDE = 1e-13
 """Excess over a yield condition, relative to the mean load of a block, that is rounding."""
+
+MARGIN = 1e-12
+"""Share of the largest normal force, or of what a light block has to balance, by which forces are put inside."""
 
 STEEP = 10.0
 """Friction up to which the metric follows the cone: beyond it shear could move so much more freely than normal force
@@ -156,7 +159,7 @@ def repaired_forces(
             best, least = (x, factor), off
             if enough:
                 break
-        x = _pulled_inside(program.limits, x)
+        x = _pulled_inside(program, x)
         step = _static_correction(program, x, factor)
         if step is None:
             break
@@ -193,13 +196,31 @@ def _unbalanced(program: Program, x: FloatArray, factor: float) -> FloatArray:
     return np.asarray(program.equilibrium_matrix @ x.ravel() + program.dead_load + factor * program.live_load)
 
 
-def _pulled_inside(limits: YieldLimits, x: FloatArray) -> FloatArray:
-    """The nearest simple change that puts every force strictly inside: normal force off its ends, shear shortened."""
-    inside = x.copy()
-    largest = max(float(np.abs(x[:, 0]).max(initial=0.0)), 1e-300)
+def carried_loads(program: Program, x: FloatArray) -> FloatArray:
+    """Size of what each row of equilibrium has to balance: contact forces, counted without sign, and dead load."""
+    sizes = np.repeat(np.linalg.norm(x, axis=1), program.components)
+    return np.asarray(abs(program.equilibrium_matrix) @ sizes + np.abs(program.dead_load))
+
+
+def _least_carried(program: Program, x: FloatArray) -> FloatArray:
+    """What the lighter of the blocks at each contact point has to balance, as a force there, (n_points,)."""
+    matrix = program.equilibrium_matrix.tocoo()
+    share = carried_loads(program, x)[matrix.row] / np.maximum(np.abs(matrix.data), 1e-300)
+    least = np.full(program.n_points, np.inf)
+    np.minimum.at(least, matrix.col // program.components, share)
+    return least
+
+
+def _pulled_inside(program: Program, x: FloatArray) -> FloatArray:
+    """The nearest simple change that puts every force strictly inside: normal force off its ends, shear shortened.
+
+    By little beside what the lighter block there has to balance: much of its load may be little beside the others'.
+    """
+    inside, limits = x.copy(), program.limits
+    largest = np.minimum(max(float(np.abs(x[:, 0]).max(initial=0.0)), 1e-288), _least_carried(program, x))
     apex = np.where(limits.friction > 0, limits.cohesion / np.maximum(limits.friction, 1e-300), np.inf)
     lower, upper = -np.minimum(limits.tension, apex), limits.compression
-    room = np.minimum(1e-12 * largest, 0.25 * (upper - lower))
+    room = np.minimum(MARGIN * largest, 0.25 * (upper - lower))
     inside[:, 0] = np.clip(x[:, 0], lower + room, upper - room)
     shear = np.linalg.norm(x[:, 1:], axis=1)
     allowed = np.maximum((limits.cohesion + limits.friction * inside[:, 0]) * (1 - 1e-10), 0.0)

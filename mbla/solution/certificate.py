@@ -23,6 +23,7 @@ from mbla.program.kinematic import ConeProgram, kinematic_form
 from mbla.program.program import Program
 from mbla.solution.clarabel_adapter import ClarabelProgram
 from mbla.solution.cone_solution import Log
+from mbla.solution.proofs import LOCKED_IN
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Status
 from mbla.solution.weakening import springs_of
@@ -36,14 +37,11 @@ AT_REST = 1e-7
 CARRIED_SHARE = 1e-7
 """Share of a block's load that would have to be taken off, below which the dead load is carried up to rounding."""
 
-CLOSES = 1e-9
-"""Closing velocity over the largest one that putting blocks at rest may bring about."""
-
 
 def steepest_fall(program: Program, settings: SolverSettings, log: Log) -> FloatArray | None:
     """The motion in which the dead load gains most, (n_rows,), largest entry 1; None where there is none to be proved.
 
-    Blocks that stand are at rest in it. It is compatible with the yield conditions.
+    Blocks that stand are at rest in it. It is compatible with the yield conditions up to rounding.
     """
     if not np.any(program.dead_load):
         return None
@@ -66,8 +64,9 @@ def steepest_fall(program: Program, settings: SolverSettings, log: Log) -> Float
     largest = float(np.abs(velocities).max(initial=0.0))
     if solution.status not in (Status.SOLVED, Status.APPROXIMATE) or not largest > CARRIED_SHARE:
         return None
-    still = np.where(np.abs(velocities) > AT_REST * largest, velocities, 0.0) / largest
-    return still if _proves(program, still) else None
+    moving = velocities / largest
+    candidates = (np.where(np.abs(moving) > AT_REST, moving, 0.0), moving)
+    return next((motion for motion in candidates if _proves(program, motion)), None)
 
 
 def cleaned_certificate(program: Program, velocities: FloatArray, settings: SolverSettings, log: Log) -> FloatArray:
@@ -143,8 +142,8 @@ def _dissipation(program: Program, velocities: FloatArray) -> FloatArray:
 
 
 def _proves(program: Program, velocities: FloatArray) -> bool:
-    """Whether the dead load does more work than the joints dissipate, and no joint that cannot crush is closed."""
-    closing = np.where(np.isfinite(program.limits.compression), 0.0, -_contact_velocities(program, velocities)[1])
-    largest = float(np.abs(velocities).max(initial=0.0))
+    """Whether the dead load does more work than the joints dissipate, closing charged as verification charges it."""
+    crushable = np.isfinite(program.limits.compression)
+    closing = np.where(crushable, 0.0, np.maximum(-_contact_velocities(program, velocities)[1], 0.0))
     gain = float(program.dead_load @ velocities) - float(_dissipation(program, velocities).sum())
-    return gain > 0.0 and float(closing.max(initial=0.0)) <= CLOSES * largest
+    return gain > LOCKED_IN * float(np.abs(program.dead_load).sum()) * float(closing.sum())

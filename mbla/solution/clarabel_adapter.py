@@ -79,7 +79,7 @@ class ClarabelProgram:
         Raises SolverError if the data are not finite (the solver would answer with a confident verdict).
         """
         solution = self.solve_once(program_number, to_load_factor)
-        for easier in _easier(self.settings, _regularization(self.cone_program, self.settings)):
+        for easier in _easier(self.settings, regularization(self.cone_program, self.settings)):
             if solution.status not in UNDECIDED:
                 break
             self.settings, self._solver = easier, None
@@ -167,7 +167,7 @@ class ClarabelProgram:
             "qdldl"  # reruns bit-identically; "auto" may take faer, whose digits depend on threads
         )
         settings.max_threads = self.settings.threads
-        settings.static_regularization_constant = _regularization(self.cone_program, self.settings)
+        settings.static_regularization_constant = regularization(self.cone_program, self.settings)
         settings.max_iter = self.settings.max_iterations
         for name in ("tol_gap_abs", "tol_gap_rel", "tol_feas"):
             setattr(settings, name, self.settings.tolerance)
@@ -206,7 +206,7 @@ class ClarabelProgram:
         self.log(record)
 
 
-def _regularization(program: ConeProgram, settings: SolverSettings) -> float:
+def regularization(program: ConeProgram, settings: SolverSettings) -> float:
     """The one asked for, or the one that kind and size of the program want."""
     if settings.regularization is not None:
         return settings.regularization

@@ -30,7 +30,7 @@ from mbla.program.program import Program
 from mbla.solution.stiffness import Stiffness
 
 BACKTRACKS = 8
-CONVERGED = 1e-11
+CONVERGED = 1e-10
 """Unbalanced force, in mean block loads."""
 
 REGULARIZATION = 1e-12
@@ -78,31 +78,45 @@ def exact_step(
 
     The last iterate is returned; whether it is good enough its residual says.
     """
-    program, u, factor, count = stiffness.program, velocities, load_factor, 0
+    u, factor, count = velocities, load_factor, 0
+    regularization = REGULARIZATION * stiffness.size / rho
     residual, state = _residual(stiffness, slope, anchor, rho, u, factor, fixed_load)
-    norm = float(np.linalg.norm(residual))
     while np.abs(residual).max(initial=0.0) > CONVERGED and count < most_steps:
         solve = stiffness.factorized(
-            joint_tangents(program, slope, rho, state), REGULARIZATION * stiffness.size / rho, fixed_load=fixed_load
+            joint_tangents(stiffness.program, slope, rho, state), regularization, fixed_load=fixed_load
         )
+        found = None
+        if solve is not None:
+            found = _line_search(stiffness, slope, anchor, rho, u, factor, solve(-residual), residual, fixed_load)
         count += 1
-        if solve is None:
+        if found is None:
             break
-        step = solve(-residual)
-        if not np.isfinite(step).all():
-            break
-        size = 1.0
-        for _ in range(BACKTRACKS):
-            u_new, factor_new = u + size * step[:-1], factor + size * float(step[-1])
-            trial, trial_state = _residual(stiffness, slope, anchor, rho, u_new, factor_new, fixed_load)
-            if np.linalg.norm(trial) < (1.0 - 1e-4 * size) * norm:
-                break
-            size *= 0.5
-        else:
-            break
-        u, factor, residual, state = u_new, factor_new, trial, trial_state
-        norm = float(np.linalg.norm(residual))
+        u, factor, residual, state = found
     return LawStep(u, factor, state.forces, float(np.abs(residual).max(initial=0.0)), count)
+
+
+def _line_search(
+    stiffness: Stiffness,
+    slope: FloatArray,
+    anchor: FloatArray,
+    rho: float,
+    u: FloatArray,
+    factor: float,
+    step: FloatArray,
+    residual: FloatArray,
+    fixed_load: bool,
+) -> tuple[FloatArray, float, FloatArray, JointState] | None:
+    """Halve the step until the residual falls; None where it does not."""
+    size, norm = 1.0, float(np.linalg.norm(residual))
+    if not np.isfinite(step).all():
+        return None
+    for _ in range(BACKTRACKS):
+        u_new, factor_new = u + size * step[:-1], factor + size * float(step[-1])
+        trial, state = _residual(stiffness, slope, anchor, rho, u_new, factor_new, fixed_load)
+        if np.linalg.norm(trial) < (1.0 - 1e-4 * size) * norm:
+            return u_new, factor_new, trial, state
+        size *= 0.5
+    return None
 
 
 def joint_state(

@@ -147,16 +147,18 @@ def interior_step(
     log: Log,
     number: int,
     *,
+    velocities: FloatArray | None = None,
     fixed_load: bool = False,
     deadline: float | None = None,
 ) -> InteriorResult:
     """Solve one step from forces ``anchor``, (n_points, components); ``log`` gets every iteration.
 
+    velocities : to start from, (n_rows,), those of the step before; the live load's own if None
     fixed_load : the load factor stays ``load_factor``, and f_L·u is free
     """
     crushable = np.flatnonzero(np.isfinite(stiffness.program.limits.compression))
     step = _Step(stiffness, law, anchor, rho, fixed_load, crushable)
-    now, lengths, started = _start(step, load_factor), [1.0], time.perf_counter()
+    now, lengths, started = _start(step, load_factor, velocities), [1.0], time.perf_counter()
     converged, count = False, 0
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):  # a run that diverges is seen and given up
         for count in range(MOST_ITERATIONS):
@@ -167,7 +169,7 @@ def interior_step(
             late = deadline is not None and time.monotonic() > deadline
             if converged or late or not np.isfinite(errors).all() or sum(lengths[-STALLED[0] :]) < STALLED[1]:
                 break
-            moved = _iterate(step, now, missing, lengths[-1])
+            moved = _iterate(step, now, missing, lengths[-1], errors[0])
             if moved is None:
                 break
             now, length = moved
@@ -176,13 +178,14 @@ def interior_step(
     return InteriorResult(now.u, now.factor, forces, converged, count)
 
 
-def _start(step: _Step, load_factor: float) -> _Iterate:
-    """All joints alike on the central path: the size of the anchor's forces, no shear, no velocity but the load's."""
-    program, limits = step.program, step.program.limits
-    live = program.live_load
-    u = np.zeros_like(live) if step.fixed_load else live / (live @ live)
+def _start(step: _Step, load_factor: float, velocities: FloatArray | None) -> _Iterate:
+    """All joints on the central path, pressed at least by the mean size of the anchor's forces, without shear."""
+    program, limits, live = step.program, step.program.limits, step.program.live_load
     size = float(np.sqrt((step.anchor**2).mean())) or 1.0
-    normal = np.full(program.n_points, size) + limits.tension
+    u, normal = velocities, np.maximum(step.anchor[:, 0], size) + limits.tension
+    if u is None:
+        u = np.zeros_like(live) if step.fixed_load else live / (live @ live)
+        normal = np.full(program.n_points, size) + limits.tension
     half = 0.5 * (limits.compression + limits.tension)
     normal = np.minimum(normal, half)
     product = size * (float(np.abs(step.stiffness.velocities(u)).mean()) + step.rho * size)
@@ -234,7 +237,7 @@ def _errors(step: _Step, now: _Iterate, missing: _Residuals) -> tuple[float, flo
     return gap / power, float(np.abs(missing.balance).max()), float(incompatible) / missing.speed
 
 
-def _iterate(step: _Step, now: _Iterate, missing: _Residuals, last: float) -> tuple[_Iterate, float] | None:
+def _iterate(step: _Step, now: _Iterate, missing: _Residuals, last: float, gap: float) -> tuple[_Iterate, float] | None:
     """Predictor, corrector, step; the new iterate and the length of the step, None where the system is singular."""
     joints = _Joints.of(step, now)
     shift = REGULARIZATION * float(np.abs(joints.tangents[:, 0, 0]).mean()) * step.stiffness.size
@@ -255,7 +258,7 @@ def _iterate(step: _Step, now: _Iterate, missing: _Residuals, last: float) -> tu
     step_taken = joints.direction(solve, now, missing, target, predictor, second)
     length = _reach(step, now, step_taken)
     if length < 1.0:
-        length *= max(SHARE, 1.0 - product)
+        length *= max(SHARE, 1.0 - gap)
     return _moved(now, step_taken, length), length
 
 

@@ -3,14 +3,15 @@
 A step of size 1/ρ from forces x̄ is the exact law for joints of stiffness ρ (see :mod:`mbla.solution.exact_law`). It is
 tried in turn by
 
-1. Newton's method from the tangents of the step before: the joints go on as they do, found by one factorisation;
+1. Newton's method from the tangents of the step before: the joints go on as they do, found by one factorisation; where
+   that went well the next step is longer, as forces only creep along their solutions then;
 2. the interior-point method (:mod:`mbla.solution.interior_step`) from the same start as ever, polished by 1;
 3. the same for shorter steps, of 1/8 of the length each time.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -28,6 +29,7 @@ FITS = 1e-9
 NEWTON_STEPS = 10
 """Factorisations of one attempt by Newton's method; close by it takes one to three, far away it leads nowhere."""
 
+LONGER = 4.0
 SHORTER = 8.0
 SHORTEST = 3
 """Steps shortened as many times before the exact law is given up from a state."""
@@ -58,6 +60,7 @@ class Step:
 
     anchor : (n_points, components) forces that it started from
     exact  : whether the exact law holds to ``FITS``; else as far as the interior-point method got, or a lagged step
+    by_continuation : whether Newton's method went on from the step before
     work   : factorisations
     """
 
@@ -68,6 +71,7 @@ class Step:
     forces: FloatArray
     exact: bool
     work: int
+    by_continuation: bool = False
 
 
 def next_step(stepper: Stepper, anchor: FloatArray, rho: float, before: Step | None, number: int) -> Step | None:
@@ -80,14 +84,15 @@ def next_step(stepper: Stepper, anchor: FloatArray, rho: float, before: Step | N
     if before is not None and before.exact:
         start = continued(stepper, before, anchor)
         if start is not None:
-            step = exact_step(stepper.stiffness, stepper.slope, anchor, rho, *start, NEWTON_STEPS)
+            size = before.rho / LONGER if before.by_continuation else rho
+            step = exact_step(stepper.stiffness, stepper.slope, anchor, size, *start, NEWTON_STEPS)
             work = 1 + step.factorizations
             if step.residual <= FITS:
-                return _step_of(anchor, rho, step, work)
+                return replace(_step_of(anchor, size, step, work), by_continuation=True)
     law = exact_law(stepper.program, stepper.slope)
     for shorter in range(SHORTEST):
         size = rho * SHORTER**shorter
-        result = _interior(stepper, law, anchor, size, number)
+        result = _interior(stepper, law, anchor, size, before, number)
         work += result.iterations
         if result.converged:
             polished = exact_step(
@@ -102,7 +107,7 @@ def next_step(stepper: Stepper, anchor: FloatArray, rho: float, before: Step | N
 
 def lagged_step(stepper: Stepper, anchor: FloatArray, rho: float, number: int) -> Step | None:
     """A step with the friction of the anchor's normal forces: convex, and there is always one."""
-    result = _interior(stepper, lagged_law(stepper.program, stepper.slope, anchor), anchor, rho, number)
+    result = _interior(stepper, lagged_law(stepper.program, stepper.slope, anchor), anchor, rho, None, number)
     return _step_of(anchor, rho, result, result.iterations) if result.converged else None
 
 
@@ -130,9 +135,19 @@ def continued(
     return answer[:-1], float(answer[-1]) if fixed_load is None else fixed_load
 
 
-def _interior(stepper: Stepper, law: InteriorLaw, anchor: FloatArray, rho: float, number: int) -> InteriorResult:
+def _interior(
+    stepper: Stepper, law: InteriorLaw, anchor: FloatArray, rho: float, before: Step | None, number: int
+) -> InteriorResult:
     return interior_step(
-        stepper.stiffness, law, anchor, rho, 0.0, stepper.log, number, deadline=stepper.settings.deadline
+        stepper.stiffness,
+        law,
+        anchor,
+        rho,
+        0.0 if before is None else before.load_factor,
+        stepper.log,
+        number,
+        velocities=None if before is None else before.velocities,
+        deadline=stepper.settings.deadline,
     )
 
 

@@ -13,7 +13,9 @@ doi:10.1016/S0020-7403(99)00111-3). This search goes down from a solution:
 
 As long as steps succeed forces count as at their limits within a growing distance, and slide in directions that turn
 further, which leads beyond the mechanisms that fit the forces exactly; after a failure it shrinks. What is found is an
-upper bound of the least load factor, nothing more.
+upper bound of the least load factor, nothing more: on a wall of five units by eight courses with friction 0.84 the
+search ends at 0.603575 from a solution of 0.6302, and finds nothing below another of 0.6349. In the plane, wall 5 of
+Ferris and Tin-Loi goes from 0.2159 to 0.207973 and a wall of 10 by 10 from 0.5765 to 0.569281.
 """
 
 from __future__ import annotations
@@ -208,7 +210,7 @@ class _Search:
         self.unlogged = []
         number, value = len(self.records) + 1, self.best.load_factor * live
         self.records.append(
-            ProgramRecord(number, "lower", solution.status, value, change, iterations, now - self.since)
+            ProgramRecord(number, "lowest", solution.status, value, change, iterations, now - self.since)
         )
         self.noted, self.since = self.best.load_factor, now
 

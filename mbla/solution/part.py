@@ -11,6 +11,7 @@ from mbla.program.program import Program
 from mbla.solution.associative import AssociativeResult, solve_associative
 from mbla.solution.associative_form import FORMS
 from mbla.solution.boundedness import Boundedness, non_associative_bounded
+from mbla.solution.certificate import cleaned_certificate
 from mbla.solution.clarabel_adapter import Log
 from mbla.solution.factor_range import FactorRange, factor_range
 from mbla.solution.flow import Flow, solve_flow
@@ -73,10 +74,19 @@ class PartResult:
 
 def solve_part(program: Program, analysis: AnalysisSection, settings: SolverSettings, log: Log) -> PartResult:
     """Associative first, then the sequence that the flow rule asks for, its range, and whether the part stands."""
-    result = _by_flow_rule(program, analysis, settings, log)
+    result = _with_clean_certificate(_by_flow_rule(program, analysis, settings, log), settings, log)
     if analysis.range:
         result = replace(result, range=_range_of(result, settings, log))
     return replace(result, standing=_standing_of(result, settings)) if analysis.standing else result
+
+
+def _with_clean_certificate(result: PartResult, settings: SolverSettings, log: Log) -> PartResult:
+    """Of what does not stand, only that moves."""
+    certificate = result.associative.certificate
+    if certificate is None:
+        return result
+    clean = cleaned_certificate(result.program, certificate, settings, log)
+    return replace(result, associative=replace(result.associative, certificate=clean))
 
 
 def _by_flow_rule(program: Program, analysis: AnalysisSection, settings: SolverSettings, log: Log) -> PartResult:
@@ -110,8 +120,10 @@ def _locked_by_dilatancy(
 ) -> PartResult:
     """Associative flow locks: without dilatancy joints may still give way, which is decided first."""
     program, associative = result.program, result.associative
+    if analysis.flow_rule != "non_associative":
+        return result
     decision = non_associative_bounded(program, settings)
-    if analysis.flow_rule != "non_associative" or decision.verdict is Boundedness.UNBOUNDED:
+    if decision.verdict is Boundedness.UNBOUNDED:
         return replace(result, associative=replace(associative, reason=decision.reason))
     if decision.verdict is Boundedness.DOUBTFUL:
         return replace(result, associative=replace(associative, status=Status.NOT_VERIFIED, reason=decision.reason))

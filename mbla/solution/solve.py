@@ -17,7 +17,8 @@ from mbla.solution.locking import locking_forces
 from mbla.solution.mechanics import mechanics_of, motion_of
 from mbla.solution.part import PartResult, solve_part
 from mbla.solution.settings import SolverSettings
-from mbla.solution.solution import IterationRecord, Mechanics, ProgramRecord, Solution, Standing, StandingResult, Status
+from mbla.solution.solution import IterationRecord, Mechanics, ProgramRecord, Solution, Standing, Status
+from mbla.solution.standing import worst_standing
 from mbla.solution.whole import whole_state
 
 WITH_VALUE = (Status.SOLVED, Status.APPROXIMATE)
@@ -71,11 +72,13 @@ def solve(reduced: Reduced, analysis: AnalysisSection, settings: SolverSettings,
     stage = _Stage(reduced.parts, settings, record)
     results = [solve_part(program, analysis, settings, record) for program in reduced.parts]
     solution = _combined(stage, analysis, results)
-    standing = _worst_standing(results)
+    assessed = [result.standing for result in results if result.standing is not None]
+    standing = worst_standing(assessed) if assessed else None
     if standing is not None and standing.verdict is Standing.SELF_STRESS:
         solution = _without_claim(solution)
     return replace(
         solution,
+        sides=0 if solution.outer is None else analysis.sides,
         standing=standing,
         programs=_renumbered(results),
         iterations=tuple(iterations),
@@ -171,20 +174,12 @@ def _solution(analysis: AnalysisSection, status: Status, reason: str) -> Solutio
     )
 
 
-GRAVEST_STANDING = (Standing.NO, Standing.SELF_STRESS, Standing.DOUBTFUL, Standing.YES)
-
-
-def _worst_standing(results: Sequence[PartResult]) -> StandingResult | None:
-    """The gravest verdict of any part; None where none was assessed."""
-    found = [result.standing for result in results if result.standing is not None]
-    return min(found, key=lambda standing: GRAVEST_STANDING.index(standing.verdict), default=None)
-
-
 def _without_claim(solution: Solution) -> Solution:
     """What stands by forces locked in beforehand has no load factor without them, save the associative upper value."""
-    if solution.status not in WITH_VALUE or solution.flow_rule == "associative":
+    if solution.flow_rule == "associative":
         return solution
-    return replace(solution, status=Status.NOT_VERIFIED, reason=ONLY_BY_SELF_STRESS)
+    status = Status.NOT_VERIFIED if solution.status in WITH_VALUE else solution.status
+    return replace(solution, status=status, reason=ONLY_BY_SELF_STRESS)
 
 
 def _renumbered(results: Sequence[PartResult]) -> tuple[ProgramRecord, ...]:

@@ -20,7 +20,7 @@ method on the whole law takes over.
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -39,7 +39,7 @@ ROUNDING = 64 * np.finfo(float).eps
 NEWTON_STEPS = 40
 BACKTRACKS = 8
 
-LAGS, TRY_EVERY = 60, 3
+LAGS, TRY_EVERY = 15, 3
 """Times that the limits of shear are brought up to date at one κ; Newton's method is tried after every third."""
 
 CONVEX_STEPS = 30
@@ -108,8 +108,12 @@ class _Joints:
     unbalanced: FloatArray
 
 
-def spring_state(problem: SpringProblem, kappa: float, start: FloatArray) -> FloatArray | None:
-    """Displacements, (n_rows,), in equilibrium on springs κ, from ``start``; None where they are not found."""
+def spring_state(problem: SpringProblem, kappa: float, starts: Sequence[FloatArray]) -> FloatArray | None:
+    """Displacements, (n_rows,), in equilibrium on springs κ; None where they are not found.
+
+    starts : displacements to start from, of which those nearest to balance are taken
+    """
+    start = min(starts, key=lambda u: float(np.linalg.norm(_joints(problem, kappa, u, None).unbalanced)))
     found, u = _newton(problem, kappa, start)
     for lag in range(LAGS):
         if found or problem.late:

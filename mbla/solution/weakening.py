@@ -11,9 +11,8 @@ Each state starts from the one before. Where s falls in proportion, κ is reduce
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from enum import Enum, auto
-from itertools import pairwise
 from typing import Literal
 
 import numpy as np
@@ -42,7 +41,20 @@ PLATEAU_FROM = 1e-5
 """κ from which on a share that stays counts: with stronger springs tall structures lean on them."""
 
 STAYS = 0.9
-"""Least ratio of shares one decade apart on a plateau; two in a row make one."""
+"""Least ratio of shares two decades apart on a plateau."""
+
+DECADE, SHORTEST = 0.1, 0.8
+"""Ratio of one κ to the one before, and the ratio closest to 1 that is tried where no state is found; in between each
+is the square root of the one before."""
+
+LENGTHENING = 1.5
+"""Power of a ratio that is the next one after a state was found."""
+
+MOST_FAILURES = 5
+"""Times that no state is found before it is given up: each costs some 200 factorisations."""
+
+ROUNDING = 1e-9
+"""Relative, in comparisons of one κ with another."""
 
 PROPORTION = 1.25
 """Largest ratio of shares over ratio of κ that counts as falling in proportion."""
@@ -75,8 +87,8 @@ class Weakening:
     block: int | None
     share: float
     reason: str = ""
-    forces: FloatArray | None = None
-    displacements: FloatArray | None = None
+    forces: FloatArray | None = field(default=None, repr=False)
+    displacements: FloatArray | None = field(default=None, repr=False)
 
 
 Load = Literal["dead_load", "live_load"]
@@ -97,10 +109,11 @@ def weaken_springs(program: Program, load: Load, limits: YieldLimits, settings: 
     kappa, u = 1.0, np.zeros(len(program.dead_load))
     for ratio in SHEAR_STIFFNESSES:
         problem = replace(whole, shear_stiffness=ratio)
-        outcome, kappa, u = _weaken(problem, blocks, kappa, u)
-        found.append(replace(outcome, forces=joint_forces(problem, u), displacements=u))
-        if outcome.outcome is not Outcome.CARRIED:  # only where nothing moved on is the state a start for the next
-            kappa, u = 1.0, np.zeros_like(u)
+        outcome, last = _weaken(problem, blocks, kappa, u)
+        forces = joint_forces(problem, last.displacements)
+        found.append(replace(outcome, forces=forces, displacements=last.displacements))
+        if outcome.outcome is Outcome.CARRIED:  # only where nothing moved on is the state a start for the next
+            kappa, u = last.kappa, last.displacements
         if outcome.outcome is Outcome.UNDECIDED:
             return found[-1]
     return agreed(*found)
@@ -143,49 +156,83 @@ def springs_of(program: Program, load: Load) -> tuple[sp.csr_array, sp.csr_array
     return sp.csr_array(springs), way_back, program.free
 
 
-def _weaken(
-    problem: SpringProblem, blocks: _Blocks, kappa: float, u: FloatArray
-) -> tuple[Weakening, float, FloatArray]:
-    """Weaken the springs from a state at κ until the outcome is clear; the outcome with the last state."""
-    history: list[tuple[float, float]] = []
-    block, share, leaps = None, np.nan, True
+@dataclass(frozen=True)
+class _State:
+    """Equilibrium on springs κ: displacements (n_rows,), the greatest share of a load on its spring, and its block."""
+
+    kappa: float
+    displacements: FloatArray
+    share: float
+    block: int
+
+
+def _weaken(problem: SpringProblem, blocks: _Blocks, kappa: float, start: FloatArray) -> tuple[Weakening, _State]:
+    """Weaken the springs, from κ on, until the outcome is clear; the outcome with the last state."""
+    states: list[_State] = []
+    step, leaps, failures = DECADE, True, 0
+    last = _State(kappa, start, np.nan, -1)
     while True:
-        leapt = bool(history) and kappa < 0.1 * (1 - 1e-9) * history[-1][0]
-        state = spring_state(problem, kappa, u)
-        if leapt and not problem.late and (state is None or blocks.shares(kappa, state).max() >= CARRIED_SHARE):
-            kappa = 0.1 * history[-1][0]  # it was too early to leap: what the share does on the way decides
-            leaps = False
+        state = _state_at(problem, blocks, kappa, states or [last])
+        leapt = bool(states) and kappa < step * (1 - ROUNDING) * last.kappa
+        if leapt and not problem.late and (state is None or state.share >= CARRIED_SHARE):
+            kappa, leaps = step * last.kappa, False  # too early: what the share does on the way decides
             continue
         if state is None:
-            why = "the time limit was reached" if problem.late else "no state on weak springs was found"
-            return Weakening(Outcome.UNDECIDED, block, share, why), kappa, u
-        u, shares = state, blocks.shares(kappa, state)
-        worst = int(np.flatnonzero(shares >= ALIKE * shares.max())[0])
-        block, share = int(blocks.index[worst]), float(shares[worst])
-        history.append((kappa, share))
-        if share < CARRIED_SHARE:
-            return Weakening(Outcome.CARRIED, block, share), kappa, u
-        if _on_plateau(history):
-            return Weakening(Outcome.FALLS, block, share), kappa, u
+            step, failures = float(np.sqrt(step)), failures + 1
+            if problem.late or not states or step > SHORTEST or failures > MOST_FAILURES:
+                why = "the time limit was reached" if problem.late else "no state on weak springs was found"
+                return _outcome(Outcome.UNDECIDED, last, why), last
+            kappa = step * last.kappa
+            continue
+        last = state
+        states.append(state)
+        if state.share < CARRIED_SHARE:
+            return _outcome(Outcome.CARRIED, state), state
+        if _on_plateau(states):
+            return _outcome(Outcome.FALLS, state), state
         if kappa <= WEAKEST:
             why = "springs went on carrying part of the load as they got weaker"
-            return Weakening(Outcome.UNDECIDED, block, share, why), kappa, u
-        kappa = max(_next(history, leaps), WEAKEST)
+            return _outcome(Outcome.UNDECIDED, state, why), state
+        step = max(step**LENGTHENING, DECADE)
+        kappa = max(_next(states, step, leaps), WEAKEST)
 
 
-def _on_plateau(history: list[tuple[float, float]]) -> bool:
+def _outcome(outcome: Outcome, state: _State, reason: str = "") -> Weakening:
+    return Weakening(outcome, None if state.block < 0 else state.block, state.share, reason)
+
+
+def _state_at(problem: SpringProblem, blocks: _Blocks, kappa: float, states: list[_State]) -> _State | None:
+    """The state on springs κ, from the last one or from where the last two point.
+
+    That is u = a + b/κ, which what stands and what falls both follow.
+    """
+    starts = [states[-1].displacements]
+    if len(states) > 1:
+        before, last = states[-2:]
+        share = (1 / kappa - 1 / last.kappa) / (1 / last.kappa - 1 / before.kappa)
+        starts.append(last.displacements + share * (last.displacements - before.displacements))
+    u = spring_state(problem, kappa, starts)
+    if u is None:
+        return None
+    shares = blocks.shares(kappa, u)
+    worst = int(np.flatnonzero(shares >= ALIKE * shares.max())[0])
+    return _State(kappa, u, float(shares[worst]), int(blocks.index[worst]))
+
+
+def _on_plateau(states: list[_State]) -> bool:
     """Whether the share stayed over the last two decades of springs that are weak enough."""
-    last = history[-3:]
-    weak = len(last) == 3 and last[0][0] <= PLATEAU_FROM * (1 + 1e-9)
-    decades = all(after[0] <= 0.1 * (1 + 1e-9) * before[0] for before, after in pairwise(last))
-    return weak and decades and all(after[1] >= STAYS * before[1] for before, after in pairwise(last))
+    last = states[-1]
+    weak = [
+        state for state in states if 100 * (1 - ROUNDING) * last.kappa <= state.kappa <= PLATEAU_FROM * (1 + ROUNDING)
+    ]
+    return bool(weak) and last.share >= STAYS * weak[-1].share
 
 
-def _next(history: list[tuple[float, float]], leaps: bool) -> float:
-    """The next κ: a decade on, or where the share has come down to its aim if it falls in proportion."""
-    kappa, share = history[-1]
-    if leaps and len(history) > 1:
-        before, more = history[-2]
-        if share / more <= PROPORTION * kappa / before:
-            return kappa * min(AIMED_SHARE / share, 0.1)
-    return 0.1 * kappa
+def _next(states: list[_State], step: float, leaps: bool) -> float:
+    """The next κ: a step on, or where the share has come down to its aim if it falls in proportion."""
+    last = states[-1]
+    if leaps and step <= DECADE and len(states) > 1:
+        before = states[-2]
+        if last.share / before.share <= PROPORTION * last.kappa / before.kappa:
+            return last.kappa * min(AIMED_SHARE / last.share, step)
+    return step * last.kappa

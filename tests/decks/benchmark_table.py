@@ -43,6 +43,7 @@ HEAD = (
     "iterations",
     "seconds",
 )
+INTERNAL = "internal error"
 NOT_RUN = "Not in the table: "
 """begins the line of what refused to run, with the reason"""
 
@@ -68,8 +69,11 @@ def run_case(case: BenchmarkCase, chosen: Formulation) -> CaseResult | Refused:
     except DeckError as error:  # without the place: it names a folder of this machine
         faults = [f"{fault.key} = {fault.value}: {fault.message}" for fault in error.faults]
         return Refused(case.name, chosen.name, "; ".join(faults))
-    except (MblaError, NotImplementedError) as error:
+    except MblaError as error:
         return Refused(case.name, chosen.name, " ".join(str(error).split()))
+    except Exception as error:  # must not cost the other rows; ``main`` fails for it
+        words = " ".join(f"{INTERNAL} ({type(error).__name__}: {error})".split())
+        return Refused(case.name, chosen.name, words)
     ignored = [
         key for key in (override.split("=")[0].split(".")[0] for override in chosen.overrides) if key not in read
     ]
@@ -203,8 +207,8 @@ def with_table(text: str, new: str) -> str:
     return before + BEGIN + new + END + after
 
 
-def main() -> None:
-    """Write the page again, saying each row on standard error."""
+def main() -> int:
+    """Write the page again, saying each row on standard error; 1 where a formulation ended in an internal error."""
 
     def tell(text: str) -> None:
         sys.stderr.write(text + "\n")
@@ -212,7 +216,8 @@ def main() -> None:
 
     new = table(CASES, tell)
     README.write_text(with_table(README.read_text(encoding="utf-8"), new), encoding="utf-8")
+    return 1 if INTERNAL in new else 0
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(main())

@@ -39,6 +39,8 @@ def _figure(expectation: Expectation, flow_rule: str) -> str:
         words.append(f"{own:.8g}")
     if associative is not None and (own is None or abs(own - associative) > 1e-9):
         words.append(f"associative {associative:.8g}")
+    if expectation.lower is not None:
+        words.append(f"least {expectation.lower:.8g}")
     if expectation.status not in (None, "solved"):
         words.append(str(expectation.status))
     if flow_rule == "associative" and own is not None:

@@ -7,7 +7,18 @@ import pytest
 from mbla.deck import read_deck
 from tests.decks import benchmark_table
 from tests.decks.benchmark_cases import CASES, FORMULATIONS, formulation
-from tests.decks.benchmark_table import HEAD, README, Refused, figures_of, rows_in, run_case, table, watched, with_table
+from tests.decks.benchmark_table import (
+    HEAD,
+    INTERNAL,
+    README,
+    Refused,
+    figures_of,
+    rows_in,
+    run_case,
+    table,
+    watched,
+    with_table,
+)
 from tests.decks.folder import DECKS, deck_of
 
 STATUS, FACTOR = HEAD.index("status") - 2, HEAD.index("load factor") - 2
@@ -87,6 +98,16 @@ def test_an_error_is_no_row_and_its_words_are_told(
     assert told[0].startswith(name)
     assert f"- Not in the table: {CASES[0].name} / {bad.name}: {words}" in text
     assert str(DECKS) not in text
+
+
+def test_an_internal_error_costs_its_own_row_only(monkeypatch: pytest.MonkeyPatch) -> None:
+    def broken(*_: object) -> None:
+        raise KeyError("scheme")
+
+    monkeypatch.setattr(benchmark_table, "solve_case", broken)
+    result = run_case(CASES[0], FORMULATIONS[0])
+    assert isinstance(result, Refused)
+    assert result.reason == f"{INTERNAL} (KeyError: 'scheme')"
 
 
 def test_a_watched_deck_is_the_same_deck() -> None:

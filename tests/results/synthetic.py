@@ -231,6 +231,7 @@ def full_results() -> Results:
         force_ranges=np.array([[0.0, 10.0], [5.0, np.inf]]),
         path=(PathPoint(0, 0.0, 0, 0, 1e-9), PathPoint(1, 0.6, 2, 0, 1e-8), PathPoint(2, 0.5, 2, 1, np.nan)),
         size=ModelSize(2, 1, 3, 2, 4, 4),
+        sides=8,
     )
     checks = replace(case.checks, tension_violation=1e-9, slip_residual=2e-9, lower=0.45, upper=0.52, failures=("x",))
     return replace(results, cases=(replace(case, solution=solution, checks=checks), results.cases[1]))

@@ -91,7 +91,7 @@ def test_a_warning_speaks_of_a_load_factor_only_where_there_is_one() -> None:
         (with_standing(YES), []),
         (with_standing(SELF), ["only-by-self-stress"]),
         (with_standing(DOUBT), ["standing-doubtful"]),
-        (replace(SOLVED, checks=replace(SOLVED.checks, slip_residual=2e-6)), ["residual"]),
+        (replace(SOLVED, checks=replace(SOLVED.checks, slip_residual=2e-6)), ["law-residual"]),
         (replace(SOLVED, checks=replace(SOLVED.checks, slip_residual=5e-7)), []),
     ],
 )

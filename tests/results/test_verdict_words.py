@@ -1,10 +1,13 @@
 """What the listing says of a case's figure: unique or not, how far tries differ, what hangs by self-stress."""
 
 from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 import pytest
 
+from mbla.results.hdf5 import read_results_hdf5, write_results_hdf5
+from mbla.results.json_record import results_json
 from mbla.results.listing import listing
 from mbla.results.results import CaseResult, Results
 from mbla.results.summary import summary_lines
@@ -109,12 +112,27 @@ def test_the_associative_factor_of_what_hangs_by_self_stress_keeps_its_value_wit
     assert "warning [only-by-self-stress]" in text
 
 
+@pytest.mark.parametrize(
+    ("outer", "status", "words"),
+    [
+        (0.55, Status.SOLVED, "collapses between 0.5 g and 0.55 g, with the inscribed and the circumscribed"),
+        (0.55, Status.SOLVED, "polyhedron, verified"),
+        (0.55, Status.APPROXIMATE, "polyhedron, approximate"),
+        (0.5 + 1e-8, Status.SOLVED, "collapses at 0.5 g, verified"),
+    ],
+)
+def test_a_bracket_is_not_told_as_one_factor(outer: float, status: Status, words: str) -> None:
+    case = tower_results("associative").cases[0]
+    bracket = replace(case.solution, outer=tower_mechanics(outer), sides=8)
+    assert words in verdict(MODEL, replace(case, status=status, solution=bracket))
+
+
 def test_everything_together_keeps_to_the_width_and_names_everything() -> None:
     results: Results = full_results()
     text = " ".join(listing(results).split())
     for words in (
         "inscribed polyhedron 0.55",
-        "circumscribed polyhedron 0.56",
+        "circumscribed polyhedron 0.56 (8 sides; the cone lies between)",
         "solved as planar, 2 free blocks, 4 contact points, 1 mirror plane used, 3 parts solved apart, "
         "4 contact points left out",
         "Load path of 3 steps: its peak, 0.6 g at step 1, is a limit point",
@@ -133,3 +151,12 @@ def test_what_locks_a_structure_is_listed() -> None:
         Status.UNBOUNDED, solution={"mechanics": None, "associative": None, "lock": lock, "flow_rule": "associative"}
     )
     assert "Locked: these forces, within the strength of the joints, balance the live load alone" in text_of(case)
+
+
+def test_everything_reads_the_same_from_the_file(tmp_path: Path) -> None:
+    results = full_results()
+    path = tmp_path / "full.h5"
+    path.write_bytes(write_results_hdf5(results))
+    back = read_results_hdf5(path)
+    assert listing(back) == listing(results)
+    assert results_json(back) == results_json(results)

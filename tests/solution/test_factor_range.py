@@ -78,6 +78,25 @@ def test_the_range_of_a_published_wall() -> None:
     assert ends(planar, solved(planar)) == pytest.approx(spatial, rel=1e-7)
 
 
+@pytest.mark.parametrize(
+    ("text", "lower", "upper"),
+    [
+        (opening(2.0, 6).replace("courses: 6", "courses: 6, start: half"), 0.63898, 0.64286),
+        (
+            opening(1.2, 19, "{from: [0.4, 0.525], to: [0.8, 1.4]}", "{from: [0.4, 1.925], to: [0.8, 2.8]}").replace(
+                "courses: 19", "courses: 19, start: half"
+            ),
+            0.20863,
+            0.22956,
+        ),
+    ],
+)
+def test_ranges_found_before(text: str, lower: float, upper: float) -> None:
+    """Walls 1 and 5 of Ferris and Tin-Loi 2001: figures of two other cone programs."""
+    program = planar_program(line_of(text))
+    assert ends(program, solved(program)) == pytest.approx((lower, upper), abs=6e-6)
+
+
 def test_a_second_solver_finds_the_same_ends() -> None:
     planar = planar_program(line_of(WALL, "parameters.n=5", "blocks.0.wall.courses=8", "parameters.mu=0.84"))
     state = solved(planar)

@@ -48,7 +48,7 @@ def test_the_tangent_is_that_of_the_law(lagged: bool) -> None:
 def test_a_block_on_springs_settles_as_two_springs_in_parallel(kappa: float) -> None:
     """Four joints of stiffness 1 and one of κ under a weight of 1."""
     problem = problem_of(BLOCK)
-    u = spring_state(problem, kappa, np.zeros(6))
+    u = spring_state(problem, kappa, [np.zeros(6)])
     assert u is not None
     assert u[2] == pytest.approx(-1 / (4 + kappa), rel=1e-9)
     assert np.delete(u, 2) == pytest.approx(0, abs=1e-12)
@@ -66,9 +66,9 @@ def test_held_limits_of_shear_leave_a_minimum_that_is_found() -> None:
 def test_alternating_limits_find_a_state_where_newtons_method_does_not(monkeypatch: pytest.MonkeyPatch) -> None:
     """Newton's method may try again only close by: one step of it, from the lagged states."""
     problem = problem_of(rafters(0.6))
-    direct = spring_state(problem, 1e-3, np.zeros(len(problem.load)))
+    direct = spring_state(problem, 1e-3, [np.zeros(len(problem.load))])
     monkeypatch.setattr("mbla.solution.spring_state.NEWTON_STEPS", 2)
-    lagged = spring_state(problem, 1e-3, np.zeros(len(problem.load)))
+    lagged = spring_state(problem, 1e-3, [np.zeros(len(problem.load))])
     assert direct is not None
     assert lagged is not None
     assert lagged == pytest.approx(direct, abs=1e-6)

@@ -84,7 +84,7 @@ class _Follower:
 
     def unit(self, linear: LinearStep, metric: Metric) -> PathVector:
         """Unit tangent in the sense of the path."""
-        size = self.sense * linear.factors.sign() / float(np.linalg.norm(metric.coordinates(linear.tangent)))
+        size = self.sense * linear.factors.sign() / _length(metric.coordinates(linear.tangent))
         return _times(linear.tangent, size)
 
 
@@ -149,18 +149,18 @@ def _accepted(
     metric = metric_at(follower.path, point)
     direction = follower.unit(linear, metric)
     old, new = metric.coordinates(before), metric.coordinates(direction)
-    turn = float(old @ new) / max(float(np.linalg.norm(old)), 1e-300)
+    turn = _dot(old, new) / max(_length(old), 1e-300)
     return _Moved(point, direction, corrections) if turn >= TURN else None
 
 
 def _correction(linear: LinearStep, metric: Metric, across: FloatArray) -> tuple[PathVector, float]:
     """Newton step that stays in the plane across the tangent, and its length; infinite where there is none."""
     newton, tangent = metric.coordinates(linear.newton), metric.coordinates(linear.tangent)
-    along = float(across @ tangent)
+    along = _dot(across, tangent)
     if along == 0.0 or not np.isfinite(along):
         return linear.newton, float("inf")
-    amount = -float(across @ newton) / along
-    return linear.newton.plus(linear.tangent, amount), float(np.linalg.norm(newton + amount * tangent))
+    amount = -_dot(across, newton) / along
+    return linear.newton.plus(linear.tangent, amount), _length(newton + amount * tangent)
 
 
 def _refreshed(follower: _Follower, point: PathVector, direction: PathVector) -> tuple[PathVector, PathVector]:
@@ -193,3 +193,12 @@ def _times(change: PathVector, size: float) -> PathVector:
         size * change.slip,
         size * change.log_sigma,
     )
+
+
+def _dot(first: FloatArray, second: FloatArray) -> float:
+    """Scalar product of long vectors; not by BLAS, whose threads cost more than they gain on a busy machine."""
+    return float((first * second).sum())
+
+
+def _length(vector: FloatArray) -> float:
+    return float(np.sqrt(_dot(vector, vector)))

@@ -76,6 +76,16 @@ def room(path: CentralPath, point: PathVector, change: PathVector) -> float:
     )
 
 
+def inside(path: CentralPath, point: PathVector) -> bool:
+    """Whether a point lies strictly within all half-lines and cones; rounding can take a step across."""
+    to_opening, to_crushing, strength = path.margins(point.forces)
+    frictional = path.frictional
+    half_lines = (to_opening, to_crushing, point.opening, point.crushing[path.crushable])
+    in_force = strength > np.linalg.norm(point.forces[:, 1:], axis=1)
+    in_slip = point.slip_size > np.linalg.norm(point.slip, axis=1)
+    return all(bool((part > 0.0).all()) for part in half_lines) and bool((in_force & in_slip)[frictional].all())
+
+
 def _half_lines(value: FloatArray, change: FloatArray) -> float:
     fastest = float((-change / value).max(initial=0.0))
     return 1.0 / fastest if fastest > 0.0 else float("inf")

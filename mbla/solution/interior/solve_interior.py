@@ -24,10 +24,8 @@ from mbla.program.program import Program
 from mbla.program.static import gravity_form
 from mbla.solution.associative import AssociativeResult
 from mbla.solution.clarabel_adapter import ClarabelProgram, Log
-from mbla.solution.interior.arc_length import Stage, follow
-from mbla.solution.interior.central_path import central_path, first_point, state_of
 from mbla.solution.interior.condensed_matrix import MatrixMap, matrix_map
-from mbla.solution.interior.polish import STEPS, polished
+from mbla.solution.interior.one_try import Moment, Start, Try, go
 from mbla.solution.law_state import LawState, SequenceResult
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import IterationRecord, ProgramRecord, Status
@@ -41,26 +39,8 @@ WARNED = 1e-4
 USABLE = 1e-2
 """Residual up to which a load factor is worth reporting, as approximate."""
 
-EXACT = 1e-9
-"""Residual at which a try ends."""
-
-END_OF_PATH = 1e-8
-"""Residual of a point of the path beyond which rounding takes over: slacks are differences of velocities."""
-
-FIRST_POLISH = 1e-3
-"""Residual from which exact steps are tried, once a decade."""
-
 LOG_EVERY = 10
 """Steps along the path between two lines of the log."""
-
-
-@dataclass(frozen=True)
-class Start:
-    """One way to begin: pull κ towards the gravity state, size and seed of the noise."""
-
-    kappa: float
-    noise: float
-    seed: int
 
 
 def starts() -> Iterator[Start]:
@@ -83,6 +63,7 @@ class _Tries:
     log: Log
     records: list[ProgramRecord]
     states: list[LawState] = field(default_factory=list)
+    steps: int = 0
 
     def late(self) -> bool:
         """Whether the time limit has passed."""
@@ -136,42 +117,27 @@ def _gravity_state(tries: _Tries) -> FloatArray | None:
 
 
 def _try(tries: _Tries, begin: Start, anchor: FloatArray | None, most: int) -> LawState | None:
-    """Follow one path to its end; the best state on the way, polished."""
-    program, started = tries.program, time.perf_counter()
-    path = central_path(program, begin.noise, begin.seed, anchor, begin.kappa)
-    best: LawState | None = None
-    count, extra, polish_at = 0, 0, FIRST_POLISH
-    for number, stage in enumerate(follow(path, tries.pattern, first_point(path), most)):
-        state, count = state_of(program, stage.point), stage.factorizations
-        if best is None or state.residual < best.residual:
-            best = state
-        if number % LOG_EVERY == 0:
-            _log(tries, stage, state, time.perf_counter() - started)
-        if state.residual < polish_at:
-            polish_at = state.residual / 10.0
-            exact, used = polished(program, state, STEPS[:1])
-            extra += used
-            best = exact if exact.residual < best.residual else best
-        if best.residual <= EXACT or state.residual <= END_OF_PATH or tries.late():
-            break
-    if best is not None and EXACT < best.residual <= USABLE and not tries.late():
-        best, used = polished(program, best, STEPS)
-        extra += used
-    _record(tries, best, count + extra, time.perf_counter() - started)
-    return best
+    """Carry out one try and record it; the best state it found, None where it could not begin."""
+    attempt = Try(tries.program, tries.pattern, most, lambda moment: _log(tries, attempt, moment), tries.late)
+    go(attempt, begin, anchor)
+    _record(tries, attempt.best, attempt.factorizations, time.perf_counter() - attempt.started)
+    return attempt.best
 
 
-def _log(tries: _Tries, stage: Stage, state: LawState, seconds: float) -> None:
+def _log(tries: _Tries, attempt: Try, moment: Moment) -> None:
+    tries.steps += 1
+    if tries.steps % LOG_EVERY != 1:
+        return
     tries.log(
         IterationRecord(
             program=len(tries.records) + 1,
-            iteration=stage.factorizations,
-            load_factor=tries.program.scaling.load_factor(state.load_factor),
-            gap=state.residual,
-            primal_residual=state.residual,
-            dual_residual=float(np.exp(stage.point.log_sigma)),
-            step=stage.step,
-            seconds=seconds,
+            iteration=moment.factorizations,
+            load_factor=tries.program.scaling.load_factor(moment.state.load_factor),
+            gap=moment.state.residual,
+            primal_residual=moment.state.residual,
+            dual_residual=moment.sigma,
+            step=moment.step,
+            seconds=time.perf_counter() - attempt.started,
         )
     )
 
