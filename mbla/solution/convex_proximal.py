@@ -108,7 +108,7 @@ def solve_convex_proximal(
             return _broken_off(run, solution)
         state = _state_of(form, solution)
         run.states.append(state)
-        run.add("proximal", solution.status, state.load_factor, solution.iterations, solution.seconds)
+        run.add("convex step", solution.status, state.load_factor, solution.iterations, solution.seconds)
         if state.residual <= EXACT:
             break
         due = step >= FIRST_TRY and (step - FIRST_TRY) % TRY_EVERY == 0 and state.residual < NEAR
@@ -160,7 +160,7 @@ def _exact(run: _Run, law: ConvexLaw, anchor: FloatArray, rho: float, state: Con
         if fits:
             break
     status = Status.SOLVED if fits else Status.APPROXIMATE
-    run.add("exact law", status, factor, count, time.perf_counter() - started)
+    run.add("exact step", status, factor, count, time.perf_counter() - started)
     return fits
 
 

@@ -11,8 +11,8 @@ from mbla.arrays import FloatArray
 from mbla.program.convex import ConvexProgram
 from mbla.program.convex.friction_limit import curve_size, curve_support, friction_limit
 from mbla.program.program import Program
+from mbla.program.yield_conditions import YieldLimits, yield_violation
 from mbla.solution.interface_laws import InterfaceLaws, crushing_excess, crushing_power
-from mbla.solution.law_state import law_state
 
 
 @dataclass(frozen=True)
@@ -58,28 +58,43 @@ def with_motions(program: Program, motions: sp.csr_array) -> Program:
 def state_without_dilatancy(
     convex: ConvexProgram, forces: FloatArray, velocities: FloatArray, motions: FloatArray, load_factor: float
 ) -> ConvexState:
-    """A state with its residual: that of the points (``law_state``), or what is worse of the interfaces' torsion.
+    """A state with its residual, the largest of three.
 
-    Excess over the conditions, in mean block loads; share of the power balance that motions of interfaces leave
-    unexplained.
+    Excess over the conditions of points and interfaces, in mean block loads; closing velocity of points by their own
+    motion over the largest contact speed; share of the power balance that the law leaves unexplained.
     """
-    limits = convex.torsion
-    moving = with_motions(convex.points, convex.resultants)
-    own = law_state(moving, 0.0, forces, np.concatenate([velocities, motions.sum(axis=1).ravel()]), load_factor)
+    program, limits = convex.points, convex.torsion
+    moved = (program.equilibrium_matrix.T @ velocities).reshape(-1, 3)
+    own = moved - (convex.resultants.T @ motions.sum(axis=1).ravel()).reshape(-1, 3)
+    speed = max(float(np.linalg.norm(moved, axis=1).max(initial=0.0)), 1e-300)
+    closing = float(np.where(np.isfinite(program.limits.compression), 0.0, -own[:, 0]).max(initial=0.0)) / speed
+    of_points, at_points = _unexplained_at_points(program.limits, forces, own)
+
     resultants = (convex.resultants @ forces.ravel()).reshape(-1, 6)
     size = friction_limit(limits, resultants)
     r, motion = resultants[limits.interfaces], motions[limits.interfaces, 0]
     slip, twist = np.hypot(motion[:, 1], motion[:, 2]), np.abs(motion[:, 3]) * limits.radii
     rest = np.maximum(size.total - size.share, 0.0)
-    dissipated = size.share * curve_support(slip, twist, limits.thetas) + rest * slip
-    crushed = crushing_power(laws_of(convex), motions[:, 1])
-    of_crushing = float(np.abs(crushed + (resultants * motions[:, 1]).sum(axis=1)).sum())
-    crushing = float(crushing_excess(laws_of(convex), resultants).max(initial=0.0))
+    of_torsion = size.share * curve_support(slip, twist, limits.thetas) + rest * slip
     beyond = np.maximum(np.hypot(r[:, 1], r[:, 2]) - rest, 0.0)
-    excess = curve_size(beyond, np.abs(r[:, 3]) / limits.radii, limits.thetas) - size.share
-    unexplained = float(np.abs(dissipated + (r * motion).sum(axis=1)).sum())
-    dead_power = abs(float(convex.points.dead_load @ velocities))
-    balance = max(abs(load_factor), dead_power, float(dissipated.sum()), 1e-300)
-    worst = max(float(excess.max(initial=0.0)), crushing)
-    residual = max(own.residual, worst, (unexplained + of_crushing) / balance)
-    return ConvexState(forces, velocities, motions, load_factor, residual)
+    twisting = curve_size(beyond, np.abs(r[:, 3]) / limits.radii, limits.thetas) - size.share
+    of_crushing, crushing = crushing_power(laws_of(convex), motions[:, 1]), crushing_excess(laws_of(convex), resultants)
+
+    unexplained = at_points + float(np.abs(of_torsion + (r * motion).sum(axis=1)).sum())
+    unexplained += float(np.abs(of_crushing + (resultants * motions[:, 1]).sum(axis=1)).sum())
+    dead_power = abs(float(program.dead_load @ velocities))
+    balance = max(abs(load_factor), dead_power, of_points + float(of_torsion.sum()), 1e-300)
+    excess = [yield_violation(forces, program.limits), twisting, crushing]
+    worst = max(float(part.max(initial=0.0)) for part in excess)
+    return ConvexState(forces, velocities, motions, load_factor, max(worst, closing, unexplained / balance))
+
+
+def _unexplained_at_points(limits: YieldLimits, forces: FloatArray, own: FloatArray) -> tuple[float, float]:
+    """Power dissipated by sliding, and power that opening, sliding and crushing of points leave unexplained."""
+    sliding = np.hypot(own[:, 1], own[:, 2])
+    strength = limits.friction * forces[:, 0] + limits.cohesion
+    capacity = np.where(np.isfinite(limits.compression), limits.compression, forces[:, 0])
+    unexplained = np.abs(strength * sliding + (forces[:, 1:] * own[:, 1:]).sum(axis=1))
+    unexplained += np.abs((forces[:, 0] + limits.tension) * np.maximum(own[:, 0], 0.0))
+    unexplained += np.abs((capacity - forces[:, 0]) * np.maximum(-own[:, 0], 0.0))
+    return float(np.abs(strength) @ sliding), float(unexplained.sum())
