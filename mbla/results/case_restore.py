@@ -17,7 +17,7 @@ from mbla.results.case_content import (
     PROGRAM_FIELDS,
     SIZE_FIELDS,
 )
-from mbla.results.case_fields import MECHANICS_GROUPS
+from mbla.results.mechanism_fields import MECHANICS_GROUPS
 from mbla.results.results import CaseResult
 from mbla.solution.solution import (
     Checks,
