@@ -16,7 +16,7 @@ from mbla.model import Model, build_model
 from mbla.model.model import LoadCase
 from mbla.program import Program, assemble
 from mbla.program.convex import assemble_convex
-from mbla.program.reductions import Reduced, reduce_program
+from mbla.program.reductions import Reduced, allowed_reductions, reduce_program
 from mbla.program.remarks import program_notices
 from mbla.results.files import OutputFolder
 from mbla.results.provenance import collect_provenance
@@ -124,7 +124,7 @@ def solve_case(
 def reduced_program(deck: Deck, model: Model, contacts: Contacts, program: Program) -> Reduced:
     """What of the program has to be solved."""
     associative = deck.analysis.flow_rule == "associative"
-    return reduce_program(model, contacts, program, deck.analysis.reductions, associative=associative)
+    return reduce_program(model, contacts, program, allowed_reductions(deck.analysis), associative=associative)
 
 
 def contacts_of(deck: Deck, model: Model) -> Contacts:
