@@ -167,20 +167,36 @@ def settings_in_words(deck: Deck, settings: SolverSettings) -> dict[str, str]:
     words = {
         "flow_rule": analysis.flow_rule,
         "contact_model": analysis.contact_model,
+        "friction_cone": "circular" if analysis.friction_cone == "circular" else f"polyhedral, {analysis.sides} sides",
         "accuracy": analysis.accuracy,
-        "solver": "clarabel, kinematic form",
+        "solver": f"{analysis.solver}, {analysis.form} form",
         "tolerance": f"{settings.tolerance:g}",
         "max_iterations": str(settings.max_iterations),
+        "contact_points": _points_in_words(deck),
         "contact_tolerance": f"{deck.contacts.tolerance:g}",
     }
-    if analysis.flow_rule != "associative":
-        words["scheme"] = "published" if analysis.flow_rule == "dilatancy" else analysis.scheme
-        parameters = getattr(analysis, words["scheme"], None)  # none for auto
+    if analysis.flow_rule == "associative":
+        words["forces"] = analysis.forces
+    elif analysis.flow_rule == "non_associative":
+        words["scheme"] = analysis.scheme
+        parameters = getattr(analysis, analysis.scheme, None)  # none for auto
         if parameters is not None:
             words |= {f"scheme_{name}": f"{value:g}" for name, value in parameters.model_dump().items()}
+    off = [name for name, on in analysis.reductions.model_dump().items() if not on]
+    if off:
+        words["reductions_off"] = ", ".join(off)
     if analysis.time_limit is not None:
         words["time_limit"] = f"{analysis.time_limit:g} s"
     return words
+
+
+def _points_in_words(deck: Deck) -> str:
+    """How an interface is represented."""
+    contacts = deck.contacts
+    if deck.analysis.contact_model == "convex":
+        return "resultants of each interface"
+    words = "corners" if contacts.refine == 1 else f"{contacts.refine} along each edge, and inside"
+    return words + (f", inset by {contacts.inset:g}" if contacts.inset else "")
 
 
 def differences_from_expected(deck: Deck, cases: Sequence[CaseResult]) -> list[Notice]:

@@ -125,8 +125,11 @@ def _locked_by_dilatancy(
 ) -> PartResult:
     """Associative flow locks: without dilatancy joints may still give way, which is decided first."""
     program, associative = result.program, result.associative
-    if analysis.flow_rule != "non_associative":
+    if analysis.flow_rule == "livesley":
         return result
+    if analysis.flow_rule == "dilatancy":
+        sequence = solve_flow(Flow(program, associative, analysis, settings, log))
+        return replace(result, sequence=sequence) if sequence.status is Status.SOLVED else result
     decision = non_associative_bounded(program, settings)
     if decision.verdict is Boundedness.UNBOUNDED:
         return replace(result, associative=replace(associative, reason=decision.reason))
