@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
@@ -58,7 +59,7 @@ analysis: {flow_rule: associative, contact_model: convex}
 """A prism without weight, pressed by 1000 N at a point of its top."""
 
 
-def prism(outline: list[list[float]], point: list[float]) -> str:
+def prism(outline: Sequence[tuple[float, float]], point: Sequence[float]) -> str:
     n = len(outline)
     vertices = [[x, y, z] for z in (0, 1) for x, y in outline]
     faces = [list(range(n)), list(range(n, 2 * n))]
@@ -148,8 +149,8 @@ def test_resultants_are_those_of_the_loads() -> None:
 # --- crushing -----------------------------------------------------------------------------------------------------
 
 
-RECTANGLE = [[0, 0], [1.2, 0], [1.2, 0.8], [0, 0.8]]
-TRIANGLE = [[0, 0], [1, 0], [0.2, 0.9]]
+RECTANGLE = ((0, 0), (1.2, 0), (1.2, 0.8), (0, 0.8))
+TRIANGLE = ((0, 0), (1, 0), (0.2, 0.9))
 CENTROID = np.array([0.4, 0.3])
 
 
@@ -172,8 +173,8 @@ def test_crushing_is_associative_whatever_the_flow_rule() -> None:
 
 
 def test_outlines_that_are_not_convex_crush_by_points_and_say_so() -> None:
-    outline = [[0, 0], [1, 0], [1, 0.4], [0.4, 0.4], [0.4, 1], [0, 1]]
-    text = prism(outline, [0.35, 0.35])
+    angle = ((0, 0), (1, 0), (1, 0.4), (0.4, 0.4), (0.4, 1), (0, 1))
+    text = prism(angle, [0.35, 0.35])
     line = line_of(text)
     assert convex(line)[0].mechanics is not None
     assert factor(text) == pytest.approx(concave(line), rel=1e-6)

@@ -32,8 +32,8 @@ point up to three quarters of the way to the outline (in brackets: contact force
   exact.
 
 As rows: σ is the multiplier of V and R together, η the slip, k± torsion in both senses, ζ and γ what the reduced area
-adds: multipliers z_e ≥ 0 of the conditions R ≤ μ N (1 − s_e·p) + cA enter by ζ = Σ z_e and γ = Σ z_e s_e alone, and exist
-where ζ ≥ γ·q for all corners q of the polar polygon of the s_e: those of the outline itself, or for a rectangle the four
+adds: multipliers z_e ≥ 0 of the conditions R ≤ μ N (1 − s_e·p) + cA enter by ζ = Σ z_e and γ = Σ z_e s_e alone, and
+exist where ζ ≥ γ·q for all corners q of the polar polygon of the s_e: those of the outline, or for a rectangle the four
 points (± ρ/(2 ∂ρ/∂a), 0), (0, ± ρ/(2 ∂ρ/∂b)).
 """
 

@@ -40,7 +40,7 @@ SHAPES = {
 
 
 def points_inside(outline: FloatArray, n: int = 60) -> tuple[FloatArray, FloatArray]:
-    """Gauss points of a convex polygon (m, 2), triangle by triangle from its first corner, and weights that sum to 1."""
+    """Gauss points of a convex polygon (m, 2), triangle by triangle, and their weights, which sum to 1."""
     node, weight = np.polynomial.legendre.leggauss(n)
     node, weight = 0.5 * (node + 1.0), 0.5 * weight
     u, v = np.meshgrid(node, node, indexing="ij")

@@ -19,7 +19,7 @@ def centres(size: float, seed: int = 1) -> FloatArray:
     odd = np.random.default_rng(seed).uniform(0, 2 * np.pi, 20)
     angle = np.concatenate([np.pi / 2 * np.arange(4), odd])
     radius = size * np.concatenate([np.geomspace(1e-3, 300.0, 25), np.linspace(0.1, 3.0, 25)])
-    return (radius[:, None, None] * np.column_stack([np.cos(angle), np.sin(angle)])).reshape(1, -1, 2)
+    return np.asarray((radius[:, None, None] * np.column_stack([np.cos(angle), np.sin(angle)])).reshape(1, -1, 2))
 
 
 def limit_curve(outline: FloatArray, seed: int = 1) -> tuple[FloatArray, FloatArray]:
