@@ -88,7 +88,7 @@ def run(deck_path: Path, options: RunOptions, progress: Progress | None = None) 
             provenance=collect_provenance(),
             settings=settings_in_words(deck, settings),
             time={"read": read - started, "contacts": found - read, "solve": time.perf_counter() - found},
-            exit_code=exit_code(cases) or (4 if differences else 0),
+            exit_code=exit_code(cases, differences),
         )
         output = deck.content.output
         return write_results(results, out, output.vtu, output.frames, output.plots)
@@ -212,9 +212,9 @@ def differences_from_expected(deck: Deck, cases: Sequence[CaseResult]) -> list[N
     ]
 
 
-def exit_code(cases: Sequence[CaseResult]) -> int:
-    """Exit status of a run: the gravest of its cases."""
-    codes = {EXIT_CODES[case.status] for case in cases}
+def exit_code(cases: Sequence[CaseResult], differences: Sequence[Notice] = ()) -> int:
+    """Exit status of a run: the gravest of its cases; a difference from what is expected counts as not verified."""
+    codes = {EXIT_CODES[case.status] for case in cases} | ({4} if differences else set())
     return next((code for code in GRAVEST_FIRST if code in codes), 0)
 
 

@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from mbla.arrays import FloatArray
 from mbla.deck.analysis import AnalysisSection
 from mbla.solution.cone_solution import Log
 from mbla.solution.factor_range import FactorRange, factor_range
@@ -29,9 +30,13 @@ scheme itself. Of 470 clamped and wedged planks the 58 with a peak lay below, of
 
 @dataclass(frozen=True)
 class Questions:
-    """What is asked, and what every answer needs."""
+    """What is asked, and what every answer needs.
+
+    point_areas : (n_points of the whole model,)
+    """
 
     analysis: AnalysisSection
+    point_areas: FloatArray
     settings: SolverSettings
     log: Log
 
@@ -52,7 +57,7 @@ def _with_least_forces(result: PartResult, questions: Questions) -> PartResult:
     state = result.associative.state
     if questions.analysis.forces != "least_squares" or state is None or result.outer is not None:
         return result
-    weights = point_weights(result.program, None)
+    weights = point_weights(result.program, questions.point_areas)
     first = len(result.programs) + 1
     least = least_forces(result.program, state, weights, questions.settings, questions.log, first=first)
     return replace(result.with_remark(least.remark, least.programs), least=least.state)

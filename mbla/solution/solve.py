@@ -77,7 +77,7 @@ def solve(reduced: Reduced, analysis: AnalysisSection, settings: SolverSettings,
             log(iteration)
 
     stage = _Stage(reduced.parts, reduced.interface_of_point, settings, record)
-    questions = Questions(analysis, settings, record)
+    questions = Questions(analysis, reduced.point_areas, settings, record)
     results = [with_answers(solve_part(program, analysis, settings, record), questions) for program in reduced.parts]
     solution = _combined(stage, analysis, results)
     assessed = [result.standing for result in results if result.standing is not None]

@@ -12,7 +12,8 @@ def bordered(rng: np.random.Generator) -> sp.csc_array:
     half = sp.random_array((40, 60), density=0.1, rng=rng)
     definite = half @ half.T + 1e-3 * sp.eye_array(40)
     column = sp.csc_array(rng.normal(size=(40, 1)))
-    return sp.csc_array(sp.block_array([[definite, column], [column.T, None]]))
+    blocks: list[list[sp.sparray | None]] = [[definite, column], [column.T, None]]
+    return sp.csc_array(sp.block_array(blocks))
 
 
 @pytest.mark.parametrize("symmetric", [True, False])

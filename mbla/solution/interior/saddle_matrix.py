@@ -143,8 +143,8 @@ def _outer(scale: FloatArray) -> FloatArray:
 
 
 def _times(blocks: FloatArray, vectors: FloatArray) -> FloatArray:
-    return (blocks @ vectors[:, :, None])[:, :, 0]
+    return np.asarray((blocks @ vectors[:, :, None])[:, :, 0])
 
 
 def _turned(blocks: FloatArray, vectors: FloatArray) -> FloatArray:
-    return np.einsum("kij,ki->kj", blocks, vectors)
+    return np.asarray(np.einsum("kij,ki->kj", blocks, vectors))
