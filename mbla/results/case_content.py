@@ -29,7 +29,7 @@ CHECKED = (
     "static_bound",
     "kinematic_bound",
     "gap",
-    "peak",
+    "peak_load_factor",
 )
 """numbers of Checks, each with a dataset of its own"""
 MECHANICS_FIELDS = ("load_factor", "contact_forces", "contact_velocities", "mechanism", "modes")

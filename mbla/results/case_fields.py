@@ -149,7 +149,10 @@ CHECKS = (
             ("static_bound", "lower bound of the associative load factor"),
             ("kinematic_bound", "upper bound of the associative load factor"),
             ("gap", "relative distance of the two bounds"),
-            ("peak", "verified greatest load factor of the load path, where that lies above the load factor"),
+            (
+                "peak_load_factor",
+                "verified greatest load factor of the load path, where that lies above the load factor",
+            ),
         ),
     ),
     Field(

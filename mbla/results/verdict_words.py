@@ -63,8 +63,8 @@ def verdict(model: Model, case: CaseResult) -> str:
         known = "verified" if verified else "approximate"
         return f"collapses between {value} and {highest}, with the inscribed and the circumscribed polyhedron, {known}"
     known = f"{value}, verified" if verified else f"about {value}, approximate"
-    if np.isfinite(case.checks.peak):
-        peak = load_factor_words(model, case.load_case, case.checks.peak)
+    if np.isfinite(case.checks.peak_load_factor):
+        peak = load_factor_words(model, case.load_case, case.checks.peak_load_factor)
         return f"collapses at {peak}, the peak of its load path; once moving it carries {known}"
     return f"collapses at {known}"
 

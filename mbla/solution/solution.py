@@ -193,7 +193,7 @@ class Checks:
     slip_residual            : share of the power balance that sliding against friction leaves unexplained; the rest of
                                the complementarity residual is opening under force
     lower, upper             : verified ends of the range of a non-associative load factor, NaN where there are none
-    peak                     : verified greatest load factor of the load path, NaN where there is none
+    peak_load_factor         : verified greatest load factor of the load path, NaN where there is none
     verified                 : true where everything is within tolerance
     failures                 : what is not, in words
     """
@@ -213,4 +213,4 @@ class Checks:
     slip_residual: float = float("nan")
     lower: float = float("nan")
     upper: float = float("nan")
-    peak: float = float("nan")
+    peak_load_factor: float = float("nan")

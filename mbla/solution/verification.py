@@ -36,7 +36,9 @@ def verify(model: Model, contacts: Contacts, load_case: LoadCase, solution: Solu
     if solution.status is Status.UNBOUNDED:
         failures = _lock_failures(model, contacts, load_case, solution)
         checks = replace(checks, verified=not failures, failures=failures)
-    return replace(checks, lower=lower, upper=upper, peak=peak_check(model, contacts, load_case, solution.peak))
+    return replace(
+        checks, lower=lower, upper=upper, peak_load_factor=peak_check(model, contacts, load_case, solution.peak)
+    )
 
 
 def _lock_failures(model: Model, contacts: Contacts, load_case: LoadCase, solution: Solution) -> tuple[str, ...]:

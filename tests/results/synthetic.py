@@ -235,7 +235,13 @@ def full_results() -> Results:
         sides=8,
     )
     checks = replace(
-        case.checks, tension_violation=1e-9, slip_residual=2e-9, lower=0.45, upper=0.52, peak=0.6, failures=("x",)
+        case.checks,
+        tension_violation=1e-9,
+        slip_residual=2e-9,
+        lower=0.45,
+        upper=0.52,
+        peak_load_factor=0.6,
+        failures=("x",),
     )
     return replace(results, cases=(replace(case, solution=solution, checks=checks), results.cases[1]))
 
