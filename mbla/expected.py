@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 from mbla.deck.types import Expectation
+from mbla.results.outcome import associative_of, result_of
 from mbla.results.results import CaseResult
 from mbla.solution.solution import Mechanics
 
@@ -16,8 +17,8 @@ def compare_with_expected(case: CaseResult, expected: Expectation) -> list[str]:
     if expected.status is not None and case.status.value != expected.status:
         differences.append(f"{name}: status {case.status.value}, expected {expected.status} ({expected.source})")
     found = {
-        "load_factor": _factor(case.solution.mechanics),
-        "associative_load_factor": _factor(case.solution.associative),
+        "load_factor": _factor(result_of(case)),
+        "associative_load_factor": _factor(associative_of(case)),
         "lower": None if math.isnan(case.checks.lower) else case.checks.lower,
     }
     for key, value in found.items():

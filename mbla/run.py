@@ -16,7 +16,7 @@ from mbla.model import Model, build_model
 from mbla.model.model import LoadCase
 from mbla.program import Program, assemble
 from mbla.program.convex import assemble_convex
-from mbla.program.reductions import Reduced, reduce_program
+from mbla.program.reductions import Reduced, allowed_reductions, reduce_program
 from mbla.program.remarks import program_notices
 from mbla.results.files import OutputFolder
 from mbla.results.provenance import collect_provenance
@@ -88,7 +88,7 @@ def run(deck_path: Path, options: RunOptions, progress: Progress | None = None) 
             provenance=collect_provenance(),
             settings=settings_in_words(deck, settings),
             time={"read": read - started, "contacts": found - read, "solve": time.perf_counter() - found},
-            exit_code=exit_code(cases) or (4 if differences else 0),
+            exit_code=exit_code(cases, differences),
         )
         output = deck.content.output
         return write_results(results, out, output.vtu, output.frames, output.plots)
@@ -124,7 +124,7 @@ def solve_case(
 def reduced_program(deck: Deck, model: Model, contacts: Contacts, program: Program) -> Reduced:
     """What of the program has to be solved."""
     associative = deck.analysis.flow_rule == "associative"
-    return reduce_program(model, contacts, program, deck.analysis.reductions, associative=associative)
+    return reduce_program(model, contacts, program, allowed_reductions(deck.analysis), associative=associative)
 
 
 def contacts_of(deck: Deck, model: Model) -> Contacts:
@@ -167,20 +167,36 @@ def settings_in_words(deck: Deck, settings: SolverSettings) -> dict[str, str]:
     words = {
         "flow_rule": analysis.flow_rule,
         "contact_model": analysis.contact_model,
+        "friction_cone": "circular" if analysis.friction_cone == "circular" else f"polyhedral, {analysis.sides} sides",
         "accuracy": analysis.accuracy,
-        "solver": "clarabel, kinematic form",
+        "solver": f"{analysis.solver}, {analysis.form} form",
         "tolerance": f"{settings.tolerance:g}",
         "max_iterations": str(settings.max_iterations),
+        "contact_points": _points_in_words(deck),
         "contact_tolerance": f"{deck.contacts.tolerance:g}",
     }
-    if analysis.flow_rule != "associative":
-        words["scheme"] = "published" if analysis.flow_rule == "dilatancy" else analysis.scheme
-        parameters = getattr(analysis, words["scheme"], None)  # none for auto
+    if analysis.flow_rule == "associative":
+        words["forces"] = analysis.forces
+    elif analysis.flow_rule == "non_associative":
+        words["scheme"] = analysis.scheme
+        parameters = getattr(analysis, analysis.scheme, None)  # none for auto
         if parameters is not None:
             words |= {f"scheme_{name}": f"{value:g}" for name, value in parameters.model_dump().items()}
+    off = [name for name, on in analysis.reductions.model_dump().items() if not on]
+    if off:
+        words["reductions_off"] = ", ".join(off)
     if analysis.time_limit is not None:
         words["time_limit"] = f"{analysis.time_limit:g} s"
     return words
+
+
+def _points_in_words(deck: Deck) -> str:
+    """How an interface is represented."""
+    contacts = deck.contacts
+    if deck.analysis.contact_model == "convex":
+        return "resultants of each interface"
+    words = "corners" if contacts.refine == 1 else f"{contacts.refine} along each edge, and inside"
+    return words + (f", inset by {contacts.inset:g}" if contacts.inset else "")
 
 
 def differences_from_expected(deck: Deck, cases: Sequence[CaseResult]) -> list[Notice]:
@@ -196,9 +212,9 @@ def differences_from_expected(deck: Deck, cases: Sequence[CaseResult]) -> list[N
     ]
 
 
-def exit_code(cases: Sequence[CaseResult]) -> int:
-    """Exit status of a run: the gravest of its cases."""
-    codes = {EXIT_CODES[case.status] for case in cases}
+def exit_code(cases: Sequence[CaseResult], differences: Sequence[Notice] = ()) -> int:
+    """Exit status of a run: the gravest of its cases; a difference from what is expected counts as not verified."""
+    codes = {EXIT_CODES[case.status] for case in cases} | ({4} if differences else set())
     return next((code for code in GRAVEST_FIRST if code in codes), 0)
 
 

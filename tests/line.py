@@ -11,7 +11,7 @@ from mbla.deck import Deck, read_deck
 from mbla.model import Model, build_model
 from mbla.model.model import LoadCase
 from mbla.program import Program, assemble
-from mbla.program.reductions import reduce_program
+from mbla.program.reductions import allowed_reductions, reduce_program
 from mbla.solution import Checks, Solution, solve, verified_status, verify
 from mbla.solution.settings import solver_settings
 from mbla.solution.solution import Status
@@ -80,7 +80,9 @@ def solution_of(line: Line) -> Solution:
     """Solve without verification."""
     analysis = line.deck.analysis
     associative = analysis.flow_rule == "associative"
-    reduced = reduce_program(line.model, line.contacts, line.program, analysis.reductions, associative=associative)
+    reduced = reduce_program(
+        line.model, line.contacts, line.program, allowed_reductions(analysis), associative=associative
+    )
     return solve(reduced, analysis, solver_settings(analysis))
 
 

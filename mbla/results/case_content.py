@@ -9,8 +9,8 @@ import numpy as np
 
 from mbla.contacts.contacts import Contacts
 from mbla.model.model import Model
-from mbla.results.case_fields import MECHANICS_GROUPS
 from mbla.results.collapse import collapse_of
+from mbla.results.mechanism_fields import MECHANICS_GROUPS
 from mbla.results.results import CaseResult
 from mbla.solution.solution import Mechanics, Solution, StandingResult
 
@@ -29,6 +29,7 @@ CHECKED = (
     "static_bound",
     "kinematic_bound",
     "gap",
+    "peak",
 )
 """numbers of Checks, each with a dataset of its own"""
 MECHANICS_FIELDS = ("load_factor", "contact_forces", "contact_velocities", "mechanism", "modes")

@@ -29,6 +29,7 @@ def case_json(model: Model, contacts: Contacts, case: CaseResult) -> dict[str, A
         "load_factor": None if mechanics is None else number(mechanics.load_factor),
         "factor_unique": factor_unique(case),
         "range": None if ends is None else [number(end) for end in ends],
+        "peak": number(checks.peak),
         "spread": None if solution.spread is None else [number(end) for end in solution.spread],
         "best_iterate": _best_iterate(case),
         "static_bound": number(checks.static_bound),

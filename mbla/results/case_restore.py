@@ -17,7 +17,7 @@ from mbla.results.case_content import (
     PROGRAM_FIELDS,
     SIZE_FIELDS,
 )
-from mbla.results.case_fields import MECHANICS_GROUPS
+from mbla.results.mechanism_fields import MECHANICS_GROUPS
 from mbla.results.results import CaseResult
 from mbla.solution.solution import (
     Checks,
@@ -49,6 +49,7 @@ def case_from(load_case: LoadCase, get: dict[str, Any]) -> CaseResult:
         associative=answers["associative"],
         lower=answers["lower"],
         upper=answers["upper"],
+        peak=answers["peak"],
         outer=answers["outer"],
         certificate=get.get("certificate"),
         reason=get["reason"],

@@ -7,7 +7,19 @@ from importlib.metadata import PackageNotFoundError, version
 
 from mbla import __version__
 
-LIBRARIES = ("numpy", "scipy", "clarabel", "shapely", "manifold3d", "meshio", "h5py", "pyyaml", "pydantic", "pint")
+LIBRARIES = (
+    "numpy",
+    "scipy",
+    "clarabel",
+    "highspy",
+    "shapely",
+    "manifold3d",
+    "meshio",
+    "h5py",
+    "pyyaml",
+    "pydantic",
+    "pint",
+)
 
 
 def collect_provenance() -> dict[str, str]:

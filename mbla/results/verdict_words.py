@@ -62,7 +62,11 @@ def verdict(model: Model, case: CaseResult) -> str:
         highest = load_factor_words(model, case.load_case, outer.load_factor)
         known = "verified" if verified else "approximate"
         return f"collapses between {value} and {highest}, with the inscribed and the circumscribed polyhedron, {known}"
-    return f"collapses at {value}, verified" if verified else f"collapses at about {value}, approximate"
+    known = f"{value}, verified" if verified else f"about {value}, approximate"
+    if np.isfinite(case.checks.peak):
+        peak = load_factor_words(model, case.load_case, case.checks.peak)
+        return f"collapses at {peak}, the peak of its load path; once moving it carries {known}"
+    return f"collapses at {known}"
 
 
 def _without_load_factor(model: Model, case: CaseResult) -> str:

@@ -20,8 +20,8 @@ import numpy as np
 from mbla.arrays import FloatArray
 from mbla.program.program import Program
 from mbla.program.static import gravity_form
-from mbla.solution.associative_form import AssociativeForm, in_own_units, in_velocities
-from mbla.solution.bounds import CertifiedGap, certified_gap, falling_motion, repaired_forces
+from mbla.solution.associative_form import AssociativeForm, in_forces, in_own_units, in_velocities
+from mbla.solution.bounds import CertifiedGap, certified_gap, factor_size, falling_motion, repaired_forces
 from mbla.solution.clarabel_adapter import ClarabelProgram, regularization
 from mbla.solution.cone_solution import ConeSolution, ConeSolver, Log
 from mbla.solution.cone_solver import cone_solver
@@ -71,8 +71,6 @@ class AssociativeResult:
 
     certificate : (n_rows,) velocities, non-dimensional, of a motion in which the dead load does more work than the
                   joints dissipate
-    dead_forces : (n_points, components) forces that carry the dead load alone within the yield conditions, None where
-                  none were found
     """
 
     status: Status
@@ -80,7 +78,6 @@ class AssociativeResult:
     certificate: FloatArray | None
     reason: str
     programs: tuple[ProgramRecord, ...]
-    dead_forces: FloatArray | None = None
 
 
 @dataclass
@@ -97,9 +94,9 @@ class _Run:
     records: list[ProgramRecord]
 
     @property
-    def dead_over_live(self) -> float:
-        """Size of load factors."""
-        return float(np.linalg.norm(self.program.dead_load) / np.linalg.norm(self.program.live_load))
+    def size(self) -> float:
+        """Of load factors."""
+        return factor_size(self.program)
 
     def result(self, status: Status, reason: str) -> AssociativeResult:
         """A result without state."""
@@ -137,12 +134,13 @@ def solve_associative(
     if falling.any():
         return _no_equilibrium(run, falling)
     rough = program.limits.friction > ROUGH
-    answer = _forward(run, form or in_velocities(program))
-    if form is None and rough.any() and not _is_decided(run, answer):
-        limits = replace(program.limits, friction=np.minimum(program.limits.friction, ROUGH))
-        form = in_velocities(replace(program, limits=limits))
-        answer = _better(answer, _forward(run, form))
     form = form or in_velocities(program)
+    answer = _forward(run, form)
+    if form.exact and rough.any() and not _is_decided(run, answer):
+        limits = replace(program.limits, friction=np.minimum(program.limits.friction, ROUGH))
+        made = (in_velocities if form.has_units else in_forces)(replace(program, limits=limits))
+        form = replace(made, program=program)  # proved is what holds of the true friction
+        answer = _better(answer, _forward(run, form))
     if answer.certificate is not None:
         return _no_equilibrium(run, answer.certificate)
     if answer.gap is None and answer.solution.status is not Status.UNBOUNDED:
@@ -226,7 +224,7 @@ def _better(first: _Answer, second: _Answer) -> _Answer:
 
 def _size(run: _Run, answer: _Answer) -> float:
     """Size of the load factor: 1, or its own where that is small."""
-    size, value = run.dead_over_live, abs(answer.solution.objective)
+    size, value = run.size, abs(answer.solution.objective)
     if answer.gap is None or value > SMALL * size:
         return 1.0
     return value if value > NOISE * size else ZERO_SIZE * size
@@ -236,25 +234,26 @@ def _with_dead_load(run: _Run, form: AssociativeForm, answer: _Answer) -> Associ
     """The result, once it is known that the dead load alone is carried."""
     settings = replace(run.settings, tolerance=form.tolerance(run.settings.tolerance))
     solver = cone_solver(form.reversed_program, settings, run.log)
-    reverse, carried = answer.solution, None
+    reverse, carried = answer.solution, not run.program.dead_load.any()
     for enough in (ENOUGH, 0.0) if isinstance(solver, ClarabelProgram) else (0.0,):
+        if carried or reverse.status is Status.TIME_LIMIT:
+            break
         reverse = _solved(run, form, solver, "reverse", -1.0, enough)
         carried = _carried(run, form, reverse)
-        if carried is not None or reverse.status is Status.TIME_LIMIT:
-            break
-    certificate = None if carried is not None else _certificate(run, form, reverse)
-    if certificate is not None:
-        return _no_equilibrium(run, certificate)
-    if carried is None and _falls(run, reverse):
-        return _undecided(run, reverse)
-    if carried is None and reverse.status not in (*WITH_VALUE, Status.UNBOUNDED):
-        reason = "whether the dead load alone is carried could not be decided: " + _words_of(reverse)
-        return run.result(reverse.status, reason)
+    if not carried:
+        certificate = _certificate(run, form, reverse)
+        if certificate is not None:
+            return _no_equilibrium(run, certificate)
+        if _falls(run, reverse):
+            return _undecided(run, reverse)
+        if reverse.status not in (*WITH_VALUE, Status.UNBOUNDED):
+            reason = "whether the dead load alone is carried could not be decided: " + _words_of(reverse)
+            return run.result(reverse.status, reason)
     if answer.solution.status is Status.UNBOUNDED and reverse.status is Status.UNBOUNDED:
         return _locked_both_ways(run, settings)
     if answer.solution.status is Status.UNBOUNDED:
         return run.result(Status.UNBOUNDED, LOCKED)
-    return _with_load_factor(run, answer, carried)
+    return _with_load_factor(run, answer)
 
 
 def _locked_both_ways(run: _Run, settings: SolverSettings) -> AssociativeResult:
@@ -274,7 +273,7 @@ def _locked_both_ways(run: _Run, settings: SolverSettings) -> AssociativeResult:
     return _undecided(run, solution) if certificate is None else _no_equilibrium(run, certificate)
 
 
-def _with_load_factor(run: _Run, answer: _Answer, carried: tuple[FloatArray, float] | None) -> AssociativeResult:
+def _with_load_factor(run: _Run, answer: _Answer) -> AssociativeResult:
     gap, status, reason = answer.gap, Status.SOLVED, ""
     assert gap is not None
     if not gap.gap <= ACCEPTED_GAP:
@@ -286,21 +285,16 @@ def _with_load_factor(run: _Run, answer: _Answer, carried: tuple[FloatArray, flo
         )
     forces, factor, velocities = gap.forces, gap.load_factor, gap.velocities
     state = law_state(run.program, run.program.limits.friction, forces, velocities, factor)
-    dead_forces = None
-    if carried is not None and np.isfinite(gap.static):
-        below, least = carried
-        share = factor / (factor - least) if factor > least else 0.0
-        dead_forces = share * below + (1.0 - share) * forces
-    return AssociativeResult(status, state, None, reason, tuple(run.records), dead_forces)
+    return AssociativeResult(status, state, None, reason, tuple(run.records))
 
 
-def _carried(run: _Run, form: AssociativeForm, reverse: ConeSolution) -> tuple[FloatArray, float] | None:
-    """Forces in equilibrium at a load factor of zero or below, and that factor; None where none could be proved."""
+def _carried(run: _Run, form: AssociativeForm, reverse: ConeSolution) -> bool:
+    """Whether the forces prove that there is equilibrium at a load factor of zero or below."""
     forces = form.forces(reverse)
     if not np.isfinite(forces).all() or not np.isfinite(reverse.objective):
-        return None
+        return False
     repaired = repaired_forces(run.program, forces, -reverse.objective)
-    return repaired if repaired is not None and repaired[1] <= STANDS_MARGIN * run.dead_over_live else None
+    return repaired is not None and repaired[1] <= STANDS_MARGIN * run.size
 
 
 def _solved(
@@ -333,7 +327,7 @@ def _falls(run: _Run, solution: ConeSolution) -> bool:
     """Whether a program, of either sign of the live load, says that there is no equilibrium without live load."""
     if not run.program.dead_load.any():  # no forces balance no load
         return False
-    negative = solution.objective < -STANDS_MARGIN * run.dead_over_live
+    negative = solution.objective < -STANDS_MARGIN * run.size
     return solution.status is Status.NO_EQUILIBRIUM or (solution.status in WITH_VALUE and negative)
 
 

@@ -12,7 +12,8 @@ import scipy.sparse as sp
 from mbla.arrays import FloatArray
 from mbla.program.yield_conditions import YieldLimits
 
-TINY = 1e-300
+TINY = 1e-100
+"""Stands for zero slack: its square and the square of its inverse are within the range of numbers."""
 
 
 def force_metric(limits: YieldLimits, x: FloatArray) -> sp.csr_array:

@@ -53,6 +53,9 @@ REGULARIZATION = 1e-15
 INSIDE = 1e-13
 """Excess over a yield condition, relative to the mean load of a block, that is rounding."""
 
+RUNAWAY = 1e9
+"""Growth of the forces that is no repair any more."""
+
 MARGIN = 1e-12
 """Share of the largest normal force, or of what a light block has to balance, by which forces are put inside."""
 
@@ -101,9 +104,18 @@ def certified_gap(program: Program, state: LawState) -> CertifiedGap:
     values = [kinematic_value(program, u, charge) for u in mechanisms]
     best = int(np.argmin(np.nan_to_num(values, nan=np.inf)))
     static, kinematic = (np.nan if repaired is None else factor), values[best]
-    least = ZERO_FACTOR * float(np.linalg.norm(program.dead_load) / np.linalg.norm(program.live_load))
+    if not static >= 0.0 and not program.dead_load.any():  # no forces balance no load
+        forces, factor, static = np.zeros_like(forces), 0.0, 0.0
+    least = ZERO_FACTOR * factor_size(program)
     gap = abs(kinematic - static) / max(abs(kinematic), least, 1e-300)
     return CertifiedGap(static, kinematic, gap, forces, factor, mechanisms[best])
+
+
+def factor_size(program: Program) -> float:
+    """Size of load factors: dead load over live load; the strength of the joints for want of it, 1 for want of that."""
+    strength = float((program.limits.cohesion + program.limits.tension).sum())
+    sizes = (float(np.linalg.norm(program.dead_load)), strength, 1.0)
+    return next(size for size in sizes if size > 0.0) / float(np.linalg.norm(program.live_load))
 
 
 def falling_motion(program: Program, velocities: FloatArray) -> FloatArray | None:
@@ -164,6 +176,8 @@ def repaired_forces(
         if step is None:
             break
         x, factor = x + step[0], factor + step[1]
+        if np.abs(x).max(initial=0.0) > RUNAWAY * (1.0 + np.abs(forces).max(initial=0.0)):
+            break
     return best
 
 

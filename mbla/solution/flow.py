@@ -12,6 +12,7 @@ from mbla.program.kinematic import friction_polygon
 from mbla.program.program import Program
 from mbla.solution.associative import AssociativeResult
 from mbla.solution.cone_solution import Log
+from mbla.solution.dilatancy import solve_dilatancy
 from mbla.solution.interior.solve_interior import solve_interior
 from mbla.solution.law_state import SequenceResult
 from mbla.solution.livesley import solve_livesley
@@ -86,8 +87,7 @@ def _published(flow: Flow) -> SequenceResult:
 
 
 def _dilatancy(flow: Flow) -> SequenceResult:
-    dilatancy = flow.program.limits.dilatancy
-    return solve_published(flow.program, flow.associative, flow.analysis.published, dilatancy, flow.settings, flow.log)
+    return solve_dilatancy(flow.program, flow.associative, flow.analysis.proximal, flow.settings, flow.log)
 
 
 def _livesley(flow: Flow) -> SequenceResult:

@@ -6,7 +6,7 @@ tried in turn by
 1. Newton's method from the tangents of the step before: the joints go on as they do, found by one factorisation; where
    that went well the next step is longer, as forces only creep along their solutions then;
 2. the interior-point method (:mod:`mbla.solution.interior_step`) from the same start as ever, polished by 1;
-3. the same for shorter steps, of 1/8 of the length each time.
+3. the same for shorter steps, of 1/8 of the length each time; the next step begins with 8 times the length that went.
 """
 
 from __future__ import annotations
@@ -31,8 +31,8 @@ NEWTON_STEPS = 10
 
 LONGER = 4.0
 SHORTER = 8.0
-SHORTEST = 3
-"""Steps shortened as many times before the exact law is given up from a state."""
+SHORTEST = 4
+"""Lengths that are tried before the exact law is given up from a state."""
 
 
 @dataclass(frozen=True)
@@ -61,6 +61,7 @@ class Step:
     anchor : (n_points, components) forces that it started from
     exact  : whether the exact law holds to ``FITS``; else as far as the interior-point method got, or a lagged step
     by_continuation : whether Newton's method went on from the step before
+    shorter : times that the step was shortened
     work   : factorisations
     """
 
@@ -72,6 +73,7 @@ class Step:
     exact: bool
     work: int
     by_continuation: bool = False
+    shorter: int = 0
 
 
 def next_step(stepper: Stepper, anchor: FloatArray, rho: float, before: Step | None, number: int) -> Step | None:
@@ -90,25 +92,33 @@ def next_step(stepper: Stepper, anchor: FloatArray, rho: float, before: Step | N
             if step.residual <= FITS:
                 return replace(_step_of(anchor, size, step, work), by_continuation=True)
     law = exact_law(stepper.program, stepper.slope)
-    for shorter in range(SHORTEST):
+    first = 0 if before is None else max(before.shorter - 1, 0)
+    for shorter in range(first, SHORTEST):
         size = rho * SHORTER**shorter
         result = _interior(stepper, law, anchor, size, before, number)
         work += result.iterations
         if result.converged:
-            polished = exact_step(
-                stepper.stiffness, stepper.slope, anchor, size, result.velocities, result.load_factor, NEWTON_STEPS
-            )
-            work += polished.factorizations
-            if polished.residual <= FITS:
-                return _step_of(anchor, size, polished, work)
-            return _step_of(anchor, size, result, work)
+            step_made = _polished(stepper, anchor, size, result, work)
+            return replace(step_made, shorter=shorter)
     return None
 
 
 def lagged_step(stepper: Stepper, anchor: FloatArray, rho: float, number: int) -> Step | None:
-    """A step with the friction of the anchor's normal forces: convex, and there is always one."""
+    """A step with the friction of the anchor's normal forces: convex, and there is always one.
+
+    Near the end the exact step is close to it, and is returned instead.
+    """
     result = _interior(stepper, lagged_law(stepper.program, stepper.slope, anchor), anchor, rho, None, number)
-    return _step_of(anchor, rho, result, result.iterations) if result.converged else None
+    return _polished(stepper, anchor, rho, result, result.iterations) if result.converged else None
+
+
+def _polished(stepper: Stepper, anchor: FloatArray, rho: float, result: InteriorResult, work: int) -> Step:
+    """The exact step that Newton's method finds from the result of another, that result where it finds none."""
+    polished = exact_step(
+        stepper.stiffness, stepper.slope, anchor, rho, result.velocities, result.load_factor, NEWTON_STEPS
+    )
+    work += polished.factorizations
+    return _step_of(anchor, rho, polished if polished.residual <= FITS else result, work)
 
 
 def continued(

@@ -13,16 +13,12 @@ from mbla.solution.associative_form import FORMS
 from mbla.solution.boundedness import Boundedness, non_associative_bounded
 from mbla.solution.certificate import cleaned_certificate
 from mbla.solution.clarabel_adapter import Log
-from mbla.solution.factor_range import FactorRange, factor_range
+from mbla.solution.factor_range import FactorRange
 from mbla.solution.flow import Flow, solve_flow
 from mbla.solution.law_state import LawState, SequenceResult
 from mbla.solution.polyhedral import solve_polyhedral, solve_with_opinion
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import ProgramRecord, StandingResult, Status
-from mbla.solution.standing import assess_standing, standing_without_equilibrium
-
-RANGE_RESIDUAL = 1e-4
-"""Residual of a state up to which the range of its load factor is asked for."""
 
 
 @dataclass(frozen=True)
@@ -35,7 +31,10 @@ class PartResult:
     standing    : assessment of the dead load alone, None where it was not asked for
     range       : of the load factor without normality, for the mechanism found
     outer       : with the circumscribed friction polyhedron, ``associative`` having the inscribed one
-    remarks     : on the associative answer, one sentence each
+    remarks     : beside those of the sequence, one sentence each
+    least       : the associative state with the least forces
+    peak        : greatest load factor of the load path, where that lies above the load factor
+    more        : programs solved for what is found beside the load factor
     """
 
     program: Program
@@ -46,6 +45,14 @@ class PartResult:
     range: FactorRange | None = None
     outer: AssociativeResult | None = None
     remarks: tuple[str, ...] = ()
+    least: LawState | None = None
+    peak: LawState | None = None
+    more: tuple[ProgramRecord, ...] = ()
+
+    def with_remark(self, remark: str, programs: tuple[ProgramRecord, ...]) -> PartResult:
+        """The same with one more remark, unless that is empty, and more programs."""
+        remarks = (*self.remarks, remark) if remark else self.remarks
+        return replace(self, remarks=remarks, more=(*self.more, *programs))
 
     @property
     def state(self) -> LawState | None:
@@ -69,15 +76,13 @@ class PartResult:
     def programs(self) -> tuple[ProgramRecord, ...]:
         """All cone programs that were solved for it."""
         own = self.associative.programs if self.sequence is None else self.sequence.programs
-        return own if self.range is None else (*own, *self.range.programs)
+        ends = () if self.range is None else self.range.programs
+        return (*own, *ends, *self.more)
 
 
 def solve_part(program: Program, analysis: AnalysisSection, settings: SolverSettings, log: Log) -> PartResult:
-    """Associative first, then the sequence that the flow rule asks for, its range, and whether the part stands."""
-    result = _with_clean_certificate(_by_flow_rule(program, analysis, settings, log), settings, log)
-    if analysis.range:
-        result = replace(result, range=_range_of(result, settings, log))
-    return replace(result, standing=_standing_of(result, settings)) if analysis.standing else result
+    """Associative first, then the sequence that the flow rule asks for."""
+    return _with_clean_certificate(_by_flow_rule(program, analysis, settings, log), settings, log)
 
 
 def _with_clean_certificate(result: PartResult, settings: SolverSettings, log: Log) -> PartResult:
@@ -120,8 +125,11 @@ def _locked_by_dilatancy(
 ) -> PartResult:
     """Associative flow locks: without dilatancy joints may still give way, which is decided first."""
     program, associative = result.program, result.associative
-    if analysis.flow_rule != "non_associative":
+    if analysis.flow_rule == "livesley":
         return result
+    if analysis.flow_rule == "dilatancy":
+        sequence = solve_flow(Flow(program, associative, analysis, settings, log))
+        return replace(result, sequence=sequence) if sequence.status is Status.SOLVED else result
     decision = non_associative_bounded(program, settings)
     if decision.verdict is Boundedness.UNBOUNDED:
         return replace(result, associative=replace(associative, reason=decision.reason))
@@ -130,22 +138,6 @@ def _locked_by_dilatancy(
     sequence = solve_flow(Flow(program, associative, analysis, settings, log))
     sequence = replace(sequence, remarks=(decision.reason, *sequence.remarks))
     return replace(result, associative=replace(associative, reason=""), sequence=sequence)
-
-
-def _range_of(result: PartResult, settings: SolverSettings, log: Log) -> FactorRange | None:
-    """Only of a state that fits the law: the mechanism of another one belongs to nothing."""
-    state = None if result.sequence is None else result.sequence.state
-    if state is None or state.residual > RANGE_RESIDUAL:
-        return None
-    return factor_range(result.program, state, settings, log, len(result.programs) + 1)
-
-
-def _standing_of(result: PartResult, settings: SolverSettings) -> StandingResult:
-    associative = result.associative
-    if associative.certificate is not None:
-        return standing_without_equilibrium(result.program, associative.certificate)
-    decided = associative.state is not None or associative.status is Status.UNBOUNDED
-    return assess_standing(result.program, settings, True if decided else None)
 
 
 def _unloaded_part(program: Program, settings: SolverSettings, log: Log) -> PartResult:

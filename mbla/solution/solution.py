@@ -136,6 +136,8 @@ class Solution:
     scheme      : how a flow without normality was solved; empty for associative flow
     remarks     : what a reader of the figure must know, one sentence each
     lower, upper: non-associative flow: least and greatest load factor for the mechanism found, with the forces
+    peak        : greatest load factor of the load path where that lies above ``mechanics``; its state is passed, not
+                  at rest: the forces carry it, the mechanism is how they are passing
     outer       : polyhedral friction: answer with the circumscribed polyhedron, ``associative`` having the inscribed;
                   None where the two do not differ, as in a plane
     sides       : of the friction polyhedron; 0 for the circular cone
@@ -161,6 +163,7 @@ class Solution:
     remarks: tuple[str, ...] = ()
     lower: Mechanics | None = None
     upper: Mechanics | None = None
+    peak: Mechanics | None = None
     outer: Mechanics | None = None
     sides: int = 0
     spread: tuple[float, float] | None = None
@@ -190,6 +193,7 @@ class Checks:
     slip_residual            : share of the power balance that sliding against friction leaves unexplained; the rest of
                                the complementarity residual is opening under force
     lower, upper             : verified ends of the range of a non-associative load factor, NaN where there are none
+    peak                     : verified greatest load factor of the load path, NaN where there is none
     verified                 : true where everything is within tolerance
     failures                 : what is not, in words
     """
@@ -209,3 +213,4 @@ class Checks:
     slip_residual: float = float("nan")
     lower: float = float("nan")
     upper: float = float("nan")
+    peak: float = float("nan")

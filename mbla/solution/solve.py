@@ -4,14 +4,17 @@ from __future__ import annotations
 
 import time
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from mbla.arrays import FloatArray, IntArray
 from mbla.deck.analysis import AnalysisSection
 from mbla.program.program import Program
 from mbla.program.reductions import Reduced
-from mbla.solution.clarabel_adapter import Log
+from mbla.solution.beside import Questions, with_answers
+from mbla.solution.cone_solution import Log
+from mbla.solution.force_ranges import force_ranges
 from mbla.solution.law_state import LawState
 from mbla.solution.locking import locking_forces
 from mbla.solution.mechanics import mechanics_of, motion_of
@@ -19,7 +22,7 @@ from mbla.solution.part import PartResult, solve_part
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import IterationRecord, Mechanics, ProgramRecord, Solution, Standing, Status
 from mbla.solution.standing import worst_standing
-from mbla.solution.whole import whole_state
+from mbla.solution.whole import at_rest, whole_state
 
 WITH_VALUE = (Status.SOLVED, Status.APPROXIMATE)
 
@@ -31,6 +34,8 @@ FAILED = (
     Status.NOT_VERIFIED,
 )
 """what of one part decides for all, the gravest first"""
+
+DECIDED = (Status.SOLVED, Status.UNBOUNDED)
 
 LOCK_NOT_PROVED = (
     "the solver finds no mechanism in which the live load does work, but no forces that carry every multiple of it "
@@ -47,8 +52,10 @@ class _Stage:
     """What every step of one load case needs."""
 
     parts: tuple[Program, ...]
+    interface_of_point: IntArray
     settings: SolverSettings
     log: Log
+    more: list[ProgramRecord] = field(default_factory=list)
 
     def mechanics(self, part: int, state: LawState | None, flow_rule: str) -> Mechanics | None:
         """A state of one part as mechanics of the whole model; None where the other parts do not carry it."""
@@ -57,7 +64,7 @@ class _Stage:
 
 
 def solve(reduced: Reduced, analysis: AnalysisSection, settings: SolverSettings, log: Log | None = None) -> Solution:
-    """Load factor of one load case by the flow rule of ``analysis``.
+    """Load factor of one load case by the flow rule of ``analysis``, and what is asked for beside it.
 
     log : called once per iteration of a cone program, as it goes
     """
@@ -69,8 +76,9 @@ def solve(reduced: Reduced, analysis: AnalysisSection, settings: SolverSettings,
         if log is not None:
             log(iteration)
 
-    stage = _Stage(reduced.parts, settings, record)
-    results = [solve_part(program, analysis, settings, record) for program in reduced.parts]
+    stage = _Stage(reduced.parts, reduced.interface_of_point, settings, record)
+    questions = Questions(analysis, reduced.point_areas, settings, record)
+    results = [with_answers(solve_part(program, analysis, settings, record), questions) for program in reduced.parts]
     solution = _combined(stage, analysis, results)
     assessed = [result.standing for result in results if result.standing is not None]
     standing = worst_standing(assessed) if assessed else None
@@ -80,7 +88,7 @@ def solve(reduced: Reduced, analysis: AnalysisSection, settings: SolverSettings,
         solution,
         sides=0 if solution.outer is None else analysis.sides,
         standing=standing,
-        programs=_renumbered(results),
+        programs=_renumbered([*(record for result in results for record in result.programs), *stage.more]),
         iterations=tuple(iterations),
         seconds=time.perf_counter() - started,
         size=reduced.size,
@@ -127,26 +135,59 @@ def _with_load_factor(
     stage: _Stage, analysis: AnalysisSection, results: Sequence[PartResult], first: int, first_associative: int
 ) -> Solution:
     result = results[first]
-    solution = _solution(analysis, result.status, result.reason)
-    associative = stage.mechanics(first_associative, results[first_associative].associative.state, "associative")
-    outer = _outer(stage, results)
-    remarks = tuple(remark for result in results for remark in result.remarks)
+    remarks = [remark for each in results for remark in each.remarks]
+    solution = replace(
+        _solution(analysis, *_claim(results, first)),
+        associative=stage.mechanics(first_associative, results[first_associative].associative.state, "associative"),
+        outer=_outer(stage, results),
+    )
+    state = result.state if result.least is None else result.least
+    if analysis.force_ranges and state is not None:
+        ranges, words = _force_ranges(stage, first, state)
+        solution, remarks = replace(solution, force_ranges=ranges), [*remarks, *words]
     if result.sequence is None:
-        return replace(solution, mechanics=associative, associative=associative, outer=outer, remarks=remarks)
-    sequence, live = result.sequence, stage.parts[first].scaling.live
-    ends = result.range
+        mechanics = solution.associative if result.least is None else stage.mechanics(first, state, "associative")
+        return replace(solution, mechanics=mechanics, remarks=tuple(remarks))
+    sequence, ends, rule = result.sequence, result.range, analysis.flow_rule
+    words = [ends.reason] if ends is not None and ends.reason else []
     return replace(
         solution,
-        mechanics=stage.mechanics(first, sequence.state, analysis.flow_rule),
-        lower=None if ends is None else stage.mechanics(first, ends.lower, analysis.flow_rule),
-        upper=None if ends is None else stage.mechanics(first, ends.upper, analysis.flow_rule),
-        associative=associative,
-        scheme=analysis.scheme,
-        outer=outer,
-        remarks=(*remarks, *sequence.remarks),
-        spread=None if sequence.spread is None else (sequence.spread[0] * live, sequence.spread[1] * live),
+        mechanics=stage.mechanics(first, sequence.state, rule),
+        lower=None if ends is None else stage.mechanics(first, ends.lower, rule),
+        upper=None if ends is None else stage.mechanics(first, ends.upper, rule),
+        peak=stage.mechanics(first, result.peak, rule),
+        scheme=analysis.scheme if rule == "non_associative" else "",
+        remarks=(*sequence.remarks, *words, *remarks),
+        spread=_in_load_factors(stage.parts[first], sequence.spread),
         path=sequence.path,
     )
+
+
+def _claim(results: Sequence[PartResult], first: int) -> tuple[Status, str]:
+    """Status and reason of the part that collapses first; a part that is not solved might yet go before it."""
+    open_parts = [result for result in results if result.loaded and result.status not in DECIDED]
+    result = results[first] if results[first].status not in DECIDED or not open_parts else open_parts[0]
+    return result.status, result.reason
+
+
+def _in_load_factors(program: Program, spread: tuple[float, float] | None) -> tuple[float, float] | None:
+    live = program.scaling.live
+    return None if spread is None else (spread[0] * live, spread[1] * live)
+
+
+def _force_ranges(stage: _Stage, first: int, state: LawState) -> tuple[FloatArray, list[str]]:
+    """Least and greatest normal force of every interface at the load factor, (n_interfaces, 2), and remarks."""
+    n_interfaces = int(stage.interface_of_point.max(initial=-1)) + 1
+    ranges, words = np.full((n_interfaces, 2), np.nan), []
+    for part, program in enumerate(stage.parts):
+        own = state if part == first else at_rest(program, state.load_factor, stage.settings, stage.log)
+        if own is None:
+            continue
+        found = force_ranges(program, own, stage.interface_of_point, stage.settings, stage.log)
+        ranges = np.where(np.isnan(found.ranges), ranges, found.ranges * program.scaling.force)
+        stage.more.extend(found.programs)
+        words += [found.remark] if found.remark else []
+    return ranges, words
 
 
 def _outer(stage: _Stage, results: Sequence[PartResult]) -> Mechanics | None:
@@ -182,7 +223,6 @@ def _without_claim(solution: Solution) -> Solution:
     return replace(solution, status=status, reason=ONLY_BY_SELF_STRESS)
 
 
-def _renumbered(results: Sequence[PartResult]) -> tuple[ProgramRecord, ...]:
+def _renumbered(records: Sequence[ProgramRecord]) -> tuple[ProgramRecord, ...]:
     """Programs of all parts, numbered in the order in which they were solved."""
-    records = [record for result in results for record in result.programs]
     return tuple(replace(record, program=number) for number, record in enumerate(records, start=1))

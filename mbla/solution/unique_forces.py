@@ -35,6 +35,7 @@ from mbla.arrays import FloatArray
 from mbla.program.fixed_mechanism import FixedMechanismForm, PointMotion, fixed_mechanism_form
 from mbla.program.kinematic import ConeProgram
 from mbla.program.program import Program
+from mbla.solution.bounds import factor_size
 from mbla.solution.clarabel_adapter import ClarabelProgram
 from mbla.solution.cone_solution import Log
 from mbla.solution.law_state import LawState, law_state
@@ -150,8 +151,7 @@ class _Search:
 
     def _factor_size(self) -> float:
         """Size of the load factor, or of a small one."""
-        dead, live = (float(np.linalg.norm(load)) for load in (self.program.dead_load, self.program.live_load))
-        return max(abs(self.state.load_factor), SMALL_FACTOR * dead / live)
+        return max(abs(self.state.load_factor), SMALL_FACTOR * factor_size(self.program))
 
     def _fits(self, least: LawState, fall: float) -> bool:
         """Residual, unbalanced force and change of load factor within what is allowed."""

@@ -4,6 +4,7 @@
 - :mod:`mbla.solution.verify_polyhedral`: the bracket of friction polyhedra, each by its own law;
 - :mod:`mbla.solution.verify_convex`: the first with the conditions on interfaces of the convex contact model;
 - :mod:`mbla.solution.verify_range`: both ends of the range of a load factor without normality;
+- :mod:`mbla.solution.verify_peak`: a greater load factor that is passed before the structure comes to rest;
 - :mod:`mbla.solution.verify_lock`: forces that carry every multiple of the live load.
 """
 
@@ -17,6 +18,7 @@ from mbla.solution.solution import Checks, Solution, Status
 from mbla.solution.verify import verify as verify_mechanics
 from mbla.solution.verify_convex import convex_lock_failures, verify_convex
 from mbla.solution.verify_lock import lock_failures
+from mbla.solution.verify_peak import peak_check
 from mbla.solution.verify_polyhedral import verify_polyhedral
 from mbla.solution.verify_range import range_checks
 
@@ -34,7 +36,7 @@ def verify(model: Model, contacts: Contacts, load_case: LoadCase, solution: Solu
     if solution.status is Status.UNBOUNDED:
         failures = _lock_failures(model, contacts, load_case, solution)
         checks = replace(checks, verified=not failures, failures=failures)
-    return replace(checks, lower=lower, upper=upper)
+    return replace(checks, lower=lower, upper=upper, peak=peak_check(model, contacts, load_case, solution.peak))
 
 
 def _lock_failures(model: Model, contacts: Contacts, load_case: LoadCase, solution: Solution) -> tuple[str, ...]:

@@ -35,7 +35,7 @@ def whole_state(
     for number, other in enumerate(parts):
         own: LawState | None = state
         if number != part:
-            own = _at_rest(other, state.load_factor, settings, log)
+            own = at_rest(other, state.load_factor, settings, log)
         if own is None:
             return None
         program, own = to_full(other, own)
@@ -62,7 +62,7 @@ def velocities_to_full(program: Program, velocities: FloatArray) -> FloatArray:
     return velocities
 
 
-def _at_rest(program: Program, load_factor: float, settings: SolverSettings, log: Log) -> LawState | None:
+def at_rest(program: Program, load_factor: float, settings: SolverSettings, log: Log) -> LawState | None:
     """Least forces that carry the load, no motion; None where the solver finds none."""
     load = program.dead_load + load_factor * program.live_load
     at_rest = np.zeros_like(program.dead_load)

@@ -49,7 +49,9 @@ def answers(deck: str, *overrides: str) -> Iterator[Answer]:
     model = build_model(read)
     contacts = find_contacts(model, read.contacts)
     for load_case in model.load_cases:
-        solution = solve(unreduced(assemble(model, contacts, load_case)), read.analysis, solver_settings(read.analysis))
+        solution = solve(
+            unreduced(assemble(model, contacts, load_case), contacts), read.analysis, solver_settings(read.analysis)
+        )
         checks = verify(model, contacts, load_case, solution)
         expected = read.content.expected[load_case.name]
         yield Answer(load_case.name, expected, solution, checks, verified_status(solution, checks))

@@ -71,6 +71,7 @@ def test_every_rule_is_registered_and_broken_by_a_faulty_deck() -> None:
         types.Load: ["a force needs `on`", "applies to a force only", "does not apply to gravity"],
         types.LoadCaseSection: ["is a live load with no effect"],
         types.AnalysisSection: ["applies to flow_rule: associative", "applies to contact_model: concave"],
+        types.DeckContent: ["contacts.inset = 0.2: applies to contact_model: concave only"],
         types.Expectation: ["needs at least one of load_factor"],
     }
     assert set(words) | set(rules.EXACTLY_ONE) == set(RULES)

@@ -45,6 +45,7 @@ BEYOND_SCHEMA = (
         "group_named",
         "named_like",
         "linear_programs",
+        "inset_of",
     ),
 )
 BEYOND_BUT_SEEN = (

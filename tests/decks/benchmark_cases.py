@@ -48,6 +48,10 @@ def _by_rule(flow_rule: str, *kinds: str) -> Callable[[Solution], bool]:
     return lambda solution: solution.flow_rule == flow_rule and (not kinds or used(solution))
 
 
+def _by_scheme(scheme: str) -> Callable[[Solution], bool]:
+    return lambda solution: solution.scheme == scheme
+
+
 def _resultants(solution: Solution) -> bool:
     return solution.mechanics is not None and solution.mechanics.resultants is not None
 
@@ -66,7 +70,7 @@ FORMULATIONS = (
     Formulation("interior", (NON_ASSOCIATIVE, "scheme=interior"), _used("interior")),
     Formulation("auto", (NON_ASSOCIATIVE, "scheme=auto"), _by_rule("non_associative", *STEPS, "interior")),
     Formulation("path", (NON_ASSOCIATIVE, "scheme=path"), lambda solution: bool(solution.path)),
-    Formulation("lowest", (NON_ASSOCIATIVE, "scheme=lowest"), _used("lower")),
+    Formulation("lowest", (NON_ASSOCIATIVE, "scheme=lowest", "lowest.seconds=10"), _by_scheme("lowest")),
     Formulation(
         "published, slope 0.01",
         (NON_ASSOCIATIVE, "scheme=published", "published.slope=0.01"),

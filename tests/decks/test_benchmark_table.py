@@ -133,4 +133,6 @@ def test_the_whole_table_is_what_the_runs_give() -> None:
             assert found[STATUS] == row[STATUS], (case.name, name)
             if found[STATUS] == "solved":
                 tolerance = 1e-6 if result.solution.flow_rule == "associative" else 1e-4
+                if name == "lowest":
+                    tolerance = 1e-2  # a search by the clock goes as far as the machine is fast
                 assert float(found[FACTOR]) == pytest.approx(float(row[FACTOR]), rel=tolerance), (case.name, name)

@@ -106,7 +106,7 @@ def measure(name: str, case: Case) -> float:
     analysis = line.deck.analysis.model_copy(update={"standing": False, "range": False})
     settings = solver_settings(analysis)
     started = time.process_time()
-    reduced = unreduced(line.program)
+    reduced = unreduced(line.program, line.contacts)
     if not case.spatial:
         reduced = reduce_program(line.model, line.contacts, line.program, ReductionSwitches(), associative=False)
     (program,) = reduced.parts

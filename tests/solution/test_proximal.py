@@ -115,6 +115,6 @@ def test_the_factor_does_not_know_units(overrides: tuple[str, ...]) -> None:
 
 
 def test_steps_that_may_not_go_on_say_how_far_they_came() -> None:
-    solution, _, status = verified(line_of(FERRIS_3, "analysis.proximal={max_programs: 1}"))
+    solution, _, status = verified(line_of(FERRIS_3, "analysis.scheme=proximal", "analysis.proximal={max_programs: 1}"))
     assert status in (Status.APPROXIMATE, Status.NOT_VERIFIED)
     assert "did not come to rest in 1 programs" in solution.reason

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from mbla.arrays import FloatArray, IntArray
 from mbla.contacts.contacts import Contacts
 from mbla.deck.analysis import ReductionSwitches
 from mbla.model.model import Model
@@ -40,10 +41,16 @@ class ModelSize:
 
 @dataclass(frozen=True)
 class Reduced:
-    """The programs of the parts, in the order of their first blocks, and what was left out."""
+    """The programs of the parts, in the order of their first blocks, and what was left out.
+
+    interface_of_point : (n_points of the whole program,)
+    point_areas        : (n_points of the whole program,)
+    """
 
     parts: tuple[Program, ...]
     size: ModelSize
+    interface_of_point: IntArray
+    point_areas: FloatArray
 
 
 def reduce_program(
@@ -68,7 +75,7 @@ def reduce_program(
     points = sum(part.n_points for part in reduced)
     dimension = 2 if all(part.components == 2 for part in reduced) else 3
     size = ModelSize(dimension, planes, len(parts), blocks, points, program.n_points - points)
-    return Reduced(tuple(reduced), size)
+    return Reduced(tuple(reduced), size, contacts.interface_of_point, contacts.point_areas)
 
 
 def _reduced_part(part: Scene, switches: ReductionSwitches, associative: bool) -> tuple[Program, Mirror | None]:
@@ -96,6 +103,7 @@ def _first_mirror(part: Scene, switches: ReductionSwitches) -> Mirror | None:
     return first
 
 
-def unreduced(program: Program) -> Reduced:
+def unreduced(program: Program, contacts: Contacts) -> Reduced:
     """The program as it is."""
-    return Reduced((program,), ModelSize(3, 0, 1, len(program.free), program.n_points, 0))
+    size = ModelSize(3, 0, 1, len(program.free), program.n_points, 0)
+    return Reduced((program,), size, contacts.interface_of_point, contacts.point_areas)

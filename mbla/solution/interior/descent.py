@@ -99,4 +99,4 @@ def _whole(path: CentralPath, cost: LocalCost, solved: LeastChange) -> PathVecto
 
 
 def _dot(rows: FloatArray, vectors: FloatArray) -> FloatArray:
-    return (rows * vectors).sum(axis=1)
+    return np.asarray((rows * vectors).sum(axis=1))

@@ -1,26 +1,29 @@
-"""One try of the interior scheme: along the path, then down by changes of least cost, then exact steps.
+"""One try of the interior scheme: along the path, down by changes of least cost, exact steps; and on along the path.
 
-The path is followed as long as it leads down. Near its end, below ``NEAR``, a turning point means that the path winds
-on among neighbouring states (domes, vaults): from there the descent goes on. Whenever the residual has fallen by
-another decade, steps of the exact law are tried, which end most tries early.
+The path is followed as long as it leads down. Below ``NEAR``, a turning point means that it winds on among
+neighbouring states (domes, vaults): from its lowest point the descent goes on. Where the descent ends in a local
+minimum the path is taken up again, until it has led to a third of the residual and turns again, or for ``PATIENCE``
+factorisations. Whenever the residual has fallen by another decade, steps of the exact law are tried, which end most
+tries early.
 """
 
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 
 import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.program.program import Program
-from mbla.solution.interior.arc_length import follow
+from mbla.solution.interior.arc_length import Stage, follow
 from mbla.solution.interior.central_path import CentralPath, PathVector, central_path, first_point, state_of
 from mbla.solution.interior.condensed_matrix import MatrixMap
 from mbla.solution.interior.descent import descend
 from mbla.solution.interior.polish import STEPS, polished
 from mbla.solution.law_state import LawState
+from mbla.solution.stiffness import Stiffness
 
 EXACT = 1e-9
 """Residual at which a try ends."""
@@ -34,6 +37,15 @@ NEAR = 5e-3
 REACH = 0.1
 """Residual above which a descent is not tried: from there it ends in a local minimum of no meaning."""
 
+LOWER = 1.0 / 3.0
+"""Share of the residual of the last descent's first point to which the path must lead before the next."""
+
+PATIENCE = 300
+"""Factorisations along the path without a lower point after which it is given up."""
+
+SOLVED = 1e-6
+"""Residual of a state of the exact law: with such a state the path is not taken up again."""
+
 FIRST_POLISH = 1e-3
 """Residual from which exact steps are tried, once a decade."""
 
@@ -46,11 +58,15 @@ STALL, GAIN = 60, 0.8
 
 @dataclass(frozen=True)
 class Start:
-    """One way to begin: pull κ towards the gravity state, size and seed of the noise."""
+    """One way to begin: pull κ towards the gravity state, size and seed of the noise.
+
+    descends : whether a descent follows where the path turns; else the try ends there
+    """
 
     kappa: float
     noise: float
     seed: int
+    descends: bool = True
 
 
 @dataclass(frozen=True)
@@ -73,14 +89,13 @@ class Try:
 
     program: Program
     pattern: MatrixMap
+    stiffness: Stiffness
     most: int
     watch: Callable[[Moment], None]
     late: Callable[[], bool]
     factorizations: int = 0
     best: LawState | None = None
-    nearest: PathVector | None = None
     started: float = field(default_factory=time.perf_counter)
-    nearest_residual: float = float("inf")
     _polish_at: float = FIRST_POLISH
 
     def over(self) -> bool:
@@ -88,12 +103,14 @@ class Try:
         exact = self.best is not None and self.best.residual <= EXACT
         return exact or self.factorizations >= self.most or self.late()
 
+    def solved(self) -> bool:
+        """Whether a state of the exact law has been found."""
+        return self.best is not None and self.best.residual <= SOLVED
+
     def reached(self, point: PathVector, step: float) -> LawState:
-        """Take note of a point: keep it where it is the nearest, and try exact steps from it once a decade."""
+        """Take note of a point, and try exact steps from it once a decade; the state it stands for."""
         state = state_of(self.program, point)
         self.keep(state)
-        if state.residual < self.nearest_residual:
-            self.nearest, self.nearest_residual = point, state.residual
         self.watch(Moment(self.factorizations, state, float(np.exp(point.log_sigma)), step))
         if state.residual < self._polish_at:
             self._polish_at = state.residual / 10.0
@@ -107,45 +124,66 @@ class Try:
 
     def polish(self, state: LawState, sizes: tuple[float, ...]) -> None:
         """Steps of the exact law from a state."""
-        exact, used = polished(self.program, state, sizes)
+        exact, used = polished(self.program, self.stiffness, state, sizes)
         self.factorizations += used
         self.keep(exact)
+
+
+@dataclass
+class _Walk:
+    """The path on which a try is, where it is lowest, the residual of the last descent's start, and what was spent."""
+
+    stages: Iterator[Stage]
+    lowest: PathVector | None = None
+    residual: float = float("inf")
+    descended: float = float("inf")
+    folds: int = 0
+    factorizations: int = 0
 
 
 def go(attempt: Try, begin: Start, anchor: FloatArray | None) -> None:
     """Carry out a try; what it finds is kept in ``attempt``."""
     path = central_path(attempt.program, begin.noise, begin.seed, anchor, begin.kappa)
-    at_end = _along_the_path(attempt, path)
-    nearest = attempt.nearest
-    if nearest is None or attempt.over():
-        return
-    if not at_end and state_of(attempt.program, nearest).residual < REACH:
-        _down(attempt, path, nearest)
+    walk = _Walk(follow(path, attempt.pattern, first_point(path), attempt.most))
+    near = NEAR if begin.descends else float("inf")
+    while _goes_on(attempt, walk, near) and begin.descends:
+        _descent(attempt, path, walk)
+        if attempt.over() or attempt.solved():
+            break
+        near = LOWER * walk.residual
+    else:  # the path has come to an end, whichever
+        if begin.descends and not attempt.over() and not attempt.solved():
+            _descent(attempt, path, walk)
     if attempt.best is not None and not attempt.over():
         attempt.polish(attempt.best, STEPS)
 
 
-def _along_the_path(attempt: Try, path: CentralPath) -> bool:
-    """Follow the path; true where it led to its end."""
-    before, folds = attempt.factorizations, 0
-    polishing = 0
-    for stage in follow(path, attempt.pattern, first_point(path), attempt.most):
-        attempt.factorizations = before + polishing + stage.factorizations
-        counted = attempt.factorizations
+def _goes_on(attempt: Try, walk: _Walk, near: float) -> bool:
+    """Follow the path to a turning point where the residual has been below ``near``; false where it ends before."""
+    since = walk.factorizations
+    for stage in walk.stages:
+        attempt.factorizations += stage.factorizations - walk.factorizations
+        walk.factorizations = stage.factorizations
         state = attempt.reached(stage.point, stage.step)
-        polishing += attempt.factorizations - counted
-        if state.residual <= END_OF_PATH:
-            return True
-        if attempt.over() or (stage.folds > folds and attempt.nearest_residual < NEAR):
+        turned, walk.folds = stage.folds > walk.folds, stage.folds
+        if state.residual < walk.residual:
+            walk.lowest, walk.residual, since = stage.point, state.residual, stage.factorizations
+        if state.residual <= END_OF_PATH or attempt.over():
             return False
-        folds = stage.folds
+        if turned and walk.residual < near:
+            return True
+        if walk.residual < NEAR and stage.factorizations - since > PATIENCE:
+            return False
     return False
 
 
-def _down(attempt: Try, path: CentralPath, first: PathVector) -> None:
-    """Descend from a point until nothing is gained any more."""
+def _descent(attempt: Try, path: CentralPath, walk: _Walk) -> None:
+    """Descend from the lowest point of the path until nothing is gained any more."""
+    if walk.lowest is None or walk.residual > REACH or walk.residual >= walk.descended:
+        return
+    walk.descended = walk.residual
     lowest, waited = float("inf"), 0
-    for point in descend(path, attempt.pattern, first, MOST_DESCENT):
+    for point in descend(path, attempt.pattern, walk.lowest, MOST_DESCENT):
         attempt.factorizations += 1
         state = attempt.reached(point, float("nan"))
         if state.residual <= END_OF_PATH or attempt.over():

@@ -13,7 +13,7 @@ from mbla.program.program import Program
 from mbla.solution.exact_law import exact_step
 from mbla.solution.interior.central_path import with_balance
 from mbla.solution.law_state import LawState, law_state
-from mbla.solution.stiffness import stiffness_of
+from mbla.solution.stiffness import Stiffness
 
 STEPS = (1e-2, 1e-1, 1.0)
 """ρ ‖x̄‖² of the exact steps, tried in turn: the smaller, the further a step may move."""
@@ -27,13 +27,12 @@ IMPROVES = 1e-1
 """A step that does not reduce the residual to this share of the one before is the last with its ρ."""
 
 
-def polished(program: Program, state: LawState, sizes: tuple[float, ...]) -> tuple[LawState, int]:
+def polished(program: Program, stiffness: Stiffness, state: LawState, sizes: tuple[float, ...]) -> tuple[LawState, int]:
     """The best state that exact steps reach from a state, itself where none is better; and the factorisations.
 
     sizes : ρ ‖x̄‖² to try in turn
     """
-    stiffness, slope = stiffness_of(program), np.zeros(program.n_points)
-    best, count = state, 0
+    slope, best, count = np.zeros(program.n_points), state, 0
     for size in sizes:
         current, reached = state, float("inf")
         for _ in range(MOST_STEPS):

@@ -179,7 +179,7 @@ def _local_norm(size: FloatArray, part: FloatArray) -> FloatArray:
     determinant = np.maximum(size - length, NEAREST * size) * (size + length)
     mirrored = np.column_stack([size, -part]) / determinant[:, None]
     signature = np.diag(np.append(1.0, -np.ones(part.shape[1])))
-    return 2.0 * mirrored[:, :, None] * mirrored[:, None, :] - signature / determinant[:, None, None]
+    return np.asarray(2.0 * mirrored[:, :, None] * mirrored[:, None, :] - signature / determinant[:, None, None])
 
 
 def _eliminated(

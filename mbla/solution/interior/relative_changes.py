@@ -9,6 +9,9 @@ import numpy as np
 from mbla.arrays import FloatArray
 from mbla.solution.interior.central_path import CentralPath, PathVector
 
+TOUCHING = 1e-10
+"""Relative rounding of a double root: a cone whose size alone changes is left through its tip."""
+
 
 @dataclass(frozen=True)
 class Metric:
@@ -99,5 +102,5 @@ def _cones(size: FloatArray, part: FloatArray, size_change: FloatArray, part_cha
     square = size_change**2 - (part_change**2).sum(axis=1)
     under_root = linear**2 - square * constant
     below = np.sqrt(np.maximum(under_root, 0.0)) - linear
-    binds = (under_root >= 0.0) & (below > 0.0)
+    binds = (under_root >= -TOUCHING * linear**2) & (below > 0.0)
     return float(np.where(binds, constant / np.where(binds, below, 1.0), np.inf).min(initial=np.inf))

@@ -18,14 +18,13 @@ from dataclasses import dataclass
 
 import numpy as np
 import scipy.sparse as sp
-import scipy.sparse.linalg as spla
 
 from mbla.arrays import FloatArray, IntArray
 from mbla.solution.interior.central_path import CentralPath, Residuals
 from mbla.solution.interior.condensed_matrix import MatrixMap
 from mbla.solution.interior.products import LocalCost
+from mbla.solution.linear_solver import factorize
 
-PIVOT = 0.01
 REFINEMENTS = 2
 
 INVERSE = 1e-13
@@ -121,15 +120,13 @@ def _solved(saddle: SaddleMap, parts: list[FloatArray], right: FloatArray) -> Fl
         scale[border] = 1.0 / max(float(np.abs(load * scale[start : 2 * n : 2]).max()), 1e-300)
     values = values * scale[saddle.rows] * scale[saddle.columns]
     system = sp.csc_array((values[saddle.order], saddle.indices, saddle.pointers), shape=(size, size))
-    try:
-        options = {"SymmetricMode": True}
-        lu = spla.splu(system, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=PIVOT, options=options)
-    except RuntimeError:  # exactly singular
+    solve = factorize(system, symmetric=True)
+    if solve is None:
         return None
     scaled = right * scale
-    answer = lu.solve(scaled)
+    answer = solve(scaled)
     for _ in range(REFINEMENTS):
-        answer += lu.solve(scaled - system @ answer)
+        answer += solve(scaled - system @ answer)
     return answer * scale if np.isfinite(answer).all() else None
 
 
@@ -142,12 +139,12 @@ def _inverse(blocks: FloatArray, held: np.typing.NDArray[np.bool_]) -> FloatArra
 
 
 def _outer(scale: FloatArray) -> FloatArray:
-    return scale[:, :, None] * scale[:, None, :]
+    return np.asarray(scale[:, :, None] * scale[:, None, :])
 
 
 def _times(blocks: FloatArray, vectors: FloatArray) -> FloatArray:
-    return (blocks @ vectors[:, :, None])[:, :, 0]
+    return np.asarray((blocks @ vectors[:, :, None])[:, :, 0])
 
 
 def _turned(blocks: FloatArray, vectors: FloatArray) -> FloatArray:
-    return np.einsum("kij,ki->kj", blocks, vectors)
+    return np.asarray(np.einsum("kij,ki->kj", blocks, vectors))

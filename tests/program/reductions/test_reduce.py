@@ -213,7 +213,7 @@ def test_everything_can_be_switched_off() -> None:
     line = line_of(TWO_WALLS)
     off = reduced(line, switches=NONE)
     assert off.parts == (line.program,)
-    assert off.size == unreduced(line.program).size
+    assert off.size == unreduced(line.program, line.contacts).size
 
 
 @pytest.mark.parametrize("name", ["planar", "mirror", "parts", "points"])

@@ -4,18 +4,27 @@ from __future__ import annotations
 
 import math
 import time
+from pathlib import Path
 
 import numpy as np
 import pytest
 
+from mbla.contacts import find_contacts
+from mbla.deck import read_deck
 from mbla.deck.analysis import InteriorScheme
+from mbla.model import build_model
+from mbla.program import assemble
 from mbla.program.program import Program
+from mbla.program.reductions.reduce import reduce_program
 from mbla.solution.associative import AssociativeResult
+from mbla.solution.interior import solve_interior as scheme_module
+from mbla.solution.interior.one_try import Start
 from mbla.solution.interior.solve_interior import solve_interior
 from mbla.solution.law_state import LawState, SequenceResult, law_state
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import IterationRecord, ProgramRecord, Status
-from tests.line import BLOCK, HEAD, line_of
+from tests.line import BLOCK, HEAD, WALL, line_of
+from tests.solution.interior.structures import dome
 from tests.solution.test_proximal import FERRIS_3
 
 NOTHING_BEFORE = AssociativeResult(Status.SOLVED, None, None, "", ())
@@ -174,3 +183,93 @@ def test_a_stalled_sequence_is_continued() -> None:
     assert result.programs[0] is before
     assert result.programs[1].program == 2
     assert result.state is good.state
+
+
+def law_holds(program: Program, result: SequenceResult, residual: float) -> None:
+    """The state is in equilibrium and obeys the law, recomputed from its forces and velocities."""
+    assert result.status is Status.SOLVED, result.reason
+    state = result.state
+    assert state is not None
+    assert law_state(program, 0.0, state.forces, state.velocities, state.load_factor).residual <= residual
+    forces = program.equilibrium_matrix @ state.forces.ravel()
+    assert np.abs(forces + program.dead_load + state.load_factor * program.live_load).max() <= residual
+
+
+def test_a_dome() -> None:
+    """24 voussoirs in running bond: the proximal scheme stalls; other seeds ended between 0.5424 and 0.5427."""
+    program = line_of(dome(3, 8, 60.0)).program
+    result = result_of(program, tries=2)
+    law_holds(program, result, 1e-6)
+    assert result.state is not None
+    assert program.scaling.load_factor(result.state.load_factor) == pytest.approx(0.5426, abs=5e-4)
+    assert "other states" in result.remarks[0]
+
+
+def test_tries_that_do_not_converge_give_their_spread() -> None:
+    """100 factorisations are too few for the dome: approximate, the best state kept, and how far the tries differ."""
+    program = line_of(dome(3, 8, 60.0)).program
+    result = result_of(program, tries=3, most=100)
+    assert result.status is Status.APPROXIMATE
+    assert result.state is not None
+    assert result.spread is not None
+    least, greatest = result.spread
+    assert least <= result.state.load_factor <= greatest
+    assert 0.54 < program.scaling.load_factor(least) < program.scaling.load_factor(greatest) < 0.55
+
+
+def test_a_planar_program_and_its_spatial_original_agree() -> None:
+    """A wall without openings, whose factor hardly depends on the state: two unknowns a point and three a block."""
+    line = line_of(WALL, "parameters.n=4")
+    reduced = reduce_program(
+        line.model, line.contacts, line.program, line.deck.analysis.reductions, associative=False
+    )  # fmt: skip
+    planar = reduced.parts[0]
+    assert planar.components == 2
+    flat, spatial = result_of(planar), result_of(line.program)
+    law_holds(planar, flat, 1e-9)
+    law_holds(line.program, spatial, 1e-9)
+    assert flat.state is not None
+    assert spatial.state is not None
+    factor = planar.scaling.load_factor(flat.state.load_factor)
+    assert factor == pytest.approx(line.program.scaling.load_factor(spatial.state.load_factor), rel=1e-3)
+
+
+def test_parts_that_do_not_touch() -> None:
+    """Two blocks apart, both pushed: the weaker one moves, the stronger one rests in an undetermined state."""
+    text = BLOCK.replace(
+        "supports:", "  - box: {group: other, material: stone, min: [5, 0, 0], max: [6, 1, 1]}\nsupports:"
+    )
+    factor, _, _ = solved(text, "parameters.mu=0.7")
+    assert factor == pytest.approx(0.5, rel=1e-7)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("case", [0, 1], ids=["along x", "diagonal"])
+def test_cross_vault(case: int) -> None:
+    """184 blocks: 0.2601 and 0.3087 found, other states between 0.260 and 0.272, and 0.306 and 0.309.
+
+    The associative factors are 0.3162 and 0.3378.
+    """
+    deck = read_deck(Path(__file__).parents[3] / "decks" / "tutorials" / "crossvault.yaml")
+    model = build_model(deck)
+    program = assemble(model, find_contacts(model, deck.contacts), model.load_cases[case])
+    result = result_of(program, tries=4, most=4000)
+    law_holds(program, result, 1e-6)
+    assert result.state is not None
+    factor = program.scaling.load_factor(result.state.load_factor)
+    assert factor == pytest.approx((0.265, 0.307)[case], abs=0.01)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("seed", [1, 2])
+def test_ferris_walls_by_branch(seed: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Pull towards the gravity state chooses the branch: wall 3 near 0.357 with κ = 10, near 0.39 without."""
+    program, factors = line_of(FERRIS_3).program, {}
+    for kappa in (0.0, 10.0):
+        monkeypatch.setattr(scheme_module, "starts", lambda kappa=kappa: iter([Start(kappa, 0.1, seed)]))
+        result = result_of(program)
+        law_holds(program, result, 1e-9)
+        assert result.state is not None
+        factors[kappa] = program.scaling.load_factor(result.state.load_factor)
+    assert factors[10.0] == pytest.approx(0.357, abs=0.002)
+    assert factors[0.0] == pytest.approx(0.388, abs=0.005)

@@ -1,0 +1,126 @@
+"""Dilatancy between none and the friction angle: closed form of a wedge in a groove, both ends, wall 3."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from mbla.deck.analysis import ProximalScheme, ReductionSwitches
+from mbla.program.program import Program
+from mbla.program.reductions import reduce_program
+from mbla.solution.associative import solve_associative
+from mbla.solution.dilatancy import solve_dilatancy
+from mbla.solution.law_state import SequenceResult
+from mbla.solution.proximal import solve_proximal
+from mbla.solution.settings import SolverSettings
+from mbla.solution.solution import Status
+from tests.line import BLOCK, HEAD, line_of
+from tests.solution.test_proximal import FERRIS_3
+
+SETTINGS = SolverSettings(1e-8)
+
+
+def with_share(program: Program, share: float) -> Program:
+    """The program with a dilatancy angle that is a share of the friction angle at every joint."""
+    limits = program.limits
+    return replace(
+        program,
+        limits=replace(limits, dilatancy=np.tan(share * np.arctan(limits.friction)) * np.ones(program.n_points)),
+    )
+
+
+def solved(program: Program) -> tuple[float, SequenceResult]:
+    associative = solve_associative(program, SETTINGS, lambda record: None)
+    result = solve_dilatancy(program, associative, ProximalScheme(), SETTINGS, lambda record: None)
+    assert result.status is Status.SOLVED, result.reason
+    assert result.state is not None
+    assert result.state.residual < 1e-9
+    return program.scaling.load_factor(result.state.load_factor), result
+
+
+def wall_3() -> Program:
+    line = line_of(FERRIS_3)
+    (program,) = reduce_program(line.model, line.contacts, line.program, ReductionSwitches(), associative=False).parts
+    return program
+
+
+def groove(friction: float, slope: float) -> Program:
+    """Prism in a groove of two planes inclined at ``slope``, pushed along it."""
+    t, s, c = math.tan(slope), math.sin(slope), math.cos(slope)
+    text = HEAD + (
+        f"joints: {{dry: {{friction: {friction!r}}}}}\n"
+        "blocks:\n"
+        "  - polyhedron:\n"
+        "      material: stone\n"
+        f"      vertices: [[0, 0, 0], [4, 0, 0], [0, -1, {t!r}], [0, 1, {t!r}], [4, -1, {t!r}], [4, 1, {t!r}]]\n"
+        "      faces: [[0, 2, 3], [1, 4, 5], [0, 1, 4, 2], [0, 1, 5, 3], [2, 3, 5, 4]]\n"
+        "supports:\n"
+        f"  - ground: {{point: [0, 0, 0], normal: [0, {s!r}, {c!r}]}}\n"
+        f"  - ground: {{point: [0, 0, 0], normal: [0, {-s!r}, {c!r}]}}\n"
+        "load_cases: {along: {live: [{acceleration: [1, 0, 0]}]}}\n"
+    )
+    return line_of(text).program
+
+
+@pytest.mark.parametrize("share", [0.0, 0.02, 0.1, 0.5, 0.9, 1.0])
+def test_a_wedge_in_a_groove_lifts_by_its_dilatancy(share: float) -> None:
+    """Velocity 1 along and w upwards: on each plane v_N = w cos b, s = sqrt(1 + w^2 sin^2 b), with v_N = tan(psi) s::
+
+        w^2 (cos^2 b - tan^2 psi sin^2 b) = tan^2 psi.
+
+    Friction mu N against (1, w sin b)/s; with the weight W, 2 N (cos b - mu w sin^2 b/s) = W and 2 mu N/s = load:
+
+        load factor = mu / (s cos b - mu w sin^2 b),
+
+    mu / cos b at psi = 0 and mu / sqrt(cos^2 b - mu^2 sin^2 b) at the friction angle.
+    """
+    mu, b = 0.84, math.radians(30)
+    program = with_share(groove(mu, b), share)
+    dilatancy = math.tan(share * math.atan(mu))
+    w = dilatancy / math.sqrt(math.cos(b) ** 2 - (dilatancy * math.sin(b)) ** 2)
+    s = math.hypot(1.0, w * math.sin(b))
+    factor, result = solved(program)
+    assert factor == pytest.approx(mu / (s * math.cos(b) - mu * w * math.sin(b) ** 2), rel=1e-8)
+    assert not result.remarks
+
+
+def test_dilatancy_of_a_free_block_lifts_it_and_changes_no_load_factor() -> None:
+    program = with_share(line_of(BLOCK, "parameters.h=0.5", "parameters.c=1000").program, 0.4)
+    factor, result = solved(program)
+    assert factor == pytest.approx(0.5 + 1000 / (0.5 * 2000 * 9.81), rel=1e-9)
+    assert result.state is not None
+    v = (program.equilibrium_matrix.T @ result.state.velocities).reshape(-1, 3)
+    assert v[:, 0] == pytest.approx(program.limits.dilatancy * np.hypot(v[:, 1], v[:, 2]), abs=1e-9)
+
+
+def test_without_dilatancy_it_is_the_non_associative_answer() -> None:
+    program = wall_3()
+    associative = solve_associative(program, SETTINGS, lambda record: None)
+    expected = solve_proximal(program, associative, 60, SETTINGS, lambda record: None).state
+    assert expected is not None
+    factor, _ = solved(with_share(program, 0.0))
+    assert factor == pytest.approx(program.scaling.load_factor(expected.load_factor), rel=1e-12)
+
+
+def test_with_the_friction_angle_it_is_the_associative_answer() -> None:
+    factor, _ = solved(with_share(wall_3(), 1.0))
+    assert factor == pytest.approx(0.403694104, abs=1e-8)
+
+
+@pytest.mark.parametrize("share", [0.02, 0.1])
+def test_a_little_dilatancy_locks_confined_joints(share: float) -> None:
+    """The load factor of wall 3 jumps from 0.3558 without dilatancy to almost the associative one."""
+    factor, _ = solved(with_share(wall_3(), share))
+    assert factor == pytest.approx(0.40249, abs=1e-5)
+
+
+def test_the_associative_answer_is_reached_from_the_dead_load_too() -> None:
+    """The steps know nothing of the associative program: a second way to its load factor."""
+    program = with_share(wall_3(), 1.0)
+    nothing = replace(solve_associative(program, SETTINGS, lambda record: None), state=None)
+    result = solve_dilatancy(program, nothing, ProximalScheme(), SETTINGS, lambda record: None)
+    assert result.state is not None
+    assert program.scaling.load_factor(result.state.load_factor) == pytest.approx(0.403694104, abs=1e-8)
