@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from mbla.cli import main
 from mbla.program.convex import assemble_convex
 from mbla.program.remarks import program_notices
 from mbla.solution import Checks, Solution, verified_status
@@ -267,7 +268,7 @@ def test_load_that_only_presses_is_unbounded_with_proof() -> None:
     assert solution.status is Status.UNBOUNDED
     assert checks.verified, checks.failures
     assert solution.lock is not None
-    pushed = replace(solution, lock=solution.lock + [0.0, 0.0, 100.0])
+    pushed = replace(solution, lock=solution.lock + np.array([0.0, 0.0, 100.0]))
     assert not verify(line.model, line.contacts, line.load_case, pushed).verified
 
 
@@ -351,3 +352,40 @@ def test_too_high_a_load_factor_is_found() -> None:
     line, solution, mechanics = twisted()
     checks = failures_with(line, solution, replace(mechanics, load_factor=1.01 * mechanics.load_factor))
     assert not checks.verified
+
+
+@pytest.mark.parametrize("deck", ["torque_convex", "eccentric_compression_convex"])
+def test_result_file_is_verified_without_solver(deck: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["run", str(DECKS / f"{deck}.yaml"), "-o", str(tmp_path / "out"), "--expected"]) == 0
+    assert main(["verify", str(tmp_path / "out" / f"{deck}.h5")]) == 0
+    assert "agrees" in capsys.readouterr().out
+
+
+def test_rotation_with_gravity_does_not_matter() -> None:
+    """The block of ``prism``, pushed and twisted, turned in space: another frame of its interface, the same factor."""
+    angle = 0.7
+    turn = np.array([[np.cos(angle), -np.sin(angle), 0], [np.sin(angle), np.cos(angle), 0], [0, 0, 1]])
+    lean = np.array([[1, 0, 0], [0, np.cos(0.4), -np.sin(0.4)], [0, np.sin(0.4), np.cos(0.4)]])
+    corners = np.array([[x, y, z] for z in (0, 0.6) for x, y in ((0, 0), (1, 0), (0.8, 0.7), (0.1, 0.9))])
+    values = []
+    for matrix in (np.eye(3), lean @ turn):
+
+        def moved(vector: Sequence[float], matrix: np.typing.NDArray[np.float64] = matrix) -> str:
+            return str((matrix @ np.array(vector)).tolist())
+
+        text = (
+            HEAD
+            + f"""\
+joints: {{dry: {{friction: 0.6}}}}
+blocks:
+  - polyhedron: {{group: block, material: stone, vertices: {(corners @ matrix.T).tolist()},
+      faces: [[0,1,2,3],[4,5,6,7],[0,1,5,4],[1,2,6,5],[2,3,7,6],[3,0,4,7]]}}
+supports: [{{ground: {{point: {moved([0, 0, 0])}, normal: {moved([0, 0, 1])}}}}}]
+load_cases:
+  push:
+    dead: [{{gravity: {moved([0, 0, -9.81])}}}]
+    live: [{{force: {moved([300, 900, 0])}, on: block, at: {moved([1, 0.4, 0.1])}}}]
+"""
+        )
+        values.append(factor(text))
+    assert values[1] == pytest.approx(values[0], rel=1e-7)

@@ -45,6 +45,9 @@ MARGIN = 2e-3
 WORTHWHILE = 0.99
 """The smallest θ is taken that costs at most 1 % of the pure torsion."""
 
+ALIKE = 1e-9
+"""Relative difference up to which edges count as equally long."""
+
 SMALL_ARRAY = 2_000_000
 """Entries of an array of outlines × centres × edges that are worked on at once."""
 
@@ -93,6 +96,7 @@ def fitted_curves(outlines: FloatArray) -> tuple[FloatArray, FloatArray]:
     outlines : (n, m, 2) corners relative to the centroid, counter-clockwise
     """
     n, m, _ = outlines.shape
+    outlines = _along_longest_edge(outlines)
     at_once = max(1, SMALL_ARRAY // (m * DIRECTIONS * len(RADII)))
     parts = [_fitted(outlines[first : first + at_once]) for first in range(0, n, at_once)]
     return np.concatenate([part[0] for part in parts]), np.concatenate([part[1] for part in parts])
@@ -110,6 +114,17 @@ def centres_of_rotation(outlines: FloatArray) -> FloatArray:
     star = (RADII[:, None, None] * np.column_stack([np.cos(angle), np.sin(angle)])).reshape(-1, 2)
     size = np.hypot(outlines[..., 0], outlines[..., 1]).max(axis=1)
     return np.asarray(size[:, None, None] * np.vstack([np.zeros(2), star]))
+
+
+def _along_longest_edge(outlines: FloatArray) -> FloatArray:
+    """Outlines turned so that their longest edge is along the first axis: fits must not depend on the frame."""
+    edges = np.roll(outlines, -1, axis=1) - outlines
+    lengths = np.hypot(edges[..., 0], edges[..., 1])
+    longest = (lengths >= (1.0 - ALIKE) * lengths.max(axis=1, keepdims=True)).argmax(axis=1)
+    rows = np.arange(len(outlines))
+    first = edges[rows, longest] / lengths[rows, longest, None]
+    second = np.stack([-first[:, 1], first[:, 0]], axis=1)
+    return np.asarray(np.stack([(outlines * axis[:, None]).sum(axis=2) for axis in (first, second)], axis=2))
 
 
 def _fitted(outlines: FloatArray) -> tuple[FloatArray, FloatArray]:

@@ -139,8 +139,11 @@ def _rectangles(
         right = (skew <= SQUARE_CORNERS) & (open_by <= SQUARE_CORNERS * length.min(axis=1) / length.max(axis=1))
         chosen = rows[right]
         rectangles[chosen] = True
-        sides[chosen] = length[right, :2]
-        axes[chosen] = edges[right, :2] / length[right, :2, None]
+        first = edges[right, 0] - edges[right, 2]
+        first /= np.hypot(first[:, 0], first[:, 1])[:, None]
+        # both exactly at right angles, whatever the tolerance lets pass: conditions and checks rely on it
+        axes[chosen] = np.stack([first, np.column_stack([-first[:, 1], first[:, 0]])], axis=1)
+        sides[chosen] = 0.5 * (length[right, :2] + length[right, 2:])
     return rectangles, sides, axes
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import numpy as np
 
 from mbla.arrays import FloatArray
@@ -46,7 +48,7 @@ def points_inside(outline: FloatArray, n: int = 60) -> tuple[FloatArray, FloatAr
     u, v = np.meshgrid(node, node, indexing="ij")
     both = np.outer(weight * node, weight)
     points, weights = [], []
-    for second, third in zip(outline[1:-1], outline[2:], strict=True):
+    for second, third in pairwise(outline[1:]):
         p, q = second - outline[0], third - outline[0]
         points.append((outline[0] + u[..., None] * (p + v[..., None] * (q - p))).reshape(-1, 2))
         weights.append((both * abs(p[0] * q[1] - p[1] * q[0])).ravel())
