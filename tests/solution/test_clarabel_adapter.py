@@ -8,7 +8,7 @@ import pytest
 
 from mbla.errors import SolverError
 from mbla.program.kinematic import kinematic_form
-from mbla.solution.clarabel_adapter import STATUS_MAP, ClarabelProgram
+from mbla.solution.clarabel_adapter import STATUS_MAP, ClarabelProgram, regularization
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import IterationRecord, Status
 from tests.line import WALL, line_of
@@ -66,3 +66,23 @@ def test_what_the_log_raises_stops_the_solver_and_arrives(error: BaseException |
     held = program_of()
     with pytest.raises(type(error) if isinstance(error, BaseException) else error):
         ClarabelProgram(held.cone_program, held.settings, log).solve(1, 1.0)
+
+
+def test_a_rough_answer_is_not_called_solved() -> None:
+    held = program_of()
+    whole = held.solve_once(1, 1.0)
+    rough = held.solve_once(2, 1.0, enough=1e-2)
+    again = held.solve_once(3, 1.0)
+    assert (whole.status, rough.status, again.status) == (Status.SOLVED, Status.APPROXIMATE, Status.SOLVED)
+    assert 0 < rough.iterations < whole.iterations == again.iterations
+    assert rough.objective == pytest.approx(whole.objective, rel=0.1)
+    assert rough.objective != pytest.approx(whole.objective, rel=1e-6)
+
+
+def test_regularisation_follows_kind_and_size_unless_given() -> None:
+    program = program_of().cone_program
+    many = replace(program, cost=np.zeros(3001))
+    settings = SolverSettings(1e-8)
+    quadratic = replace(program, quadratic=np.ones(len(program.cost)))
+    assert regularization(program, settings) > regularization(many, settings) > regularization(quadratic, settings)
+    assert regularization(quadratic, replace(settings, regularization=1e-5)) == 1e-5

@@ -138,3 +138,93 @@ def test_a_light_block_that_falls_is_not_lost_in_the_mean(share: float) -> None:
     line = line_of(text)
     status, _ = judged(line, solution_of(line))
     assert status in (Status.NO_EQUILIBRIUM, Status.APPROXIMATE, Status.NOT_VERIFIED)
+
+
+@pytest.fixture(scope="module")
+def sliding() -> tuple[Line, Solution]:
+    """A block that slides without dilatancy: the law fits to rounding."""
+    line = line_of(BLOCK, "parameters.h=0.5", "analysis.flow_rule=non_associative")
+    return line, solution_of(line)
+
+
+@pytest.mark.parametrize(
+    ("closing", "expected"),
+    [
+        (1e-8, Status.SOLVED),
+        (2e-5, Status.SOLVED),
+        (2e-4, Status.APPROXIMATE),
+        (2e-3, Status.APPROXIMATE),
+        (5e-2, Status.NOT_VERIFIED),
+    ],
+)
+def test_without_normality_the_largest_residual_decides(
+    closing: float, expected: Status, sliding: tuple[Line, Solution]
+) -> None:
+    """A block that sinks by a share of its sliding speed: friction 0.5 makes twice that of the power unexplained."""
+    line, solution = sliding
+    found = mechanics_of(solution)
+    mechanism = found.mechanism.copy()
+    mechanism[0, 2] -= closing * mechanism[0, 0]
+    checks = verify(
+        line.model, line.contacts, line.load_case, replace(solution, mechanics=replace(found, mechanism=mechanism))
+    )
+    assert checks.penetration == pytest.approx(closing, rel=1e-2)
+    assert checks.complementarity_residual == pytest.approx(2 * closing, rel=1e-2)
+    assert checks.slip_residual < 1e-8
+    claimed = replace(solution, mechanics=replace(found, mechanism=mechanism))
+    assert verified_status(claimed, checks) is expected
+    assert checks.verified == (expected is Status.SOLVED)
+
+
+def test_a_claim_outside_its_bounds(wall: tuple[Line, Solution]) -> None:
+    """Too small to unbalance the forces by 1e-5, too large to lie between bounds 1e-8 apart."""
+    line, solution = wall
+    wrong = replace(mechanics_of(solution), load_factor=mechanics_of(solution).load_factor * (1 + 2e-5))
+    checks = verify(line.model, line.contacts, line.load_case, with_mechanics(solution, wrong))
+    assert not checks.verified
+    status = verified_status(with_mechanics(solution, wrong), checks)
+    assert status is not Status.SOLVED
+
+
+def test_a_factor_above_the_associative_one_is_no_result(sliding: tuple[Line, Solution]) -> None:
+    line, solution = sliding
+    found = mechanics_of(solution)
+    checks = verify(line.model, line.contacts, line.load_case, solution)
+    higher = replace(solution, mechanics=replace(found, load_factor=1.02 * checks.kinematic_bound))
+    status, failures = judged(line, higher)
+    assert status is Status.NOT_VERIFIED
+    assert "exceeds the kinematic bound" in failures
+
+
+def test_tension_and_slip_are_told_apart(sliding: tuple[Line, Solution]) -> None:
+    line, solution = sliding
+    found = mechanics_of(solution)
+    forces = found.contact_forces.copy()
+    forces[0, 0] = -0.05 * forces[:, 0].sum()
+    checks = verify(
+        line.model, line.contacts, line.load_case, replace(solution, mechanics=replace(found, contact_forces=forces))
+    )
+    assert checks.tension_violation > 0.04
+    turned = found.mechanism[:, [1, 0, 2, 3, 4, 5]]
+    checks = verify(
+        line.model, line.contacts, line.load_case, replace(solution, mechanics=replace(found, mechanism=turned))
+    )
+    assert checks.slip_residual == pytest.approx(1.0, rel=1e-6)
+    assert checks.tension_violation == 0.0
+
+
+def test_a_certificate_that_is_nearly_compatible_is_mended() -> None:
+    """Joints closed by 1e-6 of the speed prove nothing as they are; the motion beside them does."""
+    text = BLOCK.replace("supports: [{ground: {z: 0}}]", "supports: [{blocks: ledge}]").replace(
+        "blocks:\n", "blocks:\n  - box: {group: ledge, material: stone, min: [-1, 0, -1], max: [0.4, 1, 0]}\n"
+    )
+    line = line_of(text)
+    solution = solution_of(line)
+    assert solution.certificate is not None
+    noise = 1e-6 * np.random.default_rng(7).normal(size=6)
+    near = replace(
+        solution, certificate=solution.certificate + np.where(solution.certificate.any(axis=1)[:, None], noise, 0)
+    )
+    assert judged(line, near)[0] is Status.NO_EQUILIBRIUM
+    still = replace(solution, certificate=np.zeros_like(solution.certificate))
+    assert judged(line, still)[0] is Status.NOT_VERIFIED
