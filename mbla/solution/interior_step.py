@@ -30,7 +30,7 @@ from mbla.solution.clarabel_adapter import Log
 from mbla.solution.solution import IterationRecord
 from mbla.solution.stiffness import Stiffness
 
-TOLERANCE = 1e-7
+TOLERANCE = 1e-9
 """Unbalanced force in mean block loads, incompatibility over the largest speed, and products over the power."""
 
 MOST_ITERATIONS = 80

@@ -60,6 +60,7 @@ class Step:
 
     anchor : (n_points, components) forces that it started from
     exact  : whether the exact law holds to ``FITS``; else as far as the interior-point method got, or a lagged step
+    unbalanced : unbalanced force, in mean block loads, of an exact step
     by_continuation : whether Newton's method went on from the step before
     shorter : times that the step was shortened
     work   : factorisations
@@ -72,6 +73,7 @@ class Step:
     forces: FloatArray
     exact: bool
     work: int
+    unbalanced: float = 0.0
     by_continuation: bool = False
     shorter: int = 0
 
@@ -163,4 +165,5 @@ def _interior(
 
 def _step_of(anchor: FloatArray, rho: float, result: LawStep | InteriorResult, work: int) -> Step:
     exact = isinstance(result, LawStep)
-    return Step(anchor, rho, result.velocities, result.load_factor, result.forces, exact, work)
+    unbalanced = result.residual if isinstance(result, LawStep) else 0.0
+    return Step(anchor, rho, result.velocities, result.load_factor, result.forces, exact, work, unbalanced)

@@ -270,7 +270,7 @@ CASES: dict[str, Callable[[], str]] = {
 SHORT = (
     "random friction, pushed at 15 degrees, seed 5",
     "wall out of plane at 60 degrees",
-    "room U, low friction",
+    "room U at 0 degrees",
     "wedge in a groove, seed 11",
     "flat arch lifted and pushed askew",
     "mortar that crushes, at 30 degrees",

@@ -1,0 +1,107 @@
+"""The load path: ends where closed forms and the proximal scheme say, stalls in words, and its points fit the law."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from mbla.deck.analysis import PathScheme
+from mbla.program.program import Program
+from mbla.solution.associative import solve_associative
+from mbla.solution.law_state import SequenceResult
+from mbla.solution.load_path import solve_path
+from mbla.solution.settings import SolverSettings
+from mbla.solution.solution import Status
+from tests.line import BLOCK, line_of
+from tests.solution.nonassociative_cases import CASES
+from tests.solution.test_dilatancy import groove, wall_3
+
+SETTINGS = SolverSettings(1e-8)
+
+
+def path_of(program: Program, steps: int = 20) -> SequenceResult:
+    associative = solve_associative(program, SETTINGS, lambda record: None)
+    return solve_path(program, associative, PathScheme(steps=steps), SETTINGS, lambda record: None)
+
+
+def factor_of(program: Program, result: SequenceResult) -> float:
+    assert result.status is Status.SOLVED, result.reason
+    assert result.state is not None
+    assert result.state.residual < 1e-9
+    assert result.path[-1].load_factor == pytest.approx(program.scaling.load_factor(result.state.load_factor), rel=2e-4)
+    return program.scaling.load_factor(result.state.load_factor)
+
+
+def test_a_block_sticks_until_it_slides() -> None:
+    program = line_of(BLOCK, "parameters.h=0.5").program
+    result = path_of(program, 10)
+    assert factor_of(program, result) == pytest.approx(0.5, rel=1e-8)
+    assert result.path[0].load_factor == 0.0
+    assert [point.slide for point in result.path[:3]] == [0, 0, 0]
+    assert [point.step for point in result.path] == list(range(len(result.path)))
+
+
+def test_a_tall_block_opens_at_one_edge() -> None:
+    """On four corner points of equal stiffness the far ones lose their force at b/h, when it tips over."""
+    program = line_of(BLOCK, "parameters.h=4").program
+    result = path_of(program, 10)
+    assert factor_of(program, result) == pytest.approx(0.25, rel=1e-8)
+    assert all(point.open == 0 for point in result.path if point.load_factor < 0.2499)
+
+
+def test_a_wedge_in_a_groove() -> None:
+    b = math.radians(30)
+    program = groove(0.5, b)
+    assert factor_of(program, path_of(program)) == pytest.approx(0.5 / math.cos(b), rel=1e-8)
+
+
+@pytest.mark.parametrize("steps", [7, 20])
+def test_wall_3_comes_to_the_published_factor(steps: int) -> None:
+    """MPEC of 2001: 0.356; the path and the proximal scheme meet on wall 3, whose mechanism has a lowest factor."""
+    program = wall_3()
+    result = path_of(program, steps)
+    assert factor_of(program, result) == pytest.approx(0.35582, abs=2e-5)
+    factors = [point.load_factor for point in result.path]
+    assert np.all(np.diff(factors) > 0)
+    assert max(point.residual for point in result.path) < 1e-8
+    assert result.path[-1].open > result.path[0].open
+
+
+def test_a_path_with_a_peak_is_said_to_have_stalled() -> None:
+    """Pushed askew, the wedge is turned against one side of its groove first; the forces then fall off."""
+    program = line_of(CASES["wedge in a groove, seed 11"]()).program
+    result = path_of(program)
+    assert result.status is Status.NOT_VERIFIED
+    assert "stalled" in result.reason
+    assert "peak" in result.reason
+    assert result.state is not None
+    assert result.state.residual > 1e-6
+    assert result.path
+
+
+def test_where_associative_flow_locks_the_path_has_an_end() -> None:
+    program = line_of(CASES["flat arch out of plane"]()).program
+    associative = solve_associative(program, SETTINGS, lambda record: None)
+    assert associative.status is Status.UNBOUNDED
+    result = solve_path(program, associative, PathScheme(steps=10), SETTINGS, lambda record: None)
+    assert factor_of(program, result) == pytest.approx(1.81625, abs=1e-4)
+
+
+def test_a_load_that_presses_down_has_no_end() -> None:
+    """Downwards on a block that stands: every load factor is carried, and the path says that it did not end."""
+    program = line_of(BLOCK, "load_cases.push.live=[{acceleration: [0, 0, -1]}]").program
+    associative = solve_associative(program, SETTINGS, lambda record: None)
+    result = solve_path(program, associative, PathScheme(steps=5), SETTINGS, lambda record: None)
+    assert result.status is Status.NOT_VERIFIED
+    assert "did not end" in result.reason
+
+
+def test_a_time_limit_ends_the_path() -> None:
+    program = wall_3()
+    associative = solve_associative(program, SETTINGS, lambda record: None)
+    settings = replace(SETTINGS, deadline=0.0)
+    result = solve_path(program, associative, PathScheme(steps=5), settings, lambda record: None)
+    assert result.status is Status.TIME_LIMIT
