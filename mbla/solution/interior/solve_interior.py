@@ -193,9 +193,8 @@ def _result(tries: _Tries, scheme: InteriorScheme) -> SequenceResult:
         reason = "the time limit was reached" if tries.late() else "no interior path could be begun"
         return SequenceResult(status, None, reason, records)
     if best.residual <= SOLVED:
-        return SequenceResult(Status.SOLVED, best, "", records, remarks=(ONE_OF_MANY,))
-    factors = [state.load_factor for state in tries.states if state.residual <= USABLE]
-    spread = (min(factors), max(factors)) if len(factors) > 1 else None
+        return SequenceResult(Status.SOLVED, best, "", records, _spread(tries, WARNED), (ONE_OF_MANY,))
+    spread = _spread(tries, USABLE)
     reason = f"no interior path ended in a state of the exact law: forces and velocities miss it by {best.residual:.2g}"
     if tries.late():
         return SequenceResult(Status.TIME_LIMIT, best, "the time limit was reached; " + reason, records, spread)
@@ -203,3 +202,9 @@ def _result(tries: _Tries, scheme: InteriorScheme) -> SequenceResult:
         return SequenceResult(Status.SOLVED, best, reason, records, spread, (reason,))
     status = Status.APPROXIMATE if best.residual <= USABLE else Status.NOT_VERIFIED
     return SequenceResult(status, best, f"{reason} ({scheme.tries} tries)", records, spread)
+
+
+def _spread(tries: _Tries, worst: float) -> tuple[float, float] | None:
+    """Least and greatest load factor of the tries with residuals up to ``worst``, where there are several."""
+    factors = [state.load_factor for state in tries.states if state.residual <= worst]
+    return (min(factors), max(factors)) if len(factors) > 1 else None
