@@ -3,7 +3,8 @@
 C has one block per contact point, so that the pattern of A C Aᵀ is fixed: which entry each product of two entries of
 one point's columns goes to is worked out once, and an assembly is a batched product and one weighted count.
 The rows and columns are scaled by the diagonal before they are factorised (SuperLU, minimum degree on the symmetric
-pattern: half the time of the column ordering on vaults).
+pattern: half the time of the column ordering on vaults). Not through the common door for factorisations, because the
+sign of the determinant is wanted, which only the factors tell.
 """
 
 from __future__ import annotations

@@ -2,9 +2,10 @@
 
 A point near the law need not lie on the central path: it is enough that all products are small. So the products are
 brought down together, each step being the least relative change that lowers them as wanted while equilibrium and
-compatibility hold (a Levenberg-Marquardt step in the local norm of the cones; Levenberg 1944, Marquardt 1963). Near a
-turning point the products that resist simply lag behind, and with them no line has to be followed: in a cross vault of
-184 blocks 300 steps reached what 8000 steps along its path, through 268 folds, did not.
+compatibility hold: a step of Levenberg (1944, doi:10.1090/qam/10666) and Marquardt (1963, doi:10.1137/0111030) in the
+local norm of the cones. Near a turning point the products that resist simply lag behind, and no line has to be
+followed: in a cross vault of 184 blocks 300 steps went from a residual of 5e-3 to below 1e-6, where 6,000
+factorisations along the path, through 268 folds, had stayed above 1e-4.
 
 The target is a share of the median product, but no less than a share of the largest, so that stragglers are waited
 for. Damping grows where the cones stop a step and shrinks where they do not.

@@ -139,7 +139,7 @@ def _inverse(blocks: FloatArray, held: np.typing.NDArray[np.bool_]) -> FloatArra
 
 
 def _outer(scale: FloatArray) -> FloatArray:
-    return np.asarray(scale[:, :, None] * scale[:, None, :])
+    return scale[:, :, None] * scale[:, None, :]
 
 
 def _times(blocks: FloatArray, vectors: FloatArray) -> FloatArray:

@@ -4,9 +4,11 @@ Each try follows one central path (:mod:`mbla.solution.interior.central_path`) b
 fallen by another decade, steps of the exact law are tried from there, which end most paths early. The tries differ in
 the pull towards the gravity state, which chooses the branch, and in the noise, which parts branches that meet.
 
-Measured: walls with openings, rooms, arches and wedges end after 40 to 150 factorisations with residuals of 1e-12. The
-load factor is not unique: with κ = 10 the walls 1, 3 and 5 of Ferris and Tin-Loi (doi:10.1016/S0020-7403(99)00111-3)
-give 0.6417, 0.3571 and 0.2146 (least exact solutions known: 0.6390, 0.3558, 0.2086), with κ = 0 0.6415, 0.3874, 0.2206.
+Measured: walls, barrel vaults, blocks and wedges end after 40 to 180 factorisations with residuals of 1e-12, domes of
+24 to 160 voussoirs and a cross vault of 184 blocks after 350 to 2,000 with 1e-9 to 1e-6. The load factor is not
+unique: with κ = 10 the walls 1, 3 and 5 of Ferris and Tin-Loi (doi:10.1016/S0020-7403(99)00111-3) give 0.6417, 0.3572
+and 0.2146 (least exact solutions known: 0.6390, 0.3558, 0.2086), with κ = 0 0.6415, 0.3869, 0.2208. Where a path folds
+its end depends on rounding too: the same vault gave 0.2601 and 0.2628 from gravity states that differed by 1e-8.
 """
 
 from __future__ import annotations
@@ -49,7 +51,7 @@ def starts() -> Iterator[Start]:
     """
     yield Start(10.0, 0.1, 0, descends=False)
     yield Start(1.0, 0.1, 0)
-    yield Start(1.0, 0.1, 1)
+    yield Start(0.0, 0.1, 1)
     yield Start(0.0, 1.0, 0)
     for seed in itertools.count(2):
         yield Start(1.0, 0.1, seed)
@@ -191,9 +193,8 @@ def _result(tries: _Tries, scheme: InteriorScheme) -> SequenceResult:
         reason = "the time limit was reached" if tries.late() else "no interior path could be begun"
         return SequenceResult(status, None, reason, records)
     if best.residual <= SOLVED:
-        return SequenceResult(Status.SOLVED, best, "", records, remarks=(ONE_OF_MANY,))
-    factors = [state.load_factor for state in tries.states if state.residual <= USABLE]
-    spread = (min(factors), max(factors)) if len(factors) > 1 else None
+        return SequenceResult(Status.SOLVED, best, "", records, _spread(tries, WARNED), (ONE_OF_MANY,))
+    spread = _spread(tries, USABLE)
     reason = f"no interior path ended in a state of the exact law: forces and velocities miss it by {best.residual:.2g}"
     if tries.late():
         return SequenceResult(Status.TIME_LIMIT, best, "the time limit was reached; " + reason, records, spread)
@@ -201,3 +202,9 @@ def _result(tries: _Tries, scheme: InteriorScheme) -> SequenceResult:
         return SequenceResult(Status.SOLVED, best, reason, records, spread, (reason,))
     status = Status.APPROXIMATE if best.residual <= USABLE else Status.NOT_VERIFIED
     return SequenceResult(status, best, f"{reason} ({scheme.tries} tries)", records, spread)
+
+
+def _spread(tries: _Tries, worst: float) -> tuple[float, float] | None:
+    """Least and greatest load factor of the tries with residuals up to ``worst``, where there are several."""
+    factors = [state.load_factor for state in tries.states if state.residual <= worst]
+    return (min(factors), max(factors)) if len(factors) > 1 else None
