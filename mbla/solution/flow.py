@@ -16,6 +16,7 @@ from mbla.solution.dilatancy import solve_dilatancy
 from mbla.solution.interior.solve_interior import solve_interior
 from mbla.solution.law_state import SequenceResult
 from mbla.solution.livesley import solve_livesley
+from mbla.solution.load_path import solve_path
 from mbla.solution.lowest import solve_lowest
 from mbla.solution.proximal import solve_proximal
 from mbla.solution.published import solve_published
@@ -78,6 +79,10 @@ def _lowest(flow: Flow) -> SequenceResult:
     return solve_lowest(flow.program, _auto(flow), flow.analysis.lowest, flow.settings, flow.log)
 
 
+def _path(flow: Flow) -> SequenceResult:
+    return solve_path(flow.program, flow.associative, flow.analysis.path, flow.settings, flow.log)
+
+
 def _published(flow: Flow) -> SequenceResult:
     """The published procedure starts from associative forces; where there are none the proximal scheme has to do."""
     if flow.locked:
@@ -101,6 +106,7 @@ SCHEMES: Mapping[str, Scheme] = {
     "auto": _auto,
     "proximal": _proximal,
     "interior": _interior,
+    "path": _path,
     "lowest": _lowest,
     "published": _published,
 }

@@ -223,8 +223,9 @@ def test_a_certificate_that_is_nearly_compatible_is_mended() -> None:
     assert solution.certificate is not None
     noise = 1e-6 * np.random.default_rng(7).normal(size=6)
     near = replace(
-        solution, certificate=solution.certificate + np.where(solution.certificate.any(axis=1)[:, None], noise, 0)
+        solution,
+        certificate=solution.certificate + np.where(np.any(solution.certificate != 0, axis=1)[:, None], noise, 0),
     )
     assert judged(line, near)[0] is Status.NO_EQUILIBRIUM
-    still = replace(solution, certificate=np.zeros_like(solution.certificate))
+    still = replace(solution, certificate=np.zeros((len(line.model.blocks), 6)))
     assert judged(line, still)[0] is Status.NOT_VERIFIED
