@@ -221,11 +221,9 @@ def test_a_certificate_that_is_nearly_compatible_is_mended() -> None:
     line = line_of(text)
     solution = solution_of(line)
     assert solution.certificate is not None
-    noise = 1e-6 * np.random.default_rng(7).normal(size=6)
-    near = replace(
-        solution,
-        certificate=solution.certificate + np.where(np.any(solution.certificate != 0, axis=1)[:, None], noise, 0),
-    )
+    motion = solution.certificate.copy()
+    motion[np.abs(motion).max(axis=1) > 0] += 1e-6 * np.random.default_rng(7).normal(size=6)
+    near = replace(solution, certificate=motion)
     assert judged(line, near)[0] is Status.NO_EQUILIBRIUM
-    still = replace(solution, certificate=np.zeros((len(line.model.blocks), 6)))
+    still = replace(solution, certificate=np.zeros_like(solution.certificate))
     assert judged(line, still)[0] is Status.NOT_VERIFIED
