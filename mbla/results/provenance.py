@@ -21,11 +21,14 @@ LIBRARIES = (
     "pint",
 )
 
+OPTIONAL = ("mkl",)
+"""Libraries that are used where they are installed."""
+
 
 def collect_provenance() -> dict[str, str]:
     """Versions and platform by name, read from the installed packages without importing them."""
     versions = {"mbla": __version__, "python": platform.python_version()}
-    for library in LIBRARIES:
+    for library in (*LIBRARIES, *OPTIONAL):
         try:
             versions[library] = version(library)
         except PackageNotFoundError:

@@ -163,7 +163,12 @@ def _forward(run: _Run, form: AssociativeForm) -> _Answer:
         if (unit, shifted, own is None) in tried:
             continue
         tolerance = max(share * run.settings.tolerance, SHARPEST)
-        answer = _answer(run, own or form, unit, replace(run.settings, tolerance=tolerance, regularization=shifted))
+        answer = _answer(
+            run,
+            own or form,
+            unit,
+            replace(run.settings, tolerance=tolerance, regularization=shifted, factorization="qdldl"),
+        )
         if answer.solution.status is not Status.SOLVED:  # a tolerance still smaller would change nothing
             tried.add((unit, shifted, own is None))
         best = _better(best, answer)

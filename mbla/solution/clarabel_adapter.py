@@ -16,6 +16,7 @@ from mbla.errors import SolverError
 from mbla.program.kinematic import ConeProgram
 from mbla.solution.cone_solution import ConeSolution as ConeSolution
 from mbla.solution.cone_solution import Log as Log
+from mbla.solution.mkl import factorization_for
 from mbla.solution.settings import SolverSettings
 from mbla.solution.signals import signals_held
 from mbla.solution.solution import IterationRecord, Status
@@ -163,9 +164,8 @@ class ClarabelProgram:
         settings = clarabel.DefaultSettings()
         settings.verbose = False
         settings.presolve_enable = False  # would forbid update()
-        settings.direct_solve_method = (
-            "qdldl"  # reruns bit-identically; "auto" may take faer, whose digits depend on threads
-        )
+        # not "auto", which may take faer: its digits depend on threads, qdldl reruns bit-identically
+        settings.direct_solve_method = self.settings.factorization or factorization_for(len(self.cone_program.cost))
         settings.max_threads = self.settings.threads
         settings.static_regularization_constant = regularization(self.cone_program, self.settings)
         settings.max_iter = self.settings.max_iterations

@@ -29,6 +29,7 @@ class SolverSettings:
     threads        : of the linear algebra
     solver         : library that solves cone programs: clarabel, or highs for linear ones
     deadline       : time.monotonic() at which to stop, or None
+    factorization  : of the cone solver, qdldl or mkl; None: by size of the program and by what is installed
     gap            : relative distance of the proved bounds that an associative load factor should have
     """
 
@@ -39,6 +40,7 @@ class SolverSettings:
     deadline: float | None = None
     solver: str = "clarabel"
     gap: float = GAP["standard"]
+    factorization: str | None = None
 
 
 def solver_settings(analysis: AnalysisSection, threads: int = 1) -> SolverSettings:

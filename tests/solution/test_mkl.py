@@ -1,0 +1,71 @@
+"""MKL is looked for, tried apart, and used for the largest programs alone; nothing here needs it to be installed."""
+
+from __future__ import annotations
+
+import os
+import platform
+import sys
+from collections.abc import Iterator
+from importlib.metadata import PackageNotFoundError
+from pathlib import Path
+from types import SimpleNamespace
+
+import pytest
+
+from mbla.solution import mkl
+
+
+@pytest.fixture(autouse=True)
+def searched_afresh() -> Iterator[None]:
+    mkl.mkl_works.cache_clear()
+    yield
+    mkl.mkl_works.cache_clear()
+
+
+def installed(folder: Path, *names: str) -> SimpleNamespace:
+    """A package with empty files of those names."""
+    for name in names:
+        (folder / name).touch()
+    files = [SimpleNamespace(name=name, locate=lambda name=name: folder / name) for name in names]
+    return SimpleNamespace(files=files)
+
+
+def test_small_programs_do_not_even_look_for_it(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(mkl, "mkl_library", lambda: pytest.fail("looked for"))
+    assert mkl.factorization_for(mkl.UNKNOWNS - 1) == "qdldl"
+
+
+@pytest.mark.parametrize(("works", "name"), [(True, "mkl"), (False, "qdldl")])
+def test_large_programs_take_it_where_it_works(works: bool, name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(mkl, "mkl_works", lambda: works)
+    assert mkl.factorization_for(mkl.UNKNOWNS) == name
+
+
+def test_the_library_is_found_under_a_name_with_a_version(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    monkeypatch.setattr(sys, "platform", "linux")
+    monkeypatch.setattr(platform, "machine", lambda: "x86_64")
+    package = installed(tmp_path, "libmkl_core.so.3", "libmkl_rt.so.3")
+    monkeypatch.setattr(mkl, "distribution", lambda name: package)
+    library = mkl.mkl_library()
+    assert library is not None
+    assert library == (tmp_path / "libmkl_rt.so.3").resolve()
+    links = mkl._directory_of_links(library)
+    assert {path.name for path in links.iterdir()} == {"libmkl_core.so.3", "libmkl_rt.so.3", "libmkl_rt.so"}
+
+
+def test_a_library_that_cannot_be_loaded_is_not_used(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    """An empty file in its place: the trial fails in its own process, and nothing of it stays behind."""
+    installed(tmp_path, "libmkl_rt.so.3")
+    monkeypatch.setattr(mkl, "mkl_library", lambda: tmp_path / "libmkl_rt.so.3")
+    monkeypatch.delenv("MKL_PARDISO_PATH", raising=False)
+    assert not mkl.mkl_works()
+    assert "MKL_PARDISO_PATH" not in os.environ
+
+
+def test_where_the_package_is_missing_there_is_no_library(monkeypatch: pytest.MonkeyPatch) -> None:
+    def missing(name: str) -> None:
+        raise PackageNotFoundError(name)
+
+    monkeypatch.setattr(mkl, "distribution", missing)
+    assert mkl.mkl_library() is None
+    assert not mkl.mkl_works()
