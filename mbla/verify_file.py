@@ -41,6 +41,11 @@ def _differences(stored: Checks, recomputed: Checks) -> list[str]:
         "kinematic_bound",
         "equilibrium_residual",
         "yield_violation",
+        "tension_violation",
+        "slip_residual",
+        "peak_load_factor",
+        "lower",
+        "upper",
         "complementarity_residual",
     ):
         old, new = getattr(stored, name), getattr(recomputed, name)

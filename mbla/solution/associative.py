@@ -20,37 +20,27 @@ import numpy as np
 from mbla.arrays import FloatArray
 from mbla.program.program import Program
 from mbla.program.static import gravity_form
-from mbla.solution.associative_form import AssociativeForm, in_forces, in_own_units, in_velocities
-from mbla.solution.bounds import CertifiedGap, certified_gap, factor_size, falling_motion, repaired_forces
-from mbla.solution.clarabel_adapter import ClarabelProgram, regularization
-from mbla.solution.cone_solution import ConeSolution, ConeSolver, Log
+from mbla.solution.associative_form import AssociativeForm, in_forces, in_velocities
+from mbla.solution.bounds import falling_motion, repaired_forces
+from mbla.solution.clarabel_adapter import ClarabelProgram
+from mbla.solution.cone_solution import ConeSolution, Log
 from mbla.solution.cone_solver import cone_solver
 from mbla.solution.law_state import LawState, law_state
+from mbla.solution.proved_answer import (
+    ACCEPTED_GAP,
+    STANDS_MARGIN,
+    WITH_VALUE,
+    AssociativeRun,
+    ProvedAnswer,
+    better,
+    is_decided,
+    proved_certificate,
+    says_it_falls,
+    solve_until_proved,
+    solved_once,
+)
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import ProgramRecord, Status
-
-STANDS_MARGIN = 1e-7
-"""A load factor is taken as negative only beyond this share of (dead load over live load): below it is solver noise."""
-
-SMALL = 1e-3
-"""Share of dead over live load below which a load factor is computed again in units of its own size."""
-
-NOISE = 1e-10
-"""Share below which its size is not known from the solver, and the unit is the next one."""
-
-ZERO_SIZE = 1e-7
-"""Size, as a share, that is taken for a load factor of zero."""
-
-SHARPER = ((0.0, 1e-2, None), (1.0, 1e-2, None), (0.5, 1e-4, 1e-8), (0.0, 1e-4, 1e-9))
-"""How a program is solved again, in turn: power of the load factor's size that is its unit, factor on the solver's
-tolerance, regularisation. An arch at its least thickness is sharpest in units of its own size, which is too much for a
-stack at its greatest overhang: half-way, or the unit of dead loads, does better there."""
-
-SHARPEST = 1e-12
-"""Least tolerance of the solver."""
-
-ACCEPTED_GAP = 1e-5
-"""Distance of the bounds, relative, up to which a load factor counts as solved."""
 
 ENOUGH = 1e-2
 """Residuals at which the program with the live load reversed is stopped: of 125 structures that stand its forces could
@@ -61,8 +51,6 @@ ROUGH = 1e3
 true one contains; whether the answer is good enough is for the proved bounds to say."""
 
 LOCKED = "no mechanism exists in which the live load does work: friction locks the structure under any multiple"
-
-WITH_VALUE = (Status.SOLVED, Status.APPROXIMATE)
 
 
 @dataclass(frozen=True)
@@ -80,47 +68,6 @@ class AssociativeResult:
     programs: tuple[ProgramRecord, ...]
 
 
-@dataclass
-class _Run:
-    """What every step needs, and the programs solved so far.
-
-    first : number of the first program in the sequence of the load case
-    """
-
-    program: Program
-    settings: SolverSettings
-    log: Log
-    first: int
-    records: list[ProgramRecord]
-
-    @property
-    def size(self) -> float:
-        """Of load factors."""
-        return factor_size(self.program)
-
-    def result(self, status: Status, reason: str) -> AssociativeResult:
-        """A result without state."""
-        return AssociativeResult(status, None, None, reason, tuple(self.records))
-
-
-@dataclass(frozen=True)
-class _Answer:
-    """What the solver returned, and what of it could be proved.
-
-    gap         : bounds of the load factor, where there is one
-    certificate : compatible velocities in which the dead load does work, where there is no equilibrium
-    """
-
-    solution: ConeSolution
-    gap: CertifiedGap | None = None
-    certificate: FloatArray | None = None
-
-    @property
-    def distance(self) -> float:
-        """Of the bounds, infinite where there are none."""
-        return float("inf") if self.gap is None or not self.gap.gap >= 0.0 else self.gap.gap
-
-
 def solve_associative(
     program: Program, settings: SolverSettings, log: Log, *, form: AssociativeForm | None = None, first: int = 1
 ) -> AssociativeResult:
@@ -129,18 +76,18 @@ def solve_associative(
     form  : kinematic with the friction cone, unless another is given (:mod:`mbla.solution.associative_form`)
     first : number of its first program in the sequence of the load case
     """
-    run = _Run(program, settings, log, first, [])
+    run = AssociativeRun(program, settings, log, first, [])
     falling = _fall_of_what_nothing_touches(program)
     if falling.any():
         return _no_equilibrium(run, falling)
     rough = program.limits.friction > ROUGH
     form = form or in_velocities(program)
-    answer = _forward(run, form)
-    if form.exact and rough.any() and not _is_decided(run, answer):
+    answer = solve_until_proved(run, form)
+    if form.exact and rough.any() and not is_decided(run, answer):
         limits = replace(program.limits, friction=np.minimum(program.limits.friction, ROUGH))
         made = (in_velocities if form.has_units else in_forces)(replace(program, limits=limits))
         form = replace(made, program=program)  # proved is what holds of the true friction
-        answer = _better(answer, _forward(run, form))
+        answer = better(answer, solve_until_proved(run, form))
     if answer.certificate is not None:
         return _no_equilibrium(run, answer.certificate)
     if answer.gap is None and answer.solution.status is not Status.UNBOUNDED:
@@ -148,6 +95,7 @@ def solve_associative(
     return _with_dead_load(run, form, answer)
 
 
+<<<<<<< HEAD
 def _forward(run: _Run, form: AssociativeForm) -> _Answer:
     """The program itself, solved until its bounds meet or no settings are left."""
     best = _answer(run, form, 1.0, run.settings)
@@ -236,6 +184,9 @@ def _size(run: _Run, answer: _Answer) -> float:
 
 
 def _with_dead_load(run: _Run, form: AssociativeForm, answer: _Answer) -> AssociativeResult:
+=======
+def _with_dead_load(run: AssociativeRun, form: AssociativeForm, answer: ProvedAnswer) -> AssociativeResult:
+>>>>>>> 8678e14a33b2ca3a0f4133101869143afa5caae1
     """The result, once it is known that the dead load alone is carried."""
     settings = replace(run.settings, tolerance=form.tolerance(run.settings.tolerance))
     solver = cone_solver(form.reversed_program, settings, run.log)
@@ -243,25 +194,25 @@ def _with_dead_load(run: _Run, form: AssociativeForm, answer: _Answer) -> Associ
     for enough in (ENOUGH, 0.0) if isinstance(solver, ClarabelProgram) else (0.0,):
         if carried or reverse.status is Status.TIME_LIMIT:
             break
-        reverse = _solved(run, form, solver, "reverse", -1.0, enough)
+        reverse = solved_once(run, form, solver, "reverse", -1.0, enough)
         carried = _carried(run, form, reverse)
     if not carried:
-        certificate = _certificate(run, form, reverse)
+        certificate = proved_certificate(run, form, reverse)
         if certificate is not None:
             return _no_equilibrium(run, certificate)
-        if _falls(run, reverse):
+        if says_it_falls(run, reverse):
             return _undecided(run, reverse)
         if reverse.status not in (*WITH_VALUE, Status.UNBOUNDED):
             reason = "whether the dead load alone is carried could not be decided: " + _words_of(reverse)
-            return run.result(reverse.status, reason)
+            return _without_state(run, reverse.status, reason)
     if answer.solution.status is Status.UNBOUNDED and reverse.status is Status.UNBOUNDED:
         return _locked_both_ways(run, settings)
     if answer.solution.status is Status.UNBOUNDED:
-        return run.result(Status.UNBOUNDED, LOCKED)
+        return _without_state(run, Status.UNBOUNDED, LOCKED)
     return _with_load_factor(run, answer)
 
 
-def _locked_both_ways(run: _Run, settings: SolverSettings) -> AssociativeResult:
+def _locked_both_ways(run: AssociativeRun, settings: SolverSettings) -> AssociativeResult:
     """No mechanism in which the live load does work, of either sign: that says nothing of the dead load, so ask."""
     form = gravity_form(run.program)
     solution = cone_solver(form.cone_program, replace(settings, solver="clarabel"), run.log).solve(
@@ -271,14 +222,14 @@ def _locked_both_ways(run: _Run, settings: SolverSettings) -> AssociativeResult:
     number = run.first + len(run.records)
     run.records.append(ProgramRecord(number, "gravity", status, np.nan, np.nan, solution.iterations, seconds))
     if status in WITH_VALUE:
-        return run.result(Status.UNBOUNDED, LOCKED)
+        return _without_state(run, Status.UNBOUNDED, LOCKED)
     certificate = falling_motion(run.program, -form.velocities(solution.z))
     if certificate is None:
         certificate = falling_motion(run.program, form.velocities(solution.z))
     return _undecided(run, solution) if certificate is None else _no_equilibrium(run, certificate)
 
 
-def _with_load_factor(run: _Run, answer: _Answer) -> AssociativeResult:
+def _with_load_factor(run: AssociativeRun, answer: ProvedAnswer) -> AssociativeResult:
     gap, status, reason = answer.gap, Status.SOLVED, ""
     assert gap is not None
     if not gap.gap <= ACCEPTED_GAP:
@@ -293,7 +244,7 @@ def _with_load_factor(run: _Run, answer: _Answer) -> AssociativeResult:
     return AssociativeResult(status, state, None, reason, tuple(run.records))
 
 
-def _carried(run: _Run, form: AssociativeForm, reverse: ConeSolution) -> bool:
+def _carried(run: AssociativeRun, form: AssociativeForm, reverse: ConeSolution) -> bool:
     """Whether the forces prove that there is equilibrium at a load factor of zero or below."""
     forces = form.forces(reverse)
     if not np.isfinite(forces).all() or not np.isfinite(reverse.objective):
@@ -302,41 +253,17 @@ def _carried(run: _Run, form: AssociativeForm, reverse: ConeSolution) -> bool:
     return repaired is not None and repaired[1] <= STANDS_MARGIN * run.size
 
 
-def _solved(
-    run: _Run, form: AssociativeForm, solver: ConeSolver, kind: str, unit: float, enough: float = 0.0
-) -> ConeSolution:
-    """Solve what is loaded and record it; ``unit`` times the objective is the load factor of the program.
-
-    Once only where the answer is judged by what it proves; with the fallbacks of the solver where it is believed.
-    """
-    number, to_load_factor = run.first + len(run.records), unit * run.program.scaling.live
-    if isinstance(solver, ClarabelProgram) and (form.exact or enough > 0.0):
-        solution = solver.solve_once(number, form.sign * to_load_factor, enough)
-    else:
-        solution = solver.solve(number, form.sign * to_load_factor)
-    solution = form.read(solution)
-    value = to_load_factor * solution.objective if solution.status in WITH_VALUE else np.nan
-    status = Status.SOLVED if enough > 0.0 and solution.status is Status.APPROXIMATE else solution.status
-    record = ProgramRecord(number, kind, status, value, np.nan, solution.iterations, solution.seconds)
-    run.records.append(record)
-    return solution
-
-
 def _fall_of_what_nothing_touches(program: Program) -> FloatArray:
     """Velocities along the dead load where no contact resists, (n_rows,): no solver is needed for them."""
     untouched = np.diff(program.equilibrium_matrix.indptr) == 0
     return np.where(untouched, program.dead_load, 0.0)
 
 
-def _falls(run: _Run, solution: ConeSolution) -> bool:
-    """Whether a program, of either sign of the live load, says that there is no equilibrium without live load."""
-    if not run.program.dead_load.any():  # no forces balance no load
-        return False
-    negative = solution.objective < -STANDS_MARGIN * run.size
-    return solution.status is Status.NO_EQUILIBRIUM or (solution.status in WITH_VALUE and negative)
+def _without_state(run: AssociativeRun, status: Status, reason: str) -> AssociativeResult:
+    return AssociativeResult(status, None, None, reason, tuple(run.records))
 
 
-def _no_equilibrium(run: _Run, certificate: FloatArray) -> AssociativeResult:
+def _no_equilibrium(run: AssociativeRun, certificate: FloatArray) -> AssociativeResult:
     """The mechanism that proves it: compatible, and the dead load does more work than the joints dissipate."""
     reason = (
         "the dead load alone is not carried: a mechanism exists in which it does more work than the joints dissipate"
@@ -344,15 +271,15 @@ def _no_equilibrium(run: _Run, certificate: FloatArray) -> AssociativeResult:
     return AssociativeResult(Status.NO_EQUILIBRIUM, None, certificate, reason, tuple(run.records))
 
 
-def _undecided(run: _Run, solution: ConeSolution) -> AssociativeResult:
+def _undecided(run: AssociativeRun, solution: ConeSolution) -> AssociativeResult:
     """No settings gave an answer; a lack of equilibrium that could not be proved is none."""
     if solution.status in (Status.TIME_LIMIT, Status.ITERATION_LIMIT):
-        return run.result(solution.status, _words_of(solution))
+        return _without_state(run, solution.status, _words_of(solution))
     reason = (
         "whether there is equilibrium could not be decided: the structure is within rounding of falling under its "
         f"dead load, or too ill-conditioned ({solution.verdict})"
     )
-    return run.result(Status.NOT_VERIFIED, reason)
+    return _without_state(run, Status.NOT_VERIFIED, reason)
 
 
 def _words_of(solution: ConeSolution) -> str:
