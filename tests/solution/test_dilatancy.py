@@ -17,7 +17,7 @@ from mbla.solution.law_state import SequenceResult
 from mbla.solution.proximal import solve_proximal
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Status
-from tests.line import BLOCK, HEAD, line_of
+from tests.line import BLOCK, HEAD, line_of, verified
 from tests.solution.test_proximal import FERRIS_3
 
 SETTINGS = SolverSettings(1e-8)
@@ -124,3 +124,17 @@ def test_the_associative_answer_is_reached_from_the_dead_load_too() -> None:
     result = solve_dilatancy(program, nothing, ProximalScheme(), SETTINGS, lambda record: None)
     assert result.state is not None
     assert program.scaling.load_factor(result.state.load_factor) == pytest.approx(0.403694104, abs=1e-8)
+
+
+def test_a_deck_asks_for_dilatancy_and_it_is_verified() -> None:
+    solution, checks, status = verified(
+        line_of(
+            FERRIS_3,
+            "joints.dry.dilatancy=10",
+            "analysis={flow_rule: dilatancy, standing: false, range: false}",
+        )
+    )
+    assert status is Status.SOLVED, (solution.reason, checks.failures)
+    assert checks.complementarity_residual < 1e-9
+    assert solution.mechanics is not None
+    assert solution.mechanics.load_factor == pytest.approx(0.402487, abs=1e-5)

@@ -15,9 +15,10 @@ from mbla.solution.law_state import SequenceResult
 from mbla.solution.load_path import solve_path
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Status
-from tests.line import BLOCK, line_of
+from tests.line import BLOCK, line_of, verified
 from tests.solution.nonassociative_cases import CASES
 from tests.solution.test_dilatancy import groove, wall_3
+from tests.solution.test_proximal import FERRIS_3
 
 SETTINGS = SolverSettings(1e-8)
 
@@ -105,3 +106,13 @@ def test_a_time_limit_ends_the_path() -> None:
     settings = replace(SETTINGS, deadline=0.0)
     result = solve_path(program, associative, PathScheme(steps=5), settings, lambda record: None)
     assert result.status is Status.TIME_LIMIT
+
+
+def test_a_deck_asks_for_the_path_and_its_end_is_verified() -> None:
+    solution, checks, status = verified(
+        line_of(FERRIS_3, "analysis={scheme: path, path: {steps: 10}, standing: false, range: false}")
+    )
+    assert status is Status.SOLVED, (solution.reason, checks.failures)
+    assert len(solution.path) > 10
+    assert checks.complementarity_residual < 1e-9
+    assert "load path" in {program.kind for program in solution.programs}
