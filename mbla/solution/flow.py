@@ -75,10 +75,6 @@ def _auto(flow: Flow) -> SequenceResult:
     )
 
 
-def _path(flow: Flow) -> SequenceResult:
-    return solve_path(flow.program, flow.associative, flow.analysis.path, flow.settings, flow.log)
-
-
 def _lowest(flow: Flow) -> SequenceResult:
     return solve_lowest(flow.program, _auto(flow), flow.analysis.lowest, flow.settings, flow.log)
 

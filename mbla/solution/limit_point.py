@@ -22,9 +22,9 @@ import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.program.program import Program
-from mbla.program.static import gravity_form
-from mbla.solution.clarabel_adapter import ClarabelProgram, Log
+from mbla.solution.cone_solution import ConeSolution, Log
 from mbla.solution.factor_range import dead_over_live
+from mbla.solution.gravity import gravity_forces
 from mbla.solution.law_state import LawState, law_state
 from mbla.solution.law_steps import Step, Stepper, next_step
 from mbla.solution.settings import SolverSettings
@@ -79,11 +79,9 @@ def limit_point(
     if associative <= _least_peak(program, state.load_factor):
         return LimitPoint(None, np.nan, ())
     stepper = Stepper(stiffness_of(program), np.zeros(program.n_points), settings, log)
-    form = gravity_form(program)
-    solution = ClarabelProgram(form.cone_program, settings, log).solve(first_program, 0.0)
-    if solution.status not in (Status.SOLVED, Status.APPROXIMATE):
+    gravity = gravity_forces(program, settings, log, [])
+    if isinstance(gravity, ConeSolution):
         return LimitPoint(None, np.nan, (), "the load path was not followed: no gravity state was found to start from")
-    gravity = form.forces(solution.x)
     records: list[ProgramRecord] = []
     peak, change, least = None, np.nan, _least_peak(program, state.load_factor)
     for size, most in zip(STEPS, MOST_STEPS, strict=True):

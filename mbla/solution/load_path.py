@@ -70,12 +70,13 @@ def solve_path(
     scale = 1.0 if associative.state is None else abs(associative.state.load_factor)
     started = time.perf_counter()
     path = _follow(run, gravity, scale, scheme.steps)
+    late = settings.deadline is not None and time.monotonic() > settings.deadline
     if path is None:
-        return SequenceResult(
-            Status.NOT_VERIFIED, None, "the path stalled: no state was found under the dead load", tuple(run.records)
-        )
+        status = Status.TIME_LIMIT if late else Status.NOT_VERIFIED
+        reason = "the time limit was reached" if late else "the path stalled: no state was found under the dead load"
+        return SequenceResult(status, None, reason, tuple(run.records))
     run.records.append(_record(run, path, time.perf_counter() - started))
-    if settings.deadline is not None and time.monotonic() > settings.deadline:
+    if late:
         return replace(_stalled(run, path, "the time limit was reached"), status=Status.TIME_LIMIT)
     if path.blocked == np.inf:
         return _stalled(run, path, f"the path did not end within {FARTHEST} times the associative load factor")

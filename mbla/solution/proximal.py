@@ -1,6 +1,6 @@
 """Non-associative flow by proximal steps of the exact joint law from the gravity state.
 
-1. Gravity state x̄: the least forces, in the sense of ½ ‖x‖², that carry the dead load alone.
+1. Gravity state x̄: forces under the dead load alone (:mod:`mbla.solution.gravity`).
 2. Proximal step: equilibrium at a load factor λ, and the exact law for the part of the motion that the change of the
    forces leaves, v + ρ (x − x̄); x̄ then moves to x. Every point at which the steps stand still is a state of the exact
    law, for any ρ. A step works as a step of the load with joints of stiffness ρ; ρ = ε/‖x̄‖² with ε = 0.03 is free of
@@ -28,9 +28,9 @@ import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.program.program import Program
-from mbla.program.static import gravity_form
 from mbla.solution.associative import AssociativeResult
-from mbla.solution.clarabel_adapter import ClarabelProgram, ConeSolution, Log
+from mbla.solution.cone_solution import ConeSolution, Log
+from mbla.solution.gravity import gravity_forces
 from mbla.solution.law_state import LawState, SequenceResult, law_state
 from mbla.solution.law_steps import Step, Stepper, lagged_step, next_step
 from mbla.solution.settings import SolverSettings
@@ -104,15 +104,8 @@ def solve_proximal(
 
 def gravity_state(run: ProximalRun) -> FloatArray | SequenceResult:
     """Forces of the gravity state, (n_points, components), or how the scheme ends where there is none."""
-    form = gravity_form(run.program)
-    number = len(run.records) + 1
-    solution = ClarabelProgram(form.cone_program, run.stepper.settings, run.stepper.log).solve(number, 0.0)
-    run.records.append(
-        ProgramRecord(number, "gravity", solution.status, np.nan, np.nan, solution.iterations, solution.seconds)
-    )
-    if solution.status in (Status.SOLVED, Status.APPROXIMATE):
-        return form.forces(solution.x)
-    return _broken_off(run, solution)
+    found = gravity_forces(run.program, run.stepper.settings, run.stepper.log, run.records)
+    return _broken_off(run, found) if isinstance(found, ConeSolution) else found
 
 
 def steps_from(run: ProximalRun, anchor: FloatArray, max_programs: int) -> SequenceResult:
