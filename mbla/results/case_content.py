@@ -135,6 +135,8 @@ def _standing(standing: StandingResult) -> Content:
         "standing/verdict": standing.verdict.value,
         "standing/falls": np.array(falls, dtype=np.int64),
         "standing/reason": standing.reason,
+        **({} if standing.forces is None else {"standing/contact_forces": standing.forces}),
+        **({} if standing.settlement is None else {"standing/settlement": standing.settlement}),
     }
 
 

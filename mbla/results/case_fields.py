@@ -110,6 +110,22 @@ FURTHER_ANSWERS = (
         part="standing",
     ),
     Field(f"{CASE}/standing/reason", "text", (), "1", "why, in words", part="standing"),
+    Field(
+        f"{CASE}/standing/contact_forces",
+        "float",
+        ("point", "direction"),
+        "force",
+        "contact forces under the dead load alone, from the stress-free assembly",
+        part="standing proof",
+    ),
+    Field(
+        f"{CASE}/standing/settlement",
+        "float",
+        ("block", "component"),
+        "displacement",
+        "displacements and rotations that bring them about on joints of unit stiffness",
+        part="standing proof",
+    ),
     *(
         Field(f"{CASE}/size/{name}", "int", (), "1", words, part="size")
         for name, words in (

@@ -109,7 +109,13 @@ def _standing(get: dict[str, Any]) -> StandingResult | None:
     falls = get["standing/falls"].tolist()
     if len(falls) > 1:
         raise ValueError("more than one block that falls first")
-    return StandingResult(Standing(get["standing/verdict"]), falls[0] if falls else None, get["standing/reason"])
+    return StandingResult(
+        Standing(get["standing/verdict"]),
+        falls[0] if falls else None,
+        get["standing/reason"],
+        get.get("standing/contact_forces"),
+        get.get("standing/settlement"),
+    )
 
 
 def _size(get: dict[str, Any]) -> ModelSize | None:

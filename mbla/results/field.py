@@ -21,6 +21,7 @@ UnitKind = Literal[
     "rotation",
     "velocities",
     "motion",
+    "displacement",
 ]
 
 
@@ -63,6 +64,7 @@ def unit_text(kind: UnitKind, units: Units) -> str:
         "rotation": f"1/({force} {length})",
         "velocities": f"1/{force}; 1/({force} {length})",
         "motion": f"1; 1/{length}",
+        "displacement": f"{length}; 1",
     }[kind]
 
 

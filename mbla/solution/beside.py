@@ -14,10 +14,11 @@ from mbla.deck.analysis import AnalysisSection
 from mbla.solution.cone_solution import Log
 from mbla.solution.factor_range import FactorRange, factor_range
 from mbla.solution.limit_point import limit_point
+from mbla.solution.mechanics import forces_of
 from mbla.solution.part import PartResult
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import StandingResult, Status
-from mbla.solution.standing import assess_standing, standing_without_equilibrium
+from mbla.solution.standing import assess_dead_load, settlement_of, standing_without_equilibrium
 from mbla.solution.unique_forces import least_forces, point_weights
 
 RANGE_RESIDUAL = 1e-4
@@ -90,4 +91,8 @@ def _standing_of(result: PartResult, settings: SolverSettings) -> StandingResult
     if associative.certificate is not None:
         return standing_without_equilibrium(result.program, associative.certificate)
     decided = associative.state is not None or associative.status is Status.UNBOUNDED
-    return assess_standing(result.program, settings, True if decided else None)
+    state = assess_dead_load(result.program, settings, True if decided else None)
+    if state.forces is None or state.displacements is None:
+        return state.standing
+    forces = forces_of(result.program, state.forces)
+    return replace(state.standing, forces=forces, settlement=settlement_of(result.program, state.displacements))

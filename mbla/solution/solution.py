@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import IntEnum, StrEnum
 
 from mbla.arrays import FloatArray, IntArray
@@ -76,11 +76,15 @@ class StandingResult:
     verdict : YES: equilibrium arises from the stress-free assembly; SELF_STRESS: only from forces locked in before
     block   : the block that falls or would fall first; None where none does
     reason  : one sentence in words
+    forces, settlement : where it stands: (n_points, 3) contact forces under the dead load alone [N], and (n_blocks, 6)
+              the displacements and rotations that bring them about on joints of unit stiffness; None where not known
     """
 
     verdict: Standing
     block: int | None
     reason: str
+    forces: FloatArray | None = field(default=None, compare=False)
+    settlement: FloatArray | None = field(default=None, compare=False)
 
 
 @dataclass(frozen=True)

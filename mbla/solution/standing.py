@@ -10,7 +10,7 @@ has to arise from the assembly without stress, by the exact law of the joints: s
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -85,8 +85,15 @@ def settlement_of(program: Program, displacements: FloatArray) -> FloatArray:
 
 
 def worst_standing(results: Sequence[StandingResult]) -> StandingResult:
-    """Standing of a structure from that of its parts: the gravest, the first of several."""
-    return min(results, key=lambda result: GRAVEST_FIRST.index(result.verdict))
+    """Standing of a structure from that of its parts: the gravest, the first of several; forces of all together."""
+    worst = min(results, key=lambda result: GRAVEST_FIRST.index(result.verdict))
+    if worst.verdict is not Standing.YES:
+        return replace(worst, forces=None, settlement=None)
+    forces = [result.forces for result in results if result.forces is not None]
+    settlements = [result.settlement for result in results if result.settlement is not None]
+    if len(forces) < len(results) or len(settlements) < len(results):
+        return replace(worst, forces=None, settlement=None)
+    return replace(worst, forces=np.sum(forces, axis=0), settlement=np.sum(settlements, axis=0))
 
 
 def standing_without_equilibrium(program: Program, certificate: FloatArray) -> StandingResult:

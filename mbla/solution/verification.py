@@ -5,6 +5,7 @@
 - :mod:`mbla.solution.verify_convex`: the first with the conditions on interfaces of the convex contact model;
 - :mod:`mbla.solution.verify_range`: both ends of the range of a load factor without normality;
 - :mod:`mbla.solution.verify_peak`: a greater load factor that is passed before the structure comes to rest;
+- :mod:`mbla.solution.verify_standing`: that the dead load is carried from the stress-free assembly;
 - :mod:`mbla.solution.verify_lock`: forces that carry every multiple of the live load.
 """
 
@@ -21,6 +22,7 @@ from mbla.solution.verify_lock import lock_failures
 from mbla.solution.verify_peak import peak_check
 from mbla.solution.verify_polyhedral import verify_polyhedral
 from mbla.solution.verify_range import range_checks
+from mbla.solution.verify_standing import standing_failures
 
 
 def verify(model: Model, contacts: Contacts, load_case: LoadCase, solution: Solution) -> Checks:
@@ -32,6 +34,9 @@ def verify(model: Model, contacts: Contacts, load_case: LoadCase, solution: Solu
     if solution.contact_model == "convex":
         of_mechanics = verify_convex
     checks = of_mechanics(model, contacts, load_case, solution)
+    failures = _standing_failures(model, contacts, load_case, solution)
+    if failures:
+        checks = replace(checks, verified=False, failures=(*checks.failures, *failures))
     lower, upper = range_checks(model, contacts, load_case, solution)
     if solution.status is Status.UNBOUNDED:
         failures = _lock_failures(model, contacts, load_case, solution)
@@ -39,6 +44,14 @@ def verify(model: Model, contacts: Contacts, load_case: LoadCase, solution: Solu
     return replace(
         checks, lower=lower, upper=upper, peak_load_factor=peak_check(model, contacts, load_case, solution.peak)
     )
+
+
+def _standing_failures(model: Model, contacts: Contacts, load_case: LoadCase, solution: Solution) -> tuple[str, ...]:
+    """What of the forces and displacements that show that the structure stands does not."""
+    standing = solution.standing
+    if standing is None or standing.forces is None or standing.settlement is None:
+        return ()
+    return standing_failures(model, contacts, load_case, standing.forces, standing.settlement)
 
 
 def _lock_failures(model: Model, contacts: Contacts, load_case: LoadCase, solution: Solution) -> tuple[str, ...]:

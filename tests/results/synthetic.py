@@ -227,7 +227,9 @@ def full_results() -> Results:
         peak=replace(mechanics, load_factor=0.6),
         outer=replace(mechanics, load_factor=0.56),
         spread=(0.49, 0.51),
-        standing=StandingResult(Standing.SELF_STRESS, 1, "the tower hangs between two walls"),
+        standing=StandingResult(
+            Standing.SELF_STRESS, 1, "the tower hangs between two walls", mechanics.contact_forces, mechanics.mechanism
+        ),
         lock=np.arange(24.0).reshape(8, 3),
         force_ranges=np.array([[0.0, 10.0], [5.0, np.inf]]),
         path=(PathPoint(0, 0.0, 0, 0, 1e-9), PathPoint(1, 0.6, 2, 0, 1e-8), PathPoint(2, 0.5, 2, 1, np.nan)),

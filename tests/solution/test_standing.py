@@ -55,7 +55,7 @@ def test_the_gravest_part_speaks_for_the_structure() -> None:
     order = [Standing.NO, Standing.SELF_STRESS, Standing.DOUBTFUL, Standing.YES]
     results = [StandingResult(verdict, i, "") for i, verdict in enumerate(order)]
     for i in range(len(order)):
-        assert worst_standing(results[: i - 1 : -1] if i else results[::-1]) is results[i]
+        assert worst_standing(results[: i - 1 : -1] if i else results[::-1]) == results[i]
 
 
 def slope(excess: float) -> str:
