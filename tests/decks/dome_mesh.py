@@ -19,7 +19,7 @@ FACES = [[0, 1, 2, 3], [8, 11, 10, 9], *SIDES]
 def mesh_text() -> str:
     """The whole file: one object for each voussoir, from the ground up.
 
-    Every voussoir spans three meridians, so that its faces are planar and the ring above fits on half a voussoir further.
+    Every voussoir spans three meridians, so that its faces are planar and the ring above fits half a voussoir on.
     """
     lines = ["# Dome of three rings of eight voussoirs, metres. Generated: tests/decks/dome_mesh.py"]
     for ring in range(RINGS):
@@ -37,7 +37,11 @@ def _corners(ring: int, segment: int) -> Iterator[tuple[float, float, float]]:
         around = math.pi * (2 * segment + ring % 2 + meridian) / SEGMENTS
         for side, latitude in ((-1, low), (1, low), (1, high), (-1, high)):
             r = RADIUS + side * THICKNESS / 2
-            yield r * math.cos(latitude) * math.cos(around), r * math.cos(latitude) * math.sin(around), r * math.sin(latitude)
+            yield (
+                r * math.cos(latitude) * math.cos(around),
+                r * math.cos(latitude) * math.sin(around),
+                r * math.sin(latitude),
+            )
 
 
 def main() -> None:
