@@ -62,6 +62,7 @@ STEPS = ("exact step", "convex step")
 FORMULATIONS = (
     Formulation("associative, kinematic form", (ASSOCIATIVE,), _by_rule("associative", "associative")),
     Formulation("associative, static form", (ASSOCIATIVE, "form=static"), _by_rule("associative", "associative")),
+    Formulation("associative, HiGHS", (ASSOCIATIVE, "solver=highs"), _by_rule("associative", "associative")),
     Formulation("polyhedral, 8 sides", (ASSOCIATIVE, "friction_cone=polyhedral", "sides=8"), _used("second opinion")),
     Formulation("polyhedral, 32 sides", (ASSOCIATIVE, "friction_cone=polyhedral", "sides=32"), _used("second opinion")),
     Formulation("convex, associative", (ASSOCIATIVE, "contact_model=convex"), _resultants),
@@ -80,6 +81,7 @@ FORMULATIONS = (
 )
 
 EXACT = ("associative, kinematic form", "associative, static form", "polyhedral, 8 sides", "polyhedral, 32 sides")
+PLANAR = (*EXACT[:2], "associative, HiGHS")
 LOWER = ("proximal", "interior", "published, slope 0.01")
 EVERY = tuple(each.name for each in FORMULATIONS if each.name not in ("dilatancy", "polyhedral, 32 sides"))
 """for planar walls, where friction polyhedra are two half-planes however many sides they have"""
@@ -94,6 +96,9 @@ CASES = (
     BenchmarkCase("block rocking about a corner", "block_rocking", "corner", FEW),
     BenchmarkCase("block leaning on a rough wall", "leaning_block_rough_wall", "away", FEW),
     BenchmarkCase("block in a groove", "groove", "along", (*EXACT, "convex, associative", *LOWER, "auto")),
+    BenchmarkCase("groove, half the friction angle as dilatancy", "groove_dilatancy", "along", ("dilatancy",)),
+    BenchmarkCase("groove, friction beyond locking", "groove_steep_friction", "along", (EXACT[0], "interior", "auto")),
+    BenchmarkCase("plank in a clamp", "plank_in_clamp", "pull", (*EXACT[:2], "proximal", "interior", "path", "auto")),
     BenchmarkCase("torque on a square joint", "torque", "couple", (*EXACT, "convex, associative")),
     BenchmarkCase("eccentric compression", "eccentric_compression", "eccentric", FEW[:2]),
     BenchmarkCase("Ferris and Tin-Loi, wall 1", "ferris_wall_1", "push_x", EVERY),
@@ -107,10 +112,11 @@ CASES = (
     BenchmarkCase("Oppenheim's arch", "oppenheim_arch", "push_x", (*EXACT[:2], "convex, associative", *LOWER, "auto")),
     BenchmarkCase("arch of 50 voussoirs", "arch_50_voussoirs", "push_x", (*EXACT[:2], "auto")),
     BenchmarkCase("arch of 50 voussoirs in space", "arch_50_voussoirs", "push_x", FEW, spatial=True),
-    BenchmarkCase("wall of 10 x 10", "wall_10x10", "in_plane", (*EXACT[:2], "proximal", "interior", "path", "auto")),
+    BenchmarkCase("dome of 24 voussoirs", "dome_24_voussoirs", "push_x", (*EXACT[:3], *FEW[1:])),
+    BenchmarkCase("wall of 10 x 10", "wall_10x10", "in_plane", (*PLANAR, "proximal", "interior", "path", "auto")),
     BenchmarkCase("wall of 10 x 10 in space", "wall_10x10", "in_plane", (*EXACT, "auto"), spatial=True),
     BenchmarkCase("wall of 10 x 10, out of plane", "wall_10x10", "out_of_plane", (*EXACT, *FEW[1:])),
-    BenchmarkCase("wall of 20 x 20", "wall_20x20", "in_plane", (*EXACT[:2], "auto")),
+    BenchmarkCase("wall of 20 x 20", "wall_20x20", "in_plane", (*PLANAR, "auto")),
     BenchmarkCase("wall of 20 x 20 in space", "wall_20x20", "in_plane", EXACT[:2], spatial=True),
 )
 """cases of decks/benchmarks, the small ones first"""

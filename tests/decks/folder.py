@@ -11,12 +11,17 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
+import pytest
+from _pytest.mark import ParameterSet
+
 from mbla.cli import main
 from mbla.deck import Deck, read_deck
 
 ROOT = Path(__file__).parents[2]
 DECKS = ROOT / "decks"
 PATHS = tuple(sorted((*DECKS.glob("tutorials/*.yaml"), *DECKS.glob("benchmarks/*.yaml"))))
+LONG = ("tutorials/crossvault_without_dilatancy",)
+"""take more than ten seconds: run by ``pytest -m long`` only"""
 
 
 @dataclass(frozen=True)
@@ -38,6 +43,15 @@ class Outcome:
 def name_of(path: Path) -> str:
     """``tutorials/arch``: how tests and tables call a deck."""
     return f"{path.parent.name}/{path.stem}"
+
+
+def as_parameters() -> list[ParameterSet]:
+    """Every deck, those that take long with their mark."""
+    names = [(path, name_of(path)) for path in PATHS]
+    return [pytest.param(path, id=name, marks=pytest.mark.long if name in LONG else ()) for path, name in names]
+
+
+every_deck = pytest.mark.parametrize("path", as_parameters())
 
 
 @cache

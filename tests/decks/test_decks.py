@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 import subprocess
 import sys
 from collections.abc import Iterator
@@ -15,14 +16,16 @@ import pytest
 from mbla.deck.include import read_files
 from mbla.deck.types import Expectation
 from mbla.solution.verify import GAP_TOLERANCE
-from tests.decks.folder import PATHS, ROOT, deck_of, name_of, outcome_of, run_deck
+from tests.decks.folder import LONG, PATHS, ROOT, deck_of, every_deck, name_of, outcome_of, run_deck
 
 EXIT_STATUS = {"solved": 0, "approximate": 4, "not_verified": 4, "no_equilibrium": 5, "unbounded": 5}
 
 ROUNDED = 2e-8
 """Figures of closed forms and linear programs are written with eight digits."""
 
-every_deck = pytest.mark.parametrize("path", PATHS, ids=[name_of(path) for path in PATHS])
+
+LOCKED = ("benchmarks/groove_steep_friction",)
+"""No associative load factor, and one without dilatancy all the same."""
 
 
 def cases_of(path: Path) -> Iterator[tuple[dict[str, Any], Expectation]]:
@@ -32,10 +35,16 @@ def cases_of(path: Path) -> Iterator[tuple[dict[str, Any], Expectation]]:
         yield case, expected[case["name"]]
 
 
+def path_of(name: str) -> Path:
+    """The deck of that name."""
+    return next(path for path in PATHS if name_of(path) == name)
+
+
 def test_there_are_decks() -> None:
     names = {name_of(path) for path in PATHS}
     assert {"tutorials/block", "tutorials/wall", "tutorials/arch", "tutorials/crossvault"} <= names
     assert len(names) > 40
+    assert set(LONG) <= names
 
 
 @every_deck
@@ -44,7 +53,7 @@ def test_every_load_case_has_an_expectation_with_its_source(path: Path) -> None:
     assert set(content.expected) == set(content.load_cases)
     for name, expectation in content.expected.items():
         figures = (expectation.load_factor, expectation.associative_load_factor)
-        if expectation.status in ("no_equilibrium", "unbounded"):
+        if expectation.status in ("no_equilibrium", "unbounded", "not_verified"):
             assert figures == (None, None), name
         else:
             assert figures != (None, None), name
@@ -79,7 +88,8 @@ def test_the_bounds_enclose_the_associative_figure(path: Path) -> None:
     for case, expectation in cases_of(path):
         found = case["associative_load_factor"]
         if found is None:
-            assert expectation.status in ("no_equilibrium", "unbounded")
+            assert expectation.associative_load_factor is None
+            assert expectation.load_factor is None or name_of(path) in LOCKED
             continue
         static, kinematic = case["static_bound"], case["kinematic_bound"]
         assert case["gap"] <= GAP_TOLERANCE
@@ -96,7 +106,7 @@ def test_the_bounds_enclose_the_associative_figure(path: Path) -> None:
 @every_deck
 def test_no_load_factor_exceeds_the_associative_one(path: Path) -> None:
     for case, expectation in cases_of(path):
-        if case["load_factor"] is not None:
+        if case["load_factor"] is not None and name_of(path) not in LOCKED:
             assert case["load_factor"] <= case["kinematic_bound"] * (1 + max(expectation.tolerance, GAP_TOLERANCE))
 
 
@@ -127,7 +137,7 @@ def test_the_first_line_leads_an_editor_to_the_schema(path: Path) -> None:
 
 @pytest.mark.parametrize("name", ["tutorials/arch", "benchmarks/ferris_wall_3", "benchmarks/overhang_too_far"])
 def test_a_second_run_gives_the_same_digits(name: str) -> None:
-    path = next(path for path in PATHS if name_of(path) == name)
+    path = path_of(name)
     first, second = outcome_of(path).record, run_deck(path).record
     for record in (first, second):
         del record["time"], record["created"]
@@ -140,7 +150,7 @@ def test_a_second_run_gives_the_same_digits(name: str) -> None:
     ("name", "status"), [("tutorials/block", 0), ("tutorials/dolmen", 0), ("benchmarks/incline_too_steep", 5)]
 )
 def test_in_a_process_of_its_own(name: str, status: int, tmp_path: Path) -> None:
-    path = next(path for path in PATHS if name_of(path) == name)
+    path = path_of(name)
     command = [sys.executable, "-m", "mbla", "run", str(path), "--expected", "--json", "-o", str(tmp_path / "out")]
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     assert done.returncode == status, done.stderr
@@ -148,7 +158,34 @@ def test_in_a_process_of_its_own(name: str, status: int, tmp_path: Path) -> None
 
 
 def test_a_wrong_expectation_is_found() -> None:
-    path = next(path for path in PATHS if name_of(path) == "tutorials/block")
+    path = path_of("tutorials/block")
     outcome = run_deck(path, "--set", "expected.push_x.load_factor=0.401")
     assert outcome.exit_status == 4
     assert "not-as-expected" in outcome.output
+
+
+def test_the_peak_of_a_load_path_is_told_beside_what_is_left_after_it() -> None:
+    """Verified by statics of its own; within a thousandth, which is how closely the path is followed."""
+    (case, expectation), *_ = cases_of(path_of("benchmarks/plank_in_clamp"))
+    assert case["peak"] == pytest.approx(2.1965, rel=1e-3)
+    assert expectation.load_factor is not None
+    assert expectation.load_factor < case["peak"] < case["kinematic_bound"]
+
+
+def test_friction_polyhedra_enclose_the_cone() -> None:
+    (case, _), *_ = cases_of(path_of("benchmarks/block_sliding_polyhedral"))
+    inside, outside = case["bracket"]
+    assert inside == pytest.approx(0.4 * math.cos(math.pi / 8) / math.cos(math.pi / 24), rel=1e-6)
+    assert outside == pytest.approx(0.4 / math.cos(math.pi / 12), rel=1e-6)
+    assert inside < 0.4 < outside
+
+
+def test_a_locked_wedge_is_shown_to_be_locked() -> None:
+    outcome = outcome_of(path_of("benchmarks/groove_locked"))
+    assert outcome.record["cases"][0]["load_factor"] is None
+    assert outcome.record["cases"][0]["verified"]
+
+
+def test_parts_that_stand_apart_are_solved_apart() -> None:
+    for case, _ in cases_of(path_of("benchmarks/two_piers")):
+        assert case["size"]["parts"] == 2
