@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import scipy.sparse as sp
 
@@ -13,10 +15,20 @@ from mbla.program.reductions.scene import Scene
 
 
 def half_of(scene: Scene, mirror: Mirror) -> Program:
-    """The program with unknowns on one side of the plane: symmetric motions and symmetric forces."""
+    """The program with unknowns on one side of the plane: symmetric motions and symmetric forces.
+
+    A point that stands for two has the force and the strength of both, and so moves as each of them does.
+    """
     points = np.arange(len(mirror.point_of))
     kept = np.flatnonzero(points <= mirror.point_of)
     limits = chosen_limits(scene.program.limits, kept)
+    stands_for = np.where(mirror.point_of[kept] == kept, 1.0, 2.0)
+    limits = replace(
+        limits,
+        cohesion=stands_for * limits.cohesion,
+        tension=stands_for * limits.tension,
+        compression=stands_for * limits.compression,
+    )
     return restricted(scene.program, _symmetric_motions(mirror), _symmetric_forces(mirror), limits)
 
 
@@ -50,10 +62,9 @@ def _symmetric_motions(mirror: Mirror) -> sp.csr_array:
 
 
 def _symmetric_forces(mirror: Mirror) -> sp.csr_array:
-    """P: the force at a point and its image; a point in the plane takes the mean of both."""
+    """P: half of the force at a point and half at its image; at a point in the plane the mean of both."""
     points = np.arange(len(mirror.point_of))
     kept = np.flatnonzero(points <= mirror.point_of)
     partner, columns, shape = mirror.point_of[kept], np.arange(len(kept)), (len(points), len(kept))
-    share = np.where(partner == kept, 0.5, 1.0)[:, None, None]
-    here = block_matrix(share * np.eye(3), kept, columns, shape)
-    return sp.csr_array(here + block_matrix(share * mirror.force_maps[kept], partner, columns, shape))
+    here = block_matrix(np.broadcast_to(0.5 * np.eye(3), (len(kept), 3, 3)), kept, columns, shape)
+    return sp.csr_array(here + block_matrix(0.5 * mirror.force_maps[kept], partner, columns, shape))
