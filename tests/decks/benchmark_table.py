@@ -159,8 +159,8 @@ def range_words(result: CaseResult) -> str:
     if outer is not None and associative is not None:
         ends = associative.load_factor, outer.load_factor
     words = [] if ends is None else [" .. ".join(_number(end, ".6g") for end in ends)]
-    peak = peak_of(result)
-    words += [] if peak is None else [f"peak {_number(peak, '.5g')}"]
+    peak = result.checks.peak_load_factor
+    words += [] if math.isnan(peak) else [f"peak {peak:.5g}"]
     return "; ".join(words) or "–"
 
 
