@@ -37,7 +37,7 @@ HEAD = (
     "load factor",
     "static bound",
     "kinematic bound",
-    "range or bracket",
+    "range, bracket, peak",
     "residual",
     "programs",
     "iterations",
@@ -154,11 +154,14 @@ def figures_of(result: CaseResult) -> tuple[str, ...]:
 
 
 def range_words(result: CaseResult) -> str:
-    """Verified range of a factor without normality; bracket of polyhedral friction."""
+    """Verified range of a factor without normality; bracket of polyhedral friction; a peak of the load path above it."""
     ends, associative, outer = range_of(result), associative_of(result), result.solution.outer
     if outer is not None and associative is not None:
         ends = associative.load_factor, outer.load_factor
-    return "–" if ends is None else " .. ".join(_number(end, ".6g") for end in ends)
+    words = [] if ends is None else [" .. ".join(_number(end, ".6g") for end in ends)]
+    peak = result.checks.peak_load_factor
+    words += [] if math.isnan(peak) else [f"peak {peak:.5g}"]
+    return "; ".join(words) or "–"
 
 
 def _number(value: float, form: str) -> str:

@@ -92,7 +92,8 @@ def test_the_bounds_enclose_the_associative_figure(path: Path) -> None:
             assert expectation.load_factor is None or name_of(path) in LOCKED
             continue
         static, kinematic = case["static_bound"], case["kinematic_bound"]
-        assert case["gap"] <= GAP_TOLERANCE
+        if case["bracket"] is None:  # polyhedra inside and outside the cone are as far apart as they are
+            assert case["gap"] <= GAP_TOLERANCE
         # bounds of a zero gap may be off by the rounding of the sums that prove them
         assert static <= kinematic * (1 + 1e-9)
         figure = expectation.associative_load_factor
@@ -174,7 +175,7 @@ def test_the_peak_of_a_load_path_is_told_beside_what_is_left_after_it() -> None:
 
 def test_friction_polyhedra_enclose_the_cone() -> None:
     (case, _), *_ = cases_of(path_of("benchmarks/block_sliding_polyhedral"))
-    inside, outside = case["bracket"]
+    inside, outside = case["bracket"]["inner"], case["bracket"]["outer"]
     assert inside == pytest.approx(0.4 * math.cos(math.pi / 8) / math.cos(math.pi / 24), rel=1e-6)
     assert outside == pytest.approx(0.4 / math.cos(math.pi / 12), rel=1e-6)
     assert inside < 0.4 < outside
