@@ -25,7 +25,8 @@ from mbla.program.program import Program
 from mbla.solution.associative import AssociativeResult
 from mbla.solution.clarabel_adapter import Log
 from mbla.solution.exact_law import exact_step, joint_state
-from mbla.solution.interior_step import exact_law, interior_step
+from mbla.solution.interior_joints import exact_law
+from mbla.solution.interior_step import interior_step
 from mbla.solution.law_state import SequenceResult, law_state
 from mbla.solution.law_steps import FITS, NEWTON_STEPS, Step, Stepper, continued
 from mbla.solution.proximal import SOLVED, ProximalRun, gravity_state, steps_from

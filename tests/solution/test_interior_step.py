@@ -11,7 +11,8 @@ from mbla.program.program import Program
 from mbla.program.static import gravity_form, proximal_data, proximal_form
 from mbla.solution.clarabel_adapter import ClarabelProgram
 from mbla.solution.exact_law import exact_step
-from mbla.solution.interior_step import exact_law, interior_step, lagged_law
+from mbla.solution.interior_joints import exact_law, lagged_law
+from mbla.solution.interior_step import interior_step
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import IterationRecord
 from mbla.solution.stiffness import stiffness_of
