@@ -69,6 +69,7 @@ class StepProblem:
 
     @property
     def program(self) -> Program:
+        """The program that is solved."""
         return self.stiffness.program
 
     def limit(self, normal: FloatArray) -> FloatArray:
@@ -97,6 +98,7 @@ class Missing:
 
 
 def moved(now: Iterate, direction: Iterate, length: float) -> Iterate:
+    """The iterate a length along a direction."""
     return Iterate(
         u=now.u + length * direction.u,
         factor=now.factor + length * direction.factor,
