@@ -154,7 +154,7 @@ def figures_of(result: CaseResult) -> tuple[str, ...]:
 
 
 def range_words(result: CaseResult) -> str:
-    """Verified range of a factor without normality; bracket of polyhedral friction; a peak above the factor."""
+    """Verified range of a factor without normality, or bracket of polyhedral friction; a peak of the load path."""
     ends, associative, outer = range_of(result), associative_of(result), result.solution.outer
     if outer is not None and associative is not None:
         ends = associative.load_factor, outer.load_factor
