@@ -38,8 +38,12 @@ class ProximalScheme(Section):
 class InteriorScheme(Section):
     """Parameters of the interior path for non-associative flow."""
 
-    tries: Count = Field(4, description="starts with other anchors and disturbances before the scheme is given up")
-    max_factorizations: Count = Field(4000, description="factorisations of one try")
+    tries: Count = Field(
+        4, description="starts with other pulls and disturbances; the first that ends in the law is taken"
+    )
+    max_factorizations: Count = Field(
+        4000, description="factorisations of one try, along the path, in descents and polishing"
+    )
 
 
 class PathScheme(Section):
@@ -61,7 +65,7 @@ class ReductionSwitches(Section):
     planar: Switch = Field(True, description="planar structures are solved with three unknowns a block")
     mirror: Switch = Field(True, description="associative flow: only one half of a symmetric structure is solved")
     parts: Switch = Field(True, description="parts that cannot interact are solved apart")
-    points: Switch = Field(True, description="contact points that cannot matter are left out")
+    points: Switch = Field(True, description="associative flow: contact points that cannot matter are left out")
 
 
 class AnalysisSection(Section):
@@ -70,7 +74,7 @@ class AnalysisSection(Section):
     flow_rule: Literal["associative", "non_associative", "dilatancy", "livesley"] = Field(
         "non_associative",
         description="associative; non-associative without dilatancy; with the joints' dilatancy; or livesley: "
-        "associative with one correction of the mechanism that dilates",
+        "associative, with one correction that shows whether a mechanism without dilatancy has the same load factor",
     )
     contact_model: Literal["concave", "convex"] = Field(
         "concave",
@@ -80,7 +84,10 @@ class AnalysisSection(Section):
     friction_cone: Literal["circular", "polyhedral"] = Field(
         "circular", description="circular; or polyhedral: linear programs with inscribed and circumscribed polyhedra"
     )
-    sides: Annotated[int, Whole(ge=3, le=360)] = Field(8, description="of the friction polyhedron")
+    sides: Annotated[int, Whole(ge=3, le=360)] = Field(
+        8,
+        description="of each friction polyhedron: within 1 - cos(pi/sides) of the cone, and exact along the tangents",
+    )
     form: Literal["kinematic", "static"] = Field(
         "kinematic", description="unknowns of the associative program: velocities, the more accurate; or forces"
     )
@@ -93,7 +100,8 @@ class AnalysisSection(Section):
     scheme: Literal["auto", "proximal", "interior", "path", "lowest", "published"] = Field(
         "auto",
         description="how non-associative flow is solved. proximal: steps from the gravity state to the exact law; "
-        "interior: a path of states inside the cones; auto: proximal, and interior where that stalls; path: the live "
+        "interior: a path inside the cones followed by arc length through its turning points, then steps of least "
+        "change; the way for domes and cross vaults; auto: proximal, and interior where that stalls; path: the live "
         "load raised step by step; lowest: search for lower load factors from the solution; published: the procedure "
         "of Portioli et al. 2014",
     )
