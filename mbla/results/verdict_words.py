@@ -71,11 +71,11 @@ def verdict(model: Model, case: CaseResult) -> str:
 
 def _without_load_factor(model: Model, case: CaseResult) -> str:
     best = best_iterate(case)
+    if locked_in(case) and case.status is not Status.NO_EQUILIBRIUM:
+        return "no collapse load: it stands only by self-stress"
     if best is None:
         return _without_figures(case)
     value = load_factor_words(model, case.load_case, best.load_factor)
-    if locked_in(case):
-        return f"no collapse load: it stands only by self-stress; with the forces that this takes, {value}"
     label = "NOT VERIFIED" if case.status is Status.NOT_VERIFIED else f"NOT SOLVED ({_stopped(case)})"
     residual = law_residual(case.checks)
     misses = f"misses the law by {small(residual)}" if residual > SOLVED_RESIDUAL else "is not confirmed"

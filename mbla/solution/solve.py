@@ -219,7 +219,8 @@ def _without_claim(solution: Solution) -> Solution:
     """What stands by forces locked in beforehand has no load factor without them, save the associative upper value."""
     if solution.flow_rule == "associative":
         return solution
-    status = Status.NOT_VERIFIED if solution.status in WITH_VALUE else solution.status
+    claims = (*WITH_VALUE, Status.UNBOUNDED)
+    status = Status.NOT_VERIFIED if solution.status in claims else solution.status
     return replace(solution, status=status, reason=ONLY_BY_SELF_STRESS)
 
 
