@@ -90,6 +90,11 @@ class Program:
         """Number of contact points."""
         return len(self.limits.friction)
 
+    @property
+    def dead_over_live(self) -> float:
+        """Size of the dead load over that of the live load: a measure of load factors where they are near zero."""
+        return float(np.linalg.norm(self.dead_load) / np.linalg.norm(self.live_load))
+
     def mechanism(self, scaled: FloatArray) -> FloatArray:
         """Velocities of all blocks, fixed ones at rest, (n_blocks, 6), from those of the program, (6 n_free,)."""
         full = np.zeros((self.n_blocks, 6))

@@ -1,9 +1,9 @@
 """Solution: load factor, forces and mechanism of a program, and their verification.
 
 ``solve`` goes through the parts of a structure, ``part`` and ``flow`` through flow rule and scheme of one part,
-``beside`` through what is asked for besides: standing, range, peak, least forces. Each scheme has a file of its own
-name; all of them work on states of the joints' law (``law_state``, ``exact_law``). ``convex`` does the same with
-interface resultants.
+``beside`` through what is asked for besides: standing, range, peak, least forces. The schemes (``proximal``,
+``interior``, ``load_path``, ``lowest``, ``published``) work on states of the law of the joints (``law_state``,
+``exact_law``). ``convex`` does the same with interface resultants.
 
 ``verify`` and the files that begin with its name recompute everything from model, contacts and solution, without a
 solver. ``cone_solver`` is the door to clarabel and HiGHS, each behind its adapter.

@@ -126,7 +126,7 @@ def _negative(convex: ConvexProgram, objective: float) -> bool:
 
 def _noise(convex: ConvexProgram) -> float:
     program = convex.points
-    return STANDS_MARGIN * float(np.linalg.norm(program.dead_load) / np.linalg.norm(program.live_load))
+    return STANDS_MARGIN * program.dead_over_live
 
 
 def _near_zero(convex: ConvexProgram, objective: float) -> bool:

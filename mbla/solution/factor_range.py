@@ -128,7 +128,7 @@ class _Search:
         """The end, or the state found where the end is not beyond it: that one fits the mechanism too."""
         program, found = self.program, self.state
         short = SIGNS[kind] * (end.load_factor - found.load_factor)
-        size = max(abs(found.load_factor), dead_over_live(program))
+        size = max(abs(found.load_factor), program.dead_over_live)
         if short > max(ROUNDING, found.residual) * size:
             value = program.scaling.load_factor(end.load_factor)
             self.missing[kind] = f"the solver ended at {value:.6g}, on the wrong side of the factor found"
@@ -141,11 +141,6 @@ class _Search:
         self.records.append(
             ProgramRecord(number, f"range, {kind}", status, value, np.nan, solution.iterations, solution.seconds)
         )
-
-
-def dead_over_live(program: Program) -> float:
-    """Size of the dead load over that of the live load: a measure of load factors where they are near zero."""
-    return float(np.linalg.norm(program.dead_load) / np.linalg.norm(program.live_load))
 
 
 def unbalanced(program: Program, state: LawState) -> float:

@@ -23,7 +23,6 @@ import numpy as np
 from mbla.arrays import FloatArray
 from mbla.program.program import Program
 from mbla.solution.cone_solution import ConeSolution, Log
-from mbla.solution.factor_range import dead_over_live
 from mbla.solution.gravity import gravity_forces
 from mbla.solution.law_state import LawState, law_state
 from mbla.solution.law_steps import Step, Stepper, next_step
@@ -101,12 +100,12 @@ def limit_point(
 
 def _least_peak(program: Program, load_factor: float) -> float:
     """Load factor that a peak must exceed."""
-    return load_factor + PEAK * max(abs(load_factor), PEAK * dead_over_live(program))
+    return load_factor + PEAK * max(abs(load_factor), PEAK * program.dead_over_live)
 
 
 def _size(program: Program, state: LawState) -> float:
     """What differences of a load factor are relative to."""
-    return max(abs(state.load_factor), PEAK * dead_over_live(program))
+    return max(abs(state.load_factor), PEAK * program.dead_over_live)
 
 
 @dataclass

@@ -36,7 +36,6 @@ from mbla.solution.factor_range import (
     END_RESIDUAL,
     REGULARIZATION,
     TOLERANCE,
-    dead_over_live,
     factor_range,
     unbalanced,
 )
@@ -126,12 +125,12 @@ class _Search:
     @property
     def goes_on(self) -> bool:
         """Whether there is anything left to look for."""
-        return self.stale < STALE and self.best.load_factor > NEEDLESS * dead_over_live(self.program)
+        return self.stale < STALE and self.best.load_factor > NEEDLESS * self.program.dead_over_live
 
     @property
     def size(self) -> float:
         """What differences of load factors are relative to."""
-        return max(abs(self.best.load_factor), 1e-3 * dead_over_live(self.program))
+        return max(abs(self.best.load_factor), 1e-3 * self.program.dead_over_live)
 
     def step(self, settings: SolverSettings) -> None:
         """One try: forces, mechanism, lower end."""
@@ -162,7 +161,7 @@ class _Search:
             return False
         if end.load_factor > self.best.load_factor + PLATEAU * self.size:
             return False
-        if end.load_factor <= NEEDLESS * dead_over_live(program):
+        if end.load_factor <= NEEDLESS * program.dead_over_live:
             self.needless += 1
             return False
         self.here, self.gain = end, _gain(program, solution.z)

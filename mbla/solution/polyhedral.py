@@ -142,7 +142,7 @@ def second_opinion(
     solution = form.read(cone_solver(form.cone_program, settings, log).solve(number, form.sign * live))
     has_value = solution.status in (Status.SOLVED, Status.APPROXIMATE)
     value = solution.objective if has_value else np.nan
-    apart = abs(value - load_factor) / max(abs(load_factor), SMALL_FACTOR * _dead_over_live(form.program))
+    apart = abs(value - load_factor) / max(abs(load_factor), SMALL_FACTOR * form.program.dead_over_live)
     agrees = bool(apart <= AGREE) if has_value else None
     record = ProgramRecord(
         program=number,
@@ -188,18 +188,12 @@ def _claim(sides: int, inner: AssociativeResult, outer: AssociativeResult) -> As
 
 def _bracket(program: Program, sides: int, inner: LawState, outer: LawState) -> str:
     least, greatest = (program.scaling.load_factor(state.load_factor) for state in (inner, outer))
-    width = (outer.load_factor - inner.load_factor) / max(
-        abs(outer.load_factor), SMALL_FACTOR * _dead_over_live(program)
-    )
+    width = (outer.load_factor - inner.load_factor) / max(abs(outer.load_factor), SMALL_FACTOR * program.dead_over_live)
     return (
         f"with friction polyhedra of {sides} sides the load factor of the true cone lies between {least:.6g} "
         f"(inscribed, the figure reported) and {greatest:.6g} (circumscribed), {100 * max(width, 0.0):.2g} % apart; "
         "more sides narrow it"
     )
-
-
-def _dead_over_live(program: Program) -> float:
-    return float(np.linalg.norm(program.dead_load) / np.linalg.norm(program.live_load))
 
 
 def _texts(*texts: str) -> tuple[str, ...]:
