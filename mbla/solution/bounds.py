@@ -122,8 +122,13 @@ def falling_motion(program: Program, velocities: FloatArray) -> FloatArray | Non
     """Velocities near the given ones, (n_rows,), proving that the dead load alone is not carried; None where none do.
 
     They are compatible, what rounding leaves is charged as if the whole dead load were locked in many times over, and
-    the dead load does more work in them than the joints dissipate.
+    the dead load does more work in them than the joints dissipate. They are scaled to a largest entry of 1: a solver's
+    certificate of infeasibility may have any size, whose square need not be a number.
     """
+    largest = float(np.abs(velocities).max(initial=0.0))
+    if not 0.0 < largest < np.inf:
+        return None
+    velocities = velocities / largest
     charge = LOCKED_IN * float(np.abs(program.dead_load).sum())
     for u in repaired_mechanisms(program, velocities):
         work = float(program.dead_load @ u) - dissipation(program, u, charge)

@@ -110,3 +110,14 @@ def test_a_block_beyond_its_ledge_is_proved_to_fall(reductions: str) -> None:
     assert proved is not None
     assert incompatibility(program, proved) <= 1e-13 * np.abs(proved).max()
     assert program.dead_load @ proved > 0
+
+
+def test_the_size_of_a_falling_motion_is_of_no_account() -> None:
+    """Certificates of infeasibility come with any size: one of a stack that falls was 1e160."""
+    program = program_of(LEDGE)
+    result = solve_associative(program, SolverSettings(1e-9), lambda record: None)
+    assert result.certificate is not None
+    proved = falling_motion(program, 1e200 * result.certificate)
+    assert proved is not None
+    assert np.abs(proved).max() == pytest.approx(1.0, rel=1e-6)
+    assert falling_motion(program, 0.0 * result.certificate) is None
