@@ -141,6 +141,7 @@ class _Walk:
     factorizations: int = 0
 
 
+@np.errstate(over="ignore", divide="ignore", invalid="ignore")  # what is not finite is seen and given up
 def go(attempt: Try, begin: Start, anchor: FloatArray | None) -> None:
     """Carry out a try; what it finds is kept in ``attempt``."""
     path = central_path(attempt.program, begin.noise, begin.seed, anchor, begin.kappa)

@@ -106,6 +106,14 @@ def test_a_joint_without_friction_beside_one_with_it() -> None:
     assert state.residual < 1e-9
 
 
+@pytest.mark.parametrize("text", [BLOCK, WALL])
+def test_what_stands_on_smooth_joints_is_pushed_by_nothing(text: str) -> None:
+    """The slacks fall to the least numbers there are, and what overflows on the way is no more than given up."""
+    result = result_of(line_of(text, "parameters.mu=0").program)
+    assert result.state is not None
+    assert abs(result.state.load_factor) < 1e-9
+
+
 def test_a_wedge_in_a_groove_slides_along_it() -> None:
     """mu / cos b: the associative program says that it locks, at 0.84/sqrt(cos^2 b - mu^2 sin^2 b) = 1.109."""
     b, mu = math.radians(30), 0.84
