@@ -116,19 +116,24 @@ def steps_from(run: ProximalRun, anchor: FloatArray, max_programs: int) -> Seque
     for _ in range(max_programs):
         started = time.perf_counter()
         step, kind, convex_steps = _step(run, anchor, rho, before, convex_steps)
+        late = deadline is not None and time.monotonic() > deadline
         if step is None:
-            return finished(run, "no further step was found")
+            return _late(run) if late else finished(run, "no further step was found")
         state = _keep(run, kind, step, time.perf_counter() - started)
         fitting += state.residual <= FITTING
         if (state.residual <= EXACT and _settled(run.states[first:])) or fitting > LAST_STEPS:
             return finished(run, "")
         if _stands_still(run.states[first:]):
             return finished(run, "the steps came no closer")
-        if deadline is not None and time.monotonic() > deadline:
-            return SequenceResult(Status.TIME_LIMIT, run.best, "the time limit was reached", tuple(run.records))
+        if late:
+            return _late(run)
         anchor = step.forces if kind == EXACT_STEP else MOVE * step.forces + (1.0 - MOVE) * anchor
         before, rho = step, min(rho, step_size(anchor))
     return finished(run, f"the steps did not come to rest in {max_programs} programs")
+
+
+def _late(run: ProximalRun) -> SequenceResult:
+    return SequenceResult(Status.TIME_LIMIT, run.best, "the time limit was reached", tuple(run.records))
 
 
 def _step(

@@ -3,10 +3,17 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
+import numpy as np
 import pytest
 
+from mbla.solution.associative import solve_associative
+from mbla.solution.law_steps import Stepper
+from mbla.solution.proximal import ProximalRun, gravity_state, steps_from
+from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Checks, Solution, Status
+from mbla.solution.stiffness import stiffness_of
 from tests.line import BLOCK, HEAD, WALL, line_of, verified
 
 NON_ASSOCIATIVE = "analysis.flow_rule=non_associative"
@@ -118,3 +125,16 @@ def test_steps_that_may_not_go_on_say_how_far_they_came() -> None:
     solution, _, status = verified(line_of(FERRIS_3, "analysis.scheme=proximal", "analysis.proximal={max_programs: 1}"))
     assert status in (Status.APPROXIMATE, Status.NOT_VERIFIED)
     assert "did not come to rest in 1 programs" in solution.reason
+
+
+def test_a_step_cut_short_by_the_time_limit_is_no_failure_of_the_scheme() -> None:
+    """A step that ends at the deadline is given up by its solver without a word of the time."""
+    line = line_of(WALL, "parameters.n=3")
+    settings = SolverSettings(1e-8)
+    associative = solve_associative(line.program, settings, lambda record: None)
+    stepper = Stepper(stiffness_of(line.program), np.zeros(line.program.n_points), settings, lambda record: None)
+    run = ProximalRun(stepper, list(associative.programs))
+    anchor = gravity_state(run)
+    assert isinstance(anchor, np.ndarray)
+    run.stepper = replace(stepper, settings=replace(settings, deadline=0.0))
+    assert steps_from(run, anchor, 10).status is Status.TIME_LIMIT
