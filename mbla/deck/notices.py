@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterator
 
 from mbla.deck.expressions import Parameters
+from mbla.deck.idle import idle_keys
 from mbla.deck.references import unused_names
 from mbla.deck.tree import KeyPath, Tree, key_text
 from mbla.deck.types import DeckContent, Load
@@ -17,8 +18,8 @@ _GRAVITY_TOLERANCE = 0.02
 
 
 def notices_of(tree: Tree, content: DeckContent, units: Units, parameters: Parameters) -> tuple[Notice, ...]:
-    """Warnings about unusual gravity, and remarks on names that nothing uses."""
-    return (*_gravity(tree, content, units), *_unused(tree, content, parameters))
+    """Warnings about unusual gravity and keys without effect, and remarks on names that nothing uses."""
+    return (*_gravity(tree, content, units), *idle_keys(tree, content), *_unused(tree, content, parameters))
 
 
 def _gravity(tree: Tree, content: DeckContent, units: Units) -> Iterator[Notice]:
