@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -25,6 +25,11 @@ from mbla.solution.solution import Status
 
 STALLED = 1e-6
 """Residual of the proximal scheme beyond which ``auto`` goes on to the interior path."""
+
+NOT_PUBLISHED = (
+    "the published procedure starts from associative forces, of which there are none here: the proximal scheme was "
+    "used instead"
+)
 
 
 @dataclass(frozen=True)
@@ -86,7 +91,8 @@ def _path(flow: Flow) -> SequenceResult:
 def _published(flow: Flow) -> SequenceResult:
     """The published procedure starts from associative forces; where there are none the proximal scheme has to do."""
     if flow.locked:
-        return _proximal(flow)
+        sequence = _proximal(flow)
+        return replace(sequence, remarks=(*sequence.remarks, NOT_PUBLISHED))
     none = np.zeros(flow.program.n_points)
     return solve_published(flow.program, flow.associative, flow.analysis.published, none, flow.settings, flow.log)
 
