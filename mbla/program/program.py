@@ -95,6 +95,19 @@ class Program:
         """Size of the dead load over that of the live load: a measure of load factors where they are near zero."""
         return float(np.linalg.norm(self.dead_load) / np.linalg.norm(self.live_load))
 
+    @property
+    def own_unit(self) -> float:
+        """Load factor that is the unit of this part: mean dead load of a block over root mean square of the live loads.
+
+        1 for the program of the whole model. What depends on the size of load factors must not change because parts
+        that cannot interact are solved together or apart.
+        """
+        rows = 3 if self.components == 2 else 6
+        dead, live = (np.linalg.norm(load.reshape(-1, rows), axis=1) for load in (self.dead_load, self.live_load))
+        if not np.any(dead) or not np.any(live):
+            return 1.0
+        return float(dead[dead > 0].mean() / np.sqrt(np.mean(live**2)))
+
     def mechanism(self, scaled: FloatArray) -> FloatArray:
         """Velocities of all blocks, fixed ones at rest, (n_blocks, 6), from those of the program, (6 n_free,)."""
         full = np.zeros((self.n_blocks, 6))

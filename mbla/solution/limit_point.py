@@ -139,7 +139,7 @@ class _Path:
 def _follow(stepper: Stepper, gravity: FloatArray, size: float, most: int, number: int) -> _Path:
     """The path from the gravity state in steps of one size until it has fallen from a peak, rests or is given up."""
     program, settings = stepper.program, stepper.settings
-    rho = size / max(float((gravity**2).sum()), 1e-300)
+    rho = size * program.own_unit / max(float((gravity**2).sum()), 1e-300)
     path, anchor, before = _Path(program), gravity, None
     for _ in range(most):
         step = next_step(stepper, anchor, rho, before, number)

@@ -111,7 +111,7 @@ def gravity_state(run: ProximalRun) -> FloatArray | SequenceResult:
 def steps_from(run: ProximalRun, anchor: FloatArray, max_programs: int) -> SequenceResult:
     """Steps from given forces, (n_points, components), until they come to rest."""
     before: Step | None = None
-    fitting, convex_steps, rho, first = 0, 0, step_size(anchor), len(run.states)
+    fitting, convex_steps, rho, first = 0, 0, step_size(run.program, anchor), len(run.states)
     deadline = run.stepper.settings.deadline
     for _ in range(max_programs):
         started = time.perf_counter()
@@ -128,7 +128,7 @@ def steps_from(run: ProximalRun, anchor: FloatArray, max_programs: int) -> Seque
         if late:
             return _late(run)
         anchor = step.forces if kind == EXACT_STEP else MOVE * step.forces + (1.0 - MOVE) * anchor
-        before, rho = step, min(rho, step_size(anchor))
+        before, rho = step, min(rho, step_size(run.program, anchor))
     return finished(run, f"the steps did not come to rest in {max_programs} programs")
 
 
@@ -213,6 +213,6 @@ def _broken_off(run: ProximalRun, solution: ConeSolution) -> SequenceResult:
     return SequenceResult(status, None, reason, tuple(run.records))
 
 
-def step_size(forces: FloatArray) -> float:
-    """ρ of a step from given forces, (n_points, components)."""
-    return STEP / max(float((forces**2).sum()), 1e-300)
+def step_size(program: Program, forces: FloatArray) -> float:
+    """ρ of a step from given forces, (n_points, components); the same for a part alone and beside others."""
+    return STEP * program.own_unit / max(float((forces**2).sum()), 1e-300)

@@ -138,3 +138,36 @@ def test_a_step_cut_short_by_the_time_limit_is_no_failure_of_the_scheme() -> Non
     assert isinstance(anchor, np.ndarray)
     run.stepper = replace(stepper, settings=replace(settings, deadline=0.0))
     assert steps_from(run, anchor, 10).status is Status.TIME_LIMIT
+
+
+SLENDER = (
+    HEAD
+    + """\
+joints: {dry: {friction: 0.65}}
+blocks:
+  - wall: {material: stone, unit: [0.4, 0.2, 0.175], length: 2.0, courses: 10}
+supports: [{ground: {z: 0}}]
+load_cases:
+  push: {live: [{acceleration: [1, 0, 0]}]}
+"""
+)
+
+FAR = """\
+  - wall:
+      material: stone
+      unit: [2.0, 2.0, 0.875]
+      length: 8.0
+      courses: 3
+      transform: {translate: [1000, 0, 0]}
+supports:"""
+"""A wall of units five times as large, out of reach of the slender one, that collapses later."""
+
+
+def test_a_part_comes_to_rest_where_it_does_alone() -> None:
+    """The fixed point depends on the size of the steps; that must not follow from parts that cannot interact.
+
+    Where the unit of the load factor was that of the whole model, the second wall moved the fixed point by 2e-5.
+    """
+    alone, _, _ = solved(SLENDER, NON_ASSOCIATIVE)
+    beside, _, _ = solved(SLENDER.replace("supports:", FAR), NON_ASSOCIATIVE)
+    assert beside == pytest.approx(alone, rel=1e-9)
