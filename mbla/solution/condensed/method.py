@@ -1,0 +1,278 @@
+"""The primal–dual interior-point method on the condensed system.
+
+::
+
+    min c·x + ½ xᵀQ x   s.t.  E x = e,  G x + s = h,  s ∈ K         dual:  Q x + c + Eᵀy + Gᵀz = 0,  z ∈ K
+
+With the scaling of Nesterov and Todd, l = W z = W⁻¹ s, every iteration solves for the scaled steps dz̃ = W dz and
+ds̃ = W⁻¹ ds, for products r and a share f of the residuals r_x = Q x + c + Eᵀy + Gᵀz, r_e = E x − e, r_z = G x + s − h::
+
+    q̃ = l ∖ r − f W⁻¹ r_z
+    (Q + G̃ᵀG̃) dx + Eᵀ dy = −f r_x + G̃ᵀ q̃,     E dx = −f r_e,      G̃ = W⁻¹ G
+    dz̃ = G̃ dx − q̃,     ds̃ = −l ∖ r − dz̃
+
+first with r = l ∘ l, f = 1 (predictor), then with r = l ∘ l + ds̃ ∘ dz̃ − σ μ e, f = 1 − σ, σ = (μ after the predictor /
+μ)³ (corrector). Where the cost is linear s and (y, z) go their own lengths, else one.
+
+A program without solution lets the iterates diverge along a ray that proves it: z with Eᵀy + Gᵀz → 0 and e·y + h·z < 0
+(nothing is admissible), or x with E x → 0, G x + s → 0, Q x → 0 and c·x < 0 (unbounded).
+
+Sources: Mehrotra 1992 (doi:10.1137/0802028); Nesterov and Todd 1998 (doi:10.1137/S1052623495290209); Andersen, Roos and
+Terlaky 2003 (doi:10.1007/s10107-002-0349-3) for cones; Vandenberghe, "The CVXOPT linear and quadratic cone program
+solvers", 2010.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+from enum import Enum
+
+import numpy as np
+
+from mbla.arrays import FloatArray
+from mbla.solution.condensed.condensation import Condensation, refined_solution
+from mbla.solution.condensed.cone_data import ConeData
+from mbla.solution.condensed.scaling import Scaling
+
+SHARE = 0.99
+"""Of the way to the border that a step goes."""
+
+SHORTEST = 1e-8
+"""Length of steps below which the method no longer gets on."""
+
+STALLED = 15
+"""Iterations without a better iterate after which the best one is returned."""
+
+ALMOST = 1e-5
+"""Accuracy up to which a best iterate is an approximate solution."""
+
+
+class Outcome(Enum):
+    """How a run ended."""
+
+    SOLVED = "Solved"
+    ALMOST = "AlmostSolved"
+    INFEASIBLE = "PrimalInfeasible"
+    UNBOUNDED = "DualInfeasible"
+    ITERATIONS = "MaxIterations"
+    TIME = "MaxTime"
+    STALLED = "InsufficientProgress"
+    NUMERICAL = "NumericalError"
+    ENOUGH = "AlmostSolved, as asked"
+
+
+@dataclass(frozen=True)
+class Point:
+    """An iterate."""
+
+    x: FloatArray
+    y: FloatArray
+    s: FloatArray
+    z: FloatArray
+
+
+@dataclass(frozen=True)
+class Measures:
+    """How far an iterate is from the solution; all relative.
+
+    primal_objective, dual_objective : c·x + ½ xᵀQx and −e·y − h·z − ½ xᵀQx
+    infeasible, unbounded : how far it is from proving that, infinite where it says nothing of the kind
+    """
+
+    gap: float
+    primal: float
+    dual: float
+    primal_objective: float
+    dual_objective: float
+    infeasible: float
+    unbounded: float
+
+    @property
+    def worst(self) -> float:
+        """The largest of gap and residuals."""
+        return max(self.gap, self.primal, self.dual)
+
+
+@dataclass(frozen=True)
+class Run:
+    """What a run needs beside the data.
+
+    enough   : accuracy at which to stop early, well inside the cones; 0: only at the end
+    progress : gets every iterate's number, measures and the length of the step that led there; true ends the run
+    """
+
+    tolerance: float
+    max_iterations: int
+    deadline: float | None
+    enough: float
+    progress: Callable[[int, Measures, float], bool]
+
+
+@dataclass(frozen=True)
+class Ended:
+    """The last or the best iterate, and why the run ended."""
+
+    outcome: Outcome
+    point: Point
+    measures: Measures
+    iterations: int
+
+
+def solve_cone_program(data: ConeData, condensation: Condensation, run: Run, start: Point | None = None) -> Ended:
+    """Run the method from a start inside the cones, the usual one if None."""
+    with np.errstate(over="ignore", invalid="ignore", divide="ignore"):  # a run that diverges is seen and given up
+        point = start or usual_start(data, condensation)
+        if point is None:
+            nothing = np.zeros(len(data.cost)), np.zeros(len(data.equation_rhs)), data.product.identity()
+            point = Point(*nothing, data.product.identity())
+            return Ended(Outcome.NUMERICAL, point, _measures(data, point, _residuals(data, point)), 0)
+        return _iterated(data, condensation, run, point)
+
+
+def usual_start(data: ConeData, condensation: Condensation) -> Point | None:
+    """Least squares: the least slack s, and the least z, that fit the equations, moved inside; None on breakdown."""
+    product, identity = data.product, Scaling.identity(data.product)
+    if not condensation.factorize(identity):
+        return None
+    pull = data.cone_matrix_t @ data.cone_rhs
+    if data.is_linear:
+        x, _ = refined_solution(data, condensation, identity, pull, data.equation_rhs)
+        way, y = refined_solution(data, condensation, identity, -data.cost, np.zeros_like(data.equation_rhs))
+        s, z = data.cone_rhs - data.cone_matrix @ x, data.cone_matrix @ way
+    else:
+        x, y = refined_solution(data, condensation, identity, pull - data.cost, data.equation_rhs)
+        s = data.cone_rhs - data.cone_matrix @ x
+        z = -s
+    if not all(np.isfinite(part).all() for part in (x, y, s, z)):
+        return None
+    e = product.identity()
+    return Point(x, y, *(v + max(0.0, 1.0 - product.least_eigenvalue(v)) * e for v in (s, z)))
+
+
+def _iterated(data: ConeData, condensation: Condensation, run: Run, point: Point) -> Ended:
+    best: tuple[Point, Measures] | None = None
+    length, since, outcome = 1.0, 0, Outcome.ITERATIONS
+    measures = _measures(data, point, _residuals(data, point))
+    number = 0
+    for number in range(run.max_iterations + 1):
+        residuals = _residuals(data, point)
+        measures = _measures(data, point, residuals)
+        stop = run.progress(number, measures, length)
+        if not np.isfinite(measures.worst):
+            outcome = Outcome.NUMERICAL
+            break
+        since += 1
+        if best is None or measures.worst < best[1].worst:
+            best, since = (point, measures), 0
+        verdict = _verdict(measures, run)
+        if verdict is not None:
+            return Ended(verdict, point, measures, number)
+        if stop or (run.deadline is not None and time.monotonic() > run.deadline):
+            outcome = Outcome.TIME
+            break
+        if since > STALLED or length < SHORTEST:
+            outcome = Outcome.STALLED
+            break
+        if number == run.max_iterations:
+            break
+        moved = _step(data, condensation, point, residuals)
+        if moved is None:
+            outcome = Outcome.NUMERICAL
+            break
+        point, length = moved
+    point, measures = best or (point, measures)
+    if outcome in (Outcome.STALLED, Outcome.NUMERICAL) and measures.worst <= ALMOST:
+        outcome = Outcome.ALMOST
+    return Ended(outcome, point, measures, number)
+
+
+def _verdict(measures: Measures, run: Run) -> Outcome | None:
+    if measures.worst <= run.tolerance:
+        return Outcome.SOLVED
+    if measures.infeasible <= run.tolerance:
+        return Outcome.INFEASIBLE
+    if measures.unbounded <= run.tolerance:
+        return Outcome.UNBOUNDED
+    return Outcome.ENOUGH if measures.worst <= run.enough else None
+
+
+Residuals = tuple[FloatArray, FloatArray, FloatArray]
+
+
+def _residuals(data: ConeData, point: Point) -> Residuals:
+    """r_x, r_e, r_z."""
+    r_x = data.quadratic * point.x + data.cost + data.equations_t @ point.y + data.cone_matrix_t @ point.z
+    return r_x, data.equations @ point.x - data.equation_rhs, data.cone_matrix @ point.x + point.s - data.cone_rhs
+
+
+def _measures(data: ConeData, point: Point, residuals: Residuals) -> Measures:
+    r_x, r_e, r_z = residuals
+    x, y, s, z = point.x, point.y, point.s, point.z
+    curved = float(x @ (data.quadratic * x))
+    primal_objective = float(data.cost @ x) + 0.5 * curved
+    offset = float(data.equation_rhs @ y + data.cone_rhs @ z)
+    dual_objective = -offset - 0.5 * curved
+    size_x = max(_size(x), _size(s))
+    size_z = max(_size(y), _size(z))
+    limit = max(1.0, max(_size(data.equation_rhs), _size(data.cone_rhs)) + size_x)
+    ray_dual = max(_size(r_x - data.cost - data.quadratic * x), 0.0)
+    ray_primal = max(_size(r_e + data.equation_rhs), _size(r_z + data.cone_rhs), _size(data.quadratic * x))
+    work = float(data.cost @ x)
+    return Measures(
+        gap=abs(primal_objective - dual_objective) / max(1.0, min(abs(primal_objective), abs(dual_objective))),
+        primal=max(_size(r_e), _size(r_z)) / limit,
+        dual=_size(r_x) / max(1.0, _size(data.cost) + size_z + _size(x)),
+        primal_objective=primal_objective,
+        dual_objective=dual_objective,
+        infeasible=ray_dual / (-offset * max(1.0, size_z / -offset)) if offset < 0.0 else np.inf,
+        unbounded=ray_primal / (-work * max(1.0, size_x / -work)) if work < 0.0 else np.inf,
+    )
+
+
+def _step(
+    data: ConeData, condensation: Condensation, point: Point, residuals: Residuals
+) -> tuple[Point, float] | None:
+    """Predictor and corrector; the next iterate and the shorter of the two lengths."""
+    product = data.product
+    scaling = Scaling.of(product, point.s, point.z)
+    l = scaling.times(point.z)
+    if not np.isfinite(l).all() or not condensation.factorize(scaling):
+        return None
+    r_x, r_e, r_z = residuals
+    bent = scaling.inverse(r_z)
+    square, mean = product.product(l, l), float(l @ l) / product.degree
+
+    def direction(products: FloatArray, share: float) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
+        divided = product.quotient(l, products)
+        q = divided - share * bent
+        right = data.cone_matrix_t @ scaling.inverse(q) - share * r_x
+        dx, dy = refined_solution(data, condensation, scaling, right, -share * r_e)
+        dz = scaling.inverse(data.cone_matrix @ dx) - q
+        return dx, dy, -divided - dz, dz
+
+    def lengths(ds: FloatArray, dz: FloatArray, share: float) -> tuple[float, float]:
+        reach = [min(1.0, share * product.longest_step(l, step)) for step in (ds, dz)]
+        return (reach[0], reach[1]) if data.is_linear else (min(reach), min(reach))
+
+    _, _, ds, dz = direction(square, 1.0)
+    to_s, to_z = lengths(ds, dz, 1.0)
+    ahead = max(float((l + to_s * ds) @ (l + to_z * dz)) / product.degree, 0.0)
+    sigma = min(1.0, (ahead / mean) ** 3)
+    products = square + product.product(ds, dz) - sigma * mean * product.identity()
+    dx, dy, ds, dz = direction(products, 1.0 - sigma)
+    if not (np.isfinite(dx).all() and np.isfinite(dz).all()):
+        return None
+    to_s, to_z = lengths(ds, dz, SHARE)
+    moved = Point(
+        point.x + to_s * dx,
+        point.y + to_z * dy,
+        point.s + to_s * scaling.times(ds),
+        point.z + to_z * scaling.inverse(dz),
+    )
+    return moved, min(to_s, to_z)
+
+
+def _size(v: FloatArray) -> float:
+    return float(np.abs(v).max(initial=0.0))

@@ -1,0 +1,248 @@
+"""Condensation onto the multipliers of the equations, for programs whose unknowns are local: the static forms.
+
+Unknowns that share a half-line or a cone, the forces of one contact point, form a group; H = Q + G̃ᵀ G̃ is one small
+block for each. Unknowns in no cone and without cost of their own (the load factor) stay as a border F::
+
+    N = E H⁻¹ Eᵀ,      N dy − F dx_F = E H⁻¹ r − r_e,      Fᵀ dy + Q_F dx_F = r_F
+
+H is never formed: with [G̃; √Q] = U R, R triangular (modified Gram–Schmidt), H⁻¹ = R⁻¹ R⁻ᵀ, and N is the sum of the
+products of R⁻ᵀ Eᵀ. Near the end H is beyond what double precision can invert; R is as accurate as its columns.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import scipy.sparse as sp
+from scipy.sparse.csgraph import connected_components
+
+from mbla.arrays import FloatArray, IntArray
+from mbla.solution.condensed.condensation import RELATIVE_SHIFT, SHIFT
+from mbla.solution.condensed.cone_data import ConeData, Units
+from mbla.solution.condensed.products import PlacedProducts, alike, dense_rows, placed_products
+from mbla.solution.condensed.scaling import Scaling, boosted
+from mbla.solution.linear_algebra import Factorization, factorization
+
+LARGEST_GROUP = 8
+"""Unknowns of a group up to which they count as local."""
+
+MOST_FREE = 8
+"""Unknowns in no cone that can be a border."""
+
+
+@dataclass(frozen=True)
+class _Batch:
+    """Groups of unknowns of like shape.
+
+    unknowns : (n_groups, g)
+    lines, cones : (n_groups, a), (n_groups, b) their half-lines and cones
+    of_lines : (n_groups, a, g) rows of G
+    of_cones : (3, n_groups, b, g)
+    root     : (n_groups, g) √q
+    columns  : (n_groups, g, C) columns of E at the rows of each set
+    members  : groups with the same rows, which stand one after the other
+    """
+
+    unknowns: IntArray
+    lines: IntArray
+    cones: IntArray
+    of_lines: FloatArray
+    of_cones: FloatArray
+    root: FloatArray
+    columns: FloatArray
+    members: int
+
+    def triangular(self, scaling: Scaling) -> FloatArray:
+        """R of each group, (g, g, n_groups)."""
+        n, a, g = self.of_lines.shape
+        b = self.cones.shape[1]
+        x = np.zeros((a + 3 * b + g, g, n))
+        x[:a] = (self.of_lines / scaling.line[self.lines][:, :, None]).transpose(1, 2, 0)
+        if b:
+            out = np.empty_like(self.of_cones)
+            boosted(scaling.w[:, self.cones][..., None], self.of_cones, -1.0, out)
+            out /= scaling.eta[self.cones][None, :, :, None]
+            x[a : a + 3 * b] = out.transpose(0, 2, 3, 1).reshape(3 * b, g, n)
+        x[range(a + 3 * b, a + 3 * b + g), range(g)] = self.root.T
+        return _triangular_factor(x)
+
+
+class OnMultipliers:
+    """See ``Condensation``."""
+
+    def __init__(self, data: ConeData, library: str | None, threads: int) -> None:
+        self._data = data
+        group, self._free = local_groups(data)
+        self._batches, rows = _batches(data, group)
+        self._products: PlacedProducts = placed_products(data.equations.shape[0], rows)
+        self._factors: Factorization = factorization(self._products.pattern, library, threads)
+        self._border = data.equations[:, self._free].toarray()
+        self._r: list[FloatArray] = []
+        self._spread = np.zeros_like(self._border)
+        self._inner = np.zeros((len(self._free),) * 2)
+
+    @property
+    def library(self) -> str:
+        """That factorises N."""
+        return self._factors.library
+
+    def factorize(self, scaling: Scaling) -> bool:
+        """Assemble and factorise N."""
+        self._r = [batch.triangular(scaling) for batch in self._batches]
+        if not all(np.isfinite(r).all() for r in self._r):
+            return False
+        blocks = []
+        for batch, r in zip(self._batches, self._r, strict=True):
+            y = _forward(r, batch.columns.transpose(1, 0, 2))
+            n, g, width = batch.columns.shape
+            blocks.append(y.transpose(1, 0, 2).reshape(n // batch.members, batch.members * g, width))
+        values = self._products.summed(blocks)
+        diagonal = self._products.diagonal
+        values[diagonal] += RELATIVE_SHIFT * values[diagonal] + SHIFT * float(values[diagonal].mean())
+        if not self._factors.factorize(values):
+            return False
+        self._spread = self._factors.solve(self._border)
+        self._inner = self._border.T @ self._spread + np.diag(self._data.quadratic[self._free])
+        return bool(np.isfinite(self._inner).all())
+
+    def solve(self, r_x: FloatArray, r_e: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """dx and dy, not refined."""
+        data = self._data
+        y = self._factors.solve(data.equations @ self._locally(r_x) - r_e)
+        free = np.zeros(0)
+        if len(self._free):
+            free = np.linalg.lstsq(self._inner, r_x[self._free] - self._border.T @ y, rcond=None)[0]
+            y = y + self._spread @ free
+        x = self._locally(r_x - data.equations_t @ y)
+        x[self._free] = free
+        return x, y
+
+    def _locally(self, rhs: FloatArray) -> FloatArray:
+        """H⁻¹ of the local unknowns, zero elsewhere."""
+        result = np.zeros_like(rhs)
+        for batch, r in zip(self._batches, self._r, strict=True):
+            right = rhs[batch.unknowns].T[:, :, None]
+            result[batch.unknowns] = _backward(r, _forward(r, right))[:, :, 0].T
+        return result
+
+
+def local_groups(data: ConeData) -> tuple[IntArray, IntArray]:
+    """Group of each unknown, −1 for those in no cone, and the latter."""
+    units = Units.of(data.product)
+    held = sp.coo_array(data.cone_matrix)
+    n = len(data.cost)
+    link = sp.coo_array(
+        (np.ones(held.nnz), (n + units.unit_of_row[held.coords[0]], held.coords[1])),
+        shape=(n + units.n_units, n + units.n_units),
+    )
+    label = connected_components(link, directed=False)[1][:n]
+    alone = (np.bincount(held.coords[1], minlength=n) == 0) & (data.quadratic == 0.0)
+    group = np.full(n, -1)
+    group[~alone] = np.unique(label[~alone], return_inverse=True)[1]
+    return group, np.flatnonzero(alone)
+
+
+def is_local(data: ConeData) -> bool:
+    """Whether the unknowns fall into small groups with few left over."""
+    group, free = local_groups(data)
+    return len(free) <= MOST_FREE and int(np.bincount(group[group >= 0]).max(initial=0)) <= LARGEST_GROUP
+
+
+def _batches(data: ConeData, group: IntArray) -> tuple[list[_Batch], list[IntArray]]:
+    """Batches of groups, and the equations of each set of them."""
+    product, units = data.product, Units.of(data.product)
+    n_groups = int(group.max(initial=-1)) + 1
+    held = sp.coo_array(data.cone_matrix)
+    group_of_unit = np.full(units.n_units, -1)
+    group_of_unit[units.unit_of_row[held.coords[0]]] = group[held.coords[1]]
+    unknowns = _by_group(np.arange(len(group)), group, n_groups)
+    n_lines = product.n_lines
+    lines = _by_group(np.arange(n_lines), group_of_unit[:n_lines], n_groups)
+    cones = _by_group(np.arange(product.n_cones), group_of_unit[n_lines:], n_groups)
+    columns = dense_rows(data.equations_t, group, n_groups)
+    shapes = np.column_stack([*(np.diff(part[1]) for part in (unknowns, lines, cones)), columns.widths])
+    batches, rows = [], []
+    shape_of = alike(shapes)
+    for number in range(int(shape_of.max(initial=-1)) + 1):
+        here = np.flatnonzero(shape_of == number)
+        touched = columns.columns_of(here)
+        of_set = alike(touched)
+        size_of_set = np.bincount(of_set, minlength=1)
+        for size in np.unique(size_of_set[of_set]):
+            order = np.argsort(of_set, kind="stable")
+            chosen = order[size_of_set[of_set[order]] == size]
+            members = tuple(_taken(part, here[chosen]) for part in (unknowns, lines, cones))
+            place = np.zeros(len(group), dtype=np.int64)
+            place[members[0]] = np.arange(members[0].shape[1])
+            of_lines, of_cones = _dense(data, members, place)
+            blocks = columns.blocks(here[chosen], place, members[0].shape[1])
+            root = np.sqrt(data.quadratic[members[0]])
+            batches.append(_Batch(*members, of_lines, of_cones, root, blocks, int(size)))
+            rows.append(touched[chosen[::size]])
+    return batches, rows
+
+
+def _by_group(members: IntArray, group: IntArray, n_groups: int) -> tuple[IntArray, IntArray]:
+    """Members of all groups, one after the other, and where each starts."""
+    here = group >= 0
+    order = np.argsort(group[here], kind="stable")
+    counts = np.bincount(group[here], minlength=n_groups)
+    return members[here][order], np.concatenate([[0], np.cumsum(counts)])
+
+
+def _taken(part: tuple[IntArray, IntArray], groups: IntArray) -> IntArray:
+    """(n_groups, as many as each has)."""
+    members, pointers = part
+    count = int(pointers[groups[0] + 1] - pointers[groups[0]])
+    return members[pointers[groups][:, None] + np.arange(count)]
+
+
+def _dense(data: ConeData, members: tuple[IntArray, ...], place: IntArray) -> tuple[FloatArray, FloatArray]:
+    """Rows of G of each group over its own unknowns, half-lines (n, a, g) and cones (3, n, b, g)."""
+    unknowns, lines, cones = members
+    n, g = unknowns.shape
+    n_lines, n_cones = data.product.n_lines, data.product.n_cones
+
+    def rows(numbers: IntArray) -> FloatArray:
+        held = sp.coo_array(data.cone_matrix[numbers.ravel()])
+        dense = np.zeros((numbers.size, g))
+        dense[held.coords[0], place[held.coords[1]]] = held.data
+        return dense.reshape(n, numbers.shape[1], g)
+
+    return rows(lines), np.stack([rows(n_lines + j * n_cones + cones) for j in range(3)])
+
+
+def _triangular_factor(x: FloatArray) -> FloatArray:
+    """R of x = U R by modified Gram–Schmidt, (g, g, n), from x (rows, g, n), which is overwritten."""
+    g = x.shape[1]
+    r = np.zeros((g, g, x.shape[2]))
+    for i in range(g):
+        r[i, i] = np.sqrt(np.einsum("rn,rn->n", x[:, i], x[:, i]))
+        x[:, i] /= r[i, i]
+        for j in range(i + 1, g):
+            r[i, j] = np.einsum("rn,rn->n", x[:, i], x[:, j])
+            x[:, j] -= r[i, j] * x[:, i]
+    return r
+
+
+def _forward(r: FloatArray, rhs: FloatArray) -> FloatArray:
+    """R⁻ᵀ rhs, (g, n, k)."""
+    result = np.empty_like(rhs)
+    for i in range(len(r)):
+        result[i] = rhs[i]
+        for j in range(i):
+            result[i] -= r[j, i][:, None] * result[j]
+        result[i] /= r[i, i][:, None]
+    return result
+
+
+def _backward(r: FloatArray, rhs: FloatArray) -> FloatArray:
+    """R⁻¹ rhs, (g, n, k)."""
+    result = np.empty_like(rhs)
+    for i in reversed(range(len(r))):
+        result[i] = rhs[i]
+        for j in range(i + 1, len(r)):
+            result[i] -= r[i, j][:, None] * result[j]
+        result[i] /= r[i, i][:, None]
+    return result

@@ -1,0 +1,110 @@
+"""Sums of many small products XᵀX in one sparse matrix of fixed pattern: all places are found once.
+
+Each block X, (…, C), belongs to C rows of the matrix. Blocks of one shape are multiplied together, and what they give is
+added up where it belongs by one map.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import scipy.sparse as sp
+
+from mbla.arrays import FloatArray, IntArray
+from mbla.solution.linear_algebra import SymmetricPattern
+
+
+@dataclass(frozen=True)
+class PlacedProducts:
+    """Pattern of the sum, and where each batch of products goes.
+
+    lower    : for each batch, places of the lower triangle in a flat C × C matrix
+    place    : for each batch, (n_blocks C (C + 1) / 2,) entry of the pattern
+    diagonal : (n,) entries of the diagonal
+    """
+
+    pattern: SymmetricPattern
+    lower: tuple[IntArray, ...]
+    place: tuple[IntArray, ...]
+    diagonal: IntArray
+
+    def summed(self, batches: list[FloatArray]) -> FloatArray:
+        """Values of Σ XᵀX in the order of the pattern; each batch is (n_blocks, n_rows of X, C)."""
+        values = np.zeros(len(self.pattern.indices))
+        for x, lower, place in zip(batches, self.lower, self.place, strict=True):
+            products = np.matmul(x.transpose(0, 2, 1), x).reshape(len(x), -1)
+            values += np.bincount(place, products[:, lower].ravel(), len(values))
+        return values
+
+
+def placed_products(n: int, columns: list[IntArray]) -> PlacedProducts:
+    """Places for batches whose blocks belong to these rows of the matrix, (n_blocks, C) ascending each."""
+    triangles = [np.tril_indices(held.shape[1]) for held in columns]
+    keys = [
+        (held[:, column] * n + held[:, row]).ravel()
+        for held, (row, column) in zip(columns, triangles, strict=True)
+    ]
+    stored = np.unique(np.concatenate([*keys, np.arange(n) * (n + 1)]))
+    pointers = np.searchsorted(stored, np.arange(n + 1) * n).astype(np.int32)
+    pattern = SymmetricPattern(n, (stored % n).astype(np.int32), pointers)
+    return PlacedProducts(
+        pattern=pattern,
+        lower=tuple(row * held.shape[1] + column for held, (row, column) in zip(columns, triangles, strict=True)),
+        place=tuple(np.searchsorted(stored, key) for key in keys),
+        diagonal=pattern.pointers[:-1].astype(np.int64),
+    )
+
+
+@dataclass(frozen=True)
+class DenseRows:
+    """Rows of a sparse matrix gathered into dense blocks, one for each of some groups of rows.
+
+    columns : for each group its columns, ascending, as one array with ``pointers``
+    """
+
+    columns: IntArray
+    pointers: IntArray
+    group: IntArray
+    row: IntArray
+    local_column: IntArray
+    values: FloatArray
+
+    @property
+    def widths(self) -> IntArray:
+        """(n_groups,) columns of each."""
+        return np.diff(self.pointers)
+
+    def columns_of(self, groups: IntArray) -> IntArray:
+        """(n_groups, C) for groups of one width."""
+        width = int(self.widths[groups[0]]) if len(groups) else 0
+        return self.columns[self.pointers[groups][:, None] + np.arange(width)]
+
+    def blocks(self, groups: IntArray, place_of_row: IntArray, n_rows: int) -> FloatArray:
+        """(n_groups, n_rows, C) for groups of one width; ``place_of_row`` is the row's place in its block."""
+        index = np.full(len(self.pointers) - 1, -1)
+        index[groups] = np.arange(len(groups))
+        width = int(self.widths[groups[0]]) if len(groups) else 0
+        mine = index[self.group] >= 0
+        result = np.zeros((len(groups), n_rows, width))
+        result[index[self.group[mine]], place_of_row[self.row[mine]], self.local_column[mine]] = self.values[mine]
+        return result
+
+
+def dense_rows(matrix: sp.csr_array, group_of_row: IntArray, n_groups: int) -> DenseRows:
+    """Gather the rows of each group; rows of group −1 are left out."""
+    held = sp.coo_array(matrix)
+    row, column = (np.asarray(part, dtype=np.int64) for part in held.coords)
+    here = group_of_row[row] >= 0
+    row, column, values = row[here], column[here], held.data[here]
+    group, width = group_of_row[row], int(matrix.shape[1])
+    keys, place = np.unique(group * width + column, return_inverse=True)
+    pointers = np.searchsorted(keys, np.arange(n_groups + 1) * width)
+    return DenseRows(keys % width, pointers, group, row, place - pointers[group], values)
+
+
+def alike(columns: IntArray) -> IntArray:
+    """Number of the set of equal rows to which each row of (n, C) belongs."""
+    if not columns.size:
+        return np.zeros(len(columns), dtype=np.int64)
+    return np.asarray(np.unique(columns, axis=0, return_inverse=True)[1]).reshape(-1)
