@@ -45,6 +45,15 @@ SHORTEST = 1e-8
 STALLED = 15
 """Iterations without a better iterate after which the best one is returned."""
 
+RAY_SEEN = 1e-2
+"""Quality of a ray from which it is watched."""
+
+RAY_ENOUGH = 1e-5
+"""Quality at which a ray is an answer where the method gets no further; what it proves is for the caller to repair."""
+
+RAY_STALLED = 4
+"""Iterations in which such a ray must become twice as good."""
+
 ALMOST = 1e-5
 """Accuracy up to which a best iterate is an approximate solution."""
 
@@ -88,6 +97,11 @@ class Measures:
     dual_objective: float
     infeasible: float
     unbounded: float
+
+    @property
+    def ray(self) -> float:
+        """How far the iterate is from a ray that proves something."""
+        return min(self.infeasible, self.unbounded)
 
     @property
     def worst(self) -> float:
@@ -152,10 +166,7 @@ def usual_start(data: ConeData, condensation: Condensation) -> Point | None:
 
 
 def _iterated(data: ConeData, condensation: Condensation, run: Run, point: Point) -> Ended:
-    best: tuple[Point, Measures] | None = None
-    length, since, outcome = 1.0, 0, Outcome.ITERATIONS
-    measures = _measures(data, point, _residuals(data, point))
-    number = 0
+    kept, length, outcome = _Kept(), 1.0, Outcome.ITERATIONS
     for number in range(run.max_iterations + 1):
         residuals = _residuals(data, point)
         measures = _measures(data, point, residuals)
@@ -163,29 +174,58 @@ def _iterated(data: ConeData, condensation: Condensation, run: Run, point: Point
         if not np.isfinite(measures.worst):
             outcome = Outcome.NUMERICAL
             break
-        since += 1
-        if best is None or measures.worst < best[1].worst:
-            best, since = (point, measures), 0
+        kept.see(number, point, measures)
         verdict = _verdict(measures, run)
         if verdict is not None:
             return Ended(verdict, point, measures, number)
         if stop or (run.deadline is not None and time.monotonic() > run.deadline):
             outcome = Outcome.TIME
             break
-        if since > STALLED or length < SHORTEST:
+        if kept.stalled(number) or length < SHORTEST:
             outcome = Outcome.STALLED
             break
-        if number == run.max_iterations:
-            break
-        moved = _step(data, condensation, point, residuals)
+        moved = _step(data, condensation, point, residuals) if number < run.max_iterations else (point, 0.0)
         if moved is None:
             outcome = Outcome.NUMERICAL
             break
         point, length = moved
-    point, measures = best or (point, measures)
-    if outcome in (Outcome.STALLED, Outcome.NUMERICAL) and measures.worst <= ALMOST:
-        outcome = Outcome.ALMOST
-    return Ended(outcome, point, measures, number)
+    return kept.ended(outcome, point, number)
+
+
+@dataclass
+class _Kept:
+    """The best iterate and the best ray of a run, and when they were found."""
+
+    best: tuple[Point, Measures] | None = None
+    ray: tuple[Point, Measures] | None = None
+    last_best: int = 0
+    last_ray: int = 0
+    last_measured: float = RAY_SEEN
+
+    def see(self, number: int, point: Point, measures: Measures) -> None:
+        if self.best is None or measures.worst < self.best[1].worst:
+            self.best, self.last_best = (point, measures), number
+        if measures.ray < (RAY_SEEN if self.ray is None else self.ray[1].ray):
+            self.ray = point, measures
+            if measures.ray < 0.5 * self.last_measured:
+                self.last_ray, self.last_measured = number, measures.ray
+
+    def stalled(self, number: int) -> bool:
+        """Whether neither has become better for long; a ray is soon as good as it gets."""
+        if self.ray is not None and self.ray[1].ray <= RAY_ENOUGH:
+            return number - self.last_ray > RAY_STALLED
+        return number - max(self.last_best, self.last_ray) > STALLED
+
+    def ended(self, outcome: Outcome, point: Point, number: int) -> Ended:
+        """The run's end: a ray that says something, else the best iterate."""
+        assert self.best is not None
+        if outcome in (Outcome.STALLED, Outcome.NUMERICAL, Outcome.ITERATIONS):
+            if self.best[1].worst <= ALMOST:
+                return Ended(Outcome.ALMOST, *self.best, number)
+            if self.ray is not None and self.ray[1].ray <= RAY_ENOUGH:
+                infeasible = self.ray[1].infeasible < self.ray[1].unbounded
+                return Ended(Outcome.INFEASIBLE if infeasible else Outcome.UNBOUNDED, *self.ray, number)
+        return Ended(outcome, *self.best, number)
 
 
 def _verdict(measures: Measures, run: Run) -> Outcome | None:
