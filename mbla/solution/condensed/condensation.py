@@ -27,7 +27,7 @@ ROUNDS = 5
 """Refinements at most; one or two do far from the end."""
 
 RELATIVE_SHIFT = 1e-14
-SHIFT = 1e-12
+SHIFT = 1e-15
 """Regularisation of N: of each diagonal entry, and of all by this share of the mean one where W = I."""
 
 

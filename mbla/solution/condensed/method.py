@@ -28,6 +28,7 @@ import time
 from collections.abc import Callable
 from dataclasses import dataclass
 from enum import Enum
+from typing import TypeVar
 
 import numpy as np
 
@@ -139,10 +140,15 @@ def solve_cone_program(data: ConeData, condensation: Condensation, run: Run, sta
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):  # a run that diverges is seen and given up
         point = start or usual_start(data, condensation)
         if point is None:
-            nothing = np.zeros(len(data.cost)), np.zeros(len(data.equation_rhs)), data.product.identity()
-            point = Point(*nothing, data.product.identity())
-            return Ended(Outcome.NUMERICAL, point, _measures(data, point, _residuals(data, point)), 0)
-        return _iterated(data, condensation, run, point)
+            nothing = inside_start(data)
+            return Ended(Outcome.NUMERICAL, nothing, measured(data, nothing), 0)
+        return best_of_run(data, run, point, lambda now: _step(data, condensation, now), lambda now: now)
+
+
+def inside_start(data: ConeData) -> Point:
+    """s = z = e, nothing else."""
+    e = data.product.identity()
+    return Point(np.zeros(len(data.cost)), np.zeros(len(data.equation_rhs)), e, e)
 
 
 def usual_start(data: ConeData, condensation: Condensation) -> Point | None:
@@ -165,11 +171,21 @@ def usual_start(data: ConeData, condensation: Condensation) -> Point | None:
     return Point(x, y, *(v + max(0.0, 1.0 - product.least_eigenvalue(v)) * e for v in (s, z)))
 
 
-def _iterated(data: ConeData, condensation: Condensation, run: Run, point: Point) -> Ended:
-    kept, length, outcome = _Kept(), 1.0, Outcome.ITERATIONS
+Iterate = TypeVar("Iterate")
+
+
+def best_of_run(
+    data: ConeData,
+    run: Run,
+    start: Iterate,
+    step: Callable[[Iterate], tuple[Iterate, float] | None],
+    of_program: Callable[[Iterate], Point],
+) -> Ended:
+    """Iterate until there is an answer or none can be expected; ``step`` gives None on breakdown, and its length."""
+    kept, now, length, outcome = _Kept(), start, 1.0, Outcome.ITERATIONS
     for number in range(run.max_iterations + 1):
-        residuals = _residuals(data, point)
-        measures = _measures(data, point, residuals)
+        point = of_program(now)
+        measures = measured(data, point)
         stop = run.progress(number, measures, length)
         if not np.isfinite(measures.worst):
             outcome = Outcome.NUMERICAL
@@ -184,12 +200,14 @@ def _iterated(data: ConeData, condensation: Condensation, run: Run, point: Point
         if kept.stalled(number) or length < SHORTEST:
             outcome = Outcome.STALLED
             break
-        moved = _step(data, condensation, point, residuals) if number < run.max_iterations else (point, 0.0)
+        if number == run.max_iterations:
+            break
+        moved = step(now)
         if moved is None:
             outcome = Outcome.NUMERICAL
             break
-        point, length = moved
-    return kept.ended(outcome, point, number)
+        now, length = moved
+    return kept.ended(outcome, point, measures, number)
 
 
 @dataclass
@@ -216,9 +234,10 @@ class _Kept:
             return number - self.last_ray > RAY_STALLED
         return number - max(self.last_best, self.last_ray) > STALLED
 
-    def ended(self, outcome: Outcome, point: Point, number: int) -> Ended:
+    def ended(self, outcome: Outcome, point: Point, measures: Measures, number: int) -> Ended:
         """The run's end: a ray that says something, else the best iterate."""
-        assert self.best is not None
+        if self.best is None:
+            return Ended(outcome, point, measures, number)
         if outcome in (Outcome.STALLED, Outcome.NUMERICAL, Outcome.ITERATIONS):
             if self.best[1].worst <= ALMOST:
                 return Ended(Outcome.ALMOST, *self.best, number)
@@ -247,8 +266,9 @@ def _residuals(data: ConeData, point: Point) -> Residuals:
     return r_x, data.equations @ point.x - data.equation_rhs, data.cone_matrix @ point.x + point.s - data.cone_rhs
 
 
-def _measures(data: ConeData, point: Point, residuals: Residuals) -> Measures:
-    r_x, r_e, r_z = residuals
+def measured(data: ConeData, point: Point) -> Measures:
+    """How far an iterate is from the solution, or from a ray."""
+    r_x, r_e, r_z = _residuals(data, point)
     x, y, s, z = point.x, point.y, point.s, point.z
     curved = float(x @ (data.quadratic * x))
     primal_objective = float(data.cost @ x) + 0.5 * curved
@@ -271,16 +291,14 @@ def _measures(data: ConeData, point: Point, residuals: Residuals) -> Measures:
     )
 
 
-def _step(
-    data: ConeData, condensation: Condensation, point: Point, residuals: Residuals
-) -> tuple[Point, float] | None:
+def _step(data: ConeData, condensation: Condensation, point: Point) -> tuple[Point, float] | None:
     """Predictor and corrector; the next iterate and the shorter of the two lengths."""
     product = data.product
     scaling = Scaling.of(product, point.s, point.z)
     l = scaling.times(point.z)
     if not np.isfinite(l).all() or not condensation.factorize(scaling):
         return None
-    r_x, r_e, r_z = residuals
+    r_x, r_e, r_z = _residuals(data, point)
     bent = scaling.inverse(r_z)
     square, mean = product.product(l, l), float(l @ l) / product.degree
 
