@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import scipy.sparse as sp
@@ -34,6 +34,11 @@ class ConeData:
     def is_linear(self) -> bool:
         """Whether the cost has no quadratic term."""
         return not self.quadratic.any()
+
+    def changed(self, program: ConeProgram) -> ConeData:
+        """With cost and right-hand side of another program of the same matrix."""
+        n_e = program.n_equations
+        return replace(self, cost=program.cost, equation_rhs=program.rhs[:n_e], cone_rhs=program.rhs[n_e:][self.order])
 
 
 def cone_data(program: ConeProgram) -> ConeData:

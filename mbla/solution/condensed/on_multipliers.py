@@ -1,9 +1,9 @@
 """Condensation onto the multipliers of the equations, for programs whose unknowns are local: the static forms.
 
 Unknowns that share a half-line or a cone, the forces of one contact point, form a group; H = Q + G̃ᵀ G̃ is one small
-block for each. Unknowns in no cone and without cost of their own (the load factor) stay as a border F::
+block for each. Unknowns in no cone, or alone in theirs and in most equations (the load factor), stay as a border F::
 
-    N = E H⁻¹ Eᵀ,      N dy − F dx_F = E H⁻¹ r − r_e,      Fᵀ dy + Q_F dx_F = r_F
+    N = E H⁻¹ Eᵀ,      N dy − F dx_F = E H⁻¹ r − r_e,      Fᵀ dy + H_F dx_F = r_F
 
 H is never formed: with [G̃; √Q] = U R, R triangular (modified Gram–Schmidt), H⁻¹ = R⁻¹ R⁻ᵀ, and N is the sum of the
 products of R⁻ᵀ Eᵀ. Near the end H is beyond what double precision can invert; R is as accurate as its columns.
@@ -28,7 +28,10 @@ LARGEST_GROUP = 8
 """Unknowns of a group up to which they count as local."""
 
 MOST_FREE = 8
-"""Unknowns in no cone that can be a border."""
+"""Unknowns that can be a border."""
+
+MOST_EQUATIONS = 48
+"""Equations in which the unknowns of a group are; a point between two blocks is in twelve."""
 
 
 @dataclass(frozen=True)
@@ -78,6 +81,7 @@ class OnMultipliers:
         self._products: PlacedProducts = placed_products(data.equations.shape[0], rows)
         self._factors: Factorization = factorization(self._products.pattern, library, threads)
         self._border = data.equations[:, self._free].toarray()
+        self._free_rows = data.cone_matrix[:, self._free].toarray()[: data.product.n_lines]
         self._r: list[FloatArray] = []
         self._spread = np.zeros_like(self._border)
         self._inner = np.zeros((len(self._free),) * 2)
@@ -103,7 +107,8 @@ class OnMultipliers:
         if not self._factors.factorize(values):
             return False
         self._spread = self._factors.solve(self._border)
-        self._inner = self._border.T @ self._spread + np.diag(self._data.quadratic[self._free])
+        free = self._data.quadratic[self._free] + np.square(self._free_rows / scaling.line[:, None]).sum(axis=0)
+        self._inner = self._border.T @ self._spread + np.diag(free)
         return bool(np.isfinite(self._inner).all())
 
     def solve(self, r_x: FloatArray, r_e: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -128,25 +133,30 @@ class OnMultipliers:
 
 
 def local_groups(data: ConeData) -> tuple[IntArray, IntArray]:
-    """Group of each unknown, −1 for those in no cone, and the latter."""
-    units = Units.of(data.product)
+    """Group of each unknown, −1 for those of the border, and the latter."""
+    units, n = Units.of(data.product), len(data.cost)
     held = sp.coo_array(data.cone_matrix)
-    n = len(data.cost)
     link = sp.coo_array(
         (np.ones(held.nnz), (n + units.unit_of_row[held.coords[0]], held.coords[1])),
         shape=(n + units.n_units, n + units.n_units),
     )
     label = connected_components(link, directed=False)[1][:n]
-    alone = (np.bincount(held.coords[1], minlength=n) == 0) & (data.quadratic == 0.0)
+    in_lines = np.bincount(held.coords[1][held.coords[0] < data.product.n_lines], minlength=n)
+    in_cones = np.bincount(held.coords[1], minlength=n) > in_lines
+    alone = (np.bincount(label, minlength=1)[label] == 1) & ~in_cones
+    border = alone & (((in_lines == 0) & (data.quadratic == 0.0)) | (np.diff(data.equations_t.indptr) > MOST_EQUATIONS))
     group = np.full(n, -1)
-    group[~alone] = np.unique(label[~alone], return_inverse=True)[1]
-    return group, np.flatnonzero(alone)
+    group[~border] = np.unique(label[~border], return_inverse=True)[1]
+    return group, np.flatnonzero(border)
 
 
 def is_local(data: ConeData) -> bool:
     """Whether the unknowns fall into small groups with few left over."""
     group, free = local_groups(data)
-    return len(free) <= MOST_FREE and int(np.bincount(group[group >= 0]).max(initial=0)) <= LARGEST_GROUP
+    n_groups = int(group.max(initial=-1)) + 1
+    width = dense_rows(data.equations_t, group, n_groups).widths.max(initial=0)
+    largest = np.bincount(group[group >= 0]).max(initial=0)
+    return len(free) <= MOST_FREE and int(largest) <= LARGEST_GROUP and int(width) <= MOST_EQUATIONS
 
 
 def _batches(data: ConeData, group: IntArray) -> tuple[list[_Batch], list[IntArray]]:

@@ -1,0 +1,153 @@
+"""Cone programs solved by the method of this package, held like those of the other solvers.
+
+Programs of few equations (kinematic forms) are condensed onto their unknowns, those whose unknowns are local (static
+forms) onto the multipliers of their equations. ``fits`` says whether a program is one of the two.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from mbla.arrays import FloatArray
+from mbla.errors import SolverError
+from mbla.program.kinematic import ConeProgram
+from mbla.solution.condensed.condensation import Condensation
+from mbla.solution.condensed.cone_data import ConeData, cone_data
+from mbla.solution.condensed.homogeneous import solve_embedded
+from mbla.solution.condensed.method import Ended, Measures, Outcome, Run, solve_cone_program
+from mbla.solution.condensed.on_multipliers import OnMultipliers, is_local
+from mbla.solution.condensed.on_unknowns import OnUnknowns
+from mbla.solution.cone_solution import ConeSolution, Log
+from mbla.solution.settings import SolverSettings
+from mbla.solution.signals import signals_held
+from mbla.solution.solution import IterationRecord, Status
+
+NAME = "mbla"
+
+MOST_EQUATIONS = 8
+"""Equations up to which a program is condensed onto its unknowns: each is a column of the border."""
+
+STATUSES = {
+    Outcome.SOLVED: Status.SOLVED,
+    Outcome.ALMOST: Status.APPROXIMATE,
+    Outcome.ENOUGH: Status.APPROXIMATE,
+    Outcome.INFEASIBLE: Status.UNBOUNDED,
+    Outcome.UNBOUNDED: Status.NO_EQUILIBRIUM,
+    Outcome.ITERATIONS: Status.ITERATION_LIMIT,
+    Outcome.TIME: Status.TIME_LIMIT,
+    Outcome.STALLED: Status.NUMERICAL_ERROR,
+    Outcome.NUMERICAL: Status.NUMERICAL_ERROR,
+}
+"""What an outcome says of a program in kinematic form: no admissible mechanism (infeasible) means that the live load
+never brings collapse; an unbounded mechanism means that no equilibrium exists."""
+
+UNDECIDED = (Outcome.STALLED, Outcome.NUMERICAL)
+
+
+@dataclass
+class CondensedProgram:
+    """A cone program, its condensation found once; cost and right-hand side may change.
+
+    log : called once per iteration
+    """
+
+    cone_program: ConeProgram
+    settings: SolverSettings
+    log: Log
+    _data: ConeData | None = field(init=False, default=None)
+    _condensation: Condensation | None = field(init=False, default=None)
+
+    def solve(self, program_number: int, to_load_factor: float) -> ConeSolution:
+        """Solve what is loaded; see ``ConeSolver``."""
+        return self.solve_once(program_number, to_load_factor)
+
+    def solve_once(self, program_number: int, to_load_factor: float, enough: float = 0.0) -> ConeSolution:
+        """Solve what is loaded, for callers that judge the answer themselves.
+
+        enough : residuals and gap at which to stop, well inside the cones; the status is APPROXIMATE then
+        """
+        self._check_finite()
+        started = time.perf_counter()
+        data, condensation = self._prepared()
+        with signals_held() as signalled:
+            progress = self._progress(program_number, to_load_factor, started, signalled)
+            settings = self.settings
+            run = Run(settings.tolerance, settings.max_iterations, settings.deadline, enough, progress)
+            ended = solve_cone_program(data, condensation, run)
+            iterations = ended.iterations
+            if ended.outcome in UNDECIDED:
+                ended = _better(ended, solve_embedded(data, condensation, run))
+                iterations += ended.iterations
+        return self._solution(data, ended, iterations, time.perf_counter() - started)
+
+    def update(self, *, cost: FloatArray | None = None, rhs: FloatArray | None = None) -> None:
+        """Change cost or right-hand side; the matrix stays."""
+        old = self.cone_program
+        self.cone_program = replace(old, cost=old.cost if cost is None else cost, rhs=old.rhs if rhs is None else rhs)
+        if self._data is not None:
+            self._data = self._data.changed(self.cone_program)
+
+    def _prepared(self) -> tuple[ConeData, Condensation]:
+        if self._data is None or self._condensation is None:
+            self._data = cone_data(self.cone_program)
+            kind = OnUnknowns if self.cone_program.n_equations <= MOST_EQUATIONS else OnMultipliers
+            self._condensation = kind(self._data, self.settings.factorization, self.settings.threads)
+        return self._data, self._condensation
+
+    def _check_finite(self) -> None:
+        program = self.cone_program
+        if not all(np.isfinite(part).all() for part in (program.cost, program.matrix.data, program.rhs)):
+            raise SolverError("the cone program holds numbers that are not finite")
+
+    def _progress(
+        self, program: int, to_load_factor: float, started: float, signalled: Callable[[], bool]
+    ) -> Callable[[int, Measures, float], bool]:
+        def progress(number: int, measures: Measures, length: float) -> bool:
+            self.log(
+                IterationRecord(
+                    program=program,
+                    iteration=number,
+                    load_factor=measures.primal_objective * to_load_factor,
+                    gap=measures.gap,
+                    primal_residual=measures.primal,
+                    dual_residual=measures.dual,
+                    step=length,
+                    seconds=time.perf_counter() - started,
+                )
+            )
+            return signalled()
+
+        return progress
+
+    def _solution(self, data: ConeData, ended: Ended, iterations: int, seconds: float) -> ConeSolution:
+        cones = np.empty(data.product.size)
+        cones[data.order] = ended.point.z
+        assert self._condensation is not None
+        return ConeSolution(
+            status=STATUSES[ended.outcome],
+            solver_status=ended.outcome.value,
+            x=ended.point.x,
+            z=np.concatenate([ended.point.y, cones]),
+            objective=ended.measures.primal_objective,
+            iterations=iterations,
+            seconds=seconds,
+            solver=NAME,
+        )
+
+
+def fits(program: ConeProgram) -> bool:
+    """Whether a program is one that can be condensed."""
+    if program.further_cones or program.n_half_lines + program.n_cones == 0:
+        return False
+    return program.n_equations <= MOST_EQUATIONS or is_local(cone_data(program))
+
+
+def _better(first: Ended, second: Ended) -> Ended:
+    """The second run where it has an answer, or the better iterate."""
+    if second.outcome in UNDECIDED and first.measures.worst < second.measures.worst:
+        return first
+    return second
