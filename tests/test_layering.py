@@ -18,6 +18,7 @@ DOORS = {
     "meshio": "model/geometry/meshio_files.py",
     "manifold3d": "contacts/solids.py",
     "clarabel": "solution/clarabel_adapter.py",
+    "cvxopt": "solution/linear_algebra/cholmod_factors.py",
     "qdldl": "solution/linear_algebra/qdldl_factors.py",
     "highspy": "solution/highs_adapter.py",
     "h5py": "results/hdf5.py",

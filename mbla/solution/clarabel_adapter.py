@@ -16,7 +16,7 @@ from mbla.errors import SolverError
 from mbla.program.kinematic import ConeProgram
 from mbla.solution.cone_solution import ConeSolution as ConeSolution
 from mbla.solution.cone_solution import Log as Log
-from mbla.solution.mkl import factorization_for
+from mbla.solution.linear_algebra.mkl import factorization_for
 from mbla.solution.settings import SolverSettings
 from mbla.solution.signals import signals_held
 from mbla.solution.solution import IterationRecord, Status

@@ -51,7 +51,7 @@ class SymmetricPattern:
         return sp.csc_array(lower + sp.tril(lower, -1).T)
 
 
-def lower_triangle(matrix: sp.csc_array) -> tuple[SymmetricPattern, FloatArray]:
+def lower_triangle(matrix: sp.csc_array | sp.csr_array | sp.coo_array) -> tuple[SymmetricPattern, FloatArray]:
     """Pattern and values of the lower triangle of a symmetric matrix, its whole diagonal included."""
     n = int(matrix.shape[0])
     held = sp.coo_array(matrix)

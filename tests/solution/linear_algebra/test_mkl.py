@@ -12,7 +12,7 @@ from types import SimpleNamespace
 
 import pytest
 
-from mbla.solution import mkl
+from mbla.solution.linear_algebra import mkl
 
 
 @pytest.fixture(autouse=True)

@@ -1,0 +1,47 @@
+"""CHOLMOD: supernodal Cholesky in an approximate minimum degree order. Only importer of cvxopt, which carries it.
+
+The wheels of cvxopt give it a BLAS of one thread: reruns are identical to the bit.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from cvxopt import cholmod, matrix, spmatrix
+
+from mbla.arrays import FloatArray
+from mbla.solution.linear_algebra.pattern import SymmetricPattern
+
+
+class CholmodFactors:
+    """Factors of matrices of one pattern; see ``Factorization``."""
+
+    library = "cholmod"
+
+    def __init__(self, pattern: SymmetricPattern) -> None:
+        rows, columns = pattern.indices.astype(np.int64), pattern.columns()
+        self._matrix = spmatrix(matrix(np.ones(len(rows))), matrix(rows), matrix(columns), (pattern.n, pattern.n))
+        self._factors = cholmod.symbolic(self._matrix, uplo="L")
+        self._good = False
+
+    def factorize(self, values: FloatArray) -> bool:
+        """Factorise; False where the matrix is not positive definite to working accuracy or not finite."""
+        self._good = False
+        if not np.isfinite(values).all():
+            return False
+        self._matrix.V = matrix(values)
+        try:
+            cholmod.numeric(self._matrix, self._factors)
+        except ArithmeticError:  # a pivot is not positive
+            return False
+        self._good = True
+        return True
+
+    def solve(self, rhs: FloatArray) -> FloatArray:
+        """Solution for one right-hand side, (n,), or several, (n, k)."""
+        if not self._good:
+            raise ValueError("solve without a good factorisation")
+        if len(rhs) != self._matrix.size[0]:
+            raise ValueError(f"a right-hand side of {len(rhs)} rows for a matrix of {self._matrix.size[0]}")
+        answer = matrix(np.asfortranarray(rhs, dtype=np.float64))
+        cholmod.solve(self._factors, answer)
+        return np.array(answer).reshape(rhs.shape)
