@@ -91,8 +91,10 @@ class AnalysisSection(Section):
     form: Literal["kinematic", "static"] = Field(
         "kinematic", description="unknowns of the associative program: velocities, the more accurate; or forces"
     )
-    solver: Literal["clarabel", "highs"] = Field(
-        "clarabel", description="highs solves linear programs only: planar structures, polyhedral friction"
+    solver: Literal["auto", "mbla", "clarabel", "highs"] = Field(
+        "auto",
+        description="mbla is the interior-point method made for these programs; auto takes it or clarabel by size; "
+        "highs solves linear programs only: planar structures, polyhedral friction",
     )
     second_opinion: Switch = Field(
         False, description="solve linear programs with the other solver too and compare; polyhedral ones always are"

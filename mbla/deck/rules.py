@@ -218,11 +218,11 @@ def live_load_effect(case: types.LoadCaseSection) -> Iterator[Finding]:
 def linear_programs(analysis: types.AnalysisSection) -> Iterator[Finding]:
     """Polyhedra and HiGHS go with flow rules whose programs are linear."""
     normality = analysis.flow_rule in ("associative", "livesley")
-    for key, value, default in (
-        ("friction_cone", analysis.friction_cone, "circular"),
-        ("solver", analysis.solver, "clarabel"),
+    for key, value, special, default in (
+        ("friction_cone", analysis.friction_cone, "polyhedral", "circular"),
+        ("solver", analysis.solver, "highs", "auto"),
     ):
-        if value == default:
+        if value != special:
             continue
         if not normality:
             yield (

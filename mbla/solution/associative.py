@@ -22,9 +22,9 @@ from mbla.program.program import Program
 from mbla.program.static import gravity_form
 from mbla.solution.associative_form import AssociativeForm, in_forces, in_velocities
 from mbla.solution.bounds import falling_motion, repaired_forces
-from mbla.solution.clarabel_adapter import ClarabelProgram
 from mbla.solution.cone_solution import ConeSolution, Log
-from mbla.solution.cone_solver import cone_solver
+from mbla.solution.cone_solver import cone_solver, interior_point_solver
+from mbla.solution.highs_adapter import HighsProgram
 from mbla.solution.law_state import LawState, law_state
 from mbla.solution.proved_answer import (
     ACCEPTED_GAP,
@@ -100,7 +100,7 @@ def _with_dead_load(run: AssociativeRun, form: AssociativeForm, answer: ProvedAn
     settings = replace(run.settings, tolerance=form.tolerance(run.settings.tolerance))
     solver = cone_solver(form.reversed_program, settings, run.log)
     reverse, carried = answer.solution, not run.program.dead_load.any()
-    for enough in (ENOUGH, 0.0) if isinstance(solver, ClarabelProgram) else (0.0,):
+    for enough in (0.0,) if isinstance(solver, HighsProgram) else (ENOUGH, 0.0):
         if carried or reverse.status is Status.TIME_LIMIT:
             break
         reverse = solved_once(run, form, solver, "reverse", -1.0, enough)
@@ -124,12 +124,9 @@ def _with_dead_load(run: AssociativeRun, form: AssociativeForm, answer: ProvedAn
 def _locked_both_ways(run: AssociativeRun, settings: SolverSettings) -> AssociativeResult:
     """No mechanism in which the live load does work, of either sign: that says nothing of the dead load, so ask."""
     form = gravity_form(run.program)
-    solution = cone_solver(form.cone_program, replace(settings, solver="clarabel"), run.log).solve(
-        run.first + len(run.records), 0.0
-    )
-    status, seconds = solution.status, solution.seconds
-    number = run.first + len(run.records)
-    run.records.append(ProgramRecord(number, "gravity", status, np.nan, np.nan, solution.iterations, seconds))
+    solution = interior_point_solver(form.cone_program, settings, run.log).solve(run.first + len(run.records), 0.0)
+    status, number = solution.status, run.first + len(run.records)
+    run.records.append(solution.record(number, "gravity", np.nan))
     if status in WITH_VALUE:
         return _without_state(run, Status.UNBOUNDED, LOCKED)
     certificate = falling_motion(run.program, -form.velocities(solution.z))

@@ -21,8 +21,8 @@ from scipy.sparse.csgraph import connected_components
 from mbla.arrays import BoolArray, FloatArray
 from mbla.program.kinematic import ConeProgram, kinematic_form
 from mbla.program.program import Program
-from mbla.solution.clarabel_adapter import ClarabelProgram
 from mbla.solution.cone_solution import Log
+from mbla.solution.cone_solver import interior_point_solver
 from mbla.solution.proofs import LOCKED_IN
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Status
@@ -59,7 +59,7 @@ def steepest_fall(program: Program, settings: SolverSettings, log: Log) -> Float
         quadratic=quadratic,
     )
     exact = replace(settings, tolerance=min(settings.tolerance, TOLERANCE))
-    solution = ClarabelProgram(without_live_load, exact, log).solve(1, 0.0)
+    solution = interior_point_solver(without_live_load, exact, log).solve(1, 0.0)
     velocities = form.velocities(solution.x)
     largest = float(np.abs(velocities).max(initial=0.0))
     if solution.status not in (Status.SOLVED, Status.APPROXIMATE) or not largest > CARRIED_SHARE:

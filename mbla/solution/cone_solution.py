@@ -6,9 +6,11 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Protocol
 
+import numpy as np
+
 from mbla.arrays import FloatArray
 from mbla.program.kinematic import ConeProgram
-from mbla.solution.solution import IterationRecord, Status
+from mbla.solution.solution import IterationRecord, ProgramRecord, Status
 
 Log = Callable[[IterationRecord], None]
 
@@ -36,6 +38,11 @@ class ConeSolution:
         """The library's own word for the outcome, ``clarabel: Solved``."""
         return f"{self.solver}: {self.solver_status}"
 
+    def record(self, number: int, kind: str, load_factor: float, change: float = np.nan) -> ProgramRecord:
+        """The solution as one program of a sequence."""
+        outcome = (self.status, load_factor, change, self.iterations, self.seconds)
+        return ProgramRecord(number, kind, *outcome, self.solver)
+
 
 class ConeSolver(Protocol):
     """A cone program held by a solver: ``solve`` it, ``update`` its data, solve it again.
@@ -61,4 +68,15 @@ class ConeSolver(Protocol):
 
     def update(self, *, cost: FloatArray | None = None, rhs: FloatArray | None = None) -> None:
         """Change cost or right-hand side; the matrix stays."""
+        ...
+
+
+class InteriorPointSolver(ConeSolver, Protocol):
+    """A solver whose iterates are inside the cones and can be had early."""
+
+    def solve_once(self, program_number: int, to_load_factor: float, enough: float = 0.0) -> ConeSolution:
+        """Solve what is loaded once, for callers that judge the answer themselves.
+
+        enough : residuals and gap at which to stop, well inside the cones; the status is APPROXIMATE then
+        """
         ...

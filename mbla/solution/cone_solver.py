@@ -1,36 +1,98 @@
-"""Which library solves a cone program: the one that the deck names, HiGHS for linear programs only."""
+"""Which solver takes a cone program: the one that the deck names, or the one that measurements favour.
+
+- ``mbla``: the interior-point method of :mod:`mbla.solution.condensed`, for programs of its shape
+- ``clarabel``: any program; takes those of other shapes under ``mbla`` too
+- ``highs``: linear programs of the associative analysis, where the deck names it
+- ``auto``: ``mbla`` from ``OWN_FROM`` unknowns, and ``clarabel`` after it where it comes to no answer
+
+Measured side by side (``tests/performance/results/cone_solvers.csv``): below that size either takes milliseconds and
+clarabel, compiled, has the smaller overhead; above it the condensed method is faster and its bounds are closer to each
+other.
+"""
 
 from __future__ import annotations
 
+from dataclasses import dataclass, replace
+
+from mbla.arrays import FloatArray
 from mbla.errors import SolverError
 from mbla.program.kinematic import ConeProgram
 from mbla.solution.clarabel_adapter import ClarabelProgram
-from mbla.solution.cone_solution import ConeSolver, Log
+from mbla.solution.condensed.program import CondensedProgram, fits
+from mbla.solution.cone_solution import ConeSolution, InteriorPointSolver, Log
 from mbla.solution.highs_adapter import HighsProgram
 from mbla.solution.settings import SolverSettings
+from mbla.solution.solution import Status
 
-SOLVERS = ("clarabel", "highs")
+SOLVERS = ("auto", "mbla", "clarabel", "highs")
+
+OWN_FROM = 600
+"""Unknowns and multipliers of equations from which ``auto`` takes the condensed method."""
 
 
-def cone_solver(cone_program: ConeProgram, settings: SolverSettings, log: Log) -> ConeSolver:
+def cone_solver(cone_program: ConeProgram, settings: SolverSettings, log: Log) -> InteriorPointSolver | HighsProgram:
     """The program held by ``settings.solver``; SolverError with the remedy where that cannot take it."""
-    if settings.solver == "clarabel":
-        return ClarabelProgram(cone_program, settings, log)
     if settings.solver != "highs":
-        raise SolverError(f"there is no cone solver {settings.solver}; there are {', '.join(SOLVERS)}")
+        return interior_point_solver(cone_program, settings, log)
     if cone_program.n_cones:
         raise SolverError(
             f"analysis.solver = highs solves linear programs only, and this load case has {cone_program.n_cones} "
-            "friction cones because it is not planar: use friction_cone: polyhedral, or solver: clarabel"
+            "friction cones because it is not planar: use friction_cone: polyhedral, or solver: auto"
         )
     return HighsProgram(cone_program, settings, log)
 
 
+def interior_point_solver(cone_program: ConeProgram, settings: SolverSettings, log: Log) -> InteriorPointSolver:
+    """The program held by an interior-point method, for callers that need one; ``highs`` counts as ``auto`` here."""
+    if settings.solver not in SOLVERS:
+        raise SolverError(f"there is no cone solver {settings.solver}; there are {', '.join(SOLVERS)}")
+    if settings.solver == "clarabel" or not fits(cone_program):
+        return ClarabelProgram(cone_program, settings, log)
+    if settings.solver == "mbla":
+        return CondensedProgram(cone_program, settings, log)
+    if min(cone_program.matrix.shape[1], len(cone_program.rhs)) < OWN_FROM:
+        return ClarabelProgram(cone_program, settings, log)
+    return _OneThenOther(CondensedProgram(cone_program, settings, log), settings, log)
+
+
 def is_linear(cone_program: ConeProgram) -> bool:
-    """Whether either library can solve the program."""
-    return cone_program.n_cones == 0 and cone_program.quadratic is None
+    """Whether every solver can take the program."""
+    return cone_program.n_cones == 0 and cone_program.quadratic is None and not cone_program.further_cones
 
 
-def other_solver(solver: str) -> str:
-    """The library that gives the second opinion."""
-    return "highs" if solver == "clarabel" else "clarabel"
+def other_solver(solver: str, cone_program: ConeProgram) -> str:
+    """The solver that gives the second opinion on what another one solved."""
+    if is_linear(cone_program) and solver != "highs":
+        return "highs"
+    return "mbla" if solver == "clarabel" and fits(cone_program) else "clarabel"
+
+
+@dataclass
+class _OneThenOther:
+    """The condensed method, and clarabel where it breaks down."""
+
+    first: CondensedProgram
+    settings: SolverSettings
+    log: Log
+
+    @property
+    def cone_program(self) -> ConeProgram:
+        return self.first.cone_program
+
+    def solve(self, program_number: int, to_load_factor: float) -> ConeSolution:
+        return self._either(self.first.solve(program_number, to_load_factor), program_number, to_load_factor)
+
+    def solve_once(self, program_number: int, to_load_factor: float, enough: float = 0.0) -> ConeSolution:
+        solution = self.first.solve_once(program_number, to_load_factor, enough)
+        return self._either(solution, program_number, to_load_factor)
+
+    def update(self, *, cost: FloatArray | None = None, rhs: FloatArray | None = None) -> None:
+        self.first.update(cost=cost, rhs=rhs)
+
+    def _either(self, solution: ConeSolution, program_number: int, to_load_factor: float) -> ConeSolution:
+        if solution.status is not Status.NUMERICAL_ERROR:
+            return solution
+        other = ClarabelProgram(self.first.cone_program, self.settings, self.log).solve(program_number, to_load_factor)
+        if other.status is Status.NUMERICAL_ERROR:
+            return solution
+        return replace(other, iterations=solution.iterations + other.iterations)

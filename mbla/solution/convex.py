@@ -11,7 +11,7 @@ from mbla.arrays import FloatArray, IntArray
 from mbla.deck.analysis import AnalysisSection
 from mbla.program.convex import ConvexProgram
 from mbla.program.convex.friction_limit import torsion_reserve
-from mbla.solution.clarabel_adapter import Log
+from mbla.solution.cone_solution import Log
 from mbla.solution.contact_modes import AT_REST, contact_modes
 from mbla.solution.convex_associative import ConvexAssociative, solve_convex_associative
 from mbla.solution.convex_proximal import ConvexSequence, solve_convex_proximal

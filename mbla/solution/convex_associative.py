@@ -15,8 +15,8 @@ import numpy as np
 from mbla.arrays import FloatArray
 from mbla.program.convex import ConvexProgram, convex_form
 from mbla.program.kinematic import KinematicForm
-from mbla.solution.clarabel_adapter import ClarabelProgram
 from mbla.solution.cone_solution import ConeSolution, Log
+from mbla.solution.cone_solver import interior_point_solver
 from mbla.solution.convex_state import ConvexState
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import ProgramRecord, Status
@@ -64,12 +64,10 @@ class _Run:
         """The program with the live load as it is, or reversed."""
         program = replace(form.cone_program, rhs=sense * form.cone_program.rhs)
         number, live = len(self.records) + 1, sense * self.convex.points.scaling.live
-        solution = ClarabelProgram(program, self.settings, self.log).solve(number, live)
+        solution = interior_point_solver(program, self.settings, self.log).solve(number, live)
         value = solution.objective * live if solution.status in WITH_VALUE else np.nan
         kind = "associative" if sense > 0 else "reverse"
-        self.records.append(
-            ProgramRecord(number, kind, solution.status, value, np.nan, solution.iterations, solution.seconds)
-        )
+        self.records.append(solution.record(number, kind, value))
         return solution
 
     def result(self, status: Status, reason: str) -> ConvexAssociative:

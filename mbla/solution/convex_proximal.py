@@ -20,8 +20,8 @@ from mbla.program.convex import ConvexProgram
 from mbla.program.convex.friction_limit import friction_limit
 from mbla.program.convex.static import ConvexStaticForm, convex_proximal_data, convex_proximal_form
 from mbla.program.static import gravity_form
-from mbla.solution.clarabel_adapter import ClarabelProgram
 from mbla.solution.cone_solution import ConeSolution, Log
+from mbla.solution.cone_solver import interior_point_solver
 from mbla.solution.convex_law import ConvexLaw, convex_law, exact_convex_step
 from mbla.solution.convex_state import ConvexState, state_without_dilatancy
 from mbla.solution.settings import SolverSettings
@@ -99,7 +99,7 @@ def solve_convex_proximal(
         return gravity
     anchor, rho = gravity, STEP / max(float((gravity**2).sum()), 1e-300)
     form, law = convex_proximal_form(convex, rho), convex_law(convex)
-    solver = ClarabelProgram(form.cone_program, run.settings, log)
+    solver = interior_point_solver(form.cone_program, run.settings, log)
     for step in range(1, max_programs + 1):
         cost, rhs = _data(form, rho, anchor)
         solver.update(cost=cost, rhs=rhs)
@@ -128,7 +128,7 @@ def _data(form: ConvexStaticForm, rho: float, anchor: FloatArray) -> tuple[Float
 def _gravity_state(run: _Run) -> FloatArray | ConvexSequence:
     """Forces of the gravity state, (n_points, 3), or how the scheme ends where there is none."""
     form = gravity_form(run.convex.points)
-    solution = ClarabelProgram(form.cone_program, run.settings, run.log).solve(len(run.records) + 1, 0.0)
+    solution = interior_point_solver(form.cone_program, run.settings, run.log).solve(len(run.records) + 1, 0.0)
     run.add("gravity", solution.status, np.nan, solution.iterations, solution.seconds)
     if solution.status in (Status.SOLVED, Status.APPROXIMATE):
         return form.forces(solution.x)

@@ -22,7 +22,7 @@ from mbla.arrays import FloatArray
 from mbla.deck.analysis import ProximalScheme
 from mbla.program.program import Program
 from mbla.solution.associative import AssociativeResult
-from mbla.solution.clarabel_adapter import Log
+from mbla.solution.cone_solution import Log
 from mbla.solution.law_state import SequenceResult
 from mbla.solution.law_steps import Stepper
 from mbla.solution.proximal import SOLVED, ProximalRun, gravity_state, steps_from

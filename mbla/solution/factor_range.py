@@ -18,7 +18,8 @@ import numpy as np
 from mbla.arrays import FloatArray
 from mbla.program.fixed_mechanism import FixedMechanismForm, fixed_mechanism_form
 from mbla.program.program import Program
-from mbla.solution.clarabel_adapter import ClarabelProgram, ConeSolution, Log
+from mbla.solution.cone_solution import ConeSolution, Log
+from mbla.solution.cone_solver import interior_point_solver
 from mbla.solution.law_state import LawState, law_state
 from mbla.solution.point_motion import point_motion
 from mbla.solution.settings import SolverSettings
@@ -79,7 +80,9 @@ def factor_range(
         for kind in tuple(search.pending):
             cone_program = replace(form.cone_program, cost=SIGNS[kind] * form.cone_program.cost)
             number = first_program + len(search.records)
-            solution = ClarabelProgram(cone_program, settings, log).solve(number, SIGNS[kind] * program.scaling.live)
+            solution = interior_point_solver(cone_program, settings, log).solve(
+                number, SIGNS[kind] * program.scaling.live
+            )
             search.add(kind, form, solution)
         if not search.pending:
             break
@@ -139,7 +142,9 @@ class _Search:
         value = self.program.scaling.load_factor(form.load_factor(solution.x)) if found else np.nan
         number = self.first_program + len(self.records)
         self.records.append(
-            ProgramRecord(number, f"range, {kind}", status, value, np.nan, solution.iterations, solution.seconds)
+            ProgramRecord(
+                number, f"range, {kind}", status, value, np.nan, solution.iterations, solution.seconds, solution.solver
+            )
         )
 
 

@@ -22,9 +22,8 @@ from mbla.arrays import FloatArray, IntArray
 from mbla.program.fixed_mechanism import FixedMechanismForm, fixed_mechanism_form
 from mbla.program.kinematic import ConeProgram
 from mbla.program.program import Program
-from mbla.solution.clarabel_adapter import ClarabelProgram
 from mbla.solution.cone_solution import ConeSolver, Log
-from mbla.solution.cone_solver import cone_solver, is_linear
+from mbla.solution.cone_solver import cone_solver, interior_point_solver, is_linear
 from mbla.solution.law_state import LawState
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import ProgramRecord, Status
@@ -93,8 +92,7 @@ def force_ranges(
             room = WITHIN * max(float(np.abs(state.forces[:, 0]).max(initial=0.0)), abs(found))
             ranges[interface, end] = value if sign * (value - found) <= room else np.nan
             what = "least" if sign > 0 else "greatest"
-            outcome = (solution.status, np.nan, np.nan, solution.iterations, solution.seconds)
-            records.append(ProgramRecord(first + len(records), f"{what} normal force", *outcome))
+            records.append(solution.record(first + len(records), f"{what} normal force", np.nan))
             if solution.status is Status.TIME_LIMIT:
                 return ForceRanges(ranges, tuple(records), _words(ranges[present]))
     return ForceRanges(ranges, tuple(records), _words(ranges[present]))
@@ -117,7 +115,7 @@ def normal_sums(program: Program, interface_of_point: IntArray) -> sp.csr_array:
 def _solver(cone_program: ConeProgram, settings: SolverSettings, log: Log) -> ConeSolver:
     if is_linear(cone_program):
         return cone_solver(cone_program, settings, log)
-    return ClarabelProgram(cone_program, settings, log)
+    return interior_point_solver(cone_program, settings, log)
 
 
 def _with_factor(form: FixedMechanismForm, state: LawState) -> ConeProgram:

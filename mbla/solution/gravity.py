@@ -15,8 +15,8 @@ import numpy as np
 from mbla.arrays import FloatArray
 from mbla.program.program import Program
 from mbla.program.static import gravity_form
-from mbla.solution.clarabel_adapter import ClarabelProgram
 from mbla.solution.cone_solution import ConeSolution, Log
+from mbla.solution.cone_solver import interior_point_solver
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import ProgramRecord, Status
 from mbla.solution.standing import assess_dead_load
@@ -36,7 +36,6 @@ def gravity_forces(
         records.append(ProgramRecord(number, "gravity", Status.SOLVED, np.nan, np.nan, 0, seconds))
         return stress_free
     form = gravity_form(program)
-    solution = ClarabelProgram(form.cone_program, settings, log).solve(number, 0.0)
-    seconds = time.perf_counter() - started
-    records.append(ProgramRecord(number, "gravity", solution.status, np.nan, np.nan, solution.iterations, seconds))
+    solution = interior_point_solver(form.cone_program, settings, log).solve(number, 0.0)
+    records.append(solution.record(number, "gravity", np.nan))
     return form.forces(solution.x) if solution.status in (Status.SOLVED, Status.APPROXIMATE) else solution

@@ -24,7 +24,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from mbla.arrays import FloatArray
-from mbla.solution.clarabel_adapter import Log
+from mbla.solution.cone_solution import Log
 from mbla.solution.interior_joints import InteriorLaw, Iterate, Joints, Missing, StepProblem, moved, way_to_go
 from mbla.solution.solution import IterationRecord
 from mbla.solution.stiffness import Stiffness

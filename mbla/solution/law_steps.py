@@ -17,7 +17,7 @@ import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.program.program import Program
-from mbla.solution.clarabel_adapter import Log
+from mbla.solution.cone_solution import Log
 from mbla.solution.exact_law import REGULARIZATION, LawStep, exact_step, joint_state, joint_tangents
 from mbla.solution.interior_joints import InteriorLaw, exact_law, lagged_law
 from mbla.solution.interior_step import InteriorResult, interior_step

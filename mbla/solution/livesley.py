@@ -102,15 +102,8 @@ def _remark(before: float, after: float, change: float, state: LawState) -> str:
 
 
 def _record(number: int, solution: ConeSolution, live: float, change: float) -> ProgramRecord:
-    return ProgramRecord(
-        program=number,
-        kind="livesley",
-        status=solution.status,
-        load_factor=solution.objective * live if np.isfinite(change) else np.nan,
-        change=abs(change),
-        iterations=solution.iterations,
-        seconds=solution.seconds,
-    )
+    value = solution.objective * live if np.isfinite(change) else np.nan
+    return solution.record(number, "livesley", value, abs(change))
 
 
 def _broken_off(solution: ConeSolution, records: tuple[ProgramRecord, ...]) -> SequenceResult:

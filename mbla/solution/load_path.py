@@ -23,7 +23,7 @@ from mbla.arrays import FloatArray
 from mbla.deck.analysis import PathScheme
 from mbla.program.program import Program
 from mbla.solution.associative import AssociativeResult
-from mbla.solution.clarabel_adapter import Log
+from mbla.solution.cone_solution import Log
 from mbla.solution.exact_law import exact_step, joint_state
 from mbla.solution.interior_joints import exact_law
 from mbla.solution.interior_step import interior_step

@@ -22,8 +22,8 @@ from mbla.program.static import gravity_form
 from mbla.program.yield_conditions.limits import YieldLimits
 from mbla.solution.boundedness import lasting_limits
 from mbla.solution.bounds import repaired_forces
-from mbla.solution.clarabel_adapter import ClarabelProgram
 from mbla.solution.cone_solution import Log
+from mbla.solution.cone_solver import interior_point_solver
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Status
 
@@ -58,7 +58,7 @@ def _least_forces(program: Program, share: float, settings: SolverSettings, log:
     lasting = lasting_limits(program.limits)
     inside = replace(program, dead_load=program.live_load, limits=replace(lasting, friction=share * lasting.friction))
     form = gravity_form(_without_points(inside, np.isinf(lasting.compression)))
-    solution = ClarabelProgram(form.cone_program, settings, log).solve(1, 0.0)
+    solution = interior_point_solver(form.cone_program, settings, log).solve(1, 0.0)
     if solution.status not in (Status.SOLVED, Status.APPROXIMATE):
         return None
     forces = np.zeros((program.n_points, program.components))

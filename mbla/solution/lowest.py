@@ -30,8 +30,8 @@ from mbla.deck.analysis import LowestScheme
 from mbla.program.fixed_mechanism import FixedMechanismForm, PointMotion, fixed_mechanism_form
 from mbla.program.kinematic import ConeProgram
 from mbla.program.program import Program
-from mbla.solution.clarabel_adapter import ClarabelProgram, Log
-from mbla.solution.cone_solution import ConeSolution
+from mbla.solution.cone_solution import ConeSolution, Log
+from mbla.solution.cone_solver import interior_point_solver
 from mbla.solution.factor_range import (
     END_RESIDUAL,
     REGULARIZATION,
@@ -192,7 +192,7 @@ class _Search:
         self, form: FixedMechanismForm, cone_program: ConeProgram, settings: SolverSettings
     ) -> ConeSolution | None:
         number = len(self.records) + 1
-        solution = ClarabelProgram(cone_program, settings, self.unlogged.append).solve(
+        solution = interior_point_solver(cone_program, settings, self.unlogged.append).solve(
             number, form.program.scaling.live
         )
         return solution if solution.status in (Status.SOLVED, Status.APPROXIMATE) else None
@@ -209,7 +209,9 @@ class _Search:
         self.unlogged = []
         number, value = len(self.records) + 1, self.best.load_factor * live
         self.records.append(
-            ProgramRecord(number, "lowest", solution.status, value, change, iterations, now - self.since)
+            ProgramRecord(
+                number, "lowest", solution.status, value, change, iterations, now - self.since, solution.solver
+            )
         )
         self.noted, self.since = self.best.load_factor, now
 

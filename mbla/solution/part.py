@@ -12,7 +12,7 @@ from mbla.solution.associative import AssociativeResult, solve_associative
 from mbla.solution.associative_form import FORMS
 from mbla.solution.boundedness import Boundedness, non_associative_bounded
 from mbla.solution.certificate import cleaned_certificate
-from mbla.solution.clarabel_adapter import Log
+from mbla.solution.cone_solution import Log
 from mbla.solution.factor_range import FactorRange
 from mbla.solution.flow import Flow, solve_flow
 from mbla.solution.law_state import LawState, SequenceResult

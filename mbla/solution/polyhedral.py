@@ -27,25 +27,26 @@ from mbla.program.program import Program
 from mbla.solution.associative import AssociativeResult, solve_associative
 from mbla.solution.associative_form import FORMS, AssociativeForm
 from mbla.solution.cone_solution import Log
-from mbla.solution.cone_solver import cone_solver, is_linear, other_solver
+from mbla.solution.cone_solver import cone_solver, other_solver
 from mbla.solution.law_state import LawState
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import ProgramRecord, Status
 
 AGREE = 1e-6
-"""Relative difference of two solvers on one linear program that is within their tolerances."""
+"""Relative difference of two solvers on one program that is within their tolerances."""
+
+AGREE_SHORT = 1e-4
+"""The same where the second one ended short of its tolerance."""
 
 SMALL_FACTOR = 1e-3
 """Load factors below this share of dead over live load are taken for that share in relative measures."""
 
 DECIDED = (Status.NO_EQUILIBRIUM, Status.UNBOUNDED)
 
-NAMES = {"clarabel": "clarabel", "highs": "HiGHS"}
-
 
 @dataclass(frozen=True)
 class SecondOpinion:
-    """What the other solver says of a linear program.
+    """What another solver says of a program.
 
     agrees : None where it came to no answer
     remark : both figures in one sentence
@@ -107,17 +108,15 @@ def solve_with_opinion(
     facets : directions that bound shear instead of cones
     kind   : which polyhedron they are, for the remark; may be empty
 
-    A status that the other solver does not confirm is lowered. Programs with cones have no second opinion, which the
-    remark says.
+    A status that the other solver does not confirm is lowered.
     """
     made = FORMS[form](program, facets)
     result = solve_associative(program, settings, log, form=made, first=first)
-    if not is_linear(made.cone_program):
-        return result, "there is no second opinion on the load factor: with friction cones the program is not linear"
     if result.state is None:
         return result, ""
     number = first + len(result.programs)
-    opinion = second_opinion(made, result.state.load_factor, kind, settings, log, number)
+    by = result.programs[0].solver
+    opinion = second_opinion(made, result.state.load_factor, by, kind, settings, log, number)
     result = replace(result, programs=(*result.programs, opinion.record))
     if opinion.agrees is False:
         result = replace(result, status=Status.NOT_VERIFIED, reason=opinion.remark)
@@ -127,38 +126,30 @@ def solve_with_opinion(
 
 
 def second_opinion(
-    form: AssociativeForm, load_factor: float, kind: str, settings: SolverSettings, log: Log, number: int
+    form: AssociativeForm, load_factor: float, by: str, kind: str, settings: SolverSettings, log: Log, number: int
 ) -> SecondOpinion:
-    """Solve a linear program by the other solver and compare.
+    """Solve a program by another solver and compare.
 
-    load_factor : non-dimensional, of the first solver
+    load_factor : non-dimensional
+    by          : the solver that it comes from
     kind        : which program it is, for the remark; may be empty
     number      : in the sequence of the load case
-
-    Raises SolverError if the program is not linear.
     """
-    live, other = form.program.scaling.live, other_solver(settings.solver)
+    live, other = form.program.scaling.live, other_solver(by.lower(), form.cone_program)
     settings = replace(settings, solver=other, tolerance=form.tolerance(settings.tolerance))
     solution = form.read(cone_solver(form.cone_program, settings, log).solve(number, form.sign * live))
     has_value = solution.status in (Status.SOLVED, Status.APPROXIMATE)
     value = solution.objective if has_value else np.nan
     apart = abs(value - load_factor) / max(abs(load_factor), SMALL_FACTOR * form.program.dead_over_live)
-    agrees = bool(apart <= AGREE) if has_value else None
-    record = ProgramRecord(
-        program=number,
-        kind="second opinion",
-        status=solution.status,
-        load_factor=value * live,
-        change=apart,
-        iterations=solution.iterations,
-        seconds=solution.seconds,
-    )
+    within = AGREE if solution.status is Status.SOLVED else AGREE_SHORT
+    agrees = bool(apart <= within) if has_value else None
+    record = solution.record(number, "second opinion", value * live, apart)
     which = f"{kind} polyhedron: " if kind else ""
-    first = f"{which}{NAMES[other_solver(other)]} gives a load factor of {load_factor * live:.9g}, "
+    first = f"{which}{by} gives a load factor of {load_factor * live:.9g}, "
     if not has_value:
-        return SecondOpinion(None, first + f"{NAMES[other]} came to no answer ({solution.verdict})", record)
-    verdict = "they agree" if agrees else f"they differ by {apart:.1g} and should by {AGREE:g} at most"
-    return SecondOpinion(agrees, first + f"{NAMES[other]} {value * live:.9g}: {verdict}", record)
+        return SecondOpinion(None, first + f"{solution.solver} came to no answer ({solution.verdict})", record)
+    verdict = "they agree" if agrees else f"they differ by {apart:.1g} and should by {within:g} at most"
+    return SecondOpinion(agrees, first + f"{solution.solver} {value * live:.9g}: {verdict}", record)
 
 
 def _claim(sides: int, inner: AssociativeResult, outer: AssociativeResult) -> AssociativeResult:

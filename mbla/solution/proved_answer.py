@@ -16,9 +16,10 @@ from mbla.arrays import FloatArray
 from mbla.program.program import Program
 from mbla.solution.associative_form import AssociativeForm, in_own_units
 from mbla.solution.bounds import CertifiedGap, certified_gap, factor_size, falling_motion
-from mbla.solution.clarabel_adapter import ClarabelProgram, regularization
-from mbla.solution.cone_solution import ConeSolution, ConeSolver, Log
+from mbla.solution.clarabel_adapter import regularization
+from mbla.solution.cone_solution import ConeSolution, InteriorPointSolver, Log
 from mbla.solution.cone_solver import cone_solver
+from mbla.solution.highs_adapter import HighsProgram
 from mbla.solution.law_state import LawState
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import ProgramRecord, Status
@@ -157,22 +158,26 @@ def proved_certificate(run: AssociativeRun, form: AssociativeForm, solution: Con
 
 
 def solved_once(
-    run: AssociativeRun, form: AssociativeForm, solver: ConeSolver, kind: str, unit: float, enough: float = 0.0
+    run: AssociativeRun,
+    form: AssociativeForm,
+    solver: InteriorPointSolver | HighsProgram,
+    kind: str,
+    unit: float,
+    enough: float = 0.0,
 ) -> ConeSolution:
     """Solve what is loaded and record it; ``unit`` times the objective is the load factor of the program.
 
     Once only where the answer is judged by what it proves; with the fallbacks of the solver where it is believed.
     """
     number, to_load_factor = run.first + len(run.records), unit * run.program.scaling.live
-    if isinstance(solver, ClarabelProgram) and (form.exact or enough > 0.0):
+    if not isinstance(solver, HighsProgram) and (form.exact or enough > 0.0):
         solution = solver.solve_once(number, form.sign * to_load_factor, enough)
     else:
         solution = solver.solve(number, form.sign * to_load_factor)
     solution = form.read(solution)
     value = to_load_factor * solution.objective if solution.status in WITH_VALUE else np.nan
     status = Status.SOLVED if enough > 0.0 and solution.status is Status.APPROXIMATE else solution.status
-    record = ProgramRecord(number, kind, status, value, np.nan, solution.iterations, solution.seconds)
-    run.records.append(record)
+    run.records.append(replace(solution, status=status).record(number, kind, value))
     return solution
 
 

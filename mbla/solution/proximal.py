@@ -209,7 +209,7 @@ def _broken_off(run: ProximalRun, solution: ConeSolution) -> SequenceResult:
     status = solution.status
     if status in (Status.NO_EQUILIBRIUM, Status.UNBOUNDED):  # said of a program of the scheme, not of the structure
         status = Status.NOT_VERIFIED
-    reason = f"program {len(run.records)} of the sequence ended without a solution (clarabel: {solution.solver_status})"
+    reason = f"program {len(run.records)} of the sequence ended without a solution ({solution.verdict})"
     return SequenceResult(status, None, reason, tuple(run.records))
 
 

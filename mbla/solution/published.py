@@ -31,7 +31,8 @@ from mbla.program.kinematic import kinematic_form
 from mbla.program.program import Program
 from mbla.program.yield_conditions import YieldLimits
 from mbla.solution.associative import AssociativeResult
-from mbla.solution.clarabel_adapter import ClarabelProgram, ConeSolution, Log
+from mbla.solution.cone_solution import ConeSolution, Log
+from mbla.solution.cone_solver import interior_point_solver
 from mbla.solution.law_state import LawState, SequenceResult, law_state
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import ProgramRecord, Status
@@ -65,7 +66,7 @@ def solve_published(
     slope = np.minimum(limits.friction, np.maximum(scheme.slope * limits.friction, dilatancy))
     normal = associative.state.forces[:, 0]
     form = kinematic_form(program, _fictitious(limits, slope, normal), reduce_dry=False)
-    solver = ClarabelProgram(form.cone_program, settings, log)
+    solver = interior_point_solver(form.cone_program, settings, log)
 
     weight, best = scheme.averaging, None
     records, factors = list(associative.programs), [associative.state.load_factor]
@@ -96,7 +97,7 @@ def solve_published(
         f"{min(last):.6g} and {max(last):.6g}, and the best forces miss the law by {best.residual:.2g}"
     )
     if solution.status is Status.APPROXIMATE:
-        reason = f"its programs end short of the solver's tolerance (clarabel: {solution.solver_status}); " + reason
+        reason = f"its programs end short of the solver's tolerance ({solution.verdict}); " + reason
     return SequenceResult(Status.APPROXIMATE, best, reason, tuple(records))
 
 
@@ -119,9 +120,7 @@ def _states(
 
 
 def _record(number: int, solution: ConeSolution, load_factor: float, change: float) -> ProgramRecord:
-    return ProgramRecord(
-        number, "published", solution.status, load_factor, change, solution.iterations, solution.seconds
-    )
+    return solution.record(number, "published", load_factor, change)
 
 
 def _broken_off(
@@ -130,7 +129,7 @@ def _broken_off(
     number = len(records) + 1
     records.append(_record(number, solution, np.nan, np.nan))
     status = solution.status
-    reason = f"program {number} of the sequence ended without a solution (clarabel: {solution.solver_status})"
+    reason = f"program {number} of the sequence ended without a solution ({solution.verdict})"
     if status in (Status.NO_EQUILIBRIUM, Status.UNBOUNDED):  # said of a fictitious joint law, not of the structure
         status = Status.NOT_VERIFIED
         what = "carry the dead load" if solution.status is Status.NO_EQUILIBRIUM else "give way to the live load"

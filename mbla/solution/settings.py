@@ -25,11 +25,12 @@ class SolverSettings:
 
     tolerance      : relative, on gap and feasibility of the scaled program
     max_iterations : for one program
-    regularization : static regularisation of the KKT matrix; None: by kind and size of the program
+    regularization : static regularisation of clarabel's KKT matrix; None: by kind and size of the program
     threads        : of the linear algebra
-    solver         : library that solves cone programs: clarabel, or highs for linear ones
+    solver         : of cone programs: auto, mbla, clarabel, or highs for linear ones
     deadline       : time.monotonic() at which to stop, or None
-    factorization  : of the cone solver, qdldl or mkl; None: by size of the program and by what is installed
+    factorization  : of clarabel, qdldl or mkl; None: by size of the program and by what is installed
+    cholesky       : of the condensed method, qdldl, pardiso or cholmod; None likewise
     gap            : relative distance of the proved bounds that an associative load factor should have
     """
 
@@ -38,9 +39,10 @@ class SolverSettings:
     regularization: float | None = None
     threads: int = 1
     deadline: float | None = None
-    solver: str = "clarabel"
+    solver: str = "auto"
     gap: float = GAP["standard"]
     factorization: str | None = None
+    cholesky: str | None = None
 
 
 def solver_settings(analysis: AnalysisSection, threads: int = 1) -> SolverSettings:

@@ -49,7 +49,10 @@ class IterationRecord:
 
 @dataclass(frozen=True)
 class ProgramRecord:
-    """One cone program of the sequence: what it gave and how far the sequence had converged."""
+    """One cone program of the sequence: what it gave and how far the sequence had converged.
+
+    solver : of the cone program, mbla, clarabel or highs; empty for steps of the joint law, which are no cone programs
+    """
 
     program: int
     kind: str
@@ -58,6 +61,7 @@ class ProgramRecord:
     change: float
     iterations: int
     seconds: float
+    solver: str = ""
 
 
 class Standing(StrEnum):

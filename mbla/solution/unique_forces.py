@@ -36,8 +36,8 @@ from mbla.program.fixed_mechanism import FixedMechanismForm, PointMotion, fixed_
 from mbla.program.kinematic import ConeProgram
 from mbla.program.program import Program
 from mbla.solution.bounds import factor_size
-from mbla.solution.clarabel_adapter import ClarabelProgram
 from mbla.solution.cone_solution import Log
+from mbla.solution.cone_solver import interior_point_solver
 from mbla.solution.law_state import LawState, law_state
 from mbla.solution.point_motion import point_motion
 from mbla.solution.settings import SolverSettings
@@ -128,9 +128,8 @@ class _Search:
         form = fixed_mechanism_form(self.program, motion)
         number = self.first + len(self.records)
         cone_program = self._with_cost(form, share)
-        solution = ClarabelProgram(cone_program, self.settings, self.log).solve_once(number, 0.0)
-        record = (solution.status, np.nan, np.nan, solution.iterations, solution.seconds)
-        self.records.append(ProgramRecord(number, "least forces", *record))
+        solution = interior_point_solver(cone_program, self.settings, self.log).solve_once(number, 0.0)
+        self.records.append(solution.record(number, "least forces", np.nan))
         if solution.status not in (Status.SOLVED, Status.APPROXIMATE):
             return None
         least = _balanced(form, solution.x, self.state)

@@ -14,7 +14,8 @@ import numpy as np
 from mbla.arrays import FloatArray
 from mbla.program.program import Program
 from mbla.program.static import gravity_form
-from mbla.solution.clarabel_adapter import ClarabelProgram, Log
+from mbla.solution.cone_solution import Log
+from mbla.solution.cone_solver import interior_point_solver
 from mbla.solution.law_state import LawState
 from mbla.solution.mechanics import lifted
 from mbla.solution.settings import SolverSettings
@@ -69,7 +70,7 @@ def at_rest(program: Program, load_factor: float, settings: SolverSettings, log:
     if not np.any(load):
         return LawState(np.zeros((program.n_points, program.components)), at_rest, load_factor, 0.0)
     form = gravity_form(replace(program, dead_load=load))
-    solution = ClarabelProgram(form.cone_program, settings, log).solve(0, 0.0)
+    solution = interior_point_solver(form.cone_program, settings, log).solve(0, 0.0)
     if solution.status not in (Status.SOLVED, Status.APPROXIMATE):
         return None
     return LawState(form.forces(solution.x), at_rest, load_factor, 0.0)

@@ -154,4 +154,5 @@ def test_the_deck_s_solver_is_taken_and_cones_are_refused_in_words() -> None:
         cone_solver(cones, replace(chosen, solver="simplex"), ignored)
     assert is_linear(linear_program())
     assert not is_linear(cones)
-    assert {other_solver(name) for name in ("clarabel", "highs")} == {"clarabel", "highs"}
+    assert {other_solver(name, linear_program()) for name in ("mbla", "clarabel", "highs")} == {"highs", "clarabel"}
+    assert {other_solver(name, cones) for name in ("mbla", "clarabel")} == {"clarabel", "mbla"}

@@ -42,13 +42,13 @@ class Condensation(Protocol):
         """Assemble and factorise N; False where it broke down."""
 
     def solve(self, r_x: FloatArray, r_e: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """dx and dy as far as N goes, not refined."""
+        """Dx and dy as far as N goes, not refined."""
 
 
 def refined_solution(
     data: ConeData, condensation: Condensation, scaling: Scaling, r_x: FloatArray, r_e: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
-    """dx and dy, refined against the system itself until that brings nothing more."""
+    """Dx and dy, refined against the system itself until that brings nothing more."""
     scale_x, scale_e = _size(r_x), _size(r_e)
     total = max(scale_x, scale_e)
     if total == 0.0:
@@ -70,6 +70,11 @@ def refined_solution(
         if slow:
             break
     return x, y
+
+
+def bordered(inner: FloatArray, rhs: FloatArray) -> FloatArray:
+    """Solution of the small system of the border, which has no more than a few unknowns and may be singular."""
+    return np.asarray(np.linalg.lstsq(inner, rhs, rcond=None)[0], dtype=np.float64)
 
 
 def _left(

@@ -46,13 +46,13 @@ class ConeProduct:
         return v[self.n_lines :].reshape(3, self.n_cones)
 
     def identity(self) -> FloatArray:
-        """e."""
+        """E."""
         e = np.zeros(self.size)
         e[: self.n_lines + self.n_cones] = 1.0
         return e
 
     def product(self, u: FloatArray, v: FloatArray) -> FloatArray:
-        """u ∘ v."""
+        """U ∘ v."""
         result = np.empty_like(u)
         np.multiply(self.lines(u), self.lines(v), out=self.lines(result))
         a, b, out = self.cones(u), self.cones(v), self.cones(result)
@@ -61,7 +61,7 @@ class ConeProduct:
         return result
 
     def quotient(self, divisor: FloatArray, v: FloatArray) -> FloatArray:
-        """l ∖ v for a divisor l inside the cones."""
+        """L ∖ v for a divisor l inside the cones."""
         result = np.empty_like(v)
         np.divide(self.lines(v), self.lines(divisor), out=self.lines(result))
         a, b, out = self.cones(divisor), self.cones(v), self.cones(result)

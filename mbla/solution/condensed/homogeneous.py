@@ -1,4 +1,4 @@
-"""The homogeneous embedding: slower on programs with a solution, but made to find the ray that proves that there is none.
+"""The homogeneous embedding: less exact where there is a solution, made to find the ray that proves that there is none.
 
 A scale τ of the program and the gap κ become unknowns::
 
@@ -85,8 +85,8 @@ def _residuals(data: ConeData, now: _Embedded) -> _Residuals:
 def _step(data: ConeData, condensation: Condensation, now: _Embedded) -> tuple[_Embedded, float] | None:
     product, p = data.product, now.point
     scaling = Scaling.of(product, p.s, p.z)
-    l = scaling.times(p.z)
-    if not np.isfinite(l).all() or not condensation.factorize(scaling):
+    middle = scaling.times(p.z)
+    if not np.isfinite(middle).all() or not condensation.factorize(scaling):
         return None
     residuals = _residuals(data, now)
     held = scaling.inverse(data.cone_rhs)
@@ -103,7 +103,7 @@ def _step(data: ConeData, condensation: Condensation, now: _Embedded) -> tuple[_
     slope = along(x2, y2, z2) - float(curved @ p.x) / now.tau - now.kappa / now.tau
 
     def direction(products: FloatArray, corner: float, share: float) -> _Direction:
-        divided = product.quotient(l, products)
+        divided = product.quotient(middle, products)
         q = divided - share * bent
         rhs = data.cone_matrix_t @ scaling.inverse(q) - share * residuals.x
         x1, y1 = refined_solution(data, condensation, scaling, rhs, -share * residuals.e)
@@ -113,14 +113,14 @@ def _step(data: ConeData, condensation: Condensation, now: _Embedded) -> tuple[_
         return _Direction(x1 + tau * x2, y1 + tau * y2, -divided - z, z, tau, -(corner + now.kappa * tau) / now.tau)
 
     def reach(d: _Direction) -> float:
-        ends = [product.longest_step(l, d.s), product.longest_step(l, d.z)]
+        ends = [product.longest_step(middle, d.s), product.longest_step(middle, d.z)]
         ends += [-v / dv if dv < 0.0 else np.inf for v, dv in ((now.tau, d.tau), (now.kappa, d.kappa))]
         return float(min(ends))
 
-    mean = (float(l @ l) + now.tau * now.kappa) / (product.degree + 1)
-    first = direction(product.product(l, l), now.tau * now.kappa, 1.0)
+    mean = (float(middle @ middle) + now.tau * now.kappa) / (product.degree + 1)
+    first = direction(product.product(middle, middle), now.tau * now.kappa, 1.0)
     sigma = (1.0 - min(1.0, reach(first))) ** 3
-    products = product.product(l, l) + product.product(first.s, first.z) - sigma * mean * product.identity()
+    products = product.product(middle, middle) + product.product(first.s, first.z) - sigma * mean * product.identity()
     corner = now.tau * now.kappa + first.tau * first.kappa - sigma * mean
     d = direction(products, corner, 1.0 - sigma)
     if not (np.isfinite(d.x).all() and np.isfinite(d.z).all() and np.isfinite(d.tau)):

@@ -115,14 +115,14 @@ class Run:
     """What a run needs beside the data.
 
     enough   : accuracy at which to stop early, well inside the cones; 0: only at the end
-    progress : gets every iterate's number, measures and the length of the step that led there; true ends the run
+    progress : gets every iterate's number, measures and the length of the step that led there
     """
 
     tolerance: float
     max_iterations: int
     deadline: float | None
     enough: float
-    progress: Callable[[int, Measures, float], bool]
+    progress: Callable[[int, Measures, float], None]
 
 
 @dataclass(frozen=True)
@@ -146,7 +146,7 @@ def solve_cone_program(data: ConeData, condensation: Condensation, run: Run, sta
 
 
 def inside_start(data: ConeData) -> Point:
-    """s = z = e, nothing else."""
+    """S = z = e, nothing else."""
     e = data.product.identity()
     return Point(np.zeros(len(data.cost)), np.zeros(len(data.equation_rhs)), e, e)
 
@@ -186,7 +186,7 @@ def best_of_run(
     for number in range(run.max_iterations + 1):
         point = of_program(now)
         measures = measured(data, point)
-        stop = run.progress(number, measures, length)
+        run.progress(number, measures, length)
         if not np.isfinite(measures.worst):
             outcome = Outcome.NUMERICAL
             break
@@ -194,7 +194,7 @@ def best_of_run(
         verdict = _verdict(measures, run)
         if verdict is not None:
             return Ended(verdict, point, measures, number)
-        if stop or (run.deadline is not None and time.monotonic() > run.deadline):
+        if run.deadline is not None and time.monotonic() > run.deadline:
             outcome = Outcome.TIME
             break
         if kept.stalled(number) or length < SHORTEST:
@@ -295,15 +295,15 @@ def _step(data: ConeData, condensation: Condensation, point: Point) -> tuple[Poi
     """Predictor and corrector; the next iterate and the shorter of the two lengths."""
     product = data.product
     scaling = Scaling.of(product, point.s, point.z)
-    l = scaling.times(point.z)
-    if not np.isfinite(l).all() or not condensation.factorize(scaling):
+    middle = scaling.times(point.z)
+    if not np.isfinite(middle).all() or not condensation.factorize(scaling):
         return None
     r_x, r_e, r_z = _residuals(data, point)
     bent = scaling.inverse(r_z)
-    square, mean = product.product(l, l), float(l @ l) / product.degree
+    square, mean = product.product(middle, middle), float(middle @ middle) / product.degree
 
     def direction(products: FloatArray, share: float) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
-        divided = product.quotient(l, products)
+        divided = product.quotient(middle, products)
         q = divided - share * bent
         right = data.cone_matrix_t @ scaling.inverse(q) - share * r_x
         dx, dy = refined_solution(data, condensation, scaling, right, -share * r_e)
@@ -311,12 +311,12 @@ def _step(data: ConeData, condensation: Condensation, point: Point) -> tuple[Poi
         return dx, dy, -divided - dz, dz
 
     def lengths(ds: FloatArray, dz: FloatArray, share: float) -> tuple[float, float]:
-        reach = [min(1.0, share * product.longest_step(l, step)) for step in (ds, dz)]
+        reach = [min(1.0, share * product.longest_step(middle, step)) for step in (ds, dz)]
         return (reach[0], reach[1]) if data.is_linear else (min(reach), min(reach))
 
     _, _, ds, dz = direction(square, 1.0)
     to_s, to_z = lengths(ds, dz, 1.0)
-    ahead = max(float((l + to_s * ds) @ (l + to_z * dz)) / product.degree, 0.0)
+    ahead = max(float((middle + to_s * ds) @ (middle + to_z * dz)) / product.degree, 0.0)
     sigma = min(1.0, (ahead / mean) ** 3)
     products = square + product.product(ds, dz) - sigma * mean * product.identity()
     dx, dy, ds, dz = direction(products, 1.0 - sigma)

@@ -18,7 +18,7 @@ import scipy.sparse as sp
 from scipy.sparse.csgraph import connected_components
 
 from mbla.arrays import FloatArray, IntArray
-from mbla.solution.condensed.condensation import RELATIVE_SHIFT, SHIFT
+from mbla.solution.condensed.condensation import RELATIVE_SHIFT, SHIFT, bordered
 from mbla.solution.condensed.cone_data import ConeData, Units
 from mbla.solution.condensed.products import PlacedProducts, alike, dense_rows, placed_products
 from mbla.solution.condensed.scaling import Scaling, boosted
@@ -112,12 +112,12 @@ class OnMultipliers:
         return bool(np.isfinite(self._inner).all())
 
     def solve(self, r_x: FloatArray, r_e: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """dx and dy, not refined."""
+        """Dx and dy, not refined."""
         data = self._data
         y = self._factors.solve(data.equations @ self._locally(r_x) - r_e)
         free = np.zeros(0)
         if len(self._free):
-            free = np.linalg.lstsq(self._inner, r_x[self._free] - self._border.T @ y, rcond=None)[0]
+            free = bordered(self._inner, r_x[self._free] - self._border.T @ y)
             y = y + self._spread @ free
         x = self._locally(r_x - data.equations_t @ y)
         x[self._free] = free
@@ -182,13 +182,14 @@ def _batches(data: ConeData, group: IntArray) -> tuple[list[_Batch], list[IntArr
         for size in np.unique(size_of_set[of_set]):
             order = np.argsort(of_set, kind="stable")
             chosen = order[size_of_set[of_set[order]] == size]
-            members = tuple(_taken(part, here[chosen]) for part in (unknowns, lines, cones))
+            groups = here[chosen]
+            mine = _taken(unknowns, groups), _taken(lines, groups), _taken(cones, groups)
             place = np.zeros(len(group), dtype=np.int64)
-            place[members[0]] = np.arange(members[0].shape[1])
-            of_lines, of_cones = _dense(data, members, place)
-            blocks = columns.blocks(here[chosen], place, members[0].shape[1])
-            root = np.sqrt(data.quadratic[members[0]])
-            batches.append(_Batch(*members, of_lines, of_cones, root, blocks, int(size)))
+            place[mine[0]] = np.arange(mine[0].shape[1])
+            of_lines, of_cones = _dense(data, mine, place)
+            blocks = columns.blocks(groups, place, mine[0].shape[1])
+            root = np.sqrt(data.quadratic[mine[0]])
+            batches.append(_Batch(*mine, of_lines, of_cones, root, blocks, int(size)))
             rows.append(touched[chosen[::size]])
     return batches, rows
 
@@ -205,10 +206,12 @@ def _taken(part: tuple[IntArray, IntArray], groups: IntArray) -> IntArray:
     """(n_groups, as many as each has)."""
     members, pointers = part
     count = int(pointers[groups[0] + 1] - pointers[groups[0]])
-    return members[pointers[groups][:, None] + np.arange(count)]
+    return np.asarray(members[pointers[groups][:, None] + np.arange(count)])
 
 
-def _dense(data: ConeData, members: tuple[IntArray, ...], place: IntArray) -> tuple[FloatArray, FloatArray]:
+def _dense(
+    data: ConeData, members: tuple[IntArray, IntArray, IntArray], place: IntArray
+) -> tuple[FloatArray, FloatArray]:
     """Rows of G of each group over its own unknowns, half-lines (n, a, g) and cones (3, n, b, g)."""
     unknowns, lines, cones = members
     n, g = unknowns.shape

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
-from mbla.solution.condensed.condensation import RELATIVE_SHIFT, SHIFT
+from mbla.solution.condensed.condensation import RELATIVE_SHIFT, SHIFT, bordered
 from mbla.solution.condensed.cone_data import ConeData, Units
 from mbla.solution.condensed.products import DenseRows, PlacedProducts, alike, dense_rows, placed_products
 from mbla.solution.condensed.scaling import Scaling, boosted
@@ -79,11 +79,11 @@ class OnUnknowns:
         return bool(np.isfinite(self._inner).all())
 
     def solve(self, r_x: FloatArray, r_e: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """dx and dy, not refined."""
+        """Dx and dy, not refined."""
         free = self._factors.solve(r_x)
         if not len(r_e):
             return free, np.zeros(0)
-        y = np.linalg.lstsq(self._inner, self._border.T @ free - r_e, rcond=None)[0]
+        y = bordered(self._inner, self._border.T @ free - r_e)
         return free - self._spread @ y, y
 
 

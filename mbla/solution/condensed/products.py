@@ -1,7 +1,7 @@
 """Sums of many small products XᵀX in one sparse matrix of fixed pattern: all places are found once.
 
-Each block X, (…, C), belongs to C rows of the matrix. Blocks of one shape are multiplied together, and what they give is
-added up where it belongs by one map.
+Each block X, (…, C), belongs to C rows of the matrix. Blocks of one shape are multiplied together, and what they give
+is added up where it belongs by one map.
 """
 
 from __future__ import annotations
@@ -42,8 +42,7 @@ def placed_products(n: int, columns: list[IntArray]) -> PlacedProducts:
     """Places for batches whose blocks belong to these rows of the matrix, (n_blocks, C) ascending each."""
     triangles = [np.tril_indices(held.shape[1]) for held in columns]
     keys = [
-        (held[:, column] * n + held[:, row]).ravel()
-        for held, (row, column) in zip(columns, triangles, strict=True)
+        (held[:, column] * n + held[:, row]).ravel() for held, (row, column) in zip(columns, triangles, strict=True)
     ]
     stored = np.unique(np.concatenate([*keys, np.arange(n) * (n + 1)]))
     pointers = np.searchsorted(stored, np.arange(n + 1) * n).astype(np.int32)
@@ -78,7 +77,7 @@ class DenseRows:
     def columns_of(self, groups: IntArray) -> IntArray:
         """(n_groups, C) for groups of one width."""
         width = int(self.widths[groups[0]]) if len(groups) else 0
-        return self.columns[self.pointers[groups][:, None] + np.arange(width)]
+        return np.asarray(self.columns[self.pointers[groups][:, None] + np.arange(width)])
 
     def blocks(self, groups: IntArray, place_of_row: IntArray, n_rows: int) -> FloatArray:
         """(n_groups, n_rows, C) for groups of one width; ``place_of_row`` is the row's place in its block."""

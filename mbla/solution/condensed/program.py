@@ -23,7 +23,6 @@ from mbla.solution.condensed.on_multipliers import OnMultipliers, is_local
 from mbla.solution.condensed.on_unknowns import OnUnknowns
 from mbla.solution.cone_solution import ConeSolution, Log
 from mbla.solution.settings import SolverSettings
-from mbla.solution.signals import signals_held
 from mbla.solution.solution import IterationRecord, Status
 
 NAME = "mbla"
@@ -73,15 +72,13 @@ class CondensedProgram:
         self._check_finite()
         started = time.perf_counter()
         data, condensation = self._prepared()
-        with signals_held() as signalled:
-            progress = self._progress(program_number, to_load_factor, started, signalled)
-            settings = self.settings
-            run = Run(settings.tolerance, settings.max_iterations, settings.deadline, enough, progress)
-            ended = solve_cone_program(data, condensation, run)
-            iterations = ended.iterations
-            if ended.outcome in UNDECIDED:
-                ended = _better(ended, solve_embedded(data, condensation, run))
-                iterations += ended.iterations
+        progress, settings = self._progress(program_number, to_load_factor, started), self.settings
+        run = Run(settings.tolerance, settings.max_iterations, settings.deadline, enough, progress)
+        ended = solve_cone_program(data, condensation, run)
+        iterations = ended.iterations
+        if ended.outcome in UNDECIDED:
+            again = solve_embedded(data, condensation, run)
+            ended, iterations = _better(ended, again), iterations + again.iterations
         return self._solution(data, ended, iterations, time.perf_counter() - started)
 
     def update(self, *, cost: FloatArray | None = None, rhs: FloatArray | None = None) -> None:
@@ -95,7 +92,7 @@ class CondensedProgram:
         if self._data is None or self._condensation is None:
             self._data = cone_data(self.cone_program)
             kind = OnUnknowns if self.cone_program.n_equations <= MOST_EQUATIONS else OnMultipliers
-            self._condensation = kind(self._data, self.settings.factorization, self.settings.threads)
+            self._condensation = kind(self._data, self.settings.cholesky, self.settings.threads)
         return self._data, self._condensation
 
     def _check_finite(self) -> None:
@@ -103,10 +100,8 @@ class CondensedProgram:
         if not all(np.isfinite(part).all() for part in (program.cost, program.matrix.data, program.rhs)):
             raise SolverError("the cone program holds numbers that are not finite")
 
-    def _progress(
-        self, program: int, to_load_factor: float, started: float, signalled: Callable[[], bool]
-    ) -> Callable[[int, Measures, float], bool]:
-        def progress(number: int, measures: Measures, length: float) -> bool:
+    def _progress(self, program: int, to_load_factor: float, started: float) -> Callable[[int, Measures, float], None]:
+        def progress(number: int, measures: Measures, length: float) -> None:
             self.log(
                 IterationRecord(
                     program=program,
@@ -119,7 +114,6 @@ class CondensedProgram:
                     seconds=time.perf_counter() - started,
                 )
             )
-            return signalled()
 
         return progress
 

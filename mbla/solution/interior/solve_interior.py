@@ -25,7 +25,8 @@ from mbla.deck.analysis import InteriorScheme
 from mbla.program.program import Program
 from mbla.program.static import gravity_form
 from mbla.solution.associative import AssociativeResult
-from mbla.solution.clarabel_adapter import ClarabelProgram, Log
+from mbla.solution.cone_solution import Log
+from mbla.solution.cone_solver import interior_point_solver
 from mbla.solution.interior.condensed_matrix import MatrixMap, matrix_map
 from mbla.solution.interior.one_try import SOLVED, Moment, Start, Try, go
 from mbla.solution.law_state import LawState, SequenceResult
@@ -123,8 +124,8 @@ def _possible(anchor: FloatArray | None) -> Iterator[Start]:
 def _gravity_state(tries: _Tries) -> FloatArray | None:
     """The least forces that carry the dead load, (n_points, components); None where the program finds none."""
     form, number = gravity_form(tries.program), len(tries.records) + 1
-    solution = ClarabelProgram(form.cone_program, tries.settings, tries.log).solve(number, 0.0)
-    record = ProgramRecord(number, "gravity", solution.status, np.nan, np.nan, solution.iterations, solution.seconds)
+    solution = interior_point_solver(form.cone_program, tries.settings, tries.log).solve(number, 0.0)
+    record = solution.record(number, "gravity", np.nan)
     tries.records.append(record)
     return form.forces(solution.x) if solution.status in (Status.SOLVED, Status.APPROXIMATE) else None
 
