@@ -19,8 +19,8 @@ A program without solution lets the iterates diverge along a ray that proves it:
 (nothing is admissible), or x with E x → 0, G x + s → 0, Q x → 0 and c·x < 0 (unbounded).
 
 Sources: Mehrotra 1992 (doi:10.1137/0802028); Gondzio 1996 (doi:10.1007/BF00249643) for the further correctors; Nesterov
-and Todd 1998 (doi:10.1137/S1052623495290209); Andersen, Roos and Terlaky 2003 (doi:10.1007/s10107-002-0349-3) for cones;
-Vandenberghe, "The CVXOPT linear and quadratic cone program solvers", 2010.
+and Todd 1998 (doi:10.1137/S1052623495290209); Andersen, Roos and Terlaky 2003 (doi:10.1007/s10107-002-0349-3) for
+cones; Vandenberghe, "The CVXOPT linear and quadratic cone program solvers", 2010.
 """
 
 from __future__ import annotations
@@ -46,7 +46,8 @@ CORRECTORS, LONG, BEYOND, OUTLYING = 2, 0.9, 0.3, 10.0
 counts as outlying. On 18 walls, vaults and arches they saved a tenth of the iterations."""
 
 MARGIN = 0.1
-"""Distance from the border of a warm start, in mean sizes."""
+"""Distance from the border of a warm start, in mean sizes. Of five structures with friction growing by a twentieth it
+saved 13 to 42 % of the iterations, with the load turning by a twentieth 37 to 56 %; 0.01 saved more or nothing, 1 less."""
 
 SHORTEST = 1e-8
 """Length of steps below which the method no longer gets on."""
@@ -156,8 +157,8 @@ def solve_cone_program(data: ConeData, condensation: Condensation, run: Run, sta
 def warm_start(data: ConeData, x: FloatArray, y: FloatArray, z: FloatArray) -> Point:
     """The solution of a neighbouring program, moved into the cones of this one.
 
-    Every half-line and cone gets a distance from its border of ``MARGIN`` times the mean one: from the border itself the
-    method hardly gets away.
+    Every half-line and cone gets a distance from its border of ``MARGIN`` times the mean one: from the border itself
+    the method hardly gets away.
     """
     product = data.product
     inside = []
