@@ -18,7 +18,7 @@ from mbla.program.kinematic import ConeProgram
 from mbla.solution.condensed.condensation import Condensation
 from mbla.solution.condensed.cone_data import ConeData, cone_data
 from mbla.solution.condensed.homogeneous import solve_embedded
-from mbla.solution.condensed.method import Ended, Measures, Outcome, Run, solve_cone_program, warm_start
+from mbla.solution.condensed.method import Ended, Measures, Outcome, Point, Run, solve_cone_program, warm_start
 from mbla.solution.condensed.on_multipliers import OnMultipliers, is_local
 from mbla.solution.condensed.on_unknowns import OnUnknowns
 from mbla.solution.cone_solution import ConeSolution, Log
@@ -60,6 +60,7 @@ class CondensedProgram:
     _data: ConeData | None = field(init=False, default=None)
     _condensation: Condensation | None = field(init=False, default=None)
     _near: tuple[FloatArray, FloatArray] | None = field(init=False, default=None)
+    _paused: Point | None = field(init=False, default=None)
 
     def solve(self, program_number: int, to_load_factor: float) -> ConeSolution:
         """Solve what is loaded; see ``ConeSolver``."""
@@ -68,7 +69,8 @@ class CondensedProgram:
     def solve_once(self, program_number: int, to_load_factor: float, enough: float = 0.0) -> ConeSolution:
         """Solve what is loaded, for callers that judge the answer themselves.
 
-        enough : residuals and gap at which to stop, well inside the cones; the status is APPROXIMATE then
+        enough : residuals and gap at which to stop, well inside the cones; the status is APPROXIMATE then, and the next
+                 run of the same program goes on from there
         """
         self._check_finite()
         started = time.perf_counter()
@@ -77,11 +79,12 @@ class CondensedProgram:
         run = Run(settings.tolerance, settings.max_iterations, settings.deadline, enough, progress)
         ended, iterations = self._from_near(data, condensation, run)
         if ended is None:
-            ended = solve_cone_program(data, condensation, run)
+            ended = solve_cone_program(data, condensation, run, self._paused)
             iterations += ended.iterations
         if ended.outcome in UNDECIDED:
             again = solve_embedded(data, condensation, run)
             ended, iterations = _better(ended, again), iterations + again.iterations
+        self._paused = ended.point if ended.outcome is Outcome.ENOUGH else None
         solution = self._solution(data, ended, iterations, time.perf_counter() - started)
         if ended.outcome is Outcome.SOLVED:
             self.start_near(solution)
@@ -100,6 +103,7 @@ class CondensedProgram:
         """Change cost or right-hand side; the matrix stays."""
         old = self.cone_program
         self.cone_program = replace(old, cost=old.cost if cost is None else cost, rhs=old.rhs if rhs is None else rhs)
+        self._paused = None
         if self._data is not None:
             self._data = self._data.changed(self.cone_program)
 
