@@ -313,8 +313,8 @@ def measured(data: ConeData, point: Point) -> Measures:
         dual=_size(r_x) / max(1.0, _size(data.cost) + size_z + _size(x)),
         primal_objective=primal_objective,
         dual_objective=dual_objective,
-        infeasible=ray_dual / (-offset * max(1.0, size_z / -offset)) if offset < 0.0 else np.inf,
-        unbounded=ray_primal / (-work * max(1.0, size_x / -work)) if work < 0.0 else np.inf,
+        infeasible=ray_dual / -offset if offset < 0.0 else np.inf,
+        unbounded=ray_primal * max(1.0, _size(data.cost)) / -work if work < 0.0 else np.inf,
     )
 
 
