@@ -59,7 +59,12 @@ RAY_SEEN = 1e-2
 """Quality of a ray from which it is watched."""
 
 RAY_ENOUGH = 1e-5
-"""Quality at which a ray is an answer where the method gets no further; what it proves is for the caller to repair."""
+"""Quality at which the ray of an unbounded program is an answer where the method gets no further; what it proves is for
+the caller to repair."""
+
+INFEASIBLE_ENOUGH = 1e-8
+"""Likewise of an infeasible program, which is believed: it says that admissible x are larger than its inverse, and x
+of a million occur where friction of a million meets joints that crush."""
 
 RAY_STALLED = 4
 """Iterations in which such a ray must become twice as good."""
@@ -258,9 +263,18 @@ class _Kept:
 
     def stalled(self, number: int) -> bool:
         """Whether neither has become better for long; a ray is soon as good as it gets."""
-        if self.ray is not None and self.ray[1].ray <= RAY_ENOUGH:
+        if self._proof() is not None:
             return number - self.last_ray > RAY_STALLED
         return number - max(self.last_best, self.last_ray) > STALLED
+
+    def _proof(self) -> Outcome | None:
+        """What the best ray is taken for where nothing better comes."""
+        if self.ray is None:
+            return None
+        measures = self.ray[1]
+        if measures.infeasible < measures.unbounded:
+            return Outcome.INFEASIBLE if measures.infeasible <= INFEASIBLE_ENOUGH else None
+        return Outcome.UNBOUNDED if measures.unbounded <= RAY_ENOUGH else None
 
     def ended(self, outcome: Outcome, point: Point, measures: Measures, number: int) -> Ended:
         """The run's end: a ray that says something, else the best iterate."""
@@ -269,9 +283,9 @@ class _Kept:
         if outcome in (Outcome.STALLED, Outcome.NUMERICAL, Outcome.ITERATIONS):
             if self.best[1].worst <= ALMOST:
                 return Ended(Outcome.ALMOST, *self.best, number)
-            if self.ray is not None and self.ray[1].ray <= RAY_ENOUGH:
-                infeasible = self.ray[1].infeasible < self.ray[1].unbounded
-                return Ended(Outcome.INFEASIBLE if infeasible else Outcome.UNBOUNDED, *self.ray, number)
+            proof = self._proof()
+            if proof is not None and self.ray is not None:
+                return Ended(proof, *self.ray, number)
         return Ended(outcome, *self.best, number)
 
 
