@@ -117,7 +117,6 @@ def test_a_right_hand_side_of_another_length_is_refused(library: str) -> None:
 
 
 DIGEST = """
-import hashlib
 from tests.solution.linear_algebra.test_cholesky import digest
 print(digest("{}"))
 """
@@ -142,12 +141,27 @@ def test_reruns_are_identical_to_the_bit(library: str) -> None:
     assert subprocess.run(command, capture_output=True, text=True, check=True).stdout.strip() == here
 
 
-def test_qdldl_is_always_there() -> None:
-    assert "qdldl" in installed()
+@pytest.mark.skipif(not {"pardiso", "cholmod"} <= set(installed()), reason="pardiso or cholmod is not installed")
+def test_cholmod_does_not_take_the_blas_of_mkl() -> None:
+    """MKL offers it to the whole process once it is loaded; then the last digits would depend on what ran before."""
+    command = [sys.executable, "-c", WITHOUT_MKL + DIGEST.format("cholmod")]
+    alone = subprocess.run(command, capture_output=True, text=True, check=True)
+    digest("pardiso")
+    assert alone.stdout.strip() == digest("cholmod")
+
+
+WITHOUT_MKL = """
+from mbla.solution.linear_algebra import cholesky
+cholesky.mkl_library = lambda: None
+"""
+
+
+def test_two_are_always_there() -> None:
+    assert {"qdldl", "superlu"} <= set(installed())
 
 
 def test_an_unknown_library_is_named() -> None:
-    with pytest.raises(SolverError, match="no factorisation mumps: it is one of qdldl, pardiso, cholmod"):
+    with pytest.raises(SolverError, match="no factorisation mumps: it is one of qdldl, superlu, pardiso, cholmod"):
         factorization(definite(3)[0], "mumps")
 
 
@@ -170,7 +184,7 @@ def only_qdldl(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
 @pytest.mark.usefixtures("only_qdldl")
 def test_what_is_not_installed_is_left_out_and_said_where_it_is_asked_for() -> None:
     pattern = definite(3)[0]
-    assert installed() == ("qdldl",)
+    assert installed() == ("qdldl", "superlu")
     for library in ("pardiso", "cholmod"):
         with pytest.raises(SolverError, match=f"the factorisation {library} does not work here: .+"):
             factorization(pattern, library)
@@ -208,7 +222,8 @@ def test_a_library_with_wrong_answers_is_left_out(monkeypatch: pytest.MonkeyPatc
         ({"cholmod", "pardiso"}, cholesky.CHOLMOD_FROM - 1, "qdldl"),
         ({"pardiso"}, cholesky.PARDISO_FROM, "pardiso"),
         ({"pardiso"}, cholesky.PARDISO_FROM - 1, "qdldl"),
-        (set(), 100_000, "qdldl"),
+        (set(), cholesky.SUPERLU_FROM, "superlu"),
+        (set(), cholesky.SUPERLU_FROM - 1, "qdldl"),
     ],
 )
 def test_the_best_for_the_size(monkeypatch: pytest.MonkeyPatch, there: set[str], n: int, expected: str) -> None:
