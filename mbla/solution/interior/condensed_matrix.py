@@ -10,15 +10,18 @@ determinant is wanted, which only they tell.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 import scipy.sparse as sp
-import scipy.sparse.linalg as spla
 from scipy.sparse.csgraph import connected_components
 
 from mbla.arrays import FloatArray, IntArray
 from mbla.program.program import Program
 from mbla.solution.linear_algebra.superlu import factors_on_the_diagonal
+
+if TYPE_CHECKING:
+    from scipy.sparse.linalg import SuperLU
 
 DIAGONAL = 1e-14
 """Relative addition to the diagonal: rounding, for blocks whose joints all let go."""
@@ -96,7 +99,7 @@ def _columns_of_points(program: Program) -> tuple[IntArray, FloatArray]:
 class Factors:
     """The factorised bordered matrix."""
 
-    lu: spla.SuperLU
+    lu: SuperLU
     matrix: sp.csc_array
     scale: FloatArray
 

@@ -48,12 +48,20 @@ def test_several_right_hand_sides_are_solved_as_one_by_one(library: str) -> None
     assert factors.factorize(values)
     rhs = np.random.default_rng(3).normal(size=(50, 4))
     kept = rhs.copy()
-    for ordered in (rhs, np.asfortranarray(rhs), rhs[:, ::2]):
+    for ordered in (rhs, np.asfortranarray(rhs), rhs[:, ::2], rhs[::-1]):
         answer = factors.solve(ordered)
         assert answer.shape == ordered.shape
         one_by_one = np.column_stack([factors.solve(column) for column in ordered.T])
         assert answer == pytest.approx(one_by_one, rel=1e-12, abs=1e-14)
     assert np.array_equal(rhs, kept)
+
+
+@every_library
+def test_no_right_hand_sides_have_no_solutions(library: str) -> None:
+    pattern, values = definite(20)
+    factors = factorization(pattern, library)
+    assert factors.factorize(values)
+    assert factors.solve(np.zeros((20, 0))).shape == (20, 0)
 
 
 @every_library
