@@ -67,6 +67,11 @@ def test_each_library_has_one_door(library: str, door: str) -> None:
     assert users <= {door}, f"{library} is imported by {sorted(users)}"
 
 
+def test_superlu_has_one_door() -> None:
+    users = {str(path.relative_to(PACKAGE)) for path in FILES if "splu(" in path.read_text(encoding="utf-8")}
+    assert users == {"solution/linear_algebra/superlu.py"}
+
+
 def test_every_folder_of_the_package_is_a_stage() -> None:
     folders = {path.name for path in PACKAGE.iterdir() if path.is_dir() and path.name != "__pycache__"}
     assert folders == set(STAGES)

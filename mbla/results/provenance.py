@@ -11,6 +11,7 @@ LIBRARIES = (
     "numpy",
     "scipy",
     "clarabel",
+    "qdldl",
     "highspy",
     "shapely",
     "manifold3d",
@@ -21,7 +22,7 @@ LIBRARIES = (
     "pint",
 )
 
-OPTIONAL = ("mkl",)
+OPTIONAL = ("mkl", "cvxopt")
 """Libraries that are used where they are installed."""
 
 

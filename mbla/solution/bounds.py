@@ -28,7 +28,7 @@ from mbla.program.program import Program
 from mbla.program.yield_conditions import yield_violation
 from mbla.solution.barriers import block_diagonal, force_metric, velocity_hessian
 from mbla.solution.law_state import LawState
-from mbla.solution.linear_algebra.superlu_factors import factorize
+from mbla.solution.linear_algebra.superlu import factorize
 
 ROUNDS = 6
 """Corrections in a row; each solves one sparse system. Two are usual."""

@@ -25,7 +25,7 @@ from mbla.program.convex.friction_limit import friction_limit, nearest
 from mbla.program.program import Program
 from mbla.solution.convex_state import with_motions
 from mbla.solution.exact_law import CONVERGED, REGULARIZATION
-from mbla.solution.linear_algebra.superlu_factors import factorize
+from mbla.solution.linear_algebra.superlu import factorize
 
 MOST_STEPS = 30
 BACKTRACKS = 10

@@ -25,10 +25,10 @@ from dataclasses import dataclass
 
 import numpy as np
 import scipy.sparse as sp
-import scipy.sparse.linalg as spla
 
 from mbla.arrays import BoolArray, FloatArray
 from mbla.program.yield_conditions.limits import YieldLimits
+from mbla.solution.linear_algebra.superlu import factors_on_the_diagonal
 
 BALANCED = 1e-9
 """Unbalanced force of a block, over its own load, that counts as equilibrium."""
@@ -211,9 +211,8 @@ def _joints(problem: SpringProblem, kappa: float, u: FloatArray, limit: FloatArr
 def _direction(problem: SpringProblem, kappa: float, joints: _Joints, *, lagged: bool) -> FloatArray | None:
     """Newton's step, None where the tangent is singular."""
     matrix = _stiffness(problem, kappa, joints, lagged)
-    try:
-        factors = spla.splu(matrix, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.01, options={"SymmetricMode": True})
-    except RuntimeError:  # exactly singular
+    factors = factors_on_the_diagonal(matrix, 0.01)
+    if factors is None:
         return None
     step = factors.solve(joints.unbalanced)
     step = step + factors.solve(joints.unbalanced - matrix @ step)  # springs are 1e-12 of the joints

@@ -20,10 +20,10 @@ from dataclasses import dataclass
 
 import numpy as np
 import scipy.sparse as sp
-import scipy.sparse.linalg as spla
 
 from mbla.arrays import FloatArray, IntArray
 from mbla.program.program import Program
+from mbla.solution.linear_algebra.superlu import elimination_order, factors_on_the_diagonal
 
 PIVOT_THRESHOLD = 0.01
 """A diagonal pivot is taken unless it is smaller than this share of the largest one in its column: keeps the order."""
@@ -75,11 +75,8 @@ class Stiffness:
         matrix is singular to working accuracy.
         """
         matrix = self._matrix(tangents, shift, fixed_load)
-        try:
-            factors = spla.splu(
-                matrix, permc_spec="NATURAL", diag_pivot_thresh=PIVOT_THRESHOLD, options={"SymmetricMode": True}
-            )
-        except RuntimeError:  # exactly singular
+        factors = factors_on_the_diagonal(matrix, PIVOT_THRESHOLD, ordered=True)
+        if factors is None:
             return None
         order = self.order
 
@@ -120,7 +117,7 @@ def stiffness_of(program: Program) -> Stiffness:
     n = len(program.dead_load)
     sets = _point_sets(program)
     pattern = _pattern(n, [(rows, blocks) for _, rows, blocks in sets])
-    order = np.append(_elimination_order(pattern), n)
+    order = np.append(elimination_order(pattern), n)
     place_of = np.empty(n + 1, dtype=np.int64)
     place_of[order] = np.arange(n + 1)
 
@@ -192,11 +189,3 @@ def _pattern(n: int, sets: list[tuple[IntArray, FloatArray]]) -> sp.coo_array:
     row, column = np.concatenate([*rows, np.arange(n)]), np.concatenate([*columns, np.arange(n)])
     keys = np.unique(row * n + column)
     return sp.coo_array((np.ones(len(keys)), (keys // n, keys % n)), shape=(n, n))
-
-
-def _elimination_order(pattern: sp.coo_array) -> IntArray:
-    """Minimum degree order of a symmetric pattern, from a factorisation of a matrix that cannot break down."""
-    matrix = sp.csc_matrix(pattern)
-    dominant = sp.csc_matrix(matrix + sp.diags_array(np.asarray(matrix.sum(axis=1)).ravel()))
-    factors = spla.splu(dominant, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
-    return np.argsort(factors.perm_c)

@@ -2,20 +2,21 @@
 
 ::
 
-    python -m tests.performance.bench_factorization [CASE ...]
+    python -m tests.performance.bench_factorization [LIBRARY ...]
 
 A is the equilibrium matrix of a running-bond wall, spatial or reduced to its plane, D a random definite block for every
 contact point with eigenvalues over sixteen decades. ``analysis`` is what the first factorisation takes beyond the
 following ones, all in seconds by the clock; ``residual`` that of one solution without refinement, over the right-hand
-side, in the scaling to a diagonal of ones. ``superlu`` is the general factorisation, which analyses anew each time.
+side, in the scaling to a diagonal of ones; ``memory_gb`` the most that the process took, with
+wall and contacts.
 """
 
 from __future__ import annotations
 
 import resource
+import subprocess
 import sys
 import time
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -25,7 +26,6 @@ from mbla.arrays import FloatArray
 from mbla.program.program import Program
 from mbla.program.reductions import allowed_reductions, reduce_program
 from mbla.solution.linear_algebra import SymmetricPattern, factorization, installed, lower_triangle
-from mbla.solution.linear_algebra.superlu_factors import factorize
 from tests.line import HEAD, line_of
 from tests.performance.recording import best_time, record
 
@@ -94,37 +94,32 @@ def cost_of(library: str, pattern: SymmetricPattern, values: FloatArray) -> Cost
     rhs = matrix @ np.random.default_rng(4).standard_normal(pattern.n)
     size = np.sqrt(matrix.diagonal())
     start = time.perf_counter()
-    if library == "superlu":
-        scaling = sp.diags_array(1.0 / size)
-        scaled = sp.csc_array(scaling @ matrix @ scaling)
-        solve_scaled = factorize(scaled, symmetric=True)
-        assert solve_scaled is not None
-        factorise: Callable[[], object] = lambda: factorize(scaled, symmetric=True)  # noqa: E731
-        solve: Callable[[], FloatArray] = lambda: solve_scaled(rhs / size) / size  # noqa: E731
-        first = 0.0
-    else:
-        factors = factorization(pattern, library)
-        assert factors.factorize(values)
-        first = time.perf_counter() - start
-        factorise, solve = lambda: factors.factorize(values), lambda: factors.solve(rhs)
-    again = best_time(factorise)[0]
-    residual = np.linalg.norm((matrix @ solve() - rhs) / size) / np.linalg.norm(rhs / size)
-    return Cost(max(first - again, 0.0), again, best_time(solve)[0], float(residual))
+    factors = factorization(pattern, library)
+    assert factors.factorize(values)
+    first = time.perf_counter() - start
+    again = best_time(lambda: factors.factorize(values))[0]
+    residual = np.linalg.norm((matrix @ factors.solve(rhs) - rhs) / size) / np.linalg.norm(rhs / size)
+    return Cost(max(first - again, 0.0), again, best_time(lambda: factors.solve(rhs))[0], float(residual))
 
 
-def main(names: list[str]) -> None:
-    """Measure the cases, all if none is named."""
-    libraries = (*installed(), "superlu")
-    small = lower_triangle(sp.eye_array(3, format="csc"))[0]
-    for library in libraries[:-1]:
-        factorization(small, library)  # what loading takes is no analysis
-    for name in names or list(CASES):
-        pattern, values = condensed(program_of(*CASES[name]))
-        for library in libraries:
-            cost = cost_of(library, pattern, values)
-            row = {"case": name, "unknowns": pattern.n, "entries": len(values), "library": library}
-            memory = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1e6
-            record("factorization", row | vars(cost) | {"memory_so_far_gb": memory})
+def measure(library: str) -> None:
+    """Measure all cases with a library."""
+    factorization(lower_triangle(sp.eye_array(3, format="csc"))[0], library)  # what loading takes is no analysis
+    for name, case in CASES.items():
+        pattern, values = condensed(program_of(*case))
+        cost = cost_of(library, pattern, values)
+        row = {"case": name, "unknowns": pattern.n, "entries": len(values), "library": library}
+        memory = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1e6
+        record("factorization", row | vars(cost) | {"memory_gb": memory})
+
+
+def main(libraries: list[str]) -> None:
+    """Each library in a process of its own, so that memory is told apart."""
+    if len(libraries) == 1:
+        measure(libraries[0])
+        return
+    for library in libraries or installed():
+        subprocess.run([sys.executable, "-m", "tests.performance.bench_factorization", library], check=True)
 
 
 if __name__ == "__main__":

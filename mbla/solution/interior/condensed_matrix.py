@@ -3,21 +3,25 @@
 C has one block per contact point, so that the pattern of A C Aᵀ is fixed: which entry each product of two entries of
 one point's columns goes to is worked out once, and an assembly is a batched product and one weighted count.
 The rows and columns are scaled by the diagonal before they are factorised (SuperLU, minimum degree on the symmetric
-pattern: half the time of the column ordering on vaults). Not through the common door for factorisations, because the
-sign of the determinant is wanted, which only the factors tell.
+pattern: half the time of the column ordering on vaults). The factors themselves are kept, because the sign of the
+determinant is wanted, which only they tell.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 import scipy.sparse as sp
-import scipy.sparse.linalg as spla
 from scipy.sparse.csgraph import connected_components
 
 from mbla.arrays import FloatArray, IntArray
 from mbla.program.program import Program
+from mbla.solution.linear_algebra.superlu import factors_on_the_diagonal
+
+if TYPE_CHECKING:
+    from scipy.sparse.linalg import SuperLU
 
 DIAGONAL = 1e-14
 """Relative addition to the diagonal: rounding, for blocks whose joints all let go."""
@@ -95,7 +99,7 @@ def _columns_of_points(program: Program) -> tuple[IntArray, FloatArray]:
 class Factors:
     """The factorised bordered matrix."""
 
-    lu: spla.SuperLU
+    lu: SuperLU
     matrix: sp.csc_array
     scale: FloatArray
 
@@ -128,12 +132,8 @@ def factorise(pattern: MatrixMap, tangents: FloatArray) -> Factors | None:
     column = np.repeat(np.arange(len(scale)), np.diff(pattern.pointers))
     data *= scale[pattern.indices] * scale[column]
     matrix = sp.csc_array((data, pattern.indices, pattern.pointers), shape=(len(scale), len(scale)))
-    try:
-        options = {"SymmetricMode": True}
-        lu = spla.splu(matrix, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=PIVOT, options=options)
-    except RuntimeError:  # exactly singular
-        return None
-    return Factors(lu, matrix, scale)
+    lu = factors_on_the_diagonal(matrix, PIVOT)
+    return None if lu is None else Factors(lu, matrix, scale)
 
 
 def _parity(permutation: IntArray) -> float:

@@ -23,7 +23,7 @@ from mbla.arrays import FloatArray, IntArray
 from mbla.solution.interior.central_path import CentralPath, Residuals
 from mbla.solution.interior.condensed_matrix import MatrixMap
 from mbla.solution.interior.products import LocalCost
-from mbla.solution.linear_algebra.superlu_factors import factorize
+from mbla.solution.linear_algebra.superlu import factorize
 
 REFINEMENTS = 2
 

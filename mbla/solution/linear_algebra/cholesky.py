@@ -1,13 +1,21 @@
 """Factorisation of symmetric positive definite matrices of one pattern, by whichever library is there.
 
 Seconds of one factorisation on one thread, and of the analysis before the first, for the condensed matrices of
-running-bond walls whose joints differ by sixteen decades (``tests/performance/results/factorization.csv``):
+running-bond walls whose joints differ by sixteen decades (``tests/performance/results/factorization.csv``)::
 
-TABLE
+                               qdldl             superlu           pardiso           cholmod
+    unknowns              first     each     first     each    first     each    first     each
+      630                 0.0006   0.0006    0.003    0.0014   0.002    0.0003   0.0009   0.0003
+    2,460                 0.003    0.0062    0.013    0.012    0.005    0.0020   0.005    0.0016
+    6,072                 0.005    0.031     0.040    0.040    0.010    0.0080   0.010    0.0060
+   21,780                 0.12     0.31      0.26     0.25     0.039    0.051    0.052    0.038
+   30,150 planar          0.022    0.23      0.23     0.22     0.043    0.041    0.034    0.032
+   60,300                 0.77     2.7       1.7      1.2      0.19     0.23     0.15     0.16
 
-All three leave a residual of rounding. CHOLMOD is the fastest at every size and costs 0.03 s to load. Pardiso is close
-behind, but MKL is tried in a process of its own first, about a second once in a process, which is won back from about
-5,000 unknowns on. Below 300 there is nothing to be won over qdldl.
+A solution takes 0.1 (small) to 0.01 (large) of a factorisation by qdldl, with every library. All leave a residual of
+rounding. CHOLMOD is the fastest and costs 0.03 s to load. Pardiso is close behind, but MKL is tried in a process of its
+own first, half a second once in a process: won back from about 5,000 unknowns on. Below 300 there is little to be won
+over qdldl. Of the two that are always there SuperLU is the faster from 20,000 unknowns on.
 """
 
 from __future__ import annotations
@@ -22,10 +30,10 @@ from mbla.errors import SolverError
 from mbla.solution.linear_algebra.mkl import mkl_library, mkl_works
 from mbla.solution.linear_algebra.pattern import SymmetricPattern
 
-LIBRARIES = ("qdldl", "pardiso", "cholmod")
+LIBRARIES = ("qdldl", "superlu", "pardiso", "cholmod")
 
-CHOLMOD_FROM, PARDISO_FROM = 300, 5_000
-"""Unknowns from which they are taken where they are installed, CHOLMOD before Pardiso."""
+CHOLMOD_FROM, PARDISO_FROM, SUPERLU_FROM = 300, 5_000, 20_000
+"""Unknowns from which they are taken where they are installed, in this order."""
 
 
 class Factorization(Protocol):
@@ -44,9 +52,9 @@ class Factorization(Protocol):
 
 
 def factorization(pattern: SymmetricPattern, library: str | None = None, threads: int = 1) -> Factorization:
-    """Factorisation with that library, qdldl, pardiso or cholmod; None: the best that is installed for the size.
+    """Factorisation with that library, one of ``LIBRARIES``; None: the best that is installed for the size.
 
-    threads : at most; all three keep to one, on which reruns are identical to the bit
+    threads : at most; all keep to one, on which reruns are identical to the bit
 
     Raises SolverError where the library is unknown or does not work here.
     """
@@ -72,7 +80,7 @@ def _best(n: int) -> str:
         return "cholmod"
     if n >= PARDISO_FROM and _fault("pardiso") is None:
         return "pardiso"
-    return "qdldl"
+    return "superlu" if n >= SUPERLU_FROM else "qdldl"
 
 
 def _made(library: str, pattern: SymmetricPattern) -> Factorization:
@@ -87,6 +95,10 @@ def _made(library: str, pattern: SymmetricPattern) -> Factorization:
         if runtime is None or not mkl_works():
             raise ImportError(WITHOUT_MKL)
         return PardisoFactors(pattern, runtime)
+    if library == "superlu":
+        from mbla.solution.linear_algebra.superlu_factors import SuperluFactors
+
+        return SuperluFactors(pattern)
     from mbla.solution.linear_algebra.qdldl_factors import QdldlFactors
 
     return QdldlFactors(pattern)

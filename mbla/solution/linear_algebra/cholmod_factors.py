@@ -1,15 +1,29 @@
 """CHOLMOD: supernodal Cholesky in an approximate minimum degree order. Only importer of cvxopt, which carries it.
 
-The wheels of cvxopt give it a BLAS of one thread: reruns are identical to the bit.
+The wheels of cvxopt give it a BLAS of one thread: reruns are identical to the bit. MKL, once loaded, offers its own
+BLAS to the whole process under the same names, with which CHOLMOD took half as long again and gave other last digits;
+so on Linux it is bound to the one that it brings.
 """
 
 from __future__ import annotations
 
+import os
+import sys
+
 import numpy as np
-from cvxopt import cholmod, matrix, spmatrix
 
 from mbla.arrays import FloatArray
 from mbla.solution.linear_algebra.pattern import SymmetricPattern
+
+if sys.platform == "linux":
+    usual = sys.getdlopenflags()
+    sys.setdlopenflags(usual | os.RTLD_DEEPBIND)
+    try:
+        from cvxopt import cholmod, matrix, spmatrix
+    finally:
+        sys.setdlopenflags(usual)
+else:
+    from cvxopt import cholmod, matrix, spmatrix
 
 
 class CholmodFactors:

@@ -62,6 +62,8 @@ class PardisoFactors:
         if len(right) != self._n:
             raise ValueError(f"a right-hand side of {len(right)} rows for a matrix of {self._n}")
         answer = np.zeros_like(right)
+        if not answer.size:
+            return answer
         error = self._pardiso.run(SOLVE, self._values, right, answer)
         if error:
             raise RuntimeError(f"the solution by Pardiso failed with error {error}")

@@ -48,12 +48,20 @@ def test_several_right_hand_sides_are_solved_as_one_by_one(library: str) -> None
     assert factors.factorize(values)
     rhs = np.random.default_rng(3).normal(size=(50, 4))
     kept = rhs.copy()
-    for ordered in (rhs, np.asfortranarray(rhs), rhs[:, ::2]):
+    for ordered in (rhs, np.asfortranarray(rhs), rhs[:, ::2], rhs[::-1]):
         answer = factors.solve(ordered)
         assert answer.shape == ordered.shape
         one_by_one = np.column_stack([factors.solve(column) for column in ordered.T])
         assert answer == pytest.approx(one_by_one, rel=1e-12, abs=1e-14)
     assert np.array_equal(rhs, kept)
+
+
+@every_library
+def test_no_right_hand_sides_have_no_solutions(library: str) -> None:
+    pattern, values = definite(20)
+    factors = factorization(pattern, library)
+    assert factors.factorize(values)
+    assert factors.solve(np.zeros((20, 0))).shape == (20, 0)
 
 
 @every_library
@@ -117,7 +125,6 @@ def test_a_right_hand_side_of_another_length_is_refused(library: str) -> None:
 
 
 DIGEST = """
-import hashlib
 from tests.solution.linear_algebra.test_cholesky import digest
 print(digest("{}"))
 """
@@ -142,12 +149,27 @@ def test_reruns_are_identical_to_the_bit(library: str) -> None:
     assert subprocess.run(command, capture_output=True, text=True, check=True).stdout.strip() == here
 
 
-def test_qdldl_is_always_there() -> None:
-    assert "qdldl" in installed()
+@pytest.mark.skipif(not {"pardiso", "cholmod"} <= set(installed()), reason="pardiso or cholmod is not installed")
+def test_cholmod_does_not_take_the_blas_of_mkl() -> None:
+    """MKL offers it to the whole process once it is loaded; then the last digits would depend on what ran before."""
+    command = [sys.executable, "-c", WITHOUT_MKL + DIGEST.format("cholmod")]
+    alone = subprocess.run(command, capture_output=True, text=True, check=True)
+    digest("pardiso")
+    assert alone.stdout.strip() == digest("cholmod")
+
+
+WITHOUT_MKL = """
+from mbla.solution.linear_algebra import cholesky
+cholesky.mkl_library = lambda: None
+"""
+
+
+def test_two_are_always_there() -> None:
+    assert {"qdldl", "superlu"} <= set(installed())
 
 
 def test_an_unknown_library_is_named() -> None:
-    with pytest.raises(SolverError, match="no factorisation mumps: it is one of qdldl, pardiso, cholmod"):
+    with pytest.raises(SolverError, match="no factorisation mumps: it is one of qdldl, superlu, pardiso, cholmod"):
         factorization(definite(3)[0], "mumps")
 
 
@@ -170,7 +192,7 @@ def only_qdldl(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
 @pytest.mark.usefixtures("only_qdldl")
 def test_what_is_not_installed_is_left_out_and_said_where_it_is_asked_for() -> None:
     pattern = definite(3)[0]
-    assert installed() == ("qdldl",)
+    assert installed() == ("qdldl", "superlu")
     for library in ("pardiso", "cholmod"):
         with pytest.raises(SolverError, match=f"the factorisation {library} does not work here: .+"):
             factorization(pattern, library)
@@ -208,7 +230,8 @@ def test_a_library_with_wrong_answers_is_left_out(monkeypatch: pytest.MonkeyPatc
         ({"cholmod", "pardiso"}, cholesky.CHOLMOD_FROM - 1, "qdldl"),
         ({"pardiso"}, cholesky.PARDISO_FROM, "pardiso"),
         ({"pardiso"}, cholesky.PARDISO_FROM - 1, "qdldl"),
-        (set(), 100_000, "qdldl"),
+        (set(), cholesky.SUPERLU_FROM, "superlu"),
+        (set(), cholesky.SUPERLU_FROM - 1, "qdldl"),
     ],
 )
 def test_the_best_for_the_size(monkeypatch: pytest.MonkeyPatch, there: set[str], n: int, expected: str) -> None:

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 import scipy.sparse as sp
 
-from mbla.solution.linear_algebra.superlu_factors import factorize
+from mbla.solution.linear_algebra.superlu import factorize
 
 
 def bordered(rng: np.random.Generator) -> sp.csc_array:
