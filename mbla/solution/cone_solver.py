@@ -95,4 +95,5 @@ class _OneThenOther:
         other = ClarabelProgram(self.first.cone_program, self.settings, self.log).solve(program_number, to_load_factor)
         if other.status is Status.NUMERICAL_ERROR:
             return solution
-        return replace(other, iterations=solution.iterations + other.iterations)
+        iterations, seconds = solution.iterations + other.iterations, solution.seconds + other.seconds
+        return replace(other, iterations=iterations, seconds=seconds)

@@ -130,6 +130,7 @@ class CondensedProgram:
             iterations=iterations,
             seconds=seconds,
             solver=NAME,
+            factorization=self._condensation.library,
         )
 
 
