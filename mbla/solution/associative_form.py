@@ -29,6 +29,8 @@ class AssociativeForm:
     """A cone program whose optimum is the load factor.
 
     forces     : contact forces, (n_points, components), from a solution
+    factor     : load factor that these forces carry, as far as the solution goes; in velocities that of the dual
+                 program, which early in a run is far from the objective
     velocities : (n_rows,), of the mechanism or of a certificate
     reverse    : what ``ConeSolver.update`` gets to find the least load factor instead, negated
     read       : a solution with the load factor as its objective, and the status said of the structure
@@ -40,6 +42,7 @@ class AssociativeForm:
     program: Program
     cone_program: ConeProgram
     forces: Callable[[ConeSolution], FloatArray]
+    factor: Callable[[ConeSolution], float]
     velocities: Callable[[ConeSolution], FloatArray]
     reverse: Mapping[str, FloatArray]
     read: Callable[[ConeSolution], ConeSolution]
@@ -78,6 +81,7 @@ def in_velocities(program: Program, facets: FloatArray | None = None) -> Associa
         program=program,
         cone_program=form.cone_program,
         forces=lambda solution: form.contact_forces(solution.z),
+        factor=lambda solution: -float(solution.z[0]),
         velocities=lambda solution: form.velocities(solution.x),
         reverse={"rhs": -form.cone_program.rhs},
         read=lambda solution: solution,
@@ -114,6 +118,7 @@ def in_forces(program: Program, facets: FloatArray | None = None) -> Associative
         program=program,
         cone_program=form.cone_program,
         forces=lambda solution: form.contact_forces(solution.x),
+        factor=lambda solution: float(solution.x[-1]),
         velocities=lambda solution: form.velocities(solution.z),
         reverse={"cost": -form.cone_program.cost},
         read=_of_the_dual,

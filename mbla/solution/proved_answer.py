@@ -191,11 +191,11 @@ def says_it_falls(run: AssociativeRun, solution: ConeSolution) -> bool:
 
 def _proved(form: AssociativeForm, solution: ConeSolution) -> CertifiedGap:
     """Bounds that a solution proves; as it is where it is one of another law than that of the program."""
-    forces, velocities, factor = form.forces(solution), form.velocities(solution), solution.objective
-    if not form.exact:
-        gap = 0.0 if solution.status is Status.SOLVED else np.inf
-        return CertifiedGap(factor, factor, gap, forces, factor, velocities)
-    return certified_gap(form.program, LawState(forces, velocities, factor, np.nan))
+    forces, velocities = form.forces(solution), form.velocities(solution)
+    if form.exact:
+        return certified_gap(form.program, LawState(forces, velocities, form.factor(solution), np.nan))
+    factor, gap = solution.objective, 0.0 if solution.status is Status.SOLVED else np.inf
+    return CertifiedGap(factor, factor, gap, forces, factor, velocities)
 
 
 def _size(run: AssociativeRun, answer: ProvedAnswer) -> float:

@@ -71,6 +71,17 @@ class ConeProduct:
         out[1:] = (b[1:] - a[1:] * out[0]) / a[0]
         return result
 
+    def clipped(self, v: FloatArray, least: float, greatest: float) -> FloatArray:
+        """V with its eigenvalues, v₀ ± ‖v̄‖ in cones, brought between two bounds."""
+        result = np.empty_like(v)
+        np.clip(self.lines(v), least, greatest, out=self.lines(result))
+        cones, out = self.cones(v), self.cones(result)
+        tail = np.hypot(cones[1], cones[2])
+        low, high = np.clip(cones[0] - tail, least, greatest), np.clip(cones[0] + tail, least, greatest)
+        out[0] = 0.5 * (low + high)
+        out[1:] = cones[1:] * np.where(tail > 0.0, 0.5 * (high - low) / np.where(tail > 0.0, tail, 1.0), 0.0)
+        return result
+
     def least_eigenvalue(self, v: FloatArray) -> float:
         """Least of v on half-lines and v₀ − ‖v̄‖ in cones: positive inside."""
         cones = self.cones(v)

@@ -12,14 +12,15 @@ ds̃ = W⁻¹ ds, for products r and a share f of the residuals r_x = Q x + c + 
     dz̃ = G̃ dx − q̃,     ds̃ = −l ∖ r − dz̃
 
 first with r = l ∘ l, f = 1 (predictor), then with r = l ∘ l + ds̃ ∘ dz̃ − σ μ e, f = 1 − σ, σ = (μ after the predictor /
-μ)³ (corrector). Where the cost is linear s and (y, z) go their own lengths, else one.
+μ)³ (corrector), then, where the step is short, with products that lie far from the mean pulled towards it. Where the
+cost is linear s and (y, z) go their own lengths, else one.
 
 A program without solution lets the iterates diverge along a ray that proves it: z with Eᵀy + Gᵀz → 0 and e·y + h·z < 0
 (nothing is admissible), or x with E x → 0, G x + s → 0, Q x → 0 and c·x < 0 (unbounded).
 
-Sources: Mehrotra 1992 (doi:10.1137/0802028); Nesterov and Todd 1998 (doi:10.1137/S1052623495290209); Andersen, Roos and
-Terlaky 2003 (doi:10.1007/s10107-002-0349-3) for cones; Vandenberghe, "The CVXOPT linear and quadratic cone program
-solvers", 2010.
+Sources: Mehrotra 1992 (doi:10.1137/0802028); Gondzio 1996 (doi:10.1007/BF00249643) for the further correctors; Nesterov
+and Todd 1998 (doi:10.1137/S1052623495290209); Andersen, Roos and Terlaky 2003 (doi:10.1007/s10107-002-0349-3) for
+cones; Vandenberghe, "The CVXOPT linear and quadratic cone program solvers", 2010.
 """
 
 from __future__ import annotations
@@ -40,6 +41,14 @@ from mbla.solution.condensed.scaling import Scaling
 SHARE = 0.99
 """Of the way to the border that a step goes."""
 
+CORRECTORS, LONG, BEYOND, OUTLYING = 2, 0.9, 0.3, 10.0
+"""Correctors at most, only of steps shorter than this; how far beyond its end they look; factor from the mean that
+counts as outlying. On 18 walls, vaults and arches they saved a tenth of the iterations."""
+
+MARGIN = 0.1
+"""Distance from the border of a warm start, in mean sizes. Of five structures with friction growing by a twentieth it
+saved 13 to 42 % of the iterations, with the load turning by a twentieth 37 to 56 %; 0.01 saved more or none, 1 less."""
+
 SHORTEST = 1e-8
 """Length of steps below which the method no longer gets on."""
 
@@ -50,7 +59,12 @@ RAY_SEEN = 1e-2
 """Quality of a ray from which it is watched."""
 
 RAY_ENOUGH = 1e-5
-"""Quality at which a ray is an answer where the method gets no further; what it proves is for the caller to repair."""
+"""Quality at which the ray of an unbounded program is an answer where the method gets no further; what it proves is for
+the caller to repair."""
+
+INFEASIBLE_ENOUGH = 1e-8
+"""Likewise of an infeasible program, which is believed: it says that admissible x are larger than its inverse, and x
+of a million occur where friction of a million meets joints that crush."""
 
 RAY_STALLED = 4
 """Iterations in which such a ray must become twice as good."""
@@ -88,7 +102,8 @@ class Measures:
     """How far an iterate is from the solution; all relative.
 
     primal_objective, dual_objective : c·x + ½ xᵀQx and −e·y − h·z − ½ xᵀQx
-    infeasible, unbounded : how far it is from proving that, infinite where it says nothing of the kind
+    infeasible, unbounded : how far it is from proving that, infinite where it says nothing of the kind: 1 over the size
+                            that a solution of the program, of its dual, would at least have
     """
 
     gap: float
@@ -143,6 +158,24 @@ def solve_cone_program(data: ConeData, condensation: Condensation, run: Run, sta
             nothing = inside_start(data)
             return Ended(Outcome.NUMERICAL, nothing, measured(data, nothing), 0)
         return best_of_run(data, run, point, lambda now: _step(data, condensation, now), lambda now: now)
+
+
+def warm_start(data: ConeData, x: FloatArray, y: FloatArray, z: FloatArray) -> Point:
+    """The solution of a neighbouring program, moved into the cones of this one.
+
+    Every half-line and cone gets a distance from its border of ``MARGIN`` times the mean one: from the border itself
+    the method hardly gets away.
+    """
+    product = data.product
+    inside = []
+    for v in (data.cone_rhs - data.cone_matrix @ x, z.copy()):
+        heads = v[: product.degree]  # of half-lines and cones
+        margin = MARGIN * max(float(np.abs(heads).mean()), 1e-300)
+        cones = product.cones(v)
+        product.lines(v)[:] = np.maximum(product.lines(v), margin)
+        cones[0] = np.maximum(cones[0], np.hypot(cones[1], cones[2]) + margin)
+        inside.append(v)
+    return Point(x, y, *inside)
 
 
 def inside_start(data: ConeData) -> Point:
@@ -230,9 +263,18 @@ class _Kept:
 
     def stalled(self, number: int) -> bool:
         """Whether neither has become better for long; a ray is soon as good as it gets."""
-        if self.ray is not None and self.ray[1].ray <= RAY_ENOUGH:
+        if self._proof() is not None:
             return number - self.last_ray > RAY_STALLED
         return number - max(self.last_best, self.last_ray) > STALLED
+
+    def _proof(self) -> Outcome | None:
+        """What the best ray is taken for where nothing better comes."""
+        if self.ray is None:
+            return None
+        measures = self.ray[1]
+        if measures.infeasible < measures.unbounded:
+            return Outcome.INFEASIBLE if measures.infeasible <= INFEASIBLE_ENOUGH else None
+        return Outcome.UNBOUNDED if measures.unbounded <= RAY_ENOUGH else None
 
     def ended(self, outcome: Outcome, point: Point, measures: Measures, number: int) -> Ended:
         """The run's end: a ray that says something, else the best iterate."""
@@ -241,9 +283,9 @@ class _Kept:
         if outcome in (Outcome.STALLED, Outcome.NUMERICAL, Outcome.ITERATIONS):
             if self.best[1].worst <= ALMOST:
                 return Ended(Outcome.ALMOST, *self.best, number)
-            if self.ray is not None and self.ray[1].ray <= RAY_ENOUGH:
-                infeasible = self.ray[1].infeasible < self.ray[1].unbounded
-                return Ended(Outcome.INFEASIBLE if infeasible else Outcome.UNBOUNDED, *self.ray, number)
+            proof = self._proof()
+            if proof is not None and self.ray is not None:
+                return Ended(proof, *self.ray, number)
         return Ended(outcome, *self.best, number)
 
 
@@ -286,50 +328,108 @@ def measured(data: ConeData, point: Point) -> Measures:
         dual=_size(r_x) / max(1.0, _size(data.cost) + size_z + _size(x)),
         primal_objective=primal_objective,
         dual_objective=dual_objective,
-        infeasible=ray_dual / (-offset * max(1.0, size_z / -offset)) if offset < 0.0 else np.inf,
-        unbounded=ray_primal / (-work * max(1.0, size_x / -work)) if work < 0.0 else np.inf,
+        infeasible=ray_dual / -offset if offset < 0.0 else np.inf,
+        unbounded=ray_primal * max(1.0, _size(data.cost)) / -work if work < 0.0 else np.inf,
     )
 
 
+@dataclass(frozen=True)
+class _Direction:
+    """A step: of x and y, and of s and z in the scaled space."""
+
+    x: FloatArray
+    y: FloatArray
+    s: FloatArray
+    z: FloatArray
+
+
+@dataclass(frozen=True)
+class _Frame:
+    """An iterate in the scaled space, with N factorised there.
+
+    middle : l = W z = W⁻¹ s
+    """
+
+    data: ConeData
+    condensation: Condensation
+    scaling: Scaling
+    middle: FloatArray
+    residuals: Residuals
+
+    @property
+    def mean(self) -> float:
+        """μ."""
+        return float(self.middle @ self.middle) / self.data.product.degree
+
+    def direction(self, products: FloatArray, share: float) -> _Direction:
+        """The step for products r and a share f of the residuals."""
+        data, scaling = self.data, self.scaling
+        r_x, r_e, r_z = self.residuals
+        divided = data.product.quotient(self.middle, products)
+        q = divided - share * scaling.inverse(r_z)
+        right = data.cone_matrix_t @ scaling.inverse(q) - share * r_x
+        x, y = refined_solution(data, self.condensation, scaling, right, -share * r_e)
+        z = scaling.inverse(data.cone_matrix @ x) - q
+        return _Direction(x, y, -divided - z, z)
+
+    def lengths(self, direction: _Direction, share: float) -> tuple[float, float]:
+        """How far s and (y, z) go, at most 1: each its own way where the cost is linear."""
+        product = self.data.product
+        reach = [min(1.0, share * product.longest_step(self.middle, step)) for step in (direction.s, direction.z)]
+        return (reach[0], reach[1]) if self.data.is_linear else (min(reach), min(reach))
+
+    def ahead(self, direction: _Direction, to_s: float, to_z: float) -> tuple[FloatArray, FloatArray]:
+        """Scaled s and z after a step."""
+        return self.middle + to_s * direction.s, self.middle + to_z * direction.z
+
+
 def _step(data: ConeData, condensation: Condensation, point: Point) -> tuple[Point, float] | None:
-    """Predictor and corrector; the next iterate and the shorter of the two lengths."""
+    """Predictor and correctors; the next iterate and the shorter of the two lengths, None on breakdown."""
     product = data.product
     scaling = Scaling.of(product, point.s, point.z)
     middle = scaling.times(point.z)
     if not np.isfinite(middle).all() or not condensation.factorize(scaling):
         return None
-    r_x, r_e, r_z = _residuals(data, point)
-    bent = scaling.inverse(r_z)
-    square, mean = product.product(middle, middle), float(middle @ middle) / product.degree
-
-    def direction(products: FloatArray, share: float) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
-        divided = product.quotient(middle, products)
-        q = divided - share * bent
-        right = data.cone_matrix_t @ scaling.inverse(q) - share * r_x
-        dx, dy = refined_solution(data, condensation, scaling, right, -share * r_e)
-        dz = scaling.inverse(data.cone_matrix @ dx) - q
-        return dx, dy, -divided - dz, dz
-
-    def lengths(ds: FloatArray, dz: FloatArray, share: float) -> tuple[float, float]:
-        reach = [min(1.0, share * product.longest_step(middle, step)) for step in (ds, dz)]
-        return (reach[0], reach[1]) if data.is_linear else (min(reach), min(reach))
-
-    _, _, ds, dz = direction(square, 1.0)
-    to_s, to_z = lengths(ds, dz, 1.0)
-    ahead = max(float((middle + to_s * ds) @ (middle + to_z * dz)) / product.degree, 0.0)
-    sigma = min(1.0, (ahead / mean) ** 3)
-    products = square + product.product(ds, dz) - sigma * mean * product.identity()
-    dx, dy, ds, dz = direction(products, 1.0 - sigma)
-    if not (np.isfinite(dx).all() and np.isfinite(dz).all()):
+    frame = _Frame(data, condensation, scaling, middle, _residuals(data, point))
+    square = product.product(middle, middle)
+    predictor = frame.direction(square, 1.0)
+    s, z = frame.ahead(predictor, *frame.lengths(predictor, 1.0))
+    sigma = min(1.0, (max(float(s @ z), 0.0) / product.degree / frame.mean) ** 3)
+    products = square + product.product(predictor.s, predictor.z) - sigma * frame.mean * product.identity()
+    direction = frame.direction(products, 1.0 - sigma)
+    direction, to_s, to_z = _centred(frame, products, sigma, direction)
+    if not (np.isfinite(direction.x).all() and np.isfinite(direction.z).all()):
         return None
-    to_s, to_z = lengths(ds, dz, SHARE)
     moved = Point(
-        point.x + to_s * dx,
-        point.y + to_z * dy,
-        point.s + to_s * scaling.times(ds),
-        point.z + to_z * scaling.inverse(dz),
+        point.x + to_s * direction.x,
+        point.y + to_z * direction.y,
+        point.s + to_s * scaling.times(direction.s),
+        point.z + to_z * scaling.inverse(direction.z),
     )
     return moved, min(to_s, to_z)
+
+
+def _centred(
+    frame: _Frame, products: FloatArray, sigma: float, direction: _Direction
+) -> tuple[_Direction, float, float]:
+    """The direction and its lengths, after correctors that pull outlying products towards the middle.
+
+    A corrector looks at the products a little beyond where the step would end, and is kept where it makes it longer.
+    """
+    product, target = frame.data.product, sigma * frame.mean
+    to_s, to_z = frame.lengths(direction, SHARE)
+    for _ in range(CORRECTORS):
+        if min(to_s, to_z) > LONG:
+            break
+        ahead = product.product(*frame.ahead(direction, min(1.0, to_s + BEYOND), min(1.0, to_z + BEYOND)))
+        wanted = product.clipped(ahead, target / OUTLYING, target * OUTLYING)
+        products = products + ahead - wanted
+        trial = frame.direction(products, 1.0 - sigma)
+        longer = frame.lengths(trial, SHARE)
+        if not min(longer) >= min(to_s, to_z) + 0.1 * BEYOND:
+            break
+        direction, (to_s, to_z) = trial, longer
+    return direction, to_s, to_z
 
 
 def _size(v: FloatArray) -> float:

@@ -18,7 +18,7 @@ from mbla.program.kinematic import ConeProgram
 from mbla.solution.condensed.condensation import Condensation
 from mbla.solution.condensed.cone_data import ConeData, cone_data
 from mbla.solution.condensed.homogeneous import solve_embedded
-from mbla.solution.condensed.method import Ended, Measures, Outcome, Run, solve_cone_program
+from mbla.solution.condensed.method import Ended, Measures, Outcome, Point, Run, solve_cone_program, warm_start
 from mbla.solution.condensed.on_multipliers import OnMultipliers, is_local
 from mbla.solution.condensed.on_unknowns import OnUnknowns
 from mbla.solution.cone_solution import ConeSolution, Log
@@ -59,6 +59,8 @@ class CondensedProgram:
     log: Log
     _data: ConeData | None = field(init=False, default=None)
     _condensation: Condensation | None = field(init=False, default=None)
+    _near: tuple[FloatArray, FloatArray] | None = field(init=False, default=None)
+    _paused: Point | None = field(init=False, default=None)
 
     def solve(self, program_number: int, to_load_factor: float) -> ConeSolution:
         """Solve what is loaded; see ``ConeSolver``."""
@@ -67,26 +69,54 @@ class CondensedProgram:
     def solve_once(self, program_number: int, to_load_factor: float, enough: float = 0.0) -> ConeSolution:
         """Solve what is loaded, for callers that judge the answer themselves.
 
-        enough : residuals and gap at which to stop, well inside the cones; the status is APPROXIMATE then
+        enough : residuals and gap at which to stop, well inside the cones; the status is APPROXIMATE then, and the next
+                 run of the same program goes on from there
         """
         self._check_finite()
         started = time.perf_counter()
         data, condensation = self._prepared()
         progress, settings = self._progress(program_number, to_load_factor, started), self.settings
         run = Run(settings.tolerance, settings.max_iterations, settings.deadline, enough, progress)
-        ended = solve_cone_program(data, condensation, run)
-        iterations = ended.iterations
+        ended, iterations = self._from_near(data, condensation, run)
+        if ended is None:
+            ended = solve_cone_program(data, condensation, run, self._paused)
+            iterations += ended.iterations
         if ended.outcome in UNDECIDED:
             again = solve_embedded(data, condensation, run)
             ended, iterations = _better(ended, again), iterations + again.iterations
-        return self._solution(data, ended, iterations, time.perf_counter() - started)
+        self._paused = ended.point if ended.outcome is Outcome.ENOUGH else None
+        solution = self._solution(data, ended, iterations, time.perf_counter() - started)
+        if ended.outcome is Outcome.SOLVED:
+            self.start_near(solution)
+        return solution
+
+    def start_near(self, solution: ConeSolution) -> None:
+        """Start the next time from the solution of a neighbouring program with the same unknowns and rows.
+
+        After a solution the next program of the same object starts from it without being told.
+        """
+        if solution.x.shape != self.cone_program.cost.shape or solution.z.shape != self.cone_program.rhs.shape:
+            raise ValueError("a neighbouring program has the same unknowns and rows")
+        self._near = solution.x, solution.z
 
     def update(self, *, cost: FloatArray | None = None, rhs: FloatArray | None = None) -> None:
         """Change cost or right-hand side; the matrix stays."""
         old = self.cone_program
         self.cone_program = replace(old, cost=old.cost if cost is None else cost, rhs=old.rhs if rhs is None else rhs)
+        self._paused = None
         if self._data is not None:
             self._data = self._data.changed(self.cone_program)
+
+    def _from_near(self, data: ConeData, condensation: Condensation, run: Run) -> tuple[Ended | None, int]:
+        """The run from a neighbour's solution; None where there is none or it leads nowhere, and its iterations."""
+        if self._near is None:
+            return None, 0
+        x, z = self._near
+        n_e = len(data.equation_rhs)
+        ended = solve_cone_program(data, condensation, run, warm_start(data, x, z[:n_e], z[n_e:][data.order]))
+        if ended.outcome in (Outcome.SOLVED, Outcome.ENOUGH, Outcome.TIME):
+            return ended, ended.iterations
+        return None, ended.iterations
 
     def _prepared(self) -> tuple[ConeData, Condensation]:
         if self._data is None or self._condensation is None:
