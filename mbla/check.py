@@ -13,16 +13,17 @@ from mbla.deck import Deck, read_deck
 from mbla.model import Model, build_model
 from mbla.model.model import LoadCase
 from mbla.program import assemble
-from mbla.program.kinematic import kinematic_form
+from mbla.program.kinematic import ConeProgram, kinematic_form
 from mbla.results.files import OutputFolder
 from mbla.results.provenance import collect_provenance
 from mbla.results.results import Results
 from mbla.results.vtu import write_model_vtu
 from mbla.run import RunOptions, contacts_of, deck_record, notices_of, reduced_program, select_cases, settings_in_words
+from mbla.solution.cone_solver import interior_point_method
 from mbla.solution.settings import solver_settings
 
-Needs = dict[str, dict[str, int]]
-"""Load case by name: what is counted, and how many."""
+Needs = dict[str, dict[str, int | str]]
+"""Load case by name: what is counted, and how many; ``solver``: which takes its associative programs."""
 
 
 def check(deck_path: Path, options: RunOptions, vtu: bool = False) -> tuple[Results, Needs]:
@@ -57,8 +58,8 @@ def check(deck_path: Path, options: RunOptions, vtu: bool = False) -> tuple[Resu
     return results, {case.name: needs_of(deck, model, contacts, case) for case in select_cases(model, options.cases)}
 
 
-def needs_of(deck: Deck, model: Model, contacts: Contacts, load_case: LoadCase) -> dict[str, int]:
-    """What of the model reaches the solver, and the size of its first cone programs."""
+def needs_of(deck: Deck, model: Model, contacts: Contacts, load_case: LoadCase) -> dict[str, int | str]:
+    """What of the model reaches the solver, the size of its first cone programs, and who solves them."""
     reduced = reduced_program(deck, model, contacts, assemble(model, contacts, load_case))
     programs = [kinematic_form(part, part.limits).cone_program for part in reduced.parts if np.any(part.live_load)]
     return asdict(reduced.size) | {
@@ -66,4 +67,12 @@ def needs_of(deck: Deck, model: Model, contacts: Contacts, load_case: LoadCase) 
         "cones": sum(program.n_cones for program in programs),
         "half_lines": sum(program.n_half_lines for program in programs),
         "matrix_entries": sum(int(program.matrix.nnz) for program in programs),
+        "solver": ", ".join(dict.fromkeys(_solver(deck, program) for program in programs)),
     }
+
+
+def _solver(deck: Deck, program: ConeProgram) -> str:
+    """Of the associative program; that of interface resultants has cones of dimensions that clarabel alone takes."""
+    if deck.analysis.contact_model == "convex":
+        return "clarabel"
+    return "highs" if deck.analysis.solver == "highs" else interior_point_method(program, deck.analysis.solver)

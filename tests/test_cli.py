@@ -172,6 +172,29 @@ def test_check_solves_nothing_and_writes_nothing(deck: Path, capsys: pytest.Capt
     assert {path.suffix for path in deck.with_suffix(".out").iterdir()} == {".vtu"}
 
 
+@pytest.mark.parametrize(
+    ("units", "asked", "taken"),
+    [
+        (2, "auto", "clarabel"),
+        (15, "auto", "mbla"),
+        (2, "mbla", "mbla"),
+        (15, "clarabel", "clarabel"),
+        (2, "highs", "highs"),
+    ],
+)
+def test_check_says_which_solver_the_run_takes(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], units: int, asked: str, taken: str
+) -> None:
+    path = tmp_path / "wall.yaml"
+    path.write_text(WALL, encoding="utf-8")
+    options = ["--json", "--set", f"parameters.n={units}", "--set", f"analysis.solver={asked}"]
+    _, (record,), _ = run_json(capsys, "check", path, *options)
+    assert record["needs"]["push"]["solver"] == taken
+    code, (record,), _ = run_json(capsys, "run", path, *options)
+    (case,) = record["cases"]
+    assert (code, case["solver"]["asked"], case["solver"]["used"][0]) == (0, asked, taken)
+
+
 def test_show_and_verify_read_the_result_file_alone(deck: Path, capsys: pytest.CaptureFixture[str]) -> None:
     main(["run", str(deck), "-q"])
     listing = (deck.with_suffix(".out") / "block.lst").read_text()

@@ -93,11 +93,14 @@ class AnalysisSection(Section):
     )
     solver: Literal["auto", "mbla", "clarabel", "highs"] = Field(
         "auto",
-        description="mbla is the interior-point method made for these programs; auto takes it or clarabel by size; "
-        "highs solves linear programs only: planar structures, polyhedral friction",
+        description="of the cone programs. mbla: the interior-point method made for them, not with contact_model: "
+        "convex; clarabel: any; highs: associative flow in planar structures or with polyhedral friction; auto: mbla "
+        "or clarabel by size, the results say which",
     )
     second_opinion: Switch = Field(
-        False, description="solve linear programs with the other solver too and compare; polyhedral ones always are"
+        False,
+        description="solve the associative program by another solver too and compare: by highs where it is linear, "
+        "else by mbla or clarabel; polyhedral ones always are",
     )
     scheme: Literal["auto", "proximal", "interior", "path", "lowest", "published"] = Field(
         "auto",

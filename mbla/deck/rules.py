@@ -247,6 +247,8 @@ def convex_contact_model(analysis: types.AnalysisSection) -> Iterator[Finding]:
         yield ("flow_rule",), f"contact_model: convex allows {allowed} only ({analysis.flow_rule} here)"
     if analysis.flow_rule == "non_associative" and analysis.scheme not in ("auto", "proximal"):
         yield ("scheme",), f"contact_model: convex allows auto or proximal only ({analysis.scheme} here)"
+    if analysis.solver == "mbla":
+        yield ("solver",), "applies to contact_model: concave only, whose cones have three dimensions: use auto"
     for key, default in NOT_CONVEX:
         if getattr(analysis, key) != default:
             yield (key,), f"applies to contact_model: concave only: use {str(default).lower()}"

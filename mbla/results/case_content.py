@@ -34,6 +34,7 @@ CHECKED = (
 """numbers of Checks, each with a dataset of its own"""
 MECHANICS_FIELDS = ("load_factor", "contact_forces", "contact_velocities", "mechanism", "modes")
 PROGRAM_FIELDS = ("program", "kind", "status", "load_factor", "change", "iterations", "seconds")
+SOLVER_FIELDS = ("solver", "factorization")
 ITERATION_FIELDS = (
     "program",
     "iteration",
@@ -46,7 +47,7 @@ ITERATION_FIELDS = (
 )
 PATH_FIELDS = ("step", "load_factor", "open", "slide", "residual")
 SIZE_FIELDS = ("dimension", "mirror_planes", "parts", "free_blocks", "contact_points", "dropped_points")
-TEXT_COLUMNS = ("kind", "status")
+TEXT_COLUMNS = ("kind", "status", *SOLVER_FIELDS)
 
 
 def case_content(model: Model, contacts: Contacts, case: CaseResult) -> Content:
@@ -62,12 +63,13 @@ def case_content(model: Model, contacts: Contacts, case: CaseResult) -> Content:
         "contact_model": solution.contact_model,
         "seconds": solution.seconds,
         "sides": solution.sides,
+        "solver": solution.solver,
         **{name: getattr(checks, name) for name in CHECKED},
         "range": np.array([checks.lower, checks.upper]),
         "verified": checks.verified,
         "failures": checks.failures,
         **_table("path", PATH_FIELDS, solution.path, whole=("step", "open", "slide")),
-        **_table("programs", PROGRAM_FIELDS, solution.programs, whole=("program", "iterations")),
+        **_table("programs", (*PROGRAM_FIELDS, *SOLVER_FIELDS), solution.programs, whole=("program", "iterations")),
         **_table("iterations", ITERATION_FIELDS, solution.iterations, whole=("program", "iteration")),
     }
     return content | _answers(case) | _collapse(model, contacts, case) | _further(solution)

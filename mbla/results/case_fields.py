@@ -198,6 +198,14 @@ HISTORY = (
             ("seconds", "float", "time", "its time"),
         ),
     ),
+    *(
+        Field(f"{CASE}/programs/{name}", "text", ("program_row",), "1", words, part="solvers")
+        for name, words in (
+            ("solver", "mbla, clarabel or highs; empty: steps of the joint law, no cone program"),
+            ("factorization", "library that factorised its linear systems; empty: the solver's own, or none"),
+        )
+    ),
+    Field(f"{CASE}/solver", "text", (), "1", "solver asked for, as analysis.solver", part="solvers"),
     *_columns(
         f"{CASE}/iterations",
         "iteration_row",

@@ -11,6 +11,7 @@ from mbla.results.mechanism_json import mechanism_json
 from mbla.results.numbers import number
 from mbla.results.outcome import associative_of, best_iterate, factor_unique, range_of, result_of
 from mbla.results.results import CaseResult
+from mbla.results.solver_words import solver_json
 from mbla.solution.solution import Checks, Mechanics, Solution
 
 
@@ -52,6 +53,7 @@ def case_json(model: Model, contacts: Contacts, case: CaseResult) -> dict[str, A
         "certificate": _certificate(solution),
         "programs": len(solution.programs),
         "iterations": sum(program.iterations for program in solution.programs),
+        "solver": solver_json(solution),
         "size": None if solution.size is None else asdict(solution.size),
         "path": [{name: finite(value) for name, value in asdict(point).items()} for point in solution.path],
         "mechanism": None if mechanics is None else mechanism_json(model, contacts, case.load_case, mechanics),

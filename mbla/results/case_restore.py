@@ -16,9 +16,11 @@ from mbla.results.case_content import (
     PATH_FIELDS,
     PROGRAM_FIELDS,
     SIZE_FIELDS,
+    SOLVER_FIELDS,
 )
 from mbla.results.mechanism_fields import MECHANICS_GROUPS
 from mbla.results.results import CaseResult
+from mbla.results.solver_words import METHODS
 from mbla.solution.solution import (
     Checks,
     ContactMode,
@@ -53,7 +55,7 @@ def case_from(load_case: LoadCase, get: dict[str, Any]) -> CaseResult:
         outer=answers["outer"],
         certificate=get.get("certificate"),
         reason=get["reason"],
-        programs=_records(ProgramRecord, PROGRAM_FIELDS, get, "programs/"),
+        programs=_records(ProgramRecord, _program_fields(get), get, "programs/"),
         iterations=_records(IterationRecord, ITERATION_FIELDS, get, "iterations/"),
         seconds=get["seconds"],
         scheme=get["scheme"],
@@ -67,6 +69,7 @@ def case_from(load_case: LoadCase, get: dict[str, Any]) -> CaseResult:
         path=_records(PathPoint, PATH_FIELDS, get, "path/"),
         size=_size(get),
         sides=get["sides"],
+        solver=_solver(get),
     )
     checks = Checks(
         **{name: get[name] for name in CHECKED},
@@ -125,6 +128,19 @@ def _size(get: dict[str, Any]) -> ModelSize | None:
     if size.dimension not in (2, 3):
         raise ValueError("dimension of the model")
     return size
+
+
+def _solver(get: dict[str, Any]) -> str:
+    """The solver asked for, once all names of solvers are known ones."""
+    asked: str = get.get("solver", "")
+    if not {asked, *get.get("programs/solver", [])} <= {"", "auto", *METHODS}:
+        raise ValueError("name of a solver")
+    return asked
+
+
+def _program_fields(get: dict[str, Any]) -> tuple[str, ...]:
+    """Columns of the table of programs; the first files of this layout do not say who solved them."""
+    return (*PROGRAM_FIELDS, *SOLVER_FIELDS) if "solver" in get else PROGRAM_FIELDS
 
 
 def _records(

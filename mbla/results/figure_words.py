@@ -7,6 +7,7 @@ import numpy as np
 from mbla.model.model import Model
 from mbla.results.outcome import associative_of, best_iterate, locked_in, range_of, result_of
 from mbla.results.results import CaseResult
+from mbla.results.solver_words import solver_lines
 from mbla.results.text import counted, entry, number, sentence, small
 from mbla.solution.solution import Checks, Mechanics, ModelSize
 
@@ -20,7 +21,7 @@ def figures(model: Model, case: CaseResult) -> list[str]:
     lines += _standing(model, case)
     if case.solution.size is not None:
         lines += entry("solved as", size_words(case.solution.size))
-    return lines + _verification(case)
+    return lines + solver_lines(case.solution) + _verification(case)
 
 
 def _factors(case: CaseResult) -> list[str]:

@@ -34,7 +34,7 @@ def results_json(results: Results) -> dict[str, Any]:
     }
 
 
-def check_json(results: Results, needs: Mapping[str, Mapping[str, int]]) -> dict[str, Any]:
+def check_json(results: Results, needs: Mapping[str, Mapping[str, int | str]]) -> dict[str, Any]:
     """The record of a check: no cases; ``needs`` says by load case what reaches the solver."""
     report = results.contacts.report
     record = results_json(results)

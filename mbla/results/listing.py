@@ -34,7 +34,7 @@ def listing(results: Results) -> str:
     return "\n".join(line.rstrip() for line in lines) + "\n"
 
 
-def check_listing(results: Results, needs: Mapping[str, Mapping[str, int]]) -> str:
+def check_listing(results: Results, needs: Mapping[str, Mapping[str, int | str]]) -> str:
     """What ``mbla check`` prints: the model and its contacts as in the listing, and what each load case needs."""
     lines = [
         *_header(results),
@@ -49,7 +49,7 @@ def check_listing(results: Results, needs: Mapping[str, Mapping[str, int]]) -> s
     return "\n".join(line.rstrip() for line in lines) + "\n"
 
 
-def _needs(case: str, counts: Mapping[str, int]) -> list[str]:
+def _needs(case: str, counts: Mapping[str, int | str]) -> list[str]:
     lines = heading(f"Needed for load case {case}")
     return lines + [line for name, count in counts.items() for line in entry(name.replace("_", " "), str(count))]
 

@@ -121,6 +121,7 @@ class ClarabelProgram:
             objective=float(result.obj_val),
             iterations=int(result.iterations),
             seconds=time.perf_counter() - started,
+            factorization=self._factorization(),
         )
 
     def update(self, *, cost: FloatArray | None = None, rhs: FloatArray | None = None) -> None:
@@ -165,13 +166,16 @@ class ClarabelProgram:
         settings.verbose = False
         settings.presolve_enable = False  # would forbid update()
         # not "auto", which may take faer: its digits depend on threads, qdldl reruns bit-identically
-        settings.direct_solve_method = self.settings.factorization or factorization_for(len(self.cone_program.cost))
+        settings.direct_solve_method = self._factorization()
         settings.max_threads = self.settings.threads
         settings.static_regularization_constant = regularization(self.cone_program, self.settings)
         settings.max_iter = self.settings.max_iterations
         for name in ("tol_gap_abs", "tol_gap_rel", "tol_feas"):
             setattr(settings, name, self.settings.tolerance)
         return settings
+
+    def _factorization(self) -> str:
+        return self.settings.factorization or factorization_for(len(self.cone_program.cost))
 
     def _callback(
         self, program: int, to_load_factor: float, started: float, signalled: Callable[[], bool]

@@ -22,6 +22,7 @@ class ConeSolution:
     x      : primal variables; a ray where the status is NO_EQUILIBRIUM
     z      : dual variables, cost + matrixᵀ z = 0, z ≥ 0 on half-lines; a ray where the status is UNBOUNDED
     solver : the library's name, for words about its status
+    factorization : the library that factorised the linear systems; empty where the solver keeps that to itself
     """
 
     status: Status
@@ -32,6 +33,7 @@ class ConeSolution:
     iterations: int
     seconds: float
     solver: str = "clarabel"
+    factorization: str = ""
 
     @property
     def verdict(self) -> str:
@@ -41,7 +43,7 @@ class ConeSolution:
     def record(self, number: int, kind: str, load_factor: float, change: float = np.nan) -> ProgramRecord:
         """The solution as one program of a sequence."""
         outcome = (self.status, load_factor, change, self.iterations, self.seconds)
-        return ProgramRecord(number, kind, *outcome, self.solver)
+        return ProgramRecord(number, kind, *outcome, self.solver.lower(), self.factorization)
 
 
 class ConeSolver(Protocol):

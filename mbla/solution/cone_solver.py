@@ -46,13 +46,18 @@ def interior_point_solver(cone_program: ConeProgram, settings: SolverSettings, l
     """The program held by an interior-point method, for callers that need one; ``highs`` counts as ``auto`` here."""
     if settings.solver not in SOLVERS:
         raise SolverError(f"there is no cone solver {settings.solver}; there are {', '.join(SOLVERS)}")
-    if settings.solver == "clarabel" or not fits(cone_program):
+    if interior_point_method(cone_program, settings.solver) == "clarabel":
         return ClarabelProgram(cone_program, settings, log)
-    if settings.solver == "mbla":
-        return CondensedProgram(cone_program, settings, log)
-    if min(cone_program.matrix.shape[1], len(cone_program.rhs)) < OWN_FROM:
-        return ClarabelProgram(cone_program, settings, log)
-    return _OneThenOther(CondensedProgram(cone_program, settings, log), settings, log)
+    own = CondensedProgram(cone_program, settings, log)
+    return own if settings.solver == "mbla" else _OneThenOther(own, settings, log)
+
+
+def interior_point_method(cone_program: ConeProgram, solver: str) -> str:
+    """Whether mbla or clarabel takes a program, by what was asked for, by its shape and by its size."""
+    if solver == "clarabel" or not fits(cone_program):
+        return "clarabel"
+    small = min(cone_program.matrix.shape[1], len(cone_program.rhs)) < OWN_FROM
+    return "clarabel" if small and solver != "mbla" else "mbla"
 
 
 def is_linear(cone_program: ConeProgram) -> bool:
@@ -95,4 +100,5 @@ class _OneThenOther:
         other = ClarabelProgram(self.first.cone_program, self.settings, self.log).solve(program_number, to_load_factor)
         if other.status is Status.NUMERICAL_ERROR:
             return solution
-        return replace(other, iterations=solution.iterations + other.iterations)
+        iterations, seconds = solution.iterations + other.iterations, solution.seconds + other.seconds
+        return replace(other, iterations=iterations, seconds=seconds)

@@ -81,6 +81,7 @@ def _solved(convex: ConvexProgram, analysis: AnalysisSection, settings: SolverSe
         spread=None if sequence is None or sequence.spread is None else _scaled(sequence.spread, live),
         certificate_motions=motions,
         contact_model="convex",
+        solver=settings.solver,
         lock=None if associative.lock is None else convex.points.scaling.forces(associative.lock) / live,
     )
 

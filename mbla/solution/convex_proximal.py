@@ -77,12 +77,21 @@ class _Run:
     records: list[ProgramRecord]
     states: list[ConvexState] = field(default_factory=list)
 
-    def add(self, kind: str, status: Status, factor: float, work: int, seconds: float) -> None:
-        """Record a program."""
+    def add(self, kind: str, solution: ConeSolution, factor: float) -> None:
+        """Record a cone program."""
+        self.records.append(solution.record(len(self.records) + 1, kind, *self._value(kind, factor)))
+
+    def add_exact(self, status: Status, factor: float, work: int, seconds: float) -> None:
+        """Record steps of the exact law."""
+        kind = "exact step"
+        value, change = self._value(kind, factor)
+        self.records.append(ProgramRecord(len(self.records) + 1, kind, status, value, change, work, seconds))
+
+    def _value(self, kind: str, factor: float) -> tuple[float, float]:
+        """Load factor, and how far that is from the one of the last program of its kind."""
         before = [record.load_factor for record in self.records if record.kind == kind]
         value = self.convex.points.scaling.load_factor(factor)
-        change = abs(value - before[-1]) / max(abs(value), 1e-300) if before else np.nan
-        self.records.append(ProgramRecord(len(self.records) + 1, kind, status, value, change, work, seconds))
+        return value, abs(value - before[-1]) / max(abs(value), 1e-300) if before else np.nan
 
 
 def solve_convex_proximal(
@@ -108,7 +117,7 @@ def solve_convex_proximal(
             return _broken_off(run, solution)
         state = _state_of(form, solution)
         run.states.append(state)
-        run.add("convex step", solution.status, state.load_factor, solution.iterations, solution.seconds)
+        run.add("convex step", solution, state.load_factor)
         if state.residual <= EXACT:
             break
         due = step >= FIRST_TRY and (step - FIRST_TRY) % TRY_EVERY == 0 and state.residual < NEAR
@@ -129,7 +138,7 @@ def _gravity_state(run: _Run) -> FloatArray | ConvexSequence:
     """Forces of the gravity state, (n_points, 3), or how the scheme ends where there is none."""
     form = gravity_form(run.convex.points)
     solution = interior_point_solver(form.cone_program, run.settings, run.log).solve(len(run.records) + 1, 0.0)
-    run.add("gravity", solution.status, np.nan, solution.iterations, solution.seconds)
+    run.add("gravity", solution, np.nan)
     if solution.status in (Status.SOLVED, Status.APPROXIMATE):
         return form.forces(solution.x)
     return _broken_off(run, solution)
@@ -160,7 +169,7 @@ def _exact(run: _Run, law: ConvexLaw, anchor: FloatArray, rho: float, state: Con
         if fits:
             break
     status = Status.SOLVED if fits else Status.APPROXIMATE
-    run.add("exact step", status, factor, count, time.perf_counter() - started)
+    run.add_exact(status, factor, count, time.perf_counter() - started)
     return fits
 
 

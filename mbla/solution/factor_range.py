@@ -141,11 +141,7 @@ class _Search:
     def _record(self, kind: str, status: Status, form: FixedMechanismForm, solution: ConeSolution, found: bool) -> None:
         value = self.program.scaling.load_factor(form.load_factor(solution.x)) if found else np.nan
         number = self.first_program + len(self.records)
-        self.records.append(
-            ProgramRecord(
-                number, f"range, {kind}", status, value, np.nan, solution.iterations, solution.seconds, solution.solver
-            )
-        )
+        self.records.append(replace(solution.record(number, f"range, {kind}", value), status=status))
 
 
 def unbalanced(program: Program, state: LawState) -> float:

@@ -208,11 +208,8 @@ class _Search:
             self.log(record)
         self.unlogged = []
         number, value = len(self.records) + 1, self.best.load_factor * live
-        self.records.append(
-            ProgramRecord(
-                number, "lowest", solution.status, value, change, iterations, now - self.since, solution.solver
-            )
-        )
+        last = solution.record(number, "lowest", value, change)
+        self.records.append(replace(last, iterations=iterations, seconds=now - self.since))
         self.noted, self.since = self.best.load_factor, now
 
     def words(self, start: LawState, scheme: LowestScheme) -> tuple[str, ...]:

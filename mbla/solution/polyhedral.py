@@ -41,6 +41,9 @@ AGREE_SHORT = 1e-4
 SMALL_FACTOR = 1e-3
 """Load factors below this share of dead over live load are taken for that share in relative measures."""
 
+WRITTEN = {"highs": "HiGHS"}
+"""How a solver writes its name, where that is not its key."""
+
 DECIDED = (Status.NO_EQUILIBRIUM, Status.UNBOUNDED)
 
 
@@ -135,7 +138,7 @@ def second_opinion(
     kind        : which program it is, for the remark; may be empty
     number      : in the sequence of the load case
     """
-    live, other = form.program.scaling.live, other_solver(by.lower(), form.cone_program)
+    live, other = form.program.scaling.live, other_solver(by, form.cone_program)
     settings = replace(settings, solver=other, tolerance=form.tolerance(settings.tolerance))
     solution = form.read(cone_solver(form.cone_program, settings, log).solve(number, form.sign * live))
     has_value = solution.status in (Status.SOLVED, Status.APPROXIMATE)
@@ -145,7 +148,7 @@ def second_opinion(
     agrees = bool(apart <= within) if has_value else None
     record = solution.record(number, "second opinion", value * live, apart)
     which = f"{kind} polyhedron: " if kind else ""
-    first = f"{which}{by} gives a load factor of {load_factor * live:.9g}, "
+    first = f"{which}{WRITTEN.get(by, by)} gives a load factor of {load_factor * live:.9g}, "
     if not has_value:
         return SecondOpinion(None, first + f"{solution.solver} came to no answer ({solution.verdict})", record)
     verdict = "they agree" if agrees else f"they differ by {apart:.1g} and should by {within:g} at most"

@@ -52,6 +52,7 @@ class ProgramRecord:
     """One cone program of the sequence: what it gave and how far the sequence had converged.
 
     solver : of the cone program, mbla, clarabel or highs; empty for steps of the joint law, which are no cone programs
+    factorization : library that factorised its linear systems; empty where the solver keeps that to itself
     """
 
     program: int
@@ -62,6 +63,7 @@ class ProgramRecord:
     iterations: int
     seconds: float
     solver: str = ""
+    factorization: str = ""
 
 
 class Standing(StrEnum):
@@ -156,6 +158,7 @@ class Solution:
     force_ranges: (n_interfaces, 2) least and greatest normal force at the load factor, on request
     path        : steps of the load path that was followed
     size        : what reached the solver
+    solver      : that was asked for, as in ``analysis.solver``; ``programs`` say which took each
     """
 
     flow_rule: str
@@ -182,6 +185,7 @@ class Solution:
     size: ModelSize | None = None
     certificate_motions: FloatArray | None = None
     contact_model: str = "concave"
+    solver: str = "auto"
 
 
 @dataclass(frozen=True)

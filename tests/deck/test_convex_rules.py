@@ -9,7 +9,8 @@ CONVEX = BLOCK.replace("analysis: {flow_rule: associative}", "analysis: {contact
 
 
 @pytest.mark.parametrize(
-    "override", ["analysis.flow_rule=associative", "analysis.scheme=proximal", "contacts.refine=2"]
+    "override",
+    ["analysis.flow_rule=associative", "analysis.scheme=proximal", "analysis.solver=clarabel", "contacts.refine=2"],
 )
 def test_what_goes_with_it(override: str) -> None:
     assert line_of(CONVEX, override).deck.analysis.contact_model == "convex"
@@ -23,6 +24,7 @@ def test_what_goes_with_it(override: str) -> None:
         ("analysis.scheme=path", "scheme"),
         ("analysis.scheme=interior", "scheme"),
         ("analysis.form=static", "form"),
+        ("analysis.solver=mbla", "solver"),
         ("analysis.second_opinion=true", "second_opinion"),
         ("analysis.force_ranges=true", "force_ranges"),
         ("contacts.inset=0.1", "inset"),

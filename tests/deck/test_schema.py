@@ -46,6 +46,7 @@ BEYOND_SCHEMA = (
         "named_like",
         "linear_programs",
         "inset_of",
+        "own_solver_of",
     ),
 )
 BEYOND_BUT_SEEN = (

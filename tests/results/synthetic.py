@@ -172,8 +172,8 @@ def tower_results(flow_rule: str = "non_associative") -> Results:
     mechanics = tower_mechanics()
     associative = mechanics if flow_rule == "associative" else tower_mechanics(0.5)
     programs = (
-        ProgramRecord(1, "associative", Status.SOLVED, 0.5, float("nan"), 12, 0.01),
-        ProgramRecord(2, "published", Status.SOLVED, 0.5, 1e-6, 11, 0.01),
+        ProgramRecord(1, "associative", Status.SOLVED, 0.5, float("nan"), 12, 0.01, "mbla", "qdldl"),
+        ProgramRecord(2, "published", Status.SOLVED, 0.5, 1e-6, 11, 0.01, "clarabel", "qdldl"),
     )
     iterations = tuple(IterationRecord(1, i, 0.5 + 0.1**i, 0.1**i, 1e-3, 1e-4, 0.9, 0.001 * i) for i in range(12))
     solution = Solution(flow_rule, Status.SOLVED, mechanics, associative, None, "", programs, iterations, 0.02)
@@ -235,6 +235,7 @@ def full_results() -> Results:
         path=(PathPoint(0, 0.0, 0, 0, 1e-9), PathPoint(1, 0.6, 2, 0, 1e-8), PathPoint(2, 0.5, 2, 1, np.nan)),
         size=ModelSize(2, 1, 3, 2, 4, 4),
         sides=8,
+        solver="mbla",
     )
     checks = replace(
         case.checks,

@@ -11,6 +11,7 @@ import pytest
 from mbla.deck.units import Units
 from mbla.errors import FileError
 from mbla.results.hdf5 import read_results_hdf5, write_results_hdf5
+from mbla.results.json_record import results_json
 from mbla.results.results import Results
 
 from .synthetic import full_results, same, tower_results
@@ -61,6 +62,22 @@ def test_the_full_results_leave_no_field_at_its_default() -> None:
                 assert not same(getattr(record, field.name), field.default), field.name
             else:
                 assert getattr(record, field.name) is not None, field.name
+
+
+def test_a_file_that_does_not_say_who_solved_is_read(path: Path, results: Results) -> None:
+    """The first files of this layout version did not."""
+    for case in results.cases:
+        for name in ("solver", "programs/solver", "programs/factorization"):
+            remove(path, f"cases/{case.load_case.name}/{name}")
+    case = read_results_hdf5(path).cases[0]
+    assert case.solution.solver == ""
+    assert {(program.solver, program.factorization) for program in case.solution.programs} == {("", "")}
+    assert same(case.solution.iterations, results.cases[0].solution.iterations)
+    assert results_json(read_results_hdf5(path))["cases"][0]["solver"] == {
+        "asked": None,
+        "used": [],
+        "factorization": [],
+    }
 
 
 def test_lists_that_are_empty_come_back(tmp_path: Path, results: Results) -> None:
@@ -254,6 +271,9 @@ def replace_dataset(path: Path, name: str, array: Any) -> None:
         (lambda p: change(p, "cases/push_x/status", b"fine"), "'fine' is not a valid Status"),
         (lambda p: remove(p, "cases/push_x/range"), "incomplete"),
         (lambda p: replace_dataset(p, "cases/push_x/range", np.zeros(3)), "along end"),
+        (lambda p: remove(p, "cases/push_x/programs/solver"), "incomplete: push_x: solvers"),
+        (lambda p: change(p, "cases/push_x/programs/solver", b"x"), "name of a solver"),
+        (lambda p: change(p, "cases/push_x/solver", b"x"), "name of a solver"),
         (lambda p: change(p, "model/units", b"x"), "units"),
         (lambda p: change(p, "notices/severity", b"x"), "severity"),
         (lambda p: change(p, "model/ground_joints", b"x"), "joint law"),

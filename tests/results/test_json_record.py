@@ -76,6 +76,8 @@ def test_values(record: dict[str, Any]) -> None:
     assert fallen["static_bound"] is None
     assert fallen["mechanism"] is None
     assert record["files"] == ["tower.h5"]
+    assert solved["solver"] == {"asked": "auto", "used": ["mbla", "clarabel"], "factorization": ["qdldl"]}
+    assert fallen["solver"] == {"asked": "auto", "used": [], "factorization": []}
 
 
 def test_line_is_one_line_without_nan_and_deterministic() -> None:

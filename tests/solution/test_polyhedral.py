@@ -12,6 +12,7 @@ from mbla.model import build_model
 from mbla.program import Program, assemble
 from mbla.solution import polyhedral
 from mbla.solution.associative import AssociativeResult, solve_associative
+from mbla.solution.condensed.program import CondensedProgram
 from mbla.solution.cone_solution import ConeSolution
 from mbla.solution.highs_adapter import HighsProgram
 from mbla.solution.polyhedral import PolyhedralResult, solve_polyhedral, solve_with_opinion
@@ -166,10 +167,39 @@ def test_solvers_that_differ_lower_the_status(monkeypatch: pytest.MonkeyPatch) -
     assert "came to no answer" in result.inner.reason
 
 
-def test_a_program_with_cones_has_no_second_opinion_and_says_so() -> None:
-    result, remark = solve_with_opinion(pushed(11.0), None, "kinematic", "", SETTINGS, ignored)
+@pytest.mark.parametrize("form", ["kinematic", "static"])
+@pytest.mark.parametrize(("asked", "other"), [("clarabel", "mbla"), ("mbla", "clarabel")])
+def test_a_program_with_cones_has_its_second_opinion_by_the_other_interior_point_method(
+    asked: str, other: str, form: str
+) -> None:
+    """A block pushed off the axes slides at its friction, which only the circular cone gives."""
+    settings = replace(SETTINGS, solver=asked)
+    result, remark = solve_with_opinion(pushed(11.0), None, form, "", settings, ignored)
     assert result.status is Status.SOLVED
-    assert "not linear" in remark
+    assert [(record.kind, record.solver) for record in result.programs] == [
+        ("associative", asked),
+        ("reverse", asked),
+        ("second opinion", other),
+    ]
+    assert result.programs[-1].load_factor == pytest.approx(0.3, rel=1e-6)
+    assert result.programs[-1].change < polyhedral.AGREE
+    assert remark.startswith(f"{asked} gives a load factor of ")
+    assert f", {other} " in remark
+    assert remark.endswith("they agree")
+
+
+def test_interior_point_methods_that_differ_lower_the_status(monkeypatch: pytest.MonkeyPatch) -> None:
+    solve = CondensedProgram.solve
+
+    def changed(self: CondensedProgram, number: int, factor: float) -> ConeSolution:
+        solution = solve(self, number, factor)
+        return replace(solution, objective=(1.0 + 3e-6) * solution.objective)
+
+    monkeypatch.setattr(CondensedProgram, "solve", changed)
+    settings = replace(SETTINGS, solver="clarabel")
+    result, _ = solve_with_opinion(pushed(11.0), None, "kinematic", "", settings, ignored)
+    assert result.status is Status.NOT_VERIFIED
+    assert "they differ by 3e-06" in result.reason
 
 
 def test_what_the_polyhedra_say_together() -> None:

@@ -161,6 +161,7 @@ class CondensedProgram:
             iterations=iterations,
             seconds=seconds,
             solver=NAME,
+            factorization=self._condensation.library,
         )
 
 
