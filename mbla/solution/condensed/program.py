@@ -161,7 +161,7 @@ class CondensedProgram:
             iterations=iterations,
             seconds=seconds,
             solver=NAME,
-            factorization=self._condensation.library,
+            factorization=self._condensation.factors.library,
         )
 
 
