@@ -1,9 +1,9 @@
 """A load factor proved from both sides: the associative program solved again until its bounds meet.
 
 What the solver returns is repaired (:mod:`mbla.solution.bounds`): forces that balance the loads prove the factor from
-below, compatible velocities from above. Where the two lie too far apart the program is solved with a sharper tolerance,
-in units of the load factor where that is small, since the solver's tolerance is absolute there, and with the
-equilibrium of light blocks in units of what they carry.
+below, compatible velocities from above. Where the two lie too far apart the program is solved by the other
+interior-point method, then with a sharper tolerance, in units of the load factor where that is small, since the
+solver's tolerance is absolute there, and with the equilibrium of light blocks in units of what they carry.
 """
 
 from __future__ import annotations
@@ -92,9 +92,12 @@ def solve_until_proved(run: AssociativeRun, form: AssociativeForm) -> ProvedAnsw
     best = _answer(run, form, 1.0, run.settings)
     if not form.exact:
         return best
+    if run.settings.solver == "auto" and _is_open(run, best):
+        other = "mbla" if best.solution.solver == "clarabel" else "clarabel"
+        best = better(best, _answer(run, form, 1.0, replace(run.settings, solver=other)))
     tried: set[tuple[float, float, bool]] = set()
     for power, share, shift in SHARPER:
-        if is_decided(run, best) or best.solution.status in (Status.TIME_LIMIT, Status.ITERATION_LIMIT):
+        if not _is_open(run, best):
             break
         own = None if best.gap is None or not form.has_units else in_own_units(run.program, best.gap.forces)
         unit = _size(run, best) ** power if form.has_units else 1.0
@@ -112,6 +115,11 @@ def solve_until_proved(run: AssociativeRun, form: AssociativeForm) -> ProvedAnsw
             tried.add((unit, shifted, own is None))
         best = better(best, answer)
     return best
+
+
+def _is_open(run: AssociativeRun, best: ProvedAnswer) -> bool:
+    """Whether another try is wanted, and allowed."""
+    return not is_decided(run, best) and best.solution.status not in (Status.TIME_LIMIT, Status.ITERATION_LIMIT)
 
 
 def _answer(run: AssociativeRun, form: AssociativeForm, unit: float, settings: SolverSettings) -> ProvedAnswer:

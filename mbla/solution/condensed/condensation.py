@@ -19,6 +19,7 @@ import numpy as np
 from mbla.arrays import FloatArray
 from mbla.solution.condensed.cone_data import ConeData
 from mbla.solution.condensed.scaling import Scaling
+from mbla.solution.linear_algebra import Factorization
 
 REFINED = 1e-12
 """Residual of the linear system, relative to its right-hand side, at which refinement ends."""
@@ -32,11 +33,12 @@ SHIFT = 1e-15
 
 
 class Condensation(Protocol):
-    """N of one structure, factorised for one scaling after another."""
+    """N of one structure, factorised for one scaling after another.
 
-    @property
-    def library(self) -> str:
-        """That factorises N."""
+    factors : of N
+    """
+
+    factors: Factorization
 
     def factorize(self, scaling: Scaling) -> bool:
         """Assemble and factorise N; False where it broke down."""

@@ -361,14 +361,17 @@ class _Frame:
         """μ."""
         return float(self.middle @ self.middle) / self.data.product.degree
 
-    def direction(self, products: FloatArray, share: float) -> _Direction:
+    def direction(self, products: FloatArray, share: float, *, refined: bool = True) -> _Direction:
         """The step for products r and a share f of the residuals."""
         data, scaling = self.data, self.scaling
         r_x, r_e, r_z = self.residuals
         divided = data.product.quotient(self.middle, products)
         q = divided - share * scaling.inverse(r_z)
         right = data.cone_matrix_t @ scaling.inverse(q) - share * r_x
-        x, y = refined_solution(data, self.condensation, scaling, right, -share * r_e)
+        if refined:
+            x, y = refined_solution(data, self.condensation, scaling, right, -share * r_e)
+        else:
+            x, y = self.condensation.solve(right, -share * r_e)
         z = scaling.inverse(data.cone_matrix @ x) - q
         return _Direction(x, y, -divided - z, z)
 
@@ -392,7 +395,7 @@ def _step(data: ConeData, condensation: Condensation, point: Point) -> tuple[Poi
         return None
     frame = _Frame(data, condensation, scaling, middle, _residuals(data, point))
     square = product.product(middle, middle)
-    predictor = frame.direction(square, 1.0)
+    predictor = frame.direction(square, 1.0, refined=False)
     s, z = frame.ahead(predictor, *frame.lengths(predictor, 1.0))
     sigma = min(1.0, (max(float(s @ z), 0.0) / product.degree / frame.mean) ** 3)
     products = square + product.product(predictor.s, predictor.z) - sigma * frame.mean * product.identity()

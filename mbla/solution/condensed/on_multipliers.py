@@ -79,17 +79,12 @@ class OnMultipliers:
         group, self._free = local_groups(data)
         self._batches, rows = _batches(data, group)
         self._products: PlacedProducts = placed_products(data.equations.shape[0], rows)
-        self._factors: Factorization = factorization(self._products.pattern, library, threads)
+        self.factors: Factorization = factorization(self._products.pattern, library, threads)
         self._border = data.equations[:, self._free].toarray()
         self._free_rows = data.cone_matrix[:, self._free].toarray()[: data.product.n_lines]
         self._r: list[FloatArray] = []
         self._spread = np.zeros_like(self._border)
         self._inner = np.zeros((len(self._free),) * 2)
-
-    @property
-    def library(self) -> str:
-        """That factorises N."""
-        return self._factors.library
 
     def factorize(self, scaling: Scaling) -> bool:
         """Assemble and factorise N."""
@@ -104,9 +99,9 @@ class OnMultipliers:
         values = self._products.summed(blocks)
         diagonal = self._products.diagonal
         values[diagonal] += RELATIVE_SHIFT * values[diagonal] + SHIFT * float(values[diagonal].mean())
-        if not self._factors.factorize(values):
+        if not self.factors.factorize(values):
             return False
-        self._spread = self._factors.solve(self._border)
+        self._spread = self.factors.solve(self._border)
         free = self._data.quadratic[self._free] + np.square(self._free_rows / scaling.line[:, None]).sum(axis=0)
         self._inner = self._border.T @ self._spread + np.diag(free)
         return bool(np.isfinite(self._inner).all())
@@ -114,7 +109,7 @@ class OnMultipliers:
     def solve(self, r_x: FloatArray, r_e: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Dx and dy, not refined."""
         data = self._data
-        y = self._factors.solve(data.equations @ self._locally(r_x) - r_e)
+        y = self.factors.solve(data.equations @ self._locally(r_x) - r_e)
         free = np.zeros(0)
         if len(self._free):
             free = bordered(self._inner, r_x[self._free] - self._border.T @ y)

@@ -53,7 +53,7 @@ class OnUnknowns:
         self._data = data
         self._batches, columns = _batches(data)
         self._products: PlacedProducts = placed_products(len(data.cost), columns)
-        self._factors: Factorization = factorization(self._products.pattern, library, threads)
+        self.factors: Factorization = factorization(self._products.pattern, library, threads)
         identity = Scaling.identity(data.product)
         diagonal = self._products.summed([batch.scaled(identity) for batch in self._batches])
         self._shift = SHIFT * float(diagonal[self._products.diagonal].mean())
@@ -61,26 +61,21 @@ class OnUnknowns:
         self._spread = np.zeros_like(self._border)
         self._inner = np.zeros((self._border.shape[1],) * 2)
 
-    @property
-    def library(self) -> str:
-        """That factorises N."""
-        return self._factors.library
-
     def factorize(self, scaling: Scaling) -> bool:
         """Assemble and factorise N."""
         values = self._products.summed([batch.scaled(scaling) for batch in self._batches])
         diagonal = self._products.diagonal
         values[diagonal] += self._data.quadratic
         values[diagonal] += RELATIVE_SHIFT * values[diagonal] + self._shift
-        if not self._factors.factorize(values):
+        if not self.factors.factorize(values):
             return False
-        self._spread = self._factors.solve(self._border)
+        self._spread = self.factors.solve(self._border)
         self._inner = self._border.T @ self._spread
         return bool(np.isfinite(self._inner).all())
 
     def solve(self, r_x: FloatArray, r_e: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Dx and dy, not refined."""
-        free = self._factors.solve(r_x)
+        free = self.factors.solve(r_x)
         if not len(r_e):
             return free, np.zeros(0)
         y = bordered(self._inner, self._border.T @ free - r_e)

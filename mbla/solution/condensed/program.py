@@ -74,7 +74,7 @@ class CondensedProgram:
         """
         self._check_finite()
         started = time.perf_counter()
-        data, condensation = self._prepared()
+        data, condensation = self.prepared()
         progress, settings = self._progress(program_number, to_load_factor, started), self.settings
         run = Run(settings.tolerance, settings.max_iterations, settings.deadline, enough, progress)
         ended, iterations = self._from_near(data, condensation, run)
@@ -118,7 +118,8 @@ class CondensedProgram:
             return ended, ended.iterations
         return None, ended.iterations
 
-    def _prepared(self) -> tuple[ConeData, Condensation]:
+    def prepared(self) -> tuple[ConeData, Condensation]:
+        """The program as the method wants it, and its condensation, found once."""
         if self._data is None or self._condensation is None:
             self._data = cone_data(self.cone_program)
             kind = OnUnknowns if self.cone_program.n_equations <= MOST_EQUATIONS else OnMultipliers
@@ -160,7 +161,7 @@ class CondensedProgram:
             iterations=iterations,
             seconds=seconds,
             solver=NAME,
-            factorization=self._condensation.library,
+            factorization=self._condensation.factors.library,
         )
 
 
