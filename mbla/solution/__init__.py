@@ -6,7 +6,9 @@
 ``exact_law``). ``convex`` does the same with interface resultants.
 
 ``verify`` and the files that begin with its name recompute everything from model, contacts and solution, without a
-solver. ``cone_solver`` is the door to clarabel and HiGHS, each behind its adapter.
+solver. ``cone_solver`` is the door to those who solve cone programs: the interior-point method of this package
+(``condensed``, whose matrices ``linear_algebra`` factorises by the library that is there), and clarabel and HiGHS, each
+behind its adapter. Records of programs say who solved them.
 """
 
 from mbla.solution.solution import Checks, ContactMode, Mechanics, Solution, Status

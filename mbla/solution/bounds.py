@@ -243,7 +243,7 @@ def _pulled_inside(program: Program, x: FloatArray) -> FloatArray:
     inside[:, 0] = np.clip(x[:, 0], lower + room, upper - room)
     shear = np.linalg.norm(x[:, 1:], axis=1)
     allowed = np.maximum((limits.cohesion + limits.friction * inside[:, 0]) * (1 - 1e-10), 0.0)
-    factor = np.where(shear > allowed, allowed / np.maximum(np.maximum(shear, allowed), 1e-300), 1.0)
+    factor = np.divide(allowed, shear, out=np.ones_like(shear), where=shear > allowed)
     inside[:, 1:] *= factor[:, None]
     return inside
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -121,3 +123,13 @@ def test_the_size_of_a_falling_motion_is_of_no_account() -> None:
     assert proved is not None
     assert np.abs(proved).max() == pytest.approx(1.0, rel=1e-6)
     assert falling_motion(program, 0.0 * result.certificate) is None
+
+
+@pytest.mark.parametrize("size", [1.0, 1e14])
+def test_forces_without_shear_prove_no_more_than_there_is_whatever_their_size(size: float) -> None:
+    """What a joint allows over a shear of nothing is no number; a joint that locks has forces of 1e13 mean loads."""
+    program = line_of(BLOCK).program
+    straight = np.zeros((program.n_points, 3))
+    straight[:, 0] = size * np.abs(program.dead_load).max() / program.n_points
+    gap = certified_gap(program, LawState(straight, np.zeros(len(program.dead_load)), 0.0, np.nan))
+    assert 0.0 <= gap.static * program.scaling.live <= 0.25
