@@ -4,10 +4,10 @@
 
     python -m tests.solution.condensed.random_programs FIRST LAST
 
-Walls, arches, stacks, heaps of boxes, rooms, vaults, domes, wedges in grooves and flat arches, planar and in space; dry,
-cohesive, tensile and crushing joints with a friction from none to a million; accelerations and forces at points, some
-tiny or huge; gravity that is tilted, upside down or missing; blocks a hundred million times as heavy as others. Many
-do not stand, others have no mechanism. Every random number comes from the seed.
+Walls, arches, stacks, heaps of boxes, towers apart, rooms, vaults, domes, wedges in grooves and flat arches, planar and
+in space; dry, cohesive, tensile and crushing joints with a friction from none to a million; accelerations and forces at
+points, some tiny or huge; gravity that is tilted, upside down or a ten millionth; blocks a hundred million times as
+heavy as others. Many do not stand, others have no mechanism. Every random number comes from the seed.
 """
 
 from __future__ import annotations
@@ -19,20 +19,30 @@ import statistics
 import sys
 from collections import Counter
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 from mbla.deck.analysis import ReductionSwitches
 from mbla.program.program import Program
 from mbla.program.reductions import reduce_program
 from mbla.solution.associative import AssociativeResult, solve_associative
 from mbla.solution.bounds import ZERO_FACTOR, CertifiedGap, certified_gap, factor_size
-from mbla.solution.proved_answer import ACCEPTED_GAP
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Status
 from tests.line import line_of
-from tests.solution.nonassociative_cases import HEIGHT, LENGTH, THICKNESS, Point, barrel, box, dome, flat_arch
+from tests.solution.nonassociative_cases import (
+    HEIGHT,
+    LENGTH,
+    THICKNESS,
+    Point,
+    barrel,
+    box,
+    dome,
+    flat_arch,
+    room,
+    units,
+    wedge,
+)
 from tests.solution.nonassociative_cases import numbers as listed
-from tests.solution.nonassociative_cases import room, units, wedge
 
 FRICTION = (0.0, 1e-6, 0.05, 0.2, 0.4, 0.5, 0.6, 0.65, 0.7, 0.84, 1.0, 2.0, 10.0, 1e3, 1e6)
 """Coefficients that the joints of a deck are given."""
@@ -299,6 +309,8 @@ def contradiction(program: Program, first: Outcome, second: Outcome) -> str:
     """
     one, other = first.bounds, second.bounds
     if one is not None and other is not None:
+        if not (first.gap >= 0.0 and second.gap >= 0.0):  # a bound is missing, which the status says
+            return ""
         room = abs(one.kinematic - one.static) + abs(other.kinematic - other.static)
         size = max(abs(one.load_factor), abs(other.load_factor), ZERO_FACTOR * factor_size(program))
         apart = abs(one.load_factor - other.load_factor)
