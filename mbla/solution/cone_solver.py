@@ -1,9 +1,10 @@
 """Which solver takes a cone program: the one that the deck names, or the one that measurements favour.
 
 - ``mbla``: the interior-point method of :mod:`mbla.solution.condensed`, for programs of its shape
-- ``clarabel``: any program; takes those of other shapes under ``mbla`` too
+- ``clarabel``: any program; those of other shapes, and those whose admissible set has no inside, under ``mbla`` too
 - ``highs``: linear programs of the associative analysis, where the deck names it
-- ``auto``: ``mbla`` from ``OWN_FROM`` unknowns, and ``clarabel`` after it where it comes to no answer
+- ``auto``: ``mbla`` from ``OWN_FROM`` unknowns, and ``clarabel`` after it where it comes to no answer; programs with a
+  quadratic cost only with a fast factorisation
 
 Measured side by side (``tests/performance/results/cone_solvers.csv``): below that size either takes milliseconds and
 clarabel, compiled, has the smaller overhead; above it the condensed method is faster and its bounds are closer to each
@@ -18,16 +19,20 @@ from mbla.arrays import FloatArray
 from mbla.errors import SolverError
 from mbla.program.kinematic import ConeProgram
 from mbla.solution.clarabel_adapter import ClarabelProgram
-from mbla.solution.condensed.program import CondensedProgram, fits
+from mbla.solution.condensed.program import CondensedProgram, condensed_size, fits
 from mbla.solution.cone_solution import ConeSolution, InteriorPointSolver, Log
 from mbla.solution.highs_adapter import HighsProgram
+from mbla.solution.linear_algebra import best_library
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Status
 
 SOLVERS = ("auto", "mbla", "clarabel", "highs")
 
 OWN_FROM = 600
-"""Unknowns and multipliers of equations from which ``auto`` takes the condensed method."""
+"""Rows of the condensed matrix from which ``auto`` takes the condensed method."""
+
+FAST = ("cholmod", "pardiso")
+"""Factorisations with which programs of few iterations, those with a quadratic cost, are faster too."""
 
 
 def cone_solver(cone_program: ConeProgram, settings: SolverSettings, log: Log) -> InteriorPointSolver | HighsProgram:
@@ -42,11 +47,17 @@ def cone_solver(cone_program: ConeProgram, settings: SolverSettings, log: Log) -
     return HighsProgram(cone_program, settings, log)
 
 
-def interior_point_solver(cone_program: ConeProgram, settings: SolverSettings, log: Log) -> InteriorPointSolver:
-    """The program held by an interior-point method, for callers that need one; ``highs`` counts as ``auto`` here."""
+def interior_point_solver(
+    cone_program: ConeProgram, settings: SolverSettings, log: Log, *, has_inside: bool = True
+) -> InteriorPointSolver:
+    """The program held by an interior-point method, for callers that need one; ``highs`` counts as ``auto`` here.
+
+    has_inside : false where the admissible set has none, forces that fit a given mechanism for example: the strong
+                 regularisation of clarabel gets closer there
+    """
     if settings.solver not in SOLVERS:
         raise SolverError(f"there is no cone solver {settings.solver}; there are {', '.join(SOLVERS)}")
-    if interior_point_method(cone_program, settings.solver) == "clarabel":
+    if not has_inside or interior_point_method(cone_program, settings.solver) == "clarabel":
         return ClarabelProgram(cone_program, settings, log)
     own = CondensedProgram(cone_program, settings, log)
     return own if settings.solver == "mbla" else _OneThenOther(own, settings, log)
@@ -56,8 +67,13 @@ def interior_point_method(cone_program: ConeProgram, solver: str) -> str:
     """Whether mbla or clarabel takes a program, by what was asked for, by its shape and by its size."""
     if solver == "clarabel" or not fits(cone_program):
         return "clarabel"
-    small = min(cone_program.matrix.shape[1], len(cone_program.rhs)) < OWN_FROM
-    return "clarabel" if small and solver != "mbla" else "mbla"
+    return "mbla" if solver == "mbla" or _pays(cone_program) else "clarabel"
+
+
+def _pays(cone_program: ConeProgram) -> bool:
+    """Whether ``auto`` takes the condensed method for a program that fits."""
+    size = condensed_size(cone_program)
+    return size >= OWN_FROM and (cone_program.quadratic is None or best_library(size) in FAST)
 
 
 def is_linear(cone_program: ConeProgram) -> bool:

@@ -80,7 +80,7 @@ def factor_range(
         for kind in tuple(search.pending):
             cone_program = replace(form.cone_program, cost=SIGNS[kind] * form.cone_program.cost)
             number = first_program + len(search.records)
-            solution = interior_point_solver(cone_program, settings, log).solve(
+            solution = interior_point_solver(cone_program, settings, log, has_inside=False).solve(
                 number, SIGNS[kind] * program.scaling.live
             )
             search.add(kind, form, solution)

@@ -114,9 +114,9 @@ def normal_sums(program: Program, interface_of_point: IntArray) -> sp.csr_array:
 
 
 def _solver(cone_program: ConeProgram, settings: SolverSettings, log: Log) -> ConeSolver:
-    if is_linear(cone_program):
+    if settings.solver == "highs" and is_linear(cone_program):
         return cone_solver(cone_program, settings, log)
-    return interior_point_solver(cone_program, settings, log)
+    return interior_point_solver(cone_program, settings, log, has_inside=False)
 
 
 def _with_factor(form: FixedMechanismForm, state: LawState) -> ConeProgram:

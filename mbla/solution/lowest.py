@@ -192,7 +192,7 @@ class _Search:
         self, form: FixedMechanismForm, cone_program: ConeProgram, settings: SolverSettings
     ) -> ConeSolution | None:
         number = len(self.records) + 1
-        solution = interior_point_solver(cone_program, settings, self.unlogged.append).solve(
+        solution = interior_point_solver(cone_program, settings, self.unlogged.append, has_inside=False).solve(
             number, form.program.scaling.live
         )
         return solution if solution.status in (Status.SOLVED, Status.APPROXIMATE) else None

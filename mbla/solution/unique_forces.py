@@ -128,7 +128,9 @@ class _Search:
         form = fixed_mechanism_form(self.program, motion)
         number = self.first + len(self.records)
         cone_program = self._with_cost(form, share)
-        solution = interior_point_solver(cone_program, self.settings, self.log).solve_once(number, 0.0)
+        solution = interior_point_solver(cone_program, self.settings, self.log, has_inside=False).solve_once(
+            number, 0.0
+        )
         self.records.append(solution.record(number, "least forces", np.nan))
         if solution.status not in (Status.SOLVED, Status.APPROXIMATE):
             return None

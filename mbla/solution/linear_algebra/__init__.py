@@ -10,7 +10,7 @@
 ``installed()`` names the libraries that are there and work, ``factorization`` picks one by size.
 """
 
-from mbla.solution.linear_algebra.cholesky import Factorization, factorization, installed
+from mbla.solution.linear_algebra.cholesky import Factorization, best_library, factorization, installed
 from mbla.solution.linear_algebra.pattern import SymmetricPattern, lower_triangle
 
-__all__ = ["Factorization", "SymmetricPattern", "factorization", "installed", "lower_triangle"]
+__all__ = ["Factorization", "SymmetricPattern", "best_library", "factorization", "installed", "lower_triangle"]

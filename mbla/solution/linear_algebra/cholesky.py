@@ -61,7 +61,7 @@ def factorization(pattern: SymmetricPattern, library: str | None = None, threads
     if threads < 1:
         raise ValueError(f"a factorisation takes at least one thread, not {threads}")
     if library is None:
-        return _made(_best(pattern.n), pattern)
+        return _made(best_library(pattern.n), pattern)
     if library not in LIBRARIES:
         raise SolverError(f"there is no factorisation {library}: it is one of {', '.join(LIBRARIES)}")
     fault = _fault(library)
@@ -75,7 +75,8 @@ def installed() -> tuple[str, ...]:
     return tuple(library for library in LIBRARIES if _fault(library) is None)
 
 
-def _best(n: int) -> str:
+def best_library(n: int) -> str:
+    """The library that ``factorization`` takes for n unknowns."""
     if n >= CHOLMOD_FROM and _fault("cholmod") is None:
         return "cholmod"
     if n >= PARDISO_FROM and _fault("pardiso") is None:

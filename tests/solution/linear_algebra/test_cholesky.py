@@ -236,7 +236,7 @@ def test_a_library_with_wrong_answers_is_left_out(monkeypatch: pytest.MonkeyPatc
 )
 def test_the_best_for_the_size(monkeypatch: pytest.MonkeyPatch, there: set[str], n: int, expected: str) -> None:
     monkeypatch.setattr(cholesky, "_fault", lambda library: None if library in there else "missing")
-    assert cholesky._best(n) == expected
+    assert cholesky.best_library(n) == expected
 
 
 def test_a_small_matrix_looks_for_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
