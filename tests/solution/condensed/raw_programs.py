@@ -67,4 +67,8 @@ def disagreement(own: ConeSolution, other: ConeSolution) -> str:
     if own.status is not Status.SOLVED:
         return ""
     apart = abs(own.objective - other.objective)
-    return "" if apart <= ALIKE * max(1.0, abs(other.objective)) else f"objectives {own.objective:.9g}, {other.objective:.9g}"
+    return (
+        ""
+        if apart <= ALIKE * max(1.0, abs(other.objective))
+        else f"objectives {own.objective:.9g}, {other.objective:.9g}"
+    )
