@@ -149,8 +149,9 @@ def better(first: ProvedAnswer, second: ProvedAnswer) -> ProvedAnswer:
     """The answer with the stronger proof, the earlier one of equals."""
 
     def weakness(answer: ProvedAnswer) -> tuple[int, float]:
-        kind = 0 if answer.certificate is not None else 1 if answer.gap is not None else 2
-        return kind, answer.distance
+        if answer.certificate is not None or answer.gap is not None:
+            return 0 if answer.certificate is not None else 1, answer.distance
+        return 2 if answer.solution.status is Status.UNBOUNDED else 3, answer.distance
 
     return min(first, second, key=weakness)
 

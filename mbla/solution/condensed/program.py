@@ -122,7 +122,7 @@ class CondensedProgram:
         """The program as the method wants it, and its condensation, found once."""
         if self._data is None or self._condensation is None:
             self._data = cone_data(self.cone_program)
-            kind = OnUnknowns if self.cone_program.n_equations <= MOST_EQUATIONS else OnMultipliers
+            kind = OnUnknowns if _onto_unknowns(self._data) else OnMultipliers
             self._condensation = kind(self._data, self.settings.cholesky, self.settings.threads)
         return self._data, self._condensation
 
@@ -171,6 +171,16 @@ def fits(program: ConeProgram) -> bool:
     if program.further_cones or program.n_half_lines + program.n_cones == 0:
         return False
     return program.n_equations <= MOST_EQUATIONS or is_local(cone_data(program))
+
+
+def _onto_unknowns(data: ConeData) -> bool:
+    """Whether N is that on the unknowns: for few equations, unless an unknown is in equations alone.
+
+    The static form of one or two blocks has few equations too, and such an unknown in its load factor: N would be
+    singular. So it is with a block that nothing touches, but there only the shift decides how that moves.
+    """
+    held = (np.diff(data.cone_matrix_t.indptr) > 0) | (data.quadratic > 0.0)
+    return len(data.equation_rhs) <= MOST_EQUATIONS and (bool(held.all()) or not is_local(data))
 
 
 def _better(first: Ended, second: Ended) -> Ended:

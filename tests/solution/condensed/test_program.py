@@ -13,6 +13,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mbla.errors import SolverError
+from mbla.program.associative_static import associative_static_form
 from mbla.program.kinematic import ConeProgram, kinematic_form
 from mbla.program.static import gravity_form
 from mbla.solution.clarabel_adapter import ClarabelProgram
@@ -23,7 +24,7 @@ from mbla.solution.condensed.homogeneous import solve_embedded
 from mbla.solution.condensed.method import Ended, Outcome, Run, solve_cone_program
 from mbla.solution.condensed.on_multipliers import OnMultipliers
 from mbla.solution.condensed.on_unknowns import OnUnknowns
-from mbla.solution.condensed.program import CondensedProgram, fits
+from mbla.solution.condensed.program import MOST_EQUATIONS, CondensedProgram, fits
 from mbla.solution.condensed.scaling import Scaling
 from mbla.solution.cone_vectors import ConeVectors
 from mbla.solution.settings import SolverSettings
@@ -358,3 +359,16 @@ def test_a_program_of_another_shape_does_not_fit() -> None:
     rows = sp.csc_array(sp.vstack([program.matrix, sp.csr_array((4, program.matrix.shape[1]))]))
     assert not fits(replace(program, matrix=rows, rhs=np.append(program.rhs, np.ones(4)), further_cones=(4,)))
     assert not fits(replace(program, n_half_lines=0, n_cones=0))
+
+
+@pytest.mark.parametrize("overrides", [(), ("parameters.b=3",)])
+def test_the_static_form_of_one_block_has_few_equations_and_is_solved(overrides: tuple[str, ...]) -> None:
+    """Six equations, as many as a kinematic form may have; but its load factor is in no cone, so that N on the unknowns
+    was singular and the equations were not met."""
+    line = line_of(BLOCK, *overrides)
+    program = associative_static_form(line.program).cone_program
+    assert program.n_equations <= MOST_EQUATIONS
+    solution = held(program).solve(1, 1.0)
+    assert solution.status is Status.SOLVED, solution.verdict
+    factor = line.program.scaling.load_factor(-solution.objective)
+    assert factor == pytest.approx(0.5, rel=1e-7)
