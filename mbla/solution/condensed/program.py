@@ -173,6 +173,11 @@ def fits(program: ConeProgram) -> bool:
     return program.n_equations <= MOST_EQUATIONS or is_local(cone_data(program))
 
 
+def condensed_size(program: ConeProgram) -> int:
+    """Rows of N for a program that fits: its unknowns, or its equations where these are many."""
+    return len(program.cost) if program.n_equations <= MOST_EQUATIONS else program.n_equations
+
+
 def _onto_unknowns(data: ConeData) -> bool:
     """Whether N is that on the unknowns: for few equations, unless an unknown is in equations alone.
 
