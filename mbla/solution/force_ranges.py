@@ -39,7 +39,7 @@ SMALL_FACTOR = 1e-3
 """Load factors below this share of dead over live load are taken for that share in relative measures."""
 
 WITHIN = 1e-5
-"""Share of the largest normal force of an interface by which a range may miss the forces found."""
+"""Share of the largest normal force, or dead load of a block, by which a range may miss the forces found."""
 
 
 @dataclass(frozen=True)
@@ -77,6 +77,7 @@ def force_ranges(
     ranges = np.full((sums.shape[0], 2), np.nan)
     records: list[ProgramRecord] = []
     present = np.flatnonzero(np.diff(sums.indptr))
+    largest = max(float(np.abs(part).max(initial=0.0)) for part in (state.forces[:, 0], program.dead_load))
     for interface in present:
         row = sums[[interface]]
         cost = np.append((row @ form.expand).toarray().ravel(), 0.0)
@@ -89,7 +90,7 @@ def force_ranges(
                 value = -sign * np.inf
             elif solution.status in (Status.SOLVED, Status.APPROXIMATE):
                 value = sign * solution.objective + float((row @ form.offset)[0])
-            room = WITHIN * max(float(np.abs(state.forces[:, 0]).max(initial=0.0)), abs(found))
+            room = WITHIN * max(largest, abs(found))
             ranges[interface, end] = value if sign * (value - found) <= room else np.nan
             what = "least" if sign > 0 else "greatest"
             records.append(solution.record(first + len(records), f"{what} normal force", np.nan))

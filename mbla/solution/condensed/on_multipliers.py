@@ -5,6 +5,8 @@ block for each. Unknowns in no cone, or alone in theirs and in most equations (t
 
     N = E H⁻¹ Eᵀ,      N dy − F dx_F = E H⁻¹ r − r_e,      Fᵀ dy + H_F dx_F = r_F
 
+So do equations that have unknowns of the border alone.
+
 H is never formed: with [G̃; √Q] = U R, R triangular (modified Gram–Schmidt), H⁻¹ = R⁻¹ R⁻ᵀ, and N is the sum of the
 products of R⁻ᵀ Eᵀ. Near the end H is beyond what double precision can invert; R is as accurate as its columns.
 """
@@ -81,10 +83,14 @@ class OnMultipliers:
         self._products: PlacedProducts = placed_products(data.equations.shape[0], rows)
         self.factors: Factorization = factorization(self._products.pattern, library, threads)
         self._border = data.equations[:, self._free].toarray()
+        local = data.equations[:, np.flatnonzero(group >= 0)]
+        self._apart = np.flatnonzero(np.diff(sp.csr_array(local).indptr) == 0)
+        self._given = self._border[self._apart]
+        self._border[self._apart] = 0.0
         self._free_rows = data.cone_matrix[:, self._free].toarray()[: data.product.n_lines]
         self._r: list[FloatArray] = []
         self._spread = np.zeros_like(self._border)
-        self._inner = np.zeros((len(self._free),) * 2)
+        self._inner = np.zeros((len(self._free) + len(self._apart),) * 2)
 
     def factorize(self, scaling: Scaling) -> bool:
         """Assemble and factorise N."""
@@ -98,22 +104,28 @@ class OnMultipliers:
             blocks.append(y.transpose(1, 0, 2).reshape(n // batch.members, batch.members * g, width))
         values = self._products.summed(blocks)
         diagonal = self._products.diagonal
+        values[diagonal[self._apart]] = 1.0
         values[diagonal] += RELATIVE_SHIFT * values[diagonal] + SHIFT * float(values[diagonal].mean())
         if not self.factors.factorize(values):
             return False
         self._spread = self.factors.solve(self._border)
         free = self._data.quadratic[self._free] + np.square(self._free_rows / scaling.line[:, None]).sum(axis=0)
-        self._inner = self._border.T @ self._spread + np.diag(free)
+        n = len(self._free)
+        self._inner[:n, :n] = self._border.T @ self._spread + np.diag(free)
+        self._inner[:n, n:], self._inner[n:, :n] = self._given.T, self._given
         return bool(np.isfinite(self._inner).all())
 
     def solve(self, r_x: FloatArray, r_e: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Dx and dy, not refined."""
         data = self._data
         y = self.factors.solve(data.equations @ self._locally(r_x) - r_e)
+        y[self._apart] = 0.0
         free = np.zeros(0)
-        if len(self._free):
-            free = bordered(self._inner, r_x[self._free] - self._border.T @ y)
+        if len(self._inner):
+            small = bordered(self._inner, np.append(r_x[self._free] - self._border.T @ y, r_e[self._apart]))
+            free = small[: len(self._free)]
             y = y + self._spread @ free
+            y[self._apart] = small[len(self._free) :]
         x = self._locally(r_x - data.equations_t @ y)
         x[self._free] = free
         return x, y
