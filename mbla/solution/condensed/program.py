@@ -122,7 +122,8 @@ class CondensedProgram:
         """The program as the method wants it, and its condensation, found once."""
         if self._data is None or self._condensation is None:
             self._data = cone_data(self.cone_program)
-            kind = OnUnknowns if self.cone_program.n_equations <= MOST_EQUATIONS else OnMultipliers
+            few = self.cone_program.n_equations <= MOST_EQUATIONS
+            kind = OnUnknowns if few and not (_has_loose(self._data) and is_local(self._data)) else OnMultipliers
             self._condensation = kind(self._data, self.settings.cholesky, self.settings.threads)
         return self._data, self._condensation
 
@@ -171,6 +172,11 @@ def fits(program: ConeProgram) -> bool:
     if program.further_cones or program.n_half_lines + program.n_cones == 0:
         return False
     return program.n_equations <= MOST_EQUATIONS or is_local(cone_data(program))
+
+
+def _has_loose(data: ConeData) -> bool:
+    """Whether there is an unknown in no cone and without curvature, as a load factor is: Q + G̃ᵀ G̃ is singular then."""
+    return bool(((np.diff(data.cone_matrix.tocsc().indptr) == 0) & (data.quadratic == 0.0)).any())
 
 
 def _better(first: Ended, second: Ended) -> Ended:
