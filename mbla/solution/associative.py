@@ -59,6 +59,7 @@ class AssociativeResult:
 
     certificate : (n_rows,) velocities, non-dimensional, of a motion in which the dead load does more work than the
                   joints dissipate
+    solver      : that the state comes from, empty without one: the program may have been solved by several
     """
 
     status: Status
@@ -66,6 +67,7 @@ class AssociativeResult:
     certificate: FloatArray | None
     reason: str
     programs: tuple[ProgramRecord, ...]
+    solver: str = ""
 
 
 def solve_associative(
@@ -147,7 +149,7 @@ def _with_load_factor(run: AssociativeRun, answer: ProvedAnswer) -> AssociativeR
         )
     forces, factor, velocities = gap.forces, gap.load_factor, gap.velocities
     state = law_state(run.program, run.program.limits.friction, forces, velocities, factor)
-    return AssociativeResult(status, state, None, reason, tuple(run.records))
+    return AssociativeResult(status, state, None, reason, tuple(run.records), answer.solution.solver.lower())
 
 
 def _carried(run: AssociativeRun, form: AssociativeForm, reverse: ConeSolution) -> bool:

@@ -118,8 +118,7 @@ def solve_with_opinion(
     if result.state is None:
         return result, ""
     number = first + len(result.programs)
-    by = result.programs[0].solver
-    opinion = second_opinion(made, result.state.load_factor, by, kind, settings, log, number)
+    opinion = second_opinion(made, result.state.load_factor, result.solver, kind, settings, log, number)
     result = replace(result, programs=(*result.programs, opinion.record))
     if opinion.agrees is False:
         result = replace(result, status=Status.NOT_VERIFIED, reason=opinion.remark)

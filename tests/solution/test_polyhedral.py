@@ -12,6 +12,7 @@ from mbla.model import build_model
 from mbla.program import Program, assemble
 from mbla.solution import polyhedral
 from mbla.solution.associative import AssociativeResult, solve_associative
+from mbla.solution.clarabel_adapter import ClarabelProgram
 from mbla.solution.condensed.program import CondensedProgram
 from mbla.solution.cone_solution import ConeSolution
 from mbla.solution.highs_adapter import HighsProgram
@@ -186,6 +187,25 @@ def test_a_program_with_cones_has_its_second_opinion_by_the_other_interior_point
     assert remark.startswith(f"{asked} gives a load factor of ")
     assert f", {other} " in remark
     assert remark.endswith("they agree")
+
+
+def test_the_second_opinion_is_by_another_solver_than_the_answer_not_than_the_first_try(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Where the first solver breaks down the other one is asked at once, and its answer is what counts."""
+    solve, calls = ClarabelProgram.solve_once, iter([True])
+
+    def changed(self: ClarabelProgram, number: int, factor: float, enough: float = 0.0) -> ConeSolution:
+        solution = solve(self, number, factor, enough)
+        return replace(solution, status=Status.NUMERICAL_ERROR) if next(calls, False) else solution
+
+    monkeypatch.setattr(ClarabelProgram, "solve_once", changed)
+    result, remark = solve_with_opinion(pushed(11.0), None, "kinematic", "", SETTINGS, ignored)
+    assert result.status is Status.SOLVED
+    assert [record.solver for record in result.programs if record.kind == "associative"] == ["clarabel", "mbla"]
+    assert result.solver == "mbla"
+    assert result.programs[-1].solver == "clarabel"
+    assert remark.startswith("mbla gives")
 
 
 def test_interior_point_methods_that_differ_lower_the_status(monkeypatch: pytest.MonkeyPatch) -> None:
