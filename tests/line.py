@@ -69,8 +69,13 @@ def line_of(text: str, *overrides: str, case: int = 0) -> Line:
     with TemporaryDirectory() as folder:
         path = Path(folder) / "deck.yaml"
         path.write_text(text, encoding="utf-8")
-        deck = read_deck(path, overrides)
-        model = build_model(deck)
+        return line_of_file(path, *overrides, case=case)
+
+
+def line_of_file(path: Path, *overrides: str, case: int = 0) -> Line:
+    """The same for a deck on the disk, which may name other files."""
+    deck = read_deck(path, overrides)
+    model = build_model(deck)
     contacts = find_contacts(model, deck.contacts)
     load_case = model.load_cases[case]
     return Line(deck, model, contacts, load_case, assemble(model, contacts, load_case))

@@ -23,7 +23,7 @@ from mbla.program.static import gravity_form
 from mbla.solution.associative_form import AssociativeForm, in_forces, in_velocities
 from mbla.solution.bounds import falling_motion, repaired_forces
 from mbla.solution.cone_solution import ConeSolution, Log
-from mbla.solution.cone_solver import cone_solver, interior_point_solver
+from mbla.solution.cone_solver import cone_solver, interior_point_solver, other_method
 from mbla.solution.highs_adapter import HighsProgram
 from mbla.solution.law_state import LawState, law_state
 from mbla.solution.proved_answer import (
@@ -100,13 +100,11 @@ def solve_associative(
 def _with_dead_load(run: AssociativeRun, form: AssociativeForm, answer: ProvedAnswer) -> AssociativeResult:
     """The result, once it is known that the dead load alone is carried."""
     settings = replace(run.settings, tolerance=form.tolerance(run.settings.tolerance))
-    solver = cone_solver(form.reversed_program, settings, run.log)
     reverse, carried = answer.solution, not run.program.dead_load.any()
-    for enough in (0.0,) if isinstance(solver, HighsProgram) else (ENOUGH, 0.0):
-        if carried or reverse.status is Status.TIME_LIMIT:
-            break
-        reverse = solved_once(run, form, solver, "reverse", -1.0, enough)
-        carried = _carried(run, form, reverse)
+    if not carried:
+        reverse, carried = _reversed(run, form, settings)
+    if not carried and reverse.status is Status.NUMERICAL_ERROR and settings.solver == "auto":
+        reverse, carried = _reversed(run, form, replace(settings, solver=other_method(reverse.solver)))
     if not carried:
         certificate = proved_certificate(run, form, reverse)
         if certificate is not None:
@@ -121,6 +119,18 @@ def _with_dead_load(run: AssociativeRun, form: AssociativeForm, answer: ProvedAn
     if answer.solution.status is Status.UNBOUNDED:
         return _without_state(run, Status.UNBOUNDED, LOCKED)
     return _with_load_factor(run, answer)
+
+
+def _reversed(run: AssociativeRun, form: AssociativeForm, settings: SolverSettings) -> tuple[ConeSolution, bool]:
+    """The program with the live load reversed, as far as it is needed, and whether it proves the dead load carried."""
+    solver = cone_solver(form.reversed_program, settings, run.log)
+    reverse, carried = None, False
+    for enough in (0.0,) if isinstance(solver, HighsProgram) else (ENOUGH, 0.0):
+        if reverse is None or not (carried or reverse.status is Status.TIME_LIMIT):
+            reverse = solved_once(run, form, solver, "reverse", -1.0, enough)
+            carried = _carried(run, form, reverse)
+    assert reverse is not None
+    return reverse, carried
 
 
 def _locked_both_ways(run: AssociativeRun, settings: SolverSettings) -> AssociativeResult:

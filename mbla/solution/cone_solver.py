@@ -76,6 +76,11 @@ def _pays(cone_program: ConeProgram) -> bool:
     return size >= OWN_FROM and (cone_program.quadratic is None or best_library(size) in FAST)
 
 
+def other_method(solver: str) -> str:
+    """The other one of the two interior-point methods."""
+    return "mbla" if solver == "clarabel" else "clarabel"
+
+
 def is_linear(cone_program: ConeProgram) -> bool:
     """Whether every solver can take the program."""
     return cone_program.n_cones == 0 and cone_program.quadratic is None and not cone_program.further_cones

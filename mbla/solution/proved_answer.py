@@ -18,7 +18,7 @@ from mbla.solution.associative_form import AssociativeForm, in_own_units
 from mbla.solution.bounds import CertifiedGap, certified_gap, factor_size, falling_motion
 from mbla.solution.clarabel_adapter import regularization
 from mbla.solution.cone_solution import ConeSolution, InteriorPointSolver, Log
-from mbla.solution.cone_solver import cone_solver
+from mbla.solution.cone_solver import cone_solver, other_method
 from mbla.solution.highs_adapter import HighsProgram
 from mbla.solution.law_state import LawState
 from mbla.solution.settings import SolverSettings
@@ -93,24 +93,24 @@ def solve_until_proved(run: AssociativeRun, form: AssociativeForm) -> ProvedAnsw
     if not form.exact:
         return best
     if run.settings.solver == "auto" and _is_open(run, best):
-        other = "mbla" if best.solution.solver == "clarabel" else "clarabel"
-        best = better(best, _answer(run, form, 1.0, replace(run.settings, solver=other)))
-    tried: set[tuple[float, float, bool]] = set()
+        other = replace(run.settings, solver=other_method(best.solution.solver))
+        best = better(best, _answer(run, form, 1.0, other))
+    tried: set[tuple[float, float | None, bool]] = set()
     for power, share, shift in SHARPER:
         if not _is_open(run, best):
             break
         own = None if best.gap is None or not form.has_units else in_own_units(run.program, best.gap.forces)
         unit = _size(run, best) ** power if form.has_units else 1.0
-        shifted = regularization(form.cone_program, replace(run.settings, regularization=shift))
+        shifted: float | None = regularization(form.cone_program, replace(run.settings, regularization=shift))
+        if best.solution.solver == "mbla":  # has none to choose
+            shifted = None
         if (unit, shifted, own is None) in tried:
             continue
         tolerance = max(share * run.settings.tolerance, SHARPEST)
-        answer = _answer(
-            run,
-            own or form,
-            unit,
-            replace(run.settings, tolerance=tolerance, regularization=shifted, factorization="qdldl"),
-        )
+        settings = replace(run.settings, tolerance=tolerance, regularization=shifted, factorization="qdldl")
+        if settings.solver == "auto":
+            settings = replace(settings, solver=best.solution.solver)
+        answer = _answer(run, own or form, unit, settings)
         if answer.solution.status is not Status.SOLVED:  # a tolerance still smaller would change nothing
             tried.add((unit, shifted, own is None))
         best = better(best, answer)

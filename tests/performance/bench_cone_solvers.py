@@ -22,7 +22,6 @@ import statistics
 import subprocess
 import sys
 import time
-from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -42,8 +41,8 @@ from mbla.solution.linear_algebra import Factorization, installed
 from mbla.solution.linear_algebra.mkl import mkl_works
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import IterationRecord
-from tests.line import HEAD, line_of
-from tests.performance.bench_solver import SLAB, benchmark, wall
+from tests.line import HEAD, line_of, line_of_file
+from tests.performance.bench_solver import SLAB, wall
 from tests.performance.recording import record
 
 WANTED = 1e-7
@@ -63,41 +62,38 @@ load_cases:
   push: {live: [{acceleration: [1, 0, 0]}]}
 """
 )
-TUTORIALS = Path(__file__).parents[2] / "decks" / "tutorials"
+DECKS = Path(__file__).parents[2] / "decks"
 
 
 @dataclass(frozen=True)
 class Model:
-    """A deck text with overrides; spatial: without reductions."""
+    """The text of a deck, or its file, with overrides; spatial: without reductions."""
 
-    text: Callable[[], str]
+    deck: str | Path
     overrides: tuple[str, ...] = ()
     spatial: bool = True
 
     def program(self) -> Program:
         """Of its first load case."""
-        line = line_of(self.text(), "analysis.flow_rule=associative", *self.overrides)
+        overrides = ("analysis.flow_rule=associative", *self.overrides)
+        deck = self.deck
+        line = line_of(deck, *overrides) if isinstance(deck, str) else line_of_file(deck, *overrides)
         if self.spatial:
             return unreduced(line.program, line.contacts).parts[0]
         return reduce_program(line.model, line.contacts, line.program, ReductionSwitches(), associative=False).parts[0]
 
 
 def _wall(m: int, n: int, spatial: bool) -> Model:
-    return Model(lambda: SLAB, wall(m, n), spatial)
-
-
-def _crossvault() -> str:
-    text = (TUTORIALS / "crossvault.yaml").read_text(encoding="utf-8")
-    return text.replace("file: data/", f"file: {TUTORIALS}/data/")
+    return Model(SLAB, wall(m, n), spatial)
 
 
 MODELS = {
     **{f"wall {m} x {n}, spatial": _wall(m, n, True) for m, n in ((10, 10), (20, 20), (40, 25), (60, 60))},
     **{f"wall {m} x {n}": _wall(m, n, False) for m, n in ((10, 10), (20, 20), (40, 25), (60, 60), (100, 100))},
-    **{f"arch of {n} voussoirs": Model(lambda: ARCH, (f"parameters.n={n}",), False) for n in (20, 100, 500)},
-    **{f"arch of {n} voussoirs, spatial": Model(lambda: ARCH, (f"parameters.n={n}",)) for n in (20, 100, 500)},
-    "cross vault": Model(_crossvault),
-    "dome": Model(lambda: benchmark("dome_24_voussoirs"), (), True),
+    **{f"arch of {n} voussoirs": Model(ARCH, (f"parameters.n={n}",), False) for n in (20, 100, 500)},
+    **{f"arch of {n} voussoirs, spatial": Model(ARCH, (f"parameters.n={n}",)) for n in (20, 100, 500)},
+    "cross vault": Model(DECKS / "tutorials" / "crossvault.yaml"),
+    "dome": Model(DECKS / "benchmarks" / "dome_24_voussoirs.yaml"),
 }
 LARGE = {"wall 100 x 100, spatial": _wall(100, 100, True)}
 """only when named"""
