@@ -132,7 +132,7 @@ def test_single_cone_programs_of_three_hundred_structures(capsys: pytest.Capture
     certain, disagreements = compared_raw(range(300))
     with capsys.disabled():
         sys.stdout.write("\n".join(["", *map(str, sorted(certain.items())), *disagreements, ""]))
-    # seed 130, reversed: clarabel calls itself solved 1.2e-6 off, and comes to the other's figure at a tolerance of 1e-10
+    # seed 130, reversed: clarabel calls itself solved 1.2e-6 off; with a tolerance of 1e-10 it has the other figure
     assert len(disagreements) <= 1
     for kind in ("kinematic", "reversed", "gravity", "proximal"):
         assert certain[kind, "mbla"] >= certain[kind, "clarabel"] - 2, (kind, certain)
