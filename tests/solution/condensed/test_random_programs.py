@@ -1,7 +1,7 @@
 """Random assemblies, by the condensed method and by clarabel: what either says must not contradict the other.
 
 Of the first thousand (counted by ``python -m tests.solution.condensed.random_programs 0 1000``) the condensed method
-decides 976 and clarabel 967, with bounds a median 5e-10 and 2e-9 of the load factor apart, without a contradiction.
+decides 979 and clarabel 970, with bounds a median 4e-10 and 2e-9 of the load factor apart, without a contradiction.
 Neither decides some of those with friction of a thousand or a million in space, and some whose factor is a millionth of
 the loads; strengths of a hundred million block weights are hard for the condensed method.
 """
@@ -132,6 +132,7 @@ def test_single_cone_programs_of_three_hundred_structures(capsys: pytest.Capture
     certain, disagreements = compared_raw(range(300))
     with capsys.disabled():
         sys.stdout.write("\n".join(["", *map(str, sorted(certain.items())), *disagreements, ""]))
-    assert len(disagreements) <= 2
+    # seed 130, reversed: clarabel calls itself solved 1.2e-6 off; with a tolerance of 1e-10 it has the other figure
+    assert len(disagreements) <= 1
     for kind in ("kinematic", "reversed", "gravity", "proximal"):
         assert certain[kind, "mbla"] >= certain[kind, "clarabel"] - 2, (kind, certain)
