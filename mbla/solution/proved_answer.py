@@ -9,6 +9,7 @@ solver's tolerance is absolute there, and with the equilibrium of light blocks i
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from itertools import product
 
 import numpy as np
 
@@ -92,27 +93,31 @@ def solve_until_proved(run: AssociativeRun, form: AssociativeForm) -> ProvedAnsw
     best = _answer(run, form, 1.0, run.settings)
     if not form.exact:
         return best
-    if run.settings.solver == "auto" and _is_open(run, best):
-        other = replace(run.settings, solver=other_method(best.solution.solver))
-        best = better(best, _answer(run, form, 1.0, other))
-    tried: set[tuple[float, float | None, bool]] = set()
-    for power, share, shift in SHARPER:
+    methods = [run.settings.solver]
+    if methods == ["auto"]:
+        methods = [best.solution.solver, other_method(best.solution.solver)]
+        if _is_open(run, best):
+            best = better(best, _answer(run, form, 1.0, replace(run.settings, solver=methods[1])))
+    tried: set[tuple[str, float, float | None, bool]] = set()
+    for (power, share, shift), method in product(SHARPER, methods):
         if not _is_open(run, best):
             break
         own = None if best.gap is None or not form.has_units else in_own_units(run.program, best.gap.forces)
         unit = _size(run, best) ** power if form.has_units else 1.0
-        shifted: float | None = regularization(form.cone_program, replace(run.settings, regularization=shift))
-        if best.solution.solver == "mbla":  # has none to choose
-            shifted = None
-        if (unit, shifted, own is None) in tried:
+        shifted = regularization(form.cone_program, replace(run.settings, regularization=shift))
+        kind = (
+            method,
+            unit,
+            None if method == "mbla" else shifted,
+            own is None,
+        )  # mbla has no regularisation to choose
+        if kind in tried:
             continue
         tolerance = max(share * run.settings.tolerance, SHARPEST)
-        settings = replace(run.settings, tolerance=tolerance, regularization=shifted, factorization="qdldl")
-        if settings.solver == "auto":
-            settings = replace(settings, solver=best.solution.solver)
-        answer = _answer(run, own or form, unit, settings)
+        sharper = replace(run.settings, solver=method, tolerance=tolerance, regularization=shifted)
+        answer = _answer(run, own or form, unit, replace(sharper, factorization="qdldl"))
         if answer.solution.status is not Status.SOLVED:  # a tolerance still smaller would change nothing
-            tried.add((unit, shifted, own is None))
+            tried.add(kind)
         best = better(best, answer)
     return best
 
