@@ -99,6 +99,8 @@ def solve_until_proved(run: AssociativeRun, form: AssociativeForm) -> ProvedAnsw
         if _is_open(run, best):
             best = better(best, _answer(run, form, 1.0, replace(run.settings, solver=methods[1])))
     tried: set[tuple[str, float, float | None, bool]] = set()
+    if best.solution.solver == "mbla" and best.solution.status is not Status.SOLVED:
+        tried.add(("mbla", 1.0, None, True))
     for (power, share, shift), method in product(SHARPER, methods):
         if not _is_open(run, best):
             break

@@ -52,8 +52,8 @@ saved 13 to 42 % of the iterations, with the load turning by a twentieth 37 to 5
 SHORTEST = 1e-8
 """Length of steps below which the method no longer gets on."""
 
-STALLED = 15
-"""Iterations without a better iterate after which the best one is returned."""
+STALLED, BETTER = 15, 0.8
+"""Iterations after which the best iterate is returned when none was better, by this factor at least."""
 
 RAY_SEEN = 1e-2
 """Quality of a ray from which it is watched."""
@@ -250,12 +250,15 @@ class _Kept:
     best: tuple[Point, Measures] | None = None
     ray: tuple[Point, Measures] | None = None
     last_best: int = 0
+    last_worst: float = np.inf
     last_ray: int = 0
     last_measured: float = RAY_SEEN
 
     def see(self, number: int, point: Point, measures: Measures) -> None:
         if self.best is None or measures.worst < self.best[1].worst:
-            self.best, self.last_best = (point, measures), number
+            self.best = point, measures
+        if measures.worst < BETTER * self.last_worst:
+            self.last_best, self.last_worst = number, measures.worst
         if measures.ray < (RAY_SEEN if self.ray is None else self.ray[1].ray):
             self.ray = point, measures
             if measures.ray < 0.5 * self.last_measured:
