@@ -23,8 +23,11 @@ import numpy as np
 from mbla.arrays import FloatArray
 from mbla.solution.condensed.condensation import Condensation, refined_solution
 from mbla.solution.condensed.cone_data import ConeData
-from mbla.solution.condensed.method import SHARE, Ended, Point, Run, best_of_run, inside_start
+from mbla.solution.condensed.iterates import Point
+from mbla.solution.condensed.method import SHARE
+from mbla.solution.condensed.run import Ended, Run, best_of_run
 from mbla.solution.condensed.scaling import Scaling
+from mbla.solution.condensed.starts import inside_start
 
 
 @dataclass(frozen=True)

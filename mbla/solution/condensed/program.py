@@ -18,9 +18,12 @@ from mbla.program.kinematic import ConeProgram
 from mbla.solution.condensed.condensation import Condensation
 from mbla.solution.condensed.cone_data import ConeData, cone_data
 from mbla.solution.condensed.homogeneous import solve_embedded
-from mbla.solution.condensed.method import Ended, Measures, Outcome, Point, Run, solve_cone_program, warm_start
+from mbla.solution.condensed.iterates import Measures, Point
+from mbla.solution.condensed.method import solve_cone_program
 from mbla.solution.condensed.on_multipliers import OnMultipliers, is_local
 from mbla.solution.condensed.on_unknowns import OnUnknowns
+from mbla.solution.condensed.run import Ended, Outcome, Run
+from mbla.solution.condensed.starts import warm_start
 from mbla.solution.cone_solution import ConeSolution, Log
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import IterationRecord, Status

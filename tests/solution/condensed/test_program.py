@@ -21,10 +21,11 @@ from mbla.solution.condensed.condensation import Condensation
 from mbla.solution.condensed.cone_data import cone_data
 from mbla.solution.condensed.cones import ConeProduct
 from mbla.solution.condensed.homogeneous import solve_embedded
-from mbla.solution.condensed.method import Ended, Outcome, Run, solve_cone_program
+from mbla.solution.condensed.method import solve_cone_program
 from mbla.solution.condensed.on_multipliers import OnMultipliers
 from mbla.solution.condensed.on_unknowns import OnUnknowns
 from mbla.solution.condensed.program import MOST_EQUATIONS, CondensedProgram, fits
+from mbla.solution.condensed.run import Ended, Outcome, Run
 from mbla.solution.condensed.scaling import Scaling
 from mbla.solution.cone_vectors import ConeVectors
 from mbla.solution.settings import SolverSettings
