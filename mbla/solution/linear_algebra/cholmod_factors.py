@@ -9,21 +9,27 @@ from __future__ import annotations
 
 import os
 import sys
+from typing import Any
 
 import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.solution.linear_algebra.pattern import SymmetricPattern
 
-if sys.platform == "linux":
+
+def _cvxopt() -> Any:
+    """The package, imported when it is needed; ImportError where it is not installed."""
+    if sys.platform != "linux":
+        import cvxopt.cholmod
+
+        return cvxopt
     usual = sys.getdlopenflags()
     sys.setdlopenflags(usual | os.RTLD_DEEPBIND)
     try:
-        from cvxopt import cholmod, matrix, spmatrix
+        import cvxopt.cholmod
     finally:
         sys.setdlopenflags(usual)
-else:
-    from cvxopt import cholmod, matrix, spmatrix
+    return cvxopt
 
 
 class CholmodFactors:
@@ -32,9 +38,11 @@ class CholmodFactors:
     library = "cholmod"
 
     def __init__(self, pattern: SymmetricPattern) -> None:
+        self._cvxopt = _cvxopt()
+        spmatrix, matrix = self._cvxopt.spmatrix, self._cvxopt.matrix
         rows, columns = pattern.indices.astype(np.int64), pattern.columns()
         self._matrix = spmatrix(matrix(np.ones(len(rows))), matrix(rows), matrix(columns), (pattern.n, pattern.n))
-        self._factors = cholmod.symbolic(self._matrix, uplo="L")
+        self._factors = self._cvxopt.cholmod.symbolic(self._matrix, uplo="L")
         self._good = False
 
     def factorize(self, values: FloatArray) -> bool:
@@ -42,9 +50,9 @@ class CholmodFactors:
         self._good = False
         if not np.isfinite(values).all():
             return False
-        self._matrix.V = matrix(values)
+        self._matrix.V = self._cvxopt.matrix(values)
         try:
-            cholmod.numeric(self._matrix, self._factors)
+            self._cvxopt.cholmod.numeric(self._matrix, self._factors)
         except ArithmeticError:  # a pivot is not positive
             return False
         self._good = True
@@ -56,6 +64,6 @@ class CholmodFactors:
             raise ValueError("solve without a good factorisation")
         if len(rhs) != self._matrix.size[0]:
             raise ValueError(f"a right-hand side of {len(rhs)} rows for a matrix of {self._matrix.size[0]}")
-        answer = matrix(np.asfortranarray(rhs, dtype=np.float64))
-        cholmod.solve(self._factors, answer)
+        answer = self._cvxopt.matrix(np.asfortranarray(rhs, dtype=np.float64))
+        self._cvxopt.cholmod.solve(self._factors, answer)
         return np.array(answer).reshape(rhs.shape)
