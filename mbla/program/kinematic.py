@@ -35,7 +35,8 @@ class ConeProgram:
     """min cost·x + ½ Σ quadratic x² subject to matrix x + s = rhs.
 
     s = 0 in the first ``n_equations`` rows, ≥ 0 in the next ``n_half_lines``, in cones of dimension 3 in the next
-    3 ``n_cones``, and in cones of the dimensions ``further_cones`` in the rest, 1 being a half-line.
+    3 ``n_cones``, and in cones of the dimensions ``further_cones`` in the rest, 1 being a half-line. The last
+    ``n_local`` unknowns each belong to one contact point and to no equation.
     """
 
     cost: FloatArray
@@ -46,6 +47,7 @@ class ConeProgram:
     n_equations: int = 1
     quadratic: FloatArray | None = None
     further_cones: tuple[int, ...] = ()
+    n_local: int = 0
 
 
 @dataclass(frozen=True)
@@ -140,6 +142,7 @@ def kinematic_form(
         rhs=np.concatenate([[1.0], np.zeros(matrix.shape[0] - 1)]),
         n_half_lines=len(rows.cut_off) + len(rows.crushing) + (0 if facets is None else len(facets) * n_shear),
         n_cones=n_shear if facets is None else 0,
+        n_local=len(rows.frictional) + len(rows.crushing),
     )
     return KinematicForm(program, limits, rows, facets, cone_program)
 

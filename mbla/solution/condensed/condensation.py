@@ -16,7 +16,7 @@ from typing import Protocol
 
 import numpy as np
 
-from mbla.arrays import FloatArray
+from mbla.arrays import FloatArray, IntArray
 from mbla.solution.condensed.cone_data import ConeData
 from mbla.solution.condensed.scaling import Scaling
 from mbla.solution.linear_algebra import Factorization
@@ -30,6 +30,10 @@ ROUNDS = 5
 RELATIVE_SHIFT = 1e-14
 SHIFT = 1e-15
 """Regularisation of N: of each diagonal entry, and of all by this share of the mean one where W = I."""
+
+
+STRONGER = (1.0, 1e2, 1e4)
+"""Multiples of the regularisation that are tried in turn."""
 
 
 class Condensation(Protocol):
@@ -72,6 +76,21 @@ def refined_solution(
         if slow:
             break
     return x, y
+
+
+def factorized(factors: Factorization, values: FloatArray, diagonal: IntArray, shift: float) -> bool:
+    """Factorise N regularised, more strongly where it turns out not to be positive definite in double precision."""
+    for stronger in STRONGER:
+        shifted = values.copy()
+        shifted[diagonal] += stronger * (RELATIVE_SHIFT * values[diagonal] + shift)
+        if factors.factorize(shifted):
+            return True
+    return False
+
+
+def across(border: FloatArray, v: FloatArray) -> FloatArray:
+    """borderᵀ v for a border of a few columns, (n, k), and a vector or as many columns; see ``cones.dot``."""
+    return np.asarray(np.einsum("ik,i...->k...", border, v))
 
 
 def bordered(inner: FloatArray, rhs: FloatArray) -> FloatArray:

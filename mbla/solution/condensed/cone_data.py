@@ -16,7 +16,8 @@ from mbla.solution.condensed.cones import ConeProduct
 class ConeData:
     """min c·x + ½ Σ q x²  s.t.  E x = e,  G x + s = h,  s in ``product``.
 
-    order : (size,) row of the cone program, behind its equations, at each component of s
+    order   : (size,) row of the cone program, behind its equations, at each component of s
+    n_local : unknowns at the end that each belong to one contact point and to no equation
     """
 
     product: ConeProduct
@@ -29,6 +30,7 @@ class ConeData:
     cone_matrix_t: sp.csr_array
     cone_rhs: FloatArray
     order: IntArray
+    n_local: int = 0
 
     @property
     def is_linear(self) -> bool:
@@ -59,6 +61,7 @@ def cone_data(program: ConeProgram) -> ConeData:
         cone_matrix_t=sp.csr_array(cones.T),
         cone_rhs=program.rhs[n_e:][order],
         order=order,
+        n_local=program.n_local,
     )
 
 

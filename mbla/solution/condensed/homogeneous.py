@@ -23,6 +23,7 @@ import numpy as np
 from mbla.arrays import FloatArray
 from mbla.solution.condensed.condensation import Condensation, refined_solution
 from mbla.solution.condensed.cone_data import ConeData
+from mbla.solution.condensed.cones import dot
 from mbla.solution.condensed.iterates import Point
 from mbla.solution.condensed.method import SHARE
 from mbla.solution.condensed.run import Ended, Run, best_of_run
@@ -76,12 +77,12 @@ def solve_embedded(data: ConeData, condensation: Condensation, run: Run) -> Ende
 def _residuals(data: ConeData, now: _Embedded) -> _Residuals:
     p, tau = now.point, now.tau
     bent = data.quadratic * p.x
-    along = float(data.cost @ p.x + data.equation_rhs @ p.y + data.cone_rhs @ p.z)
+    along = dot(data.cost, p.x) + dot(data.equation_rhs, p.y) + dot(data.cone_rhs, p.z)
     return _Residuals(
         bent + data.cost * tau + data.equations_t @ p.y + data.cone_matrix_t @ p.z,
         data.equations @ p.x - data.equation_rhs * tau,
         data.cone_matrix @ p.x + p.s - data.cone_rhs * tau,
-        now.kappa + along + float(p.x @ bent) / tau,
+        now.kappa + along + dot(p.x, bent) / tau,
     )
 
 
@@ -101,9 +102,9 @@ def _step(data: ConeData, condensation: Condensation, now: _Embedded) -> tuple[_
     steep = data.cost + 2.0 * curved
 
     def along(x: FloatArray, y: FloatArray, z: FloatArray) -> float:
-        return float(steep @ x + data.equation_rhs @ y + held @ z)
+        return dot(steep, x) + dot(data.equation_rhs, y) + dot(held, z)
 
-    slope = along(x2, y2, z2) - float(curved @ p.x) / now.tau - now.kappa / now.tau
+    slope = along(x2, y2, z2) - dot(curved, p.x) / now.tau - now.kappa / now.tau
 
     def direction(products: FloatArray, corner: float, share: float) -> _Direction:
         divided = product.quotient(middle, products)
@@ -120,7 +121,7 @@ def _step(data: ConeData, condensation: Condensation, now: _Embedded) -> tuple[_
         ends += [-v / dv if dv < 0.0 else np.inf for v, dv in ((now.tau, d.tau), (now.kappa, d.kappa))]
         return float(min(ends))
 
-    mean = (float(middle @ middle) + now.tau * now.kappa) / (product.degree + 1)
+    mean = (dot(middle, middle) + now.tau * now.kappa) / (product.degree + 1)
     first = direction(product.product(middle, middle), now.tau * now.kappa, 1.0)
     sigma = (1.0 - min(1.0, reach(first))) ** 3
     products = product.product(middle, middle) + product.product(first.s, first.z) - sigma * mean * product.identity()

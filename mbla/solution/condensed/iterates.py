@@ -8,6 +8,7 @@ import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.solution.condensed.cone_data import ConeData
+from mbla.solution.condensed.cones import dot
 
 
 @dataclass(frozen=True)
@@ -61,16 +62,16 @@ def measured(data: ConeData, point: Point) -> Measures:
     """How far an iterate is from the solution, or from a ray."""
     r_x, r_e, r_z = residuals_of(data, point)
     x, y, s, z = point.x, point.y, point.s, point.z
-    curved = float(x @ (data.quadratic * x))
-    primal_objective = float(data.cost @ x) + 0.5 * curved
-    offset = float(data.equation_rhs @ y + data.cone_rhs @ z)
+    curved = dot(x, data.quadratic * x)
+    primal_objective = dot(data.cost, x) + 0.5 * curved
+    offset = dot(data.equation_rhs, y) + dot(data.cone_rhs, z)
     dual_objective = -offset - 0.5 * curved
     size_x = max(_size(x), _size(s))
     size_z = max(_size(y), _size(z))
     limit = max(1.0, max(_size(data.equation_rhs), _size(data.cone_rhs)) + size_x)
     ray_dual = max(_size(r_x - data.cost - data.quadratic * x), 0.0)
     ray_primal = max(_size(r_e + data.equation_rhs), _size(r_z + data.cone_rhs), _size(data.quadratic * x))
-    work = float(data.cost @ x)
+    work = dot(data.cost, x)
     return Measures(
         gap=abs(primal_objective - dual_objective) / max(1.0, min(abs(primal_objective), abs(dual_objective))),
         primal=max(_size(r_e), _size(r_z)) / limit,

@@ -32,6 +32,7 @@ import numpy as np
 from mbla.arrays import FloatArray
 from mbla.solution.condensed.condensation import Condensation, refined_solution
 from mbla.solution.condensed.cone_data import ConeData
+from mbla.solution.condensed.cones import dot
 from mbla.solution.condensed.iterates import Point, Residuals, measured, residuals_of
 from mbla.solution.condensed.run import Ended, Outcome, Run, best_of_run
 from mbla.solution.condensed.scaling import Scaling
@@ -81,7 +82,7 @@ class _Frame:
     @property
     def mean(self) -> float:
         """μ."""
-        return float(self.middle @ self.middle) / self.data.product.degree
+        return dot(self.middle, self.middle) / self.data.product.degree
 
     def direction(self, products: FloatArray, share: float, *, refined: bool = True) -> _Direction:
         """The step for products r and a share f of the residuals."""
@@ -119,7 +120,7 @@ def _step(data: ConeData, condensation: Condensation, point: Point) -> tuple[Poi
     square = product.product(middle, middle)
     predictor = frame.direction(square, 1.0, refined=False)
     s, z = frame.ahead(predictor, *frame.lengths(predictor, 1.0))
-    sigma = min(1.0, (max(float(s @ z), 0.0) / product.degree / frame.mean) ** 3)
+    sigma = min(1.0, (max(dot(s, z), 0.0) / product.degree / frame.mean) ** 3)
     products = square + product.product(predictor.s, predictor.z) - sigma * frame.mean * product.identity()
     direction = frame.direction(products, 1.0 - sigma)
     direction, to_s, to_z = _centred(frame, products, sigma, direction)

@@ -20,8 +20,9 @@ import scipy.sparse as sp
 from scipy.sparse.csgraph import connected_components
 
 from mbla.arrays import FloatArray, IntArray
-from mbla.solution.condensed.condensation import RELATIVE_SHIFT, SHIFT, bordered
+from mbla.solution.condensed.condensation import SHIFT, across, bordered, factorized
 from mbla.solution.condensed.cone_data import ConeData, Units
+from mbla.solution.condensed.groups import backward, by_group, forward, taken, triangular_factor
 from mbla.solution.condensed.products import PlacedProducts, alike, dense_rows, placed_products
 from mbla.solution.condensed.scaling import Scaling, boosted
 from mbla.solution.linear_algebra import Factorization, factorization
@@ -70,7 +71,7 @@ class _Batch:
             out /= scaling.eta[self.cones][None, :, :, None]
             x[a : a + 3 * b] = out.transpose(0, 2, 3, 1).reshape(3 * b, g, n)
         x[range(a + 3 * b, a + 3 * b + g), range(g)] = self.root.T
-        return _triangular_factor(x)
+        return triangular_factor(x)
 
 
 class OnMultipliers:
@@ -99,19 +100,18 @@ class OnMultipliers:
             return False
         blocks = []
         for batch, r in zip(self._batches, self._r, strict=True):
-            y = _forward(r, batch.columns.transpose(1, 0, 2))
+            y = forward(r, batch.columns.transpose(1, 0, 2))
             n, g, width = batch.columns.shape
             blocks.append(y.transpose(1, 0, 2).reshape(n // batch.members, batch.members * g, width))
         values = self._products.summed(blocks)
         diagonal = self._products.diagonal
         values[diagonal[self._apart]] = 1.0
-        values[diagonal] += RELATIVE_SHIFT * values[diagonal] + SHIFT * float(values[diagonal].mean())
-        if not self.factors.factorize(values):
+        if not factorized(self.factors, values, diagonal, SHIFT * float(values[diagonal].mean())):
             return False
         self._spread = self.factors.solve(self._border)
         free = self._data.quadratic[self._free] + np.square(self._free_rows / scaling.line[:, None]).sum(axis=0)
         n = len(self._free)
-        self._inner[:n, :n] = self._border.T @ self._spread + np.diag(free)
+        self._inner[:n, :n] = across(self._border, self._spread) + np.diag(free)
         self._inner[:n, n:], self._inner[n:, :n] = self._given.T, self._given
         return bool(np.isfinite(self._inner).all())
 
@@ -122,9 +122,9 @@ class OnMultipliers:
         y[self._apart] = 0.0
         free = np.zeros(0)
         if len(self._inner):
-            small = bordered(self._inner, np.append(r_x[self._free] - self._border.T @ y, r_e[self._apart]))
+            small = bordered(self._inner, np.append(r_x[self._free] - across(self._border, y), r_e[self._apart]))
             free = small[: len(self._free)]
-            y = y + self._spread @ free
+            y = y + np.einsum("ik,k->i", self._spread, free)
             y[self._apart] = small[len(self._free) :]
         x = self._locally(r_x - data.equations_t @ y)
         x[self._free] = free
@@ -135,7 +135,7 @@ class OnMultipliers:
         result = np.zeros_like(rhs)
         for batch, r in zip(self._batches, self._r, strict=True):
             right = rhs[batch.unknowns].T[:, :, None]
-            result[batch.unknowns] = _backward(r, _forward(r, right))[:, :, 0].T
+            result[batch.unknowns] = backward(r, forward(r, right))[:, :, 0].T
         return result
 
 
@@ -173,10 +173,10 @@ def _batches(data: ConeData, group: IntArray) -> tuple[list[_Batch], list[IntArr
     held = sp.coo_array(data.cone_matrix)
     group_of_unit = np.full(units.n_units, -1)
     group_of_unit[units.unit_of_row[held.coords[0]]] = group[held.coords[1]]
-    unknowns = _by_group(np.arange(len(group)), group, n_groups)
+    unknowns = by_group(np.arange(len(group)), group, n_groups)
     n_lines = product.n_lines
-    lines = _by_group(np.arange(n_lines), group_of_unit[:n_lines], n_groups)
-    cones = _by_group(np.arange(product.n_cones), group_of_unit[n_lines:], n_groups)
+    lines = by_group(np.arange(n_lines), group_of_unit[:n_lines], n_groups)
+    cones = by_group(np.arange(product.n_cones), group_of_unit[n_lines:], n_groups)
     columns = dense_rows(data.equations_t, group, n_groups)
     shapes = np.column_stack([*(np.diff(part[1]) for part in (unknowns, lines, cones)), columns.widths])
     batches, rows = [], []
@@ -190,7 +190,7 @@ def _batches(data: ConeData, group: IntArray) -> tuple[list[_Batch], list[IntArr
             order = np.argsort(of_set, kind="stable")
             chosen = order[size_of_set[of_set[order]] == size]
             groups = here[chosen]
-            mine = _taken(unknowns, groups), _taken(lines, groups), _taken(cones, groups)
+            mine = taken(unknowns, groups), taken(lines, groups), taken(cones, groups)
             place = np.zeros(len(group), dtype=np.int64)
             place[mine[0]] = np.arange(mine[0].shape[1])
             of_lines, of_cones = _dense(data, mine, place)
@@ -199,21 +199,6 @@ def _batches(data: ConeData, group: IntArray) -> tuple[list[_Batch], list[IntArr
             batches.append(_Batch(*mine, of_lines, of_cones, root, blocks, int(size)))
             rows.append(touched[chosen[::size]])
     return batches, rows
-
-
-def _by_group(members: IntArray, group: IntArray, n_groups: int) -> tuple[IntArray, IntArray]:
-    """Members of all groups, one after the other, and where each starts."""
-    here = group >= 0
-    order = np.argsort(group[here], kind="stable")
-    counts = np.bincount(group[here], minlength=n_groups)
-    return members[here][order], np.concatenate([[0], np.cumsum(counts)])
-
-
-def _taken(part: tuple[IntArray, IntArray], groups: IntArray) -> IntArray:
-    """(n_groups, as many as each has)."""
-    members, pointers = part
-    count = int(pointers[groups[0] + 1] - pointers[groups[0]])
-    return np.asarray(members[pointers[groups][:, None] + np.arange(count)])
 
 
 def _dense(
@@ -231,38 +216,3 @@ def _dense(
         return dense.reshape(n, numbers.shape[1], g)
 
     return rows(lines), np.stack([rows(n_lines + j * n_cones + cones) for j in range(3)])
-
-
-def _triangular_factor(x: FloatArray) -> FloatArray:
-    """R of x = U R by modified Gram–Schmidt, (g, g, n), from x (rows, g, n), which is overwritten."""
-    g = x.shape[1]
-    r = np.zeros((g, g, x.shape[2]))
-    for i in range(g):
-        r[i, i] = np.sqrt(np.einsum("rn,rn->n", x[:, i], x[:, i]))
-        x[:, i] /= r[i, i]
-        for j in range(i + 1, g):
-            r[i, j] = np.einsum("rn,rn->n", x[:, i], x[:, j])
-            x[:, j] -= r[i, j] * x[:, i]
-    return r
-
-
-def _forward(r: FloatArray, rhs: FloatArray) -> FloatArray:
-    """R⁻ᵀ rhs, (g, n, k)."""
-    result = np.empty_like(rhs)
-    for i in range(len(r)):
-        result[i] = rhs[i]
-        for j in range(i):
-            result[i] -= r[j, i][:, None] * result[j]
-        result[i] /= r[i, i][:, None]
-    return result
-
-
-def _backward(r: FloatArray, rhs: FloatArray) -> FloatArray:
-    """R⁻¹ rhs, (g, n, k)."""
-    result = np.empty_like(rhs)
-    for i in reversed(range(len(r))):
-        result[i] = rhs[i]
-        for j in range(i + 1, len(r)):
-            result[i] -= r[i, j][:, None] * result[j]
-        result[i] /= r[i, i][:, None]
-    return result

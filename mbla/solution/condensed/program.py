@@ -178,7 +178,7 @@ def fits(program: ConeProgram) -> bool:
 
 def condensed_size(program: ConeProgram) -> int:
     """Rows of N for a program that fits: its unknowns, or its equations where these are many."""
-    return len(program.cost) if program.n_equations <= MOST_EQUATIONS else program.n_equations
+    return len(program.cost) - program.n_local if program.n_equations <= MOST_EQUATIONS else program.n_equations
 
 
 def _onto_unknowns(data: ConeData) -> bool:
