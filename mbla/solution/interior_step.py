@@ -75,17 +75,21 @@ def interior_step(
     number: int,
     *,
     velocities: FloatArray | None = None,
+    start_share: float = 1.0,
     fixed_load: bool = False,
     deadline: float | None = None,
 ) -> InteriorResult:
     """Solve one step from forces ``anchor``, (n_points, components); ``log`` gets every iteration.
 
     velocities : to start near, (n_rows,), those of the step before; the live load's own if None
+    start_share : of the usual products that a start near those velocities has
     fixed_load : the load factor stays ``load_factor``, and f_L·u is free
     """
     crushable = np.flatnonzero(np.isfinite(stiffness.program.limits.compression))
     step = StepProblem(stiffness, law, anchor, rho, fixed_load, crushable)
-    now = fresh_start(step, load_factor) if velocities is None else start_near(step, load_factor, velocities)
+    now = (
+        fresh_start(step, load_factor) if velocities is None else start_near(step, load_factor, velocities, start_share)
+    )
     lengths, started = [1.0], time.perf_counter()
     converged, count = False, 0
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):  # a run that diverges is seen and given up
