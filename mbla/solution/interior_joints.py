@@ -97,6 +97,25 @@ class Missing:
     speed: float
 
 
+@dataclass(frozen=True)
+class Products:
+    """Changes wanted of the products: opening, crushing, sliding, direction of sliding."""
+
+    opening: FloatArray
+    crushing: FloatArray
+    sliding: FloatArray
+    turning: FloatArray
+
+    def plus(self, other: Products) -> Products:
+        """The sum of both."""
+        return Products(
+            self.opening + other.opening,
+            self.crushing + other.crushing,
+            self.sliding + other.sliding,
+            self.turning + other.turning,
+        )
+
+
 def moved(now: Iterate, direction: Iterate, length: float) -> Iterate:
     """The iterate a length along a direction."""
     return Iterate(
@@ -180,14 +199,11 @@ class Joints:
         solve: Callable[[FloatArray], FloatArray],
         now: Iterate,
         missing: Missing,
-        target: float,
-        predictor: Iterate | None,
-        second: float,
+        products: Products,
     ) -> Iterate:
-        """Direction towards products ``target``, with the second-order terms of a predictor weighted by ``second``."""
+        """Direction that changes the products as told and makes up for what else is missing."""
         step, law, program = self.step, self.step.law, self.step.program
-        products = _wanted(step, missing, target, predictor, second)
-        opening, crushing, sliding, turning = products
+        opening, crushing, sliding, turning = products.opening, products.crushing, products.sliding, products.turning
         over = 1.0 / self.limit
         normal = opening / now.normal - missing.normal
         normal[step.crushable] -= crushing / step.room(now.normal)
@@ -212,20 +228,3 @@ class Joints:
             speed=speed,
             crushing=(crushing + now.crushing * dx[step.crushable, 0]) / step.room(now.normal),
         )
-
-
-def _wanted(
-    step: StepProblem, missing: Missing, target: float, predictor: Iterate | None, second: float
-) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
-    """Changes wanted of the products: opening, crushing, sliding, direction of sliding."""
-    opening = target - missing.normal_product
-    crushing = target - missing.crushing_product
-    sliding = target - missing.shear_product
-    turning = -missing.shear_direction
-    if predictor is not None and second > 0.0:
-        growth = step.law.slope * predictor.normal
-        opening = opening - second * predictor.normal * predictor.opening
-        crushing = crushing + second * predictor.normal[step.crushable] * predictor.crushing
-        sliding = sliding - second * (growth * predictor.speed + (predictor.shear * predictor.slip).sum(axis=1))
-        turning = turning - second * (growth[:, None] * predictor.slip + predictor.speed[:, None] * predictor.shear)
-    return opening, crushing, sliding, turning

@@ -8,8 +8,9 @@ what a joint has left and how it moves, all positive until the end, with l = β 
     w     = v_T + ρ (T − T̄),           l s + T·w = σ,     l w + s T = 0,      ‖T‖ < l, ‖w‖ < s
 
 At σ = 0 this is the law: N = −f_t or no opening, ‖T‖ = l or no sliding, T against w, s = ‖w‖. Each iteration is a
-Newton step on all of it, with the predictor and corrector of Mehrotra (1992, doi:10.1137/0802028); what belongs to a
-joint is eliminated joint by joint, dx = −C dv + g, and one factorisation of A C Aᵀ remains.
+Newton step on all of it, with the predictor and corrector of Mehrotra (1992, doi:10.1137/0802028) and the further
+correctors of Gondzio (1996, doi:10.1007/BF00249643) where it would be short; what belongs to a joint is eliminated
+joint by joint, dx = −C dv + g, and one factorisation of A C Aᵀ remains.
 
 Two laws are solved, see ``InteriorLaw``: the exact one, β = μ, h = c, which is not monotone where δ < μ (the method
 converges well in practice, and says so where it does not), and the lagged one, β = δ, h = (μ − δ) N̄ + c, a convex
@@ -19,13 +20,16 @@ program that has one solution always: max λ − ρ/2 ‖x − x̄‖² within t
 from __future__ import annotations
 
 import time
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.solution.cone_solution import Log
-from mbla.solution.interior_joints import InteriorLaw, Iterate, Joints, Missing, StepProblem, moved, way_to_go
+from mbla.solution.interior_joints import InteriorLaw, Iterate, Joints, Missing, Products, StepProblem, moved, way_to_go
+from mbla.solution.interior_products import outlying, wanted
+from mbla.solution.interior_start import fresh_start, start_near
 from mbla.solution.solution import IterationRecord
 from mbla.solution.stiffness import Stiffness
 
@@ -41,6 +45,11 @@ SHORT = 0.3
 
 STALLED = (10, 0.5)
 """Given up where as many steps together went less than this: the law has no solution in reach from here."""
+
+CORRECTORS, LONG, BEYOND, GAIN, OUTLYING = 2, 0.9, 0.3, 0.03, 10.0
+"""Further correctors at most, only of steps shorter than this; how far beyond its end they look; by how much the step
+must get longer; factor from the target that counts as outlying. On walls of 410 and 1,012 blocks they saved a quarter
+to a third of the iterations; four of them hardly more."""
 
 REGULARIZATION = 1e-14
 
@@ -66,17 +75,22 @@ def interior_step(
     number: int,
     *,
     velocities: FloatArray | None = None,
+    start_share: float = 1.0,
     fixed_load: bool = False,
     deadline: float | None = None,
 ) -> InteriorResult:
     """Solve one step from forces ``anchor``, (n_points, components); ``log`` gets every iteration.
 
-    velocities : to start from, (n_rows,), those of the step before; the live load's own if None
+    velocities : to start near, (n_rows,), those of the step before; the live load's own if None
+    start_share : of the usual products that a start near those velocities has
     fixed_load : the load factor stays ``load_factor``, and f_L·u is free
     """
     crushable = np.flatnonzero(np.isfinite(stiffness.program.limits.compression))
     step = StepProblem(stiffness, law, anchor, rho, fixed_load, crushable)
-    now, lengths, started = _start(step, load_factor, velocities), [1.0], time.perf_counter()
+    now = (
+        fresh_start(step, load_factor) if velocities is None else start_near(step, load_factor, velocities, start_share)
+    )
+    lengths, started = [1.0], time.perf_counter()
     converged, count = False, 0
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):  # a run that diverges is seen and given up
         for count in range(MOST_ITERATIONS):
@@ -94,30 +108,6 @@ def interior_step(
             lengths = [*([1.0] * STALLED[0] if count == 0 else lengths), length]
     forces = np.column_stack([now.normal - stiffness.program.limits.tension, now.shear])
     return InteriorResult(now.u, now.factor, forces, converged, count)
-
-
-def _start(step: StepProblem, load_factor: float, velocities: FloatArray | None) -> Iterate:
-    """All joints on the central path, pressed at least by the mean size of the anchor's forces, without shear."""
-    program, limits, live = step.program, step.program.limits, step.program.live_load
-    size = float(np.sqrt((step.anchor**2).mean())) or 1.0
-    u, normal = velocities, np.maximum(step.anchor[:, 0], size) + limits.tension
-    if u is None:
-        u = np.zeros_like(live) if step.fixed_load else live / (live @ live)
-        normal = np.full(program.n_points, size) + limits.tension
-    half = 0.5 * (limits.compression + limits.tension)
-    normal = np.minimum(normal, half)
-    product = size * (float(np.abs(step.stiffness.velocities(u)).mean()) + step.rho * size)
-    nothing = np.zeros((program.n_points, program.components - 1))
-    return Iterate(
-        u=u,
-        factor=load_factor,
-        normal=normal,
-        opening=product / normal,
-        shear=nothing,
-        slip=nothing,
-        speed=product / step.limit(normal),
-        crushing=product / step.room(normal),
-    )
 
 
 def _residuals(step: StepProblem, now: Iterate) -> Missing:
@@ -167,19 +157,43 @@ def _iterate(
     n_products = 2 * len(now.normal) + len(step.crushable)
     product = (missing.normal_product.sum() + missing.shear_product.sum() + missing.crushing_product.sum()) / n_products
 
-    predictor = joints.direction(solve, now, missing, 0.0, None, 0.0)
+    predictor = joints.direction(solve, now, missing, wanted(step, missing, 0.0))
     reach = way_to_go(step, now, predictor)
     ahead = _residuals(step, moved(now, predictor, reach))
     left = (ahead.normal_product.sum() + ahead.shear_product.sum() + ahead.crushing_product.sum()) / n_products
     target = product * float(np.clip((left / product) ** 3, 1e-6, 1.0))
-    second = reach
+    products = wanted(step, missing, target, predictor, reach)
     if last < SHORT:
-        target, second = product, 0.0
-    step_taken = joints.direction(solve, now, missing, target, predictor, second)
-    length = way_to_go(step, now, step_taken)
+        target = product
+        products = wanted(step, missing, target)
+    direction, length = _centred(
+        step, now, products, target, lambda sought: joints.direction(solve, now, missing, sought)
+    )
     if length < 1.0:
         length *= max(SHARE, 1.0 - gap)
-    return moved(now, step_taken, length), length
+    return moved(now, direction, length), length
+
+
+def _centred(
+    step: StepProblem, now: Iterate, products: Products, target: float, solve: Callable[[Products], Iterate]
+) -> tuple[Iterate, float]:
+    """The direction towards products and the way to go, after correctors that pull outlying products to the middle.
+
+    A corrector looks at the products a little beyond where the step would end, and is kept where the step gets longer.
+    """
+    direction = solve(products)
+    length = way_to_go(step, now, direction)
+    for _ in range(CORRECTORS):
+        if length > LONG:
+            break
+        ahead = moved(now, direction, min(1.0, length + BEYOND))
+        products = products.plus(outlying(step, ahead, target / OUTLYING, target * OUTLYING))
+        trial = solve(products)
+        longer = way_to_go(step, now, trial)
+        if not longer >= length + GAIN:
+            break
+        direction, length = trial, longer
+    return direction, length
 
 
 def _record(

@@ -15,18 +15,16 @@ than a product of sparse matrices and a column ordering from scratch each time.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 import scipy.sparse as sp
+from numpy.typing import NDArray
 
 from mbla.arrays import FloatArray, IntArray
 from mbla.program.program import Program
-from mbla.solution.linear_algebra.superlu import elimination_order, factors_on_the_diagonal
-
-PIVOT_THRESHOLD = 0.01
-"""A diagonal pivot is taken unless it is smaller than this share of the largest one in its column: keeps the order."""
+from mbla.solution.linear_algebra.general import GeneralFactorization, Solve
+from mbla.solution.linear_algebra.superlu import elimination_order
 
 
 @dataclass(frozen=True)
@@ -52,17 +50,19 @@ class Stiffness:
     border   : places of column and row of the live load, in the order of the program's rows, and of the corner
     size     : (n_rows,) diagonal of A Aᵀ: stiffness of every row when all joints stick with stiffness 1
     compatibility : Aᵀ, by rows
+    factorization : of matrices of this pattern, one at a time
     """
 
     program: Program
     groups: tuple[PointGroup, ...]
-    indices: IntArray
-    pointers: IntArray
+    indices: NDArray[np.int32]
+    pointers: NDArray[np.int32]
     order: IntArray
     diagonal: IntArray
     border: tuple[IntArray, IntArray, int]
     size: FloatArray
     compatibility: sp.csr_array
+    factorization: GeneralFactorization
 
     def velocities(self, u: FloatArray) -> FloatArray:
         """Velocities at the contact points, (n_points, components)."""
@@ -71,19 +71,19 @@ class Stiffness:
     def factorized(self, tangents: FloatArray, shift: FloatArray, *, fixed_load: bool = False) -> Solve | None:
         """Factorise with C, (n_points, components, components), and a shift of the diagonal, (n_rows,).
 
-        Returns the solution of the bordered system as a function of the right-hand side, (n_rows + 1,); None where the
-        matrix is singular to working accuracy.
+        Returns the solution of the bordered system as a function of the right-hand side, (n_rows + 1,), to be used
+        before the next factorisation; None where the matrix is singular to working accuracy.
         """
         matrix = self._matrix(tangents, shift, fixed_load)
-        factors = factors_on_the_diagonal(matrix, PIVOT_THRESHOLD, ordered=True)
-        if factors is None:
+        once = self.factorization.factorize(matrix)
+        if once is None:
             return None
         order = self.order
 
         def solve(rhs: FloatArray) -> FloatArray:
             ordered = rhs[order]
-            solution = factors.solve(ordered)
-            solution += factors.solve(ordered - matrix @ solution)  # pivots are small where joints are open
+            solution = once(ordered)
+            solution += once(ordered - matrix @ solution)  # pivots are small where joints are open
             result = np.empty_like(solution)
             result[order] = solution
             return result
@@ -107,9 +107,6 @@ class Stiffness:
         entries[corner] = 1.0 if fixed_load else 0.0
         shape = (len(self.order), len(self.order))
         return sp.csc_matrix((entries, self.indices, self.pointers), shape=shape)
-
-
-Solve = Callable[[FloatArray], FloatArray]
 
 
 def stiffness_of(program: Program) -> Stiffness:
@@ -139,16 +136,19 @@ def stiffness_of(program: Program) -> Stiffness:
         for points, rows, blocks in sets
     )
     end = np.full(n, n)
+    indices = (keys % (n + 1)).astype(np.int32)
+    pointers = np.searchsorted(keys, np.arange(n + 2) * (n + 1)).astype(np.int32)
     return Stiffness(
         program=program,
         groups=groups,
-        indices=(keys % (n + 1)).astype(np.int32),
-        pointers=np.searchsorted(keys, np.arange(n + 2) * (n + 1)).astype(np.int32),
+        indices=indices,
+        pointers=pointers,
         order=order,
         diagonal=places(every, every),
         border=(places(every, end), places(end, every), int(places(end[:1], end[:1])[0])),
         size=np.asarray(program.equilibrium_matrix.multiply(program.equilibrium_matrix).sum(axis=1)),
         compatibility=sp.csr_array(program.equilibrium_matrix.T),
+        factorization=GeneralFactorization(pointers, indices),
     )
 
 

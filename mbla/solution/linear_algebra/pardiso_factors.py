@@ -1,4 +1,4 @@
-"""MKL Pardiso: Cholesky in an order by nested dissection. Called through its C interface, here alone.
+"""MKL Pardiso: Cholesky, or LU, in an order by nested dissection. Called through its C interface, here alone.
 
 The lower triangle by columns is the upper one by rows that Pardiso takes for symmetric matrices. Scaling and matching
 are for indefinite ones and off; no refinement, which the caller makes. Not through the wrapper pypardiso: that copies
@@ -24,11 +24,14 @@ from mbla.arrays import FloatArray
 from mbla.solution.linear_algebra.pattern import SymmetricPattern
 
 ANALYSE, FACTORIZE, SOLVE, RELEASE = 11, 22, 33, -1  # phases
-POSITIVE_DEFINITE = 2  # type of matrix
+POSITIVE_DEFINITE, GENERAL = 2, 11  # types of matrix
 SEQUENTIAL = 1  # threading layer
 REPRODUCIBLE = 2  # the best branch for the processor, whatever the alignment
-OWN_SETTINGS, ORDER, FROM_ZERO = 0, 1, 34  # places in iparm, counted from 0
+OWN_SETTINGS, ORDER, SIDE, PERTURBATION, PERTURBED, FROM_ZERO = 0, 1, 11, 9, 13, 34  # places in iparm, counted from 0
 NESTED_DISSECTION = 2
+TRANSPOSED = 2
+LEAST_PIVOT = 13
+"""Pivots below 10 to the minus this, relative to the matrix, are replaced and counted."""
 
 
 class PardisoFactors:
@@ -41,48 +44,67 @@ class PardisoFactors:
 
     def __init__(self, pattern: SymmetricPattern, runtime: Path) -> None:
         self._n = pattern.n
-        self._pardiso = Pardiso(runtime, pattern)
+        self._pardiso = Pardiso(runtime, pattern.n, pattern.pointers, pattern.indices, POSITIVE_DEFINITE)
+        self._pardiso.analyse()
+
+    def factorize(self, values: FloatArray) -> bool:
+        """Factorise; False where the matrix is not positive definite to working accuracy or not finite."""
+        return self._pardiso.factorize(values)
+
+    def solve(self, rhs: FloatArray) -> FloatArray:
+        """Solution for one right-hand side, (n,), or several, (n, k)."""
+        if len(rhs) != self._n:
+            raise ValueError(f"a right-hand side of {len(rhs)} rows for a matrix of {self._n}")
+        return self._pardiso.solve(rhs)
+
+
+class Pardiso:
+    """The C function with its memory for one pattern, which it gives back with this object.
+
+    kind : POSITIVE_DEFINITE, the pattern the lower triangle by columns; or GENERAL, all of it by columns
+    """
+
+    def __init__(
+        self, runtime: Path, n: int, pointers: NDArray[np.int32], indices: NDArray[np.int32], kind: int
+    ) -> None:
+        library = ctypes.CDLL(str(runtime))
+        library.MKL_Set_Threading_Layer(SEQUENTIAL)
+        library.MKL_CBWR_Set(REPRODUCIBLE)
+        self._places = (np.array(pointers, dtype=np.int32), np.array(indices, dtype=np.int32))
+        self._settings = settings = np.zeros(64, dtype=np.int32)
+        settings[OWN_SETTINGS], settings[ORDER], settings[FROM_ZERO] = 1, NESTED_DISSECTION, 1
+        if kind == GENERAL:  # it takes matrices by rows: ours is the transposed one to it
+            settings[SIDE], settings[PERTURBATION] = TRANSPOSED, LEAST_PIVOT
+        self._fixed = (library.pardiso, np.zeros(64, dtype=np.int64), settings, n, kind)
         self._values: FloatArray | None = None
-        error = self._pardiso.run(ANALYSE, np.ones(len(pattern.indices)))
+        library.pardiso.restype = None
+        weakref.finalize(self, _call, self._fixed, RELEASE, NOTHING, self._places, (NOTHING, NOTHING))
+
+    def analyse(self) -> None:
+        """Find the order; RuntimeError where that fails."""
+        error = self.run(ANALYSE, np.ones(len(self._places[1])))
         if error:
             raise RuntimeError(f"the analysis by Pardiso failed with error {error}")
 
     def factorize(self, values: FloatArray) -> bool:
-        """Factorise; False where the matrix is not positive definite to working accuracy or not finite."""
+        """Factorise; False where the values are not finite or a pivot is not good enough."""
         held = np.array(values, dtype=np.float64)
-        broken = not np.isfinite(held).all() or self._pardiso.run(FACTORIZE, held) != 0
+        broken = not np.isfinite(held).all() or self.run(FACTORIZE, held) != 0 or self._settings[PERTURBED] > 0
         self._values = None if broken else held
         return not broken
 
     def solve(self, rhs: FloatArray) -> FloatArray:
-        """Solution for one right-hand side, (n,), or several, (n, k)."""
+        """Solution for one right-hand side, (n,), or several, (n, k), in a new array."""
         if self._values is None:
             raise ValueError("solve without a good factorisation")
         right = np.array(rhs, dtype=np.float64, order="F")
-        if len(right) != self._n:
-            raise ValueError(f"a right-hand side of {len(right)} rows for a matrix of {self._n}")
         answer = np.zeros_like(right)
         if not answer.size:
             return answer
-        error = self._pardiso.run(SOLVE, self._values, right, answer)
+        error = self.run(SOLVE, self._values, right, answer)
         if error:
             raise RuntimeError(f"the solution by Pardiso failed with error {error}")
         return answer
-
-
-class Pardiso:
-    """The C function with its memory for one pattern, which it gives back with this object."""
-
-    def __init__(self, runtime: Path, pattern: SymmetricPattern) -> None:
-        library = ctypes.CDLL(str(runtime))
-        library.MKL_Set_Threading_Layer(SEQUENTIAL)
-        library.MKL_CBWR_Set(REPRODUCIBLE)
-        self._places = (np.array(pattern.pointers), np.array(pattern.indices))
-        settings = np.zeros(64, dtype=np.int32)
-        settings[OWN_SETTINGS], settings[ORDER], settings[FROM_ZERO] = 1, NESTED_DISSECTION, 1
-        self._fixed = (library.pardiso, np.zeros(64, dtype=np.int64), settings, pattern.n)
-        library.pardiso.restype = None
-        weakref.finalize(self, _call, self._fixed, RELEASE, NOTHING, self._places, (NOTHING, NOTHING))
 
     def run(
         self, phase: int, values: FloatArray, right: FloatArray | None = None, answer: FloatArray | None = None
@@ -96,18 +118,18 @@ NOTHING = np.zeros(1)
 
 
 def _call(
-    fixed: tuple[Any, NDArray[np.int64], NDArray[np.int32], int],
+    fixed: tuple[Any, NDArray[np.int64], NDArray[np.int32], int, int],
     phase: int,
     values: FloatArray,
     places: tuple[NDArray[np.int32], NDArray[np.int32]],
     sides: tuple[FloatArray, FloatArray],
 ) -> int:
     """``pardiso(pt, maxfct, mnum, mtype, phase, n, a, ia, ja, perm, nrhs, iparm, msglvl, b, x, error)``."""
-    function, memory, settings, n = fixed
+    function, memory, settings, n, kind = fixed
     n_sides = sides[0].shape[1] if sides[0].ndim == 2 else 1
     error = ctypes.c_int32(0)
     function(
-        *(_address(memory), _number(1), _number(1), _number(POSITIVE_DEFINITE), _number(phase), _number(n)),
+        *(_address(memory), _number(1), _number(1), _number(kind), _number(phase), _number(n)),
         *(_address(values), _address(places[0]), _address(places[1]), None, _number(n_sides)),
         *(_address(settings), _number(0), _address(sides[0]), _address(sides[1]), ctypes.byref(error)),
     )

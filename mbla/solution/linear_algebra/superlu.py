@@ -21,6 +21,10 @@ Solve = Callable[[FloatArray], FloatArray]
 ON_THE_DIAGONAL = {"permc_spec": "MMD_AT_PLUS_A", "options": {"SymmetricMode": True, "DiagPivotThresh": 0.0}}
 WITH_EXCHANGES = {"permc_spec": "COLAMD"}
 
+SUBTREE = 6
+"""Columns at most of a subtree that is factorised as one. The rows of a block stand together anyhow; with the usual ten
+and more, neighbours are padded with zeros: 44 ms in place of 32 for 6,073 unknowns."""
+
 
 def factorize(matrix: sp.sparray, *, symmetric: bool = False) -> Solve | None:
     """Solver of matrix y = rhs, None where the matrix is exactly singular.
@@ -48,8 +52,9 @@ def factors_on_the_diagonal(
     """
     order: Literal["NATURAL", "MMD_AT_PLUS_A"] = "NATURAL" if ordered else "MMD_AT_PLUS_A"
     options = {"SymmetricMode": True}
+    held = sp.csc_array(matrix)
     try:
-        factors = spla.splu(sp.csc_array(matrix), permc_spec=order, diag_pivot_thresh=threshold, options=options)
+        factors = spla.splu(held, permc_spec=order, diag_pivot_thresh=threshold, relax=SUBTREE, options=options)
     except RuntimeError:
         return None
     return factors
