@@ -56,7 +56,11 @@ def _add_run(commands: Any) -> None:
         "--time-limit", type=seconds, metavar="S", help="seconds for all load cases, instead of analysis.time_limit"
     )
     command.add_argument(
-        "--threads", type=threads, default=1, metavar="N", help="threads of the cone solver (default 1)"
+        "--threads",
+        type=threads,
+        default=1,
+        metavar="N",
+        help="threads of clarabel and of the linear algebra libraries, at most (default 1)",
     )
     command.add_argument("--expected", action="store_true", help="compare with the deck's expected section")
     volume = command.add_mutually_exclusive_group()

@@ -19,6 +19,7 @@ from typing import TYPE_CHECKING, Any, NoReturn
 from mbla import __version__
 from mbla.arguments import build_parser
 from mbla.errors import DeckError, FileError, LimitError, MblaError, UsageError
+from mbla.threads import limit_threads
 
 if TYPE_CHECKING:
     from mbla.run import Progress, RunOptions
@@ -33,6 +34,7 @@ class Terminated(BaseException):
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command; the exit status is the return value (argparse exits by itself on --help and wrong usage)."""
     options = build_parser().parse_args(arguments)
+    limit_threads(getattr(options, "threads", 1))
     if signal.getsignal(signal.SIGTERM) is not signal.SIG_IGN:
         signal.signal(signal.SIGTERM, _terminate)
     try:
