@@ -1,7 +1,7 @@
 """Random assemblies, by the condensed method and by clarabel: what either says must not contradict the other.
 
 Of the first thousand (counted by ``python -m tests.solution.condensed.random_programs 0 1000``) the condensed method
-decides 979 and clarabel 970, with bounds a median 4e-10 and 2e-9 of the load factor apart, without a contradiction.
+decides 978 and clarabel 970, with bounds a median 4e-10 and 2e-9 of the load factor apart, without a contradiction.
 Neither decides some of those with friction of a thousand or a million in space, and some whose factor is a millionth of
 the loads; strengths of a hundred million block weights are hard for the condensed method.
 """
