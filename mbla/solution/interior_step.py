@@ -48,8 +48,8 @@ STALLED = (10, 0.5)
 
 CORRECTORS, LONG, BEYOND, GAIN, OUTLYING = 2, 0.9, 0.3, 0.03, 10.0
 """Further correctors at most, only of steps shorter than this; how far beyond its end they look; by how much the step
-must get longer; factor from the target that counts as outlying. On walls of 410 and 1,012 blocks they saved a quarter
-to a third of the iterations; four of them hardly more."""
+must get longer; factor from the target that counts as outlying. On walls of 1,012 planar and 410 spatial blocks they
+saved 22 and 32 % of the factorisations; four of them hardly more, a single one led to more steps."""
 
 REGULARIZATION = 1e-14
 

@@ -1,8 +1,8 @@
 """Factorisation of matrices that need not be symmetric or definite, of one pattern, again and again.
 
 SuperLU is always there. From ``PARDISO_FROM`` unknowns on MKL Pardiso is taken where it is installed: 17 ms in place of
-32 for the stiffness of 1,012 blocks in space (6,073 unknowns), and a third of the time for a solution; smaller matrices
-would not win back the half second that its trial takes. Pardiso exchanges rows within its dense blocks only, and
+32 for the stiffness of 1,012 blocks in space (6,073 unknowns); smaller matrices would hardly win back the half second
+that its trial takes. Pardiso exchanges rows within its dense blocks only, and
 replaces pivots that stay too small: a matrix to which that happens goes to SuperLU.
 """
 
