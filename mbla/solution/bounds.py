@@ -282,7 +282,9 @@ def bordered_solver(normal: sp.csc_array, live: FloatArray, weight: float) -> Ca
     scaled = scaling @ normal @ scaling + REGULARIZATION * sp.eye_array(len(scale))
     border = scale * live
     size = float(np.linalg.norm(border))
-    corner = -1.0 / (weight * size**2) if np.isfinite(weight) else 0.0
+    corner = -1.0 / (weight * size**2) if size > 0.0 and np.isfinite(weight) else 0.0
+    if not size > 0.0:  # no live load: the border says nothing
+        size, corner = 1.0, -1.0
     column = sp.csc_array((border / size)[:, None])
     solve_scaled = factorize(sp.block_array([[scaled, column], [column.T, sp.csc_array([[corner]])]]), symmetric=True)
     if solve_scaled is None:

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+import scipy.sparse as sp
 
 from mbla.program.program import Program
 from mbla.program.reductions import reduce_program
 from mbla.solution.associative import solve_associative
 from mbla.solution.bounds import (
+    bordered_solver,
     certified_gap,
     falling_motion,
     incompatibility,
@@ -131,3 +133,13 @@ def test_forces_without_shear_prove_no_more_than_there_is_whatever_their_size(si
     straight[:, 0] = size * np.abs(program.dead_load).max() / program.n_points
     gap = certified_gap(program, LawState(straight, np.zeros(len(program.dead_load)), 0.0, np.nan))
     assert 0.0 <= gap.static * program.scaling.live <= 0.25
+
+
+def test_the_border_of_a_part_without_live_load_says_nothing() -> None:
+    """It was divided by its size, zero."""
+    normal = sp.csc_array(np.array([[2.0, 1.0], [1.0, 3.0]]))
+    for weight in (1.0, np.inf):
+        solve = bordered_solver(normal, np.zeros(2), weight)
+        assert solve is not None
+        answer = solve(np.array([3.0, 4.0]))
+        np.testing.assert_allclose(answer, [1.0, 1.0, 0.0], atol=1e-9)
