@@ -13,8 +13,9 @@ ROUNDING = 1e-9
 SEQUENCE = 1e-4
 """Without normality a load factor has no bounds: sequences of steps end where their tolerance lets them."""
 
-NOT_UNIQUE = ("ferris_wall_3_slope",)
-"""A published scheme whose steps do not come to rest, and which says so: exit status 4, factors 0.2 % apart."""
+NOT_UNIQUE = ("ferris_wall_3_slope", "crossvault_without_dilatancy")
+"""A published scheme whose steps do not come to rest, and which says so: exit status 4, factors 0.2 % apart; a vault
+whose state at rest depends on the rounding of sums, factors 1 % apart."""
 
 
 @pytest.mark.long
