@@ -28,7 +28,7 @@ from mbla.solution.solution import Status
 
 SOLVERS = ("auto", "mbla", "clarabel", "highs")
 
-OWN_FROM = 600
+OWN_FROM = 1000
 """Rows of the condensed matrix from which ``auto`` takes the condensed method."""
 
 FAST = ("cholmod", "pardiso")
