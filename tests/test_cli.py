@@ -176,9 +176,9 @@ def test_check_solves_nothing_and_writes_nothing(deck: Path, capsys: pytest.Capt
     ("units", "asked", "taken"),
     [
         (2, "auto", "clarabel"),
-        (15, "auto", "mbla"),
+        (20, "auto", "mbla"),
         (2, "mbla", "mbla"),
-        (15, "clarabel", "clarabel"),
+        (20, "clarabel", "clarabel"),
         (2, "highs", "highs"),
     ],
 )
