@@ -7,9 +7,9 @@ and can be had from here, like the analysis section of :mod:`mbla.deck.analysis`
 
 from __future__ import annotations
 
-from typing import Annotated, Any, Literal, TypeAlias
+from typing import Annotated, Any, Literal
 
-from pydantic import BeforeValidator, Discriminator, Field, Tag
+from pydantic import BeforeValidator, Field
 
 from mbla.deck.analysis import AnalysisSection as AnalysisSection
 from mbla.deck.analysis import InteriorScheme as InteriorScheme
@@ -18,6 +18,8 @@ from mbla.deck.analysis import PathScheme as PathScheme
 from mbla.deck.analysis import ProximalScheme as ProximalScheme
 from mbla.deck.analysis import PublishedScheme as PublishedScheme
 from mbla.deck.analysis import ReductionSwitches as ReductionSwitches
+from mbla.deck.contacts import ContactOverride as ContactOverride
+from mbla.deck.contacts import ContactsSection as ContactsSection
 from mbla.deck.items import ArchItem as ArchItem
 from mbla.deck.items import BlockItem as BlockItem
 from mbla.deck.items import BoxItem as BoxItem
@@ -29,27 +31,23 @@ from mbla.deck.items import Reflection as Reflection
 from mbla.deck.items import Rotation as Rotation
 from mbla.deck.items import TransformStep as TransformStep
 from mbla.deck.items import WallItem as WallItem
+from mbla.deck.joints import JointLaw as JointLaw
+from mbla.deck.loads import Load as Load
+from mbla.deck.loads import LoadCaseSection as LoadCaseSection
 from mbla.deck.names import Line, Name, ParameterName
 from mbla.deck.quantities import (
-    Acceleration,
-    Direction,
-    Force,
-    FrictionAngle,
-    Index,
-    Length,
-    NonNegativeNumber,
-    NonNegativeStress,
     Number,
-    Point,
     PositiveDensity,
     PositiveNumber,
-    PositiveStress,
     PositiveUnitWeight,
-    Quantity,
     Switch,
     Whole,
 )
-from mbla.deck.section import Section, shape
+from mbla.deck.section import Section
+from mbla.deck.selectors import Selector as Selector
+from mbla.deck.selectors import SelectorTerm as SelectorTerm
+from mbla.deck.supports import GroundPlane as GroundPlane
+from mbla.deck.supports import Support as Support
 
 
 def _no_boolean(value: Any) -> Any:
@@ -72,115 +70,6 @@ class Material(Section):
     unit_weight: PositiveUnitWeight | None = Field(
         None, description="weight per volume under standard gravity, 9.81 m/s^2"
     )
-
-
-class JointLaw(Section):
-    """Joint law: Coulomb friction without tension unless strengths are given; one of friction and friction angle."""
-
-    friction: NonNegativeNumber | None = Field(None, description="friction coefficient, tan of the friction angle")
-    friction_angle: FrictionAngle | None = Field(None, description="friction angle in degrees")
-    cohesion: NonNegativeStress = Field(0.0, description="shear strength without normal stress")
-    tensile_strength: NonNegativeStress = Field(0.0, description="normal stress at which the joint opens")
-    compressive_strength: PositiveStress | None = Field(
-        None, description="normal stress at which it crushes; unlimited unless given"
-    )
-    dilatancy: FrictionAngle = Field(0.0, description="dilatancy angle in degrees, at most the friction angle")
-
-
-# --- selectors, contacts, supports --------------------------------------------------------------------------------
-
-
-class SelectorTerm(Section):
-    """Blocks of a group (all, or the one with an index), or blocks whose centroid lies in a box."""
-
-    group: Name | None = Field(None, description="name of a group")
-    index: Index | None = Field(None, description="which block of the group, from 0 in order of creation")
-    box: tuple[Point, Point] | None = Field(None, description="least and greatest coordinates; centroids inside count")
-
-
-Term: TypeAlias = Annotated[
-    Annotated[Name, Tag("name")] | Annotated[SelectorTerm, Tag("mapping")],
-    Discriminator(lambda value: "mapping" if shape(value) == "mapping" else "name"),
-]
-Selector: TypeAlias = Annotated[
-    Annotated[Name, Tag("name")]
-    | Annotated[SelectorTerm, Tag("mapping")]
-    | Annotated[list[Term], Field(min_length=1), Tag("list")],
-    Discriminator(shape),
-]
-
-
-class ContactOverride(Section):
-    """Another joint law between two selections."""
-
-    between: tuple[Name, Name] = Field(description="two groups; may be the same; `ground` stands for ground planes")
-    joint: Name = Field(description="name of a joint law")
-
-
-class ContactsSection(Section):
-    """How contacts are found, and their joint law."""
-
-    joint: Name = Field(description="joint law of every contact that no override names")
-    tolerance: Annotated[float, Quantity("number", gt=0, le=0.1)] = Field(
-        1e-3, description="greatest gap, overlap and sliver width, relative to block size"
-    )
-    refine: Annotated[int, Whole(ge=1, le=50)] = Field(
-        1,
-        description="contact points along each edge of an interface, and rings of them inside; 1: its corners alone. "
-        "Associative flow can load the corners alone, so that more points lower torsion only without dilatancy",
-    )
-    inset: Annotated[float, Quantity("number", ge=0, lt=1)] = Field(
-        0.0,
-        description="share of the way to the centroid that the contact points are moved inwards: lowers torsion (0.459 "
-        "is exact for a square), and rocking by the same share",
-    )
-    overrides: list[ContactOverride] = Field(default_factory=list, description="the last that fits a contact holds")
-
-
-class GroundPlane(Section):
-    """A plane: exactly one of x, y, z (normal along that axis), or a point and a normal towards the structure."""
-
-    x: Length | None = Field(None, description="the plane at this x, structure on the side of greater x")
-    y: Length | None = Field(None, description="the plane at this y, structure on the side of greater y")
-    z: Length | None = Field(None, description="the plane at this z, structure above")
-    point: Point | None = Field(None, description="a point on the plane")
-    normal: Direction | None = Field(None, description="normal of the plane, towards the structure")
-
-
-class Support(Section):
-    """Rigid ground under every face on a plane, or blocks that do not move."""
-
-    ground: GroundPlane | None = Field(None, description="rigid ground")
-    joint: Name | None = Field(None, description="joint law on the ground; that of contacts unless given")
-    blocks: Selector | None = Field(
-        None, description="blocks that do not move; with ground: the only blocks it carries"
-    )
-
-
-# --- loads --------------------------------------------------------------------------------------------------------
-
-
-class Load(Section):
-    """One load: exactly one of gravity, acceleration, force; each may be a dead load or a live one."""
-
-    gravity: tuple[Acceleration, Acceleration, Acceleration] | None = Field(
-        None, description="gravitational acceleration, in the deck's unit of length per s^2"
-    )
-    acceleration: Direction | None = Field(
-        None, description="mass-proportional load in units of g = 9.81 m/s^2, pointing where it pushes"
-    )
-    force: tuple[Force, Force, Force] | None = Field(None, description="force on one block")
-    on: Selector | None = Field(None, description="force: the block; acceleration: the blocks, all unless given")
-    at: Point | None = Field(
-        None, description="point of application, carried with its moment; the centroid unless given"
-    )
-
-
-class LoadCaseSection(Section):
-    """Dead loads stay, live loads are multiplied by the load factor."""
-
-    dead: list[Load] | None = Field(None, description="gravity of 9.81 m/s^2 along -z unless given")
-    live: list[Load] = Field(min_length=1, description="the loads that the load factor multiplies")
 
 
 # --- output, expectations -------------------------------------------------------------------------------

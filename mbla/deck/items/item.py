@@ -1,0 +1,51 @@
+"""What every item of `blocks` has: a group, a material, a transform."""
+
+from __future__ import annotations
+
+from typing import Annotated, TypeAlias
+
+from pydantic import Discriminator, Field, Tag
+
+from mbla.deck.names import Name
+from mbla.deck.quantities import Angle, Direction, Point, PositiveNumber
+from mbla.deck.section import Section, shape
+
+
+class Rotation(Section):
+    """Rotation by an angle about an axis, right-handed."""
+
+    axis: Direction = Field(description="direction of the axis")
+    angle: Angle = Field(description="degrees")
+    about: Point = Field((0.0, 0.0, 0.0), description="point on the axis")
+
+
+class Reflection(Section):
+    """Mirror image in a plane."""
+
+    normal: Direction = Field(description="normal of the plane")
+    point: Point = Field((0.0, 0.0, 0.0), description="point on the plane")
+
+
+class TransformStep(Section):
+    """One step of a transform: exactly one of its keys."""
+
+    translate: Point | None = Field(None, description="displacement")
+    rotate: Rotation | None = Field(None, description="rotation about an axis")
+    scale: PositiveNumber | None = Field(None, description="factor on all coordinates, about the origin")
+    mirror: Reflection | None = Field(None, description="reflection in a plane")
+
+
+Transform: TypeAlias = Annotated[
+    Annotated[TransformStep, Tag("mapping")] | Annotated[list[TransformStep], Tag("list")],
+    Discriminator(lambda value: "mapping" if shape(value) == "mapping" else "list"),
+]
+
+
+class Item(Section):
+    """What every item of `blocks` has."""
+
+    group: Name | None = Field(None, description="name that selectors use; the item's kind unless given")
+    material: Name = Field(description="name of a material")
+    transform: Transform = Field(
+        default_factory=list, description="a step, or a list of steps applied in order to the item's own geometry"
+    )

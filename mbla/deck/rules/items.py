@@ -1,0 +1,73 @@
+"""Rules on items of `blocks`."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from mbla.deck import types
+from mbla.deck.rules.common import ROUNDING, exactly_one, given, is_zero, least_below_greatest
+from mbla.deck.section import Finding, rule
+
+
+@rule(types.Rotation)
+def rotation_axis(rotation: types.Rotation) -> Iterator[Finding]:
+    """An axis has a direction."""
+    if is_zero(rotation.axis):
+        yield ("axis",), "must not be the zero vector"
+
+
+@rule(types.Reflection)
+def mirror_normal(reflection: types.Reflection) -> Iterator[Finding]:
+    """A plane has a normal."""
+    if is_zero(reflection.normal):
+        yield ("normal",), "must not be the zero vector"
+
+
+@rule(types.BoxItem)
+def box_extent(box: types.BoxItem) -> Iterator[Finding]:
+    """Corners in order, none equal."""
+    yield from least_below_greatest(box.min, box.max, "max", "xyz")
+
+
+@rule(types.PolyhedronItem)
+def polyhedron_faces(polyhedron: types.PolyhedronItem) -> Iterator[Finding]:
+    """Faces use vertices that exist, each once."""
+    n_vertices = len(polyhedron.vertices)
+    for number, face in enumerate(polyhedron.faces):
+        if max(face) >= n_vertices:
+            position = next(i for i, corner in enumerate(face) if corner >= n_vertices)
+            yield ("faces", number, position), f"must be <= {n_vertices - 1}: there are {n_vertices} vertices, from 0"
+        elif len(set(face)) < len(face):
+            position = next(i for i, corner in enumerate(face) if corner in face[:i])
+            yield ("faces", number, position), "is a corner of this face already"
+
+
+@rule(types.WallItem)
+def wall_openings(wall: types.WallItem) -> Iterator[Finding]:
+    """Openings have an extent and lie within the wall."""
+    height = wall.courses * wall.unit[2]
+    for number, opening in enumerate(wall.openings):
+        for axis, (limit, what) in enumerate(((wall.length, "length"), (height, "height"))):
+            low, high = opening.from_[axis], opening.to[axis]
+            if not low < high:
+                yield ("openings", number, "to", axis), f"must be > {low:g}, that of from"
+            if low < -ROUNDING * limit:
+                yield ("openings", number, "from", axis), "must be >= 0: the opening must lie within the wall"
+            if high > limit * (1 + ROUNDING):
+                yield ("openings", number, "to", axis), f"must be <= {limit:g}, the {what} of the wall"
+
+
+@rule(types.ArchItem)
+def arch_shape(arch: types.ArchItem) -> Iterator[Finding]:
+    """A semicircle is given by its span alone; a segment needs its rise or its angle."""
+    keys = ("rise", "embrace")
+    if arch.shape == "segmental":
+        yield from exactly_one(arch, keys, " for a segmental arch")
+    else:
+        for key in given(arch, keys):
+            yield (
+                (key,),
+                f"applies to segmental arches only: leave it out, or write shape: segmental ({arch.shape} given)",
+            )
+    if arch.joint is not None and arch.springers != "ground":
+        yield ("joint",), "applies with springers: ground only"
