@@ -46,6 +46,13 @@ BEYOND_SCHEMA = (
         "named_like",
         "linear_programs",
         "inset_of",
+        "override_without_condition",
+        "joint_law_built_in",
+        "built_in_joint",
+        "points_of_two",
+        "points_inset_and",
+        "spacing_as",
+        "rounding_of",
         "own_solver_of",
     ),
 )
