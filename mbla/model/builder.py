@@ -163,7 +163,9 @@ def _kind(entry: BlockItem) -> tuple[str, Item]:
 
 
 def _generate(deck: Deck, kind: str, item: Item, path: KeyPath) -> Generated:
-    site = Site(deck.contacts.tolerance, lambda below, name: deck.resolve_file((*path, *below), name))
+    site = Site(
+        deck.contacts.tolerance, lambda below, name: deck.resolve_file((*path, *below), name), deck.units.length
+    )
     with np.errstate(over="ignore", invalid="ignore"):  # coordinates that are not finite are refused by block
         generated = GENERATORS[kind](item, site)
         transform = build_transform(item.transform)
