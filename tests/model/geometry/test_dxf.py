@@ -59,8 +59,9 @@ def test_unit_of_the_header(tmp_path: Path, code: int, unit: str | None) -> None
 def test_y_of_the_drawing_is_z_of_the_deck(tmp_path: Path) -> None:
     document, space = drawing()
     space.add_lwpolyline([(1, 5), (2, 5), (2, 6)], close=True)
-    least, greatest = (f(read(document, tmp_path).polyhedra.vertices) for f in (lambda v: v.min(0), lambda v: v.max(0)))
-    assert (least.tolist(), greatest.tolist()) == ([1, 0, 5], [2, 1, 6])
+    vertices = read(document, tmp_path).polyhedra.vertices
+    assert vertices.min(axis=0).tolist() == [1, 0, 5]
+    assert vertices.max(axis=0).tolist() == [2, 1, 6]
 
 
 def test_arcs_become_chords(tmp_path: Path) -> None:

@@ -66,7 +66,7 @@ def test_y_is_up_and_lengths_are_metres(tmp_path: Path) -> None:
 def test_transforms_of_all_nodes_above_apply_in_turn(tmp_path: Path) -> None:
     """The cube doubled, turned by 90 degrees about y (x to -z, z to x), moved; then all of it moved along z."""
     turn = [0, np.sin(np.pi / 4), 0, np.cos(np.pi / 4)]
-    nodes = [
+    nodes: list[dict[str, Any]] = [
         {"name": "wall", "children": [1, 2], "translation": [0, 0, 10]},
         {"name": "stone a", "mesh": 0, "scale": [2, 2, 2], "rotation": turn, "translation": [5, 0, 0]},
         {"name": "stone b", "mesh": 0, "matrix": [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 7, 8, 9, 1]},
