@@ -14,6 +14,7 @@ from mbla.deck.items.item import TransformStep as TransformStep
 from mbla.deck.items.mesh import MeshItem as MeshItem
 from mbla.deck.items.polyhedron import PolyhedronItem as PolyhedronItem
 from mbla.deck.items.stack import StackItem as StackItem
+from mbla.deck.items.table import TableItem as TableItem
 from mbla.deck.items.trilithon import TrilithonItem as TrilithonItem
 from mbla.deck.items.wall import Opening as Opening
 from mbla.deck.items.wall import WallItem as WallItem
@@ -28,6 +29,7 @@ class BlockItem(Section):
     wall: WallItem | None = None
     arch: ArchItem | None = None
     mesh: MeshItem | None = None
+    table: TableItem | None = None
     column: ColumnItem | None = None
     stack: StackItem | None = None
     trilithon: TrilithonItem | None = None
