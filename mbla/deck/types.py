@@ -25,6 +25,8 @@ from mbla.deck.items import BlockItem as BlockItem
 from mbla.deck.items import BoxItem as BoxItem
 from mbla.deck.items import ColumnEnd as ColumnEnd
 from mbla.deck.items import ColumnItem as ColumnItem
+from mbla.deck.items import DomeDrum as DomeDrum
+from mbla.deck.items import DomeItem as DomeItem
 from mbla.deck.items import Item as Item
 from mbla.deck.items import MeshItem as MeshItem
 from mbla.deck.items import Opening as Opening
