@@ -29,7 +29,7 @@ BEYOND_SCHEMA = (
         "opening",
         "semicircular_with",
         "segmental",
-        "arch_joint",
+        "arch_",
         "zero",
         "without_normal",
         "normal_without",
