@@ -24,6 +24,8 @@ from mbla.deck.items import ArchItem as ArchItem
 from mbla.deck.items import ArchPiers as ArchPiers
 from mbla.deck.items import BlockItem as BlockItem
 from mbla.deck.items import BoxItem as BoxItem
+from mbla.deck.items import ColumnEnd as ColumnEnd
+from mbla.deck.items import ColumnItem as ColumnItem
 from mbla.deck.items import Item as Item
 from mbla.deck.items import MeshItem as MeshItem
 from mbla.deck.items import Opening as Opening
@@ -31,7 +33,9 @@ from mbla.deck.items import PolyhedronItem as PolyhedronItem
 from mbla.deck.items import Reflection as Reflection
 from mbla.deck.items import Repetition as Repetition
 from mbla.deck.items import Rotation as Rotation
+from mbla.deck.items import StackItem as StackItem
 from mbla.deck.items import TransformStep as TransformStep
+from mbla.deck.items import TrilithonItem as TrilithonItem
 from mbla.deck.items import WallItem as WallItem
 from mbla.deck.joints import JointLaw as JointLaw
 from mbla.deck.loads import Load as Load
