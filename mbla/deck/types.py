@@ -21,6 +21,7 @@ from mbla.deck.analysis import ReductionSwitches as ReductionSwitches
 from mbla.deck.contacts import ContactOverride as ContactOverride
 from mbla.deck.contacts import ContactsSection as ContactsSection
 from mbla.deck.items import ArchItem as ArchItem
+from mbla.deck.items import ArchPiers as ArchPiers
 from mbla.deck.items import BlockItem as BlockItem
 from mbla.deck.items import BoxItem as BoxItem
 from mbla.deck.items import ColumnEnd as ColumnEnd

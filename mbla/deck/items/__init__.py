@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from mbla.deck.items.arch import ArchItem as ArchItem
+from mbla.deck.items.arch import ArchPiers as ArchPiers
 from mbla.deck.items.box import BoxItem as BoxItem
 from mbla.deck.items.column import ColumnEnd as ColumnEnd
 from mbla.deck.items.column import ColumnItem as ColumnItem
