@@ -60,6 +60,7 @@ def check(deck_path: Path, options: RunOptions, vtu: bool = False) -> tuple[Resu
 
 def needs_of(deck: Deck, model: Model, contacts: Contacts, load_case: LoadCase) -> dict[str, int | str]:
     """What of the model reaches the solver, the size of its first cone programs, and who solves them."""
+    model = model.of_case(load_case)
     reduced = reduced_program(deck, model, contacts, assemble(model, contacts, load_case))
     programs = [kinematic_form(part, part.limits).cone_program for part in reduced.parts if np.any(part.live_load)]
     return asdict(reduced.size) | {

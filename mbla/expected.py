@@ -7,6 +7,7 @@ import math
 from mbla.deck.types import Expectation
 from mbla.results.outcome import associative_of, result_of
 from mbla.results.results import CaseResult
+from mbla.results.settlement_words import reaction_of
 from mbla.solution.solution import Mechanics
 
 
@@ -19,6 +20,7 @@ def compare_with_expected(case: CaseResult, expected: Expectation) -> list[str]:
     found = {
         "load_factor": _factor(result_of(case)),
         "associative_load_factor": _factor(associative_of(case)),
+        "reaction": reaction_of(case),
         "lower": None if math.isnan(case.checks.lower) else case.checks.lower,
     }
     for key, value in found.items():

@@ -32,6 +32,8 @@ def build_report(model: Model, section: ContactsSection, findings: Findings, not
     overlaps, bodies = findings.overlaps, findings.contacts.overlays.bodies
     slivers, widths = _slivers(model, findings.slivers)
     near_misses, gaps = _near_misses(model, findings.near_misses, overlaps)
+    held = model.fixed.copy()
+    held[model.guides.blocks] = True
     report = ContactReport(
         slivers=slivers,
         sliver_widths=widths,
@@ -41,7 +43,7 @@ def build_report(model: Model, section: ContactsSection, findings: Findings, not
         overlap_depths=overlaps.depths,
         unchecked=overlaps.unchecked,
         isolated=isolated_blocks(len(model.blocks), bodies),
-        unsupported=unsupported_parts(model.fixed, bodies),
+        unsupported=unsupported_parts(held, bodies),
         fixed_contacts=int(both_fixed(model, bodies).sum()),
         notices=(),
     )
@@ -49,9 +51,15 @@ def build_report(model: Model, section: ContactsSection, findings: Findings, not
 
 
 def both_fixed(model: Model, bodies: IntArray) -> BoolArray:
-    """True where neither body of a pair can move, (n,)."""
+    """True where neither body of a pair can move under any load case, (n,).
+
+    A support that gives way does so with the ground planes that it lies on.
+    """
     still = np.concatenate([model.fixed, np.ones(len(model.grounds), dtype=bool)])
-    return np.asarray(still[bodies[:, 0]] & still[bodies[:, 1]])
+    settles = np.concatenate([model.may_settle, np.zeros(len(model.grounds), dtype=bool)])
+    blocks = (bodies < len(model.blocks)).all(axis=1)
+    apart = blocks & (settles[bodies[:, 0]] != settles[bodies[:, 1]])
+    return np.asarray(still[bodies].all(axis=1) & ~apart)
 
 
 def _slivers(model: Model, slivers: Patches) -> tuple[IntArray, FloatArray]:

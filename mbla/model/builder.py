@@ -11,17 +11,18 @@ import numpy as np
 
 from mbla.deck.deck import Deck
 from mbla.deck.tree import KeyPath
-from mbla.deck.types import BlockItem, Item, JointLaw, Material
+from mbla.deck.types import BlockItem, Item, JointLaw, LoadCaseSection, Material
 from mbla.deck.units import Units
 from mbla.errors import DeckError, Fault, Notice
 from mbla.model.build_blocks import BuiltBlocks, Labels, build_blocks, indices_in_groups
 from mbla.model.generators import GENERATORS
 from mbla.model.generators.generator import Generated, ItemRefused, Site
 from mbla.model.loads import LoadSite, build_load_case
-from mbla.model.model import Ground, Joint, Model
+from mbla.model.model import Ground, Joint, LoadCase, Model
 from mbla.model.polyhedra import Polyhedra, join_polyhedra
 from mbla.model.selectors import build_roster
-from mbla.model.supports import Supports, build_supports
+from mbla.model.settlement import build_settlement
+from mbla.model.supports import Supports, build_supports, does_nothing
 from mbla.model.transform import build_transform, transform_item
 
 MOST_FAULTS_PER_ITEM = 10
@@ -69,7 +70,7 @@ def build_model(deck: Deck) -> Model:
     supports = build_supports(deck.content.supports, joint, brought_along, roster, tolerance, faults)
     site = LoadSite(roster, supports.fixed, deck.units)
     load_cases = tuple(
-        build_load_case(name, section, site, faults, notices) for name, section in deck.content.load_cases.items()
+        _load_case(name, section, site, supports, faults, notices) for name, section in deck.content.load_cases.items()
     )
     if faults:
         raise DeckError(faults)
@@ -82,7 +83,27 @@ def build_model(deck: Deck) -> Model:
         joints={name: build_joint(name, law) for name, law in deck.content.joints.items()},
         load_cases=load_cases,
         notices=(*items.notices, *built.notices, *notices),
+        guides=supports.guides,
     )
+
+
+def _load_case(
+    name: str,
+    section: LoadCaseSection,
+    site: LoadSite,
+    supports: Supports,
+    faults: list[Fault],
+    notices: list[Notice],
+) -> LoadCase:
+    """Loads of one case, or its dead loads and the support that gives way."""
+    load_case = build_load_case(name, section, site, faults, notices)
+    path: KeyPath = ("load_cases", name)
+    if section.settlement is not None:
+        return build_settlement(section.settlement, (*path, "settlement"), load_case, supports, site.roster, faults)
+    if not faults and does_nothing(load_case.live_load, supports):
+        message = "the supports take every live load, for they act on guided blocks across what these may do"
+        faults.append(site.roster.fault_at((*path, "live"), message))
+    return load_case
 
 
 def build_joint(name: str, law: JointLaw) -> Joint:

@@ -60,9 +60,9 @@ def build_load_case(
         dead_loads = [Load.model_construct(gravity=(0.0, 0.0, -site.units.standard_gravity))]
     before = len(faults)
     dead = _add_up(dead_loads, (*path, "dead"), site, faults, notices, live=False)
-    live = _add_up(section.live, (*path, "live"), site, faults, notices, live=True)
+    live = _add_up(section.live or [], (*path, "live"), site, faults, notices, live=True)
     free = ~site.fixed
-    judged = len(faults) == before and free.any() and not site.roster.partial
+    judged = len(faults) == before and free.any() and not site.roster.partial and section.live is not None
     rest = np.abs(live.total[free]).max(initial=0.0)
     if judged and rest <= CANCELLED * live.gross[free].max(initial=0.0):
         faults.append(site.roster.fault_at((*path, "live"), "the live loads cancel each other: they have no effect"))

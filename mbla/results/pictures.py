@@ -59,7 +59,7 @@ class _Scene:
 
     @property
     def model(self) -> Model:
-        return self.results.model
+        return self.results.model.of_case(self.case.load_case)
 
     @property
     def contacts(self) -> Contacts:
@@ -168,7 +168,7 @@ def _pyvista() -> Any:
 
 def _scene(results: Results, case: CaseResult) -> _Scene:
     blocks = results.model.blocks
-    motion = drawn_motion(results.model, case)
+    motion = drawn_motion(results.model.of_case(case.load_case), case)
     size = float(np.linalg.norm(np.ptp(blocks.vertices, axis=0)))
     return _Scene(results, case, motion, moved_vertices(blocks, motion), size)
 

@@ -34,6 +34,7 @@ BEYOND_SCHEMA = (
         "without_normal",
         "normal_without",
         "support_",
+        "guide_",
         "without_effect",
     ),
     *(

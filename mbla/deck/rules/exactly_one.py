@@ -15,6 +15,8 @@ EXACTLY_ONE: dict[type[Section], tuple[str, ...]] = {
     types.TransformStep: tuple(types.TransformStep.model_fields),
     types.SelectorTerm: ("group", "box"),
     types.GroundPlane: ("x", "y", "z", "point"),
+    types.LoadCaseSection: ("live", "settlement"),
+    types.SettlementSection: ("direction", "turn"),
     types.Load: ("gravity", "acceleration", "force"),
 }
 """Keys of which a section has exactly one; the schema says so too."""
