@@ -51,15 +51,12 @@ def build_report(model: Model, section: ContactsSection, findings: Findings, not
 
 
 def both_fixed(model: Model, bodies: IntArray) -> BoolArray:
-    """True where neither body of a pair can move under any load case, (n,).
+    """True where neither body of a pair can move but as a support that gives way, (n,).
 
-    A support that gives way does so with the ground planes that it lies on.
+    Supports do not rub on each other: a footing that sinks beside another would lock against it by dilatancy alone.
     """
     still = np.concatenate([model.fixed, np.ones(len(model.grounds), dtype=bool)])
-    settles = np.concatenate([model.may_settle, np.zeros(len(model.grounds), dtype=bool)])
-    blocks = (bodies < len(model.blocks)).all(axis=1)
-    apart = blocks & (settles[bodies[:, 0]] != settles[bodies[:, 1]])
-    return np.asarray(still[bodies].all(axis=1) & ~apart)
+    return np.asarray(still[bodies[:, 0]] & still[bodies[:, 1]])
 
 
 def _slivers(model: Model, slivers: Patches) -> tuple[IntArray, FloatArray]:

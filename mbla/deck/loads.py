@@ -43,7 +43,7 @@ class LoadCaseSection(Section):
     live: list[Load] | None = Field(None, min_length=1, description="the loads that the load factor multiplies")
     settlement: SettlementSection | None = Field(
         None,
-        description="in place of live: a support that gives way; the answer is the mechanism and the reaction with "
-        "which the support meets it, the least that equilibrium allows. The load factor is the loss of reaction, from "
-        "that of the structure at rest on, over the weight of the free blocks",
+        description="in place of live: a support that gives way, free of other supports; the answer is the mechanism "
+        "and the reaction with which the support meets it, the least that equilibrium allows. The load factor is the "
+        "loss of reaction, from that of the structure at rest on, over the weight of the free blocks",
     )

@@ -129,15 +129,6 @@ class Model:
         return replace(self, fixed=fixed, guides=joined(self.guides, settlement.guides))
 
     @property
-    def may_settle(self) -> BoolArray:
-        """Blocks that some load case lets give way, (n_blocks,)."""
-        settles = np.zeros(len(self.blocks), dtype=bool)
-        for case in self.load_cases:
-            if case.settlement is not None:
-                settles[case.settlement.blocks] = True
-        return settles
-
-    @property
     def free(self) -> IntArray:
         """Blocks that can move, in order, (n_free,)."""
         return np.flatnonzero(~self.fixed)

@@ -19,11 +19,11 @@ def assemble(model: Model, contacts: Contacts, load_case: LoadCase) -> Program:
 
     With guided blocks it is a reduction of the program in which these are free.
     """
-    program = assemble_unguided(model, contacts, load_case)
-    return guided_program(program, guide_projector(model, program.free, program.scaling))
+    program = _assemble_unguided(model, contacts, load_case)
+    return guided_program(program, program.allowed)
 
 
-def assemble_unguided(model: Model, contacts: Contacts, load_case: LoadCase) -> Program:
+def _assemble_unguided(model: Model, contacts: Contacts, load_case: LoadCase) -> Program:
     """The program in which guided blocks move as they like, six rows a free block."""
     free = model.free
     dead, live = load_case.dead_load[free].ravel(), load_case.live_load[free].ravel()
@@ -37,6 +37,7 @@ def assemble_unguided(model: Model, contacts: Contacts, load_case: LoadCase) -> 
         free=free,
         n_blocks=len(model.blocks),
         scaling=scaling,
+        allowed=guide_projector(model, free, scaling),
     )
 
 

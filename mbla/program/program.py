@@ -74,6 +74,8 @@ class Program:
     components         : of the force at a contact point: 3 (N, T1, T2), or 2 (N, T) in a planar program
     reduction          : where this program came from, None for that of the whole model
     guided             : the reduction is to motions that guides allow
+    allowed            : of the program of the whole model: (n_rows, n_rows) projector on the motions that guides allow,
+                         None where no block is guided
     """
 
     equilibrium_matrix: sp.csr_array
@@ -86,6 +88,7 @@ class Program:
     components: int = 3
     reduction: Reduction | None = None
     guided: bool = False
+    allowed: sp.csr_array | None = None
 
     @property
     def n_points(self) -> int:

@@ -261,7 +261,7 @@ def _add_live_load(plotter: Any, scene: _Scene) -> list[list[str]]:
     shape = {"shaft_radius": 0.02, "tip_radius": 0.06, "tip_length": 0.25}
     arrow = _pyvista().Arrow(start=start, direction=(tip - start) / length, scale=length, **shape)
     plotter.add_mesh(arrow, color=INK, ambient=0.5)
-    return [["live load", INK]]
+    return [["live load" if scene.case.load_case.settlement is None else "settlement", INK]]
 
 
 def _set_camera(plotter: Any, scene: _Scene) -> None:

@@ -26,7 +26,7 @@ def reaction_of(case: CaseResult) -> float | None:
 
 def reaction_words(model: Model, settlement: Settlement, load_factor: float) -> str:
     """``a reaction of 5232 N``, or ``a reaction of 120 N m``."""
-    return f"a reaction of {figure(settlement.reaction(load_factor))} {_unit(model, settlement)}"
+    return f"a reaction of {_figure(settlement.reaction(load_factor), settlement)} {_unit(model, settlement)}"
 
 
 def reaction_json(case: CaseResult) -> dict[str, Any] | None:
@@ -53,13 +53,23 @@ def settlement_lines(model: Model, case: CaseResult) -> list[str]:
     value, unit = reaction_of(case), _unit(model, settlement)
     lines = []
     if value is not None:
-        share = value / settlement.unit
-        lines += entry("reaction of the support", f"{figure(value)} {unit}   ({figure(share)} of {_of(settlement)})")
+        share = _figure(value / settlement.unit, settlement, 1.0)
+        words = f"{_figure(value, settlement)} {unit}   ({share} of {_of(settlement)})"
+        lines += entry("reaction of the support", words)
     if np.isfinite(checks.kinematic_bound) and np.isfinite(checks.static_bound):
         ends = (settlement.reaction(checks.kinematic_bound), settlement.reaction(checks.static_bound))
         lines += entry("associative, its bounds", f"{' .. '.join(f'{end:.8g}' for end in ends)} {unit}")
     lines += entry("one at rest", f"{figure(settlement.reference)} {unit}   (many may be possible)")
     return lines + entry("load factor counts", f"its loss, in {figure(settlement.unit)} {unit}: {_of(settlement)}")
+
+
+NOTHING = 1e-9
+"""share of its unit below which a reaction is written as zero: rounding of the load factor"""
+
+
+def _figure(value: float, settlement: Settlement, unit: float | None = None) -> str:
+    """A reaction in digits, zero where it is one."""
+    return figure(0.0 if abs(value) <= NOTHING * (unit or settlement.unit) else value)
 
 
 def _of(settlement: Settlement) -> str:

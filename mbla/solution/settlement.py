@@ -29,6 +29,9 @@ MARGIN = 1e-9
 """Added to the reaction at rest, over the unit of reactions: where statics alone gives the reaction, rounding must not
 make it too small to carry the dead load."""
 
+HIGH = 10.0
+"""Reaction over its unit, more than any structure is likely to need."""
+
 
 def _silent(_: IterationRecord) -> None:
     """Iterations of the state at rest are not recorded."""
@@ -39,8 +42,8 @@ def posed(
 ) -> LoadCase:
     """A load case with its settlement posed; the same one where no support gives way.
 
-    Where no forces carry the dead load even while the support is held, the reaction starts from zero: the programs that
-    follow then find that there is no equilibrium.
+    Where no forces were found that carry the dead load while the support is held the reaction starts high: it is then
+    not for want of reaction if the programs that follow find no equilibrium.
     """
     settlement = load_case.settlement
     if settlement is None:
@@ -52,7 +55,7 @@ def posed(
     for part in parts:
         state = at_rest(part, 0.0, settings, log)
         if state is None:
-            return with_reference(load_case, 0.0)
+            return with_reference(load_case, HIGH * settlement.unit)
         repaired = repaired_forces(replace(part, live_load=np.zeros_like(part.live_load)), state.forces, 0.0)
         total += forces_of(part, state.forces if repaired is None else repaired[0])
     on_blocks = contact_resultants(model, contacts, total)[settlement.blocks]

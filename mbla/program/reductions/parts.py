@@ -19,10 +19,8 @@ def split_into_parts(scene: Scene) -> list[Scene]:
         pairs = np.vstack([pairs, np.column_stack(scene.allowed.nonzero()) // 6])
     graph = sp.coo_array((np.ones(len(pairs)), (pairs[:, 0], pairs[:, 1])), shape=(n, n))
     count, label = connected_components(graph, directed=False)
-    idle = (scene.bodies < 0).all(axis=1)  # between blocks that only other load cases let move
-    if count == 1 and not idle.any():
+    if count == 1:
         return [scene]
-    label = np.append(label, -1)
     part_of_point = label[scene.bodies.max(axis=1)]  # the greater body is free: contacts of fixed bodies are left out
     parts = []
     for part in range(count):

@@ -12,7 +12,6 @@ from mbla.contacts.contacts import Contacts
 from mbla.model.model import Model
 from mbla.program.equilibrium import lever_arms
 from mbla.program.program import Program
-from mbla.program.reductions.guided import guide_projector
 
 
 @dataclass(frozen=True)
@@ -59,7 +58,7 @@ def scene_of(model: Model, contacts: Contacts, program: Program) -> Scene:
         areas=contacts.point_areas,
         bodies=row[contacts.bodies[contacts.interface_of_point]],
         interfaces=contacts.interface_of_point,
-        allowed=guide_projector(model, program.free, program.scaling),
+        allowed=program.allowed,
     )
 
 
