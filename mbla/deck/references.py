@@ -41,7 +41,12 @@ REFERENCES = (
     Reference("supports.#.joint", "joint law", BUILT_IN),
     *(
         Reference(f"{place}{form}", "group")
-        for place in ("supports.#.blocks", "load_cases.*.dead.#.on", "load_cases.*.live.#.on")
+        for place in (
+            "supports.#.blocks",
+            "load_cases.*.dead.#.on",
+            "load_cases.*.live.#.on",
+            "load_cases.*.settlement.on",
+        )
         for form in ("", ".group", ".#", ".#.group")
     ),
 )

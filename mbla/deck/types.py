@@ -45,6 +45,7 @@ from mbla.deck.items import WallItem as WallItem
 from mbla.deck.joints import JointLaw as JointLaw
 from mbla.deck.loads import Load as Load
 from mbla.deck.loads import LoadCaseSection as LoadCaseSection
+from mbla.deck.loads import SettlementSection as SettlementSection
 from mbla.deck.names import Line, Name, ParameterName
 from mbla.deck.quantities import (
     Number,
@@ -59,6 +60,7 @@ from mbla.deck.selectors import Selector as Selector
 from mbla.deck.selectors import SelectorTerm as SelectorTerm
 from mbla.deck.supports import GroundPlane as GroundPlane
 from mbla.deck.supports import Support as Support
+from mbla.deck.supports import Turn as Turn
 
 
 def _no_boolean(value: Any) -> Any:
@@ -99,6 +101,7 @@ class Expectation(Section):
 
     load_factor: Number | None = Field(None, description="by the deck's own flow rule")
     associative_load_factor: Number | None = Field(None, description="by the associative flow rule")
+    reaction: Number | None = Field(None, description="of the support that gives way")
     lower: Number | None = Field(None, description="least load factor for the mechanism found, without normality")
     status: Literal["solved", "approximate", "not_verified", "no_equilibrium", "unbounded"] | None = Field(
         None, description="status of the case"
