@@ -30,6 +30,11 @@ class Reference:
 
 REFERENCES = (
     Reference("blocks.#.*.material", "material"),
+    *(
+        Reference(f"blocks.#.{kind}.openings.#.{over}.material", "material")
+        for kind in ("wall", "walls")
+        for over in ("lintel", "arch")
+    ),
     Reference("blocks.#.arch.joint", "joint law"),
     Reference("contacts.joint", "joint law"),
     Reference("contacts.overrides.#.joint", "joint law"),

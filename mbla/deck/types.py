@@ -23,7 +23,9 @@ from mbla.deck.contacts import ContactsSection as ContactsSection
 from mbla.deck.items import ArchItem as ArchItem
 from mbla.deck.items import BlockItem as BlockItem
 from mbla.deck.items import BoxItem as BoxItem
+from mbla.deck.items import CrossWall as CrossWall
 from mbla.deck.items import Item as Item
+from mbla.deck.items import Masonry as Masonry
 from mbla.deck.items import MeshItem as MeshItem
 from mbla.deck.items import Opening as Opening
 from mbla.deck.items import PolyhedronItem as PolyhedronItem
@@ -32,6 +34,7 @@ from mbla.deck.items import Repetition as Repetition
 from mbla.deck.items import Rotation as Rotation
 from mbla.deck.items import TransformStep as TransformStep
 from mbla.deck.items import WallItem as WallItem
+from mbla.deck.items import WallsItem as WallsItem
 from mbla.deck.joints import JointLaw as JointLaw
 from mbla.deck.loads import Load as Load
 from mbla.deck.loads import LoadCaseSection as LoadCaseSection

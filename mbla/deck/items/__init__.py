@@ -9,10 +9,13 @@ from mbla.deck.items.item import Reflection as Reflection
 from mbla.deck.items.item import Repetition as Repetition
 from mbla.deck.items.item import Rotation as Rotation
 from mbla.deck.items.item import TransformStep as TransformStep
+from mbla.deck.items.masonry import Masonry as Masonry
+from mbla.deck.items.masonry import Opening as Opening
 from mbla.deck.items.mesh import MeshItem as MeshItem
 from mbla.deck.items.polyhedron import PolyhedronItem as PolyhedronItem
-from mbla.deck.items.wall import Opening as Opening
 from mbla.deck.items.wall import WallItem as WallItem
+from mbla.deck.items.walls import CrossWall as CrossWall
+from mbla.deck.items.walls import WallsItem as WallsItem
 from mbla.deck.section import Section
 
 
@@ -22,5 +25,6 @@ class BlockItem(Section):
     box: BoxItem | None = None
     polyhedron: PolyhedronItem | None = None
     wall: WallItem | None = None
+    walls: WallsItem | None = None
     arch: ArchItem | None = None
     mesh: MeshItem | None = None

@@ -8,11 +8,13 @@ from mbla.model.generators.generator import Generator
 from mbla.model.generators.mesh import generate_mesh
 from mbla.model.generators.polyhedron import generate_polyhedron
 from mbla.model.generators.wall import generate_wall
+from mbla.model.generators.walls import generate_walls
 
 GENERATORS: dict[str, Generator] = {
     "box": generate_box,
     "polyhedron": generate_polyhedron,
     "wall": generate_wall,
+    "walls": generate_walls,
     "arch": generate_arch,
     "mesh": generate_mesh,
 }
