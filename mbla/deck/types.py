@@ -23,6 +23,8 @@ from mbla.deck.contacts import ContactsSection as ContactsSection
 from mbla.deck.items import ArchItem as ArchItem
 from mbla.deck.items import BlockItem as BlockItem
 from mbla.deck.items import BoxItem as BoxItem
+from mbla.deck.items import ColumnEnd as ColumnEnd
+from mbla.deck.items import ColumnItem as ColumnItem
 from mbla.deck.items import CrossWall as CrossWall
 from mbla.deck.items import Item as Item
 from mbla.deck.items import Masonry as Masonry
@@ -32,7 +34,9 @@ from mbla.deck.items import PolyhedronItem as PolyhedronItem
 from mbla.deck.items import Reflection as Reflection
 from mbla.deck.items import Repetition as Repetition
 from mbla.deck.items import Rotation as Rotation
+from mbla.deck.items import StackItem as StackItem
 from mbla.deck.items import TransformStep as TransformStep
+from mbla.deck.items import TrilithonItem as TrilithonItem
 from mbla.deck.items import WallItem as WallItem
 from mbla.deck.items import WallsItem as WallsItem
 from mbla.deck.joints import JointLaw as JointLaw

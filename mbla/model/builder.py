@@ -83,10 +83,8 @@ def build_model(deck: Deck) -> Model:
     brought_along = Supports(np.repeat(np.array(items.fixed, dtype=bool), counts), grounds)
     tolerance, joint = deck.contacts.tolerance, deck.contacts.joint
     supports = build_supports(deck.content.supports, joint, brought_along, roster, tolerance, faults)
-    site = LoadSite(roster, supports.fixed, deck.units)
-    load_cases = tuple(
-        build_load_case(name, section, site, faults, notices) for name, section in deck.content.load_cases.items()
-    )
+    site = LoadSite(roster, supports.fixed, deck.units, faults, notices)
+    load_cases = tuple(build_load_case(name, section, site) for name, section in deck.content.load_cases.items())
     if faults:
         raise DeckError(faults)
     return Model(

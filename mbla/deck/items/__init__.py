@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from mbla.deck.items.arch import ArchItem as ArchItem
 from mbla.deck.items.box import BoxItem as BoxItem
+from mbla.deck.items.column import ColumnEnd as ColumnEnd
+from mbla.deck.items.column import ColumnItem as ColumnItem
 from mbla.deck.items.item import Item as Item
 from mbla.deck.items.item import Reflection as Reflection
 from mbla.deck.items.item import Repetition as Repetition
@@ -13,6 +15,8 @@ from mbla.deck.items.masonry import Masonry as Masonry
 from mbla.deck.items.masonry import Opening as Opening
 from mbla.deck.items.mesh import MeshItem as MeshItem
 from mbla.deck.items.polyhedron import PolyhedronItem as PolyhedronItem
+from mbla.deck.items.stack import StackItem as StackItem
+from mbla.deck.items.trilithon import TrilithonItem as TrilithonItem
 from mbla.deck.items.wall import WallItem as WallItem
 from mbla.deck.items.walls import CrossWall as CrossWall
 from mbla.deck.items.walls import WallsItem as WallsItem
@@ -28,3 +32,6 @@ class BlockItem(Section):
     walls: WallsItem | None = None
     arch: ArchItem | None = None
     mesh: MeshItem | None = None
+    column: ColumnItem | None = None
+    stack: StackItem | None = None
+    trilithon: TrilithonItem | None = None

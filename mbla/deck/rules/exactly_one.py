@@ -14,6 +14,7 @@ EXACTLY_ONE: dict[type[Section], tuple[str, ...]] = {
     types.JointLaw: ("friction", "friction_angle"),
     types.BlockItem: tuple(types.BlockItem.model_fields),
     types.TransformStep: tuple(types.TransformStep.model_fields),
+    types.ColumnEnd: ("side", "radius"),
     types.Repetition: ("translate", "rotate"),
     types.GroundPlane: ("x", "y", "z", "point"),
     types.Load: ("gravity", "acceleration", "force"),

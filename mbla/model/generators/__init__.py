@@ -4,9 +4,12 @@ from __future__ import annotations
 
 from mbla.model.generators.arch import generate_arch
 from mbla.model.generators.box import generate_box
+from mbla.model.generators.column import generate_column
 from mbla.model.generators.generator import Generator
 from mbla.model.generators.mesh import generate_mesh
 from mbla.model.generators.polyhedron import generate_polyhedron
+from mbla.model.generators.stack import generate_stack
+from mbla.model.generators.trilithon import generate_trilithon
 from mbla.model.generators.wall import generate_wall
 from mbla.model.generators.walls import generate_walls
 
@@ -17,5 +20,8 @@ GENERATORS: dict[str, Generator] = {
     "walls": generate_walls,
     "arch": generate_arch,
     "mesh": generate_mesh,
+    "column": generate_column,
+    "stack": generate_stack,
+    "trilithon": generate_trilithon,
 }
 """by the key of the item in the deck"""

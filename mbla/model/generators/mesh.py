@@ -8,6 +8,7 @@ from mbla.deck.types import MeshItem
 from mbla.model.generators.generator import Generated, ItemRefused, Part, Site
 from mbla.model.geometry import read_geometry
 from mbla.model.geometry.geometry import GeometryFileError
+from mbla.model.geometry.repair import repair
 
 
 def generate_mesh(item: MeshItem, site: Site) -> Generated:
@@ -22,7 +23,7 @@ def generate_mesh(item: MeshItem, site: Site) -> Generated:
     """
     path = site.resolve_file(("file",), item.file)
     try:
-        geometry = read_geometry(path)
+        geometry = repair(read_geometry(path), site.tolerance)
     except GeometryFileError as error:
         raise ItemRefused([(("file",), str(error))]) from error
     polyhedra = replace(geometry.polyhedra, vertices=geometry.polyhedra.vertices * item.scale)

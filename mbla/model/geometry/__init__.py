@@ -21,7 +21,7 @@ READERS: dict[str, Callable[[Path], Geometry]] = {
 
 
 def read_geometry(path: Path) -> Geometry:
-    """Blocks of a geometry file.
+    """What a geometry file holds, as read.
 
     Raises
     ------

@@ -19,8 +19,7 @@ import numpy as np
 from mbla.arrays import FloatArray, starts
 from mbla.errors import FileError, Notice
 from mbla.model.geometry.geometry import Geometry, GeometryFileError
-from mbla.model.geometry.surfaces import split_surface
-from mbla.model.geometry.welding import own_vertices, weld, welding_notices
+from mbla.model.geometry.welding import own_vertices
 from mbla.model.polyhedra import HEXAHEDRON, Polyhedra, join_polyhedra, polyhedra_from_cells
 
 VOLUME_CELLS: dict[str, tuple[int, Sequence[Sequence[int]]]] = {
@@ -98,17 +97,13 @@ def _read(source: str | io.BytesIO, file_format: str) -> Geometry:
     notices = [*remarks, *_left_out(left_out, bool(volumes))]
     if volumes:
         cells = join_polyhedra([_volume_cells(points, block) for block in volumes])
-        welded = weld(cells)
-        return Geometry(welded.polyhedra, (*notices, *welding_notices(welded)))
+        return Geometry(cells, tuple(notices), cells=True)
     faces = list(chain.from_iterable(_surface_cells(block) for block in surfaces))
     counts = np.array([len(face) for face in faces], dtype=np.int64)
     corners = np.fromiter(chain.from_iterable(faces), dtype=np.int64, count=int(counts.sum()))
     _check_rows(corners, points)
     surface = own_vertices(points, corners, starts(counts), np.zeros(len(faces), dtype=np.int64))
-    if not len(surface):
-        return Geometry(surface, tuple(notices))
-    geometry = split_surface(surface)
-    return Geometry(geometry.polyhedra, (*notices, *geometry.notices))
+    return Geometry(surface, tuple(notices), indexed=file_format != "stl")
 
 
 def _mesh(source: str | io.BytesIO, file_format: str) -> tuple[Any, list[Notice]]:

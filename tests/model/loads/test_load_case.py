@@ -5,8 +5,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from mbla.deck.rules import EXACTLY_ONE
+from mbla.deck.types import Load
 from mbla.errors import DeckError
 from mbla.model import build_model
+from mbla.model.loads import LOAD_KINDS
 from mbla.model.model import LoadCase, Model
 from tests.model.shapes import deck
 
@@ -146,3 +149,7 @@ def test_a_couple_has_an_effect(tmp_path: Path) -> None:
         f"live: [{{force: [1, 0, 0], {where}, at: [0.5, 0.5, 4]}}, {{force: [-1, 0, 0], {where}, at: [0.5, 0.5, 3]}}]"
     )
     assert case(tmp_path, loads).live_load[2] == pytest.approx([0, 0, 0, 0, 1, 0])
+
+
+def test_every_kind_of_load_of_the_deck_has_its_meaning() -> None:
+    assert tuple(LOAD_KINDS) == EXACTLY_ONE[Load]

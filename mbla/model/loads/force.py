@@ -1,0 +1,44 @@
+"""Load `force`: a force F at a point p of a block with centroid x brings the moment (p - x) x F."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from mbla.arrays import FloatArray, IntArray
+from mbla.deck.tree import KeyPath
+from mbla.deck.types import Load
+from mbla.model.loads.load_kind import AppliedLoad, LoadSite, wrenches_of
+from mbla.model.wording import vector
+
+OUTSIDE = 0.01
+"""distance of a force from the bounding box of its block, relative to the diagonal, from which it is remarked on"""
+
+
+def force_load(load: Load, blocks: IntArray | None, path: KeyPath, site: LoadSite) -> AppliedLoad | None:
+    """A force at a point of one block, at its centroid unless given."""
+    assert load.force is not None  # what makes it this kind
+    assert blocks is not None  # a rule of the deck: a force says on which block it acts
+    if len(blocks) != 1:
+        message = f"a force acts on one block, {len(blocks)} are selected: give an index, or one force for each"
+        site.refuse((*path, "on"), message)
+        return None
+    block = int(blocks[0])
+    words = f"force {vector(load.force)} {site.units.force} on {site.blocks.name(block)}"
+    centroid = site.blocks.centroids[block]
+    point = centroid if load.at is None else np.array(load.at)
+    if load.at is not None:
+        words += f" at {vector(load.at)} {site.units.length}"
+        _remark_outside(block, point, words, site)
+    else:
+        words += " at its centroid"
+    return AppliedLoad(blocks, wrenches_of(np.array([load.force]), point[None], centroid[None]), words)
+
+
+def _remark_outside(block: int, point: FloatArray, words: str, site: LoadSite) -> None:
+    blocks = site.blocks
+    vertices = blocks.vertices[blocks.vertex_start[block] : blocks.vertex_start[block + 1]]
+    least, greatest = vertices.min(axis=0), vertices.max(axis=0)
+    off = float(np.linalg.norm(np.maximum(0.0, np.maximum(least - point, point - greatest))))
+    if off > OUTSIDE * float(np.linalg.norm(greatest - least)):
+        message = f"the {words} acts {off:.4g} {site.units.length} outside that block; its moment is kept"
+        site.warn("force-outside-block", message)

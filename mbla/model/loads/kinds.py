@@ -1,0 +1,14 @@
+"""The kinds of loads, by the key that the deck gives them. A new one is a file, a key of ``Load`` and a line here."""
+
+from __future__ import annotations
+
+from mbla.model.loads.acceleration import acceleration_load
+from mbla.model.loads.force import force_load
+from mbla.model.loads.gravity import gravity_load
+from mbla.model.loads.load_kind import LoadKind
+
+LOAD_KINDS: dict[str, LoadKind] = {
+    "gravity": gravity_load,
+    "acceleration": acceleration_load,
+    "force": force_load,
+}

@@ -1,0 +1,75 @@
+"""What a kind of load gets and gives.
+
+A kind is a function ``(load, blocks, path, site) -> AppliedLoad | None``; where it gives None, it left a fault in
+``site.faults``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import TypeAlias
+
+import numpy as np
+
+from mbla.arrays import BoolArray, FloatArray, IntArray
+from mbla.deck.tree import KeyPath
+from mbla.deck.types import Load
+from mbla.deck.units import Units
+from mbla.errors import Fault, Notice
+from mbla.model.blocks import Blocks
+from mbla.model.selectors import Roster
+
+
+@dataclass(frozen=True)
+class LoadSite:
+    """What loads act on: blocks to choose from, those that do not move, the deck's units; and where to complain.
+
+    fixed   : (n_blocks,) blocks that do not move
+    faults  : what is wrong with a load goes here
+    notices : what its author should look at twice goes here
+    """
+
+    roster: Roster
+    fixed: BoolArray
+    units: Units
+    faults: list[Fault] = field(default_factory=list)
+    notices: list[Notice] = field(default_factory=list)
+
+    @property
+    def blocks(self) -> Blocks:
+        """All blocks of the model."""
+        return self.roster.blocks
+
+    def refuse(self, path: KeyPath, message: str) -> None:
+        """Add a fault."""
+        self.faults.append(self.roster.fault_at(path, message))
+
+    def warn(self, identifier: str, message: str) -> None:
+        """Add a warning, once."""
+        notice = Notice("warning", identifier, message)
+        if notice not in self.notices:
+            self.notices.append(notice)
+
+
+@dataclass(frozen=True)
+class AppliedLoad:
+    """One load on the blocks that it acts on.
+
+    blocks   : (n,) ascending, each once
+    wrenches : (n, 6) force and moment about the centroid of each block, in the deck's units
+    words    : the load in words, for the listing
+    """
+
+    blocks: IntArray
+    wrenches: FloatArray
+    words: str
+
+
+LoadKind: TypeAlias = Callable[[Load, IntArray | None, KeyPath, LoadSite], AppliedLoad | None]
+"""Arguments: the load; the blocks that its ``on`` selects, None where it has none; its place in the deck; the site."""
+
+
+def wrenches_of(forces: FloatArray, points: FloatArray, centroids: FloatArray) -> FloatArray:
+    """Forces at points as forces and moments about centroids, (p - x) x F; all (n, 3), the result (n, 6)."""
+    return np.hstack([forces, np.cross(points - centroids, forces)])
