@@ -28,9 +28,11 @@ from mbla.deck.items import BlockItem as BlockItem
 from mbla.deck.items import BoxItem as BoxItem
 from mbla.deck.items import ColumnEnd as ColumnEnd
 from mbla.deck.items import ColumnItem as ColumnItem
+from mbla.deck.items import CrossWall as CrossWall
 from mbla.deck.items import DomeDrum as DomeDrum
 from mbla.deck.items import DomeItem as DomeItem
 from mbla.deck.items import Item as Item
+from mbla.deck.items import Masonry as Masonry
 from mbla.deck.items import MeshItem as MeshItem
 from mbla.deck.items import Opening as Opening
 from mbla.deck.items import PolyhedronItem as PolyhedronItem
@@ -42,6 +44,7 @@ from mbla.deck.items import TableItem as TableItem
 from mbla.deck.items import TransformStep as TransformStep
 from mbla.deck.items import TrilithonItem as TrilithonItem
 from mbla.deck.items import WallItem as WallItem
+from mbla.deck.items import WallsItem as WallsItem
 from mbla.deck.joints import JointLaw as JointLaw
 from mbla.deck.loads import Load as Load
 from mbla.deck.loads import LoadCaseSection as LoadCaseSection

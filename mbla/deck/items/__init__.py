@@ -14,13 +14,16 @@ from mbla.deck.items.item import Reflection as Reflection
 from mbla.deck.items.item import Repetition as Repetition
 from mbla.deck.items.item import Rotation as Rotation
 from mbla.deck.items.item import TransformStep as TransformStep
+from mbla.deck.items.masonry import Masonry as Masonry
+from mbla.deck.items.masonry import Opening as Opening
 from mbla.deck.items.mesh import MeshItem as MeshItem
 from mbla.deck.items.polyhedron import PolyhedronItem as PolyhedronItem
 from mbla.deck.items.stack import StackItem as StackItem
 from mbla.deck.items.table import TableItem as TableItem
 from mbla.deck.items.trilithon import TrilithonItem as TrilithonItem
-from mbla.deck.items.wall import Opening as Opening
 from mbla.deck.items.wall import WallItem as WallItem
+from mbla.deck.items.walls import CrossWall as CrossWall
+from mbla.deck.items.walls import WallsItem as WallsItem
 from mbla.deck.section import Section
 
 
@@ -30,6 +33,7 @@ class BlockItem(Section):
     box: BoxItem | None = None
     polyhedron: PolyhedronItem | None = None
     wall: WallItem | None = None
+    walls: WallsItem | None = None
     arch: ArchItem | None = None
     mesh: MeshItem | None = None
     table: TableItem | None = None

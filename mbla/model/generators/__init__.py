@@ -13,11 +13,13 @@ from mbla.model.generators.stack import generate_stack
 from mbla.model.generators.table import generate_table
 from mbla.model.generators.trilithon import generate_trilithon
 from mbla.model.generators.wall import generate_wall
+from mbla.model.generators.walls import generate_walls
 
 GENERATORS: dict[str, Generator] = {
     "box": generate_box,
     "polyhedron": generate_polyhedron,
     "wall": generate_wall,
+    "walls": generate_walls,
     "arch": generate_arch,
     "mesh": generate_mesh,
     "table": generate_table,
