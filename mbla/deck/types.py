@@ -21,15 +21,18 @@ from mbla.deck.analysis import ReductionSwitches as ReductionSwitches
 from mbla.deck.contacts import ContactOverride as ContactOverride
 from mbla.deck.contacts import ContactsSection as ContactsSection
 from mbla.deck.items import ArchItem as ArchItem
+from mbla.deck.items import BarrelVaultItem as BarrelVaultItem
 from mbla.deck.items import BlockItem as BlockItem
 from mbla.deck.items import BoxItem as BoxItem
 from mbla.deck.items import ColumnEnd as ColumnEnd
 from mbla.deck.items import ColumnItem as ColumnItem
+from mbla.deck.items import CrossVaultItem as CrossVaultItem
 from mbla.deck.items import DomeDrum as DomeDrum
 from mbla.deck.items import DomeItem as DomeItem
 from mbla.deck.items import Item as Item
 from mbla.deck.items import MeshItem as MeshItem
 from mbla.deck.items import Opening as Opening
+from mbla.deck.items import PavilionVaultItem as PavilionVaultItem
 from mbla.deck.items import PolyhedronItem as PolyhedronItem
 from mbla.deck.items import Reflection as Reflection
 from mbla.deck.items import Repetition as Repetition
@@ -37,6 +40,7 @@ from mbla.deck.items import Rotation as Rotation
 from mbla.deck.items import StackItem as StackItem
 from mbla.deck.items import TransformStep as TransformStep
 from mbla.deck.items import TrilithonItem as TrilithonItem
+from mbla.deck.items import VaultItem as VaultItem
 from mbla.deck.items import WallItem as WallItem
 from mbla.deck.joints import JointLaw as JointLaw
 from mbla.deck.loads import Load as Load

@@ -73,6 +73,13 @@ def test_every_rule_is_registered_and_broken_by_a_faulty_deck() -> None:
             "must be even in running bond",
             "a springing on ground is level",
         ],
+        types.BarrelVaultItem: ["needs rise for shape: catenary", "applies to shape: segmental only", "half the span"],
+        types.CrossVaultItem: [
+            "must be <= 180: two barrels",
+            "springings on ground are level",
+            "for a segmental vault: two",
+        ],
+        types.PavilionVaultItem: ["a keystone closes the crown", "would be a kink in it"],
         types.SelectorTerm: ["box[1][2] = -1: must be > 0", "applies with group only", "the first of the range"],
         types.GroundPlane: ["needs a normal beside its point", "applies with point only"],
         types.Support: ["needs one of ground or blocks", "applies with ground only"],

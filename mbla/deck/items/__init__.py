@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from mbla.deck.items.arch import ArchItem as ArchItem
+from mbla.deck.items.barrel_vault import BarrelVaultItem as BarrelVaultItem
 from mbla.deck.items.box import BoxItem as BoxItem
 from mbla.deck.items.column import ColumnEnd as ColumnEnd
 from mbla.deck.items.column import ColumnItem as ColumnItem
+from mbla.deck.items.cross_vault import CrossVaultItem as CrossVaultItem
 from mbla.deck.items.dome import DomeDrum as DomeDrum
 from mbla.deck.items.dome import DomeItem as DomeItem
 from mbla.deck.items.item import Item as Item
@@ -14,9 +16,11 @@ from mbla.deck.items.item import Repetition as Repetition
 from mbla.deck.items.item import Rotation as Rotation
 from mbla.deck.items.item import TransformStep as TransformStep
 from mbla.deck.items.mesh import MeshItem as MeshItem
+from mbla.deck.items.pavilion_vault import PavilionVaultItem as PavilionVaultItem
 from mbla.deck.items.polyhedron import PolyhedronItem as PolyhedronItem
 from mbla.deck.items.stack import StackItem as StackItem
 from mbla.deck.items.trilithon import TrilithonItem as TrilithonItem
+from mbla.deck.items.vault import VaultItem as VaultItem
 from mbla.deck.items.wall import Opening as Opening
 from mbla.deck.items.wall import WallItem as WallItem
 from mbla.deck.section import Section
@@ -34,3 +38,6 @@ class BlockItem(Section):
     stack: StackItem | None = None
     trilithon: TrilithonItem | None = None
     dome: DomeItem | None = None
+    barrel_vault: BarrelVaultItem | None = None
+    cross_vault: CrossVaultItem | None = None
+    pavilion_vault: PavilionVaultItem | None = None
