@@ -18,9 +18,12 @@ from mbla.deck.analysis import PathScheme as PathScheme
 from mbla.deck.analysis import ProximalScheme as ProximalScheme
 from mbla.deck.analysis import PublishedScheme as PublishedScheme
 from mbla.deck.analysis import ReductionSwitches as ReductionSwitches
+from mbla.deck.contacts import AboutNormal as AboutNormal
 from mbla.deck.contacts import ContactOverride as ContactOverride
+from mbla.deck.contacts import ContactPoints as ContactPoints
 from mbla.deck.contacts import ContactsSection as ContactsSection
 from mbla.deck.items import ArchItem as ArchItem
+from mbla.deck.items import ArchPiers as ArchPiers
 from mbla.deck.items import BarrelVaultItem as BarrelVaultItem
 from mbla.deck.items import BlockItem as BlockItem
 from mbla.deck.items import BoxItem as BoxItem
@@ -38,6 +41,7 @@ from mbla.deck.items import Reflection as Reflection
 from mbla.deck.items import Repetition as Repetition
 from mbla.deck.items import Rotation as Rotation
 from mbla.deck.items import StackItem as StackItem
+from mbla.deck.items import TableItem as TableItem
 from mbla.deck.items import TransformStep as TransformStep
 from mbla.deck.items import TrilithonItem as TrilithonItem
 from mbla.deck.items import VaultItem as VaultItem
@@ -116,7 +120,9 @@ class DeckContent(Section):
     parameters: dict[ParameterName, Number] = Field(default_factory=dict, description='names for "=..." expressions')
     include: list[str] = Field(default_factory=list, description="decks merged into this one, relative to it")
     materials: dict[Name, Material] = Field(min_length=1, description="materials by name")
-    joints: dict[Name, JointLaw] = Field(min_length=1, description="joint laws by name")
+    joints: dict[Name, JointLaw] = Field(
+        default_factory=dict, description="joint laws by name; frictionless, glued and open are known without"
+    )
     blocks: list[BlockItem] = Field(min_length=1, description="the structure, item by item")
     contacts: ContactsSection = Field(description="joint law and tolerance of contacts")
     supports: list[Support] = Field(default_factory=list, description="what holds the structure")

@@ -86,7 +86,10 @@ def test_every_rule_is_registered_and_broken_by_a_faulty_deck() -> None:
         types.Load: ["a force needs `on`", "applies to a force only", "does not apply to gravity"],
         types.LoadCaseSection: ["is a live load with no effect"],
         types.AnalysisSection: ["applies to flow_rule: associative", "applies to contact_model: concave"],
-        types.DeckContent: ["contacts.inset = 0.2: applies to contact_model: concave only"],
+        types.ContactOverride: ["needs one of between, orientation or box", "box[1][1] = -1: must be > 0"],
+        types.AboutNormal: ["orientation.normal = [0, 0, 0]: must not be the zero vector"],
+        types.ContactPoints: ["only one of per_edge or spacing", "only one of inset or rounding"],
+        types.DeckContent: ["contacts.points.inset = 0.2: applies to contact_model: concave only"],
         types.Expectation: ["needs at least one of load_factor"],
     }
     assert set(words) | set(rules.EXACTLY_ONE) | set(rules.AT_LEAST_ONE) == set(RULES)

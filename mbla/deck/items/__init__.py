@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from mbla.deck.items.arch import ArchItem as ArchItem
+from mbla.deck.items.arch import ArchPiers as ArchPiers
 from mbla.deck.items.barrel_vault import BarrelVaultItem as BarrelVaultItem
 from mbla.deck.items.box import BoxItem as BoxItem
 from mbla.deck.items.column import ColumnEnd as ColumnEnd
@@ -19,6 +20,7 @@ from mbla.deck.items.mesh import MeshItem as MeshItem
 from mbla.deck.items.pavilion_vault import PavilionVaultItem as PavilionVaultItem
 from mbla.deck.items.polyhedron import PolyhedronItem as PolyhedronItem
 from mbla.deck.items.stack import StackItem as StackItem
+from mbla.deck.items.table import TableItem as TableItem
 from mbla.deck.items.trilithon import TrilithonItem as TrilithonItem
 from mbla.deck.items.vault import VaultItem as VaultItem
 from mbla.deck.items.wall import Opening as Opening
@@ -34,6 +36,7 @@ class BlockItem(Section):
     wall: WallItem | None = None
     arch: ArchItem | None = None
     mesh: MeshItem | None = None
+    table: TableItem | None = None
     column: ColumnItem | None = None
     stack: StackItem | None = None
     trilithon: TrilithonItem | None = None

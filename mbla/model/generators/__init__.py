@@ -13,6 +13,7 @@ from mbla.model.generators.mesh import generate_mesh
 from mbla.model.generators.pavilion_vault import generate_pavilion_vault
 from mbla.model.generators.polyhedron import generate_polyhedron
 from mbla.model.generators.stack import generate_stack
+from mbla.model.generators.table import generate_table
 from mbla.model.generators.trilithon import generate_trilithon
 from mbla.model.generators.wall import generate_wall
 
@@ -22,6 +23,7 @@ GENERATORS: dict[str, Generator] = {
     "wall": generate_wall,
     "arch": generate_arch,
     "mesh": generate_mesh,
+    "table": generate_table,
     "column": generate_column,
     "stack": generate_stack,
     "trilithon": generate_trilithon,
