@@ -5,6 +5,10 @@ from __future__ import annotations
 from mbla.deck.items.arch import ArchItem as ArchItem
 from mbla.deck.items.arch import ArchPiers as ArchPiers
 from mbla.deck.items.box import BoxItem as BoxItem
+from mbla.deck.items.bridge import BridgeAbutments as BridgeAbutments
+from mbla.deck.items.bridge import BridgeItem as BridgeItem
+from mbla.deck.items.bridge import BridgeParapets as BridgeParapets
+from mbla.deck.items.bridge import BridgePiers as BridgePiers
 from mbla.deck.items.column import ColumnEnd as ColumnEnd
 from mbla.deck.items.column import ColumnItem as ColumnItem
 from mbla.deck.items.item import Item as Item
@@ -32,3 +36,4 @@ class BlockItem(Section):
     column: ColumnItem | None = None
     stack: StackItem | None = None
     trilithon: TrilithonItem | None = None
+    bridge: BridgeItem | None = None

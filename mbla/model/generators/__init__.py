@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from mbla.model.generators.arch import generate_arch
 from mbla.model.generators.box import generate_box
+from mbla.model.generators.bridge import generate_bridge
 from mbla.model.generators.column import generate_column
 from mbla.model.generators.generator import Generator
 from mbla.model.generators.mesh import generate_mesh
@@ -18,6 +19,7 @@ GENERATORS: dict[str, Generator] = {
     "wall": generate_wall,
     "arch": generate_arch,
     "mesh": generate_mesh,
+    "bridge": generate_bridge,
     "column": generate_column,
     "stack": generate_stack,
     "trilithon": generate_trilithon,
