@@ -11,6 +11,8 @@ from mbla.deck.items.bridge import BridgeParapets as BridgeParapets
 from mbla.deck.items.bridge import BridgePiers as BridgePiers
 from mbla.deck.items.column import ColumnEnd as ColumnEnd
 from mbla.deck.items.column import ColumnItem as ColumnItem
+from mbla.deck.items.dome import DomeDrum as DomeDrum
+from mbla.deck.items.dome import DomeItem as DomeItem
 from mbla.deck.items.item import Item as Item
 from mbla.deck.items.item import Reflection as Reflection
 from mbla.deck.items.item import Repetition as Repetition
@@ -19,6 +21,7 @@ from mbla.deck.items.item import TransformStep as TransformStep
 from mbla.deck.items.mesh import MeshItem as MeshItem
 from mbla.deck.items.polyhedron import PolyhedronItem as PolyhedronItem
 from mbla.deck.items.stack import StackItem as StackItem
+from mbla.deck.items.table import TableItem as TableItem
 from mbla.deck.items.trilithon import TrilithonItem as TrilithonItem
 from mbla.deck.items.wall import Opening as Opening
 from mbla.deck.items.wall import WallItem as WallItem
@@ -33,7 +36,9 @@ class BlockItem(Section):
     wall: WallItem | None = None
     arch: ArchItem | None = None
     mesh: MeshItem | None = None
+    table: TableItem | None = None
     column: ColumnItem | None = None
     stack: StackItem | None = None
     trilithon: TrilithonItem | None = None
     bridge: BridgeItem | None = None
+    dome: DomeItem | None = None
