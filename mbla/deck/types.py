@@ -27,6 +27,10 @@ from mbla.deck.items import ArchPiers as ArchPiers
 from mbla.deck.items import BarrelVaultItem as BarrelVaultItem
 from mbla.deck.items import BlockItem as BlockItem
 from mbla.deck.items import BoxItem as BoxItem
+from mbla.deck.items import BridgeAbutments as BridgeAbutments
+from mbla.deck.items import BridgeItem as BridgeItem
+from mbla.deck.items import BridgeParapets as BridgeParapets
+from mbla.deck.items import BridgePiers as BridgePiers
 from mbla.deck.items import ColumnEnd as ColumnEnd
 from mbla.deck.items import ColumnItem as ColumnItem
 from mbla.deck.items import CrossWall as CrossWall

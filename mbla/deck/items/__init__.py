@@ -6,6 +6,10 @@ from mbla.deck.items.arch import ArchItem as ArchItem
 from mbla.deck.items.arch import ArchPiers as ArchPiers
 from mbla.deck.items.barrel_vault import BarrelVaultItem as BarrelVaultItem
 from mbla.deck.items.box import BoxItem as BoxItem
+from mbla.deck.items.bridge import BridgeAbutments as BridgeAbutments
+from mbla.deck.items.bridge import BridgeItem as BridgeItem
+from mbla.deck.items.bridge import BridgeParapets as BridgeParapets
+from mbla.deck.items.bridge import BridgePiers as BridgePiers
 from mbla.deck.items.column import ColumnEnd as ColumnEnd
 from mbla.deck.items.column import ColumnItem as ColumnItem
 from mbla.deck.items.cross_vault import CrossVaultItem as CrossVaultItem
@@ -45,6 +49,7 @@ class BlockItem(Section):
     column: ColumnItem | None = None
     stack: StackItem | None = None
     trilithon: TrilithonItem | None = None
+    bridge: BridgeItem | None = None
     dome: DomeItem | None = None
     barrel_vault: BarrelVaultItem | None = None
     cross_vault: CrossVaultItem | None = None

@@ -6,6 +6,7 @@ One file per section of the deck.
 
 from mbla.deck.rules import analysis as analysis
 from mbla.deck.rules import arches as arches
+from mbla.deck.rules import bridges as bridges
 from mbla.deck.rules import columns as columns
 from mbla.deck.rules import contacts as contacts
 from mbla.deck.rules import expectations as expectations
