@@ -10,6 +10,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from mbla.deck.deck import Deck
+from mbla.deck.joints import FRICTIONLESS
 from mbla.deck.tree import KeyPath
 from mbla.deck.types import BlockItem, Item, JointLaw, Material
 from mbla.deck.units import Units
@@ -20,6 +21,7 @@ from mbla.model.generators.generator import Generated, ItemRefused, Site
 from mbla.model.labels import NONE, BlockLabels, join_labels, labels_of
 from mbla.model.loads import LoadSite, build_load_case
 from mbla.model.model import Ground, Joint, Model
+from mbla.model.overrides import check_overrides
 from mbla.model.polyhedra import Polyhedra, join_polyhedra
 from mbla.model.selectors import build_roster
 from mbla.model.supports import Supports, build_supports
@@ -79,6 +81,7 @@ def build_model(deck: Deck) -> Model:
     brought_along = Supports(np.repeat(np.array(items.fixed, dtype=bool), counts), grounds)
     tolerance, joint = deck.contacts.tolerance, deck.contacts.joint
     supports = build_supports(deck.content.supports, joint, brought_along, roster, tolerance, faults)
+    check_overrides(deck.contacts.overrides, roster, faults)
     site = LoadSite(roster, supports.fixed, deck.units, deck.resolve_file, faults, notices)
     load_cases = tuple(build_load_case(name, section, site) for name, section in deck.content.load_cases.items())
     if faults:
@@ -89,10 +92,19 @@ def build_model(deck: Deck) -> Model:
         blocks=built.blocks,
         fixed=supports.fixed,
         grounds=supports.grounds,
-        joints={name: build_joint(name, law) for name, law in deck.content.joints.items()},
+        joints=_joints(deck, supports.grounds),
         load_cases=load_cases,
         notices=(*items.notices, *built.notices, *notices),
     )
+
+
+def _joints(deck: Deck, grounds: Sequence[Ground]) -> dict[str, Joint]:
+    """Joint laws of the deck, and that without friction where it is asked for by its name."""
+    laws = {name: build_joint(name, law) for name, law in deck.content.joints.items()}
+    used = {deck.contacts.joint, *(override.joint for override in deck.contacts.overrides)}
+    if FRICTIONLESS in used | {ground.joint for ground in grounds}:
+        laws[FRICTIONLESS] = Joint(FRICTIONLESS, 0.0)
+    return laws
 
 
 def build_joint(name: str, law: JointLaw) -> Joint:

@@ -79,6 +79,9 @@ def empty_report(notices: Any = ()) -> ContactReport:
         isolated=rows,
         unsupported=(),
         fixed_contacts=0,
+        open_interfaces=0,
+        glued_interfaces=0,
+        held=rows,
         notices=tuple(notices),
     )
 
@@ -248,7 +251,9 @@ def full_results() -> Results:
         peak_load_factor=0.6,
         failures=("x",),
     )
-    return replace(results, cases=(replace(case, solution=solution, checks=checks), results.cases[1]))
+    contacts = replace(results.contacts, solid_of_block=np.arange(len(results.model.blocks)))
+    cases = (replace(case, solution=solution, checks=checks), results.cases[1])
+    return replace(results, contacts=contacts, cases=cases)
 
 
 def same(first: Any, second: Any) -> bool:

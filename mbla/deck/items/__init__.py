@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 from mbla.deck.items.arch import ArchItem as ArchItem
+from mbla.deck.items.arch import ArchPiers as ArchPiers
 from mbla.deck.items.box import BoxItem as BoxItem
 from mbla.deck.items.column import ColumnEnd as ColumnEnd
 from mbla.deck.items.column import ColumnItem as ColumnItem
+from mbla.deck.items.dome import DomeDrum as DomeDrum
+from mbla.deck.items.dome import DomeItem as DomeItem
 from mbla.deck.items.item import Item as Item
 from mbla.deck.items.item import Reflection as Reflection
 from mbla.deck.items.item import Repetition as Repetition
@@ -33,3 +36,4 @@ class BlockItem(Section):
     column: ColumnItem | None = None
     stack: StackItem | None = None
     trilithon: TrilithonItem | None = None
+    dome: DomeItem | None = None

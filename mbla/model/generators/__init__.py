@@ -5,6 +5,7 @@ from __future__ import annotations
 from mbla.model.generators.arch import generate_arch
 from mbla.model.generators.box import generate_box
 from mbla.model.generators.column import generate_column
+from mbla.model.generators.dome import generate_dome
 from mbla.model.generators.generator import Generator
 from mbla.model.generators.mesh import generate_mesh
 from mbla.model.generators.polyhedron import generate_polyhedron
@@ -23,5 +24,6 @@ GENERATORS: dict[str, Generator] = {
     "column": generate_column,
     "stack": generate_stack,
     "trilithon": generate_trilithon,
+    "dome": generate_dome,
 }
 """by the key of the item in the deck"""
