@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from mbla.contacts import Contacts, find_contacts
-from mbla.contacts.glue import glue_findings, held_model, solids_of
+from mbla.contacts.glue import held_model, solids_of
+from mbla.contacts.glue_findings import glue_findings
 from mbla.contacts.interface_points import PointsRefused
 from mbla.contacts.notices import overlap_messages
 from mbla.deck import Deck, read_deck
@@ -16,6 +17,7 @@ from mbla.errors import DeckError, Notice, UsageError
 from mbla.expected import compare_with_expected
 from mbla.model import Model, build_model
 from mbla.model.model import LoadCase
+from mbla.model.settlement import with_reference
 from mbla.program import Program, assemble
 from mbla.program.convex import assemble_convex
 from mbla.program.reductions import Reduced, allowed_reductions, reduce_program
@@ -29,6 +31,7 @@ from mbla.solution import Status, solve, verified_status, verify
 from mbla.solution.convex import solve_convex
 from mbla.solution.glued import solution_on_blocks
 from mbla.solution.settings import SolverSettings, solver_settings
+from mbla.solution.settlement import posed
 from mbla.solution.solution import IterationRecord
 
 Progress = Callable[[str, IterationRecord], None]
@@ -79,6 +82,7 @@ def run(deck_path: Path, options: RunOptions, progress: Progress | None = None) 
         model = held_model(model, contacts)
         found = time.perf_counter()
         settings = solver_settings(deck.analysis, options.threads)
+        model, load_cases = with_settlements(model, contacts, load_cases, settings)
         cases = [
             solve_case(deck, model, contacts, load_case, settings, status_file, progress) for load_case in load_cases
         ]
@@ -98,6 +102,21 @@ def run(deck_path: Path, options: RunOptions, progress: Progress | None = None) 
         return write_results(results, out, output.vtu, output.frames, output.plots)
 
 
+def with_settlements(
+    model: Model, contacts: Contacts, load_cases: tuple[LoadCase, ...], settings: SolverSettings
+) -> tuple[Model, tuple[LoadCase, ...]]:
+    """Load cases to be solved in which a support gives way get the reaction that it starts from."""
+    solids = solids_of(model, contacts)
+
+    def ready_case(case: LoadCase) -> LoadCase:
+        settlement = posed(solids.model, solids.contacts, solids.load_case(case), settings).settlement
+        return case if settlement is None else with_reference(case, settlement.reference)
+
+    ready = {case.name: ready_case(case) for case in load_cases}
+    everything = tuple(ready.get(case.name, case) for case in model.load_cases)
+    return replace(model, load_cases=everything), tuple(ready.values())
+
+
 def solve_case(
     deck: Deck,
     model: Model,
@@ -114,6 +133,7 @@ def solve_case(
         if progress is not None:
             progress(load_case.name, record)
 
+    model = model.of_case(load_case)
     solids = solids_of(model, contacts)
     on_solids = (solids.model, solids.contacts, solids.load_case(load_case))
     if deck.analysis.contact_model == "convex":
