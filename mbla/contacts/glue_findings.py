@@ -1,4 +1,4 @@
-"""What glue makes a fault of the deck: found when contacts are known, after the model stage has judged loads and guides."""
+"""What glue makes a fault of the deck: found with the contacts, after the model stage has judged loads and guides."""
 
 from __future__ import annotations
 
@@ -69,9 +69,7 @@ def _glued_settlements(model: Model, contacts: Contacts) -> Iterator[tuple[KeyPa
         others = np.setdiff1d(on_it, case.settlement.blocks)
         if len(others):
             names = ", ".join(model.body_name(int(body)) for body in others[:3])
-            message = (
-                f"{names} glued to a support that gives way: fix what is glued to it too, and let it settle as well"
-            )
+            message = f"{names} glued to a support that gives way: fix that as well, and let it settle with the support"
             yield ("load_cases", case.name, "settlement", "on"), message
 
 

@@ -1,7 +1,7 @@
 """Guides of blocks that are glued into solids: the solid moves as its guided block does.
 
-A way in which block b moves with (v, ω) about its own centroid c_b moves its solid with (v + ω × (c − c_b), ω) about the
-centroid c of the solid. Two guided blocks of one solid agree where they belong to one guided body and both give the
+A way in which block b moves with (v, ω) about its own centroid c_b moves its solid with (v + ω × (c − c_b), ω) about
+the centroid c of the solid. Two guided blocks of one solid agree where they belong to one guided body and both give the
 solid the same motion in each way; otherwise their guides would have to be intersected, and such a deck is refused.
 """
 
@@ -35,7 +35,7 @@ def guides_at_odds(guides: Guides, label: IntArray, arms: FloatArray) -> tuple[i
     """Two guided blocks of one solid whose guides do not say the same of it; None where there are none."""
     if not len(guides):
         return None
-    solids, first, row = np.unique(label[guides.blocks], return_index=True, return_inverse=True)
+    _, first, row = np.unique(label[guides.blocks], return_index=True, return_inverse=True)
     motions = _about_solids(guides, arms)
     size = np.abs(motions).max(axis=(1, 2), initial=0.0)
     differs = np.abs(motions - motions[first[row]]).max(axis=(1, 2), initial=0.0) > AGREE * size
