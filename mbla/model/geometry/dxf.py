@@ -53,7 +53,7 @@ def read_dxf(path: Path) -> Geometry:
     Raises
     ------
     GeometryFileError
-        for files that are no DXF, and outlines that do not lie in the x-y plane
+        for files that are no DXF or have no closed outline, and for outlines that do not lie in the x-y plane
     """
     import ezdxf
 
@@ -72,6 +72,9 @@ def read_dxf(path: Path) -> Geometry:
         else:
             _add(drawing, layer, entity)
     notices = _close_networks(drawing)
+    if not drawing.outlines:
+        remarks = "; ".join(notice.message for notice in (*notices, *_left_out(drawing)))
+        raise GeometryFileError(f"has no closed outline{f': {remarks}' if remarks else ''}")
     names = tuple(layer for layer, _ in drawing.outlines)
     polyhedra = join_polyhedra([prism(outline) for _, outline in drawing.outlines])
     unit = UNITS.get(document.header.get("$INSUNITS", 0))
