@@ -110,6 +110,7 @@ FrictionAngle: TypeAlias = Annotated[float, Quantity("angle", ge=0, lt=90)]
 EmbraceAngle: TypeAlias = Annotated[float, Quantity("angle", gt=0, lt=360)]
 Time: TypeAlias = Annotated[float, Quantity("time", gt=0)]
 Index: TypeAlias = Annotated[int, Whole(ge=0, le=2**31 - 1)]
+Position: TypeAlias = Annotated[int, Whole(ge=-(2**31), le=2**31 - 1)]
 Count: TypeAlias = Annotated[int, Whole(ge=1, le=1_000_000)]
 Switch: TypeAlias = Annotated[bool, Field(strict=True)]
 

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from mbla.deck.key_reference import key_reference
-from mbla.deck.rules import EXACTLY_ONE
+from mbla.deck.rules import AT_LEAST_ONE, EXACTLY_ONE
 from mbla.deck.types import DeckContent
 
 REPOSITORY = Path(__file__).parents[2]
@@ -25,6 +25,8 @@ def deck_schema() -> dict[str, Any]:
     definitions = {name: _tidy(definition) for name, definition in schema.pop("$defs").items()}
     for section, keys in EXACTLY_ONE.items():
         definitions[section.__name__]["oneOf"] = [{"required": [key]} for key in keys]
+    for section, keys in AT_LEAST_ONE.items():
+        definitions[section.__name__]["anyOf"] = [{"required": [key]} for key in keys]
     schema = _tidy(schema)
     # With an inclusion, what this file lacks may come from another.
     required = [key for key in schema.pop("required") if key != "mbla"]

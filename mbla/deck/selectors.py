@@ -7,16 +7,56 @@ from typing import Annotated, TypeAlias
 from pydantic import Discriminator, Field, Tag
 
 from mbla.deck.names import Name
-from mbla.deck.quantities import Index, Point
+from mbla.deck.quantities import Index, Point, Position
 from mbla.deck.section import Section, shape
+
+POSITIONS = (
+    "course",
+    "unit",
+    "leaf",
+    "voussoir",
+    "ring",
+    "segment",
+    "tread",
+    "drum",
+    "span",
+    "level",
+    "copy",
+)
+"""Names of positions that items give their blocks, counted from 0; each is a key of selectors."""
+
+PositionRange: TypeAlias = Annotated[
+    Annotated[Position, Tag("number")] | Annotated[tuple[Position, Position], Tag("list")],
+    Discriminator(lambda value: "list" if isinstance(value, (list, tuple)) else "number"),
+]
 
 
 class SelectorTerm(Section):
-    """Blocks of a group (all, or the one with an index), or blocks whose centroid lies in a box."""
+    """Blocks of a group, or blocks whose centroid lies in a box; every further key narrows the choice.
+
+    A position is a number, or [first, last]; negative ones count from the last of the group, -1.
+    """
 
     group: Name | None = Field(None, description="name of a group")
-    index: Index | None = Field(None, description="which block of the group, from 0 in order of creation")
     box: tuple[Point, Point] | None = Field(None, description="least and greatest coordinates; centroids inside count")
+    index: Index | None = Field(None, description="which block of the group, from 0 in order of creation")
+    member: Name | None = Field(None, description="part of a composite item, `lintel` for example")
+    course: PositionRange | None = Field(None, description="course of a wall or vault, from the bottom")
+    unit: PositionRange | None = Field(None, description="position along its course")
+    leaf: PositionRange | None = Field(None, description="leaf of a wall, from its face at least y")
+    voussoir: PositionRange | None = Field(None, description="position along an arch")
+    ring: PositionRange | None = Field(None, description="ring of a dome, from the springing; of an arch, from inside")
+    segment: PositionRange | None = Field(None, description="position around a ring")
+    tread: PositionRange | None = Field(None, description="step of a stair, from the bottom")
+    drum: PositionRange | None = Field(None, description="position in a column or stack, from the bottom")
+    span: PositionRange | None = Field(None, description="span of a bridge, or web of a vault")
+    level: PositionRange | None = Field(None, description="storey")
+    copy_: PositionRange | None = Field(None, alias="copy", description="repetition of the item")
+
+    def position(self, name: str) -> int | tuple[int, int] | None:
+        """What is asked of a position, by its name."""
+        asked: int | tuple[int, int] | None = getattr(self, "copy_" if name == "copy" else name)
+        return asked
 
 
 Term: TypeAlias = Annotated[

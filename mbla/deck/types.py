@@ -28,6 +28,7 @@ from mbla.deck.items import MeshItem as MeshItem
 from mbla.deck.items import Opening as Opening
 from mbla.deck.items import PolyhedronItem as PolyhedronItem
 from mbla.deck.items import Reflection as Reflection
+from mbla.deck.items import Repetition as Repetition
 from mbla.deck.items import Rotation as Rotation
 from mbla.deck.items import TransformStep as TransformStep
 from mbla.deck.items import WallItem as WallItem

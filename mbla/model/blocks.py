@@ -8,6 +8,7 @@ from functools import cached_property
 import numpy as np
 
 from mbla.arrays import FloatArray, IntArray, row_of_item
+from mbla.model.labels import BlockLabels
 
 
 @dataclass(frozen=True)
@@ -29,6 +30,7 @@ class Blocks:
     densities        : (n_blocks,) kg/m3
     groups           : group of each block
     group_indices    : (n_blocks,)      position of the block in its group, from 0
+    labels           : members and positions within the group
     (units: those of the deck; m, kg stand for them)
     """
 
@@ -45,6 +47,7 @@ class Blocks:
     densities: FloatArray
     groups: tuple[str, ...]
     group_indices: IntArray
+    labels: BlockLabels
 
     def __len__(self) -> int:
         return len(self.volumes)

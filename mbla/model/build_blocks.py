@@ -24,6 +24,7 @@ from mbla.model.defects import (
 )
 from mbla.model.face_geometry import FaceGeometry, face_geometry
 from mbla.model.facets import find_facets
+from mbla.model.labels import BlockLabels, no_labels
 from mbla.model.orientation import Edges, count_pieces, faces_to_turn, find_edges
 from mbla.model.polyhedra import Polyhedra, drop_unused_vertices, polyhedra_from_lists, take_polyhedra, turn_faces
 from mbla.model.self_intersection import intersection_defects
@@ -36,11 +37,14 @@ PLANAR = 1e-9
 
 @dataclass(frozen=True)
 class Labels:
-    """What blocks are called and made of: ``groups`` (n,), ``group_indices`` (n,), ``densities`` (n,)."""
+    """What blocks are called and made of: ``groups`` (n,), ``group_indices`` (n,), ``densities`` (n,), ``within`` (n)
+    the labels within their groups.
+    """
 
     groups: tuple[str, ...]
     group_indices: IntArray
     densities: FloatArray
+    within: BlockLabels
 
     def name(self, block: int) -> str:
         """As ``Blocks.name``."""
@@ -79,7 +83,9 @@ def blocks_from_polyhedra(
     polyhedra = polyhedra_from_lists(vertex_lists, face_lists)
     names = (groups,) * len(polyhedra) if isinstance(groups, str) else tuple(groups)
     density = np.broadcast_to(np.asarray(densities, dtype=np.float64), (len(polyhedra),)).copy()
-    built = build_blocks(polyhedra, Labels(names, indices_in_groups(names), density), tolerance)
+    built = build_blocks(
+        polyhedra, Labels(names, indices_in_groups(names), density, no_labels(len(polyhedra))), tolerance
+    )
     if built.defects:
         raise MblaError("\n".join(f"block {built.blocks.name(d.block)}: {d.message}" for d in built.defects))
     return built.blocks
@@ -135,6 +141,7 @@ def build_blocks(polyhedra: Polyhedra, labels: Labels, tolerance: float) -> Buil
         densities=labels.densities,
         groups=labels.groups,
         group_indices=labels.group_indices,
+        labels=labels.within,
     )
     notices = (
         *_unused_vertices(unused, labels),

@@ -17,12 +17,13 @@ from mbla.errors import DeckError, Fault, Notice
 from mbla.model.build_blocks import BuiltBlocks, Labels, build_blocks, indices_in_groups
 from mbla.model.generators import GENERATORS
 from mbla.model.generators.generator import Generated, ItemRefused, Site
+from mbla.model.labels import NONE, BlockLabels, join_labels, labels_of
 from mbla.model.loads import LoadSite, build_load_case
 from mbla.model.model import Ground, Joint, Model
 from mbla.model.polyhedra import Polyhedra, join_polyhedra
 from mbla.model.selectors import build_roster
 from mbla.model.supports import Supports, build_supports
-from mbla.model.transform import build_transform, transform_item
+from mbla.model.transform import build_transform, repetitions, transform_item
 
 MOST_FAULTS_PER_ITEM = 10
 """defects of blocks of one item that are told one by one; a mesh in the wrong format has one in every block"""
@@ -40,7 +41,18 @@ class _Collected:
     grounds: list[tuple[int, Ground]] = field(default_factory=list)
     notices: list[Notice] = field(default_factory=list)
     partial: set[str] = field(default_factory=set)
+    labels: list[BlockLabels] = field(default_factory=list)
     first_block: int = 0
+
+
+@dataclass(frozen=True)
+class _Entry:
+    """What all blocks of an item share: its number in the deck, group, density, and the deck's default joint law."""
+
+    number: int
+    group: str
+    density: float
+    joint: str
 
 
 def build_model(deck: Deck) -> Model:
@@ -114,8 +126,8 @@ def _generate_items(deck: Deck, faults: list[Fault]) -> _Collected:
     """Raw polyhedra of all items; items that cannot be built leave a fault, and their groups are partial."""
     collected = _Collected()
     densities = {name: density_of(material, deck.units) for name, material in deck.content.materials.items()}
-    for number, entry in enumerate(deck.content.blocks):
-        kind, item = _kind(entry)
+    for number, block_item in enumerate(deck.content.blocks):
+        kind, item = _kind(block_item)
         path: KeyPath = ("blocks", number, kind)
         group = item.group or kind
         try:
@@ -125,10 +137,22 @@ def _generate_items(deck: Deck, faults: list[Fault]) -> _Collected:
         except DeckError as error:
             faults += error.faults
         else:
-            _collect(collected, generated, item, group, densities[item.material], number, deck.contacts.joint)
+            entry = _Entry(number, group, densities[item.material], deck.contacts.joint)
+            _collect_copies(collected, generated, item, entry)
+            collected.notices += generated.notices
             continue
         collected.partial |= {group, f"{group}_springers"}
     return collected
+
+
+def _collect_copies(collected: _Collected, generated: Generated, item: Item, entry: _Entry) -> None:
+    """An item as often as it is repeated."""
+    copies = repetitions(item.repeat)
+    if len(copies) == 1:
+        return _collect(collected, generated, entry, NONE)
+    for copy, onwards in enumerate(copies):
+        _collect(collected, transform_item(generated, onwards) if copy else generated, entry, copy)
+    return None
 
 
 def _kind(entry: BlockItem) -> tuple[str, Item]:
@@ -144,27 +168,28 @@ def _generate(deck: Deck, kind: str, item: Item, path: KeyPath) -> Generated:
         return generated if transform is None else transform_item(generated, transform)
 
 
-def _collect(
-    collected: _Collected, generated: Generated, item: Item, group: str, density: float, number: int, joint: str
-) -> None:
+def _collect(collected: _Collected, generated: Generated, entry: _Entry, copy: int) -> None:
+    """Add one copy of an item; ``copy`` is -1 where there is but one."""
     for ground in generated.grounds:
         block = collected.first_block + ground.block
         carried = np.array([block], dtype=np.int64)
-        plane = Ground(ground.point, ground.normal, ground.joint or joint, carried, "ground")
+        plane = Ground(ground.point, ground.normal, ground.joint or entry.joint, carried, "ground")
         collected.grounds.append((block, plane))
     for part in generated.parts:
         collected.polyhedra.append(part.polyhedra)
-        collected.groups.append(group + part.suffix)
-        collected.densities.append(density)
-        collected.items.append(number)
+        collected.groups.append(entry.group + part.suffix)
+        collected.densities.append(entry.density)
+        collected.items.append(entry.number)
         collected.fixed.append(part.fixed)
+        collected.labels.append(labels_of(len(part.polyhedra), part.member, part.labels, copy))
         collected.first_block += len(part.polyhedra)
-    collected.notices += generated.notices
 
 
 def _labels(items: _Collected, counts: Sequence[int] | np.typing.NDArray[np.int64]) -> Labels:
     groups = tuple(group for group, count in zip(items.groups, counts, strict=True) for _ in range(int(count)))
-    return Labels(groups, indices_in_groups(groups), np.repeat(np.array(items.densities), counts))
+    return Labels(
+        groups, indices_in_groups(groups), np.repeat(np.array(items.densities), counts), join_labels(items.labels)
+    )
 
 
 def _named(ground: Ground, block: int, built: BuiltBlocks) -> Ground:

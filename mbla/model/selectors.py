@@ -8,8 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from mbla.arrays import IntArray
+from mbla.deck.selectors import POSITIONS, Selector, SelectorTerm
+from mbla.deck.suggestions import unknown
 from mbla.deck.tree import KeyPath
-from mbla.deck.types import Selector, SelectorTerm
 from mbla.errors import Fault
 from mbla.model.blocks import Blocks
 from mbla.model.wording import vector
@@ -54,27 +55,75 @@ def select_blocks(selector: Selector, path: KeyPath, roster: Roster, faults: lis
 def _select(term: str | SelectorTerm, path: KeyPath, roster: Roster, faults: list[Fault]) -> IntArray | None:
     if isinstance(term, str):
         return None if term in roster.partial else roster.members[term]
-    if term.group is not None:
-        if term.group in roster.partial:
-            return None
-        members = roster.members[term.group]
-        if term.index is None:
-            return members
-        if term.index >= len(members):
-            allowed = f"0 to {len(members) - 1}" if len(members) > 1 else "0 only"
-            message = f"there is no such block: {term.group} has {len(members)}, index {allowed}"
-            faults.append(roster.fault_at((*path, "index"), message))
-            return None
-        return members[term.index : term.index + 1]
-    assert term.box is not None  # a rule of the deck: a group or a box
-    if roster.partial:  # any block that could not be built might lie in it
+    # any block that could not be built might lie in a box
+    if roster.partial and (term.group is None or term.group in roster.partial):
         return None
+    blocks = roster.members[term.group] if term.group is not None else np.arange(len(roster.blocks))
+    for narrow in (_with_index, _of_member, _at_positions, _in_box):
+        narrowed = narrow(term, blocks, roster)
+        if isinstance(narrowed, _Nothing):
+            faults.append(roster.fault_at((*path, narrowed.key), narrowed.message))
+            return None
+        blocks = narrowed
+    return blocks
+
+
+@dataclass(frozen=True)
+class _Nothing:
+    """No block is left: the key of the selector that excludes the last ones, and why."""
+
+    key: str
+    message: str
+
+
+def _with_index(term: SelectorTerm, blocks: IntArray, roster: Roster) -> IntArray | _Nothing:
+    if term.index is None:
+        return blocks
+    if term.index >= len(blocks):
+        allowed = f"0 to {len(blocks) - 1}" if len(blocks) > 1 else "0 only"
+        return _Nothing("index", f"there is no such block: {term.group} has {len(blocks)}, index {allowed}")
+    return blocks[term.index : term.index + 1]
+
+
+def _of_member(term: SelectorTerm, blocks: IntArray, roster: Roster) -> IntArray | _Nothing:
+    if term.member is None:
+        return blocks
+    members = np.array(roster.blocks.labels.members, dtype=object)[blocks]
+    found: IntArray = blocks[members == term.member]
+    if len(found):
+        return found
+    known = sorted({str(member) for member in members if member})
+    if not known:
+        return _Nothing("member", "these blocks have no members: leave it out")
+    return _Nothing("member", unknown("member", term.member, known, "these blocks have"))
+
+
+def _at_positions(term: SelectorTerm, blocks: IntArray, roster: Roster) -> IntArray | _Nothing:
+    for name in POSITIONS:
+        asked = term.position(name)
+        if asked is None:
+            continue
+        positions = roster.blocks.labels.position(name)[blocks]
+        if not (positions >= 0).any():
+            return _Nothing(name, f"these blocks have no {name}: leave it out")
+        count = int(positions.max()) + 1
+        first, last = (at + count if at < 0 else at for at in (asked if isinstance(asked, tuple) else (asked, asked)))
+        fits = (positions >= max(first, 0)) & (positions <= last)
+        if not fits.any():
+            return _Nothing(name, f"there is none: they go from {positions[positions >= 0].min()} to {count - 1}")
+        blocks = blocks[fits]
+    return blocks
+
+
+def _in_box(term: SelectorTerm, blocks: IntArray, roster: Roster) -> IntArray | _Nothing:
+    if term.box is None:
+        return blocks
     least, greatest = np.array(term.box)
-    centroids = roster.blocks.centroids
-    inside = np.flatnonzero(((centroids >= least) & (centroids <= greatest)).all(axis=1))
-    if len(inside):
-        return inside
+    centroids = roster.blocks.centroids[blocks]
+    inside = ((centroids >= least) & (centroids <= greatest)).all(axis=1)
+    found: IntArray = blocks[inside]
+    if len(found):
+        return found
     low, high = centroids.min(axis=0), centroids.max(axis=0)
-    message = f"no centroid of a block lies in it; they lie between {vector(low)} and {vector(high)}"
-    faults.append(roster.fault_at((*path, "box"), message))
-    return None
+    which = "a block" if term.group is None else "these blocks"
+    return _Nothing("box", f"no centroid of {which} lies in it; they lie between {vector(low)} and {vector(high)}")

@@ -15,7 +15,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from mbla.arrays import FloatArray
-from mbla.deck.types import Reflection, Rotation, TransformStep
+from mbla.deck.types import Reflection, Repetition, Rotation, TransformStep
 from mbla.model.generators.generator import Generated, GroundPart, Part
 from mbla.model.polyhedra import Polyhedra, turn_faces
 
@@ -52,6 +52,25 @@ def build_transform(transform: Sequence[TransformStep] | TransformStep) -> Affin
         of_step = _step(step)
         matrix, offset = of_step.matrix @ matrix, of_step.points(offset)
     return AffineMap(matrix, offset)
+
+
+def repetitions(repeat: Sequence[Repetition] | Repetition) -> list[AffineMap]:
+    """The map to each copy of an item, the first of which is the item itself; of steps, the last varies slowest."""
+    maps = [AffineMap(np.eye(3), np.zeros(3))]
+    for step in [repeat] if isinstance(repeat, Repetition) else repeat:
+        so_far = maps
+        for copy in range(1, step.count):
+            onwards = _onwards(step, copy)
+            maps = maps + [AffineMap(onwards.matrix @ each.matrix, onwards.points(each.offset)) for each in so_far]
+    return maps
+
+
+def _onwards(step: Repetition, copy: int) -> AffineMap:
+    """From the first copy to another: multiples of the displacement or the angle, so that no rounding adds up."""
+    if step.rotate is not None:
+        return _rotation(step.rotate.model_copy(update={"angle": copy * step.rotate.angle}))
+    assert step.translate is not None  # a rule of the deck: one of translate and rotate
+    return AffineMap(np.eye(3), copy * np.array(step.translate))
 
 
 def transform_item(generated: Generated, transform: AffineMap) -> Generated:

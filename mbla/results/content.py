@@ -9,7 +9,9 @@ import numpy as np
 from mbla import __version__
 from mbla.arrays import FloatArray, IntArray, starts
 from mbla.contacts.contacts import Contacts
+from mbla.deck.selectors import POSITIONS
 from mbla.errors import Notice
+from mbla.model.labels import BlockLabels
 from mbla.model.model import LoadCase, Model
 from mbla.results.case_content import Content, case_content
 from mbla.results.layout import FILETYPE, VERSION
@@ -111,6 +113,17 @@ def _notices(group: str, notices: Sequence[Notice]) -> Content:
     }
 
 
+def _labels(labels: BlockLabels) -> Content:
+    names = sorted(set(labels.members))
+    row = {name: i for i, name in enumerate(names)}
+    return {
+        "model/member_names": names,
+        "model/members": np.array([row[member] for member in labels.members], dtype=np.int64),
+        "model/position_names": list(POSITIONS),
+        "model/positions": labels.positions,
+    }
+
+
 def _model(model: Model) -> Content:
     blocks, units = model.blocks, model.units
     group_names = sorted(set(blocks.groups))
@@ -118,6 +131,7 @@ def _model(model: Model) -> Content:
     content: Content = {f"model/{name}": getattr(blocks, name) for name in BLOCK_ARRAYS}
     content |= {
         "model/title": model.title,
+        **_labels(blocks.labels),
         "model/units": [units.length, units.force, units.mass],
         "model/load_cases": [case.name for case in model.load_cases],
         "model/group_names": group_names,

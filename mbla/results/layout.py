@@ -11,7 +11,7 @@ from mbla.results.field import Field, notice_fields, unit_text
 from mbla.results.model_fields import MODEL_FIELDS
 
 FILETYPE = "mbla results"
-VERSION = 2
+VERSION = 3
 """raised by one with every change that an older reader would misread"""
 
 ATTRIBUTES = {
@@ -35,6 +35,8 @@ SHARED_DIMENSIONS = (
     "interface_bound",
     "point",
     "group",
+    "member",
+    "position",
     "joint",
     "ground",
     "axis",

@@ -11,9 +11,11 @@ from typing import Any, cast
 import numpy as np
 
 from mbla.contacts.contacts import ContactReport, Contacts
+from mbla.deck.selectors import POSITIONS
 from mbla.deck.units import KILOGRAMS, METRES, NEWTONS, Units
 from mbla.errors import Notice
 from mbla.model.blocks import Blocks
+from mbla.model.labels import BlockLabels
 from mbla.model.model import Ground, Joint, LoadCase, Model
 from mbla.results.case_content import Content
 from mbla.results.case_restore import case_from
@@ -68,13 +70,20 @@ def _model(get: dict[str, Any], load_cases: tuple[LoadCase, ...]) -> Model:
     return Model(
         title=get["title"],
         units=Units(length, force, mass),
-        blocks=Blocks(**{name: get[name] for name in BLOCK_ARRAYS}, groups=groups),
+        blocks=Blocks(**{name: get[name] for name in BLOCK_ARRAYS}, groups=groups, labels=_labels(get)),
         fixed=get["fixed"],
         grounds=_grounds(get),
         joints=_joints(get),
         load_cases=load_cases,
         notices=_notices(_part(get, "notices/")),
     )
+
+
+def _labels(get: dict[str, Any]) -> BlockLabels:
+    if tuple(get["position_names"]) != POSITIONS:
+        raise ValueError("names of the positions of blocks")
+    names = get["member_names"]
+    return BlockLabels(tuple(names[member] for member in get["members"].tolist()), get["positions"])
 
 
 def _joints(get: dict[str, Any]) -> dict[str, Joint]:

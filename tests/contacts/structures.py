@@ -14,6 +14,7 @@ from mbla.deck.types import ContactOverride, ContactsSection
 from mbla.deck.units import Units
 from mbla.model.blocks import Blocks
 from mbla.model.build_blocks import Labels, blocks_from_polyhedra, build_blocks, indices_in_groups
+from mbla.model.labels import no_labels
 from mbla.model.model import Ground, Joint, Model
 from mbla.model.polyhedra import Polyhedra, cuboids, polyhedra_from_lists, take_polyhedra
 
@@ -23,7 +24,9 @@ DECKS = Path(__file__).parents[2] / "decks"
 def blocks_of(polyhedra: Polyhedra, groups: Sequence[str] | None = None) -> Blocks:
     """Blocks of density 1."""
     names = tuple(groups) if groups is not None else ("block",) * len(polyhedra)
-    built = build_blocks(polyhedra, Labels(names, indices_in_groups(names), np.ones(len(polyhedra))), 1e-3)
+    built = build_blocks(
+        polyhedra, Labels(names, indices_in_groups(names), np.ones(len(names)), no_labels(len(names))), 1e-3
+    )
     assert not built.defects
     return built.blocks
 

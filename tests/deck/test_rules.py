@@ -65,7 +65,7 @@ def test_every_rule_is_registered_and_broken_by_a_faulty_deck() -> None:
         types.PolyhedronItem: ["there are 4 vertices", "is a corner of this face already"],
         types.WallItem: ["that of from", "the length of the wall", "the height of the wall"],
         types.ArchItem: ["applies to segmental arches only", "applies with springers: ground only"],
-        types.SelectorTerm: ["box[1][2] = -1: must be > 0", "applies with group only"],
+        types.SelectorTerm: ["box[1][2] = -1: must be > 0", "applies with group only", "the first of the range"],
         types.GroundPlane: ["needs a normal beside its point", "applies with point only"],
         types.Support: ["needs one of ground or blocks", "applies with ground only"],
         types.Load: ["a force needs `on`", "applies to a force only", "does not apply to gravity"],
@@ -74,7 +74,7 @@ def test_every_rule_is_registered_and_broken_by_a_faulty_deck() -> None:
         types.DeckContent: ["contacts.inset = 0.2: applies to contact_model: concave only"],
         types.Expectation: ["needs at least one of load_factor"],
     }
-    assert set(words) | set(rules.EXACTLY_ONE) == set(RULES)
+    assert set(words) | set(rules.EXACTLY_ONE) | set(rules.AT_LEAST_ONE) == set(RULES)
     assert all(issubclass(section, Section) for section in RULES)
     missing = [message for messages in words.values() for message in messages if message not in expected]
     assert missing == []

@@ -11,6 +11,7 @@ from scipy.spatial import ConvexHull
 from mbla.arrays import FloatArray
 from mbla.deck import Deck, read_deck
 from mbla.model.build_blocks import BuiltBlocks, Labels, build_blocks
+from mbla.model.labels import no_labels
 from mbla.model.polyhedra import Polyhedra, polyhedra_from_lists
 
 Shape = tuple[Sequence[Sequence[float]], Sequence[Sequence[int]]]
@@ -56,7 +57,7 @@ def build(*shapes: Shape, tolerance: float = 1e-3) -> BuiltBlocks:
 
 def build_raw(polyhedra: Polyhedra, tolerance: float = 1e-3) -> BuiltBlocks:
     n = len(polyhedra)
-    return build_blocks(polyhedra, Labels(("b",) * n, np.arange(n), np.ones(n)), tolerance)
+    return build_blocks(polyhedra, Labels(("b",) * n, np.arange(n), np.ones(n), no_labels(n)), tolerance)
 
 
 def moved(shape: Shape, matrix: FloatArray, offset: Sequence[float] = (0, 0, 0)) -> Shape:

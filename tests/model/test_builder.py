@@ -36,6 +36,21 @@ def test_items_are_transformed_in_order(tmp_path: Path) -> None:
     assert model.blocks.centroids[0] == pytest.approx([4.5, 0.5, 1])
 
 
+def test_repeated_item_is_one_group_with_copies(tmp_path: Path) -> None:
+    row = BLOCK.replace("min:", "repeat: {count: 3, translate: [2, 0, 0]}, min:")
+    model = build_model(deck(tmp_path, [row]))
+    assert [model.blocks.name(block) for block in range(3)] == ["block[0]", "block[1]", "block[2]"]
+    assert model.blocks.centroids[:, 0].tolist() == [0.5, 2.5, 4.5]
+    assert model.blocks.labels.position("copy").tolist() == [0, 1, 2]
+
+
+def test_supports_of_a_repeated_item_come_with_each_copy(tmp_path: Path) -> None:
+    arches = ARCH.format(", springers: ground, repeat: {count: 2, translate: [0, 3, 0]}")
+    model = build_model(deck(tmp_path, [arches], supports="[]"))
+    assert [ground.label for ground in model.grounds] == [f"ground under arch[{block}]" for block in (0, 8, 9, 17)]
+    assert [ground.point[1] for ground in model.grounds] == [0, 0, 3, 3]
+
+
 def test_densities_and_weight(tmp_path: Path) -> None:
     model = build_model(deck(tmp_path, [BLOCK]))
     assert model.blocks.masses == pytest.approx([4000])

@@ -10,6 +10,7 @@ from mbla.deck.tree import KeyPath
 from mbla.deck.types import Selector
 from mbla.errors import Fault, Place
 from mbla.model.build_blocks import Labels, build_blocks
+from mbla.model.labels import BlockLabels, join_labels, labels_of
 from mbla.model.polyhedra import cuboids
 from mbla.model.selectors import Roster, build_roster, select_blocks
 
@@ -19,10 +20,19 @@ def fault_at(path: KeyPath, message: str) -> Fault:
 
 
 def roster(partial: frozenset[str] = frozenset()) -> Roster:
-    """Ten unit cubes along x; even ones are group a, odd ones b."""
+    """Ten unit cubes along x; even ones are group a, odd ones b; the a are two copies of courses 0, 0, 1 and 0, 0."""
     least = np.array([[2.0 * i, 0, 0] for i in range(10)])
-    labels = Labels(("a", "b") * 5, np.repeat(np.arange(5), 2), np.ones(10))
+    labels = Labels(
+        ("a", "b") * 5, np.repeat(np.arange(5), 2), np.ones(10), join_labels([_within(cube) for cube in range(10)])
+    )
     return build_roster(build_blocks(cuboids(least, least + 1), labels, 1e-3).blocks, partial, fault_at)
+
+
+def _within(cube: int) -> BlockLabels:
+    if cube % 2:
+        return labels_of(1, "", {}, -1)
+    member = "lintel" if cube == 4 else "pier"
+    return labels_of(1, member, {"course": np.array([int(cube == 4)])}, int(cube > 4))
 
 
 def select(selector: Any, partial: frozenset[str] = frozenset()) -> tuple[Any, list[Fault]]:
@@ -41,6 +51,13 @@ def select(selector: Any, partial: frozenset[str] = frozenset()) -> tuple[Any, l
         ({"box": [(3, 0, 0), (9, 1, 1)]}, [2, 3, 4]),
         ({"box": [(0.5, 0.5, 0.5), (2.5, 0.6, 0.6)]}, [0, 1]),
         (["a", {"group": "b", "index": 0}], [0, 1, 2, 4, 6, 8]),
+        ({"group": "b", "box": [(3, 0, 0), (9, 1, 1)]}, [3]),
+        ({"group": "a", "member": "lintel"}, [4]),
+        ({"group": "a", "course": 0}, [0, 2, 6, 8]),
+        ({"group": "a", "course": -1}, [4]),
+        ({"group": "a", "course": (0, -1)}, [0, 2, 4, 6, 8]),
+        ({"group": "a", "copy": 1, "course": 0}, [6, 8]),
+        ({"box": [(-1, -1, -1), (5, 1, 1)], "course": 0}, [0, 2]),
         (["a", "a", {"box": [(-1, -1, -1), (1, 1, 1)]}], [0, 2, 4, 6, 8]),
     ],
 )
@@ -59,6 +76,32 @@ def test_empty_box() -> None:
     assert blocks is None
     assert fault.key == "on.box"
     assert fault.message == ("no centroid of a block lies in it; they lie between (0.5, 0.5, 0.5) and (18.5, 0.5, 0.5)")
+
+
+@pytest.mark.parametrize(
+    ("selector", "key", "message"),
+    [
+        (
+            {"group": "a", "member": "lintl"},
+            "on.member",
+            "unknown member; did you mean lintel? these blocks have: lintel and pier",
+        ),
+        ({"group": "b", "member": "pier"}, "on.member", "these blocks have no members: leave it out"),
+        ({"group": "b", "course": 0}, "on.course", "these blocks have no course: leave it out"),
+        ({"group": "a", "course": 2}, "on.course", "there is none: they go from 0 to 1"),
+        ({"group": "a", "course": -3}, "on.course", "there is none: they go from 0 to 1"),
+        ({"group": "a", "copy": 1, "course": 1}, "on.copy", "there is none: they go from 0 to 0"),
+        (
+            {"group": "b", "box": [(0, 0, 0), (1, 1, 1)]},
+            "on.box",
+            "no centroid of these blocks lies in it; they lie between (2.5, 0.5, 0.5) and (18.5, 0.5, 0.5)",
+        ),
+    ],
+)
+def test_what_excludes_the_last_blocks(selector: Any, key: str, message: str) -> None:
+    blocks, (fault,) = select(selector)
+    assert blocks is None
+    assert (fault.key, fault.message) == (key, message)
 
 
 def test_every_fault_of_a_list() -> None:

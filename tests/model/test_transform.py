@@ -6,10 +6,10 @@ from typing import Any
 import numpy as np
 import pytest
 
-from mbla.deck.types import ArchItem, TransformStep
+from mbla.deck.types import ArchItem, Repetition, TransformStep
 from mbla.model.generators.arch import generate_arch
 from mbla.model.generators.generator import Generated, Part, Site
-from mbla.model.transform import AffineMap, build_transform, transform_item
+from mbla.model.transform import AffineMap, build_transform, repetitions, transform_item
 from tests.model.shapes import L_OUTLINE, build_raw, prism, raw
 
 
@@ -42,6 +42,31 @@ def test_scale_is_about_the_origin() -> None:
 def test_rotation_is_right_handed(axis: tuple[float, ...], image: tuple[float, ...]) -> None:
     angle = 120 if axis == (1, 1, 1) else 90
     assert images({"rotate": {"axis": axis, "angle": angle}}) == pytest.approx(image)
+
+
+def repeated(*steps: dict[str, Any]) -> Any:
+    maps = repetitions([Repetition.model_validate(step) for step in steps])
+    return np.array([each.points(np.array([1.0, 0.0, 0.0])) for each in maps])
+
+
+def test_nothing_repeated_is_there_once() -> None:
+    assert repeated().tolist() == [[1, 0, 0]]
+
+
+def test_repetition_along_a_line() -> None:
+    assert repeated({"count": 3, "translate": (0.1, 0, 2)}) == pytest.approx(
+        np.array([[1, 0, 0], [1.1, 0, 2], [1.2, 0, 4]])
+    )
+
+
+def test_repetition_around_an_axis_comes_back_exactly() -> None:
+    around = repeated({"count": 4, "rotate": {"axis": (0, 0, 1), "angle": 90}})
+    assert around.tolist() == [[1, 0, 0], [0, 1, 0], [-1, 0, 0], [0, -1, 0]]
+
+
+def test_of_two_repetitions_the_last_varies_slowest() -> None:
+    grid = repeated({"count": 2, "translate": (1, 0, 0)}, {"count": 3, "translate": (0, 10, 0)})
+    assert grid[:, :2].tolist() == [[1, 0], [2, 0], [1, 10], [2, 10], [1, 20], [2, 20]]
 
 
 def test_rotation_about_a_point() -> None:

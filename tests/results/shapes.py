@@ -5,6 +5,7 @@ from typing import Any
 import numpy as np
 
 from mbla.model.blocks import Blocks
+from mbla.model.labels import no_labels
 
 TETRA = ([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]], 1 / 6)
 WEDGE = (
@@ -61,4 +62,5 @@ def blocks_of(shapes: Any, seed: int = 0) -> Blocks:
         densities=np.ones(n),
         groups=("shape",) * n,
         group_indices=np.arange(n),
+        labels=no_labels(n),
     )

@@ -14,6 +14,7 @@ from mbla.contacts.contacts import ContactReport, Contacts
 from mbla.deck.units import Units
 from mbla.errors import Notice
 from mbla.model.blocks import Blocks
+from mbla.model.labels import no_labels
 from mbla.model.model import Ground, Joint, LoadCase, Model
 from mbla.results.results import CaseResult, DeckRecord, Results
 from mbla.solution.solution import (
@@ -60,6 +61,7 @@ def cuboids(lower: Any, upper: Any, groups: Any, densities: Any = 1.0) -> Blocks
         densities=np.broadcast_to(np.asarray(densities, float), (n,)).copy(),
         groups=tuple(groups),
         group_indices=np.array(indices, dtype=np.int64),
+        labels=no_labels(n),
     )
 
 

@@ -6,6 +6,7 @@ from mbla.deck.items.arch import ArchItem as ArchItem
 from mbla.deck.items.box import BoxItem as BoxItem
 from mbla.deck.items.item import Item as Item
 from mbla.deck.items.item import Reflection as Reflection
+from mbla.deck.items.item import Repetition as Repetition
 from mbla.deck.items.item import Rotation as Rotation
 from mbla.deck.items.item import TransformStep as TransformStep
 from mbla.deck.items.mesh import MeshItem as MeshItem

@@ -7,7 +7,7 @@ from typing import Annotated, TypeAlias
 from pydantic import Discriminator, Field, Tag
 
 from mbla.deck.names import Name
-from mbla.deck.quantities import Angle, Direction, Point, PositiveNumber
+from mbla.deck.quantities import Angle, Direction, Point, PositiveNumber, Whole
 from mbla.deck.section import Section, shape
 
 
@@ -41,6 +41,20 @@ Transform: TypeAlias = Annotated[
 ]
 
 
+class Repetition(Section):
+    """Copies of an item, each moved on from the one before; exactly one of translate and rotate."""
+
+    count: Annotated[int, Whole(ge=2, le=100_000)] = Field(description="how many there are, the first included")
+    translate: Point | None = Field(None, description="displacement from each copy to the next")
+    rotate: Rotation | None = Field(None, description="rotation from each copy to the next")
+
+
+Repeat: TypeAlias = Annotated[
+    Annotated[Repetition, Tag("mapping")] | Annotated[list[Repetition], Tag("list")],
+    Discriminator(lambda value: "mapping" if shape(value) == "mapping" else "list"),
+]
+
+
 class Item(Section):
     """What every item of `blocks` has."""
 
@@ -48,4 +62,9 @@ class Item(Section):
     material: Name = Field(description="name of a material")
     transform: Transform = Field(
         default_factory=list, description="a step, or a list of steps applied in order to the item's own geometry"
+    )
+    repeat: Repeat = Field(
+        default_factory=list,
+        description="copies, made after the transform, all in the same group; of a list each step repeats what the "
+        "steps before it have made",
     )

@@ -11,4 +11,5 @@ from mbla.deck.rules import joints as joints
 from mbla.deck.rules import loads as loads
 from mbla.deck.rules import selectors as selectors
 from mbla.deck.rules import supports as supports
+from mbla.deck.rules.exactly_one import AT_LEAST_ONE as AT_LEAST_ONE
 from mbla.deck.rules.exactly_one import EXACTLY_ONE as EXACTLY_ONE

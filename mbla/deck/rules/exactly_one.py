@@ -1,23 +1,36 @@
-"""Sections that have exactly one of several keys."""
+"""Sections that have exactly one, or at least one, of several keys."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
 from mbla.deck import types
-from mbla.deck.rules.common import exactly_one
+from mbla.deck.rules.common import exactly_one, given
 from mbla.deck.section import Finding, Section, rule
+from mbla.deck.suggestions import listed
 
 EXACTLY_ONE: dict[type[Section], tuple[str, ...]] = {
     types.Material: ("density", "unit_weight"),
     types.JointLaw: ("friction", "friction_angle"),
     types.BlockItem: tuple(types.BlockItem.model_fields),
     types.TransformStep: tuple(types.TransformStep.model_fields),
-    types.SelectorTerm: ("group", "box"),
+    types.Repetition: ("translate", "rotate"),
     types.GroundPlane: ("x", "y", "z", "point"),
     types.Load: ("gravity", "acceleration", "force"),
 }
 """Keys of which a section has exactly one; the schema says so too."""
+
+AT_LEAST_ONE: dict[type[Section], tuple[str, ...]] = {
+    types.SelectorTerm: ("group", "box"),
+}
+"""Keys of which a section has one or more; the schema says so too."""
+
+
+def _register_at_least_one(section: type[Section], keys: tuple[str, ...]) -> None:
+    @rule(section)
+    def one_key(item: Section) -> Iterator[Finding]:
+        if not given(item, keys):
+            yield (), f"needs one of {listed(keys)}"
 
 
 def _register_exactly_one(section: type[Section], keys: tuple[str, ...]) -> None:
@@ -28,3 +41,5 @@ def _register_exactly_one(section: type[Section], keys: tuple[str, ...]) -> None
 
 for _section, _keys in EXACTLY_ONE.items():
     _register_exactly_one(_section, _keys)
+for _section, _keys in AT_LEAST_ONE.items():
+    _register_at_least_one(_section, _keys)

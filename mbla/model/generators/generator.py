@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Protocol
 
-from mbla.arrays import FloatArray
+from mbla.arrays import FloatArray, IntArray
 from mbla.deck.tree import KeyPath
 from mbla.errors import Notice
 from mbla.model.polyhedra import Polyhedra
@@ -15,11 +15,18 @@ from mbla.model.polyhedra import Polyhedra
 
 @dataclass(frozen=True)
 class Part:
-    """Polyhedra of one group: the item's own, or the item's with ``suffix`` after it; ``fixed`` ones do not move."""
+    """Polyhedra of one group: the item's own, or the item's with ``suffix`` after it; ``fixed`` ones do not move.
+
+    member : part of a composite item, such as "lintel": of all the blocks, or of each; empty where there is none
+    labels : (n,) positions of the blocks by name, from 0; names are those of ``mbla.deck.selectors.POSITIONS``
+             ("copy" is set by the repetition of items)
+    """
 
     polyhedra: Polyhedra
     suffix: str = ""
     fixed: bool = False
+    member: str | Sequence[str] = ""
+    labels: Mapping[str, IntArray] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
