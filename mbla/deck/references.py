@@ -28,6 +28,9 @@ class Reference:
     also: tuple[str, ...] = ()
 
 
+LOADS = ("loads.*", "load_cases.*.dead", "load_cases.*.live")
+"""Where lists of loads stand."""
+
 REFERENCES = (
     Reference("blocks.#.*.material", "material"),
     Reference("blocks.#.arch.joint", "joint law"),
@@ -37,9 +40,10 @@ REFERENCES = (
     Reference("supports.#.joint", "joint law"),
     *(
         Reference(f"{place}{form}", "group")
-        for place in ("supports.#.blocks", "load_cases.*.dead.#.on", "load_cases.*.live.#.on")
+        for place in ("supports.#.blocks", "masses.#.on", *(f"{loads}.#.on" for loads in LOADS))
         for form in ("", ".group", ".#", ".#.group")
     ),
+    *(Reference(f"{loads}.#.loads", "load") for loads in LOADS),
 )
 
 
@@ -49,6 +53,7 @@ def check_references(tree: Tree) -> Iterator[Fault]:
     known: dict[str, list[str]] = {
         "material": _keys(data.get("materials")),
         "joint law": _keys(data.get("joints")),
+        "load": _keys(data.get("loads")),
         "group": list(dict.fromkeys(groups(data))),
     }
     for reference in REFERENCES:
@@ -66,8 +71,8 @@ def check_references(tree: Tree) -> Iterator[Fault]:
 
 
 def unused_names(data: dict[str, Any]) -> Iterator[tuple[str, str]]:
-    """(section, name) of materials and joint laws that nothing uses."""
-    for section, kind in (("materials", "material"), ("joints", "joint law")):
+    """(section, name) of materials, joint laws and named loads that nothing uses."""
+    for section, kind in (("materials", "material"), ("joints", "joint law"), ("loads", "load")):
         used = {
             name
             for reference in REFERENCES

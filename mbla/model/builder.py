@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -14,6 +14,7 @@ from mbla.deck.tree import KeyPath
 from mbla.deck.types import BlockItem, Item, JointLaw, Material
 from mbla.deck.units import Units
 from mbla.errors import DeckError, Fault, Notice
+from mbla.model.added_masses import with_added_masses
 from mbla.model.build_blocks import BuiltBlocks, Labels, build_blocks, indices_in_groups
 from mbla.model.generators import GENERATORS
 from mbla.model.generators.generator import Generated, ItemRefused, Site
@@ -79,14 +80,18 @@ def build_model(deck: Deck) -> Model:
     brought_along = Supports(np.repeat(np.array(items.fixed, dtype=bool), counts), grounds)
     tolerance, joint = deck.contacts.tolerance, deck.contacts.joint
     supports = build_supports(deck.content.supports, joint, brought_along, roster, tolerance, faults)
-    site = LoadSite(roster, supports.fixed, deck.units, faults, notices)
+    if deck.content.masses:
+        roster = replace(roster, blocks=with_added_masses(deck.content.masses, roster, supports.fixed, faults, notices))
+    site = LoadSite(
+        roster, supports.fixed, deck.units, supports.grounds, deck.content.loads, tolerance, faults, notices
+    )
     load_cases = tuple(build_load_case(name, section, site) for name, section in deck.content.load_cases.items())
     if faults:
         raise DeckError(faults)
     return Model(
         title=deck.content.title,
         units=deck.units,
-        blocks=built.blocks,
+        blocks=roster.blocks,
         fixed=supports.fixed,
         grounds=supports.grounds,
         joints={name: build_joint(name, law) for name, law in deck.content.joints.items()},

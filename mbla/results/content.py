@@ -29,6 +29,8 @@ BLOCK_ARRAYS = (
     "volumes",
     "centroids",
     "densities",
+    "added_masses",
+    "added_mass_points",
     "group_indices",
 )
 CONTACT_ARRAYS = (

@@ -81,6 +81,7 @@ def model_json(model: Model) -> dict[str, Any]:
         "extents": [numbers(corner) for corner in (low, high)],
         "total_volume": number(model.blocks.volumes.sum()),
         "total_weight": number(model.total_weight),
+        "added_mass": number(float(model.blocks.added_masses.sum())),
         "units": {"length": units.length, "force": units.force, "mass": units.mass},
     }
 

@@ -95,6 +95,10 @@ def model_lines(model: Model) -> list[str]:
     lines += _extents(model)
     lines += entry("volume", f"{number(float(blocks.volumes.sum()))} {units.length}3")
     lines += entry("weight (9.81 m/s2)", f"{number(model.total_weight)} {units.force}")
+    added = int((blocks.added_masses > 0.0).sum())
+    if added:
+        mass = f"{number(float(blocks.added_masses.sum()))} {units.mass} on {counted(added, 'block')}"
+        lines += entry("added masses", f"{mass}; they count to the weights")
     lines += ["", *_group_table(model), "", *_joint_table(model)]
     lines += heading("Supports") + _supports(model)
     lines += heading("Loads")

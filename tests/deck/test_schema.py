@@ -48,6 +48,8 @@ BEYOND_SCHEMA = (
         "inset_of",
         "own_solver_of",
     ),
+    *("moment_without", "moment_at", "pattern_points", "pattern_upside", "line_without", "line_along", "line_of_no"),
+    *("depth_without", "pressure_of_nothing", "pressure_in_other", "travel", "tilt", "named_load", "angle_of_a_push"),
 )
 BEYOND_BUT_SEEN = (
     "number_zero",

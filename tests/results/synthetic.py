@@ -58,6 +58,8 @@ def cuboids(lower: Any, upper: Any, groups: Any, densities: Any = 1.0) -> Blocks
         convex=np.ones(n, dtype=bool),
         volumes=np.prod(upper - lower, axis=1),
         centroids=(lower + upper) / 2,
+        added_masses=np.zeros(n),
+        added_mass_points=(lower + upper) / 2,
         densities=np.broadcast_to(np.asarray(densities, float), (n,)).copy(),
         groups=tuple(groups),
         group_indices=np.array(indices, dtype=np.int64),

@@ -16,7 +16,7 @@ EXACTLY_ONE: dict[type[Section], tuple[str, ...]] = {
     types.TransformStep: tuple(types.TransformStep.model_fields),
     types.Repetition: ("translate", "rotate"),
     types.GroundPlane: ("x", "y", "z", "point"),
-    types.Load: ("gravity", "acceleration", "force"),
+    types.Load: ("gravity", "acceleration", "force", "moment", "line", "pressure", "loads", "travel", "tilt"),
 }
 """Keys of which a section has exactly one; the schema says so too."""
 

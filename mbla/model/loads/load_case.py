@@ -13,8 +13,10 @@ from mbla.deck.types import Load, LoadCaseSection
 from mbla.errors import Fault
 from mbla.model.loads.kinds import LOAD_KINDS
 from mbla.model.loads.load_kind import AppliedLoad, LoadSite
+from mbla.model.loads.named_loads import Entry, entries_of
 from mbla.model.model import LoadCase
 from mbla.model.selectors import select_blocks
+from mbla.model.wording import named
 
 CANCELLED = 1e-12
 """sum of live loads, relative to the loads themselves, at which nothing is left of them"""
@@ -75,12 +77,11 @@ def _beyond_computing(path: KeyPath, loads: FloatArray, site: LoadSite) -> list[
 def _add_up(loads: Sequence[Load], path: KeyPath, site: LoadSite, live: bool) -> _Sum:
     shape = (len(site.fixed), 6)
     result = _Sum(np.zeros(shape), np.zeros(shape))
-    for number, load in enumerate(loads):
-        here = (*path, number)
-        applied = _apply(load, here, site)
+    for entry in entries_of(loads, path, site.named):
+        applied = _apply(entry, site)
         if applied is not None:
             result.add(applied)
-            _judge_fixed(load, applied, here, site, live)
+            _judge_effect(entry, applied, site, live)
     return result
 
 
@@ -89,27 +90,33 @@ def kind_of(load: Load) -> str:
     return next(kind for kind in LOAD_KINDS if getattr(load, kind) is not None)
 
 
-def _apply(load: Load, path: KeyPath, site: LoadSite) -> AppliedLoad | None:
+def _apply(entry: Entry, site: LoadSite) -> AppliedLoad | None:
     """One load on its blocks; None where a fault was left, or where blocks it depends on could not be built."""
-    blocks = None
+    load, path, blocks = entry.load, entry.path, None
     if load.on is not None:
         blocks = select_blocks(load.on, (*path, "on"), site.roster, site.faults)
         if blocks is None:
             return None
-    return LOAD_KINDS[kind_of(load)](load, blocks, path, site)
+    applied = LOAD_KINDS[kind_of(load)](load, blocks, path, site)
+    if applied is None or entry.factor == 1.0:
+        return applied
+    words = f"{entry.factor:.6g} times {applied.words}"
+    return AppliedLoad(applied.blocks, entry.factor * applied.wrenches, words)
 
 
-def _judge_fixed(load: Load, applied: AppliedLoad, path: KeyPath, site: LoadSite, live: bool) -> None:
-    """A load on blocks that do not move goes straight into the support: no live load does that alone."""
-    blocks = applied.blocks
+def _judge_effect(entry: Entry, applied: AppliedLoad, site: LoadSite, live: bool) -> None:
+    """A live load must do something; on blocks that do not move any load goes straight into the support."""
+    blocks, kind = applied.blocks, kind_of(entry.load)
+    key = "on" if entry.load.on is not None else kind
+    weightless = kind in ("gravity", "acceleration") and not site.blocks.masses[blocks].any()  # refused as such
+    if live and not applied.wrenches.any() and not weightless:
+        site.refuse((*entry.path, kind), "is a live load with no effect")
     if not site.fixed[blocks].all() or site.fixed.all():  # a structure that is fixed altogether is refused as such
         return
-    kind = kind_of(load)
     if live:
-        key = "on" if load.on is not None else kind
-        site.refuse((*path, key), "every block it acts on is fixed: the live load has no effect")
+        site.refuse((*entry.path, key), "every block it acts on is fixed: the live load has no effect")
     elif kind not in ("gravity", "acceleration"):
-        name = site.blocks.name(int(blocks[0])) + (f" and {len(blocks) - 1} more" if len(blocks) > 1 else "")
+        name = named(blocks, site.blocks.name)
         moves = "does not move" if len(blocks) == 1 else "do not move"
         words = f"the dead {kind} on {name} goes straight into the support, for {name} {moves}"
         site.warn("dead-load-on-support", words)
