@@ -19,7 +19,7 @@ from mbla.model.build_blocks import BuiltBlocks, Labels, build_blocks, indices_i
 from mbla.model.generators import GENERATORS
 from mbla.model.generators.generator import Generated, ItemRefused, Site
 from mbla.model.labels import NONE, BlockLabels, join_labels, labels_of
-from mbla.model.loads import LoadSite, build_load_case
+from mbla.model.loads import LoadSite, build_load_cases
 from mbla.model.model import Ground, Joint, Model
 from mbla.model.polyhedra import Polyhedra, join_polyhedra
 from mbla.model.selectors import build_roster
@@ -85,7 +85,9 @@ def build_model(deck: Deck) -> Model:
     site = LoadSite(
         roster, supports.fixed, deck.units, supports.grounds, deck.content.loads, tolerance, faults, notices
     )
-    load_cases = tuple(build_load_case(name, section, site) for name, section in deck.content.load_cases.items())
+    load_cases = tuple(
+        case for name, section in deck.content.load_cases.items() for case in build_load_cases(name, section, site)
+    )
     if faults:
         raise DeckError(faults)
     return Model(

@@ -43,11 +43,49 @@ class Ground:
 
 
 @dataclass(frozen=True)
+class TravelPosition:
+    """Where a travelling load stands in a load case.
+
+    series   : name of the load case in the deck, which became one for each position
+    number   : of the position, from 1; ``count`` of them
+    point    : (3,) m
+    distance : from the beginning of the path m
+    block    : the block that carries the load
+    """
+
+    series: str
+    number: int
+    count: int
+    point: FloatArray
+    distance: float
+    block: int
+
+
+@dataclass(frozen=True)
+class Tilt:
+    """Loads on a tilting table, fixed + cos(angle) turning + sin(angle) across, all (n_blocks, 6).
+
+    axis    : (3,) unit, about which the table turns by the right hand
+    fixed   : dead loads that keep their direction in the structure, and what of gravity lies along the axis
+    turning : gravity across the axis while the table is level
+    across  : the same after a turn of 90 degrees
+    angle   : of collapse in degrees; nan where it is not known
+    """
+
+    axis: FloatArray
+    fixed: FloatArray
+    turning: FloatArray
+    across: FloatArray
+    angle: float = np.nan
+
+
+@dataclass(frozen=True)
 class LoadCase:
     """Loads of one case on every block, about its centroid.
 
     dead_load, live_load : (n_blocks, 6) force N and moment N m, also on fixed blocks (they go into the support)
     dead_words, live_words : the loads in words, for the listing
+    travel, tilt : where it is a position of a travelling load, or a tilting table
     """
 
     name: str
@@ -55,6 +93,8 @@ class LoadCase:
     live_load: FloatArray
     dead_words: tuple[str, ...]
     live_words: tuple[str, ...]
+    travel: TravelPosition | None = None
+    tilt: Tilt | None = None
 
 
 @dataclass(frozen=True)

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from mbla.arrays import BoolArray, FloatArray
+from mbla.arrays import FloatArray
 
 
 def cut(loops: FloatArray, heights: FloatArray) -> FloatArray:
