@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from mbla.contacts import Contacts, find_contacts
@@ -26,7 +26,8 @@ from mbla.results.write import write_results
 from mbla.solution import Status, solve, verified_status, verify
 from mbla.solution.convex import solve_convex
 from mbla.solution.settings import SolverSettings, solver_settings
-from mbla.solution.solution import IterationRecord
+from mbla.solution.solution import Checks, IterationRecord, Solution
+from mbla.solution.tilt import solve_tilt
 
 Progress = Callable[[str, IterationRecord], None]
 
@@ -78,6 +79,7 @@ def run(deck_path: Path, options: RunOptions, progress: Progress | None = None) 
         cases = [
             solve_case(deck, model, contacts, load_case, settings, status_file, progress) for load_case in load_cases
         ]
+        model = with_loads_found(model, cases)
         differences = differences_from_expected(deck, cases) if options.expected else []
         results = Results(
             deck=deck_record(deck),
@@ -110,15 +112,29 @@ def solve_case(
         if progress is not None:
             progress(load_case.name, record)
 
-    if deck.analysis.contact_model == "convex":
-        solution = solve_convex(assemble_convex(model, contacts, load_case), deck.analysis, settings, log)
+    def ask(case: LoadCase) -> tuple[Solution, Checks]:
+        if deck.analysis.contact_model == "convex":
+            solution = solve_convex(assemble_convex(model, contacts, case), deck.analysis, settings, log)
+        else:
+            program = assemble(model, contacts, case)
+            solution = solve(reduced_program(deck, model, contacts, program), deck.analysis, settings, log)
+        return solution, verify(model, contacts, case, solution)
+
+    if load_case.tilt is None:
+        solution, checks = ask(load_case)
     else:
-        program = assemble(model, contacts, load_case)
-        solution = solve(reduced_program(deck, model, contacts, program), deck.analysis, settings, log)
-    checks = verify(model, contacts, load_case, solution)
+        answer = solve_tilt(model, contacts, load_case, ask)
+        load_case, solution = answer.load_case, answer.solution
+        checks = verify(model, contacts, load_case, solution)
     status = verified_status(solution, checks)
     status_file.remark(f"{load_case.name}: {status}")
     return CaseResult(load_case, solution, checks, status)
+
+
+def with_loads_found(model: Model, cases: Sequence[CaseResult]) -> Model:
+    """The model with the load cases as they were solved: the loads of a tilting table are those of its angle."""
+    found = {case.load_case.name: case.load_case for case in cases}
+    return replace(model, load_cases=tuple(found.get(case.name, case) for case in model.load_cases))
 
 
 def reduced_program(deck: Deck, model: Model, contacts: Contacts, program: Program) -> Reduced:
@@ -147,12 +163,19 @@ def notices_of(deck: Deck, model: Model, contacts: Contacts) -> tuple[Notice, ..
 
 
 def select_cases(model: Model, names: Sequence[str]) -> tuple[LoadCase, ...]:
-    """The load cases of those names in the order of the deck, all if none is named; UsageError for an unknown one."""
-    known = [case.name for case in model.load_cases]
+    """The load cases of those names in the order of the deck, all if none is named; UsageError for an unknown one.
+
+    The name of a load that travels stands for all its positions.
+    """
+    known = dict.fromkeys(case.name if case.travel is None else case.travel.series for case in model.load_cases)
     for name in names:
-        if name not in known:
+        if name not in known and name not in [case.name for case in model.load_cases]:
             raise UsageError(f"--case {name}: the deck has no such load case; it has {', '.join(known)}")
-    return tuple(case for case in model.load_cases if not names or case.name in names)
+    return tuple(
+        case
+        for case in model.load_cases
+        if not names or case.name in names or (case.travel is not None and case.travel.series in names)
+    )
 
 
 def deck_record(deck: Deck) -> DeckRecord:

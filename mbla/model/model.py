@@ -69,7 +69,11 @@ class Tilt:
     fixed   : dead loads that keep their direction in the structure, and what of gravity lies along the axis
     turning : gravity across the axis while the table is level
     across  : the same after a turn of 90 degrees
-    angle   : of collapse in degrees; nan where it is not known
+    angle   : of collapse in degrees; nan where it is not known, or where the load factor is its tangent
+    tangent : the live load is ``across`` alone and the load factor the tangent of the angle, which is exact where only
+              the direction of the load counts; else the live load leads from the level table to the angle, and the
+              load factor is 1 there
+    upright : proved multiple of ``across`` that the level table bears, nan where nothing is known
     """
 
     axis: FloatArray
@@ -77,6 +81,13 @@ class Tilt:
     turning: FloatArray
     across: FloatArray
     angle: float = np.nan
+    tangent: bool = True
+    upright: float = np.nan
+
+    def loads_at(self, angle: float) -> FloatArray:
+        """Loads after a turn by an angle in degrees, (n_blocks, 6)."""
+        turn = np.deg2rad(angle)
+        return np.asarray(self.fixed + np.cos(turn) * self.turning + np.sin(turn) * self.across)
 
 
 @dataclass(frozen=True)
