@@ -11,7 +11,7 @@ from mbla.contacts import Contacts, find_contacts
 from mbla.contacts.notices import overlap_messages
 from mbla.deck import Deck, read_deck
 from mbla.errors import DeckError, Notice, UsageError
-from mbla.expected import compare_with_expected
+from mbla.expected import differences
 from mbla.model import Model, build_model
 from mbla.model.model import LoadCase
 from mbla.program import Program, assemble
@@ -80,17 +80,17 @@ def run(deck_path: Path, options: RunOptions, progress: Progress | None = None) 
             solve_case(deck, model, contacts, load_case, settings, status_file, progress) for load_case in load_cases
         ]
         model = with_loads_found(model, cases)
-        differences = differences_from_expected(deck, cases) if options.expected else []
+        unexpected = differences_from_expected(deck, cases) if options.expected else []
         results = Results(
             deck=deck_record(deck),
             model=model,
             contacts=contacts,
             cases=tuple(cases),
-            notices=(*notices_of(deck, model, contacts), *differences),
+            notices=(*notices_of(deck, model, contacts), *unexpected),
             provenance=collect_provenance(),
             settings=settings_in_words(deck, settings),
             time={"read": read - started, "contacts": found - read, "solve": time.perf_counter() - found},
-            exit_code=exit_code(cases, differences),
+            exit_code=exit_code(cases, unexpected),
         )
         output = deck.content.output
         return write_results(results, out, output.vtu, output.frames, output.plots)
@@ -227,12 +227,7 @@ def differences_from_expected(deck: Deck, cases: Sequence[CaseResult]) -> list[N
     expected = deck.content.expected
     if not expected:
         raise UsageError(f"--expected: {deck.path} has no expected section")
-    return [
-        Notice("warning", "not-as-expected", difference)
-        for case in cases
-        if case.load_case.name in expected
-        for difference in compare_with_expected(case, expected[case.load_case.name])
-    ]
+    return [Notice("warning", "not-as-expected", difference) for difference in differences(cases, expected)]
 
 
 def exit_code(cases: Sequence[CaseResult], differences: Sequence[Notice] = ()) -> int:

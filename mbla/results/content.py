@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import fields
 
 import numpy as np
 
@@ -188,4 +189,11 @@ def _contacts(contacts: Contacts) -> Content:
 
 
 def _loads(load_case: LoadCase) -> Content:
-    return {name: getattr(load_case, name) for name in ("dead_load", "live_load", "dead_words", "live_words")}
+    content: Content = {
+        name: getattr(load_case, name) for name in ("dead_load", "live_load", "dead_words", "live_words")
+    }
+    for name in ("travel", "tilt"):
+        part = getattr(load_case, name)
+        if part is not None:
+            content |= {f"{name}/{field.name}": getattr(part, field.name) for field in fields(part)}
+    return content

@@ -15,6 +15,8 @@ from mbla.results.contact_words import contact_lines, finding_lines
 from mbla.results.figure_words import figures
 from mbla.results.outcome import notices_of
 from mbla.results.results import Results
+from mbla.results.series import series_of
+from mbla.results.series_words import series_lines, worst_words
 from mbla.results.text import WIDTH, counted, entry, heading, number, sentence, table
 from mbla.results.verdict_words import verdict
 
@@ -30,6 +32,8 @@ def listing(results: Results) -> str:
     ]
     for case in results.cases:
         lines += case_lines(results.model, results.contacts, case)
+    for series in series_of(results.cases):
+        lines += series_lines(results.model, series)
     lines += _recap(results)
     return "\n".join(line.rstrip() for line in lines) + "\n"
 
@@ -186,6 +190,7 @@ def _recap(results: Results) -> list[str]:
     lines = heading("Summary")
     for case in results.cases:
         lines += entry(case.load_case.name, verdict(results.model, case))
+    lines += [line for series in series_of(results.cases) for line in sentence(worst_words(results.model, series))]
     left_out = len(results.model.load_cases) - len(results.cases)
     if left_out:
         lines += sentence(f"{counted(left_out, 'load case')} of the deck not run")

@@ -16,7 +16,7 @@ from mbla.deck.units import KILOGRAMS, METRES, NEWTONS, Units
 from mbla.errors import Notice
 from mbla.model.blocks import Blocks
 from mbla.model.labels import BlockLabels
-from mbla.model.model import Ground, Joint, LoadCase, Model
+from mbla.model.model import Ground, Joint, LoadCase, Model, Tilt, TravelPosition
 from mbla.results.case_content import Content
 from mbla.results.case_restore import case_from
 from mbla.results.content import BLOCK_ARRAYS, CONTACT_ARRAYS, REPORT_FIELDS
@@ -125,4 +125,13 @@ def _contacts(get: dict[str, Any]) -> Contacts:
 
 
 def _load_case(name: str, get: dict[str, Any]) -> LoadCase:
-    return LoadCase(name, get["dead_load"], get["live_load"], tuple(get["dead_words"]), tuple(get["live_words"]))
+    travel, tilt = _part(get, "travel/"), _part(get, "tilt/")
+    return LoadCase(
+        name,
+        get["dead_load"],
+        get["live_load"],
+        tuple(get["dead_words"]),
+        tuple(get["live_words"]),
+        travel=TravelPosition(**travel) if travel else None,
+        tilt=Tilt(**tilt) if tilt else None,
+    )
