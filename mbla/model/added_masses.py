@@ -46,7 +46,7 @@ def with_added_masses(
             off = distance_outside(np.array(added.at), int(chosen[0]), blocks)
             name = blocks.name(int(chosen[0]))
             words = f"the mass at {vector(added.at)} on {name} lies {off:.4g} outside that block, with which it moves"
-            notices += [Notice("warning", "mass-outside-block", words)] if off else []
+            notices += [Notice("notice", "mass-outside-block", words)] if off else []
         if fixed[chosen].all() and not fixed.all():
             words = f"the mass of {added.mass:g} on {named(chosen, blocks.name)} has no effect: nothing of it moves"
             notices.append(Notice("warning", "mass-on-support", words))

@@ -12,6 +12,9 @@ from mbla.results.outcome import result_of
 from mbla.results.results import CaseResult
 from mbla.solution.solution import Status
 
+SAME = 1e-6
+"""relative difference of load factors that is rounding: of equal positions the first is the worst"""
+
 
 @dataclass(frozen=True)
 class Series:
@@ -57,4 +60,5 @@ def _worst(cases: Sequence[CaseResult]) -> CaseResult | None:
     factors = [factor_of(case) for case in cases]
     if np.isnan(factors).any() or not np.isfinite(factors).any():
         return None
-    return cases[int(np.argmin(factors))]
+    least = min(factors)
+    return next(case for case, factor in zip(cases, factors, strict=True) if factor <= least + SAME * abs(least))

@@ -15,7 +15,7 @@ from mbla.deck.units import Units
 from mbla.errors import Notice
 from mbla.model.blocks import Blocks
 from mbla.model.labels import no_labels
-from mbla.model.model import Ground, Joint, LoadCase, Model
+from mbla.model.model import Ground, Joint, LoadCase, Model, Tilt, TravelPosition
 from mbla.results.results import CaseResult, DeckRecord, Results
 from mbla.solution.solution import (
     Checks,
@@ -250,7 +250,15 @@ def full_results() -> Results:
         peak_load_factor=0.6,
         failures=("x",),
     )
-    return replace(results, cases=(replace(case, solution=solution, checks=checks), results.cases[1]))
+    arrays = np.arange(54.0).reshape(3, 3, 6)
+    not_run = replace(
+        results.model.load_cases[2],
+        travel=TravelPosition("train", 2, 12, np.array([1.0, 2.0, 3.0]), 2.5, 1),
+        tilt=Tilt(np.array([0.0, 1.0, 0.0]), arrays[0], arrays[1], arrays[2], 12.5, False, np.inf),
+    )
+    model = replace(results.model, load_cases=(*results.model.load_cases[:2], not_run))
+    full = replace(case, solution=solution, checks=checks)
+    return replace(results, model=model, cases=(full, results.cases[1]))
 
 
 def same(first: Any, second: Any) -> bool:
