@@ -10,6 +10,7 @@ from mbla.deck.names import Name
 from mbla.deck.quantities import (
     Acceleration,
     Direction,
+    FacingAngle,
     Force,
     ForcePerLength,
     Length,
@@ -17,12 +18,12 @@ from mbla.deck.quantities import (
     Number,
     Point,
     Positions,
-    SideAngle,
     Stress,
     UnitWeight,
 )
 from mbla.deck.section import Section
 from mbla.deck.selectors import Selector
+from mbla.deck.supports import Turn
 
 
 class HeightPattern(Section):
@@ -58,7 +59,7 @@ class PressureLoad(Section):
     level: Length | None = Field(None, description="height z above which there is no pressure")
     per_depth: UnitWeight | None = Field(None, description="increase of the pressure with the depth below the level")
     normal: Direction | None = Field(None, description="outward normal of the faces; every face unless given")
-    within: SideAngle = Field(10.0, description="greatest angle between the normal of a face and that, in degrees")
+    within: FacingAngle = Field(10.0, description="greatest angle between the normal of a face and that, in degrees")
     box: tuple[Point, Point] | None = Field(
         None, description="least and greatest coordinates: faces whose centroid lies inside"
     )
@@ -100,6 +101,12 @@ class Load(Section):
     loads: Name | None = Field(None, description="the loads of that name in section loads, all of them")
     travel: Travel | None = Field(None, description="force at one position after the other")
     tilt: Tilt | None = Field(None, description="gravity turns; the only load of its list")
+    table: str | None = Field(
+        None,
+        min_length=1,
+        description="CSV file, relative to the deck: a header line with the columns group,index,fx,fy,fz, optionally "
+        "x,y,z (where the force acts; the centroid unless given) and mx,my,mz (moment); then a row for each force",
+    )
     on: Selector | None = Field(
         None,
         description="force, moment: the block; other kinds: the only blocks that they may act on, all unless given",
@@ -111,8 +118,24 @@ class Load(Section):
     factor: Number = Field(1.0, description="factor on the load")
 
 
+class SettlementSection(Section):
+    """A support that gives way: blocks that `supports` fixes move as one rigid body, in one way only."""
+
+    on: Selector = Field(description="the blocks that give way; `supports` fixes them otherwise")
+    direction: Direction | None = Field(
+        None, description="the way they go: [0, 0, -1] for a support that sinks, horizontal for one that spreads"
+    )
+    turn: Turn | None = Field(None, description="or the line about which they turn")
+
+
 class LoadCaseSection(Section):
-    """Dead loads stay, live loads are multiplied by the load factor."""
+    """Dead loads stay, live loads are multiplied by the load factor; or a support gives way under the dead loads."""
 
     dead: list[Load] | None = Field(None, description="gravity of 9.81 m/s^2 along -z unless given")
-    live: list[Load] = Field(min_length=1, description="the loads that the load factor multiplies")
+    live: list[Load] | None = Field(None, min_length=1, description="the loads that the load factor multiplies")
+    settlement: SettlementSection | None = Field(
+        None,
+        description="in place of live: a support that gives way, free of other supports; the answer is the mechanism "
+        "and the reaction with which the support meets it, the least that equilibrium allows. The load factor is the "
+        "loss of reaction, from that of the structure at rest on, over the weight of the free blocks",
+    )

@@ -41,7 +41,7 @@ def _loads(content: DeckContent) -> Iterator[tuple[KeyPath, Load]]:
     for name, named in content.loads.items():
         yield from ((("loads", name, number), load) for number, load in enumerate(named))
     for name, case in content.load_cases.items():
-        for key, loads in (("dead", case.dead or []), ("live", case.live)):
+        for key, loads in (("dead", case.dead or []), ("live", case.live or [])):
             for number, load in enumerate(loads):
                 yield ("load_cases", name, key, number), load
 

@@ -18,11 +18,18 @@ from mbla.deck.analysis import PathScheme as PathScheme
 from mbla.deck.analysis import ProximalScheme as ProximalScheme
 from mbla.deck.analysis import PublishedScheme as PublishedScheme
 from mbla.deck.analysis import ReductionSwitches as ReductionSwitches
+from mbla.deck.contacts import AboutNormal as AboutNormal
 from mbla.deck.contacts import ContactOverride as ContactOverride
+from mbla.deck.contacts import ContactPoints as ContactPoints
 from mbla.deck.contacts import ContactsSection as ContactsSection
 from mbla.deck.items import ArchItem as ArchItem
+from mbla.deck.items import ArchPiers as ArchPiers
 from mbla.deck.items import BlockItem as BlockItem
 from mbla.deck.items import BoxItem as BoxItem
+from mbla.deck.items import ColumnEnd as ColumnEnd
+from mbla.deck.items import ColumnItem as ColumnItem
+from mbla.deck.items import DomeDrum as DomeDrum
+from mbla.deck.items import DomeItem as DomeItem
 from mbla.deck.items import Item as Item
 from mbla.deck.items import MeshItem as MeshItem
 from mbla.deck.items import Opening as Opening
@@ -30,7 +37,10 @@ from mbla.deck.items import PolyhedronItem as PolyhedronItem
 from mbla.deck.items import Reflection as Reflection
 from mbla.deck.items import Repetition as Repetition
 from mbla.deck.items import Rotation as Rotation
+from mbla.deck.items import StackItem as StackItem
+from mbla.deck.items import TableItem as TableItem
 from mbla.deck.items import TransformStep as TransformStep
+from mbla.deck.items import TrilithonItem as TrilithonItem
 from mbla.deck.items import WallItem as WallItem
 from mbla.deck.joints import JointLaw as JointLaw
 from mbla.deck.loads import HeightPattern as HeightPattern
@@ -38,6 +48,7 @@ from mbla.deck.loads import LineLoad as LineLoad
 from mbla.deck.loads import Load as Load
 from mbla.deck.loads import LoadCaseSection as LoadCaseSection
 from mbla.deck.loads import PressureLoad as PressureLoad
+from mbla.deck.loads import SettlementSection as SettlementSection
 from mbla.deck.loads import Tilt as Tilt
 from mbla.deck.loads import Travel as Travel
 from mbla.deck.masses import AddedMass as AddedMass
@@ -56,6 +67,7 @@ from mbla.deck.selectors import Selector as Selector
 from mbla.deck.selectors import SelectorTerm as SelectorTerm
 from mbla.deck.supports import GroundPlane as GroundPlane
 from mbla.deck.supports import Support as Support
+from mbla.deck.supports import Turn as Turn
 
 
 def _no_boolean(value: Any) -> Any:
@@ -98,6 +110,7 @@ class Expectation(Section):
     angle: Number | None = Field(None, description="tilt: angle of collapse in degrees")
     position: Count | None = Field(None, description="travel: number of the worst position, from 1")
     associative_load_factor: Number | None = Field(None, description="by the associative flow rule")
+    reaction: Number | None = Field(None, description="of the support that gives way")
     lower: Number | None = Field(None, description="least load factor for the mechanism found, without normality")
     status: Literal["solved", "approximate", "not_verified", "no_equilibrium", "unbounded"] | None = Field(
         None, description="status of the case"
@@ -115,7 +128,9 @@ class DeckContent(Section):
     parameters: dict[ParameterName, Number] = Field(default_factory=dict, description='names for "=..." expressions')
     include: list[str] = Field(default_factory=list, description="decks merged into this one, relative to it")
     materials: dict[Name, Material] = Field(min_length=1, description="materials by name")
-    joints: dict[Name, JointLaw] = Field(min_length=1, description="joint laws by name")
+    joints: dict[Name, JointLaw] = Field(
+        default_factory=dict, description="joint laws by name; frictionless, glued and open are known without"
+    )
     blocks: list[BlockItem] = Field(min_length=1, description="the structure, item by item")
     contacts: ContactsSection = Field(description="joint law and tolerance of contacts")
     supports: list[Support] = Field(default_factory=list, description="what holds the structure")

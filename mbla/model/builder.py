@@ -10,8 +10,9 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from mbla.deck.deck import Deck
+from mbla.deck.joints import FRICTIONLESS
 from mbla.deck.tree import KeyPath
-from mbla.deck.types import BlockItem, Item, JointLaw, Material
+from mbla.deck.types import BlockItem, Item, JointLaw, LoadCaseSection, Material
 from mbla.deck.units import Units
 from mbla.errors import DeckError, Fault, Notice
 from mbla.model.added_masses import with_added_masses
@@ -20,10 +21,12 @@ from mbla.model.generators import GENERATORS
 from mbla.model.generators.generator import Generated, ItemRefused, Site
 from mbla.model.labels import NONE, BlockLabels, join_labels, labels_of
 from mbla.model.loads import LoadSite, build_load_cases
-from mbla.model.model import Ground, Joint, Model
+from mbla.model.model import Ground, Joint, LoadCase, Model
+from mbla.model.overrides import check_overrides
 from mbla.model.polyhedra import Polyhedra, join_polyhedra
 from mbla.model.selectors import build_roster
-from mbla.model.supports import Supports, build_supports
+from mbla.model.settlement import build_settlement
+from mbla.model.supports import Supports, build_supports, does_nothing
 from mbla.model.transform import build_transform, repetitions, transform_item
 
 MOST_FAULTS_PER_ITEM = 10
@@ -80,14 +83,22 @@ def build_model(deck: Deck) -> Model:
     brought_along = Supports(np.repeat(np.array(items.fixed, dtype=bool), counts), grounds)
     tolerance, joint = deck.contacts.tolerance, deck.contacts.joint
     supports = build_supports(deck.content.supports, joint, brought_along, roster, tolerance, faults)
+    check_overrides(deck.contacts.overrides, roster, faults)
     if deck.content.masses:
         roster = replace(roster, blocks=with_added_masses(deck.content.masses, roster, supports.fixed, faults, notices))
     site = LoadSite(
-        roster, supports.fixed, deck.units, supports.grounds, deck.content.loads, tolerance, faults, notices
+        roster=roster,
+        fixed=supports.fixed,
+        units=deck.units,
+        resolve_file=deck.resolve_file,
+        grounds=supports.grounds,
+        named=deck.content.loads,
+        tolerance=tolerance,
+        faults=faults,
+        notices=notices,
     )
-    load_cases = tuple(
-        case for name, section in deck.content.load_cases.items() for case in build_load_cases(name, section, site)
-    )
+    sections = deck.content.load_cases.items()
+    load_cases = tuple(case for name, section in sections for case in _load_cases(name, section, site, supports))
     if faults:
         raise DeckError(faults)
     return Model(
@@ -96,10 +107,40 @@ def build_model(deck: Deck) -> Model:
         blocks=roster.blocks,
         fixed=supports.fixed,
         grounds=supports.grounds,
-        joints={name: build_joint(name, law) for name, law in deck.content.joints.items()},
+        joints=_joints(deck, supports.grounds),
         load_cases=load_cases,
         notices=(*items.notices, *built.notices, *notices),
+        guides=supports.guides,
     )
+
+
+def _joints(deck: Deck, grounds: Sequence[Ground]) -> dict[str, Joint]:
+    """Joint laws of the deck, and that without friction where it is asked for by its name."""
+    laws = {name: build_joint(name, law) for name, law in deck.content.joints.items()}
+    used = {deck.contacts.joint, *(override.joint for override in deck.contacts.overrides)}
+    if FRICTIONLESS in used | {ground.joint for ground in grounds}:
+        laws[FRICTIONLESS] = Joint(FRICTIONLESS, 0.0)
+    return laws
+
+
+def _load_cases(name: str, section: LoadCaseSection, site: LoadSite, supports: Supports) -> Sequence[LoadCase]:
+    """Loads of one case, or of one for each position of a load that travels; or a support that gives way."""
+    load_cases = build_load_cases(name, section, site)
+    path: KeyPath = ("load_cases", name)
+    if section.settlement is not None:
+        settles = (*path, "settlement")
+        return [
+            build_settlement(section.settlement, settles, load_case, supports, site.roster, site.faults)
+            for load_case in load_cases
+        ]
+    for load_case in load_cases:
+        if not site.faults and does_nothing(load_case.live_load, supports):
+            where = "" if load_case.travel is None else f" at position {load_case.travel.number}"
+            site.refuse(
+                (*path, "live"),
+                f"the supports take every live load{where}, for they act on guided blocks across what these may do",
+            )
+    return load_cases
 
 
 def build_joint(name: str, law: JointLaw) -> Joint:
@@ -168,7 +209,9 @@ def _kind(entry: BlockItem) -> tuple[str, Item]:
 
 
 def _generate(deck: Deck, kind: str, item: Item, path: KeyPath) -> Generated:
-    site = Site(deck.contacts.tolerance, lambda below, name: deck.resolve_file((*path, *below), name))
+    site = Site(
+        deck.contacts.tolerance, lambda below, name: deck.resolve_file((*path, *below), name), deck.units.length
+    )
     with np.errstate(over="ignore", invalid="ignore"):  # coordinates that are not finite are refused by block
         generated = GENERATORS[kind](item, site)
         transform = build_transform(item.transform)

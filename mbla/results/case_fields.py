@@ -60,6 +60,48 @@ SPECIAL_LOADS = (
     Field(f"{CASE}/tilt/tangent", "bool", (), "1", "1 where the load factor is the tangent of the angle", part="tilt"),
 )
 
+SETTLEMENT = (
+    Field(
+        f"{CASE}/settlement/blocks",
+        "int",
+        ("settling_block",),
+        "1",
+        "fixed blocks that give way under this case",
+        index_of="block",
+        part="settlement",
+    ),
+    Field(
+        f"{CASE}/settlement/motions",
+        "float",
+        ("settling_block", "component"),
+        "motion",
+        "their velocity and angular velocity in the unit motion of the support",
+        part="settlement",
+    ),
+    Field(
+        f"{CASE}/settlement/turns", "bool", (), "1", "1: the support turns, its reaction is a moment", part="settlement"
+    ),
+    Field(f"{CASE}/settlement/words", "text", (), "1", "the settlement in words", part="settlement"),
+    Field(
+        f"{CASE}/settlement/reference",
+        "float",
+        (),
+        "load",
+        "reaction at rest, a force or a moment; reaction = reference - load factor x unit",
+        open=True,
+        part="settlement",
+    ),
+    Field(f"{CASE}/settlement/unit", "float", (), "load", "unit of the loss of reaction", part="settlement"),
+    Field(
+        f"{CASE}/reaction",
+        "float",
+        (),
+        "load",
+        "reaction of the support at which the structure follows it, positive against the motion",
+        part="reaction",
+    ),
+)
+
 ANSWER = (
     Field(f"{CASE}/status", "text", (), "1", "status of the case after verification", part="solution"),
     Field(f"{CASE}/claimed_status", "text", (), "1", "status that the solver stage claimed", part="solution"),
@@ -259,6 +301,7 @@ HISTORY = (
 CASE_FIELDS: tuple[Field, ...] = (
     *LOADS,
     *SPECIAL_LOADS,
+    *SETTLEMENT,
     *ANSWER,
     *MECHANICS,
     *COLLAPSE,

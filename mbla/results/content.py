@@ -47,6 +47,7 @@ CONTACT_ARRAYS = (
     "frames",
     "point_areas",
 )
+SETTLEMENT_FIELDS = ("blocks", "motions", "turns", "words", "reference", "unit")
 REPORT_FIELDS = (
     "slivers",
     "sliver_widths",
@@ -57,6 +58,9 @@ REPORT_FIELDS = (
     "unchecked",
     "isolated",
     "fixed_contacts",
+    "open_interfaces",
+    "glued_interfaces",
+    "held",
 )
 
 
@@ -143,6 +147,7 @@ def _model(model: Model) -> Content:
         "model/fixed": model.fixed,
         **_joints(model),
         **_grounds(model),
+        **_guides(model),
         **_notices("model/notices", model.notices),
     }
     return content
@@ -176,15 +181,29 @@ def _points(rows: Sequence[FloatArray]) -> FloatArray:
 
 
 def _contacts(contacts: Contacts) -> Content:
-    report = contacts.report
+    report, label = contacts.report, contacts.solid_of_block
     start, flat = ragged(report.unsupported)
     return {
         **{f"contacts/{name}": getattr(contacts, name) for name in CONTACT_ARRAYS},
         "contacts/joint_names": contacts.joint_names,
+        **({} if label is None else {"contacts/solid_of_block": label}),
         **{f"contacts/report/{name}": getattr(report, name) for name in REPORT_FIELDS},
         "contacts/report/unsupported_start": start,
         "contacts/report/unsupported_blocks": flat,
         **_notices("contacts/notices", report.notices),
+    }
+
+
+def _guides(model: Model) -> Content:
+    """Blocks that move in given ways only; nothing where there are none."""
+    guides = model.guides
+    if not len(guides):
+        return {}
+    return {
+        "model/guided_blocks": guides.blocks,
+        "model/guided_bodies": guides.bodies,
+        "model/guide_motions": guides.motions,
+        "model/guide_words": guides.words,
     }
 
 
@@ -196,4 +215,7 @@ def _loads(load_case: LoadCase) -> Content:
         part = getattr(load_case, name)
         if part is not None:
             content |= {f"{name}/{field.name}": getattr(part, field.name) for field in fields(part)}
+    settlement = load_case.settlement
+    if settlement is not None:
+        content |= {f"settlement/{name}": getattr(settlement, name) for name in SETTLEMENT_FIELDS}
     return content

@@ -14,7 +14,9 @@ import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.contacts.contacts import Contacts
+from mbla.deck.selectors import POSITIONS
 from mbla.model.geometry.meshio_files import write_mesh
+from mbla.model.labels import BlockLabels
 from mbla.model.model import Model
 from mbla.results.cells import BlockCells, block_cells
 from mbla.results.files import OutputFolder
@@ -34,7 +36,8 @@ def write_blocks_vtu(
     """Blocks as cells.
 
     Point data: ``displacement``. Cell data: ``block``, ``group``, ``weight``, ``fixed``, ``moves``, ``part`` (blocks
-    that move together; 0 at rest), ``velocity``, ``rotation`` (as drawn, m and rad).
+    that move together; 0 at rest), ``velocity``, ``rotation`` (as drawn, m and rad), and the labels that items give
+    their blocks, such as ``member`` and ``course``.
     """
     motion = drawn_motion(model, case)
     parts = rigid_parts(model, contacts, motion)
@@ -62,7 +65,16 @@ def block_data(model: Model) -> Arrays:
         "group": group_numbers(model),
         "weight": model.blocks.masses * units.standard_gravity * units.force_per_mass_acceleration,
         "fixed": model.fixed.astype(np.int8),
+        **_labels(model.blocks.labels),
     }
+
+
+def _labels(labels: BlockLabels) -> Arrays:
+    """Members as numbers in alphabetical order, 0 for none, and positions, -1 for none; those that no block has not."""
+    names = sorted(set(labels.members) - {""})
+    row = {name: i for i, name in enumerate(["", *names])}
+    found: Arrays = {"member": np.array([row[member] for member in labels.members])} if names else {}
+    return found | {name: labels.position(name) for name in POSITIONS if (labels.position(name) >= 0).any()}
 
 
 def group_names(model: Model) -> list[str]:

@@ -19,8 +19,11 @@ from mbla.deck import Deck, read_deck
 
 ROOT = Path(__file__).parents[2]
 DECKS = ROOT / "decks"
-PATHS = tuple(sorted((*DECKS.glob("tutorials/*.yaml"), *DECKS.glob("benchmarks/*.yaml"))))
-LONG = ("tutorials/crossvault_without_dilatancy",)
+FOLDERS = ("tutorials", "benchmarks", "structures")
+PATHS = tuple(sorted(path for folder in FOLDERS for path in DECKS.glob(f"{folder}/*.yaml")))
+LONG = (
+    "tutorials/crossvault_without_dilatancy",
+)  # fmt: skip
 """take more than ten seconds: run by ``pytest -m long`` only"""
 
 

@@ -6,6 +6,7 @@ import meshio
 import numpy as np
 import pytest
 
+from mbla.model.labels import labels_of
 from mbla.results.interface_modes import InterfaceMode
 from mbla.results.motion import SHARE_OF_SIZE, movable_size
 from mbla.results.results import Results
@@ -141,3 +142,13 @@ def test_forces_at_the_load_factor_go_before_those_that_lock(path: Path, results
     write_contacts_vtu(path, results.model, results.contacts, replace(results.cases[0], solution=solution))
     forces = tower_mechanics().contact_forces
     assert meshio.read(path).point_data["normal_force"] == pytest.approx(forces[:, 0])
+
+
+def test_labels_of_items_are_cell_data(path: Path, results: Results) -> None:
+    labels = labels_of(3, ("", "pier", "lintel"), {"course": np.array([0, 1, -1])}, -1)
+    blocks = replace(results.model.blocks, labels=labels)
+    write_blocks_vtu(path, replace(results.model, blocks=blocks), results.contacts, None)
+    data = {name: np.concatenate(values).tolist() for name, values in meshio.read(path).cell_data.items()}
+    assert data["member"] == [0, 2, 1]
+    assert data["course"] == [0, 1, -1]
+    assert "voussoir" not in data

@@ -3,7 +3,12 @@
 from __future__ import annotations
 
 from mbla.deck.items.arch import ArchItem as ArchItem
+from mbla.deck.items.arch import ArchPiers as ArchPiers
 from mbla.deck.items.box import BoxItem as BoxItem
+from mbla.deck.items.column import ColumnEnd as ColumnEnd
+from mbla.deck.items.column import ColumnItem as ColumnItem
+from mbla.deck.items.dome import DomeDrum as DomeDrum
+from mbla.deck.items.dome import DomeItem as DomeItem
 from mbla.deck.items.item import Item as Item
 from mbla.deck.items.item import Reflection as Reflection
 from mbla.deck.items.item import Repetition as Repetition
@@ -11,6 +16,9 @@ from mbla.deck.items.item import Rotation as Rotation
 from mbla.deck.items.item import TransformStep as TransformStep
 from mbla.deck.items.mesh import MeshItem as MeshItem
 from mbla.deck.items.polyhedron import PolyhedronItem as PolyhedronItem
+from mbla.deck.items.stack import StackItem as StackItem
+from mbla.deck.items.table import TableItem as TableItem
+from mbla.deck.items.trilithon import TrilithonItem as TrilithonItem
 from mbla.deck.items.wall import Opening as Opening
 from mbla.deck.items.wall import WallItem as WallItem
 from mbla.deck.section import Section
@@ -24,3 +32,8 @@ class BlockItem(Section):
     wall: WallItem | None = None
     arch: ArchItem | None = None
     mesh: MeshItem | None = None
+    table: TableItem | None = None
+    column: ColumnItem | None = None
+    stack: StackItem | None = None
+    trilithon: TrilithonItem | None = None
+    dome: DomeItem | None = None

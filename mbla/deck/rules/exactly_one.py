@@ -14,9 +14,12 @@ EXACTLY_ONE: dict[type[Section], tuple[str, ...]] = {
     types.JointLaw: ("friction", "friction_angle"),
     types.BlockItem: tuple(types.BlockItem.model_fields),
     types.TransformStep: tuple(types.TransformStep.model_fields),
+    types.ColumnEnd: ("side", "radius"),
     types.Repetition: ("translate", "rotate"),
     types.GroundPlane: ("x", "y", "z", "point"),
-    types.Load: ("gravity", "acceleration", "force", "moment", "line", "pressure", "loads", "travel", "tilt"),
+    types.LoadCaseSection: ("live", "settlement"),
+    types.SettlementSection: ("direction", "turn"),
+    types.Load: ("gravity", "acceleration", "force", "moment", "line", "pressure", "table", "loads", "travel", "tilt"),
 }
 """Keys of which a section has exactly one; the schema says so too."""
 

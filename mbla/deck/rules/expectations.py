@@ -8,7 +8,7 @@ from mbla.deck import types
 from mbla.deck.rules.common import given
 from mbla.deck.section import Finding, rule
 
-FIGURES = ("load_factor", "angle", "position", "associative_load_factor", "lower", "status")
+FIGURES = ("load_factor", "angle", "position", "associative_load_factor", "reaction", "lower", "status")
 
 
 @rule(types.Expectation)
@@ -24,6 +24,6 @@ def expectations_of_kinds(deck: types.DeckContent) -> Iterator[Finding]:
     for name, item in deck.expected.items():
         case = deck.load_cases.get(name)
         for key, kind in (("angle", "tilt"), ("position", "travel")):
-            live = [] if case is None or getattr(item, key) is None else case.live
+            live = [] if case is None or getattr(item, key) is None else (case.live or [])
             if live and not any(getattr(load, kind) is not None for load in live):
                 yield ("expected", name, key), f"applies to load cases with {kind} only"

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from mbla.deck import types
-from mbla.deck.rules.common import ROUNDING, exactly_one, given, is_zero, least_below_greatest
+from mbla.deck.rules.common import ROUNDING, is_zero, least_below_greatest
 from mbla.deck.section import Finding, rule
 
 
@@ -55,19 +55,3 @@ def wall_openings(wall: types.WallItem) -> Iterator[Finding]:
                 yield ("openings", number, "from", axis), "must be >= 0: the opening must lie within the wall"
             if high > limit * (1 + ROUNDING):
                 yield ("openings", number, "to", axis), f"must be <= {limit:g}, the {what} of the wall"
-
-
-@rule(types.ArchItem)
-def arch_shape(arch: types.ArchItem) -> Iterator[Finding]:
-    """A semicircle is given by its span alone; a segment needs its rise or its angle."""
-    keys = ("rise", "embrace")
-    if arch.shape == "segmental":
-        yield from exactly_one(arch, keys, " for a segmental arch")
-    else:
-        for key in given(arch, keys):
-            yield (
-                (key,),
-                f"applies to segmental arches only: leave it out, or write shape: segmental ({arch.shape} given)",
-            )
-    if arch.joint is not None and arch.springers != "ground":
-        yield ("joint",), "applies with springers: ground only"

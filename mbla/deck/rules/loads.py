@@ -34,6 +34,8 @@ def load_keys(load: types.Load) -> Iterator[Finding]:
         yield ("on",), f"does not apply to {kind}, which {ON_ALL_BLOCKS[kind]}"
     if load.on is not None and kind == "loads":
         yield ("on",), "does not apply to named loads: each of them says itself on which blocks it acts"
+    if load.on is not None and load.table is not None:
+        yield ("on",), "does not apply to a table, whose rows name their blocks"
     if load.pattern is not None and kind != "acceleration":
         yield ("pattern",), "applies to acceleration only"
     if kind == "tilt" and load.factor != 1.0:
@@ -110,17 +112,17 @@ def tilt(load: types.Tilt) -> Iterator[Finding]:
 @rule(types.LoadCaseSection)
 def load_case(case: types.LoadCaseSection) -> Iterator[Finding]:
     """A live load must do something; what tilts or travels is live, and there is one of it."""
-    for number, load in enumerate(case.live):
+    for number, load in enumerate(case.live or []):
         for below in _without_effect(load):
             yield ("live", number, *below), "is a live load with no effect"
     for number, load in enumerate(case.dead or []):
         for kind in given(load, LIVE_ONLY):
             yield ("dead", number, kind), "must be a live load"
-    special = [(number, kind) for number, load in enumerate(case.live) for kind in given(load, LIVE_ONLY)]
+    special = [(number, kind) for number, load in enumerate(case.live or []) for kind in given(load, LIVE_ONLY)]
     for number, kind in special[1:]:
         yield ("live", number, kind), f"only one of {listed(LIVE_ONLY, 'and')} in a load case: make another load case"
-    if len(special) == 1 and special[0][1] == "tilt" and len(case.live) > 1:
-        other = next(number for number in range(len(case.live)) if number != special[0][0])
+    if len(special) == 1 and special[0][1] == "tilt" and len(case.live or []) > 1:
+        other = next(number for number in range(len(case.live or [])) if number != special[0][0])
         yield ("live", other), "must not stand beside tilt, whose answer is an angle: make it a dead load"
 
 
@@ -164,3 +166,10 @@ def _way_back(name: str, loads: dict[str, list[types.Load]]) -> list[str] | None
                 seen.add(below)
                 chains.append([*chain, below])
     return None
+
+
+@rule(types.SettlementSection)
+def settlement_direction(settlement: types.SettlementSection) -> Iterator[Finding]:
+    """A settlement goes somewhere."""
+    if settlement.direction is not None and is_zero(settlement.direction):
+        yield ("direction",), "must not be the zero vector"

@@ -4,9 +4,14 @@ from __future__ import annotations
 
 from mbla.model.generators.arch import generate_arch
 from mbla.model.generators.box import generate_box
+from mbla.model.generators.column import generate_column
+from mbla.model.generators.dome import generate_dome
 from mbla.model.generators.generator import Generator
 from mbla.model.generators.mesh import generate_mesh
 from mbla.model.generators.polyhedron import generate_polyhedron
+from mbla.model.generators.stack import generate_stack
+from mbla.model.generators.table import generate_table
+from mbla.model.generators.trilithon import generate_trilithon
 from mbla.model.generators.wall import generate_wall
 
 GENERATORS: dict[str, Generator] = {
@@ -15,5 +20,10 @@ GENERATORS: dict[str, Generator] = {
     "wall": generate_wall,
     "arch": generate_arch,
     "mesh": generate_mesh,
+    "table": generate_table,
+    "column": generate_column,
+    "stack": generate_stack,
+    "trilithon": generate_trilithon,
+    "dome": generate_dome,
 }
 """by the key of the item in the deck"""

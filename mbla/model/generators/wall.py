@@ -50,7 +50,7 @@ def generate_wall(item: WallItem, site: Site) -> Generated:
     if findings:
         raise ItemRefused(findings)
     rows: dict[tuple[bool, tuple[_Void, ...]], FloatArray] = {}
-    spans, courses = [], []
+    spans, courses, positions = [], [], []
     for course in range(item.courses):
         shifted = item.bond == "running" and (course % 2 == 1) != (item.start == "half")
         shifted = shifted or (item.bond == "stack" and item.start == "half")
@@ -60,6 +60,7 @@ def generate_wall(item: WallItem, site: Site) -> Generated:
             rows[key] = _units_of_course(item, shifted, here)
         spans.append(rows[key])
         courses.append(np.full(len(rows[key]), course))
+        positions.append(np.arange(len(rows[key])))
     units, level = np.concatenate(spans), np.concatenate(courses)
     if not len(units):
         raise ItemRefused([(("openings",), "nothing is left of the wall")])
@@ -67,7 +68,8 @@ def generate_wall(item: WallItem, site: Site) -> Generated:
     flat = np.zeros(len(units))
     least = np.stack([units[:, 0], flat, level * height], axis=1)
     greatest = np.stack([units[:, 1], flat + thickness, (level + 1) * height], axis=1)
-    return Generated((Part(cuboids(least, greatest)),))
+    labels = {"course": level, "unit": np.concatenate(positions), "leaf": np.zeros_like(level)}
+    return Generated((Part(cuboids(least, greatest), labels=labels),))
 
 
 def _units_of_course(item: WallItem, shifted: bool, voids: tuple[_Void, ...]) -> FloatArray:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Literal
 
 from mbla.errors import Notice
 from mbla.model.polyhedra import Polyhedra
@@ -14,7 +15,27 @@ class GeometryFileError(Exception):
 
 @dataclass(frozen=True)
 class Geometry:
-    """Blocks of a file in its own coordinates, in file order, faces in any orientation, and what was put right."""
+    """Content of a file in its own coordinates and order, faces in any orientation.
+
+    polyhedra : what the file keeps apart: its objects, each one or several closed surfaces; or its volume cells
+    notices   : what was left out or put right
+    names     : name of each polyhedron in the file, empty where it has none; or no entry at all
+    cells     : each polyhedron is a volume cell, and so a block; else surfaces, whose closed parts are the blocks
+    indexed   : faces share vertices by number, so that two vertices at one place are worth a remark
+    up        : axis of the file that points upwards, where its format says so
+    unit      : unit of length of the file, where its format or its header says so
+    planar    : outlines of a drawing in x and z, each extended from y = 0 to y = 1; the deck gives the thickness
+    """
 
     polyhedra: Polyhedra
     notices: tuple[Notice, ...] = ()
+    names: tuple[str, ...] = ()
+    cells: bool = False
+    indexed: bool = True
+    up: Literal["z", "y"] = "z"
+    unit: str | None = None
+    planar: bool = False
+
+    def name(self, row: int) -> str:
+        """Name of a polyhedron; empty where it has none."""
+        return self.names[row] if self.names else ""

@@ -1,7 +1,7 @@
-"""Wavefront OBJ: each object (``o``), or else each group (``g``), is one block.
+"""Wavefront OBJ: each object (``o``), or else each group (``g``), is kept apart under its name.
 
-Without either the file is one surface, split into its closed parts. Read here because the libraries at hand either
-merge objects or split them by rules of their own.
+Without either the file is one surface. Read here because the libraries at hand either merge objects or split them by
+rules of their own.
 """
 
 from __future__ import annotations
@@ -15,8 +15,7 @@ import numpy as np
 from mbla.arrays import IntArray, starts
 from mbla.errors import Notice
 from mbla.model.geometry.geometry import Geometry, GeometryFileError
-from mbla.model.geometry.surfaces import split_surface
-from mbla.model.geometry.welding import own_vertices, weld, welding_notices
+from mbla.model.geometry.welding import own_vertices
 from mbla.model.polyhedra import Polyhedra
 from mbla.model.wording import counted, was
 
@@ -26,19 +25,22 @@ LEFT_OUT = {"l": "line", "p": "point", "curv": "curve", "curv2": "curve", "surf"
 
 @dataclass
 class _Content:
-    """The file as read: vertices, faces as rows of them, and the object and group at each face."""
+    """The file as read: vertices, faces as rows of them, and the row of the object and group name at each face.
+
+    What precedes the first object or group is row 0.
+    """
 
     vertices: list[tuple[float, float, float]] = field(default_factory=list)
     faces: list[list[int]] = field(default_factory=list)
     objects: list[int] = field(default_factory=list)
     groups: list[int] = field(default_factory=list)
-    object_count: int = 0
-    group_count: int = 0
+    object_names: list[str] = field(default_factory=lambda: [""])
+    group_names: list[str] = field(default_factory=lambda: [""])
     left_out: dict[str, int] = field(default_factory=dict)
 
 
 def read_obj(path: Path) -> Geometry:
-    """Blocks of an OBJ file, in file order.
+    """Objects or groups of an OBJ file, in file order.
 
     Raises
     ------
@@ -46,20 +48,15 @@ def read_obj(path: Path) -> Geometry:
         for malformed lines, with their number
     """
     content = _read(path)
-    if not content.faces:
-        return Geometry(_collect(content, np.empty(0, dtype=np.int64)), ())
-    labels = content.objects if content.object_count else content.groups
-    whole = not content.object_count and not content.group_count
-    polyhedra = _collect(content, np.array(labels, dtype=np.int64))
-    notices = [
+    notices = tuple(
         Notice("warning", "mesh-cells-left-out", f"{counted(count, noun)} {was(count)} left out: no block")
         for noun, count in content.left_out.items()
-    ]
-    if whole:
-        geometry = split_surface(polyhedra)
-        return Geometry(geometry.polyhedra, (*notices, *geometry.notices))
-    welded = weld(polyhedra)
-    return Geometry(welded.polyhedra, (*notices, *welding_notices(welded)))
+    )
+    by_object = len(content.object_names) > 1
+    rows = np.array(content.objects if by_object else content.groups, dtype=np.int64)
+    names = content.object_names if by_object else content.group_names
+    polyhedra, used = _collect(content, rows)
+    return Geometry(polyhedra, notices, tuple(names[row] for row in used) if len(names) > 1 else ())
 
 
 def _read(path: Path) -> _Content:
@@ -101,12 +98,12 @@ def _read_line(content: _Content, keyword: str, rest: str) -> None:
         if len(corners) < 3:
             raise ValueError("a face has at least three corners")
         content.faces.append(corners)
-        content.objects.append(content.object_count)
-        content.groups.append(content.group_count)
+        content.objects.append(len(content.object_names) - 1)
+        content.groups.append(len(content.group_names) - 1)
     elif keyword == "o":
-        content.object_count += 1
+        content.object_names.append(rest.strip())
     elif keyword == "g":
-        content.group_count += 1
+        content.group_names.append(rest.strip())
     elif keyword in LEFT_OUT:
         noun = LEFT_OUT[keyword]
         content.left_out[noun] = content.left_out.get(noun, 0) + 1
@@ -120,8 +117,8 @@ def _vertex(token: str, count: int) -> int:
     return number - 1 if number > 0 else count + number
 
 
-def _collect(content: _Content, labels: IntArray) -> Polyhedra:
-    """One polyhedron per label, in order of first appearance, each with its own copy of its vertices."""
+def _collect(content: _Content, labels: IntArray) -> tuple[Polyhedra, IntArray]:
+    """One polyhedron per label in order of first appearance, with vertices of its own; and the labels."""
     present, first, codes = np.unique(labels, return_index=True, return_inverse=True)
     rank = np.empty(len(present), dtype=np.int64)
     rank[np.argsort(first, kind="stable")] = np.arange(len(present))
@@ -130,4 +127,5 @@ def _collect(content: _Content, labels: IntArray) -> Polyhedra:
     block = rank[codes][order]
     counts = np.array([len(face) for face in faces], dtype=np.int64)
     corners = np.array([corner for face in faces for corner in face], dtype=np.int64)
-    return own_vertices(np.array(content.vertices, dtype=np.float64).reshape(-1, 3), corners, starts(counts), block)
+    points = np.array(content.vertices, dtype=np.float64).reshape(-1, 3)
+    return own_vertices(points, corners, starts(counts), block), present[np.argsort(rank)]

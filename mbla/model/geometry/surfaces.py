@@ -1,4 +1,4 @@
-"""A surface mesh split into its closed parts, each of which is a block.
+"""Surfaces split into their closed parts, each of which is a block.
 
 Faces belong together when they share an edge. Where blocks touch along an edge, as in a wall exported as one surface,
 more than two faces meet at it; then each face goes with the one that it meets first on turning about the edge through
@@ -10,42 +10,66 @@ its own block:
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 
 from mbla.arrays import FloatArray, IntArray, starts
-from mbla.errors import Notice
 from mbla.model.face_geometry import face_geometry
-from mbla.model.geometry.geometry import Geometry
-from mbla.model.geometry.welding import own_vertices, weld
+from mbla.model.geometry.duplicate_faces import face_codes
+from mbla.model.geometry.welding import own_vertices
 from mbla.model.orientation import connected_labels
 from mbla.model.polyhedra import Polyhedra
 from mbla.model.ragged import ranges
-from mbla.model.wording import counted, was
 
 SAME_DIRECTION = 1e-6
 """angle in radians below which two faces at an edge lie on each other and bound different blocks"""
 
 
-def split_surface(surface: Polyhedra) -> Geometry:
-    """The closed parts of one surface, given as one polyhedron, in the order of their first faces."""
-    welded = weld(surface)
-    surface = welded.polyhedra
-    notices: tuple[Notice, ...] = ()
-    if welded.collapsed:
-        faces = counted(welded.collapsed, "face")
-        words = f"{faces} without area {was(welded.collapsed)} left out: corners at the same place"
-        notices = (Notice("notice", "faces-collapsed", words),)
-    if not len(surface):
-        return Geometry(surface, notices)
-    labels = connected_labels(_partners(surface), len(surface.block_of_face))
+@dataclass(frozen=True)
+class Split:
+    """Closed parts of surfaces: ``source`` (n,) is the surface that each part is of; ``twins`` were left out."""
+
+    polyhedra: Polyhedra
+    source: IntArray
+    twins: int
+
+
+def split_surfaces(surfaces: Polyhedra) -> Split:
+    """The closed parts of surfaces without repeated vertices, in the order of their first faces.
+
+    Parts with the very faces of an earlier part of the same surface are left out: files that list both sides of each
+    face come apart into such twins.
+    """
+    if not len(surfaces):
+        return Split(surfaces, np.empty(0, dtype=np.int64), 0)
+    labels = connected_labels(_partners(surfaces), len(surfaces.block_of_face))
     first, codes = np.unique(labels, return_index=True, return_inverse=True)[1:]
     rank = np.empty(len(first), dtype=np.int64)
     rank[np.argsort(first)] = np.arange(len(first))
-    block = rank[codes.reshape(-1)]
-    order = np.argsort(block, kind="stable")
-    counts = np.diff(surface.loop_start)[order]
-    corners = surface.loops[ranges(surface.loop_start[order], counts)]
-    return Geometry(own_vertices(surface.vertices, corners, starts(counts), block[order]), notices)
+    part = rank[codes.reshape(-1)]
+    source = surfaces.block_of_face[np.sort(first)]
+    kept = _first_of_twins(face_codes(surfaces, oriented=False), part, len(first))
+    number = np.cumsum(kept) - 1
+    order = np.argsort(part, kind="stable")
+    order = order[kept[part[order]]]
+    counts = np.diff(surfaces.loop_start)[order]
+    corners = surfaces.loops[ranges(surfaces.loop_start[order], counts)]
+    parts = own_vertices(surfaces.vertices, corners, starts(counts), number[part[order]])
+    return Split(parts, source[kept], int((~kept).sum()))
+
+
+def _first_of_twins(codes: IntArray, part: IntArray, n_parts: int) -> np.typing.NDArray[np.bool_]:
+    """Parts that do not have the faces of an earlier one, (n_parts,).
+
+    A part is known by the sum of random numbers that stand for its faces, exact in whole numbers.
+    """
+    random = np.random.default_rng(0).integers(0, 2**63, size=int(codes.max()) + 1, dtype=np.uint64)
+    sums = np.zeros(n_parts, dtype=np.uint64)
+    np.add.at(sums, part, random[codes])
+    kept = np.zeros(n_parts, dtype=bool)
+    kept[np.unique(sums, return_index=True)[1]] = True
+    return kept
 
 
 def _partners(surface: Polyhedra) -> IntArray:

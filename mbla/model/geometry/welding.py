@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import chain
 
 import numpy as np
 
-from mbla.arrays import FloatArray, IntArray, row_of_item, starts
+from mbla.arrays import BoolArray, FloatArray, IntArray, row_of_item, starts
 from mbla.errors import Notice
+from mbla.model.orientation import connected_labels
 from mbla.model.polyhedra import Polyhedra, drop_unused_vertices
 from mbla.model.ragged import next_item
 from mbla.model.wording import counted, was
@@ -38,26 +40,64 @@ def weld(polyhedra: Polyhedra) -> Welded:
     leader = order[np.concatenate([[0], np.flatnonzero(new) + 1])]
     target = np.empty(len(order), dtype=np.int64)
     target[order] = leader[np.concatenate([[0], np.cumsum(new)])]
+    return _merged(polyhedra, target)
+
+
+def weld_near(polyhedra: Polyhedra, vertices: IntArray, reach: FloatArray) -> Welded:
+    """Merge vertices of one polyhedron that lie closer to each other than either of them reaches.
+
+    vertices : those that may be merged
+    reach    : (n,) distance within which each takes others
+    """
+    from scipy.spatial import cKDTree
+
+    points = polyhedra.vertices[vertices]
+    neighbours = cKDTree(points).query_ball_point(points, reach, return_sorted=True)
+    one = np.repeat(np.arange(len(vertices)), [len(each) for each in neighbours])
+    other = np.fromiter(chain.from_iterable(neighbours), dtype=np.int64, count=len(one))
+    apart = np.linalg.norm(points[one] - points[other], axis=1)
+    block = polyhedra.block_of_vertex[vertices]
+    near = (one < other) & (apart <= reach[other]) & (block[one] == block[other])
+    if not near.any():
+        return Welded(polyhedra, 0, 0)
+    labels = connected_labels(np.stack([one[near], other[near]], axis=1), len(vertices))
+    first = np.unique(labels, return_index=True)[1]
+    target = np.arange(len(polyhedra.vertices))
+    target[vertices] = vertices[first[labels]]
+    return _merged(polyhedra, target)
+
+
+def _merged(polyhedra: Polyhedra, target: IntArray) -> Welded:
+    """Every vertex replaced by its target, (n_vertices,) rows of vertices of the same polyhedron."""
     loops = target[polyhedra.loops]
     kept = loops != loops[next_item(polyhedra.loop_start)]
     corners = np.bincount(polyhedra.face_of_corner[kept], minlength=len(polyhedra.block_of_face))
     whole = corners >= 3
     kept &= whole[polyhedra.face_of_corner]
     face_counts = np.bincount(polyhedra.block_of_face[whole], minlength=len(polyhedra))
-    remaining = face_counts > 0
-    welded, _ = drop_unused_vertices(
-        Polyhedra(polyhedra.vertices, polyhedra.vertex_start, loops[kept], starts(corners[whole]), starts(face_counts))
-    )
-    vertex_counts = np.diff(welded.vertex_start)
-    # polyhedra without any face left go, too
     welded = Polyhedra(
-        welded.vertices,
-        starts(vertex_counts[remaining]),
-        welded.loops,
-        welded.loop_start,
-        starts(face_counts[remaining]),
+        polyhedra.vertices, polyhedra.vertex_start, loops[kept], starts(corners[whole]), starts(face_counts)
     )
-    return Welded(welded, len(order) - len(leader), int((~whole).sum()))
+    merged = int((target != np.arange(len(target))).sum())
+    return Welded(drop_unused_vertices(welded)[0], merged, int((~whole).sum()))
+
+
+def take_faces(polyhedra: Polyhedra, kept: BoolArray) -> Polyhedra:
+    """The same polyhedra with some of their faces only, (n_faces,); vertices that no face uses go with the others."""
+    corners = kept[polyhedra.face_of_corner]
+    taken = Polyhedra(
+        polyhedra.vertices,
+        polyhedra.vertex_start,
+        polyhedra.loops[corners],
+        starts(np.diff(polyhedra.loop_start)[kept]),
+        starts(np.bincount(polyhedra.block_of_face[kept], minlength=len(polyhedra))),
+    )
+    return drop_unused_vertices(taken)[0]
+
+
+def with_faces(polyhedra: Polyhedra) -> IntArray:
+    """Polyhedra that have a face left."""
+    return np.flatnonzero(np.diff(polyhedra.face_start))
 
 
 def welding_notices(welded: Welded) -> tuple[Notice, ...]:

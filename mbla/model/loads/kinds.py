@@ -9,6 +9,7 @@ from mbla.model.loads.line import line_load
 from mbla.model.loads.load_kind import LoadKind
 from mbla.model.loads.moment import moment_load
 from mbla.model.loads.pressure import pressure_load
+from mbla.model.loads.table import table_load
 
 LOAD_KINDS: dict[str, LoadKind] = {
     "gravity": gravity_load,
@@ -17,4 +18,5 @@ LOAD_KINDS: dict[str, LoadKind] = {
     "moment": moment_load,
     "line": line_load,
     "pressure": pressure_load,
+    "table": table_load,
 }

@@ -61,12 +61,12 @@ def build_load_cases(name: str, section: LoadCaseSection, site: LoadSite) -> tup
         dead_loads = [Load.model_construct(gravity=(0.0, 0.0, -site.units.standard_gravity))]
     before = len(site.faults)
     dead = _add_up(dead_loads, (*path, "dead"), site, live=False)
-    live = _add_up(section.live, (*path, "live"), site, live=True)
+    live = _add_up(section.live or [], (*path, "live"), site, live=True)
     tilt, positions = _tilt(section, dead_loads, path, dead, live, site), _positions(name, section, path, site)
     cases = []
     for position in positions:
         own = live if position is None else live.with_load(position.applied)
-        if len(site.faults) == before:
+        if len(site.faults) == before and section.live is not None:
             _judge_case(position, path, section, dead, own, site)
         words = (tuple(dead.words), tuple(own.words))
         case = LoadCase(name, dead.total, own.total, *words, tilt=tilt)
@@ -78,8 +78,8 @@ def build_load_cases(name: str, section: LoadCaseSection, site: LoadSite) -> tup
 
 def _positions(name: str, section: LoadCaseSection, path: KeyPath, site: LoadSite) -> Sequence[PositionLoad | None]:
     """The load at every position; one None for a load case in which nothing travels."""
-    number = travel_of(section.live)
-    if number is None:
+    number = travel_of(section.live or [])
+    if number is None or section.live is None:
         return [None]
     load = section.live[number]
     return travel_loads(name, Entry(load, (*path, "live", number), load.factor), site) or []
@@ -89,7 +89,7 @@ def _tilt(
     section: LoadCaseSection, dead_loads: Sequence[Load], path: KeyPath, dead: _Sum, live: _Sum, site: LoadSite
 ) -> Tilt | None:
     """Loads of a tilting table; what it turns them by first stands in for the live load."""
-    load = section.live[0].tilt
+    load = section.live[0].tilt if section.live else None
     if load is None:
         return None
     tilt = tilt_loads(load, list(entries_of(dead_loads, (*path, "dead"), site.named)), dead.total, path, site)
@@ -164,7 +164,8 @@ def _judge_effect(entry: Entry, applied: AppliedLoad, site: LoadSite, live: bool
     """A live load must do something; on blocks that do not move any load goes straight into the support."""
     blocks, kind = applied.blocks, kind_of(entry.load)
     key = "on" if entry.load.on is not None else kind
-    weightless = kind in ("gravity", "acceleration") and not site.blocks.masses[blocks].any()  # refused as such
+    # what weighs nothing is refused as such, and rows of a table that cancel each other as live loads that do
+    weightless = kind == "table" or (kind in ("gravity", "acceleration") and not site.blocks.masses[blocks].any())
     if live and not applied.wrenches.any() and not weightless:
         site.refuse((*entry.path, kind), "is a live load with no effect")
     if not site.fixed[blocks].all() or site.fixed.all():  # a structure that is fixed altogether is refused as such

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import TypeAlias
 
 import numpy as np
@@ -27,6 +28,7 @@ class LoadSite:
     """What loads act on: blocks to choose from, those that do not move, the deck's units; and where to complain.
 
     fixed   : (n_blocks,) blocks that do not move
+    resolve_file : path of a file named by the value at a key path of the deck
     grounds : planes of rigid ground
     named   : loads of the deck by name
     tolerance : of contacts, relative to block size
@@ -37,6 +39,7 @@ class LoadSite:
     roster: Roster
     fixed: BoolArray
     units: Units
+    resolve_file: Callable[[KeyPath, str], Path]
     grounds: tuple[Ground, ...] = ()
     named: Mapping[str, Sequence[Load]] = field(default_factory=dict)
     tolerance: float = 1e-3

@@ -156,3 +156,13 @@ def test_neighbours_share_coordinates_to_the_last_digit() -> None:
     assert len(tops | bottoms) == 8
     ends = np.unique(corners[..., 0])
     assert np.diff(ends).min() > 0.01
+
+
+def test_units_know_their_course_and_their_place_in_it() -> None:
+    item = WallItem.model_validate(
+        {"material": "stone", "unit": (0.4, 0.2, 0.175), "length": 1.2, "courses": 3, "bond": "running"}
+    )
+    (part,) = generate_wall(item, SITE).parts
+    assert part.labels["course"].tolist() == [0] * 3 + [1] * 4 + [2] * 3
+    assert part.labels["unit"].tolist() == [0, 1, 2, 0, 1, 2, 3, 0, 1, 2]
+    assert part.labels["leaf"].tolist() == [0] * 10

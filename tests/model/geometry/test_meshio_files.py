@@ -12,12 +12,17 @@ import pytest
 from mbla.arrays import FloatArray, IntArray
 from mbla.errors import FileError
 from mbla.model.geometry import READERS, read_geometry
-from mbla.model.geometry.geometry import GeometryFileError
+from mbla.model.geometry.geometry import Geometry, GeometryFileError
 from mbla.model.geometry.meshio_files import write_mesh
+from mbla.model.geometry.repair import repair
 from mbla.model.polyhedra import HEXAHEDRON, cuboids
 from tests.model.shapes import box, build_raw, moved, rotation
 
 FORMATS = {".ply": "ply", ".stl": "stl", ".vtu": "vtu", ".msh": "gmsh", ".inp": "abaqus"}
+
+
+def blocks_of(path: Path) -> Geometry:
+    return repair(read_geometry(path), 1e-3)
 
 
 def grid() -> tuple[FloatArray, IntArray]:
@@ -37,7 +42,7 @@ def triangles_of(cells: IntArray) -> IntArray:
 
 
 def volumes(path: Path) -> list[float]:
-    built = build_raw(read_geometry(path).polyhedra)
+    built = build_raw(blocks_of(path).polyhedra)
     assert not built.defects
     return [float(volume) for volume in built.blocks.volumes]
 
@@ -47,7 +52,7 @@ def test_each_volume_cell_is_a_block(tmp_path: Path, suffix: str) -> None:
     points, cells = grid()
     path = tmp_path / f"wall{suffix}"
     write_mesh(path, points, [("hexahedron", cells)], file_format=FORMATS[suffix])
-    geometry = read_geometry(path)
+    geometry = blocks_of(path)
     built = build_raw(geometry.polyhedra)
     assert (*geometry.notices, *built.notices) == ()
     assert built.blocks.volumes == pytest.approx(np.ones(9))
@@ -59,7 +64,7 @@ def test_surface_of_touching_blocks_is_split(tmp_path: Path, suffix: str) -> Non
     points, cells = grid()
     path = tmp_path / f"wall{suffix}"
     write_mesh(path, points, [("triangle", triangles_of(cells))], file_format=FORMATS[suffix])
-    geometry = read_geometry(path)
+    geometry = blocks_of(path)
     built = build_raw(geometry.polyhedra)
     assert (*geometry.notices, *built.notices) == ()
     assert built.blocks.volumes == pytest.approx(np.ones(9))
@@ -76,7 +81,7 @@ def test_quadrilaterals(tmp_path: Path, suffix: str) -> None:
 
 
 def test_every_reader_has_a_round_trip() -> None:
-    assert set(READERS) == {*FORMATS, ".obj"}
+    assert set(READERS) == {*FORMATS, ".obj", ".gltf", ".glb", ".json", ".dxf"}
 
 
 CORNERS: dict[str, list[list[float]]] = {
@@ -146,7 +151,7 @@ def test_boundary_triangles_beside_volume_cells_are_left_out_with_a_notice(tmp_p
     points, cells = grid()
     path = tmp_path / "wall.msh"
     write_mesh(path, points, [("triangle", triangles_of(cells)), ("hexahedron", cells)], file_format="gmsh22")
-    geometry = read_geometry(path)
+    geometry = blocks_of(path)
     assert len(geometry.polyhedra) == 9
     assert [notice.message for notice in geometry.notices] == [
         "cells were left out: 108 of type triangle; beside volume cells only those are blocks"
@@ -157,7 +162,7 @@ def test_lines_are_left_out_with_a_notice(tmp_path: Path) -> None:
     points, cells = grid()
     path = tmp_path / "wall.vtu"
     write_mesh(path, points, [("line", np.array([[0, 1]])), ("quad", quads_of(cells))])
-    geometry = read_geometry(path)
+    geometry = blocks_of(path)
     assert len(geometry.polyhedra) == 9
     assert [notice.identifier for notice in geometry.notices] == ["mesh-cells-left-out"]
 
@@ -173,7 +178,7 @@ def test_orphan_points_are_ignored(tmp_path: Path) -> None:
     points, cells = grid()
     path = tmp_path / "wall.vtu"
     write_mesh(path, np.concatenate([points, [[99.0, 99, 99]]]), [("hexahedron", cells)])
-    built = build_raw(read_geometry(path).polyhedra)
+    built = build_raw(blocks_of(path).polyhedra)
     assert built.blocks.vertices.max() == 3
     assert built.notices == ()
 
@@ -196,7 +201,9 @@ def test_malformed_files_are_refused_in_silence(
 ) -> None:
     path = tmp_path / f"bad{suffix}"
     path.write_bytes(content)
-    with pytest.raises(GeometryFileError, match=r"^(is not a well-formed|the file holds no blocks)") as caught:
+    with pytest.raises(
+        GeometryFileError, match=r"^(is not a well-formed|the file holds no blocks|line 2 cannot)"
+    ) as caught:
         read_geometry(path)
     assert str(tmp_path) not in str(caught.value)
     assert capfd.readouterr() == ("", "")
@@ -213,7 +220,7 @@ def test_truncated_files_are_refused_or_hold_less(tmp_path: Path, suffix: str) -
     for share in np.linspace(0, 0.95, 20):
         part.write_bytes(content[: int(share * len(content))])
         try:
-            built = build_raw(read_geometry(part).polyhedra)
+            built = build_raw(blocks_of(part).polyhedra)
         except GeometryFileError:
             refused += 1
         else:
@@ -240,7 +247,9 @@ def test_unknown_extension(tmp_path: Path) -> None:
     (tmp_path / "wall.step").write_text("")
     with pytest.raises(GeometryFileError) as caught:
         read_geometry(tmp_path / "wall.step")
-    assert str(caught.value) == "unknown kind of geometry file; known are .obj, .ply, .stl, .vtu, .msh, .inp"
+    assert str(caught.value) == (
+        "unknown kind of geometry file; known are .obj, .ply, .stl, .vtu, .msh, .inp, .gltf, .glb, .json, .dxf"
+    )
 
 
 def test_extension_in_capitals(tmp_path: Path) -> None:

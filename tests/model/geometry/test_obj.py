@@ -5,8 +5,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from mbla.model.geometry.geometry import GeometryFileError
+from mbla.model.geometry.geometry import Geometry, GeometryFileError
 from mbla.model.geometry.obj import read_obj
+from mbla.model.geometry.repair import repair
 from tests.model.shapes import box, build_raw, prism
 
 DATA = Path(__file__).parents[3] / "decks" / "tutorials" / "data"
@@ -22,9 +23,13 @@ v 0 1 1
 FACES = "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n"
 
 
+def blocks_of(path: Path) -> Geometry:
+    return repair(read_obj(path), 1e-3)
+
+
 def volumes(path: Path, text: str) -> list[float]:
     path.write_text(text)
-    built = build_raw(read_obj(path).polyhedra)
+    built = build_raw(blocks_of(path).polyhedra)
     assert not built.defects
     return [float(volume) for volume in built.blocks.volumes]
 
@@ -34,7 +39,7 @@ def obj(path: Path) -> Path:
 
 
 def test_cross_vault() -> None:
-    geometry = read_obj(DATA / "crossvault.obj")
+    geometry = blocks_of(DATA / "crossvault.obj")
     built = build_raw(geometry.polyhedra)
     assert len(built.blocks) == 184
     assert not built.defects
@@ -45,7 +50,7 @@ def test_cross_vault() -> None:
 
 
 def test_wall() -> None:
-    built = build_raw(read_obj(DATA / "wall.obj").polyhedra)
+    built = build_raw(blocks_of(DATA / "wall.obj").polyhedra)
     assert len(built.blocks) == 38
     assert built.notices == ()
     assert not built.defects
@@ -117,7 +122,7 @@ def test_unwelded_corners_are_merged_with_a_notice(tmp_path: Path) -> None:
         lines += ["v " + " ".join(map(str, vertices[corner])) for corner in face]
         lines.append("f " + " ".join(str(4 * number + i) for i in (1, 2, 3, 4)))
     assert volumes(obj(tmp_path), "\n".join(lines)) == [1]
-    assert [notice.message for notice in read_obj(obj(tmp_path)).notices] == [
+    assert [notice.message for notice in blocks_of(obj(tmp_path)).notices] == [
         "16 vertices at the same place as another of their block were merged"
     ]
 

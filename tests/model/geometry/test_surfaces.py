@@ -3,7 +3,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from mbla.model.geometry.surfaces import split_surface
+from mbla.model.geometry.geometry import Geometry
+from mbla.model.geometry.repair import repair
 from mbla.model.polyhedra import Polyhedra, join_polyhedra
 from tests.model.shapes import Shape, box, build_raw, moved, prism, raw, rotation
 
@@ -19,6 +20,10 @@ def soup(*shapes: Shape) -> Polyhedra:
         parts.loop_start,
         np.array([0, len(parts.loop_start) - 1]),
     )
+
+
+def split_surface(surface: Polyhedra) -> Geometry:
+    return repair(Geometry(surface, indexed=False), 1e-3)
 
 
 def split_volumes(*shapes: Shape) -> list[float]:

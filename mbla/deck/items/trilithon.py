@@ -1,0 +1,23 @@
+"""Item `trilithon`."""
+
+from __future__ import annotations
+
+from pydantic import Field
+
+from mbla.deck.items.item import Item
+from mbla.deck.quantities import PositiveLength
+
+
+class TrilithonItem(Item):
+    """Two uprights along x and a lintel on them, centred; the left upright has its least corner at the origin.
+
+    Members `upright` and `lintel`; labels of the uprights: `unit` 0 and 1.
+    """
+
+    upright: tuple[PositiveLength, PositiveLength, PositiveLength] = Field(
+        description="extents of an upright along x, y, z"
+    )
+    opening: PositiveLength = Field(description="clear distance between the uprights")
+    lintel: tuple[PositiveLength, PositiveLength, PositiveLength] = Field(
+        description="extents of the lintel along x, y, z; longer than the opening"
+    )

@@ -1,0 +1,45 @@
+"""What a curve of an arch or a vault offers: points beside it, directions along it, division into equal lengths.
+
+A curve C(u) runs in a vertical plane from the left springing to the right one, coordinates (x, z), with unit tangent
+T = (c, s) and unit normal N = (-s, c) to the left of the direction of travel, which is outside. The line at the offset
+o beside it is C + o N. Along it
+
+    dl = (1 + o k) ds,   k the curvature, positive where the curve turns to the right (as an arch does),
+
+so that the length between two parameters is that of the curve itself plus o times the angle it turns by: curves need
+their length and their direction only, whatever the thickness of the arch.
+"""
+
+from __future__ import annotations
+
+from typing import Protocol
+
+from mbla.arrays import FloatArray
+
+
+class Curve(Protocol):
+    """A plane curve from its left springing to its right one; parameters grow on the way, in units of its own."""
+
+    @property
+    def crest(self) -> float | None:
+        """Parameter of a kink that points outside, such as the apex of a pointed arch; None for a smooth curve."""
+        ...
+
+    def divide(self, count: int, offset: float) -> FloatArray:
+        """Parameters (count + 1,) that divide the line at an offset outside into equal lengths, both ends included."""
+        ...
+
+    def points(self, parameters: FloatArray, offsets: FloatArray) -> FloatArray:
+        """Points at offsets (n, k) on the joints at parameters (n,), as (n, k, 2).
+
+        At a kink the lines beside the curve are carried on until they meet.
+        """
+        ...
+
+    def forwards(self, parameters: FloatArray) -> FloatArray:
+        """Direction of travel at parameters (n,), unit and at right angles to the joint there, (n, 2)."""
+        ...
+
+    def lengths(self, parameters: FloatArray) -> FloatArray:
+        """Length of the curve itself from the left springing to parameters (n,)."""
+        ...

@@ -1,0 +1,43 @@
+"""The curve that a shape of the deck stands for."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+
+from mbla.model.generators.curves.basket import Basket
+from mbla.model.generators.curves.catenary import Catenary
+from mbla.model.generators.curves.circle import Circle, segmental
+from mbla.model.generators.curves.curve import Curve
+from mbla.model.generators.curves.ellipse import Ellipse
+from mbla.model.generators.curves.pointed import Pointed
+
+SIDE_ANGLE = 60.0
+"""of a basket arch [degrees]: all three arcs have the same angle"""
+
+
+WITH_RISE: dict[str, Callable[[float, float], Curve]] = {
+    "segmental": segmental,
+    "pointed": Pointed,
+    "elliptic": Ellipse,
+    "catenary": Catenary,
+}
+"""curves that span and rise determine"""
+
+
+def named_curve(
+    shape: str, span: float, rise: float | None = None, embrace: float | None = None, side_angle: float | None = None
+) -> Curve:
+    """Curve by its shape; span and rise [length], embrace and side_angle [degrees].
+
+    The deck's rules see to it that what a shape needs is given, and that the rise is one it can have.
+    """
+    if shape == "semicircular":
+        return Circle(span, np.pi / 2)
+    if embrace is not None:
+        return Circle(span, float(np.radians(embrace) / 2))
+    assert rise is not None  # a rule of the deck
+    if shape == "basket":
+        return Basket(span, rise, float(np.radians(SIDE_ANGLE if side_angle is None else side_angle)))
+    return WITH_RISE[shape](span, rise)

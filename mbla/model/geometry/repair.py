@@ -1,0 +1,163 @@
+"""What a geometry file holds, made into blocks: repaired where that cannot change their shape, and split.
+
+Every repair is told in a notice. What it takes two meanings to repair (holes, faces that cross, surfaces inside each
+other) is left as it is, to be refused by block when the blocks are built.
+
+Tolerances are relative to the shortest edge at a vertex, so that no repair makes two corners of a face one, unless the
+deck gives a distance within which it wants that (``weld``).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from mbla.arrays import BoolArray, FloatArray, IntArray
+from mbla.errors import Notice
+from mbla.model.geometry.duplicate_faces import face_codes, repeated_faces
+from mbla.model.geometry.edge_lengths import lone_edge_corners, shortest_edges
+from mbla.model.geometry.flat_faces import flat_faces
+from mbla.model.geometry.geometry import Geometry
+from mbla.model.geometry.surfaces import split_surfaces
+from mbla.model.geometry.t_junctions import insert_t_junctions
+from mbla.model.geometry.welding import Welded, take_faces, weld, weld_near, welding_notices, with_faces
+from mbla.model.polyhedra import Polyhedra, take_polyhedra
+from mbla.model.wording import counted, was
+
+
+@dataclass
+class _Work:
+    """Polyhedra in work, the row of the file that each is of, and what was done to them.
+
+    pooled : all objects of the file were made one
+    """
+
+    polyhedra: Polyhedra
+    source: IntArray
+    notices: list[Notice] = field(default_factory=list)
+    pooled: bool = False
+
+    def put(self, polyhedra: Polyhedra) -> None:
+        """Take these instead; those without a face left go."""
+        rows = with_faces(polyhedra)
+        whole = len(rows) == len(polyhedra)
+        self.polyhedra = polyhedra if whole else take_polyhedra(polyhedra, rows)
+        self.source = self.source[rows]
+
+    def tell(self, identifier: str, words: str) -> None:
+        self.notices.append(Notice("notice", identifier, words))
+
+
+def repair(geometry: Geometry, tolerance: float, weld_distance: float | None = None) -> Geometry:
+    """Blocks of a file: its volume cells, or the closed parts of its surfaces; ``names`` are those of their objects.
+
+    tolerance     : relative to the shortest edge, for gaps inside a block
+    weld_distance : distance within which corners of an object are one
+    """
+    work = _Work(geometry.polyhedra, np.arange(len(geometry.polyhedra)))
+    work.put(geometry.polyhedra)
+    _weld_equal(work, geometry)
+    if weld_distance is not None:
+        everything = np.arange(len(work.polyhedra.vertices))
+        _weld_near(work, everything, np.full(len(everything), weld_distance))
+    if not geometry.cells and len(work.polyhedra):
+        _pool_open_objects(work)
+        for step in (_drop_flat_faces, _drop_repeated_faces):
+            step(work)
+        _close_gaps(work, tolerance)
+        _split(work, geometry)
+    names = tuple("" if work.pooled else geometry.names[row] for row in work.source) if geometry.names else ()
+    return replace(
+        geometry, polyhedra=work.polyhedra, notices=(*geometry.notices, *work.notices), names=names, cells=True
+    )
+
+
+def _weld_equal(work: _Work, geometry: Geometry) -> None:
+    if not len(work.polyhedra):
+        return
+    welded = weld(work.polyhedra)
+    work.put(welded.polyhedra)
+    if geometry.indexed:
+        work.notices += welding_notices(welded)
+    elif welded.collapsed:
+        words = f"{counted(welded.collapsed, 'face')} without area {was(welded.collapsed)} left out: "
+        work.tell("faces-collapsed", f"{words}corners at the same place")
+
+
+def _weld_near(work: _Work, vertices: IntArray, reach: FloatArray) -> None:
+    if not len(vertices):
+        return
+    welded: Welded = weld_near(work.polyhedra, vertices, reach)
+    if welded.merged:
+        work.put(welded.polyhedra)
+        words = f"{counted(welded.merged, 'vertex')} {was(welded.merged)} merged with another up to "
+        collapsed = f"; {counted(welded.collapsed, 'face')} collapsed" if welded.collapsed else ""
+        work.tell("vertices-welded", f"{words}{reach.max():.2g} away{collapsed}")
+
+
+def _pool_open_objects(work: _Work) -> None:
+    """Objects of which none is closed by itself, but all together, are parts of surfaces, one of each face for example.
+
+    Where any of them is closed, an open one is a fault, and stays apart to be refused by its name.
+    """
+    surfaces = work.polyhedra
+    open_ones = np.unique(surfaces.block_of_face[surfaces.face_of_corner[lone_edge_corners(surfaces)]])
+    if len(open_ones) < max(len(surfaces), 2):
+        return
+    ends = np.array([0, len(surfaces.vertices)]), np.array([0, len(surfaces.block_of_face)])
+    together = weld(replace(surfaces, vertex_start=ends[0], face_start=ends[1])).polyhedra
+    codes = face_codes(together, oriented=True)
+    if len(lone_edge_corners(together)) or len(np.unique(codes)) < len(codes):
+        return
+    words = f"none of its {len(surfaces)} objects is closed by itself: their faces are taken together as one surface"
+    work.notices.append(Notice("warning", "objects-joined", words))
+    work.polyhedra, work.source, work.pooled = together, work.source[:1], True
+
+
+def _drop_flat_faces(work: _Work) -> None:
+    _drop(work, flat_faces, "faces-flat", "without area, all corners on one line,")
+
+
+def _drop_repeated_faces(work: _Work) -> None:
+    _drop(work, repeated_faces, "faces-repeated", "listed twice")
+
+
+def _drop(work: _Work, find: Callable[[Polyhedra], BoolArray], identifier: str, what: str) -> None:
+    dropped = find(work.polyhedra)
+    count = int(dropped.sum())
+    if count:
+        work.put(take_faces(work.polyhedra, ~dropped))
+        work.tell(identifier, f"{counted(count, 'face')} {what} {was(count)} left out")
+
+
+def _close_gaps(work: _Work, tolerance: float) -> None:
+    """Where a face has an edge to itself: corners that nearly coincide are welded, corners on edges inserted."""
+    corners = lone_edge_corners(work.polyhedra)
+    if not len(corners):
+        return
+    ends = np.unique(np.concatenate([work.polyhedra.loops[corners], work.polyhedra.next_loops[corners]]))
+    _weld_near(work, ends, tolerance * shortest_edges(work.polyhedra)[ends])
+    polyhedra, count = insert_t_junctions(work.polyhedra, tolerance * shortest_edges(work.polyhedra))
+    if count:
+        work.put(polyhedra)
+        words = f"{counted(count, 'vertex')} in the middle of the edge of another face {was(count)} made corners of it"
+        work.tell("t-junctions", words)
+
+
+def _split(work: _Work, geometry: Geometry) -> None:
+    """Objects into their closed parts; a file without objects is one surface, of which that is expected."""
+    before = len(work.polyhedra)
+    split = split_surfaces(work.polyhedra)
+    counts = np.bincount(split.source, minlength=before)
+    if split.twins:
+        words = f"{counted(split.twins, 'closed surface')} {was(split.twins)} left out: the faces of another once more"
+        work.tell("surfaces-repeated", words)
+    several = np.flatnonzero(counts > 1)
+    if geometry.names and not work.pooled and len(several):
+        total = int(counts[several].sum())
+        which = f"{counted(len(several), 'object')} {'is' if len(several) == 1 else 'are'} several closed surfaces"
+        first = geometry.name(int(work.source[several[0]])) or "without a name"
+        work.tell("objects-split", f"{which}, first {first}: {total} blocks, one of each surface")
+    work.polyhedra, work.source = split.polyhedra, work.source[split.source]

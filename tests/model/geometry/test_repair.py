@@ -1,0 +1,200 @@
+"""Each repair on files that have exactly the fault it is for; and what must not be repaired."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from mbla.model.geometry.geometry import Geometry
+from mbla.model.geometry.repair import repair
+from mbla.model.polyhedra import Polyhedra, join_polyhedra
+from tests.model.geometry.test_surfaces import soup
+from tests.model.shapes import Shape, box, build_raw, moved, raw, rotation
+
+TRIANGLES = [[a, b, c] for face in box()[1] for a, b, c in (face[:3], [face[0], *face[2:]])]
+
+
+def repaired(*surfaces: Polyhedra, names: tuple[str, ...] = (), weld: float | None = None) -> Geometry:
+    return repair(Geometry(join_polyhedra(surfaces), names=names), 1e-3, weld)
+
+
+def volumes(geometry: Geometry) -> list[float]:
+    built = build_raw(geometry.polyhedra)
+    assert [defect.message for defect in built.defects] == []
+    return [float(volume) for volume in built.blocks.volumes]
+
+
+def told(geometry: Geometry) -> list[str]:
+    return [notice.message for notice in geometry.notices]
+
+
+def test_a_sound_file_is_left_as_it_is() -> None:
+    geometry = repaired(raw(box()), raw(box((2, 0, 0), (3, 1, 1))), names=("a", "b"))
+    assert volumes(geometry) == [1, 1]
+    assert geometry.notices == ()
+    assert geometry.names == ("a", "b")
+
+
+@pytest.mark.parametrize("far", [0.0, 1000.0])
+def test_corners_that_miss_each_other_by_rounding_are_welded(far: float) -> None:
+    surface = soup(moved(box(), rotation(1), (far, 0, 0)))
+    off = np.random.default_rng(0).uniform(-2e-4, 2e-4, surface.vertices.shape)
+    rough = Polyhedra(
+        surface.vertices + off, surface.vertex_start, surface.loops, surface.loop_start, surface.face_start
+    )
+    geometry = repaired(rough)
+    assert volumes(geometry) == pytest.approx([1], abs=1e-3)
+    (message,) = told(geometry)
+    assert message == "16 vertices were merged with another up to 0.001 away"
+
+
+def test_corners_further_apart_than_the_tolerance_are_not_welded_unless_asked_for() -> None:
+    surface = soup(box())
+    off = np.random.default_rng(0).uniform(-5e-3, 5e-3, surface.vertices.shape)
+    rough = Polyhedra(
+        surface.vertices + off, surface.vertex_start, surface.loops, surface.loop_start, surface.face_start
+    )
+    built = build_raw(repaired(rough).polyhedra)
+    assert built.defects[0].message.startswith("is not closed")
+    built = build_raw(repaired(rough, weld=0.02).polyhedra, tolerance=0.02)
+    assert not built.defects
+    assert built.blocks.volumes == pytest.approx([1], abs=0.02)
+
+
+def test_welding_is_relative_to_the_edges_nearby() -> None:
+    """A small block in the file of a large one is welded by its own measure, not by that of the large one."""
+    small = soup(box((0, 0, 0), (1e-3, 1e-3, 1e-3)))
+    off = np.random.default_rng(0).uniform(-2e-7, 2e-7, small.vertices.shape)
+    rough = Polyhedra(small.vertices + off, small.vertex_start, small.loops, small.loop_start, small.face_start)
+    geometry = repaired(join_one(rough, soup(box((5, 0, 0), (6, 1, 1)))))
+    assert volumes(geometry) == pytest.approx([1e-9, 1], rel=1e-2)
+
+
+def join_one(*surfaces: Polyhedra) -> Polyhedra:
+    """Several surfaces as one."""
+    joined = join_polyhedra(surfaces)
+    ends = np.array([0, len(joined.vertices)])
+    return Polyhedra(joined.vertices, ends, joined.loops, joined.loop_start, np.array([0, len(joined.loop_start) - 1]))
+
+
+def test_a_face_listed_twice_goes() -> None:
+    vertices, faces = box()
+    for second in (faces[2], faces[2][::-1], [*faces[2][1:], faces[2][0]]):
+        geometry = repaired(raw((vertices, [*faces, second])), names=("a",))
+        assert volumes(geometry) == [1]
+        assert told(geometry) == ["1 face listed twice was left out"]
+
+
+def test_every_face_listed_twice() -> None:
+    vertices, faces = box()
+    geometry = repaired(raw((vertices, [*faces, *faces])))
+    assert volumes(geometry) == [1]
+    assert told(geometry) == ["6 faces listed twice were left out"]
+
+
+def test_both_sides_of_every_face_listed() -> None:
+    vertices, faces = box()
+    geometry = repaired(raw((vertices, [*faces, *(face[::-1] for face in faces)])))
+    assert volumes(geometry) == [1]
+    assert told(geometry) == ["1 closed surface was left out: the faces of another once more"]
+
+
+def test_faces_that_two_blocks_share_are_kept() -> None:
+    geometry = repaired(soup(*(box((x, 0, z), (x + 1, 1, z + 1)) for z in range(3) for x in range(3))))
+    assert volumes(geometry) == pytest.approx([1] * 9)
+    assert told(geometry) == ["184 vertices at the same place as another of their block were merged"]
+
+
+def test_a_block_enclosed_by_others_keeps_its_faces() -> None:
+    grid = [box((x, y, z), (x + 1, y + 1, z + 1)) for z in range(3) for y in range(3) for x in range(3)]
+    assert volumes(repaired(soup(*grid))) == pytest.approx([1] * 27)
+
+
+def with_t_junction(seed: int | None) -> Shape:
+    """A unit cube whose top is two rectangles, so that its sides have a vertex in the middle of an edge."""
+    vertices, faces = box()
+    vertices = [*vertices, [0.5, 0.0, 1.0], [0.5, 1.0, 1.0]]
+    shape: Shape = (vertices, [face for face in faces if sorted(face) != [4, 5, 6, 7]] + [[4, 8, 9, 7], [8, 5, 6, 9]])
+    return shape if seed is None else moved(shape, rotation(seed), (3, 2, 1))
+
+
+@pytest.mark.parametrize("seed", [None, 0, 1])
+def test_t_junctions(seed: int | None) -> None:
+    geometry = repaired(raw(with_t_junction(seed)))
+    assert volumes(geometry) == pytest.approx([1])
+    assert told(geometry) == ["2 vertices in the middle of the edge of another face were made corners of it"]
+    built = build_raw(geometry.polyhedra)
+    assert built.blocks.facet_of_face.max() + 1 == 6
+
+
+def test_several_t_junctions_on_one_edge_in_order_from_both_sides() -> None:
+    vertices, faces = box()
+    vertices = [*vertices, *([x, y, 1.0] for x in (0.25, 0.75, 0.5) for y in (0.0, 1.0))]
+    top = [[4, 8, 9, 7], [8, 12, 13, 9], [12, 10, 11, 13], [10, 5, 6, 11]]
+    sides = [face for face in faces if sorted(face) != [4, 5, 6, 7]]
+    geometry = repaired(raw((vertices, [*sides, *top])))
+    assert volumes(geometry) == pytest.approx([1])
+    assert told(geometry) == ["6 vertices in the middle of the edge of another face were made corners of it"]
+
+
+def test_a_vertex_near_an_edge_but_off_it_is_no_t_junction() -> None:
+    vertices, faces = with_t_junction(None)
+    vertices = [*vertices[:8], [0.5, -0.01, 1.0], [0.5, 1.01, 1.0]]
+    built = build_raw(repaired(raw((vertices, faces))).polyhedra)
+    assert built.defects[0].message.startswith("is not closed")
+
+
+def test_faces_of_no_width_go_and_leave_no_hole() -> None:
+    vertices, faces = with_t_junction(None)
+    geometry = repaired(raw((vertices, [*faces, [4, 8, 5], [7, 9, 6][::-1]])))
+    assert volumes(geometry) == pytest.approx([1])
+    assert told(geometry) == [
+        "2 faces without area, all corners on one line, were left out",
+        "2 vertices in the middle of the edge of another face were made corners of it",
+    ]
+
+
+@pytest.mark.parametrize("height", [1e-3, 1e-4])
+def test_thin_plates_are_left_alone(height: float) -> None:
+    geometry = repaired(raw(box((0, 0, 0), (1, 1, height))))
+    assert volumes(geometry) == pytest.approx([height])
+    assert geometry.notices == ()
+
+
+def test_an_object_of_several_closed_surfaces_is_split() -> None:
+    ring = join_one(*(raw(box((2 * x, 0, 0), (2 * x + 1, 1, 1))) for x in range(3)))
+    geometry = repaired(raw(box((0, 5, 0), (1, 6, 1))), ring, names=("base", "ring"))
+    assert volumes(geometry) == [1, 1, 1, 1]
+    assert geometry.names == ("base", "ring", "ring", "ring")
+    assert told(geometry) == ["1 object is several closed surfaces, first ring: 3 blocks, one of each surface"]
+
+
+def test_a_hole_is_not_closed() -> None:
+    vertices, faces = box()
+    built = build_raw(repaired(raw((vertices, faces[1:]))).polyhedra)
+    assert built.defects[0].message.startswith("is not closed: 4 edges")
+
+
+def test_triangles_of_mixed_orientation_with_all_faults_at_once() -> None:
+    vertices, _ = box()
+    faces = [face[::-1] if number % 3 else face for number, face in enumerate(TRIANGLES)]
+    geometry = repaired(soup((vertices, [*faces, TRIANGLES[4], [0, 0, 1]])))
+    assert volumes(geometry) == pytest.approx([1])
+    assert [notice.identifier for notice in geometry.notices] == ["vertices-merged", "faces-repeated"]
+
+
+def test_objects_that_are_single_faces_are_taken_together() -> None:
+    vertices, faces = box()
+    sides = [raw((vertices, [face])) for face in faces]
+    geometry = repaired(*sides, names=tuple(f"side {number}" for number in range(6)))
+    assert volumes(geometry) == [1]
+    assert geometry.names == ("",)
+    assert "none of its 6 objects is closed by itself: their faces are taken together as one surface" in told(geometry)
+
+
+def test_an_open_object_beside_closed_ones_is_not_completed_from_them() -> None:
+    vertices, faces = box((0, 0, 1), (1, 1, 2))
+    geometry = repaired(raw(box()), raw((vertices, faces[1:])), names=("low", "high"))
+    (defect,) = build_raw(geometry.polyhedra).defects
+    assert defect.block == 1
+    assert defect.message.startswith("is not closed")
