@@ -30,11 +30,15 @@ COMPUTABLE = (1e-100, 1e100)
 
 @dataclass
 class _Sum:
-    """Loads added up: ``total`` (n_blocks, 6), ``gross`` (n_blocks, 6) without signs, and each in words."""
+    """Loads added up: ``total`` (n_blocks, 6), ``gross`` (n_blocks, 6) without signs, and each in words.
+
+    complete : none of them left a fault
+    """
 
     total: FloatArray
     gross: FloatArray
     words: list[str] = field(default_factory=list)
+    complete: bool = True
 
     def add(self, applied: AppliedLoad) -> None:
         """One load more."""
@@ -44,7 +48,7 @@ class _Sum:
 
     def with_load(self, applied: AppliedLoad) -> _Sum:
         """The same with one load more; this one stays as it is."""
-        longer = _Sum(self.total.copy(), self.gross.copy(), list(self.words))
+        longer = _Sum(self.total.copy(), self.gross.copy(), list(self.words), self.complete)
         longer.add(applied)
         return longer
 
@@ -66,7 +70,7 @@ def build_load_cases(name: str, section: LoadCaseSection, site: LoadSite) -> tup
     cases = []
     for position in positions:
         own = live if position is None else live.with_load(position.applied)
-        if len(site.faults) == before and section.live is not None:
+        if len(site.faults) == before and own.complete and section.live is not None:
             _judge_case(position, path, section, dead, own, site)
         words = (tuple(dead.words), tuple(own.words))
         case = LoadCase(name, dead.total, own.total, *words, tilt=tilt)
@@ -135,6 +139,7 @@ def _add_up(loads: Sequence[Load], path: KeyPath, site: LoadSite, live: bool) ->
         if given(entry.load, LIVE_ONLY):
             continue
         applied = _apply(entry, site)
+        result.complete &= applied is not None
         if applied is not None:
             result.add(applied)
             _judge_effect(entry, applied, site, live)
