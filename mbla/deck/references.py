@@ -34,9 +34,14 @@ LOADS = ("loads.*", "load_cases.*.dead", "load_cases.*.live")
 
 REFERENCES = (
     Reference("blocks.#.*.material", "material"),
-    Reference("blocks.#.arch.joint", "joint law", BUILT_IN),
+    Reference("blocks.#.*.joint", "joint law", BUILT_IN),
     Reference("contacts.joint", "joint law", BUILT_IN),
     Reference("contacts.overrides.#.joint", "joint law", BUILT_IN),
+    *(
+        Reference(f"blocks.#.{kind}.openings.#.{over}.material", "material")
+        for kind in ("wall", "walls")
+        for over in ("lintel", "arch")
+    ),
     Reference("contacts.overrides.#.between.#", "group", (GROUND,)),
     Reference("contacts.overrides.#.between.#.#", "group", (GROUND,)),
     Reference("contacts.overrides.#.between.#.group", "group"),
@@ -103,7 +108,7 @@ def groups(data: dict[str, Any]) -> Iterator[str]:
             group = item.get("group", kind)
             if isinstance(group, str):
                 yield group
-                if kind == "arch" and item.get("springers") == "blocks":
+                if item.get("springers") == "blocks":
                     yield f"{group}_springers"
 
 
