@@ -15,12 +15,15 @@ from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.model.blocks import Blocks
 from mbla.model.loads.signed_polygons import intersections, signed_areas
 from mbla.model.model import Ground
-from mbla.model.ragged import items_of_rows, row_maxima
+from mbla.model.ragged import chunks, items_of_rows, ranges, row_maxima
 
 FACING = 0.99
 """cosine of the greatest angle between two faces that lie against each other"""
 BARELY = 1e-9
 """share of a face below which a common part is the rounding of a shared edge"""
+
+MOST_PAIRS = 500_000
+"""pairs of faces that are looked at in one go"""
 
 
 @dataclass(frozen=True)
@@ -138,24 +141,61 @@ def _covers(
 
 
 def _facing_pairs(faces: IntArray, blocks: Blocks, tolerance: float) -> tuple[IntArray, IntArray]:
-    """(position in ``faces``, face of another block that may lie against it)."""
+    """(position in ``faces``, face of another block that may lie against it): a sweep along the x axis."""
     corners = blocks.vertices[blocks.loops]
-    low = np.minimum.reduceat(corners, blocks.loop_start[:-1], axis=0)
-    high = np.maximum.reduceat(corners, blocks.loop_start[:-1], axis=0)
-    owner, reach = blocks.block_of_face, tolerance * blocks.sizes
-    found_a, found_b = [], []
-    order = np.argsort(low[:, 0], kind="stable")
-    ends = np.searchsorted(low[order, 0], high[faces, 0] + reach[owner[faces]], side="right")
-    widest = float((high[:, 0] - low[:, 0]).max())
-    begins = np.searchsorted(low[order, 0], low[faces, 0] - widest - reach[owner[faces]], side="left")
-    for position, face in enumerate(faces):  # faces under pressure are few beside the sweep that finds their partners
-        near = order[begins[position] : ends[position]]
-        margin = reach[owner[face]]
-        facing = blocks.face_normals[near] @ blocks.face_normals[face] <= -FACING
-        touching = ((low[near] <= high[face] + margin) & (high[near] >= low[face] - margin)).all(axis=1)
-        near = near[facing & touching & (owner[near] != owner[face])]
-        off = (corners[blocks.loop_start[near]] - corners[blocks.loop_start[face]]) @ blocks.face_normals[face]
-        near = near[np.abs(off) <= 2.0 * margin + reach[owner[near]]]
-        found_a.append(np.full(len(near), position, dtype=np.int64))
-        found_b.append(near.astype(np.int64))
-    return np.concatenate([np.zeros(0, np.int64), *found_a]), np.concatenate([np.zeros(0, np.int64), *found_b])
+    boxes = _Boxes(
+        np.minimum.reduceat(corners, blocks.loop_start[:-1], axis=0),
+        np.maximum.reduceat(corners, blocks.loop_start[:-1], axis=0),
+    )
+    reach = tolerance * blocks.sizes[blocks.block_of_face]
+    order = np.argsort(boxes.low[:, 0], kind="stable")
+    starting = boxes.low[order, 0]
+    widest = float((boxes.high[:, 0] - boxes.low[:, 0]).max())
+    begins = np.searchsorted(starting, boxes.low[faces, 0] - widest - reach[faces], side="left")
+    ends = np.searchsorted(starting, boxes.high[faces, 0] + reach[faces], side="right")
+    found = [
+        _touching(np.arange(part.start, part.stop), faces, order, begins, ends, boxes, reach, blocks)
+        for part in chunks(ends - begins, MOST_PAIRS)
+    ]
+    return np.concatenate([mine for mine, _ in found]), np.concatenate([others for _, others in found])
+
+
+@dataclass(frozen=True)
+class _Boxes:
+    """Corners of the bounding boxes of faces, (n_faces, 3) each."""
+
+    low: FloatArray
+    high: FloatArray
+
+
+def _touching(
+    positions: IntArray,
+    faces: IntArray,
+    order: IntArray,
+    begins: IntArray,
+    ends: IntArray,
+    boxes: _Boxes,
+    reach: FloatArray,
+    blocks: Blocks,
+) -> tuple[IntArray, IntArray]:
+    """Of the faces in the windows order[begins:ends] those whose boxes touch, that face the other way and lie near."""
+    counts = (ends - begins)[positions]
+    row, other = np.repeat(positions, counts), order[ranges(begins[positions], counts)]
+    for test in (_boxes_touch, _face_each_other):
+        kept = test(faces[row], other, boxes, reach, blocks)
+        row, other = row[kept], other[kept]
+    return row, other
+
+
+def _boxes_touch(mine: IntArray, other: IntArray, boxes: _Boxes, reach: FloatArray, blocks: Blocks) -> BoolArray:
+    margin = reach[mine, None]
+    touch = (boxes.low[other] <= boxes.high[mine] + margin) & (boxes.high[other] >= boxes.low[mine] - margin)
+    return np.asarray(np.all(touch, axis=1) & (blocks.block_of_face[mine] != blocks.block_of_face[other]))
+
+
+def _face_each_other(mine: IntArray, other: IntArray, boxes: _Boxes, reach: FloatArray, blocks: Blocks) -> BoolArray:
+    normals = blocks.face_normals[mine]
+    between = blocks.vertices[blocks.loops[blocks.loop_start[other]]]
+    between = between - blocks.vertices[blocks.loops[blocks.loop_start[mine]]]
+    near = np.abs(np.einsum("ij,ij->i", between, normals)) <= 2.0 * reach[mine] + reach[other]
+    return np.asarray(near & (np.einsum("ij,ij->i", blocks.face_normals[other], normals) <= -FACING))
