@@ -42,6 +42,7 @@ REFERENCES = (
             "load_cases.*.dead.#.on",
             "load_cases.*.live.#.on",
             "load_cases.*.settlement.on",
+            "symmetry.#.halves",
         )
         for form in ("", ".group", ".#", ".#.group")
     ),

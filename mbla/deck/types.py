@@ -55,6 +55,7 @@ from mbla.deck.selectors import SelectorTerm as SelectorTerm
 from mbla.deck.supports import GroundPlane as GroundPlane
 from mbla.deck.supports import Support as Support
 from mbla.deck.supports import Turn as Turn
+from mbla.deck.symmetry import SymmetryPlane as SymmetryPlane
 
 
 def _no_boolean(value: Any) -> Any:
@@ -117,6 +118,9 @@ class DeckContent(Section):
     blocks: list[BlockItem] = Field(min_length=1, description="the structure, item by item")
     contacts: ContactsSection = Field(description="joint law and tolerance of contacts")
     supports: list[Support] = Field(default_factory=list, description="what holds the structure")
+    symmetry: Annotated[list[SymmetryPlane], Field(max_length=3)] = Field(
+        default_factory=list, description="planes that mirror what the deck gives, one after the other"
+    )
     load_cases: dict[Name, LoadCaseSection] = Field(min_length=1, description="load cases by name")
     analysis: AnalysisSection = Field(default_factory=AnalysisSection, description="how it is solved")
     output: OutputSection = Field(default_factory=OutputSection, description="what is written")

@@ -24,6 +24,7 @@ from mbla.model.polyhedra import Polyhedra, join_polyhedra
 from mbla.model.selectors import build_roster
 from mbla.model.settlement import build_settlement
 from mbla.model.supports import Supports, build_supports, does_nothing
+from mbla.model.symmetry import symmetry_faults, with_images
 from mbla.model.transform import build_transform, repetitions, transform_item
 
 MOST_FAULTS_PER_ITEM = 10
@@ -84,7 +85,7 @@ def build_model(deck: Deck) -> Model:
     load_cases = tuple(_load_case(name, section, site, supports) for name, section in deck.content.load_cases.items())
     if faults:
         raise DeckError(faults)
-    return Model(
+    model = Model(
         title=deck.content.title,
         units=deck.units,
         blocks=built.blocks,
@@ -95,6 +96,10 @@ def build_model(deck: Deck) -> Model:
         notices=(*items.notices, *built.notices, *notices),
         guides=supports.guides,
     )
+    faults += symmetry_faults(deck, model)
+    if faults:
+        raise DeckError(faults)
+    return with_images(deck, model)
 
 
 def _load_case(name: str, section: LoadCaseSection, site: LoadSite, supports: Supports) -> LoadCase:

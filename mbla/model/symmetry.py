@@ -1,0 +1,301 @@
+"""A model mirrored about a plane: the whole of a structure of which the deck gives half.
+
+With unit normal m and reflection R = I − 2 m mᵀ a block becomes its mirror image; a force F becomes R F, a moment M,
+which is an axial vector, −R M, and so velocity and angular velocity. A block that the plane cuts in two becomes one
+with its image: both without their faces on the plane.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from mbla.arrays import BoolArray, FloatArray, IntArray
+from mbla.deck.deck import Deck
+from mbla.deck.tree import KeyPath
+from mbla.deck.types import LoadCaseSection, SymmetryPlane
+from mbla.errors import Fault, Notice
+from mbla.model.build_blocks import Labels, build_blocks
+from mbla.model.guides import Guides
+from mbla.model.labels import BlockLabels, join_labels
+from mbla.model.mirrored_blocks import halves_joined, polyhedra_of, reflected
+from mbla.model.model import Ground, LoadCase, Model, Settlement
+from mbla.model.polyhedra import join_polyhedra, take_polyhedra
+from mbla.model.ragged import row_maxima
+from mbla.model.selectors import build_roster, select_blocks
+from mbla.model.settlement import with_reference
+from mbla.model.supports.guide import unit
+from mbla.model.wording import counted, named
+
+ACROSS = 1e-9
+"""component across the plane, relative to a vector, that is rounding"""
+
+
+@dataclass(frozen=True)
+class _Mirror:
+    """A plane and what it does to a model.
+
+    point, normal : (3,)
+    label    : ``x = 0``
+    halves   : (n,) blocks that it cuts in two
+    image_of : (n,) block that is the image of each, itself for halves
+    """
+
+    point: FloatArray
+    normal: FloatArray
+    label: str
+    halves: BoolArray
+    image_of: IntArray
+
+    @property
+    def reflection(self) -> FloatArray:
+        """R, (3, 3)."""
+        return np.asarray(np.eye(3) - 2.0 * np.outer(self.normal, self.normal))
+
+    def motions(self, values: FloatArray) -> FloatArray:
+        """Images of velocities and angular velocities, or of forces and moments, in the second axis of (n, 6, ...)."""
+        image = np.empty_like(values)
+        image[:, :3] = np.einsum("ij,nj...->ni...", self.reflection, values[:, :3])
+        image[:, 3:] = -np.einsum("ij,nj...->ni...", self.reflection, values[:, 3:])
+        return image
+
+
+def with_images(deck: Deck, model: Model) -> Model:
+    """The model mirrored about every plane of the deck in turn.
+
+    Raises
+    ------
+    DeckError is left to the caller: faults are returned by ``symmetry_faults`` beforehand
+    """
+    for number, plane in enumerate(deck.content.symmetry):
+        mirror, faults = _mirror(deck, model, plane, ("symmetry", number))
+        assert mirror is not None, faults  # found by symmetry_faults
+        model = _mirrored(model, mirror, deck.contacts.tolerance)
+    return model
+
+
+def symmetry_faults(deck: Deck, model: Model) -> list[Fault]:
+    """What keeps the deck's planes from mirroring the model."""
+    faults: list[Fault] = []
+    for number, plane in enumerate(deck.content.symmetry):
+        path: KeyPath = ("symmetry", number)
+        mirror, found = _mirror(deck, model, plane, path)
+        faults += found
+        if mirror is None:
+            return faults
+        for name, section in deck.content.load_cases.items():
+            faults += _loads_across(deck, section, ("load_cases", name), mirror)
+        faults += _cannot_mirror(deck, model, mirror, path)
+        if faults:
+            return faults
+        model = _mirrored(model, mirror, deck.contacts.tolerance)
+    return faults
+
+
+# --- the plane ----------------------------------------------------------------------------------------------------
+
+
+def _plane(plane: SymmetryPlane) -> tuple[FloatArray, FloatArray, str]:
+    for axis, key in enumerate("xyz"):
+        coordinate = getattr(plane, key)
+        if coordinate is not None:
+            return coordinate * np.eye(3)[axis], np.eye(3)[axis], f"{key} = {coordinate:g}"
+    assert plane.point is not None  # a rule of the deck: x, y, z, or a point with a normal
+    assert plane.normal is not None
+    return np.array(plane.point), unit(plane.normal), "the plane of symmetry"
+
+
+def _mirror(deck: Deck, model: Model, plane: SymmetryPlane, path: KeyPath) -> tuple[_Mirror | None, list[Fault]]:
+    """The plane as it stands to the blocks, or what is wrong with that."""
+    blocks, (point, normal, label) = model.blocks, _plane(plane)
+    heights = (blocks.vertices - point) @ normal
+    allowed = deck.contacts.tolerance * blocks.sizes
+    above, below = (row_maxima(sign * heights, blocks.vertex_start) for sign in (1.0, -1.0))
+    if np.sum(below > allowed) > np.sum(above > allowed):
+        normal, heights, above, below = -normal, -heights, below, above
+    across = np.flatnonzero(below > allowed)
+    if len(across):
+        verb = "reaches" if len(across) == 1 else "reach"
+        message = (
+            f"{named(across, blocks.name)} {verb} across {label}: give the blocks on one side, and of a block that the "
+            "plane cuts its half, named by halves"
+        )
+        return None, [deck.fault_at(path, message)]
+    halves = np.zeros(len(blocks), dtype=bool)
+    if plane.halves is not None:
+        faults: list[Fault] = []
+        roster = build_roster(blocks, frozenset(), deck.fault_at)
+        chosen = select_blocks(plane.halves, (*path, "halves"), roster, faults)
+        if chosen is None:
+            return None, faults
+        on_plane = row_maxima(np.abs(heights[blocks.loops]), blocks.loop_start) <= allowed[blocks.block_of_face]
+        cut = np.bincount(blocks.block_of_face[on_plane], minlength=len(blocks)) > 0
+        loose = chosen[~cut[chosen]]
+        if len(loose):
+            verb = "has" if len(loose) == 1 else "have"
+            message = f"{named(loose, blocks.name)} {verb} no face on {label}, where the other half would join"
+            return None, [deck.fault_at((*path, "halves"), message)]
+        halves[chosen] = True
+    image_of = np.arange(len(blocks))
+    image_of[~halves] = len(blocks) + np.arange(int((~halves).sum()))
+    return _Mirror(point, normal, label, halves, image_of), []
+
+
+def _loads_across(deck: Deck, section: LoadCaseSection, path: KeyPath, mirror: _Mirror) -> list[Fault]:
+    """Loads on masses that are not their own mirror image."""
+    faults = []
+    for key, loads in (("dead", section.dead or []), ("live", section.live or [])):
+        for number, load in enumerate(loads):
+            for kind in ("gravity", "acceleration"):
+                value = getattr(load, kind)
+                if value is not None and abs(float(np.array(value) @ mirror.normal)) > ACROSS * np.abs(value).max():
+                    message = (
+                        f"acts across the plane of symmetry {mirror.label}: the other half would have to be pushed the "
+                        "other way; give the whole structure"
+                    )
+                    faults.append(deck.fault_at((*path, key, number, kind), message))
+    return faults
+
+
+def _cannot_mirror(deck: Deck, model: Model, mirror: _Mirror, path: KeyPath) -> list[Fault]:
+    """Supports and forces that have no image."""
+    faults = []
+    for ground in model.grounds:
+        if abs(float(ground.normal @ mirror.normal)) > 1.0 - ACROSS and abs(
+            float((ground.point - mirror.point) @ mirror.normal)
+        ) <= deck.contacts.tolerance * float(model.blocks.sizes.min()):
+            faults.append(deck.fault_at(path, f"{ground.label} lies in it: what is mirrored is not held there"))
+    guided = model.guides.blocks[mirror.halves[model.guides.blocks]]
+    if len(guided):
+        message = (
+            f"{named(guided, model.blocks.name)} cannot be guided and halved: by symmetry it moves in the plane only"
+        )
+        faults.append(deck.fault_at((*path, "halves"), message))
+    for case in model.load_cases:
+        cut = mirror.halves & (
+            np.abs(np.abs((case.dead_load + case.live_load)[:, :3] @ mirror.normal))
+            > ACROSS * np.abs(case.dead_load + case.live_load).max(initial=0.0)
+        )
+        if cut.any():
+            message = f"a load acts across the plane on {named(np.flatnonzero(cut), model.blocks.name)}, which it cuts"
+            faults.append(deck.fault_at(("load_cases", case.name), message))
+        settlement = case.settlement
+        if settlement is not None and mirror.halves[settlement.blocks].any():
+            moved = settlement.motions[mirror.halves[settlement.blocks]]
+            if settlement.turns or np.any(np.abs(moved[:, :3] @ mirror.normal) > ACROSS):
+                message = (
+                    "a support that the plane of symmetry cuts can only give way along that plane, without turning"
+                )
+                faults.append(deck.fault_at(("load_cases", case.name, "settlement"), message))
+    return faults
+
+
+# --- the whole ----------------------------------------------------------------------------------------------------
+
+
+def _mirrored(model: Model, mirror: _Mirror, tolerance: float) -> Model:
+    """The model with its image."""
+    blocks, others = model.blocks, np.flatnonzero(~mirror.halves)
+    own = polyhedra_of(blocks)
+    image = reflected(own, mirror.point, mirror.normal)
+    whole = halves_joined(own, image, mirror.halves, mirror.point, mirror.normal, tolerance * blocks.sizes)
+    polyhedra = join_polyhedra([whole, take_polyhedra(image, others)])
+    built = build_blocks(polyhedra, _labels(model, others), tolerance)
+    assert not built.defects, "images of sound blocks are sound"
+    centroids = built.blocks.centroids
+    text = (
+        f"mirrored about {mirror.label}: {counted(len(blocks), 'block')} given, {counted(len(others), 'image')} added"
+        + (f", {counted(int(mirror.halves.sum()), 'block')} joined with its other half" if mirror.halves.any() else "")
+    )
+    return replace(
+        model,
+        blocks=built.blocks,
+        fixed=np.concatenate([model.fixed, model.fixed[others]]),
+        grounds=_grounds(model.grounds, mirror),
+        guides=_guides(model.guides, mirror),
+        load_cases=tuple(_load_case(case, model, mirror, centroids) for case in model.load_cases),
+        notices=(*model.notices, Notice("notice", "mirrored", text)),
+        mirrors=(*model.mirrors, tuple(mirror.normal.tolist())),
+    )
+
+
+def _labels(model: Model, others: IntArray) -> Labels:
+    """Names of blocks and images: images go on counting in the groups of their originals."""
+    blocks = model.blocks
+    groups = np.array(blocks.groups, dtype=np.str_)
+    names, codes = np.unique(groups, return_inverse=True)
+    counts = np.bincount(codes, minlength=len(names))
+    indices = blocks.group_indices.copy()
+    following = np.zeros(len(others), dtype=np.int64)
+    for code in range(len(names)):
+        own = np.flatnonzero(codes[others] == code)
+        order = own[np.argsort(indices[others][own], kind="stable")]
+        following[order] = counts[code] + np.arange(len(order))
+    own_labels = blocks.labels
+    images = BlockLabels(tuple(own_labels.members[b] for b in others.tolist()), own_labels.positions[others])
+    return Labels(
+        (*blocks.groups, *(blocks.groups[b] for b in others.tolist())),
+        np.concatenate([indices, following]),
+        np.concatenate([blocks.densities, blocks.densities[others]]),
+        join_labels([own_labels, images]),
+    )
+
+
+def _grounds(grounds: Sequence[Ground], mirror: _Mirror) -> tuple[Ground, ...]:
+    """Planes across the mirror carry images too; others have an image of their own."""
+    result, images = [], []
+    for ground in grounds:
+        carried = None if ground.blocks is None else mirror.image_of[ground.blocks]
+        if abs(float(ground.normal @ mirror.normal)) <= ACROSS:
+            both = None if ground.blocks is None else np.union1d(ground.blocks, carried)  # type: ignore[arg-type]
+            result.append(replace(ground, blocks=both))
+            continue
+        result.append(ground)
+        point = ground.point - 2.0 * float((ground.point - mirror.point) @ mirror.normal) * mirror.normal
+        normal = mirror.reflection @ ground.normal
+        images.append(Ground(point, normal, ground.joint, carried, f"image of {ground.label}"))
+    return (*result, *images)
+
+
+def _guides(guides: Guides, mirror: _Mirror) -> Guides:
+    if not len(guides):
+        return guides
+    return Guides(
+        np.concatenate([guides.blocks, mirror.image_of[guides.blocks]]),
+        np.concatenate([guides.bodies, guides.n_bodies + guides.bodies]),
+        np.concatenate([guides.motions, mirror.motions(guides.motions)]),
+        guides.words,
+    )
+
+
+def _load_case(case: LoadCase, model: Model, mirror: _Mirror, centroids: FloatArray) -> LoadCase:
+    """Loads on blocks and images; on a block that is joined with its other half, of both about the common centroid."""
+    count, own = len(model.blocks), model.blocks.centroids
+
+    def both(load: FloatArray) -> FloatArray:
+        moved = load.copy()
+        moved[:, 3:] += np.cross(own - centroids[:count], load[:, :3])
+        total = np.zeros((len(centroids), 6))
+        total[:count] = moved
+        np.add.at(total, mirror.image_of, mirror.motions(moved))
+        return total
+
+    mirrored = replace(case, dead_load=both(case.dead_load), live_load=both(case.live_load))
+    if case.settlement is None:
+        return mirrored
+    return with_reference(replace(mirrored, settlement=_settlement(case.settlement, mirror)), np.nan)
+
+
+def _settlement(settlement: Settlement, mirror: _Mirror) -> Settlement:
+    """The support with its image, which moves as far."""
+    apart = ~mirror.halves[settlement.blocks]
+    images = mirror.motions(settlement.motions)[apart]
+    return replace(
+        settlement,
+        blocks=np.concatenate([settlement.blocks, mirror.image_of[settlement.blocks[apart]]]),
+        motions=np.concatenate([settlement.motions, images]),
+        unit=2.0 * settlement.unit,
+        words=f"{settlement.words}, with its mirror image",
+    )
