@@ -8,58 +8,33 @@ with its image: both without their faces on the plane.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
-from mbla.arrays import BoolArray, FloatArray, IntArray
+from mbla.arrays import FloatArray, IntArray
 from mbla.deck.deck import Deck
+from mbla.deck.rules.common import given
+from mbla.deck.rules.exactly_one import EXACTLY_ONE
 from mbla.deck.tree import KeyPath
-from mbla.deck.types import LoadCaseSection, SymmetryPlane
+from mbla.deck.types import Load, LoadCaseSection
 from mbla.errors import Fault, Notice
 from mbla.model.build_blocks import Labels, build_blocks
 from mbla.model.guides import Guides
 from mbla.model.labels import BlockLabels, join_labels
+from mbla.model.mirror import Mirror, find_mirror
 from mbla.model.mirrored_blocks import halves_joined, polyhedra_of, reflected
 from mbla.model.model import Ground, LoadCase, Model, Settlement
 from mbla.model.polyhedra import join_polyhedra, take_polyhedra
-from mbla.model.ragged import row_maxima
-from mbla.model.selectors import build_roster, select_blocks
 from mbla.model.settlement import with_reference
-from mbla.model.supports.guide import unit
 from mbla.model.wording import counted, named
+
+ON_MASSES = ("gravity", "acceleration")
+AT_PLACES = ("force", "moment", "line", "pressure")
+"""kinds of loads that have to lie in the plane, and those of which images are taken"""
 
 ACROSS = 1e-9
 """component across the plane, relative to a vector, that is rounding"""
-
-
-@dataclass(frozen=True)
-class _Mirror:
-    """A plane and what it does to a model.
-
-    point, normal : (3,)
-    label    : ``x = 0``
-    halves   : (n,) blocks that it cuts in two
-    image_of : (n,) block that is the image of each, itself for halves
-    """
-
-    point: FloatArray
-    normal: FloatArray
-    label: str
-    halves: BoolArray
-    image_of: IntArray
-
-    @property
-    def reflection(self) -> FloatArray:
-        """R, (3, 3)."""
-        return np.asarray(np.eye(3) - 2.0 * np.outer(self.normal, self.normal))
-
-    def motions(self, values: FloatArray) -> FloatArray:
-        """Images of velocities and angular velocities, or of forces and moments, in the second axis of (n, 6, ...)."""
-        image = np.empty_like(values)
-        image[:, :3] = np.einsum("ij,nj...->ni...", self.reflection, values[:, :3])
-        image[:, 3:] = -np.einsum("ij,nj...->ni...", self.reflection, values[:, 3:])
-        return image
 
 
 def with_images(deck: Deck, model: Model) -> Model:
@@ -70,7 +45,7 @@ def with_images(deck: Deck, model: Model) -> Model:
     DeckError is left to the caller: faults are returned by ``symmetry_faults`` beforehand
     """
     for number, plane in enumerate(deck.content.symmetry):
-        mirror, faults = _mirror(deck, model, plane, ("symmetry", number))
+        mirror, faults = find_mirror(deck, model, plane, ("symmetry", number))
         assert mirror is not None, faults  # found by symmetry_faults
         model = _mirrored(model, mirror, deck.contacts.tolerance)
     return model
@@ -81,12 +56,14 @@ def symmetry_faults(deck: Deck, model: Model) -> list[Fault]:
     faults: list[Fault] = []
     for number, plane in enumerate(deck.content.symmetry):
         path: KeyPath = ("symmetry", number)
-        mirror, found = _mirror(deck, model, plane, path)
+        mirror, found = find_mirror(deck, model, plane, path)
         faults += found
         if mirror is None:
             return faults
         for name, section in deck.content.load_cases.items():
             faults += _loads_across(deck, section, ("load_cases", name), mirror)
+        if faults:
+            return faults
         faults += _cannot_mirror(deck, model, mirror, path)
         if faults:
             return faults
@@ -94,72 +71,29 @@ def symmetry_faults(deck: Deck, model: Model) -> list[Fault]:
     return faults
 
 
-# --- the plane ----------------------------------------------------------------------------------------------------
-
-
-def _plane(plane: SymmetryPlane) -> tuple[FloatArray, FloatArray, str]:
-    for axis, key in enumerate("xyz"):
-        coordinate = getattr(plane, key)
-        if coordinate is not None:
-            return coordinate * np.eye(3)[axis], np.eye(3)[axis], f"{key} = {coordinate:g}"
-    assert plane.point is not None  # a rule of the deck: x, y, z, or a point with a normal
-    assert plane.normal is not None
-    return np.array(plane.point), unit(plane.normal), "the plane of symmetry"
-
-
-def _mirror(deck: Deck, model: Model, plane: SymmetryPlane, path: KeyPath) -> tuple[_Mirror | None, list[Fault]]:
-    """The plane as it stands to the blocks, or what is wrong with that."""
-    blocks, (point, normal, label) = model.blocks, _plane(plane)
-    heights = (blocks.vertices - point) @ normal
-    allowed = deck.contacts.tolerance * blocks.sizes
-    above, below = (row_maxima(sign * heights, blocks.vertex_start) for sign in (1.0, -1.0))
-    if np.sum(below > allowed) > np.sum(above > allowed):
-        normal, heights, above, below = -normal, -heights, below, above
-    across = np.flatnonzero(below > allowed)
-    if len(across):
-        verb = "reaches" if len(across) == 1 else "reach"
-        message = (
-            f"{named(across, blocks.name)} {verb} across {label}: give the blocks on one side, and of a block that the "
-            "plane cuts its half, named by halves"
-        )
-        return None, [deck.fault_at(path, message)]
-    halves = np.zeros(len(blocks), dtype=bool)
-    if plane.halves is not None:
-        faults: list[Fault] = []
-        roster = build_roster(blocks, frozenset(), deck.fault_at)
-        chosen = select_blocks(plane.halves, (*path, "halves"), roster, faults)
-        if chosen is None:
-            return None, faults
-        on_plane = row_maxima(np.abs(heights[blocks.loops]), blocks.loop_start) <= allowed[blocks.block_of_face]
-        cut = np.bincount(blocks.block_of_face[on_plane], minlength=len(blocks)) > 0
-        loose = chosen[~cut[chosen]]
-        if len(loose):
-            verb = "has" if len(loose) == 1 else "have"
-            message = f"{named(loose, blocks.name)} {verb} no face on {label}, where the other half would join"
-            return None, [deck.fault_at((*path, "halves"), message)]
-        halves[chosen] = True
-    image_of = np.arange(len(blocks))
-    image_of[~halves] = len(blocks) + np.arange(int((~halves).sum()))
-    return _Mirror(point, normal, label, halves, image_of), []
-
-
-def _loads_across(deck: Deck, section: LoadCaseSection, path: KeyPath, mirror: _Mirror) -> list[Fault]:
-    """Loads on masses that are not their own mirror image."""
+def _loads_across(deck: Deck, section: LoadCaseSection, path: KeyPath, mirror: Mirror) -> list[Fault]:
+    """Loads on masses that are not their own mirror image, and kinds of loads that have no image."""
     faults = []
     for key, loads in (("dead", section.dead or []), ("live", section.live or [])):
         for number, load in enumerate(loads):
-            for kind in ("gravity", "acceleration"):
-                value = getattr(load, kind)
-                if value is not None and abs(float(np.array(value) @ mirror.normal)) > ACROSS * np.abs(value).max():
-                    message = (
-                        f"acts across the plane of symmetry {mirror.label}: the other half would have to be pushed the "
-                        "other way; give the whole structure"
-                    )
-                    faults.append(deck.fault_at((*path, key, number, kind), message))
+            kind = given(load, EXACTLY_ONE[Load])[0]
+            value = getattr(load, kind)
+            if kind in ON_MASSES:
+                if abs(float(np.array(value) @ mirror.normal)) <= ACROSS * np.abs(value).max():
+                    continue
+                message = (
+                    f"acts across the plane of symmetry {mirror.label}: the other half would have to be pushed the "
+                    "other way; give the whole structure"
+                )
+            elif kind in AT_PLACES:
+                continue
+            else:
+                message = f"is no load that can be mirrored about {mirror.label}: give the whole structure"
+            faults.append(deck.fault_at((*path, key, number, kind), message))
     return faults
 
 
-def _cannot_mirror(deck: Deck, model: Model, mirror: _Mirror, path: KeyPath) -> list[Fault]:
+def _cannot_mirror(deck: Deck, model: Model, mirror: Mirror, path: KeyPath) -> list[Fault]:
     """Supports and forces that have no image."""
     faults = []
     for ground in model.grounds:
@@ -174,12 +108,14 @@ def _cannot_mirror(deck: Deck, model: Model, mirror: _Mirror, path: KeyPath) -> 
         )
         faults.append(deck.fault_at((*path, "halves"), message))
     for case in model.load_cases:
-        cut = mirror.halves & (
-            np.abs(np.abs((case.dead_load + case.live_load)[:, :3] @ mirror.normal))
-            > ACROSS * np.abs(case.dead_load + case.live_load).max(initial=0.0)
-        )
-        if cut.any():
-            message = f"a load acts across the plane on {named(np.flatnonzero(cut), model.blocks.name)}, which it cuts"
+        across = np.zeros_like(mirror.halves)
+        for load in (case.dead_load, case.live_load):
+            across |= np.abs(load[:, :3] @ mirror.normal) > ACROSS * np.abs(load[:, :3]).max(initial=0.0)
+        if (cut := np.flatnonzero(across & mirror.halves)).size and case.settlement is None:
+            message = (
+                f"a load acts across {mirror.label} on {named(cut, model.blocks.name)}, which is cut by it: the other "
+                "half is loaded the other way, and nothing is left of it"
+            )
             faults.append(deck.fault_at(("load_cases", case.name), message))
         settlement = case.settlement
         if settlement is not None and mirror.halves[settlement.blocks].any():
@@ -192,10 +128,7 @@ def _cannot_mirror(deck: Deck, model: Model, mirror: _Mirror, path: KeyPath) -> 
     return faults
 
 
-# --- the whole ----------------------------------------------------------------------------------------------------
-
-
-def _mirrored(model: Model, mirror: _Mirror, tolerance: float) -> Model:
+def _mirrored(model: Model, mirror: Mirror, tolerance: float) -> Model:
     """The model with its image."""
     blocks, others = model.blocks, np.flatnonzero(~mirror.halves)
     own = polyhedra_of(blocks)
@@ -243,7 +176,7 @@ def _labels(model: Model, others: IntArray) -> Labels:
     )
 
 
-def _grounds(grounds: Sequence[Ground], mirror: _Mirror) -> tuple[Ground, ...]:
+def _grounds(grounds: Sequence[Ground], mirror: Mirror) -> tuple[Ground, ...]:
     """Planes across the mirror carry images too; others have an image of their own."""
     result, images = [], []
     for ground in grounds:
@@ -259,7 +192,7 @@ def _grounds(grounds: Sequence[Ground], mirror: _Mirror) -> tuple[Ground, ...]:
     return (*result, *images)
 
 
-def _guides(guides: Guides, mirror: _Mirror) -> Guides:
+def _guides(guides: Guides, mirror: Mirror) -> Guides:
     if not len(guides):
         return guides
     return Guides(
@@ -270,7 +203,7 @@ def _guides(guides: Guides, mirror: _Mirror) -> Guides:
     )
 
 
-def _load_case(case: LoadCase, model: Model, mirror: _Mirror, centroids: FloatArray) -> LoadCase:
+def _load_case(case: LoadCase, model: Model, mirror: Mirror, centroids: FloatArray) -> LoadCase:
     """Loads on blocks and images; on a block that is joined with its other half, of both about the common centroid."""
     count, own = len(model.blocks), model.blocks.centroids
 
@@ -288,7 +221,7 @@ def _load_case(case: LoadCase, model: Model, mirror: _Mirror, centroids: FloatAr
     return with_reference(replace(mirrored, settlement=_settlement(case.settlement, mirror)), np.nan)
 
 
-def _settlement(settlement: Settlement, mirror: _Mirror) -> Settlement:
+def _settlement(settlement: Settlement, mirror: Mirror) -> Settlement:
     """The support with its image, which moves as far."""
     apart = ~mirror.halves[settlement.blocks]
     images = mirror.motions(settlement.motions)[apart]
