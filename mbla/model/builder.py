@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
 
 from mbla.deck.deck import Deck
+from mbla.deck.joints import FRICTIONLESS
 from mbla.deck.tree import KeyPath
 from mbla.deck.types import BlockItem, Item, JointLaw, LoadCaseSection, Material
 from mbla.deck.units import Units
@@ -20,6 +21,7 @@ from mbla.model.generators.generator import Generated, ItemRefused, Site
 from mbla.model.labels import NONE, BlockLabels, join_labels, labels_of
 from mbla.model.loads import LoadSite, build_load_case
 from mbla.model.model import Ground, Joint, LoadCase, Model
+from mbla.model.overrides import check_overrides
 from mbla.model.polyhedra import Polyhedra, join_polyhedra
 from mbla.model.selectors import build_roster
 from mbla.model.settlement import build_settlement
@@ -49,12 +51,16 @@ class _Collected:
 
 @dataclass(frozen=True)
 class _Entry:
-    """What all blocks of an item share: its number in the deck, group, density, and the deck's default joint law."""
+    """What all blocks of an item share: its number in the deck, group, material, and the deck's default joint law.
+
+    densities : by the name of each material
+    """
 
     number: int
     group: str
-    density: float
+    material: str
     joint: str
+    densities: Mapping[str, float]
 
 
 def build_model(deck: Deck) -> Model:
@@ -81,7 +87,8 @@ def build_model(deck: Deck) -> Model:
     brought_along = Supports(np.repeat(np.array(items.fixed, dtype=bool), counts), grounds)
     tolerance, joint = deck.contacts.tolerance, deck.contacts.joint
     supports = build_supports(deck.content.supports, joint, brought_along, roster, tolerance, faults)
-    site = LoadSite(roster, supports.fixed, deck.units, faults, notices)
+    check_overrides(deck.contacts.overrides, roster, faults)
+    site = LoadSite(roster, supports.fixed, deck.units, deck.resolve_file, faults, notices)
     load_cases = tuple(_load_case(name, section, site, supports) for name, section in deck.content.load_cases.items())
     if faults:
         raise DeckError(faults)
@@ -91,7 +98,7 @@ def build_model(deck: Deck) -> Model:
         blocks=built.blocks,
         fixed=supports.fixed,
         grounds=supports.grounds,
-        joints={name: build_joint(name, law) for name, law in deck.content.joints.items()},
+        joints=_joints(deck, supports.grounds),
         load_cases=load_cases,
         notices=(*items.notices, *built.notices, *notices),
         guides=supports.guides,
@@ -100,6 +107,15 @@ def build_model(deck: Deck) -> Model:
     if faults:
         raise DeckError(faults)
     return with_images(deck, model)
+
+
+def _joints(deck: Deck, grounds: Sequence[Ground]) -> dict[str, Joint]:
+    """Joint laws of the deck, and that without friction where it is asked for by its name."""
+    laws = {name: build_joint(name, law) for name, law in deck.content.joints.items()}
+    used = {deck.contacts.joint, *(override.joint for override in deck.contacts.overrides)}
+    if FRICTIONLESS in used | {ground.joint for ground in grounds}:
+        laws[FRICTIONLESS] = Joint(FRICTIONLESS, 0.0)
+    return laws
 
 
 def _load_case(name: str, section: LoadCaseSection, site: LoadSite, supports: Supports) -> LoadCase:
@@ -159,7 +175,7 @@ def _generate_items(deck: Deck, faults: list[Fault]) -> _Collected:
         except DeckError as error:
             faults += error.faults
         else:
-            entry = _Entry(number, group, densities[item.material], deck.contacts.joint)
+            entry = _Entry(number, group, item.material, deck.contacts.joint, densities)
             _collect_copies(collected, generated, item, entry)
             collected.notices += generated.notices
             continue
@@ -183,7 +199,9 @@ def _kind(entry: BlockItem) -> tuple[str, Item]:
 
 
 def _generate(deck: Deck, kind: str, item: Item, path: KeyPath) -> Generated:
-    site = Site(deck.contacts.tolerance, lambda below, name: deck.resolve_file((*path, *below), name))
+    site = Site(
+        deck.contacts.tolerance, lambda below, name: deck.resolve_file((*path, *below), name), deck.units.length
+    )
     with np.errstate(over="ignore", invalid="ignore"):  # coordinates that are not finite are refused by block
         generated = GENERATORS[kind](item, site)
         transform = build_transform(item.transform)
@@ -200,7 +218,7 @@ def _collect(collected: _Collected, generated: Generated, entry: _Entry, copy: i
     for part in generated.parts:
         collected.polyhedra.append(part.polyhedra)
         collected.groups.append(entry.group + part.suffix)
-        collected.densities.append(entry.density)
+        collected.densities.append(entry.densities[part.material or entry.material])
         collected.items.append(entry.number)
         collected.fixed.append(part.fixed)
         collected.labels.append(labels_of(len(part.polyhedra), part.member, part.labels, copy))

@@ -55,6 +55,9 @@ REPORT_FIELDS = (
     "unchecked",
     "isolated",
     "fixed_contacts",
+    "open_interfaces",
+    "glued_interfaces",
+    "held",
 )
 
 
@@ -175,11 +178,12 @@ def _points(rows: Sequence[FloatArray]) -> FloatArray:
 
 
 def _contacts(contacts: Contacts) -> Content:
-    report = contacts.report
+    report, label = contacts.report, contacts.solid_of_block
     start, flat = ragged(report.unsupported)
     return {
         **{f"contacts/{name}": getattr(contacts, name) for name in CONTACT_ARRAYS},
         "contacts/joint_names": contacts.joint_names,
+        **({} if label is None else {"contacts/solid_of_block": label}),
         **{f"contacts/report/{name}": getattr(report, name) for name in REPORT_FIELDS},
         "contacts/report/unsupported_start": start,
         "contacts/report/unsupported_blocks": flat,

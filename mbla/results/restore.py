@@ -133,7 +133,10 @@ def _contacts(get: dict[str, Any]) -> Contacts:
     if np.any((get["outline"] < 0) | (get["outline"] > np.diff(get["point_start"]))):
         raise ValueError("outline of an interface")
     arrays = {name: get[name] for name in CONTACT_ARRAYS}
-    return Contacts(**arrays, joint_names=tuple(get["joint_names"]), report=report)
+    label = get.get("solid_of_block")
+    if label is not None and not np.array_equal(np.unique(label), np.arange(label.max(initial=-1) + 1)):
+        raise ValueError("numbers of rigid bodies")
+    return Contacts(**arrays, joint_names=tuple(get["joint_names"]), report=report, solid_of_block=label)
 
 
 def _load_case(name: str, get: dict[str, Any]) -> LoadCase:

@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from mbla.deck import read_deck, rules, types
+from mbla.deck.items.masonry import OpeningArch
 from mbla.deck.section import RULES, Section
 from tests.deck.decks import BLOCK, changed, write
 
@@ -71,7 +72,32 @@ def test_every_rule_is_registered_and_broken_by_a_faulty_deck() -> None:
         types.BoxItem: ["box.max[1] = -1: must be > 0"],
         types.PolyhedronItem: ["there are 4 vertices", "is a corner of this face already"],
         types.WallItem: ["that of from", "the length of the wall", "the height of the wall"],
+        types.ArchItem: ["applies to shape: segmental", "applies with springers: ground only"],
+        types.ArchItem: ["only: leave it out, or change shape", "applies with springers: ground only"],
+        types.ColumnItem: ["needs height and drums", "is what drum_heights says", "has no effect on a single drum"],
+        types.StackItem: ["would not rest on the one below", "numbers, count - 1", "only one of shift, offsets"],
+        types.TrilithonItem: ["the lintel rests on both uprights"],
+        types.DomeItem: [
+            "applies to segmental domes only",
+            "must be even in running bond",
+            "a springing on ground is level",
+        ],
+        types.WallsItem: [
+            "must lie along x or along y",
+            "must be a corner",
+            "there are 4 walls",
+            "has a gable already",
+        ],
+        types.Opening: ["only one of lintel and arch may be given"],
+        OpeningArch: ["applies to flat arches", "the end joints of a flat arch meet below it"],
         types.ArchItem: ["applies to segmental arches only", "applies with springers: ground only"],
+        types.BarrelVaultItem: ["needs rise for shape: catenary", "applies to shape: segmental only", "half the span"],
+        types.CrossVaultItem: [
+            "must be <= 180: two barrels",
+            "springings on ground are level",
+            "for a segmental vault: two",
+        ],
+        types.PavilionVaultItem: ["a keystone closes the crown", "would be a kink in it"],
         types.SelectorTerm: ["box[1][2] = -1: must be > 0", "applies with group only", "the first of the range"],
         types.GroundPlane: ["needs a normal beside its point", "applies with point only"],
         types.Support: [
@@ -93,7 +119,10 @@ def test_every_rule_is_registered_and_broken_by_a_faulty_deck() -> None:
         types.Load: ["a force needs `on`", "applies to a force only", "does not apply to gravity"],
         types.LoadCaseSection: ["is a live load with no effect"],
         types.AnalysisSection: ["applies to flow_rule: associative", "applies to contact_model: concave"],
-        types.DeckContent: ["contacts.inset = 0.2: applies to contact_model: concave only"],
+        types.ContactOverride: ["needs one of between, orientation or box", "box[1][1] = -1: must be > 0"],
+        types.AboutNormal: ["orientation.normal = [0, 0, 0]: must not be the zero vector"],
+        types.ContactPoints: ["only one of per_edge or spacing", "only one of inset or rounding"],
+        types.DeckContent: ["contacts.points.inset = 0.2: applies to contact_model: concave only"],
         types.Expectation: ["needs at least one of load_factor"],
     }
     assert set(words) | set(rules.EXACTLY_ONE) | set(rules.AT_LEAST_ONE) == set(RULES)

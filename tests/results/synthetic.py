@@ -80,6 +80,9 @@ def empty_report(notices: Any = ()) -> ContactReport:
         isolated=rows,
         unsupported=(),
         fixed_contacts=0,
+        open_interfaces=0,
+        glued_interfaces=0,
+        held=rows,
         notices=tuple(notices),
     )
 
@@ -249,6 +252,7 @@ def full_results() -> Results:
         peak_load_factor=0.6,
         failures=("x",),
     )
+    contacts = replace(results.contacts, solid_of_block=np.arange(len(results.model.blocks)))
     sinking = np.array([[0.0, 0, -1, 0, 0, 0]])
     settlement = Settlement(np.array([0]), sinking, False, "settlement of 1 block", 30.0, 20.0)
     load_case = replace(case.load_case, settlement=settlement)
@@ -259,7 +263,7 @@ def full_results() -> Results:
         guides=Guides(np.array([2]), np.array([0]), ways, ("1 block held in rz",)),
     )
     full = replace(case, load_case=load_case, solution=solution, checks=checks)
-    return replace(results, model=model, cases=(full, results.cases[1]))
+    return replace(results, model=model, contacts=contacts, cases=(full, results.cases[1]))
 
 
 def same(first: Any, second: Any) -> bool:

@@ -20,7 +20,7 @@ EXACTLY_ONE: dict[type[Section], tuple[str, ...]] = {
     types.SymmetryPlane: ("x", "y", "z", "point"),
     types.LoadCaseSection: ("live", "settlement"),
     types.SettlementSection: ("direction", "turn"),
-    types.Load: ("gravity", "acceleration", "force"),
+    types.Load: ("gravity", "acceleration", "force", "table"),
 }
 """Keys of which a section has exactly one; the schema says so too."""
 

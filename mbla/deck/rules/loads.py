@@ -17,6 +17,8 @@ def load_keys(load: types.Load) -> Iterator[Finding]:
         yield (), "a force needs `on`, the block it acts on"
     if load.at is not None and load.force is None:
         yield ("at",), "applies to a force only"
+    if load.on is not None and load.table is not None:
+        yield ("on",), "does not apply to a table, whose rows name their blocks"
     if load.on is not None and load.gravity is not None:
         yield ("on",), "does not apply to gravity, which acts on all blocks: use acceleration"
 
