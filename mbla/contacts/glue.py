@@ -22,9 +22,11 @@ import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.contacts.contacts import Contacts
+from mbla.contacts.glued_guides import clashing_guides, guides_of_solids
 from mbla.deck.tree import KeyPath
 from mbla.model.join_blocks import join_blocks
 from mbla.model.model import LoadCase, Model
+from mbla.model.wording import named
 
 
 @dataclass(frozen=True)
@@ -144,11 +146,13 @@ def solids_of(model: Model, contacts: Contacts) -> Solids:
         for ground in model.grounds
     )
     body = np.concatenate([label, len(blocks) + np.arange(len(grounds))])
+    arms = model.blocks.centroids - blocks.centroids[label]
+    guides = guides_of_solids(model.guides, label, arms)
     solids = Solids(
-        model=replace(model, blocks=blocks, fixed=fixed, grounds=grounds),
+        model=replace(model, blocks=blocks, fixed=fixed, grounds=grounds, guides=guides),
         contacts=replace(contacts, bodies=body[contacts.bodies], solid_of_block=None),
         solid_of_block=label,
-        arms=model.blocks.centroids - blocks.centroids[label],
+        arms=arms,
     )
     cases = tuple(solids.load_case(case) for case in model.load_cases)
     return replace(solids, model=replace(solids.model, load_cases=cases))
@@ -167,13 +171,37 @@ def glue_findings(model: Model, contacts: Contacts) -> list[tuple[KeyPath, str]]
         return [(("contacts",), "every block is glued to a support: nothing can move")]
     solids = solids_of(held, contacts)
     free = ~solids.model.fixed
-    found: list[tuple[KeyPath, str]] = []
+    found = _guide_findings(held, solids)
     for case in model.load_cases:
+        if case.settlement is not None:
+            found += _settlement_findings(model, contacts, case)
+            continue
         net, gross = np.abs(solids.loads(case.live_load)[free]), _gross(solids, case.live_load)[free]
         if (net.max(axis=0) <= CANCELLED * gross.max(axis=0)).all():
             message = "the live loads have no effect: they act on blocks glued to a support, or cancel on glued blocks"
             found.append((("load_cases", case.name, "live"), message))
     return found
+
+
+def _guide_findings(model: Model, solids: Solids) -> list[tuple[KeyPath, str]]:
+    """Guided blocks that glue joins to a support, or to others that are guided in another way."""
+    blocks = model.guides.blocks
+    clashing = blocks[model.fixed[blocks]]
+    if not len(clashing) and solids.solid_of_block is not None and len(blocks):
+        clashing = clashing_guides(model, solids.solid_of_block, solids.arms)
+    if not len(clashing):
+        return []
+    words = "glue joins them to what is held in another way: say how the whole is held, of one block of it"
+    return [(("supports",), f"{named(clashing, model.blocks.name)}: {words}")]
+
+
+def _settlement_findings(model: Model, contacts: Contacts, case: LoadCase) -> list[tuple[KeyPath, str]]:
+    """Blocks glued to supports would have to go with the one that gives way."""
+    held = np.flatnonzero(contacts.report.held) if contacts.report.held.dtype == np.bool_ else contacts.report.held
+    if not len(held):
+        return []
+    words = "glued to a support: where a support gives way, fix them as part of it instead"
+    return [(("load_cases", case.name, "settlement"), f"{named(held, model.blocks.name)} {words}")]
 
 
 def _gross(solids: Solids, loads: FloatArray) -> FloatArray:

@@ -39,9 +39,6 @@ REFERENCES = (
         for kind in ("wall", "walls")
         for over in ("lintel", "arch")
     ),
-    Reference("blocks.#.arch.joint", "joint law"),
-    Reference("contacts.joint", "joint law"),
-    Reference("contacts.overrides.#.joint", "joint law"),
     Reference("contacts.overrides.#.between.#", "group", (GROUND,)),
     Reference("contacts.overrides.#.between.#.#", "group", (GROUND,)),
     Reference("contacts.overrides.#.between.#.group", "group"),
