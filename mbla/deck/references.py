@@ -31,7 +31,7 @@ class Reference:
 
 REFERENCES = (
     Reference("blocks.#.*.material", "material"),
-    Reference("blocks.#.arch.joint", "joint law", BUILT_IN),
+    Reference("blocks.#.*.joint", "joint law", BUILT_IN),
     Reference("contacts.joint", "joint law", BUILT_IN),
     Reference("contacts.overrides.#.joint", "joint law", BUILT_IN),
     *(
@@ -104,7 +104,7 @@ def groups(data: dict[str, Any]) -> Iterator[str]:
             group = item.get("group", kind)
             if isinstance(group, str):
                 yield group
-                if kind == "arch" and item.get("springers") == "blocks":
+                if item.get("springers") == "blocks":
                     yield f"{group}_springers"
 
 
