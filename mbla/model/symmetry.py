@@ -150,7 +150,7 @@ def _mirrored(model: Model, mirror: Mirror, tolerance: float) -> Model:
         guides=_guides(model.guides, mirror),
         load_cases=tuple(_load_case(case, model, mirror, centroids) for case in model.load_cases),
         notices=(*model.notices, Notice("notice", "mirrored", text)),
-        mirrors=(*model.mirrors, tuple(mirror.normal.tolist())),
+        mirrors=(*model.mirrors, (*mirror.normal.tolist(), float(mirror.normal @ mirror.point))),
     )
 
 

@@ -137,7 +137,7 @@ def test_a_quarter_of_a_table(tmp_path: Path) -> None:
     np.testing.assert_allclose(model.blocks.centroids[slab], [0, 0, 2.15], atol=1e-12)
     assert bool(model.blocks.convex[slab])
     assert int(model.fixed.sum()) == 4
-    assert model.mirrors == ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0))
+    assert model.mirrors == ((1.0, 0.0, 0.0, 0.0), (0.0, 1.0, 0.0, 0.0))
     results = results_of(tmp_path, HEAD + TABLE, "associative")
     lifted = results.case("lifted").solution.mechanics
     assert lifted is not None
@@ -147,3 +147,18 @@ def test_a_quarter_of_a_table(tmp_path: Path) -> None:
     sinks, spreads = (reaction_of(results.case(name)) for name in ("leg_sinks", "legs_spread"))
     assert sinks == pytest.approx(weight, rel=1e-7)
     assert spreads == pytest.approx(-0.6 * weight, rel=1e-6)
+
+
+def test_parts_beside_the_plane_keep_their_own_states(tmp_path: Path) -> None:
+    """A column on either side, each symmetric in itself about a parallel plane, which the deck does not give."""
+    column = "blocks:\n  - box: {group: column, material: stone, min: [2, 0, 0], max: [3, 2, 4]}\n"
+    text = f"{HEAD}{column}{SUPPORTS}symmetry: [{{x: 0}}]\n{CASES}"
+    text = text.replace("group: side, index: 4", "group: column, index: 0")
+    text = text.replace("at: [0.1, 0.6, 0.3]", "at: [2.5, 1, 4]")
+    results = results_of(tmp_path, text, "non_associative", "inwards")
+    assert len(results.model.blocks) == 2
+    (found,) = results.cases
+    assert found.solution.size is not None
+    assert (found.solution.size.parts, found.solution.size.mirror_planes) == (2, 0)
+    assert found.solution.mechanics is not None
+    assert found.solution.mechanics.load_factor == pytest.approx(0.5, rel=1e-7)

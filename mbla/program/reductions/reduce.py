@@ -91,7 +91,7 @@ def _reduced_part(
         return part.program, None
     if switches.planar and is_planar(part, mirror):
         return planar_program(part, mirror), None
-    if switches.mirror and (associative or _is_given(mirror.normal, given)):
+    if switches.mirror and (associative or _is_given(part, mirror.normal, given)):
         return half_of(part, mirror), mirror
     return part.program, None
 
@@ -107,18 +107,28 @@ def _guided(part: Scene, smaller: Program) -> Program:
     return guided_program(smaller, allowed)
 
 
-Mirrors = tuple[tuple[float, float, float], ...]
+OFF_PLANE = 1e-6
+"""Distance of the middle of a part from a plane of symmetry, relative to block size, that is rounding: a part beside
+the plane that happens to be symmetric about a parallel one is apart from it by the size of blocks."""
+
+Mirrors = tuple[tuple[float, float, float, float], ...]
 
 
-def _is_given(normal: FloatArray, given: Mirrors) -> bool:
-    """Whether a unit normal is one of those given, up to rounding and sign."""
-    return any(abs(abs(float(normal @ np.array(each))) - 1.0) <= SYMMETRIC for each in given)
+def _is_given(part: Scene, normal: FloatArray, given: Mirrors) -> bool:
+    """Whether the plane of that unit normal through the middle of a part is one of those given, up to rounding."""
+    middle = part.centroids.mean(axis=0)
+    for *direction, offset in given:
+        along = float(normal @ np.array(direction))
+        away = abs(float(np.array(direction) @ middle) - offset)
+        if abs(abs(along) - 1.0) <= SYMMETRIC and away <= OFF_PLANE * part.length:
+            return True
+    return False
 
 
 def _first_mirror(part: Scene, switches: ReductionSwitches, given: Mirrors) -> Mirror | None:
     """The first plane that makes the part planar, else the first plane of symmetry, those given before all others."""
     first = None
-    for normal in (*map(np.array, given), *mirror_candidates(part)):
+    for normal in (*(np.array(plane[:3]) for plane in given), *mirror_candidates(part)):
         mirror = mirror_about(part, normal)
         if mirror is None:
             continue
