@@ -107,8 +107,8 @@ class Model:
     load_cases  : in the order of the deck
     notices     : repairs and remarks from building it
     guides      : blocks that may move in given ways only; they count as free
-    mirrors     : unit normal m and offset d of the planes of symmetry that the deck gives, m·x = d: only symmetric states
-                  are looked for
+    mirrors     : unit normal m and offset d of the planes of symmetry that the deck gives, m·x = d: only symmetric
+                  states are looked for
     """
 
     title: str
