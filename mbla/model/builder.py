@@ -27,6 +27,7 @@ from mbla.model.polyhedra import Polyhedra, join_polyhedra
 from mbla.model.selectors import build_roster
 from mbla.model.settlement import build_settlement
 from mbla.model.supports import Supports, build_supports, does_nothing
+from mbla.model.symmetry import symmetry_faults, with_images
 from mbla.model.transform import build_transform, repetitions, transform_item
 
 FROM_FILES = ("mesh", "table")
@@ -107,7 +108,7 @@ def build_model(deck: Deck) -> Model:
     load_cases = tuple(case for name, section in sections for case in _load_cases(name, section, site, supports))
     if faults:
         raise DeckError(faults)
-    return Model(
+    model = Model(
         title=deck.content.title,
         units=deck.units,
         blocks=roster.blocks,
@@ -118,6 +119,10 @@ def build_model(deck: Deck) -> Model:
         notices=(*items.notices, *built.notices, *notices),
         guides=supports.guides,
     )
+    faults += symmetry_faults(deck, model)
+    if faults:
+        raise DeckError(faults)
+    return with_images(deck, model)
 
 
 def _joints(deck: Deck, grounds: Sequence[Ground]) -> dict[str, Joint]:

@@ -158,6 +158,8 @@ class Model:
     load_cases  : in the order of the deck
     notices     : repairs and remarks from building it
     guides      : blocks that may move in given ways only; they count as free
+    mirrors     : unit normal m and offset d of the planes of symmetry that the deck gives, m·x = d: only symmetric
+                  states are looked for
     """
 
     title: str
@@ -169,6 +171,7 @@ class Model:
     load_cases: tuple[LoadCase, ...]
     notices: tuple[Notice, ...]
     guides: Guides = NO_GUIDES
+    mirrors: tuple[tuple[float, float, float, float], ...] = ()
 
     def of_case(self, load_case: LoadCase) -> Model:
         """The model as it may move under a load case: with the blocks of its settlement as a guided body."""

@@ -109,6 +109,11 @@ def test_every_rule_is_registered_and_broken_by_a_faulty_deck() -> None:
             "fixed[2] = x: x is listed already",
             "slide = [0, 0, 0]: must not be the zero vector",
         ],
+        types.SymmetryPlane: [
+            "symmetry[0]: needs a normal beside its point",
+            "symmetry[0].normal = [1, 0, 0]: applies with point only",
+            "symmetry[0].normal = [0, 0, 0]: must not be the zero vector",
+        ],
         types.Turn: ["turn.axis = [0, 0, 0]: must not be the zero vector"],
         types.SettlementSection: ["settlement.direction = [0, 0, 0]: must not be the zero vector"],
         types.Load: [
