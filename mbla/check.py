@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from mbla.contacts import Contacts
+from mbla.contacts.glue import held_model, solids_of
 from mbla.deck import Deck, read_deck
 from mbla.model import Model, build_model
 from mbla.model.model import LoadCase
@@ -41,6 +42,7 @@ def check(deck_path: Path, options: RunOptions, vtu: bool = False) -> tuple[Resu
     model = build_model(deck)
     read = time.perf_counter()
     contacts = contacts_of(deck, model)
+    model = held_model(model, contacts)
     results = Results(
         deck=deck_record(deck),
         model=model,
@@ -60,7 +62,10 @@ def check(deck_path: Path, options: RunOptions, vtu: bool = False) -> tuple[Resu
 
 def needs_of(deck: Deck, model: Model, contacts: Contacts, load_case: LoadCase) -> dict[str, int | str]:
     """What of the model reaches the solver, the size of its first cone programs, and who solves them."""
-    reduced = reduced_program(deck, model, contacts, assemble(model, contacts, load_case))
+    model = model.of_case(load_case)
+    solids = solids_of(model, contacts)
+    program = assemble(solids.model, solids.contacts, solids.load_case(load_case))
+    reduced = reduced_program(deck, solids.model, solids.contacts, program)
     programs = [kinematic_form(part, part.limits).cone_program for part in reduced.parts if np.any(part.live_load)]
     return asdict(reduced.size) | {
         "unknown_velocities": sum(len(part.dead_load) for part in reduced.parts),

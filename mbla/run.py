@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from mbla.contacts import Contacts, find_contacts
+from mbla.contacts.glue import glue_findings, held_model, solids_of
+from mbla.contacts.interface_points import PointsRefused
 from mbla.contacts.notices import overlap_messages
 from mbla.deck import Deck, read_deck
 from mbla.errors import DeckError, Notice, UsageError
@@ -25,7 +27,9 @@ from mbla.results.sta import StatusFile
 from mbla.results.write import write_results
 from mbla.solution import Status, solve, verified_status, verify
 from mbla.solution.convex import solve_convex
+from mbla.solution.glued import solution_on_blocks
 from mbla.solution.settings import SolverSettings, solver_settings
+from mbla.solution.settlement import posed
 from mbla.solution.solution import IterationRecord
 
 Progress = Callable[[str, IterationRecord], None]
@@ -73,8 +77,10 @@ def run(deck_path: Path, options: RunOptions, progress: Progress | None = None) 
         load_cases = select_cases(model, options.cases)
         read = time.perf_counter()
         contacts = contacts_of(deck, model)
+        model = held_model(model, contacts)
         found = time.perf_counter()
         settings = solver_settings(deck.analysis, options.threads)
+        model, load_cases = with_settlements(model, contacts, load_cases, settings)
         cases = [
             solve_case(deck, model, contacts, load_case, settings, status_file, progress) for load_case in load_cases
         ]
@@ -94,6 +100,15 @@ def run(deck_path: Path, options: RunOptions, progress: Progress | None = None) 
         return write_results(results, out, output.vtu, output.frames, output.plots)
 
 
+def with_settlements(
+    model: Model, contacts: Contacts, load_cases: tuple[LoadCase, ...], settings: SolverSettings
+) -> tuple[Model, tuple[LoadCase, ...]]:
+    """Load cases to be solved in which a support gives way get the reaction that it starts from."""
+    ready = {case.name: posed(model, contacts, case, settings) for case in load_cases}
+    everything = tuple(ready.get(case.name, case) for case in model.load_cases)
+    return replace(model, load_cases=everything), tuple(ready.values())
+
+
 def solve_case(
     deck: Deck,
     model: Model,
@@ -110,11 +125,15 @@ def solve_case(
         if progress is not None:
             progress(load_case.name, record)
 
+    model = model.of_case(load_case)
+    solids = solids_of(model, contacts)
+    on_solids = (solids.model, solids.contacts, solids.load_case(load_case))
     if deck.analysis.contact_model == "convex":
-        solution = solve_convex(assemble_convex(model, contacts, load_case), deck.analysis, settings, log)
+        solution = solve_convex(assemble_convex(*on_solids), deck.analysis, settings, log)
     else:
-        program = assemble(model, contacts, load_case)
-        solution = solve(reduced_program(deck, model, contacts, program), deck.analysis, settings, log)
+        reduced = reduced_program(deck, solids.model, solids.contacts, assemble(*on_solids))
+        solution = solve(reduced, deck.analysis, settings, log)
+    solution = solution_on_blocks(solution, solids)
     checks = verify(model, contacts, load_case, solution)
     status = verified_status(solution, checks)
     status_file.remark(f"{load_case.name}: {status}")
@@ -128,11 +147,15 @@ def reduced_program(deck: Deck, model: Model, contacts: Contacts, program: Progr
 
 
 def contacts_of(deck: Deck, model: Model) -> Contacts:
-    """Contacts of a model; blocks that overlap make the deck invalid."""
-    contacts = find_contacts(model, deck.contacts)
-    overlaps = overlap_messages(model, contacts.report)
-    if overlaps:
-        raise DeckError([deck.fault_at(("blocks",), message) for message in overlaps])
+    """Contacts of a model; blocks that overlap make the deck invalid, and glue that leaves nothing to move."""
+    try:
+        contacts = find_contacts(model, deck.contacts)
+    except PointsRefused as refused:
+        raise DeckError([deck.fault_at(("contacts", "points", "spacing"), str(refused))]) from refused
+    faults = [deck.fault_at(("blocks",), message) for message in overlap_messages(model, contacts.report)]
+    faults += [deck.fault_at(path, message) for path, message in glue_findings(model, contacts)]
+    if faults:
+        raise DeckError(faults)
     return contacts
 
 
@@ -195,8 +218,14 @@ def _points_in_words(deck: Deck) -> str:
     contacts = deck.contacts
     if deck.analysis.contact_model == "convex":
         return "resultants of each interface"
-    words = "corners" if contacts.refine == 1 else f"{contacts.refine} along each edge, and inside"
-    return words + (f", inset by {contacts.inset:g}" if contacts.inset else "")
+    points, length = contacts.points, deck.units.length
+    words = "corners"
+    if points.spacing is not None:
+        words = f"at most {points.spacing:g} {length} apart along each edge, and inside"
+    elif (points.per_edge or 1) > 1:
+        words = f"{points.per_edge} along each edge, and inside"
+    inwards = f"{points.inset:g}" if points.inset else f"{points.rounding:g} {length}" if points.rounding else ""
+    return words + (f", inset by {inwards}" if inwards else "")
 
 
 def differences_from_expected(deck: Deck, cases: Sequence[CaseResult]) -> list[Notice]:

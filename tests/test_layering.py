@@ -16,6 +16,7 @@ DOORS = {
     "yaml": "deck/reader.py",
     "pint": "deck/units.py",
     "meshio": "model/geometry/meshio_files.py",
+    "ezdxf": "model/geometry/dxf.py",
     "manifold3d": "contacts/solids.py",
     "clarabel": "solution/clarabel_adapter.py",
     "cvxopt": "solution/linear_algebra/cholmod_factors.py",

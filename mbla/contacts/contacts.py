@@ -31,6 +31,10 @@ class Contacts:
                    interface
     point_areas  : (n_points,) m2     share of the interface area: sums to the area, first moment about the centroid
                    zero
+    solid_of_block : (n_blocks,)      blocks that are glued to each other have the number of one rigid body, numbered
+                   in the order of first blocks; None where every block is one (see :mod:`mbla.contacts.glue`)
+
+    Interfaces inside of rigid bodies, and those whose joint law is open, are none of these.
     """
 
     bodies: IntArray
@@ -46,6 +50,7 @@ class Contacts:
     frames: FloatArray
     point_areas: FloatArray
     report: ContactReport
+    solid_of_block: IntArray | None = None
 
     def __len__(self) -> int:
         return len(self.areas)
@@ -84,7 +89,10 @@ class ContactReport:
     isolated       : blocks without any contact
     unsupported    : connected parts of free blocks that reach no support, each a sorted array of blocks (blocks without
                      contact included)
-    fixed_contacts : contacts between bodies that are both fixed; they are left out of ``Contacts``
+    fixed_contacts : contacts between bodies that are both fixed; they are left out of ``Contacts``, like the next two
+    open_interfaces : interfaces whose joint law is open
+    glued_interfaces : interfaces inside of rigid bodies: glued ones, and others between blocks that glue joins anyway
+    held           : blocks that do not move because they are glued to a support
     notices        : the above in words
     """
 
@@ -98,6 +106,9 @@ class ContactReport:
     isolated: IntArray
     unsupported: tuple[IntArray, ...]
     fixed_contacts: int
+    open_interfaces: int
+    glued_interfaces: int
+    held: IntArray
     notices: tuple[Notice, ...]
 
     def with_notices(self, notices: tuple[Notice, ...]) -> ContactReport:

@@ -1,57 +1,135 @@
-"""Which joint law each interface has: the section's, the ground's, or that of the last override that fits."""
+"""Which joint law each interface has: the section's, the ground's, or that of the last override that fits.
+
+An override fits where all its conditions hold:
+
+- ``between``: one body is in the first selection and the other in the second;
+- ``orientation``: *bed* where the normal n of the interface is nearer than 45 degrees to the vertical, |n_z| > cos 45°,
+  *head* where it is not; or the angle between n and ±d is at most ``within``. Normals that a rounding of coordinates
+  would tip over a limit count as on it: at 45 degrees as head, at ``within`` as fitting;
+- ``box``: the centroid of the interface lies in it.
+"""
 
 from __future__ import annotations
 
+import math
+from dataclasses import dataclass
+
 import numpy as np
 
-from mbla.arrays import BoolArray, IntArray
-from mbla.deck.types import ContactOverride, ContactsSection
-from mbla.errors import Notice
+from mbla.arrays import BoolArray, FloatArray, IntArray
+from mbla.deck.joints import BUILT_IN, GLUED, OPEN
+from mbla.deck.types import AboutNormal, ContactOverride, ContactsSection, Selector
+from mbla.errors import Fault, Notice
 from mbla.model.model import Model
+from mbla.model.overrides import bodies_selected, selector_words
+from mbla.model.selectors import Roster, build_roster
+from mbla.model.wording import vector
 
-GROUND = "ground"
-"""How overrides call ground planes."""
+BED = math.cos(math.radians(45))
+ROUNDING = 1e-9
+"""of cosines: normals are unit vectors computed from coordinates, good to about 1e-15 over the slenderness of faces"""
 
 
-def joints_of_interfaces(
-    model: Model, section: ContactsSection, bodies: IntArray
-) -> tuple[IntArray, tuple[str, ...], list[Notice]]:
-    """Joint law of each interface between bodies (n, 2).
+@dataclass(frozen=True)
+class Sites:
+    """What decides about joint laws: ``bodies`` (n, 2), unit ``normals`` (n, 3) and ``centroids`` (n, 3) m."""
 
-    Returns
-    -------
-    joints  : (n,) row of names
-    names   : laws in use, in the order of the deck
-    notices : overrides that fit no interface
-    """
-    laws = list(model.joints)
+    bodies: IntArray
+    normals: FloatArray
+    centroids: FloatArray
+
+
+@dataclass(frozen=True)
+class Laws:
+    """Joint law of each interface, (n,), as row of ``names``, which has every law of the deck and the built-in ones."""
+
+    rows: IntArray
+    names: tuple[str, ...]
+
+    def are(self, name: str) -> BoolArray:
+        """Interfaces with that law, (n,)."""
+        return np.asarray(self.rows == self.names.index(name))
+
+    @property
+    def open(self) -> BoolArray:
+        """Interfaces that are no contacts, (n,)."""
+        return self.are(OPEN)
+
+    @property
+    def glued(self) -> BoolArray:
+        """Interfaces inside of a rigid body, (n,)."""
+        return self.are(GLUED)
+
+    def in_use(self, chosen: IntArray) -> tuple[IntArray, tuple[str, ...]]:
+        """Joint law of the chosen interfaces as row of the names in use, and those names in the order of the deck."""
+        used, rows = np.unique(self.rows[chosen], return_inverse=True)
+        return rows.astype(np.int64), tuple(self.names[law] for law in used)
+
+
+def joints_of_interfaces(model: Model, section: ContactsSection, sites: Sites) -> tuple[Laws, list[Notice]]:
+    """Joint law of each interface, and a warning for each override that fits none."""
+    names = (*model.joints, *(name for name in BUILT_IN if name not in model.joints))
     n_blocks = len(model.blocks)
-    joints = np.full(len(bodies), laws.index(section.joint))
+    rows = np.full(len(sites.bodies), names.index(section.joint))
     for index, ground in enumerate(model.grounds):
-        joints[bodies[:, 0] == n_blocks + index] = laws.index(ground.joint)
+        rows[sites.bodies[:, 0] == n_blocks + index] = names.index(ground.joint)
+    roster = build_roster(model.blocks, frozenset(), _not_to_be_reported) if section.overrides else None
     notices = []
     for override in section.overrides:
-        fits = _between(model, bodies, override)
-        joints[fits] = laws.index(override.joint)
+        assert roster is not None
+        fits = _fits(model, roster, sites, override)
+        rows[fits] = names.index(override.joint)
         if not fits.any():
-            first, second = override.between
-            notices.append(
-                Notice(
-                    "warning",
-                    "override-without-contact",
-                    f"no contact between {first} and {second}: the override with joint {override.joint} has no effect",
-                )
-            )
-    used, rows = np.unique(joints, return_inverse=True)
-    return rows.astype(np.int64), tuple(laws[law] for law in used), notices
+            text = f"no contact {override_words(override)}: the override with joint {override.joint} has no effect"
+            notices.append(Notice("warning", "override-without-contact", text))
+    return Laws(rows, names), notices
 
 
-def _between(model: Model, bodies: IntArray, override: ContactOverride) -> BoolArray:
-    """Interfaces of one body of the first group with one of the second."""
-    groups = np.array([*model.blocks.groups, *([GROUND] * len(model.grounds))], dtype=object)
-    # A group that happens to be called "ground" is not meant: the word stands for ground planes.
-    is_ground = np.arange(len(groups)) >= len(model.blocks)
-    first, second = ((groups == name) & (is_ground == (name == GROUND)) for name in override.between)
-    a, b = bodies[:, 0], bodies[:, 1]
-    fits: BoolArray = (first[a] & second[b]) | (second[a] & first[b])
+def _not_to_be_reported(*_: object) -> Fault:
+    """Selectors without blocks are the model stage's to report."""
+    raise AssertionError("the model stage has resolved every selector already")
+
+
+def _fits(model: Model, roster: Roster, sites: Sites, override: ContactOverride) -> BoolArray:
+    fits = np.ones(len(sites.bodies), dtype=bool)
+    if override.between is not None:
+        fits &= _between(model, roster, sites.bodies, override.between)
+    if override.orientation is not None:
+        fits &= _oriented(sites.normals, override)
+    if override.box is not None:
+        least, greatest = np.array(override.box)
+        fits &= ((sites.centroids >= least) & (sites.centroids <= greatest)).all(axis=1)
     return fits
+
+
+def _between(model: Model, roster: Roster, bodies: IntArray, between: tuple[Selector, Selector]) -> BoolArray:
+    """Interfaces of one body of the first selection with one of the second."""
+    first, second = (bodies_selected(selector, roster, len(model.grounds)) for selector in between)
+    a, b = bodies[:, 0], bodies[:, 1]
+    return np.asarray((first[a] & second[b]) | (second[a] & first[b]))
+
+
+def _oriented(normals: FloatArray, override: ContactOverride) -> BoolArray:
+    if isinstance(override.orientation, AboutNormal):
+        direction = np.array(override.orientation.normal)
+        direction = direction / np.abs(direction).max()  # so that squares neither overflow nor vanish
+        direction = direction / np.linalg.norm(direction)
+        least = math.cos(math.radians(override.orientation.within))
+        return np.asarray(np.abs(normals @ direction) >= least - ROUNDING)
+    bed = np.abs(normals[:, 2]) > BED + ROUNDING
+    return np.asarray(bed if override.orientation == "bed" else ~bed)
+
+
+def override_words(override: ContactOverride) -> str:
+    """The conditions of an override: ``between piers and ground with bed orientation``."""
+    words = []
+    if override.between is not None:
+        words.append("between {} and {}".format(*map(selector_words, override.between)))
+    if isinstance(override.orientation, AboutNormal):
+        normal, within = override.orientation.normal, override.orientation.within
+        words.append(f"with a normal within {within:g} degrees of {vector(normal)}")
+    elif override.orientation is not None:
+        words.append(f"with {override.orientation} orientation")
+    if override.box is not None:
+        words.append(f"with its centroid between {vector(override.box[0])} and {vector(override.box[1])}")
+    return " ".join(words)

@@ -8,6 +8,7 @@ import numpy as np
 
 from mbla.arrays import IntArray
 from mbla.contacts.contacts import ContactReport
+from mbla.contacts.glue import Glue
 from mbla.deck.types import ContactsSection
 from mbla.errors import Notice
 from mbla.model.model import Model
@@ -29,6 +30,30 @@ def report_notices(
         *_grounds(model, section, bodies),
         *_fixed_contacts(report),
     )
+
+
+def glue_notices(report: ContactReport, glue: Glue) -> tuple[Notice, ...]:
+    """What open and glued joints left out, and what glue made of the blocks."""
+    found = []
+    if report.open_interfaces:
+        text = f"{_count(report.open_interfaces, 'interface')} with open joints left out: no contact"
+        found.append(Notice("notice", "open-interfaces-left-out", text))
+    if report.glued_interfaces:
+        text = f"{_count(report.glued_interfaces, 'interface')} glued, and left out: {glue_words(report, glue.sizes)}"
+        found.append(Notice("notice", "blocks-glued", text))
+    return tuple(found)
+
+
+def glue_words(report: ContactReport, sizes: IntArray) -> str:
+    """What glue made of the blocks; sizes (n,) of the solids of several blocks."""
+    parts = []
+    if len(sizes):
+        parts.append(f"{_count(int(sizes.sum()), 'block')} make {_count(len(sizes), 'rigid body', 'rigid bodies')}")
+    if len(report.held):
+        one = len(report.held) == 1
+        held = f"{_count(len(report.held), 'block')} glued to a support {'does' if one else 'do'} not move"
+        parts.append(held)
+    return ", ".join(parts) or "none of the blocks moved without"
 
 
 def overlap_messages(model: Model, report: ContactReport) -> tuple[str, ...]:
@@ -128,8 +153,8 @@ def _fixed_contacts(report: ContactReport) -> list[Notice]:
     return [Notice("notice", "fixed-contacts-left-out", text)]
 
 
-def _count(number: int, noun: str) -> str:
-    return f"{number} {noun}" if number == 1 else f"{number} {noun}s"
+def _count(number: int, noun: str, several: str = "") -> str:
+    return f"{number} {noun}" if number == 1 else f"{number} {several or noun + 's'}"
 
 
 def _more(number: int) -> str:

@@ -1,19 +1,35 @@
-"""More contact points than the corners of an interface, and points moved inwards.
+"""More contact points than the corners of an interface, each with its share of the area.
 
-*Refine* n: each interface is cut into triangles (a fan about the centroid where that sees every corner, constrained
-Delaunay triangles elsewhere), every triangle into n² equal ones, and each small triangle gives a third of its area to
-each of its corners. So there are n points along each edge of the outline and n − 1 rings inside, the shares add up to
-the area, and their first moment about the centroid is zero.
+*Parallelograms* with m and n parts along their edges have the (m + 1)(n + 1) nodes of a grid, with the shares of the
+trapezoidal rule: A/(m n) inside, half of that on an edge, a quarter at a corner.
 
-*Inset* s: points move the share s of their way to the centroid; shares of area stay. Only where the centroid sees every
-corner, since the points of other interfaces could leave the surface.
+*Other polygons* with n parts along each edge are cut into triangles (a fan about the centroid where that sees every
+corner, constrained Delaunay triangles elsewhere), every triangle into n² equal ones, and each small triangle gives a
+third of its area to each of its corners: n points along each edge of the outline and n − 1 rings inside.
 
-What this does to the strength of an interface. Under associative flow more points cannot lower the torsion that it
-bears, because the program may load its corners alone: a square of side a bears 0.7071 μWa with any number of points,
-against 0.3826 μWa under uniform pressure. Without dilatancy, starting from the gravity state, normal forces spread over
-the points and more of them do lower it. Inset lowers it in both: 1 − 0.3826/0.7071 = 0.459 gives a square its torsion
-under uniform pressure. The price is paid in rocking: the edge about which a block turns moves inwards too, and b/h
-becomes (1 − s) b/h.
+Shares add up to the area, and their first moment about the centroid is zero.
+
+What this does to the strength of an interface, for a rectangle b × h with n parts along h:
+
+*Torsion.* Under associative flow more points cannot lower the torsion that the interface bears, because the program may
+load its corners alone: a square of side a bears 0.7071 μWa with any number of points, against 0.3826 μWa under uniform
+pressure. Without dilatancy, starting from the gravity state, normal forces spread over the points and more of them do
+lower it.
+
+*Crushing.* Points that bear up to f_c times their share allow all (N, M_1, M_2) whose support function is Σ A_i f_c
+φ(p_i), φ(p) = max(α + β·p, 0), in place of the integral of f_c φ over the interface, which belongs to the rectangular
+stress block. φ is convex, hence both rules above overestimate its integral: strength comes down to that of the stress
+block from above. The trapezoidal rule errs in the one cell where φ has its kink, by at most |β| Δ²/8 for cells of
+length Δ, so that a rectangle bears at most
+
+    |M| ≤ N (h − N/(f_c b))/2 + f_c A h/(8 n²)     (stress block: without the last term; about either axis likewise)
+
+and with eccentricity e, ν = N/(f_c A) and ξ = 1 − 2e/h, the stress block giving ν = ξ,
+
+    ξ ≤ ν ≤ (ξ + √(ξ² + 1/n²))/2
+
+With both eccentricities the two rules are applied one after the other: either moment exceeds that of a force point of
+the exact stress block by no more than its own f_c A h/(8 n²).
 """
 
 from __future__ import annotations
@@ -26,11 +42,10 @@ from mbla.arrays import BoolArray, FloatArray, IntArray, starts
 from mbla.contacts.corners import Corners
 from mbla.contacts.point_areas import places, point_areas
 from mbla.contacts.polygons import polygons_from_rings, triangles
-from mbla.errors import Notice
 from mbla.model.ragged import next_item
 
-_SEEN = 1e-9
-"""Area of the triangle of an edge and the centroid, over that of the interface, from which on it is seen plainly."""
+PARALLEL = 1e-9
+"""Difference of the two diagonals' middles, over their lengths, up to which four corners make a parallelogram."""
 
 
 @dataclass(frozen=True)
@@ -49,60 +64,87 @@ class InterfacePoints:
     areas: FloatArray
 
 
-def interface_points(
-    corners: Corners, centroids: FloatArray, refine: int, inset: float
-) -> tuple[InterfacePoints, list[Notice]]:
-    """Contact points of polygons, (n,), and a warning where some could not be moved inwards.
+def parallelograms(corners: Corners, n: int) -> BoolArray:
+    """Polygons with four corners and parallel edges, (n,)."""
+    found = np.zeros(n, dtype=bool)
+    one_ring = np.bincount(corners.polygon_of_ring, minlength=n) == 1
+    rings = np.flatnonzero((np.diff(corners.ring_start) == 4) & one_ring[corners.polygon_of_ring])
+    spots = corners.points[corners.ring_start[rings][:, None] + np.arange(4)]
+    first, second = spots[:, 2] - spots[:, 0], spots[:, 3] - spots[:, 1]
+    off = np.linalg.norm(spots[:, 0] + spots[:, 2] - spots[:, 1] - spots[:, 3], axis=1)
+    found[corners.polygon_of_ring[rings]] = off <= PARALLEL * (
+        np.linalg.norm(first, axis=1) + np.linalg.norm(second, axis=1)
+    )
+    return found
+
+
+def divided(corners: Corners, centroids: FloatArray, star: BoolArray, parts: IntArray) -> InterfacePoints:
+    """Points of polygons whose edges are divided.
 
     centroids : (n_polygons, 2)
-    refine    : points along each edge, 1 for the corners alone
-    inset     : share of the way to the centroid, below 1
+    star      : (n_polygons,) whether the centroid sees every corner
+    parts     : (n_polygons, 2) along the first and second edge of a parallelogram, both the same elsewhere; 1: corners
     """
     n = len(centroids)
-    star = _seen_from(corners, centroids)
-    found = _at_corners(corners, n) if refine == 1 or n == 0 else _refined(corners, centroids, star, refine)
-    if inset == 0.0:
-        return found, []
-    moves = star[found.polygon]
-    centre = centroids[found.polygon]
-    points = np.where(moves[:, None], centre + (1.0 - inset) * (found.points - centre), found.points)
-    notices = [] if star.all() else [_left_alone(int((~star).sum()))]
-    return InterfacePoints(points, found.polygon, found.outline, found.areas), notices
-
-
-def _seen_from(corners: Corners, centroids: FloatArray) -> BoolArray:
-    """Polygons without holes whose every edge is seen from the centroid, (n_polygons,)."""
-    n = len(centroids)
-    thirds = _fan_areas(corners, centroids)
-    total = np.bincount(corners.polygon_of_corner, thirds, n)
-    hidden = thirds <= _SEEN * total[corners.polygon_of_corner]
-    one_ring = np.bincount(corners.polygon_of_ring, minlength=n) == 1
-    return np.asarray(one_ring & (np.bincount(corners.polygon_of_corner, hidden, n) == 0))
-
-
-def _fan_areas(corners: Corners, centroids: FloatArray) -> FloatArray:
-    """Signed area of the triangle of the centroid and the edge that leaves each corner, (n_corners,)."""
-    centre = centroids[corners.polygon_of_corner]
-    here, there = corners.points - centre, corners.points[next_item(corners.ring_start)] - centre
-    return np.asarray(here[:, 0] * there[:, 1] - here[:, 1] * there[:, 0]) / 2
+    flat = parallelograms(corners, n)
+    plain = (parts == 1).all(axis=1)
+    found = [_at_corners(corners.take(plain[corners.polygon_of_corner]), n)]
+    kinds = [(True, int(a), int(b)) for a, b in np.unique(parts[flat & ~plain], axis=0)]
+    kinds += [(False, int(a), int(a)) for a in np.unique(parts[~flat & ~plain, 0])]
+    for is_flat, a, b in kinds:
+        chosen = (flat == is_flat) & ~plain & (parts == (a, b)).all(axis=1)
+        some = corners.take(chosen[corners.polygon_of_corner])
+        found.append(_grid(some, a, b, n) if is_flat else _triangulated_points(some, centroids, star, a, n))
+    polygon = np.concatenate([each.polygon for each in found])
+    order = np.argsort(polygon, kind="stable")
+    return InterfacePoints(
+        points=np.concatenate([each.points for each in found])[order],
+        polygon=polygon[order],
+        outline=np.sum([each.outline for each in found], axis=0),
+        areas=np.concatenate([each.areas for each in found])[order],
+    )
 
 
 def _outline(corners: Corners, n: int) -> IntArray:
-    """Corners of the outer ring of each polygon, which comes first, (n,)."""
-    first_ring = np.searchsorted(corners.polygon_of_ring, np.arange(n))
-    return np.diff(corners.ring_start)[first_ring]
+    """Corners of the outer ring of each polygon, which comes first, (n,); 0 for polygons that have none here."""
+    polygons, first_ring = np.unique(corners.polygon_of_ring, return_index=True)
+    outline = np.zeros(n, dtype=np.int64)
+    outline[polygons] = np.diff(corners.ring_start)[first_ring]
+    return outline
 
 
 def _at_corners(corners: Corners, n: int) -> InterfacePoints:
     return InterfacePoints(corners.points, corners.polygon_of_corner, _outline(corners, n), point_areas(corners, n))
 
 
-def _refined(corners: Corners, centroids: FloatArray, star: BoolArray, refine: int) -> InterfacePoints:
+def _grid(corners: Corners, m: int, n: int, n_polygons: int) -> InterfacePoints:
+    """Parallelograms with m parts along their first edge and n along the second: outline, then rows of inner nodes."""
+    spots = corners.points.reshape(-1, 4, 2)
+    i = np.concatenate([np.arange(m), np.full(n, m), m - np.arange(m), np.zeros(n, dtype=np.int64)])
+    j = np.concatenate([np.zeros(m, dtype=np.int64), np.arange(n), np.full(m, n), n - np.arange(n)])
+    inner = [axis.ravel() for axis in np.meshgrid(np.arange(1, m), np.arange(1, n), indexing="ij")]
+    i, j = np.concatenate([i, inner[0]]), np.concatenate([j, inner[1]])
+    weights = np.stack([(m - i) * (n - j), i * (n - j), i * j, (m - i) * j], axis=1) / (m * n)
+    shares = np.where((i == 0) | (i == m), 0.5, 1.0) * np.where((j == 0) | (j == n), 0.5, 1.0) / (m * n)
+    first, second = spots[:, 2] - spots[:, 0], spots[:, 3] - spots[:, 1]
+    area = np.abs(first[:, 0] * second[:, 1] - first[:, 1] * second[:, 0]) / 2
+    outline = np.zeros(n_polygons, dtype=np.int64)
+    outline[corners.polygon_of_ring] = 2 * (m + n)
+    return InterfacePoints(
+        points=np.einsum("gc,pcx->pgx", weights, spots).reshape(-1, 2),
+        polygon=np.repeat(corners.polygon_of_ring, len(i)),
+        outline=outline,
+        areas=np.outer(area, shares).ravel(),
+    )
+
+
+def _triangulated_points(
+    corners: Corners, centroids: FloatArray, star: BoolArray, parts: int, n_polygons: int
+) -> InterfacePoints:
     """Points along the edges first, in the order of the corners, then those inside."""
-    n = len(centroids)
-    edge_points, edge_polygon = _along_edges(corners, refine), np.repeat(corners.polygon_of_corner, refine)
+    edge_points, edge_polygon = _along_edges(corners, parts), np.repeat(corners.polygon_of_corner, parts)
     whole, row = _triangulated(corners, centroids, star)
-    nodes, third = _nodes_of_triangles(whole, refine)
+    nodes, third = _nodes_of_triangles(whole, parts)
     node_polygon = np.repeat(row, nodes.shape[1])
     key = places(np.concatenate([edge_polygon, node_polygon]), np.concatenate([edge_points, nodes.reshape(-1, 2)]))
     on_edge, at_node = key[: len(edge_points)], key[len(edge_points) :]
@@ -117,17 +159,17 @@ def _refined(corners: Corners, centroids: FloatArray, star: BoolArray, refine: i
     return InterfacePoints(
         points=np.concatenate([edge_points, nodes.reshape(-1, 2)[first]])[order],
         polygon=polygon[order],
-        outline=refine * _outline(corners, n),
+        outline=parts * _outline(corners, n_polygons),
         areas=np.concatenate([edge_areas, shares[inside]])[order],
     )
 
 
-def _along_edges(corners: Corners, refine: int) -> FloatArray:
-    """Points that divide each edge into equal parts, its first corner included, (refine n_corners, 2)."""
+def _along_edges(corners: Corners, parts: int) -> FloatArray:
+    """Points that divide each edge into equal parts, its first corner included, (parts n_corners, 2)."""
     here, there = corners.points, corners.points[next_item(corners.ring_start)]
-    step = np.arange(refine)[:, None]
+    step = np.arange(parts)[:, None]
     # the same sums as in ``_nodes_of_triangles``, so that points on an edge agree bit by bit
-    return np.asarray((((refine - step) * here[:, None] + step * there[:, None]) / refine).reshape(-1, 2))
+    return np.asarray((((parts - step) * here[:, None] + step * there[:, None]) / parts).reshape(-1, 2))
 
 
 def _triangulated(corners: Corners, centroids: FloatArray, star: BoolArray) -> tuple[FloatArray, IntArray]:
@@ -140,7 +182,7 @@ def _triangulated(corners: Corners, centroids: FloatArray, star: BoolArray) -> t
         )[fan]
     ]
     rows = [corners.polygon_of_corner[fan]]
-    if not star.all():
+    if not fan.all():
         rest = corners.take(~fan)
         number, dense = np.unique(rest.polygon_of_ring, return_inverse=True)
         spots, row = triangles(polygons_from_rings(rest.points, rest.ring_start, dense.astype(np.int64)))
@@ -149,7 +191,7 @@ def _triangulated(corners: Corners, centroids: FloatArray, star: BoolArray) -> t
     return np.concatenate(parts), np.concatenate(rows)
 
 
-def _nodes_of_triangles(corners: FloatArray, refine: int) -> tuple[FloatArray, FloatArray]:
+def _nodes_of_triangles(corners: FloatArray, parts: int) -> tuple[FloatArray, FloatArray]:
     """Corners of the n² small triangles of each triangle, each once, and their shares of area.
 
     corners : (n_triangles, 3, 2)
@@ -159,25 +201,16 @@ def _nodes_of_triangles(corners: FloatArray, refine: int) -> tuple[FloatArray, F
     nodes  : (n_triangles, (n + 1)(n + 2)/2, 2)
     shares : (n_triangles, (n + 1)(n + 2)/2)
     """
-    i, j = (index.ravel() for index in np.meshgrid(np.arange(refine + 1), np.arange(refine + 1), indexing="ij"))
-    i, j = i[i + j <= refine], j[i + j <= refine]
-    k = refine - i - j
+    i, j = (index.ravel() for index in np.meshgrid(np.arange(parts + 1), np.arange(parts + 1), indexing="ij"))
+    i, j = i[i + j <= parts], j[i + j <= parts]
+    k = parts - i - j
     weights = np.stack([i, j, k], axis=1)
     a, b, c = (weights[None, :, m, None] * corners[:, None, m] for m in range(3))
     on_sides = (weights == 0).sum(axis=1)
     touching = np.array([6, 3, 1])[on_sides]  # small triangles at a point inside, on a side, at a corner
     edge1, edge2 = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
     area = np.abs(edge1[:, 0] * edge2[:, 1] - edge1[:, 1] * edge2[:, 0]) / 2
-    return ((a + b) + c) / refine, area[:, None] / (3 * refine**2) * touching
-
-
-def _left_alone(count: int) -> Notice:
-    return Notice(
-        "warning",
-        "inset-not-applied",
-        f"contacts.inset: {count} interfaces keep their points where they are, because their centroid does not see "
-        "all of their outline and points that move towards it could leave the surface",
-    )
+    return ((a + b) + c) / parts, area[:, None] / (3 * parts**2) * touching
 
 
 def point_starts(points: InterfacePoints) -> IntArray:

@@ -9,8 +9,9 @@ import numpy as np
 from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.contacts.connectivity import isolated_blocks, unsupported_parts
 from mbla.contacts.contacts import ContactReport
+from mbla.contacts.glue import Glue
 from mbla.contacts.narrow_phase import Patches
-from mbla.contacts.notices import report_notices
+from mbla.contacts.notices import glue_notices, report_notices
 from mbla.contacts.overlaps import Overlaps
 from mbla.deck.types import ContactsSection
 from mbla.errors import Notice
@@ -19,19 +20,29 @@ from mbla.model.model import Model
 
 @dataclass(frozen=True)
 class Findings:
-    """What the search found: all contacts, those between fixed bodies included, and what is not a contact."""
+    """What the search found: all contacts, those between fixed bodies included, and what is not a contact.
+
+    open_bodies      : (n, 2) bodies of the contacts whose joint law is open
+    glued_interfaces : contacts inside of rigid bodies
+    """
 
     contacts: Patches
     slivers: Patches
     near_misses: Patches
     overlaps: Overlaps
+    open_bodies: IntArray
+    glued_interfaces: int
+    glue: Glue
 
 
 def build_report(model: Model, section: ContactsSection, findings: Findings, notices: list[Notice]) -> ContactReport:
     """Report with the given notices and those on the findings."""
-    overlaps, bodies = findings.overlaps, findings.contacts.overlays.bodies
+    overlaps, touching = findings.overlaps, findings.contacts.overlays.bodies
+    bodies = _without(touching, findings.open_bodies, len(model.blocks) + len(model.grounds))
     slivers, widths = _slivers(model, findings.slivers)
     near_misses, gaps = _near_misses(model, findings.near_misses, overlaps)
+    held = model.fixed.copy()
+    held[model.guides.blocks] = True
     report = ContactReport(
         slivers=slivers,
         sliver_widths=widths,
@@ -41,15 +52,33 @@ def build_report(model: Model, section: ContactsSection, findings: Findings, not
         overlap_depths=overlaps.depths,
         unchecked=overlaps.unchecked,
         isolated=isolated_blocks(len(model.blocks), bodies),
-        unsupported=unsupported_parts(model.fixed, bodies),
-        fixed_contacts=int(both_fixed(model, bodies).sum()),
+        unsupported=unsupported_parts(held, bodies),
+        fixed_contacts=int(both_fixed(model, touching).sum()),
+        open_interfaces=len(findings.open_bodies),
+        glued_interfaces=findings.glued_interfaces,
+        held=np.flatnonzero(findings.glue.held),
         notices=(),
     )
-    return report.with_notices((*notices, *report_notices(model, section, report, bodies)))
+    return report.with_notices(
+        (*notices, *report_notices(model, section, report, touching), *glue_notices(report, findings.glue))
+    )
+
+
+def _without(bodies: IntArray, taken: IntArray, n_bodies: int) -> IntArray:
+    """Pairs of bodies (n, 2) that still touch when some of their contacts are taken away, each once."""
+    key, gone = (pairs[:, 0] * n_bodies + pairs[:, 1] for pairs in (bodies, taken))
+    found, counts = np.unique(key, return_counts=True)
+    less, fewer = np.unique(gone, return_counts=True)
+    counts[np.searchsorted(found, less)] -= fewer
+    left = found[counts > 0]
+    return np.stack([left // n_bodies, left % n_bodies], axis=1)
 
 
 def both_fixed(model: Model, bodies: IntArray) -> BoolArray:
-    """True where neither body of a pair can move, (n,)."""
+    """True where neither body of a pair can move but as a support that gives way, (n,).
+
+    Supports do not rub on each other: a footing that sinks beside another would lock against it by dilatancy alone.
+    """
     still = np.concatenate([model.fixed, np.ones(len(model.grounds), dtype=bool)])
     return np.asarray(still[bodies[:, 0]] & still[bodies[:, 1]])
 

@@ -4,17 +4,19 @@ from __future__ import annotations
 
 import numpy as np
 
-from mbla.arrays import FloatArray, IntArray
+from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.contacts.broad_phase import find_block_pairs
 from mbla.contacts.contacts import Contacts
 from mbla.contacts.corners import areas_and_centroids, needed_corners
 from mbla.contacts.facets import build_facets
-from mbla.contacts.joints import joints_of_interfaces
+from mbla.contacts.glue import Glue, glue_blocks
+from mbla.contacts.interface_points import interface_points
+from mbla.contacts.joints import Sites, joints_of_interfaces
 from mbla.contacts.narrow_phase import Patches, find_patches, judge
 from mbla.contacts.near_misses import without_covered
 from mbla.contacts.overlaps import find_overlaps
 from mbla.contacts.polygons import centroids
-from mbla.contacts.refine import interface_points, point_starts
+from mbla.contacts.refine import point_starts
 from mbla.contacts.report import Findings, both_fixed, build_report
 from mbla.deck.types import ContactsSection
 from mbla.model.model import Model
@@ -28,7 +30,8 @@ def find_contacts(model: Model, section: ContactsSection) -> Contacts:
     """Find the interfaces between all blocks, and between blocks and ground planes.
 
     Tolerances are relative to block size, the cube root of the volume of the smaller block of a pair. Contacts between
-    two bodies that are both fixed are counted in the report and left out: nothing depends on their forces.
+    two bodies that are both fixed are counted in the report and left out: nothing depends on their forces. So are open
+    interfaces, and those inside of the rigid bodies that glued ones make.
     """
     blocks, tolerance = model.blocks, section.tolerance
     facets = build_facets(blocks)
@@ -36,11 +39,15 @@ def find_contacts(model: Model, section: ContactsSection) -> Contacts:
     verdicts = judge(find_patches(blocks, facets, pairs, model.grounds, tolerance), tolerance)
     touching = verdicts.contacts.overlays.bodies
     overlaps = find_overlaps(blocks, facets, pairs, tolerance)
-    kept = _sorted(verdicts.contacts.take(~both_fixed(model, touching)))
-    joints, joint_names, notices = joints_of_interfaces(model, section, kept.overlays.bodies)
+    movable = _sorted(verdicts.contacts.take(~both_fixed(model, touching)))
+    laws, notices = joints_of_interfaces(model, section, _sites(movable))
+    glue = glue_blocks(model, movable.overlays.bodies[laws.glued])
+    inside = laws.glued | _inside(model, glue, movable.overlays.bodies)
+    rows = np.flatnonzero(~laws.open & ~inside)
+    kept, (joints, joint_names) = movable.take(rows), laws.in_use(rows)
     corners = needed_corners(kept.polygons, tolerance)
     area, centroid = areas_and_centroids(corners, len(kept))
-    found, left_alone = interface_points(corners, centroid, section.refine, section.inset)
+    found, left_alone = interface_points(corners, centroid, kept.overlays.sizes, section.points)
     report = build_report(
         model,
         section,
@@ -49,6 +56,9 @@ def find_contacts(model: Model, section: ContactsSection) -> Contacts:
             slivers=verdicts.slivers,
             near_misses=without_covered(verdicts.near_misses, verdicts.contacts),
             overlaps=overlaps,
+            open_bodies=movable.overlays.bodies[laws.open],
+            glued_interfaces=int(np.sum(inside & ~laws.open)),
+            glue=glue,
         ),
         [*notices, *left_alone],
     )
@@ -67,6 +77,22 @@ def find_contacts(model: Model, section: ContactsSection) -> Contacts:
         frames=kept.overlays.frames[interface],
         point_areas=found.areas * size[interface] ** 2,
         report=report,
+        solid_of_block=glue.solid_of_block,
+    )
+
+
+def _inside(model: Model, glue: Glue, bodies: IntArray) -> BoolArray:
+    """Interfaces (n, 2) between blocks of one solid, or between what glue and supports hold on both sides, (n,)."""
+    body = np.arange(len(model.blocks)) if glue.solid_of_block is None else glue.solid_of_block
+    body = np.where(glue.held | model.fixed, -1, body)
+    of_bodies = np.append(body, np.full(len(model.grounds), -1))[bodies]
+    return np.asarray(of_bodies[:, 0] == of_bodies[:, 1])
+
+
+def _sites(patches: Patches) -> Sites:
+    rows = np.arange(len(patches))
+    return Sites(
+        patches.overlays.bodies, patches.overlays.frames[:, 0], _in_space(patches, rows, centroids(patches.polygons))
     )
 
 

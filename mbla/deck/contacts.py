@@ -1,38 +1,83 @@
-"""Section `contacts`: how contacts are found, and which joint law each has."""
+"""Section `contacts`: how contacts are found, where their points lie, and which joint law each has."""
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import Annotated, Literal, TypeAlias
 
-from pydantic import Field
+from pydantic import Discriminator, Field, Tag
 
 from mbla.deck.names import Name
-from mbla.deck.quantities import Quantity, Whole
-from mbla.deck.section import Section
+from mbla.deck.quantities import Direction, Point, PositiveLength, Quantity, Whole
+from mbla.deck.section import Section, shape
+from mbla.deck.selectors import Selector
+
+
+class AboutNormal(Section):
+    """Interfaces whose normal is near a direction, either way round."""
+
+    normal: Direction = Field(description="direction of the normal, not necessarily of length 1")
+    within: Annotated[float, Quantity("angle", gt=0, le=90)] = Field(
+        description="greatest angle in degrees between the normal of the interface and this direction or its opposite"
+    )
+
+
+Orientation: TypeAlias = Annotated[
+    Annotated[Literal["bed", "head"], Tag("name")] | Annotated[AboutNormal, Tag("mapping")],
+    Discriminator(lambda value: "mapping" if shape(value) == "mapping" else "name"),
+]
 
 
 class ContactOverride(Section):
-    """Another joint law between two selections."""
+    """Another joint law for the interfaces that meet every condition given, at least one of between, orientation, box.
 
-    between: tuple[Name, Name] = Field(description="two groups; may be the same; `ground` stands for ground planes")
-    joint: Name = Field(description="name of a joint law")
+    Of several overrides that fit an interface the last one holds.
+    """
+
+    joint: Name = Field(description="name of a joint law; frictionless, glued and open are known everywhere")
+    between: tuple[Selector, Selector] | None = Field(
+        None, description="two selectors, one for each side; may be the same; `ground` stands for ground planes"
+    )
+    orientation: Orientation | None = Field(
+        None,
+        description="bed: the normal of the interface is nearer than 45 degrees to the vertical (z); head: it is not; "
+        "or the angle to a direction",
+    )
+    box: tuple[Point, Point] | None = Field(
+        None, description="least and greatest coordinates; interfaces with their centroid inside count"
+    )
+
+
+class ContactPoints(Section):
+    """Where the contact points of an interface lie: at its corners unless more are asked for."""
+
+    per_edge: Annotated[int, Whole(ge=1, le=50)] | None = Field(
+        None,
+        description="parts into which they divide each edge, with points inside too (a grid of (n + 1)² on a "
+        "parallelogram); 1: the corners alone, as without the key. Associative flow can load the corners alone, so "
+        "that more points lower torsion only without dilatancy; crushing comes down to the rectangular stress block "
+        "under any flow rule",
+    )
+    spacing: PositiveLength | None = Field(
+        None, description="instead of per_edge: greatest distance of the points along the edges"
+    )
+    inset: Annotated[float, Quantity("number", ge=0, lt=1)] = Field(
+        0.0,
+        description="share of the way to the centroid that they are moved inwards (shrinking of faces in LMGC90): "
+        "lowers torsion (0.459 is exact for a square), and rocking by the same share",
+    )
+    rounding: Annotated[float, Quantity("length", ge=0)] = Field(
+        0.0,
+        description="instead of inset: distance by which the edges on which they lie are moved inwards (rounding "
+        "length of corners in UDEC)",
+    )
 
 
 class ContactsSection(Section):
-    """How contacts are found, and their joint law."""
+    """How contacts are found, where their points lie, and their joint law."""
 
     joint: Name = Field(description="joint law of every contact that no override names")
     tolerance: Annotated[float, Quantity("number", gt=0, le=0.1)] = Field(
         1e-3, description="greatest gap, overlap and sliver width, relative to block size"
     )
-    refine: Annotated[int, Whole(ge=1, le=50)] = Field(
-        1,
-        description="contact points along each edge of an interface, and rings of them inside; 1: its corners alone. "
-        "Associative flow can load the corners alone, so that more points lower torsion only without dilatancy",
-    )
-    inset: Annotated[float, Quantity("number", ge=0, lt=1)] = Field(
-        0.0,
-        description="share of the way to the centroid that the contact points are moved inwards: lowers torsion (0.459 "
-        "is exact for a square), and rocking by the same share",
-    )
+    points: ContactPoints = Field(default_factory=ContactPoints, description="where contact points lie")
     overrides: list[ContactOverride] = Field(default_factory=list, description="the last that fits a contact holds")

@@ -62,7 +62,7 @@ def _sections_in(annotation: Any, suffix: str) -> Iterator[tuple[str, type[BaseM
     origin, arguments = get_origin(annotation), get_args(annotation)
     if origin is dict:
         yield from _sections_in(arguments[1], f"{suffix}.NAME")
-    elif origin is list:
+    elif origin in (list, tuple):
         yield from _sections_in(arguments[0], f"{suffix}[]")
     elif origin is Annotated:
         yield from _sections_in(arguments[0], suffix)

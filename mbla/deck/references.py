@@ -10,6 +10,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from typing import Any
 
+from mbla.deck.joints import BUILT_IN
 from mbla.deck.suggestions import unknown
 from mbla.deck.tree import KeyPath, Tree
 from mbla.deck.types import BlockItem
@@ -30,19 +31,27 @@ class Reference:
 
 REFERENCES = (
     Reference("blocks.#.*.material", "material"),
+    Reference("blocks.#.*.joint", "joint law", BUILT_IN),
+    Reference("contacts.joint", "joint law", BUILT_IN),
+    Reference("contacts.overrides.#.joint", "joint law", BUILT_IN),
     *(
         Reference(f"blocks.#.{kind}.openings.#.{over}.material", "material")
         for kind in ("wall", "walls")
         for over in ("lintel", "arch")
     ),
-    Reference("blocks.#.arch.joint", "joint law"),
-    Reference("contacts.joint", "joint law"),
-    Reference("contacts.overrides.#.joint", "joint law"),
     Reference("contacts.overrides.#.between.#", "group", (GROUND,)),
-    Reference("supports.#.joint", "joint law"),
+    Reference("contacts.overrides.#.between.#.#", "group", (GROUND,)),
+    Reference("contacts.overrides.#.between.#.group", "group"),
+    Reference("contacts.overrides.#.between.#.#.group", "group"),
+    Reference("supports.#.joint", "joint law", BUILT_IN),
     *(
         Reference(f"{place}{form}", "group")
-        for place in ("supports.#.blocks", "load_cases.*.dead.#.on", "load_cases.*.live.#.on")
+        for place in (
+            "supports.#.blocks",
+            "load_cases.*.dead.#.on",
+            "load_cases.*.live.#.on",
+            "load_cases.*.settlement.on",
+        )
         for form in ("", ".group", ".#", ".#.group")
     ),
 )
@@ -65,6 +74,10 @@ def check_references(tree: Tree) -> Iterator[Fault]:
     for case in _keys(data.get("expected")):
         if case not in cases:
             yield tree.fault(("expected", case), unknown("load case", case, cases, "known"), at_key=True)
+    for law in _keys(data.get("joints")):
+        if law in BUILT_IN:
+            message = f"{law} is a joint law that every deck knows: choose another name, or use it without declaring it"
+            yield tree.fault(("joints", law), message, at_key=True)
     for path, group in find(data, ["blocks", "#", "*", "group"]):
         if group == GROUND:
             yield tree.fault(path, f"{GROUND} stands for ground planes in contacts.overrides: choose another name")
@@ -90,7 +103,7 @@ def groups(data: dict[str, Any]) -> Iterator[str]:
             group = item.get("group", kind)
             if isinstance(group, str):
                 yield group
-                if kind == "arch" and item.get("springers") == "blocks":
+                if item.get("springers") == "blocks":
                     yield f"{group}_springers"
 
 

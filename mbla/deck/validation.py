@@ -10,6 +10,8 @@ from pydantic import ValidationError
 from mbla.deck import rules  # noqa: F401  registers the rules across keys
 from mbla.deck.fields import allowed_keys, description
 from mbla.deck.names import PATTERNS
+from mbla.deck.refused_keys import refusal
+from mbla.deck.replaced import REPLACED
 from mbla.deck.suggestions import did_you_mean, listed, unknown
 from mbla.deck.tree import KeyPath, MappingMarks, SequenceMarks, Tree, own_mark
 from mbla.deck.types import DeckContent
@@ -135,7 +137,7 @@ def _words(data: Any, path: KeyPath, error: Any) -> tuple[str, bool]:
         meaning = description(DeckContent, path)
         return "is missing" + (f": {meaning}" if meaning else ""), False
     if kind == "extra_forbidden":
-        return _unknown_key(path), True
+        return refusal(path) or _unknown_key(path), True
     if kind in ("too_long", "too_short"):
         return _length(context, _items(data, path)), False
     if kind in _TYPES:
@@ -157,6 +159,8 @@ def _comes_to(data: Any, path: KeyPath, value: Any) -> str:
 
 
 def _unknown_key(path: KeyPath) -> str:
+    if path in REPLACED:
+        return f"is not a key any more: write {REPLACED[path]}"
     return unknown("key", str(path[-1]), allowed_keys(DeckContent, path[:-1]))
 
 
@@ -165,7 +169,7 @@ def _items(data: Any, path: KeyPath) -> str:
     first = next(iter(_value_at(data, path)), None)
     if isinstance(first, (int, float)):
         return "numbers"
-    return "names" if path[-1] == "between" else "items"
+    return "selectors" if path[-1] == "between" else "items"
 
 
 def _length(context: Any, items: str) -> str:

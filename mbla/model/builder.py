@@ -10,8 +10,9 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from mbla.deck.deck import Deck
+from mbla.deck.joints import FRICTIONLESS
 from mbla.deck.tree import KeyPath
-from mbla.deck.types import BlockItem, Item, JointLaw, Material
+from mbla.deck.types import BlockItem, Item, JointLaw, LoadCaseSection, Material
 from mbla.deck.units import Units
 from mbla.errors import DeckError, Fault, Notice
 from mbla.model.build_blocks import BuiltBlocks, Labels, build_blocks, indices_in_groups
@@ -19,10 +20,12 @@ from mbla.model.generators import GENERATORS
 from mbla.model.generators.generator import Generated, ItemRefused, Site
 from mbla.model.labels import NONE, BlockLabels, join_labels, labels_of
 from mbla.model.loads import LoadSite, build_load_case
-from mbla.model.model import Ground, Joint, Model
+from mbla.model.model import Ground, Joint, LoadCase, Model
+from mbla.model.overrides import check_overrides
 from mbla.model.polyhedra import Polyhedra, join_polyhedra
 from mbla.model.selectors import build_roster
-from mbla.model.supports import Supports, build_supports
+from mbla.model.settlement import build_settlement
+from mbla.model.supports import Supports, build_supports, does_nothing
 from mbla.model.transform import build_transform, repetitions, transform_item
 
 MOST_FAULTS_PER_ITEM = 10
@@ -83,8 +86,9 @@ def build_model(deck: Deck) -> Model:
     brought_along = Supports(np.repeat(np.array(items.fixed, dtype=bool), counts), grounds)
     tolerance, joint = deck.contacts.tolerance, deck.contacts.joint
     supports = build_supports(deck.content.supports, joint, brought_along, roster, tolerance, faults)
-    site = LoadSite(roster, supports.fixed, deck.units, faults, notices)
-    load_cases = tuple(build_load_case(name, section, site) for name, section in deck.content.load_cases.items())
+    check_overrides(deck.contacts.overrides, roster, faults)
+    site = LoadSite(roster, supports.fixed, deck.units, deck.resolve_file, faults, notices)
+    load_cases = tuple(_load_case(name, section, site, supports) for name, section in deck.content.load_cases.items())
     if faults:
         raise DeckError(faults)
     return Model(
@@ -93,10 +97,35 @@ def build_model(deck: Deck) -> Model:
         blocks=built.blocks,
         fixed=supports.fixed,
         grounds=supports.grounds,
-        joints={name: build_joint(name, law) for name, law in deck.content.joints.items()},
+        joints=_joints(deck, supports.grounds),
         load_cases=load_cases,
         notices=(*items.notices, *built.notices, *notices),
+        guides=supports.guides,
     )
+
+
+def _joints(deck: Deck, grounds: Sequence[Ground]) -> dict[str, Joint]:
+    """Joint laws of the deck, and that without friction where it is asked for by its name."""
+    laws = {name: build_joint(name, law) for name, law in deck.content.joints.items()}
+    used = {deck.contacts.joint, *(override.joint for override in deck.contacts.overrides)}
+    if FRICTIONLESS in used | {ground.joint for ground in grounds}:
+        laws[FRICTIONLESS] = Joint(FRICTIONLESS, 0.0)
+    return laws
+
+
+def _load_case(name: str, section: LoadCaseSection, site: LoadSite, supports: Supports) -> LoadCase:
+    """Loads of one case, or its dead loads and the support that gives way."""
+    load_case = build_load_case(name, section, site)
+    path: KeyPath = ("load_cases", name)
+    if section.settlement is not None:
+        settles = (*path, "settlement")
+        return build_settlement(section.settlement, settles, load_case, supports, site.roster, site.faults)
+    if not site.faults and does_nothing(load_case.live_load, supports):
+        site.refuse(
+            (*path, "live"),
+            "the supports take every live load, for they act on guided blocks across what these may do",
+        )
+    return load_case
 
 
 def build_joint(name: str, law: JointLaw) -> Joint:
@@ -165,7 +194,9 @@ def _kind(entry: BlockItem) -> tuple[str, Item]:
 
 
 def _generate(deck: Deck, kind: str, item: Item, path: KeyPath) -> Generated:
-    site = Site(deck.contacts.tolerance, lambda below, name: deck.resolve_file((*path, *below), name))
+    site = Site(
+        deck.contacts.tolerance, lambda below, name: deck.resolve_file((*path, *below), name), deck.units.length
+    )
     with np.errstate(over="ignore", invalid="ignore"):  # coordinates that are not finite are refused by block
         generated = GENERATORS[kind](item, site)
         transform = build_transform(item.transform)

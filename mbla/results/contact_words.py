@@ -8,6 +8,8 @@ import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
 from mbla.contacts.contacts import ContactReport, Contacts
+from mbla.contacts.glue import solid_sizes
+from mbla.contacts.notices import glue_words
 from mbla.model.model import Model
 from mbla.results.text import counted, entry, heading, number, sentence, small, table
 
@@ -63,6 +65,7 @@ def _counts(model: Model, contacts: Contacts) -> list[str]:
             lines += entry("greatest gap or overlap", f"{small(widest)} {length}")
     unsupported = sum(len(part) for part in report.unsupported)
     parts = f", {counted(len(report.unsupported), 'part')}" if unsupported else ""
+    glued = f": {glue_words(report, solid_sizes(contacts.solid_of_block))}" if report.glued_interfaces else ""
     for name, count, rest in (
         ("nearly touching, no contact", len(report.near_misses), ""),
         ("slivers dropped", len(report.slivers), ""),
@@ -71,6 +74,8 @@ def _counts(model: Model, contacts: Contacts) -> list[str]:
         ("blocks without contact", len(report.isolated), ""),
         ("blocks held by no support", unsupported, parts),
         ("between fixed bodies, left out", report.fixed_contacts, ""),
+        ("open, left out", report.open_interfaces, ""),
+        ("inside of rigid bodies, left out", report.glued_interfaces, glued),
     ):
         lines += entry(name, f"{count or 'none'}{rest}")
     return lines

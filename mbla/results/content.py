@@ -44,6 +44,7 @@ CONTACT_ARRAYS = (
     "frames",
     "point_areas",
 )
+SETTLEMENT_FIELDS = ("blocks", "motions", "turns", "words", "reference", "unit")
 REPORT_FIELDS = (
     "slivers",
     "sliver_widths",
@@ -54,6 +55,9 @@ REPORT_FIELDS = (
     "unchecked",
     "isolated",
     "fixed_contacts",
+    "open_interfaces",
+    "glued_interfaces",
+    "held",
 )
 
 
@@ -140,6 +144,7 @@ def _model(model: Model) -> Content:
         "model/fixed": model.fixed,
         **_joints(model),
         **_grounds(model),
+        **_guides(model),
         **_notices("model/notices", model.notices),
     }
     return content
@@ -173,11 +178,12 @@ def _points(rows: Sequence[FloatArray]) -> FloatArray:
 
 
 def _contacts(contacts: Contacts) -> Content:
-    report = contacts.report
+    report, label = contacts.report, contacts.solid_of_block
     start, flat = ragged(report.unsupported)
     return {
         **{f"contacts/{name}": getattr(contacts, name) for name in CONTACT_ARRAYS},
         "contacts/joint_names": contacts.joint_names,
+        **({} if label is None else {"contacts/solid_of_block": label}),
         **{f"contacts/report/{name}": getattr(report, name) for name in REPORT_FIELDS},
         "contacts/report/unsupported_start": start,
         "contacts/report/unsupported_blocks": flat,
@@ -185,5 +191,22 @@ def _contacts(contacts: Contacts) -> Content:
     }
 
 
+def _guides(model: Model) -> Content:
+    """Blocks that move in given ways only; nothing where there are none."""
+    guides = model.guides
+    if not len(guides):
+        return {}
+    return {
+        "model/guided_blocks": guides.blocks,
+        "model/guided_bodies": guides.bodies,
+        "model/guide_motions": guides.motions,
+        "model/guide_words": guides.words,
+    }
+
+
 def _loads(load_case: LoadCase) -> Content:
-    return {name: getattr(load_case, name) for name in ("dead_load", "live_load", "dead_words", "live_words")}
+    loads: Content = {name: getattr(load_case, name) for name in ("dead_load", "live_load", "dead_words", "live_words")}
+    settlement = load_case.settlement
+    if settlement is not None:
+        loads |= {f"settlement/{name}": getattr(settlement, name) for name in SETTLEMENT_FIELDS}
+    return loads

@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from mbla import __version__
+from mbla.contacts.glue import solid_sizes
 from mbla.errors import Notice
 from mbla.model.model import Model
 from mbla.results.case_json import case_json
@@ -86,9 +87,15 @@ def model_json(model: Model) -> dict[str, Any]:
 
 
 def contacts_json(results: Results) -> dict[str, Any]:
-    """Counts of interfaces and contact points."""
+    """Counts of interfaces and contact points, and of what open and glued joints take out of them."""
     contacts = results.contacts
+    sizes = solid_sizes(contacts.solid_of_block)
     return {
+        "open_interfaces": contacts.report.open_interfaces,
+        "glued_interfaces": contacts.report.glued_interfaces,
+        "glued_blocks": int(sizes.sum()),
+        "rigid_bodies": len(sizes),
+        "held_blocks": len(contacts.report.held),
         "interfaces": len(contacts),
         "contact_points": len(contacts.points),
         "contact_area": number(contacts.areas.sum()),

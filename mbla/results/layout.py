@@ -11,7 +11,7 @@ from mbla.results.field import Field, notice_fields, unit_text
 from mbla.results.model_fields import MODEL_FIELDS
 
 FILETYPE = "mbla results"
-VERSION = 3
+VERSION = 4
 """raised by one with every change that an older reader would misread"""
 
 ATTRIBUTES = {

@@ -12,6 +12,7 @@ import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
 from mbla.contacts.contacts import Contacts
+from mbla.contacts.glue import solids_of
 from mbla.model.model import LoadCase, Model
 
 MOST_SINGLE_SUPPORTS = 12
@@ -41,8 +42,10 @@ def curvature_sides(model: Model, contacts: Contacts) -> FloatArray:
     """Direction out of the curve where blocks form a chain, as in an arch, (n_interfaces, 3); zero elsewhere.
 
     The joint between two voussoirs lies outside the line between their centroids by the rise of the curve there.
-    A joint at the end of a chain takes the direction of the next one.
+    A joint at the end of a chain takes the direction of the next one. Blocks that are glued count as one.
     """
+    solids = solids_of(model, contacts)
+    model, contacts = solids.model, solids.contacts
     n_bodies = len(model.blocks) + len(model.grounds)
     degree = np.bincount(contacts.bodies.ravel(), minlength=n_bodies)
     in_chain = np.zeros(n_bodies, dtype=bool)

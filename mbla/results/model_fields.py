@@ -54,6 +54,25 @@ MODEL_FIELDS: tuple[Field, ...] = (
     Field("model/ground_selective", "bool", ("ground",), "1", "1 where the plane carries only the blocks listed"),
     Field("model/ground_start", "int", ("ground_bound",), "1", "first listed block", start_of="ground_block"),
     Field("model/ground_blocks", "int", ("ground_block",), "1", "blocks that it may carry", index_of="block"),
+    Field(
+        "model/guided_blocks",
+        "int",
+        ("guided_block",),
+        "1",
+        "blocks that move in given ways only",
+        index_of="block",
+        part="guides",
+    ),
+    Field("model/guided_bodies", "int", ("guided_block",), "1", "rigid body that each belongs to", part="guides"),
+    Field(
+        "model/guide_motions",
+        "float",
+        ("guided_block", "component", "way"),
+        "motion",
+        "velocity and angular velocity about the centroid in each way to move of its body; zero beyond its ways",
+        part="guides",
+    ),
+    Field("model/guide_words", "text", ("guide",), "1", "guides in words", part="guides"),
     *notice_fields("model/notices", "from building the model"),
     Field(
         "contacts/bodies", "int", ("interface", "pair"), "1", "bodies a and b: blocks, then grounds", index_of="body"
@@ -69,6 +88,14 @@ MODEL_FIELDS: tuple[Field, ...] = (
     Field("contacts/points", "float", ("point", "axis"), "length", "contact points"),
     Field("contacts/frames", "float", ("point", "direction", "axis"), "1", "normal, tangent 1, tangent 2 as rows"),
     Field("contacts/point_areas", "float", ("point",), "area", "share of the area of the interface"),
+    Field(
+        "contacts/solid_of_block",
+        "int",
+        ("block",),
+        "1",
+        "rigid body that the block is glued into, numbered in the order of first blocks; missing where none is glued",
+        part="glue",
+    ),
     Field("contacts/report/slivers", "int", ("sliver", "pair"), "1", "bodies of surfaces left out", index_of="body"),
     Field("contacts/report/sliver_widths", "float", ("sliver",), "1", "their width relative to block size"),
     Field(
@@ -79,6 +106,16 @@ MODEL_FIELDS: tuple[Field, ...] = (
     Field("contacts/report/overlap_depths", "float", ("overlap",), "1", "the depth relative to block size"),
     Field("contacts/report/unchecked", "int", ("unchecked_pair", "pair"), "1", "overlaps not judged", index_of="body"),
     Field("contacts/report/fixed_contacts", "int", (), "1", "contacts between fixed bodies, left out"),
+    Field("contacts/report/open_interfaces", "int", (), "1", "interfaces whose joint law is open, left out"),
+    Field("contacts/report/glued_interfaces", "int", (), "1", "interfaces inside of rigid bodies, left out"),
+    Field(
+        "contacts/report/held",
+        "int",
+        ("held_block",),
+        "1",
+        "blocks that do not move because they are glued to a support",
+        index_of="block",
+    ),
     Field("contacts/report/isolated", "int", ("isolated_block",), "1", "blocks without contact", index_of="block"),
     Field(
         "contacts/report/unsupported_start",

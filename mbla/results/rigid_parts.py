@@ -1,9 +1,9 @@
 """Rigid parts of a mechanism: blocks that move together, and how each part moves.
 
-Two blocks belong to one part where they touch and hardly move against each other, measured by the fastest contact
-(:func:`mbla.results.interface_modes.moves_together`). Supports and blocks at rest form part 0; the others are numbered
-from the heaviest on. A part moves as one rigid body, v + ω × (x − c): it turns about an axis, or, where the rotation
-over its own size is small against the travel, it moves along a direction.
+Two blocks belong to one part where they are glued, or touch and hardly move against each other, measured by the fastest
+contact (:func:`mbla.results.interface_modes.moves_together`). Supports and blocks at rest form part 0; the others are
+numbered from the heaviest on. A part moves as one rigid body, v + ω × (x − c): it turns about an axis, or, where the
+rotation over its own size is small against the travel, it moves along a direction.
 """
 
 from __future__ import annotations
@@ -16,6 +16,7 @@ from scipy.sparse.csgraph import connected_components
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.contacts.contacts import Contacts
+from mbla.contacts.glue import solids_of
 from mbla.model.model import Model
 from mbla.results.interface_modes import TOGETHER, stuck_interfaces
 
@@ -54,6 +55,12 @@ class PartMotion:
 
 def rigid_parts(model: Model, contacts: Contacts, motion: FloatArray) -> IntArray:
     """Number of the part of each block, (n_blocks,), 0 at rest, from a motion, (n_blocks, 6)."""
+    solids = solids_of(model, contacts)
+    parts = _parts_of_solids(solids.model, solids.contacts, solids.solid_motions(motion))
+    return parts if solids.solid_of_block is None else parts[solids.solid_of_block]
+
+
+def _parts_of_solids(model: Model, contacts: Contacts, motion: FloatArray) -> IntArray:
     n_blocks = len(model.blocks)
     blocks = np.where(resting_blocks(model, motion), n_blocks, np.arange(n_blocks))  # whatever rests is one node
     node = np.append(blocks, np.full(len(model.grounds), n_blocks))

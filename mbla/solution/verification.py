@@ -14,7 +14,9 @@ from __future__ import annotations
 from dataclasses import replace
 
 from mbla.contacts.contacts import Contacts
+from mbla.contacts.glue import solids_of
 from mbla.model.model import LoadCase, Model
+from mbla.solution.glued import solution_on_solids
 from mbla.solution.solution import Checks, Solution, Status
 from mbla.solution.verify import verify as verify_mechanics
 from mbla.solution.verify_convex import convex_lock_failures, verify_convex
@@ -24,12 +26,27 @@ from mbla.solution.verify_polyhedral import verify_polyhedral
 from mbla.solution.verify_range import range_checks
 from mbla.solution.verify_standing import standing_failures
 
+APART = 1e-9
+"""Motion of glued blocks against each other, over the largest motion: rounding of the map from solids to blocks."""
+
 
 def verify(model: Model, contacts: Contacts, load_case: LoadCase, solution: Solution) -> Checks:
     """Recompute everything that a solution claims, from model and contacts alone; NaN where there is nothing to check.
 
-    No solver is asked, and no matrix of the program stage is used for a verdict.
+    No solver is asked, and no matrix of the program stage is used for a verdict. Blocks that are glued to each other
+    are judged as the rigid body they make.
     """
+    solids = solids_of(model, contacts)
+    of_solids, apart = solution_on_solids(solution, solids)
+    checks = _verify(solids.model, solids.contacts, solids.load_case(load_case), of_solids)
+    if not apart <= APART:
+        failure = f"blocks that are glued to each other move apart, by {apart:.2g} of the largest motion"
+        checks = replace(checks, verified=False, failures=(*checks.failures, failure))
+    return checks
+
+
+def _verify(model: Model, contacts: Contacts, load_case: LoadCase, solution: Solution) -> Checks:
+    """The same where every block is a solid."""
     of_mechanics = verify_mechanics if solution.outer is None else verify_polyhedral
     if solution.contact_model == "convex":
         of_mechanics = verify_convex

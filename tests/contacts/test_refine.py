@@ -9,26 +9,34 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mbla.contacts.corners import areas_and_centroids, needed_corners
+from mbla.contacts.interface_points import MOST_PARTS, PointsRefused, interface_points
 from mbla.contacts.point_areas import point_areas
-from mbla.contacts.refine import InterfacePoints, interface_points, point_starts
+from mbla.contacts.refine import InterfacePoints, point_starts
+from mbla.deck.types import ContactPoints
 from mbla.errors import Notice
 from tests.analytic.cases import ASSOCIATIVE, answer, answers
 from tests.contacts.structures import boxes, contacts_of, ground, section
-from tests.line import WALL, line_of, load_factor
+from tests.line import BLOCK, WALL, line_of, load_factor
 
 SQUARE = shapely.box(0, 0, 2, 2)
 L_SHAPE = shapely.Polygon([[0, 0], [4, 0], [4, 1], [1, 1], [1, 4], [0, 4]])
 WITH_HOLE = shapely.Polygon([[0, 0], [4, 0], [4, 4], [0, 4]], [[[1, 1], [2, 1], [2, 2], [1, 2]]])
 TOUCHING_HOLE = shapely.Polygon([[0, 0], [4, 0], [4, 4], [0, 4]], [[[0, 2], [1, 1], [1, 3]]])
+RHOMBOID = shapely.Polygon([[0, 0], [2, 1], [2.5, 3], [0.5, 2]])
 UNIFORM = (math.sqrt(2) + math.log(1 + math.sqrt(2))) / 6
 """Mean distance from the centre of a unit square: torsion under uniform pressure, over μWa."""
 
 
 def found(refine: int, inset: float, *polygons: shapely.Polygon) -> tuple[InterfacePoints, list[Notice]]:
+    """Points of polygons with so many parts an edge."""
+    return asked(ContactPoints(per_edge=refine, inset=inset), *polygons)
+
+
+def asked(points_asked: ContactPoints, *polygons: shapely.Polygon) -> tuple[InterfacePoints, list[Notice]]:
     """Points of polygons, whose shares add up to the area with its centroid, in the polygon."""
     corners = needed_corners(np.array(polygons, dtype=object), 1e-6)
     area, centroid = areas_and_centroids(corners, len(polygons))
-    points, notices = interface_points(corners, centroid, refine, inset)
+    points, notices = interface_points(corners, centroid, np.ones(len(polygons)), points_asked)
     np.testing.assert_allclose(np.bincount(points.polygon, points.areas), area, rtol=1e-12)
     for axis in (0, 1):
         moment = np.bincount(points.polygon, points.areas * (points.points - centroid[points.polygon])[:, axis])
@@ -45,20 +53,30 @@ def found(refine: int, inset: float, *polygons: shapely.Polygon) -> tuple[Interf
 
 def test_one_point_an_edge_is_the_corners_alone() -> None:
     corners = needed_corners(np.array([L_SHAPE, SQUARE], dtype=object), 1e-6)
-    points, _ = interface_points(corners, areas_and_centroids(corners, 2)[1], 1, 0.0)
+    points, _ = interface_points(corners, areas_and_centroids(corners, 2)[1], np.ones(2), ContactPoints())
     np.testing.assert_array_equal(points.points, corners.points)
     np.testing.assert_array_equal(points.areas, point_areas(corners, 2))
 
 
 @pytest.mark.parametrize("refine", [2, 3, 7])
-def test_a_square_has_points_along_its_edges_and_rings_inside(refine: int) -> None:
+def test_a_square_has_points_along_its_edges_and_a_grid_inside(refine: int) -> None:
     points, _ = found(refine, 0.0, SQUARE)
     assert points.outline.tolist() == [4 * refine]
-    assert len(points.points) == 2 * refine * (refine + 1) + 1
-    levels = np.abs(points.points - 1.0).max(axis=1)
-    np.testing.assert_allclose(np.unique(levels.round(9)), np.arange(refine + 1) / refine, atol=1e-9)
+    assert len(points.points) == (refine + 1) ** 2
+    for axis in (0, 1):
+        levels = np.unique(points.points[:, axis].round(9))
+        np.testing.assert_allclose(levels, 2 * np.arange(refine + 1) / refine, atol=1e-9)
     step = np.linalg.norm(np.diff(points.points[: 4 * refine], axis=0), axis=1)
     np.testing.assert_allclose(step, 2 / refine, rtol=1e-12)
+
+
+@pytest.mark.parametrize("refine", [2, 3, 7])
+def test_a_triangle_has_points_along_its_edges_and_rings_inside(refine: int) -> None:
+    points, _ = found(refine, 0.0, shapely.Polygon([[0, 0], [3, 0], [0, 3]]))
+    assert points.outline.tolist() == [3 * refine]
+    assert len(points.points) == 3 * refine * (refine + 1) // 2 + 1
+    level = 1 - np.minimum(points.points.min(axis=1), 3 - points.points.sum(axis=1))
+    np.testing.assert_allclose(np.unique(level.round(9)), np.arange(refine + 1) / refine, atol=1e-9)
 
 
 @pytest.mark.parametrize("refine", [2, 5])
@@ -70,7 +88,7 @@ def test_surfaces_that_are_not_convex(refine: int, polygon: shapely.Polygon) -> 
 
 
 def test_all_kinds_together() -> None:
-    kinds = [L_SHAPE, SQUARE, WITH_HOLE, shapely.box(1, 1, 2, 3), L_SHAPE]
+    kinds = [L_SHAPE, SQUARE, WITH_HOLE, shapely.box(1, 1, 2, 3), L_SHAPE, RHOMBOID]
     together, _ = found(3, 0.0, *kinds)
     for i, kind in enumerate(kinds):
         alone, _ = found(3, 0.0, kind)
@@ -106,10 +124,10 @@ def test_where_points_could_leave_the_surface_they_stay_and_a_warning_says_so() 
 def test_the_search_for_contacts_heeds_both_keys() -> None:
     stack = boxes(([0, 0, 0], [1, 1, 1]), ([0, 0, 1], [1, 1, 2]))
     plain = contacts_of(stack, grounds=(ground(),))
-    line = line_of(WALL, "contacts.refine=2", "contacts.inset=0.5")
+    line = line_of(WALL, "contacts.points.per_edge=2", "contacts.points.inset=0.5")
     corners = line_of(WALL)
     assert plain.outline.tolist() == [4, 4]
-    assert section().refine == 1
+    assert section().points == ContactPoints()
     np.testing.assert_array_equal(line.contacts.outline, 2 * corners.contacts.outline)
     np.testing.assert_allclose(
         np.bincount(line.contacts.interface_of_point, line.contacts.point_areas), line.contacts.areas, rtol=1e-12
@@ -126,27 +144,95 @@ def torsion(*overrides: str) -> float:
 def test_more_points_do_not_lower_torsion_under_associative_flow() -> None:
     """The program may load the corners alone."""
     for refine in (1, 4):
-        assert torsion(ASSOCIATIVE, f"contacts.refine={refine}") == pytest.approx(1 / math.sqrt(2), rel=1e-7)
+        assert torsion(ASSOCIATIVE, f"contacts.points.per_edge={refine}") == pytest.approx(1 / math.sqrt(2), rel=1e-7)
 
 
 def test_more_points_lower_torsion_without_dilatancy() -> None:
     """In the gravity state all points bear the same, and turning changes no normal force: λ is their mean distance."""
     values = []
-    for refine in (1, 3, 8):
+    for refine in (1, 4, 8):
         points, _ = found(refine, 0.0, shapely.box(-0.5, -0.5, 0.5, 0.5))
-        values.append(torsion("analysis.scheme=proximal", "analysis.range=false", f"contacts.refine={refine}"))
+        values.append(torsion("analysis.scheme=proximal", "analysis.range=false", f"contacts.points.per_edge={refine}"))
         assert values[-1] == pytest.approx(np.linalg.norm(points.points, axis=1).mean(), rel=1e-6)
     assert values[0] > values[1] > values[2] > UNIFORM
-    assert values[2] < 1.08 * UNIFORM
+    # nodes on the edge bear as much as those inside, so that the excess halves with the distance of the points
+    assert (values[2] - UNIFORM) / (values[1] - UNIFORM) == pytest.approx(0.5, abs=0.06)
 
 
 def test_inset_gives_a_square_its_torsion_under_uniform_pressure_at_a_price_in_rocking() -> None:
     share = 1 - UNIFORM * math.sqrt(2)
-    assert torsion(ASSOCIATIVE, f"contacts.inset={share!r}") == pytest.approx(UNIFORM, rel=1e-7)
+    assert torsion(ASSOCIATIVE, f"contacts.points.inset={share!r}") == pytest.approx(UNIFORM, rel=1e-7)
     exact = {case.name: case.load_factor for case in answers("block_rocking", ASSOCIATIVE)}
-    for case in answers("block_rocking", ASSOCIATIVE, f"contacts.inset={share!r}"):
+    for case in answers("block_rocking", ASSOCIATIVE, f"contacts.points.inset={share!r}"):
         assert case.load_factor == pytest.approx((1 - share) * exact[case.name], rel=1e-7)
 
 
 def test_more_points_do_not_change_a_wall_under_associative_flow() -> None:
-    assert load_factor(WALL, "contacts.refine=3") == pytest.approx(load_factor(WALL), rel=1e-7)
+    assert load_factor(WALL, "contacts.points.per_edge=3") == pytest.approx(load_factor(WALL), rel=1e-7)
+
+
+def test_spacing_divides_each_edge_of_a_parallelogram_by_itself() -> None:
+    points, _ = asked(ContactPoints(spacing=0.25), shapely.box(0, 0, 2, 0.3))
+    assert points.outline.tolist() == [2 * (8 + 2)]
+    assert len(points.points) == 9 * 3
+    ring = points.points[:20]
+    assert np.linalg.norm(np.roll(ring, -1, axis=0) - ring, axis=1).max() <= 0.25 * (1 + 1e-12)
+
+
+def test_spacing_divides_all_edges_of_other_polygons_by_the_longest() -> None:
+    points, _ = asked(ContactPoints(spacing=1.01), L_SHAPE, SQUARE)
+    assert points.outline.tolist() == [6 * 4, 4 * 2]
+
+
+def test_a_spacing_longer_than_all_edges_leaves_the_corners() -> None:
+    points, _ = asked(ContactPoints(spacing=4.0), L_SHAPE, SQUARE, WITH_HOLE)
+    np.testing.assert_array_equal(points.points, asked(ContactPoints(), L_SHAPE, SQUARE, WITH_HOLE)[0].points)
+
+
+def test_an_edge_that_is_a_multiple_of_the_spacing_is_divided_evenly() -> None:
+    """0.3 is a little more than three times 0.1 in binary."""
+    points, _ = asked(ContactPoints(spacing=0.1), shapely.box(0, 0, 0.3, 0.1))
+    assert points.outline.tolist() == [2 * (3 + 1)]
+
+
+def test_the_spacing_is_a_length_of_the_deck() -> None:
+    """The search works in coordinates relative to block size."""
+    line = line_of(WALL, "contacts.points.spacing=0.1")
+    inner = np.flatnonzero(np.isclose(line.contacts.areas, 0.2 * 0.2))
+    assert len(inner)
+    assert (np.diff(line.contacts.point_start)[inner] == 9).all()
+
+
+def test_a_spacing_that_gives_too_many_points_is_refused_with_one_that_does_not() -> None:
+    with pytest.raises(PointsRefused, match=r"must be >= 0\.02"):
+        asked(ContactPoints(spacing=0.01), shapely.box(0, 0, 4, 1))
+    assert asked(ContactPoints(spacing=0.02), shapely.box(0, 0, 4, 0.02))[0].outline.tolist() == [2 * (MOST_PARTS + 1)]
+
+
+def test_rounding_moves_the_edges_inwards() -> None:
+    before, _ = asked(ContactPoints(per_edge=3), shapely.box(0, 0, 2, 1))
+    after, notices = asked(ContactPoints(per_edge=3, rounding=0.1), shapely.box(0, 0, 2, 1))
+    assert notices == []
+    np.testing.assert_allclose(after.points, [0.1, 0.1] + before.points * [1.8 / 2, 0.8], rtol=1e-12)
+    np.testing.assert_allclose(after.areas, before.areas, rtol=1e-12)
+
+
+def test_rounding_moves_every_edge_of_a_convex_outline_by_the_same_distance() -> None:
+    hexagon = shapely.Point(1, 2).buffer(1, quad_segs=2)
+    points, _ = asked(ContactPoints(rounding=0.2), hexagon)
+    expected = hexagon.buffer(-0.2, join_style="mitre")
+    assert shapely.Polygon(points.points).symmetric_difference(expected).area == pytest.approx(0.0, abs=1e-12)
+
+
+def test_where_rounding_leaves_nothing_points_stay_and_a_warning_says_so() -> None:
+    kinds = (L_SHAPE, shapely.box(0, 0, 4, 0.3), WITH_HOLE)
+    before, _ = asked(ContactPoints(per_edge=2), *kinds)
+    after, notices = asked(ContactPoints(per_edge=2, rounding=0.2), *kinds)
+    np.testing.assert_array_equal(after.points, before.points)
+    assert [notice.identifier for notice in notices] == ["rounding-not-applied"]
+    assert "3 interfaces" in notices[0].message
+
+
+def test_rounding_weakens_rocking_by_the_breadth_it_takes() -> None:
+    """b = 1, h = 2: (b − 2 d)/h."""
+    assert load_factor(BLOCK, "contacts.points.rounding=0.05") == pytest.approx(0.9 / 2, rel=1e-7)

@@ -10,7 +10,12 @@ CONVEX = BLOCK.replace("analysis: {flow_rule: associative}", "analysis: {contact
 
 @pytest.mark.parametrize(
     "override",
-    ["analysis.flow_rule=associative", "analysis.scheme=proximal", "analysis.solver=clarabel", "contacts.refine=2"],
+    [
+        "analysis.flow_rule=associative",
+        "analysis.scheme=proximal",
+        "analysis.solver=clarabel",
+        "contacts.points.per_edge=2",
+    ],
 )
 def test_what_goes_with_it(override: str) -> None:
     assert line_of(CONVEX, override).deck.analysis.contact_model == "convex"
@@ -27,7 +32,7 @@ def test_what_goes_with_it(override: str) -> None:
         ("analysis.solver=mbla", "solver"),
         ("analysis.second_opinion=true", "second_opinion"),
         ("analysis.force_ranges=true", "force_ranges"),
-        ("contacts.inset=0.1", "inset"),
+        ("contacts.points.inset=0.1", "inset"),
     ],
 )
 def test_what_does_not(override: str, key: str) -> None:

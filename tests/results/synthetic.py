@@ -14,8 +14,9 @@ from mbla.contacts.contacts import ContactReport, Contacts
 from mbla.deck.units import Units
 from mbla.errors import Notice
 from mbla.model.blocks import Blocks
+from mbla.model.guides import Guides
 from mbla.model.labels import no_labels
-from mbla.model.model import Ground, Joint, LoadCase, Model
+from mbla.model.model import Ground, Joint, LoadCase, Model, Settlement
 from mbla.results.results import CaseResult, DeckRecord, Results
 from mbla.solution.solution import (
     Checks,
@@ -79,6 +80,9 @@ def empty_report(notices: Any = ()) -> ContactReport:
         isolated=rows,
         unsupported=(),
         fixed_contacts=0,
+        open_interfaces=0,
+        glued_interfaces=0,
+        held=rows,
         notices=tuple(notices),
     )
 
@@ -248,7 +252,18 @@ def full_results() -> Results:
         peak_load_factor=0.6,
         failures=("x",),
     )
-    return replace(results, cases=(replace(case, solution=solution, checks=checks), results.cases[1]))
+    contacts = replace(results.contacts, solid_of_block=np.arange(len(results.model.blocks)))
+    sinking = np.array([[0.0, 0, -1, 0, 0, 0]])
+    settlement = Settlement(np.array([0]), sinking, False, "settlement of 1 block", 30.0, 20.0)
+    load_case = replace(case.load_case, settlement=settlement)
+    ways = np.eye(6)[None] * np.array([1.0, 1, 1, 1, 1, 0])
+    model = replace(
+        results.model,
+        load_cases=(load_case, *results.model.load_cases[1:]),
+        guides=Guides(np.array([2]), np.array([0]), ways, ("1 block held in rz",)),
+    )
+    full = replace(case, load_case=load_case, solution=solution, checks=checks)
+    return replace(results, model=model, contacts=contacts, cases=(full, results.cases[1]))
 
 
 def same(first: Any, second: Any) -> bool:

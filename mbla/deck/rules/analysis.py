@@ -47,10 +47,3 @@ def convex_contact_model(analysis: types.AnalysisSection) -> Iterator[Finding]:
     for key, default in NOT_CONVEX:
         if getattr(analysis, key) != default:
             yield (key,), f"applies to contact_model: concave only: use {str(default).lower()}"
-
-
-@rule(types.DeckContent)
-def convex_outlines(deck: types.DeckContent) -> Iterator[Finding]:
-    """Interface resultants need the outlines as they are."""
-    if deck.analysis.contact_model == "convex" and deck.contacts.inset > 0:
-        yield ("contacts", "inset"), "applies to contact_model: concave only: use 0"

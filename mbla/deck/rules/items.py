@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from mbla.deck import types
-from mbla.deck.rules.common import exactly_one, given, is_zero, least_below_greatest
+from mbla.deck.rules.common import is_zero, least_below_greatest
 from mbla.deck.section import Finding, rule
 
 
@@ -40,19 +40,3 @@ def polyhedron_faces(polyhedron: types.PolyhedronItem) -> Iterator[Finding]:
         elif len(set(face)) < len(face):
             position = next(i for i, corner in enumerate(face) if corner in face[:i])
             yield ("faces", number, position), "is a corner of this face already"
-
-
-@rule(types.ArchItem)
-def arch_shape(arch: types.ArchItem) -> Iterator[Finding]:
-    """A semicircle is given by its span alone; a segment needs its rise or its angle."""
-    keys = ("rise", "embrace")
-    if arch.shape == "segmental":
-        yield from exactly_one(arch, keys, " for a segmental arch")
-    else:
-        for key in given(arch, keys):
-            yield (
-                (key,),
-                f"applies to segmental arches only: leave it out, or write shape: segmental ({arch.shape} given)",
-            )
-    if arch.joint is not None and arch.springers != "ground":
-        yield ("joint",), "applies with springers: ground only"

@@ -17,6 +17,8 @@ def load_keys(load: types.Load) -> Iterator[Finding]:
         yield (), "a force needs `on`, the block it acts on"
     if load.at is not None and load.force is None:
         yield ("at",), "applies to a force only"
+    if load.on is not None and load.table is not None:
+        yield ("on",), "does not apply to a table, whose rows name their blocks"
     if load.on is not None and load.gravity is not None:
         yield ("on",), "does not apply to gravity, which acts on all blocks: use acceleration"
 
@@ -24,7 +26,14 @@ def load_keys(load: types.Load) -> Iterator[Finding]:
 @rule(types.LoadCaseSection)
 def live_load_effect(case: types.LoadCaseSection) -> Iterator[Finding]:
     """A live load must do something."""
-    for number, load in enumerate(case.live):
+    for number, load in enumerate(case.live or ()):
         for key in given(load, EXACTLY_ONE[types.Load]):
             if is_zero(getattr(load, key)):
                 yield ("live", number, key), "is a live load with no effect"
+
+
+@rule(types.SettlementSection)
+def settlement_direction(settlement: types.SettlementSection) -> Iterator[Finding]:
+    """A settlement goes somewhere."""
+    if settlement.direction is not None and is_zero(settlement.direction):
+        yield ("direction",), "must not be the zero vector"

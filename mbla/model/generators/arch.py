@@ -1,100 +1,158 @@
-"""Generator of circular arches with radial joints and straight-edged voussoirs.
+"""Generator of arches: straight-edged voussoirs in one or more rings over a curve, with springers, ground or piers.
 
-With r the intrados radius and a half the angle of embrace, both springings of the intrados lie at z = 0, a span
-s = 2 r sin a apart, and the centre at x = s/2, z = -r cos a (above the springings for an embrace beyond 180 degrees).
-A point at radius R and angle t from the crown is x = s/2 + R sin t, z = -r cos a + R cos t, with t from -a to a.
+The left springing of the curve lies at the origin, the right one at x = span; the section in the x-z plane is carried
+along +y, on a skew plan with x growing by y tan(skew).
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 
-from mbla.arrays import FloatArray
+from mbla.arrays import FloatArray, IntArray
 from mbla.deck.types import ArchItem
+from mbla.model.generators.arches.piers import (
+    LEVEL,
+    SpringingJoint,
+    courses,
+    end_springer,
+    springing_joints,
+    unfit_rise,
+)
+from mbla.model.generators.arches.prisms import in_space, prisms
+from mbla.model.generators.arches.section import Section, Thickness, build_section, voussoir_polygons
+from mbla.model.generators.curves import Curve, named_curve
+from mbla.model.generators.curves.spline import through
 from mbla.model.generators.generator import Generated, GroundPart, ItemRefused, Part, Site
-from mbla.model.polyhedra import HEXAHEDRON, Polyhedra, polyhedra_from_cells
-
-
-@dataclass(frozen=True)
-class _Circle:
-    """Intrados circle: radius [length], half angle of embrace [rad], centre (x, z) [length]."""
-
-    radius: float
-    half_angle: float
-    centre: FloatArray
+from mbla.model.polyhedra import Polyhedra
 
 
 def generate_arch(item: ArchItem, site: Site) -> Generated:
-    """Voussoirs from left to right; with them the ground or the fixed blocks behind the springing joints.
+    """Voussoirs ring by ring, from left to right in each; with them piers, ground or fixed blocks at the springings.
 
     Raises
     ------
     ItemRefused
-        where the voussoirs are too few to be blocks
+        where the voussoirs are too few to be blocks or their joints cross, or the piers do not fit the springings
     """
-    circle = _circle(item)
-    least = int(np.degrees(2 * circle.half_angle) // 180) + 1
-    if item.voussoirs < least:
-        message = f"too few: at least {least}, so that each spans less than 180 degrees"
-        raise ItemRefused([(("voussoirs",), message)])
-    angles = np.linspace(-circle.half_angle, circle.half_angle, item.voussoirs + 1)
-    rays = np.stack([np.sin(angles), np.cos(angles)], axis=1)
-    intrados = circle.centre + circle.radius * rays
-    extrados = circle.centre + (circle.radius + item.thickness) * rays
-    intrados[[0, -1]] = [[0.0, 0.0], [item.span, 0.0]]
-    section = np.stack([intrados[:-1], intrados[1:], extrados[1:], extrados[:-1]], axis=1)
-    voussoirs = Part(_prisms(section, item.width))
-    # direction of travel along the arch at both springings
-    forwards = np.array([[np.cos(circle.half_angle), np.sin(circle.half_angle)]] * 2) * [[1, 1], [1, -1]]
+    springing = item.thickness if item.springing_thickness is None else item.springing_thickness
+    thickness = Thickness(item.thickness, springing, 0.5 if item.line == "centre" else 0.0)
+    section = build_section(_curve(item), item.voussoirs, item.rings, thickness)
+    shear = float(np.tan(np.radians(item.skew)))
+    voussoirs = _voussoirs(item, section, shear)
     if item.springers == "blocks":
-        left = _behind(intrados[0], extrados[0], -item.thickness * forwards[0])
-        right = _behind(intrados[-1], extrados[-1], item.thickness * forwards[1])
-        return Generated((voussoirs, Part(_prisms(np.stack([left, right]), item.width), "_springers", fixed=True)))
+        behind = prisms(_behind(section, springing), _full_width(item, 2), shear)
+        return Generated((voussoirs, Part(behind, "_springers", fixed=True)))
     if item.springers == "ground":
-        return Generated(
-            (voussoirs,),
-            (
-                GroundPart(_in_space(intrados[0]), _in_space(forwards[0]), 0, item.joint),
-                GroundPart(_in_space(intrados[-1]), -_in_space(forwards[1]), item.voussoirs - 1, item.joint),
-            ),
-        )
+        return Generated((voussoirs,), _grounds(item, section, voussoirs, shear))
+    if item.piers is not None:
+        return Generated((voussoirs, *_piers(item, section, shear)))
     return Generated((voussoirs,))
 
 
-def _circle(item: ArchItem) -> _Circle:
-    if item.shape == "semicircular":
-        half_angle = np.pi / 2
-    elif item.rise is not None:
-        # half the rise over half the span is the tangent of half the half angle
-        half_angle = 2 * np.arctan2(item.rise, item.span / 2)
-    else:
-        assert item.embrace is not None  # a rule of the deck: one of rise and embrace
-        half_angle = np.radians(item.embrace) / 2
-    radius = item.span / (2 * np.sin(half_angle))
-    centre = np.array([item.span / 2, -radius * np.cos(half_angle)])
-    return _Circle(float(radius), float(half_angle), centre)
+def _curve(item: ArchItem) -> Curve:
+    if item.points is not None:
+        return through(item.points)
+    assert item.span is not None  # a rule of the deck
+    return named_curve(item.shape, item.span, item.rise, item.embrace, item.side_angle)
 
 
-def _prisms(section: FloatArray, width: float) -> Polyhedra:
-    """Prisms from quadrilaterals in the x-z plane, (n, 4, 2), between y = 0 and y = width.
+def _voussoirs(item: ArchItem, section: Section, shear: float) -> Part:
+    """Blocks of all rings; in running bond across the width every other course begins with half a block."""
+    polygons, number, ring = voussoir_polygons(section)
+    blocks, across, units = [], [], []
+    for polygon, odd in zip(polygons, (number + ring) % 2, strict=True):
+        edges = _edges_across(item.width, item.units_across, bool(odd))
+        blocks += [polygon] * (len(edges) - 1)
+        across.append(np.stack([edges[:-1], edges[1:]], axis=1))
+        units.append(np.arange(len(edges) - 1))
+    each = np.array([len(unit) for unit in units])
+    labels: dict[str, IntArray] = {
+        "voussoir": np.repeat(number, each),
+        "ring": np.repeat(ring, each),
+        "unit": np.concatenate(units),
+    }
+    return Part(prisms(blocks, np.concatenate(across), shear), member="voussoir", labels=labels)
 
-    Corners counter-clockwise as seen in the x-z plane (x to the right, z up), which is from -y.
-    """
-    near = _in_space(section)
-    far = near + np.array([0.0, width, 0.0])
-    # seen from the far side the order is clockwise, so that the near face is the upper one of the template
-    return polyhedra_from_cells(np.concatenate([far, near], axis=1), HEXAHEDRON)
+
+def _edges_across(width: float, count: int, odd: bool) -> FloatArray:
+    """Joints across the width, both faces included."""
+    if count == 1 or not odd:
+        return np.linspace(0.0, width, count + 1)
+    inner = width * (np.arange(count) + 0.5) / count
+    return np.concatenate([[0.0], inner, [width]])
 
 
-def _behind(intrados: FloatArray, extrados: FloatArray, back: FloatArray) -> FloatArray:
-    """Quadrilateral from a springing joint straight back, (4, 2), counter-clockwise."""
-    corners = np.stack([intrados, extrados, extrados + back, intrados + back])
-    first, second = corners[1] - corners[0], corners[2] - corners[1]
-    return corners if first[0] * second[1] - first[1] * second[0] > 0 else corners[::-1]
+def _full_width(item: ArchItem, count: int) -> FloatArray:
+    return np.tile([0.0, item.width], (count, 1))
 
 
-def _in_space(points: FloatArray) -> FloatArray:
-    """Points (..., 2) of the x-z plane in space, (..., 3)."""
-    return np.stack([points[..., 0], np.zeros(points.shape[:-1]), points[..., 1]], axis=-1)
+# --- springings ---------------------------------------------------------------------------------------------------
+
+
+def _behind(section: Section, length: float) -> list[FloatArray]:
+    """Quadrilaterals straight back from both springing joints, counter-clockwise; length [length]."""
+    quadrilaterals = []
+    for joint, forwards, towards in ((0, section.forwards[0], -1.0), (-1, section.forwards[-1], 1.0)):
+        intrados, extrados = section.joints[joint, 0], section.joints[joint, -1]
+        back = towards * length * forwards
+        corners = np.stack([intrados, extrados, extrados + back, intrados + back])
+        first, second = corners[1] - corners[0], corners[2] - corners[1]
+        quadrilaterals.append(corners if first[0] * second[1] - first[1] * second[0] > 0 else corners[::-1])
+    return quadrilaterals
+
+
+def _grounds(item: ArchItem, section: Section, voussoirs: Part, shear: float) -> tuple[GroundPart, ...]:
+    """Ground under every block at a springing, left then right."""
+    number = voussoirs.labels["voussoir"]
+    grounds = []
+    for joint, last, towards in ((0, 0, 1.0), (-1, section.n_voussoirs - 1, -1.0)):
+        point, normal = in_space(section.joints[joint, 0]), _plane(towards * section.forwards[joint], shear)
+        grounds += [GroundPart(point, normal, int(b), item.joint) for b in np.flatnonzero(number == last)]
+    return tuple(grounds)
+
+
+def _plane(forwards: FloatArray, shear: float) -> FloatArray:
+    """Unit normal of the plane through a joint: at right angles to it, and to the sheared width (shear, 1, 0)."""
+    normal = np.array([forwards[0], -shear * forwards[0], forwards[1]])
+    return np.asarray(normal / np.linalg.norm(normal) if shear else normal, dtype=np.float64)
+
+
+def _piers(item: ArchItem, section: Section, shear: float) -> list[Part]:
+    """Courses from the bottom, left and right in each; then the springer blocks where the joints are inclined."""
+    assert item.piers is not None
+    joints = springing_joints(section)
+    _check_piers(item, joints)
+    stacks, springers, sides = [], [], []
+    for side, joint in enumerate(joints):
+        near, far = joint.intrados[0], joint.intrados[0] + joint.side * item.piers.width
+        top = joint.intrados[1]
+        stacks.append(courses(min(near, far), max(near, far), top - item.piers.height, top, item.piers.courses))
+        springer = end_springer(joint, item.piers.width)
+        if springer is not None:
+            springers.append(springer)
+            sides.append(side)
+    pairs = [block for course in zip(*stacks, strict=True) for block in course]
+    count = np.arange(len(pairs))
+    labels = {"course": count // 2, "unit": count % 2}
+    parts = [Part(_through(item, pairs, shear), member="pier", labels=labels)]
+    if springers:
+        above = {"course": np.full(len(sides), item.piers.courses), "unit": np.array(sides)}
+        parts.append(Part(_through(item, springers, shear), member="springer", labels=above))
+    return parts
+
+
+def _check_piers(item: ArchItem, joints: tuple[SpringingJoint, SpringingJoint]) -> None:
+    assert item.piers is not None
+    least = max(joint.reach for joint in joints)
+    for joint in joints:
+        unfit = unfit_rise(joint)
+        if unfit is not None:
+            raise ItemRefused([(("piers",), unfit)])
+    if item.piers.width < least * (1 - LEVEL):
+        raise ItemRefused([(("piers", "width"), f"must be >= {least:g}, the extent of the springing joint")])
+    if joints[1].intrados[0] <= joints[0].intrados[0]:
+        raise ItemRefused([(("piers",), "the piers would overlap: nothing is left of the clear span")])
+
+
+def _through(item: ArchItem, polygons: list[FloatArray], shear: float) -> Polyhedra:
+    return prisms(polygons, _full_width(item, len(polygons)), shear)

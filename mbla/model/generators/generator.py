@@ -61,10 +61,12 @@ class Site:
 
     tolerance : contacts.tolerance, relative to block size
     resolve_file : path of a file named by the value at a key path below the item
+    length : the deck's unit of length
     """
 
     tolerance: float
     resolve_file: Callable[[KeyPath, str], Path]
+    length: str = "m"
 
 
 class ItemRefused(Exception):  # noqa: N818 - an answer, not a defect

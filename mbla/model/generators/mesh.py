@@ -3,29 +3,114 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from pathlib import Path
 
+import numpy as np
+
+from mbla.arrays import FloatArray
+from mbla.deck.suggestions import unknown
+from mbla.deck.tree import KeyPath
 from mbla.deck.types import MeshItem
+from mbla.deck.units import METRES
+from mbla.errors import Notice
 from mbla.model.generators.generator import Generated, ItemRefused, Part, Site
 from mbla.model.geometry import read_geometry
-from mbla.model.geometry.geometry import GeometryFileError
+from mbla.model.geometry.cell_sets import join_cells
+from mbla.model.geometry.geometry import Geometry, GeometryFileError
+from mbla.model.geometry.member_names import member_name
 from mbla.model.geometry.repair import repair
+from mbla.model.polyhedra import take_polyhedra
+
+UPRIGHT = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])
+"""turns y of the file into z by a right angle about x"""
 
 
 def generate_mesh(item: MeshItem, site: Site) -> Generated:
-    """Blocks in the order of the file, scaled about the origin.
+    """Blocks in the order of the file, in the deck's units and upright; members by the names of the file.
 
     Raises
     ------
     ItemRefused
-        for files that cannot be read, of an unknown kind, or without blocks
+        for files that cannot be read, of an unknown kind, or without blocks, names that the file does not have, and
+        keys that do not apply to it
     DeckError
         for files that are missing or outside the deck's folder
     """
     path = site.resolve_file(("file",), item.file)
     try:
-        geometry = repair(read_geometry(path), site.tolerance)
+        geometry = _read(path, item)
     except GeometryFileError as error:
         raise ItemRefused([(("file",), str(error))]) from error
-    polyhedra = replace(geometry.polyhedra, vertices=geometry.polyhedra.vertices * item.scale)
-    notices = tuple(replace(notice, message=f"{item.file}: {notice.message}") for notice in geometry.notices)
-    return Generated((Part(polyhedra),), notices=notices)
+    if findings := _misfits(item, geometry):
+        raise ItemRefused(findings)
+    vertices = _placed(geometry, item, site)
+    placed = replace(geometry, polyhedra=replace(geometry.polyhedra, vertices=vertices))
+    blocks = repair(placed, site.tolerance, item.weld)
+    members = [member_name(name) for name in blocks.names]
+    told = (*blocks.notices, *_taken_for_granted(item, geometry, site, vertices))
+    notices = tuple(replace(notice, message=f"{item.file}: {notice.message}") for notice in told)
+    return Generated((Part(blocks.polyhedra, member=members if any(members) else ""),), notices=notices)
+
+
+def _read(path: Path, item: MeshItem) -> Geometry:
+    """The file's content, of the members asked for, with cells joined if that is asked for."""
+    geometry = read_geometry(path)
+    if item.members is not None:
+        names = [member_name(name) for name in geometry.names]
+        known = sorted({name for name in names if name})
+        wrong = [
+            (("members", number), unknown("member", name, known, "the file has") if known else "the file has no names")
+            for number, name in enumerate(item.members)
+            if member_name(name) not in known
+        ]
+        if wrong:
+            raise ItemRefused(wrong)
+        wanted = {member_name(name) for name in item.members}
+        rows = np.array([row for row, name in enumerate(names) if name in wanted], dtype=np.int64)
+        kept = tuple(geometry.names[row] for row in rows)
+        geometry = replace(geometry, polyhedra=take_polyhedra(geometry.polyhedra, rows), names=kept)
+    if item.join_cells and not geometry.cells:
+        raise ItemRefused([(("join_cells",), "applies to files with volume cells only: leave it out")])
+    return join_cells(geometry) if item.join_cells else geometry
+
+
+def _misfits(item: MeshItem, geometry: Geometry) -> list[tuple[KeyPath, str]]:
+    """Keys that the file has no use for, or lacks."""
+    found: list[tuple[KeyPath, str]] = []
+    if geometry.planar and item.extrude is None:
+        found.append((("file",), "is a drawing of outlines: give their thickness with extrude"))
+    if geometry.planar and item.up is not None:
+        found.append((("up",), "does not apply to a drawing: its y points upwards in the deck"))
+    if not geometry.planar and item.extrude is not None:
+        found.append((("extrude",), "applies to drawings (DXF) only: leave it out"))
+    return found
+
+
+def _placed(geometry: Geometry, item: MeshItem, site: Site) -> FloatArray:
+    """Vertices in the deck's unit of length, z upwards; drawings with their thickness along y."""
+    unit = item.units or geometry.unit
+    factor = item.scale * (1.0 if unit in (None, site.length) else METRES[unit] / METRES[site.length])
+    vertices = geometry.polyhedra.vertices
+    if geometry.planar:
+        assert item.extrude is not None  # refused before
+        return np.asarray(vertices * np.array([factor, item.extrude, factor]))
+    vertices = vertices * factor
+    return np.asarray(vertices @ UPRIGHT.T) if (item.up or geometry.up) == "y" else vertices
+
+
+def _taken_for_granted(item: MeshItem, geometry: Geometry, site: Site, vertices: FloatArray) -> list[Notice]:
+    """What the format or the header of the file decided, with the size that follows."""
+    assumed = []
+    if item.units is None and geometry.unit is not None:
+        assumed.append(f"coordinates in {geometry.unit}")
+    if item.up is None and geometry.up == "y":
+        assumed.append("y upwards")
+    if not assumed or not len(vertices):
+        return []
+    x, y, z = np.ptp(vertices, axis=0)
+    size = f"{x:.4g} x {y:.4g} x {z:.4g} {site.length} along x, y, z"
+    keys = " and ".join(key for key, word in (("units", "in "), ("up", "upwards")) if any(word in a for a in assumed))
+    words = (
+        f"{' and '.join(assumed)}, as the file has it; its blocks measure {size} in the deck; {keys} may say otherwise"
+    )
+    return [Notice("notice", "mesh-placed", words)]

@@ -5,9 +5,14 @@ from __future__ import annotations
 from collections.abc import Callable
 from pathlib import Path
 
+from mbla.model.geometry.compas_json import read_compas_json
+from mbla.model.geometry.dxf import read_dxf
 from mbla.model.geometry.geometry import Geometry, GeometryFileError
-from mbla.model.geometry.meshio_files import read_inp, read_msh, read_ply, read_stl, read_vtu
+from mbla.model.geometry.gltf import read_gltf
+from mbla.model.geometry.inp import read_inp
+from mbla.model.geometry.meshio_files import read_msh, read_ply, read_vtu
 from mbla.model.geometry.obj import read_obj
+from mbla.model.geometry.stl import read_stl
 
 READERS: dict[str, Callable[[Path], Geometry]] = {
     ".obj": read_obj,
@@ -16,6 +21,10 @@ READERS: dict[str, Callable[[Path], Geometry]] = {
     ".vtu": read_vtu,
     ".msh": read_msh,
     ".inp": read_inp,
+    ".gltf": read_gltf,
+    ".glb": read_gltf,
+    ".json": read_compas_json,
+    ".dxf": read_dxf,
 }
 """by extension, in lower case"""
 

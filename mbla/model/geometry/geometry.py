@@ -24,6 +24,7 @@ class Geometry:
     indexed   : faces share vertices by number, so that two vertices at one place are worth a remark
     up        : axis of the file that points upwards, where its format says so
     unit      : unit of length of the file, where its format or its header says so
+    planar    : outlines of a drawing in x and z, each extended from y = 0 to y = 1; the deck gives the thickness
     """
 
     polyhedra: Polyhedra
@@ -33,6 +34,7 @@ class Geometry:
     indexed: bool = True
     up: Literal["z", "y"] = "z"
     unit: str | None = None
+    planar: bool = False
 
     def name(self, row: int) -> str:
         """Name of a polyhedron; empty where it has none."""

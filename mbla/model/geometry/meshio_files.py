@@ -18,32 +18,14 @@ import numpy as np
 
 from mbla.arrays import FloatArray, starts
 from mbla.errors import FileError, Notice
+from mbla.model.geometry.cells import VOLUME_CELLS
 from mbla.model.geometry.geometry import Geometry, GeometryFileError
 from mbla.model.geometry.welding import own_vertices
-from mbla.model.polyhedra import HEXAHEDRON, Polyhedra, join_polyhedra, polyhedra_from_cells
+from mbla.model.polyhedra import Polyhedra, join_polyhedra, polyhedra_from_cells
 
-VOLUME_CELLS: dict[str, tuple[int, Sequence[Sequence[int]]]] = {
-    "tetra": (4, ((0, 2, 1), (0, 1, 3), (1, 2, 3), (2, 0, 3))),
-    "VTK_LAGRANGE_TETRAHEDRON": (4, ((0, 2, 1), (0, 1, 3), (1, 2, 3), (2, 0, 3))),
-    "hexahedron": (8, HEXAHEDRON),
-    "VTK_LAGRANGE_HEXAHEDRON": (8, HEXAHEDRON),
-    "wedge": (6, ((0, 2, 1), (3, 4, 5), (0, 1, 4, 3), (1, 2, 5, 4), (2, 0, 3, 5))),
-    "VTK_LAGRANGE_WEDGE": (6, ((0, 2, 1), (3, 4, 5), (0, 1, 4, 3), (1, 2, 5, 4), (2, 0, 3, 5))),
-    "pyramid": (5, ((0, 3, 2, 1), (0, 1, 4), (1, 2, 4), (2, 3, 4), (3, 0, 4))),
-    "VTK_LAGRANGE_PYRAMID": (5, ((0, 3, 2, 1), (0, 1, 4), (1, 2, 4), (2, 3, 4), (3, 0, 4))),
-    "penta_prism": (
-        10,
-        ((4, 3, 2, 1, 0), (5, 6, 7, 8, 9), *((i, (i + 1) % 5, (i + 1) % 5 + 5, i + 5) for i in range(5))),
-    ),
-    "hexa_prism": (
-        12,
-        ((5, 4, 3, 2, 1, 0), (6, 7, 8, 9, 10, 11), *((i, (i + 1) % 6, (i + 1) % 6 + 6, i + 6) for i in range(6))),
-    ),
-}
-"""number of corners and faces by corner, of each shape of cell; cells of higher order begin with their corners"""
 SURFACE_CELLS = {"triangle": 3, "VTK_LAGRANGE_TRIANGLE": 3, "quad": 4, "VTK_LAGRANGE_QUADRILATERAL": 4, "polygon": 0}
 """number of corners; 0 where it is that of the cell"""
-WORDS = {"ply": "PLY", "stl": "STL", "vtu": "VTU", "gmsh": "Gmsh .msh", "abaqus": "Abaqus .inp"}
+WORDS = {"ply": "PLY", "vtu": "VTU", "gmsh": "Gmsh .msh"}
 PIXEL = (0, 1, 3, 2)
 """corners of a VTK pixel in order around it"""
 
@@ -65,11 +47,6 @@ def read_ply(path: Path) -> Geometry:
     return _read(io.BytesIO(header + end + body), "ply")
 
 
-def read_stl(path: Path) -> Geometry:
-    """Closed parts of an STL surface, after joining the corners that coincide."""
-    return _read(str(path), "stl")
-
-
 def read_vtu(path: Path) -> Geometry:
     """Volume cells, or closed parts of surfaces, of a VTU file."""
     return _read(str(path), "vtu")
@@ -78,11 +55,6 @@ def read_vtu(path: Path) -> Geometry:
 def read_msh(path: Path) -> Geometry:
     """Volume cells, or closed parts of surfaces, of a Gmsh file."""
     return _read(str(path), "gmsh")
-
-
-def read_inp(path: Path) -> Geometry:
-    """Volume cells, or closed parts of surfaces, of an Abaqus or CalculiX input file."""
-    return _read(str(path), "abaqus")
 
 
 def _read(source: str | io.BytesIO, file_format: str) -> Geometry:
@@ -97,13 +69,32 @@ def _read(source: str | io.BytesIO, file_format: str) -> Geometry:
     notices = [*remarks, *_left_out(left_out, bool(volumes))]
     if volumes:
         cells = join_polyhedra([_volume_cells(points, block) for block in volumes])
-        return Geometry(cells, tuple(notices), cells=True)
+        return Geometry(cells, tuple(notices), _physical_groups(mesh, volumes), cells=True)
     faces = list(chain.from_iterable(_surface_cells(block) for block in surfaces))
     counts = np.array([len(face) for face in faces], dtype=np.int64)
     corners = np.fromiter(chain.from_iterable(faces), dtype=np.int64, count=int(counts.sum()))
     _check_rows(corners, points)
-    surface = own_vertices(points, corners, starts(counts), np.zeros(len(faces), dtype=np.int64))
-    return Geometry(surface, tuple(notices), indexed=file_format != "stl")
+    names = _physical_groups(mesh, surfaces)
+    present = list(dict.fromkeys(names)) or [""]
+    block = np.array([present.index(name) for name in names] or [0] * len(faces), dtype=np.int64)
+    order = np.argsort(block, kind="stable")
+    faces, counts = [faces[row] for row in order], counts[order]
+    corners = np.fromiter(chain.from_iterable(faces), dtype=np.int64, count=int(counts.sum()))
+    surface = own_vertices(points, corners, starts(counts), block[order])
+    return Geometry(surface, tuple(notices), tuple(present) if names else ())
+
+
+def _physical_groups(mesh: Any, used: Sequence[Any]) -> tuple[str, ...]:
+    """Name of the physical group of each cell of some of Gmsh's blocks of cells; nothing where no group has a name."""
+    tags = mesh.cell_data.get("gmsh:physical")
+    words = {(int(tag), int(dimension)): name for name, (tag, dimension) in mesh.field_data.items()}
+    if tags is None or not words:
+        return ()
+    names: list[str] = []
+    for block, of_block in zip(mesh.cells, tags, strict=True):
+        if any(block is other for other in used):
+            names += [words.get((int(tag), block.dim), "") for tag in of_block]
+    return tuple(names)
 
 
 def _mesh(source: str | io.BytesIO, file_format: str) -> tuple[Any, list[Notice]]:

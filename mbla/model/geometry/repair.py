@@ -16,7 +16,7 @@ import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.errors import Notice
-from mbla.model.geometry.duplicate_faces import repeated_faces
+from mbla.model.geometry.duplicate_faces import face_codes, repeated_faces
 from mbla.model.geometry.edge_lengths import lone_edge_corners, shortest_edges
 from mbla.model.geometry.flat_faces import flat_faces
 from mbla.model.geometry.geometry import Geometry
@@ -29,11 +29,15 @@ from mbla.model.wording import counted, was
 
 @dataclass
 class _Work:
-    """Polyhedra in work, the row of the file that each is of, and what was done to them."""
+    """Polyhedra in work, the row of the file that each is of, and what was done to them.
+
+    pooled : all objects of the file were made one
+    """
 
     polyhedra: Polyhedra
     source: IntArray
     notices: list[Notice] = field(default_factory=list)
+    pooled: bool = False
 
     def put(self, polyhedra: Polyhedra) -> None:
         """Take these instead; those without a face left go."""
@@ -50,7 +54,7 @@ def repair(geometry: Geometry, tolerance: float, weld_distance: float | None = N
     """Blocks of a file: its volume cells, or the closed parts of its surfaces; ``names`` are those of their objects.
 
     tolerance     : relative to the shortest edge, for gaps inside a block
-    weld_distance : distance within which corners of an object are one, in the file's coordinates
+    weld_distance : distance within which corners of an object are one
     """
     work = _Work(geometry.polyhedra, np.arange(len(geometry.polyhedra)))
     work.put(geometry.polyhedra)
@@ -59,11 +63,12 @@ def repair(geometry: Geometry, tolerance: float, weld_distance: float | None = N
         everything = np.arange(len(work.polyhedra.vertices))
         _weld_near(work, everything, np.full(len(everything), weld_distance))
     if not geometry.cells and len(work.polyhedra):
+        _pool_open_objects(work)
         for step in (_drop_flat_faces, _drop_repeated_faces):
             step(work)
         _close_gaps(work, tolerance)
         _split(work, geometry)
-    names = tuple(geometry.names[row] for row in work.source) if geometry.names else ()
+    names = tuple("" if work.pooled else geometry.names[row] for row in work.source) if geometry.names else ()
     return replace(
         geometry, polyhedra=work.polyhedra, notices=(*geometry.notices, *work.notices), names=names, cells=True
     )
@@ -89,7 +94,26 @@ def _weld_near(work: _Work, vertices: IntArray, reach: FloatArray) -> None:
         work.put(welded.polyhedra)
         words = f"{counted(welded.merged, 'vertex')} {was(welded.merged)} merged with another up to "
         collapsed = f"; {counted(welded.collapsed, 'face')} collapsed" if welded.collapsed else ""
-        work.tell("vertices-welded", f"{words}{reach.max():.2g} away, in the file's coordinates{collapsed}")
+        work.tell("vertices-welded", f"{words}{reach.max():.2g} away{collapsed}")
+
+
+def _pool_open_objects(work: _Work) -> None:
+    """Objects of which none is closed by itself, but all together, are parts of surfaces, one of each face for example.
+
+    Where any of them is closed, an open one is a fault, and stays apart to be refused by its name.
+    """
+    surfaces = work.polyhedra
+    open_ones = np.unique(surfaces.block_of_face[surfaces.face_of_corner[lone_edge_corners(surfaces)]])
+    if len(open_ones) < max(len(surfaces), 2):
+        return
+    ends = np.array([0, len(surfaces.vertices)]), np.array([0, len(surfaces.block_of_face)])
+    together = weld(replace(surfaces, vertex_start=ends[0], face_start=ends[1])).polyhedra
+    codes = face_codes(together, oriented=True)
+    if len(lone_edge_corners(together)) or len(np.unique(codes)) < len(codes):
+        return
+    words = f"none of its {len(surfaces)} objects is closed by itself: their faces are taken together as one surface"
+    work.notices.append(Notice("warning", "objects-joined", words))
+    work.polyhedra, work.source, work.pooled = together, work.source[:1], True
 
 
 def _drop_flat_faces(work: _Work) -> None:
@@ -131,7 +155,7 @@ def _split(work: _Work, geometry: Geometry) -> None:
         words = f"{counted(split.twins, 'closed surface')} {was(split.twins)} left out: the faces of another once more"
         work.tell("surfaces-repeated", words)
     several = np.flatnonzero(counts > 1)
-    if geometry.names and len(several):
+    if geometry.names and not work.pooled and len(several):
         total = int(counts[several].sum())
         which = f"{counted(len(several), 'object')} {'is' if len(several) == 1 else 'are'} several closed surfaces"
         first = geometry.name(int(work.source[several[0]])) or "without a name"

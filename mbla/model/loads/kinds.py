@@ -6,9 +6,11 @@ from mbla.model.loads.acceleration import acceleration_load
 from mbla.model.loads.force import force_load
 from mbla.model.loads.gravity import gravity_load
 from mbla.model.loads.load_kind import LoadKind
+from mbla.model.loads.table import table_load
 
 LOAD_KINDS: dict[str, LoadKind] = {
     "gravity": gravity_load,
     "acceleration": acceleration_load,
     "force": force_load,
+    "table": table_load,
 }

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import TypeAlias
 
 import numpy as np
@@ -26,6 +27,7 @@ class LoadSite:
     """What loads act on: blocks to choose from, those that do not move, the deck's units; and where to complain.
 
     fixed   : (n_blocks,) blocks that do not move
+    resolve_file : path of a file named by the value at a key path of the deck
     faults  : what is wrong with a load goes here
     notices : what its author should look at twice goes here
     """
@@ -33,6 +35,7 @@ class LoadSite:
     roster: Roster
     fixed: BoolArray
     units: Units
+    resolve_file: Callable[[KeyPath, str], Path]
     faults: list[Fault] = field(default_factory=list)
     notices: list[Notice] = field(default_factory=list)
 

@@ -45,7 +45,7 @@ def test_corners_that_miss_each_other_by_rounding_are_welded(far: float) -> None
     geometry = repaired(rough)
     assert volumes(geometry) == pytest.approx([1], abs=1e-3)
     (message,) = told(geometry)
-    assert message == "16 vertices were merged with another up to 0.001 away, in the file's coordinates"
+    assert message == "16 vertices were merged with another up to 0.001 away"
 
 
 def test_corners_further_apart_than_the_tolerance_are_not_welded_unless_asked_for() -> None:
@@ -79,7 +79,7 @@ def join_one(*surfaces: Polyhedra) -> Polyhedra:
 
 def test_a_face_listed_twice_goes() -> None:
     vertices, faces = box()
-    for second in (faces[2], faces[2][::-1], faces[2][1:] + faces[2][:1]):
+    for second in (faces[2], faces[2][::-1], [*faces[2][1:], faces[2][0]]):
         geometry = repaired(raw((vertices, [*faces, second])), names=("a",))
         assert volumes(geometry) == [1]
         assert told(geometry) == ["1 face listed twice was left out"]
@@ -132,7 +132,7 @@ def test_several_t_junctions_on_one_edge_in_order_from_both_sides() -> None:
     vertices = [*vertices, *([x, y, 1.0] for x in (0.25, 0.75, 0.5) for y in (0.0, 1.0))]
     top = [[4, 8, 9, 7], [8, 12, 13, 9], [12, 10, 11, 13], [10, 5, 6, 11]]
     sides = [face for face in faces if sorted(face) != [4, 5, 6, 7]]
-    geometry = repaired(raw((vertices, sides + top)))
+    geometry = repaired(raw((vertices, [*sides, *top])))
     assert volumes(geometry) == pytest.approx([1])
     assert told(geometry) == ["6 vertices in the middle of the edge of another face were made corners of it"]
 
@@ -181,3 +181,20 @@ def test_triangles_of_mixed_orientation_with_all_faults_at_once() -> None:
     geometry = repaired(soup((vertices, [*faces, TRIANGLES[4], [0, 0, 1]])))
     assert volumes(geometry) == pytest.approx([1])
     assert [notice.identifier for notice in geometry.notices] == ["vertices-merged", "faces-repeated"]
+
+
+def test_objects_that_are_single_faces_are_taken_together() -> None:
+    vertices, faces = box()
+    sides = [raw((vertices, [face])) for face in faces]
+    geometry = repaired(*sides, names=tuple(f"side {number}" for number in range(6)))
+    assert volumes(geometry) == [1]
+    assert geometry.names == ("",)
+    assert "none of its 6 objects is closed by itself: their faces are taken together as one surface" in told(geometry)
+
+
+def test_an_open_object_beside_closed_ones_is_not_completed_from_them() -> None:
+    vertices, faces = box((0, 0, 1), (1, 1, 2))
+    geometry = repaired(raw(box()), raw((vertices, faces[1:])), names=("low", "high"))
+    (defect,) = build_raw(geometry.polyhedra).defects
+    assert defect.block == 1
+    assert defect.message.startswith("is not closed")

@@ -26,7 +26,7 @@ def shapes_of(*outline: tuple[float, float], text: str = PRISM, refine: int = 1)
     faces = [list(range(n)), list(range(n, 2 * n))]
     faces += [[i, (i + 1) % n, n + (i + 1) % n, n + i] for i in range(n)]
     deck = text.replace("VERTICES", str(vertices)).replace("FACES", str(faces))
-    line = line_of(deck, f"contacts.refine={refine}")
+    line = line_of(deck, f"contacts.points.per_edge={refine}")
     return interface_shapes(line.contacts)
 
 

@@ -1,0 +1,197 @@
+"""Glue: blocks that are one rigid body, and the model that the solver sees, whose blocks are these bodies.
+
+Interfaces with the joint law *glued* join blocks to *solids*; blocks that glue joins to a support, directly or through
+others, do not move. Every block that moves belongs to one solid, most of them alone. A solid has the faces, the volume
+V and the mass of its members and their common centroid c = Σ V_b c_b / V; loads on its members act on it::
+
+    F = Σ F_b,    M = Σ M_b + (c_b − c) × F_b
+
+and from its motion (v, ω) about c come those of its members::
+
+    v_b = v + ω × (c_b − c),    ω_b = ω
+
+Contact forces of glued interfaces are not asked for: they are inner forces of a rigid body. An interface of any other
+law between two members of one solid carries nothing that equilibrium could tell either and is left out with them.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from mbla.arrays import BoolArray, FloatArray, IntArray
+from mbla.contacts.contacts import Contacts
+from mbla.deck.tree import KeyPath
+from mbla.model.join_blocks import join_blocks
+from mbla.model.model import LoadCase, Model
+
+
+@dataclass(frozen=True)
+class Glue:
+    """What glued interfaces make of the blocks.
+
+    solid_of_block : (n_blocks,) numbered from 0 in the order of their first blocks; None where nothing is joined
+    held           : (n_blocks,) blocks that are glued to a support and do not move
+    """
+
+    solid_of_block: IntArray | None
+    held: BoolArray
+
+    @property
+    def sizes(self) -> IntArray:
+        """How many blocks the solids of several blocks have."""
+        return solid_sizes(self.solid_of_block)
+
+
+def solid_sizes(solid_of_block: IntArray | None) -> IntArray:
+    """How many blocks each of the solids of several blocks has, (n,)."""
+    if solid_of_block is None:
+        return np.zeros(0, dtype=np.int64)
+    sizes = np.bincount(solid_of_block)
+    return np.asarray(sizes[sizes > 1])
+
+
+def glue_blocks(model: Model, bodies: IntArray) -> Glue:
+    """Solids that the glued interfaces between bodies (n, 2) make."""
+    n_blocks = len(model.blocks)
+    if not len(bodies):
+        return Glue(None, np.zeros(n_blocks, dtype=bool))
+    from scipy.sparse import coo_array
+    from scipy.sparse.csgraph import connected_components
+
+    still = np.concatenate([model.fixed, np.ones(len(model.grounds), dtype=bool)])
+    node = np.append(np.where(still, n_blocks, np.arange(len(still))), n_blocks)  # all supports are one node
+    a, b = node[bodies].T
+    graph = coo_array((np.ones(len(a)), (a, b)), shape=(n_blocks + 1, n_blocks + 1))
+    _, part = connected_components(graph, directed=False)
+    held = (part[:n_blocks] == part[n_blocks]) & ~model.fixed
+    own = part.max() + 1 + np.arange(n_blocks)
+    _, first, label = np.unique(
+        np.where(held | model.fixed, own, part[:n_blocks]), return_index=True, return_inverse=True
+    )
+    if len(first) == n_blocks:
+        return Glue(None, held)
+    number = np.empty(len(first), dtype=np.int64)
+    number[np.argsort(first)] = np.arange(len(first))
+    return Glue(number[label], held)
+
+
+@dataclass(frozen=True)
+class Solids:
+    """A model and its contacts with solids for blocks, and the way to and from the blocks.
+
+    solid_of_block : (n_blocks,); None where every block is a solid, and model and contacts are the ones given
+    arms           : (n_blocks, 3) m, from the centroid of the solid to that of the block
+    """
+
+    model: Model
+    contacts: Contacts
+    solid_of_block: IntArray | None
+    arms: FloatArray
+
+    def load_case(self, load_case: LoadCase) -> LoadCase:
+        """Loads on the solids, about their centroids."""
+        if self.solid_of_block is None:
+            return load_case
+        return replace(load_case, dead_load=self.loads(load_case.dead_load), live_load=self.loads(load_case.live_load))
+
+    def loads(self, loads: FloatArray) -> FloatArray:
+        """Forces and moments on solids, (n_solids, 6), from those on blocks, (n_blocks, 6)."""
+        if self.solid_of_block is None:
+            return loads
+        moved = loads.copy()
+        moved[:, 3:] += np.cross(self.arms, loads[:, :3])
+        total = np.zeros((len(self.model.blocks), 6))
+        np.add.at(total, self.solid_of_block, moved)
+        return total
+
+    def block_motions(self, motions: FloatArray) -> FloatArray:
+        """Motions of the blocks, (n_blocks, 6), from those of the solids, (n_solids, 6)."""
+        if self.solid_of_block is None:
+            return motions
+        of_blocks = motions[self.solid_of_block]
+        of_blocks[:, :3] += np.cross(of_blocks[:, 3:], self.arms)
+        return of_blocks
+
+    def solid_motions(self, motions: FloatArray) -> FloatArray:
+        """Motions of the solids, (n_solids, 6), from that of the first block of each."""
+        if self.solid_of_block is None:
+            return motions
+        first = self.first_blocks
+        of_solids = motions[first]
+        of_solids[:, :3] -= np.cross(of_solids[:, 3:], self.arms[first])
+        return of_solids
+
+    @property
+    def first_blocks(self) -> IntArray:
+        """First block of each solid, (n_solids,)."""
+        if self.solid_of_block is None:
+            return np.arange(len(self.model.blocks))
+        return np.asarray(np.unique(self.solid_of_block, return_index=True)[1])
+
+
+def solids_of(model: Model, contacts: Contacts) -> Solids:
+    """The model that the solver sees."""
+    label = contacts.solid_of_block
+    if label is None:
+        return Solids(model, contacts, None, np.zeros((len(model.blocks), 3)))
+    blocks = join_blocks(model.blocks, label)
+    fixed = np.zeros(len(blocks), dtype=bool)
+    fixed[label] = model.fixed  # solids of several blocks have none that is fixed
+    grounds = tuple(
+        ground if ground.blocks is None else replace(ground, blocks=np.unique(label[ground.blocks]))
+        for ground in model.grounds
+    )
+    body = np.concatenate([label, len(blocks) + np.arange(len(grounds))])
+    solids = Solids(
+        model=replace(model, blocks=blocks, fixed=fixed, grounds=grounds),
+        contacts=replace(contacts, bodies=body[contacts.bodies], solid_of_block=None),
+        solid_of_block=label,
+        arms=model.blocks.centroids - blocks.centroids[label],
+    )
+    cases = tuple(solids.load_case(case) for case in model.load_cases)
+    return replace(solids, model=replace(solids.model, load_cases=cases))
+
+
+CANCELLED = 1e-12
+"""sum of live loads on a solid, relative to the loads themselves, at which nothing is left of them"""
+
+
+def glue_findings(model: Model, contacts: Contacts) -> list[tuple[KeyPath, str]]:
+    """Key path and words of what glue makes a fault: nothing is left that can move, or a live load can move nothing."""
+    if contacts.solid_of_block is None and not len(contacts.report.held):
+        return []
+    held = held_model(model, contacts)
+    if held.fixed.all():
+        return [(("contacts",), "every block is glued to a support: nothing can move")]
+    solids = solids_of(held, contacts)
+    free = ~solids.model.fixed
+    found: list[tuple[KeyPath, str]] = []
+    for case in model.load_cases:
+        net, gross = np.abs(solids.loads(case.live_load)[free]), _gross(solids, case.live_load)[free]
+        if (net.max(axis=0) <= CANCELLED * gross.max(axis=0)).all():
+            message = "the live loads have no effect: they act on blocks glued to a support, or cancel on glued blocks"
+            found.append((("load_cases", case.name, "live"), message))
+    return found
+
+
+def _gross(solids: Solids, loads: FloatArray) -> FloatArray:
+    """Sum of the sizes of forces, and of moments about the solid's centroid, on each solid, (n_solids, 6)."""
+    sizes = np.abs(loads)
+    arms = np.linalg.norm(solids.arms, axis=1) * np.linalg.norm(loads[:, :3], axis=1)
+    sizes[:, 3:] += arms[:, None]
+    total = np.zeros((len(solids.model.blocks), 6))
+    label = np.arange(len(loads)) if solids.solid_of_block is None else solids.solid_of_block
+    np.add.at(total, label, sizes)
+    return total
+
+
+def held_model(model: Model, contacts: Contacts) -> Model:
+    """The model with the blocks fixed that are glued to a support."""
+    held = contacts.report.held
+    if model.fixed[held].all():
+        return model
+    fixed = model.fixed.copy()
+    fixed[held] = True
+    return replace(model, fixed=fixed)

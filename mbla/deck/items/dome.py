@@ -1,0 +1,63 @@
+"""Item `dome`."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from mbla.deck.items.item import Item
+from mbla.deck.names import Name
+from mbla.deck.quantities import Count, EmbraceAngle, PositiveLength, Whole
+from mbla.deck.section import Section
+
+
+class DomeDrum(Section):
+    """Cylindrical wall under a dome, in the same bond and with as many blocks around."""
+
+    height: PositiveLength = Field(description="height up to the intrados springing")
+    courses: Count = Field(description="number of courses")
+    thickness: PositiveLength | None = Field(
+        None, description="radial thickness, inside flush with the dome; that of the dome unless given"
+    )
+
+
+class DomeItem(Item):
+    """A spherical dome of rings of blocks about the z axis, bed joints conical about the centre of the sphere.
+
+    The middle of the springing is at the origin, or at z = height of the drum, which then stands at z = 0. Circles are
+    polygons with their corners on the circle. Labels: `ring` (the keystone is the last) and `segment`, in the drum
+    `course` and `segment`; members `ring`, `keystone`, `drum`.
+    """
+
+    shape: Literal["hemispherical", "segmental"] = Field(
+        "hemispherical", description="hemispherical, or segmental with rise or embrace"
+    )
+    span: PositiveLength = Field(description="diameter of the intrados at the springing")
+    thickness: PositiveLength = Field(description="radial thickness")
+    rings: Count = Field(description="number of rings, without the keystone")
+    segments: Annotated[int, Whole(ge=3, le=10_000)] = Field(description="blocks of each ring")
+    rise: PositiveLength | None = Field(None, description="segmental: height of the intrados crown over the springing")
+    embrace: EmbraceAngle | None = Field(
+        None, description="segmental: angle between the springing joints in a section through the axis, degrees"
+    )
+    oculus: PositiveLength | None = Field(None, description="diameter of an opening in the intrados at the crown")
+    keystone: PositiveLength | None = Field(
+        None,
+        description="diameter, in the intrados, of the block that closes the crown; without it and without an oculus "
+        "the keystone is as wide as a ring",
+    )
+    bond: Literal["running", "stack"] = Field(
+        "running", description="running: odd rings are turned by half a block; stack: joints run up the meridians"
+    )
+    facets: Annotated[int, Whole(ge=1, le=1000)] | None = Field(
+        None,
+        description="plane pieces around of each block's faces, even for running bond; 2 unless given, in stack bond 1",
+    )
+    drum: DomeDrum | None = Field(None, description="cylindrical wall that the dome stands on")
+    springers: Literal["none", "ground", "blocks"] = Field(
+        "none",
+        description="ground: rigid ground under a level springing, or under the drum; blocks: a ring of fixed blocks "
+        "behind the springing joint, in group GROUP_springers; none: the deck's supports hold the dome",
+    )
+    joint: Name | None = Field(None, description="joint law at a springing on ground; that of contacts unless given")

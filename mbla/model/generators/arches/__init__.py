@@ -1,0 +1,1 @@
+"""What arches and bridges are made of: sections of voussoirs, prisms across the width, piers."""

@@ -1,0 +1,141 @@
+"""Generator of spherical domes of rings of blocks, on a drum or not.
+
+With R1 and R2 the radii of intrados and extrados, and angles t from the crown, the profile of a ring from t1 up to t2
+is the quadrilateral of the four points R (sin t, cos t); A rho of it is (R2^3 - R1^3) sin(t1 - t2) (sin t1 + sin t2)/6.
+How rings are made with plane faces, and their volume from A rho, is told in ``mbla.model.generators.rings``. With more
+and more segments and rings the volume goes to that of the spherical shell, 2 pi/3 (R2^3 - R1^3) (cos t2 - cos t1).
+
+The keystone is the frustum of a pyramid, between the polygons at the last joint in intrados and extrados.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+
+from mbla.arrays import FloatArray
+from mbla.deck.types import DomeDrum, DomeItem
+from mbla.model.generators.chains import chains
+from mbla.model.generators.curves import Circle, named_curve
+from mbla.model.generators.generator import Generated, GroundPart, ItemRefused, Part, Site
+from mbla.model.generators.rings import meridians, ring_blocks
+from mbla.model.polyhedra import Polyhedra, join_polyhedra
+
+FLUSH = 1e-9
+"""relative to the thickness: lengths and heights that differ by no more are the same"""
+
+
+@dataclass(frozen=True)
+class _Dome:
+    """Intrados circle, thickness, angles of the joints from the springing up, height of the springing, facets."""
+
+    circle: Circle
+    thickness: float
+    angles: FloatArray
+    springing: float
+    segments: int
+    facets: int
+    running: bool
+
+    def joint(self, angle: float) -> FloatArray:
+        """Intrados and extrados point of a joint, (2, 2): distance from the axis, height."""
+        points = self.circle.points(np.array([angle]), np.array([[0.0, self.thickness]]))[0]
+        return np.asarray(points - [self.circle.span / 2, -self.springing], dtype=np.float64)
+
+    def ring(self, profile: FloatArray, number: int) -> Polyhedra:
+        """The blocks of a ring, counted from the springing; rings below it have negative numbers."""
+        return ring_blocks(profile, self.segments, self.facets, self.running and number % 2 == 1)
+
+
+def generate_dome(item: DomeItem, site: Site) -> Generated:
+    """Drum from the bottom, rings from the springing, keystone.
+
+    Raises
+    ------
+    ItemRefused
+        for an opening or keystone as wide as the dome, or a drum that does not carry it
+    """
+    dome = _dome(item)
+    joints = [dome.joint(angle) for angle in dome.angles]
+    rings = [
+        dome.ring(np.array([low[0], high[0], high[1], low[1]]), number)
+        for number, (low, high) in enumerate(pairwise(joints))
+    ]
+    parts = [_part(rings, "ring", "ring")]
+    if item.drum is not None:
+        parts.insert(0, _part(list(_drum(dome, item.drum)), "drum", "course"))
+    grounds: list[GroundPart] = []
+    if item.springers == "ground":
+        up = np.array([0.0, 0.0, 1.0])
+        grounds = [GroundPart(np.zeros(3), up, block, item.joint) for block in range(item.segments)]
+    if item.oculus is None:
+        labels = {"ring": np.array([item.rings]), "segment": np.array([0])}
+        parts.append(Part(_keystone(dome, joints[-1]), member="keystone", labels=labels))
+    if item.springers == "blocks":
+        labels = {"segment": np.arange(item.segments)}
+        parts.append(Part(dome.ring(_behind(dome, joints[0]), -1), "_springers", fixed=True, labels=labels))
+    return Generated(tuple(parts), tuple(grounds))
+
+
+def _dome(item: DomeItem) -> _Dome:
+    shape = "semicircular" if item.shape == "hemispherical" else item.shape
+    circle = named_curve(shape, item.span, item.rise, item.embrace)
+    assert isinstance(circle, Circle)  # which both shapes are
+    facets = item.facets or (2 if item.bond == "running" else 1)
+    springing = item.drum.height if item.drum else 0.0
+    angles = np.linspace(circle.half_angle, _top(item, circle), item.rings + 1)
+    return _Dome(circle, item.thickness, angles, springing, item.segments, facets, item.bond == "running")
+
+
+def _top(item: DomeItem, circle: Circle) -> float:
+    """Angle of the last joint from the crown."""
+    key = "oculus" if item.oculus is not None else "keystone"
+    diameter: float | None = getattr(item, key)
+    if diameter is None:
+        return circle.half_angle / (2 * item.rings + 1)
+    widest = 2 * circle.radius * np.sin(min(circle.half_angle, np.pi / 2))
+    if diameter >= widest:
+        raise ItemRefused([((key,), f"must be < {widest:g}, the greatest diameter of the intrados")])
+    return float(np.arcsin(diameter / (2 * circle.radius)))
+
+
+def _part(rings: list[Polyhedra], member: str, position: str) -> Part:
+    number = np.repeat(np.arange(len(rings)), [len(ring) for ring in rings])
+    segment = np.concatenate([np.arange(len(ring)) for ring in rings])
+    return Part(join_polyhedra(rings), member=member, labels={position: number, "segment": segment})
+
+
+def _drum(dome: _Dome, drum: DomeDrum) -> Iterator[Polyhedra]:
+    """Courses from the bottom; the last has a bevelled bed for the dome, and a ledge where the drum is wider."""
+    foot = dome.joint(dome.circle.half_angle)
+    inside = foot[0, 0]
+    outside = inside + (dome.thickness if drum.thickness is None else drum.thickness)
+    if foot[1, 0] > outside + FLUSH * dome.thickness:
+        message = f"must be >= {foot[1, 0] - inside:g}, so that the dome stands on the drum"
+        raise ItemRefused([(("drum",) if drum.thickness is None else ("drum", "thickness"), message)])
+    heights = np.linspace(0.0, drum.height, drum.courses + 1)
+    for course, (low, high) in enumerate(pairwise(heights)):
+        profile = np.array([[inside, low], [inside, high], [outside, high], [outside, low]])
+        if course == drum.courses - 1 and abs(foot[1, 1] - high) > FLUSH * dome.thickness:
+            profile[2, 1] = foot[1, 1]
+            if outside - foot[1, 0] > FLUSH * dome.thickness:
+                profile = np.insert(profile, 2, foot[1], axis=0)
+            if foot[1, 1] <= low:
+                raise ItemRefused([(("drum", "courses"), "too many: the springing joint cuts through the last course")])
+        yield dome.ring(profile, course - drum.courses)
+
+
+def _keystone(dome: _Dome, joint: FloatArray) -> Polyhedra:
+    """The frustum between the polygons of the last joint."""
+    around = meridians(dome.segments * dome.facets)
+    heights = np.broadcast_to(joint[:, 1, None, None], (2, len(around), 1))
+    return chains(np.concatenate([joint[:, :1, None] * around, heights], axis=2)[None])
+
+
+def _behind(dome: _Dome, joint: FloatArray) -> FloatArray:
+    """Profile of the fixed blocks: from the springing joint back by the thickness."""
+    back = dome.thickness * np.array([np.cos(dome.circle.half_angle), -np.sin(dome.circle.half_angle)])
+    return np.array([joint[0] + back, joint[0], joint[1], joint[1] + back])

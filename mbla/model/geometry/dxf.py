@@ -1,0 +1,159 @@
+"""DXF drawings (only importer of ezdxf): outlines in the drawing's x-y plane, which are x and z of the deck.
+
+Outlines are closed polylines, circles and ellipses, and what lines, arcs and open polylines of one layer enclose
+between them: every field of such a network, so that an opening drawn with lines is one, too. Blocks are inserted where
+they are referenced; layers that are off or frozen are left out. Arcs become chords.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from mbla.arrays import FloatArray
+from mbla.errors import Notice
+from mbla.model.geometry.geometry import Geometry, GeometryFileError
+from mbla.model.geometry.line_networks import enclosed_fields
+from mbla.model.geometry.outlines import prism
+from mbla.model.polyhedra import join_polyhedra
+from mbla.model.wording import counted, was
+
+CURVES = frozenset({"LWPOLYLINE", "POLYLINE", "LINE", "ARC", "CIRCLE", "ELLIPSE", "SPLINE"})
+SILENT = frozenset(
+    {"TEXT", "MTEXT", "DIMENSION", "HATCH", "POINT", "LEADER", "MULTILEADER", "VIEWPORT", "ATTDEF", "IMAGE"}
+)
+"""what a drawing has besides its outlines, not worth a remark"""
+SAGITTA = 2e-4
+"""distance of a chord from its arc over the size of the outline: a fifth of the usual tolerance of contacts"""
+LEVEL = 1e-6
+"""departure from the drawing's plane, relative to the extent of an outline, that is rounding"""
+UNITS = {1: "in", 2: "ft", 4: "mm", 5: "cm", 6: "m"}
+"""by $INSUNITS; others are not the deck's"""
+DEEPEST = 50
+"""blocks within blocks"""
+
+
+@dataclass
+class _Drawing:
+    """Outlines and open lines, (n, 2) each, by layer, and what was left out."""
+
+    outlines: list[tuple[str, FloatArray]] = field(default_factory=list)
+    lines: dict[str, list[FloatArray]] = field(default_factory=dict)
+    left_out: dict[str, int] = field(default_factory=dict)
+    hidden: dict[str, int] = field(default_factory=dict)
+
+
+def read_dxf(path: Path) -> Geometry:
+    """Outlines of a drawing as prism of unit thickness, in the order of the drawing; networks of lines follow.
+
+    Raises
+    ------
+    GeometryFileError
+        for files that are no DXF, and outlines that do not lie in the x-y plane
+    """
+    import ezdxf
+
+    try:
+        document = ezdxf.readfile(path)  # type: ignore[attr-defined]
+    except OSError as error:
+        raise GeometryFileError(f"is not a well-formed DXF file: {error.strerror or error}"[:300]) from error
+    except Exception as error:  # damaged files let all kinds of exceptions through
+        reason = " ".join(str(error).split())
+        raise GeometryFileError(f"is not a well-formed DXF file: {reason}"[:300]) from error
+    drawing = _Drawing()
+    hidden = {layer.dxf.name.lower() for layer in document.layers if layer.is_off() or layer.is_frozen()}
+    for layer, entity in _entities(document.modelspace(), None, 0):
+        if layer.lower() in hidden:
+            drawing.hidden[layer] = drawing.hidden.get(layer, 0) + 1
+        else:
+            _add(drawing, layer, entity)
+    notices = _close_networks(drawing)
+    names = tuple(layer for layer, _ in drawing.outlines)
+    polyhedra = join_polyhedra([prism(outline) for _, outline in drawing.outlines])
+    unit = UNITS.get(document.header.get("$INSUNITS", 0))
+    return Geometry(polyhedra, (*_left_out(drawing), *notices), names, unit=unit, planar=True)
+
+
+def _entities(space: Any, inserted_on: str | None, depth: int) -> Iterator[tuple[str, Any]]:
+    """Entities with their layers; inside a block layer 0 means that of its reference."""
+    for entity in space:
+        layer = str(entity.dxf.get("layer", "0"))
+        if layer == "0" and inserted_on is not None:
+            layer = inserted_on
+        if entity.dxftype() != "INSERT":
+            yield layer, entity
+            continue
+        if depth >= DEEPEST:
+            raise GeometryFileError("has a block that contains itself")
+        copies = entity.multi_insert() if entity.mcount > 1 else (entity,)
+        for copy in copies:
+            yield from _entities(copy.virtual_entities(), layer, depth + 1)
+
+
+def _add(drawing: _Drawing, layer: str, entity: Any) -> None:
+    kind = entity.dxftype()
+    solid = kind == "POLYLINE" and (entity.is_poly_face_mesh or entity.is_polygon_mesh)
+    if kind not in CURVES or solid:
+        if kind not in SILENT:
+            drawing.left_out[kind] = drawing.left_out.get(kind, 0) + 1
+        return
+    closed, points = _flattened(entity)
+    if len(points) < 2:
+        return
+    extent = float(np.ptp(points, axis=0).max())
+    if np.ptp(points[:, 2]) > LEVEL * extent:
+        raise GeometryFileError(f"a {kind} on layer {layer} does not lie in the drawing's x-y plane")
+    if closed and len(points) > 2:
+        drawing.outlines.append((layer, points[:, :2]))
+    else:
+        drawing.lines.setdefault(layer, []).append(points[:, :2])
+
+
+def _flattened(entity: Any) -> tuple[bool, FloatArray]:
+    """Whether a curve is closed, and its points in the drawing's coordinates, (n, 3), the first not repeated."""
+    import ezdxf.path
+
+    path = ezdxf.path.make_path(entity)
+    if not len(path):
+        return False, np.empty((0, 3))
+    ends = np.array([(p.x, p.y, p.z) for p in path.control_vertices()], dtype=np.float64)
+    spans = np.sort(np.ptp(ends, axis=0))[1:]
+    size = float(np.sqrt(spans[0] * spans[1])) or float(spans[1])
+    points = np.array([(p.x, p.y, p.z) for p in path.flattening(SAGITTA * size)], dtype=np.float64)
+    repeated = np.linalg.norm(points[1:] - points[:-1], axis=1) <= LEVEL * size
+    points = points[np.concatenate([[True], ~repeated])]
+    meets = bool(np.linalg.norm(points[-1] - points[0]) <= LEVEL * size)
+    closed = len(points) > 3 and (path.is_closed or bool(getattr(entity, "is_closed", False)) or meets)
+    return closed, points[:-1] if closed and meets else points
+
+
+def _close_networks(drawing: _Drawing) -> list[Notice]:
+    """Fields between lines become outlines of their layer."""
+    notices = []
+    for layer, lines in drawing.lines.items():
+        fields, loose = enclosed_fields(lines)
+        drawing.outlines += [(layer, outline) for outline in fields]
+        if fields:
+            words = (
+                f"{counted(len(fields), 'field')} between lines of layer {layer} {was(len(fields))} taken as outlines"
+            )
+            notices.append(Notice("notice", "drawing-fields", words))
+        if loose:
+            words = f"{counted(loose, 'line')} of layer {layer} {was(loose)} left out: no field is enclosed"
+            notices.append(Notice("warning", "drawing-lines-left-out", words))
+    return notices
+
+
+def _left_out(drawing: _Drawing) -> list[Notice]:
+    notices = []
+    if drawing.left_out:
+        words = ", ".join(f"{count} of type {kind}" for kind, count in drawing.left_out.items())
+        notices.append(Notice("warning", "mesh-cells-left-out", f"entities were left out: {words}; no outlines"))
+    for layer, count in drawing.hidden.items():
+        words = f"{counted(count, 'outline or line')} of layer {layer} {was(count)} left out: it is off or frozen"
+        notices.append(Notice("warning", "drawing-layer-hidden", words))
+    return notices

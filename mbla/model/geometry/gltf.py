@@ -1,0 +1,191 @@
+"""glTF 2.0, as .gltf or .glb: each node with a mesh is kept apart, placed by the transforms of all nodes above it.
+
+By the format's definition lengths are metres and y points upwards. Triangles, strips and fans; what is drawn as points
+or lines is left out, and so is the deformation of morphed and skinned meshes (told in a notice).
+Source: Khronos Group, glTF 2.0 Specification (2021).
+"""
+
+from __future__ import annotations
+
+import json
+import struct
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from mbla.arrays import FloatArray, IntArray
+from mbla.errors import Notice
+from mbla.model.geometry.geometry import Geometry, GeometryFileError
+from mbla.model.geometry.gltf_accessors import Buffers, read_accessor
+from mbla.model.geometry.welding import own_vertices
+from mbla.model.polyhedra import join_polyhedra
+from mbla.model.wording import counted, was
+
+GLB_MAGIC, JSON_CHUNK, BINARY_CHUNK = 0x46546C67, 0x4E4F534A, 0x004E4942
+TRIANGLES, STRIP, FAN = 4, 5, 6
+"""modes of primitives that are surfaces"""
+KNOWN_EXTENSIONS = ("KHR_mesh_quantization", "KHR_texture_transform", "KHR_materials", "KHR_lights_punctual")
+"""required extensions that do not change the shape, or need nothing more to be read; beginnings of names"""
+DEEPEST = 1000
+"""levels of nodes; the format allows no loops, files may have them"""
+
+
+def read_gltf(path: Path) -> Geometry:
+    """Nodes with meshes, in the order in which the scene lists them.
+
+    Raises
+    ------
+    GeometryFileError
+        for files that are no glTF 2.0, lack a part, or need an extension that changes the shape (compression)
+    """
+    try:
+        document, binary = _parts(path.read_bytes())
+        _check_version(document)
+        return _geometry(document, Buffers(document, binary, path.parent))
+    except OSError as error:
+        raise GeometryFileError(f"cannot be read: {error.strerror or error}") from error
+    except (KeyError, IndexError, TypeError, ValueError, AttributeError, struct.error) as error:
+        reason = f"lacks {error}" if isinstance(error, KeyError) else str(error)
+        raise GeometryFileError(f"is not a well-formed glTF file: {reason}"[:300]) from error
+
+
+def _parts(content: bytes) -> tuple[dict[str, Any], bytes | None]:
+    """The JSON document, and the binary chunk of a .glb; the extension of the name does not matter."""
+    if len(content) < 12 or struct.unpack_from("<I", content)[0] != GLB_MAGIC:
+        return _document(content), None
+    chunks: dict[int, bytes] = {}
+    offset = 12
+    while offset + 8 <= len(content):
+        length, kind = struct.unpack_from("<II", content, offset)
+        if offset + 8 + length > len(content):
+            raise ValueError("it ends amid a chunk")
+        chunks.setdefault(kind, content[offset + 8 : offset + 8 + length])
+        offset += 8 + length
+    if JSON_CHUNK not in chunks:
+        raise ValueError("it has no chunk of JSON")
+    return _document(chunks[JSON_CHUNK]), chunks.get(BINARY_CHUNK)
+
+
+def _document(content: bytes) -> dict[str, Any]:
+    try:
+        document = json.loads(content.decode("utf-8-sig"))
+    except RecursionError:
+        raise ValueError("its JSON is nested too deeply") from None
+    if not isinstance(document, dict):
+        raise TypeError("its JSON is no object")
+    return document
+
+
+def _check_version(document: dict[str, Any]) -> None:
+    version = str(document["asset"]["version"])
+    if not version.startswith("2."):
+        raise ValueError(f"its version is {version}, not 2.0: export it as glTF 2.0")
+    unknown = [name for name in document.get("extensionsRequired", []) if not name.startswith(KNOWN_EXTENSIONS)]
+    if unknown:
+        raise GeometryFileError(
+            f"needs {', '.join(map(str, unknown))}: export it without compression and without that extension"
+        )
+
+
+def _geometry(document: dict[str, Any], buffers: Buffers) -> Geometry:
+    surfaces, names = [], []
+    left_out = 0
+    deformed = False
+    for node, matrix in _placed_nodes(document):
+        if "mesh" not in node:
+            continue
+        mesh = document["meshes"][node["mesh"]]
+        deformed |= "skin" in node or any("targets" in primitive for primitive in mesh["primitives"])
+        points, triangles, lines = _surface(document, mesh, buffers)
+        left_out += lines
+        if not len(triangles):
+            continue
+        placed = points @ matrix[:3, :3].T + matrix[:3, 3]
+        block = np.zeros(len(triangles), dtype=np.int64)
+        surfaces.append(own_vertices(placed, triangles.reshape(-1), 3 * np.arange(len(triangles) + 1), block))
+        names.append(str(node.get("name") or mesh.get("name") or ""))
+    notices = []
+    if left_out:
+        words = f"{counted(left_out, 'set')} of points or lines {was(left_out)} left out: no block"
+        notices.append(Notice("warning", "mesh-cells-left-out", words))
+    if deformed:
+        words = "the file has skinned or morphed meshes: they are taken as they are without deformation"
+        notices.append(Notice("warning", "mesh-deformation-ignored", words))
+    return Geometry(join_polyhedra(surfaces), tuple(notices), tuple(names), indexed=False, up="y", unit="m")
+
+
+def _placed_nodes(document: dict[str, Any]) -> Iterator[tuple[dict[str, Any], FloatArray]]:
+    """Nodes of the scene, each with its (4, 4) matrix in the scene, parents before children."""
+    nodes = document.get("nodes", [])
+    scenes = document.get("scenes", [])
+    if scenes:
+        roots = scenes[document.get("scene", 0)].get("nodes", [])
+    else:  # a file without scenes is a library of nodes: all that are no children
+        children = {child for node in nodes for child in node.get("children", [])}
+        roots = [number for number in range(len(nodes)) if number not in children]
+    waiting = [(number, np.eye(4), 0) for number in reversed(roots)]
+    while waiting:
+        number, above, depth = waiting.pop()
+        if depth > DEEPEST or not 0 <= number < len(nodes):
+            raise ValueError(f"node {number} does not exist, or contains itself")
+        matrix = above @ _local_matrix(nodes[number])
+        yield nodes[number], matrix
+        waiting += [(child, matrix, depth + 1) for child in reversed(nodes[number].get("children", []))]
+
+
+def _local_matrix(node: dict[str, Any]) -> FloatArray:
+    """(4, 4) from a matrix, column by column, or from translation, rotation (quaternion x y z w) and scale."""
+    if "matrix" in node:
+        return np.array(node["matrix"], dtype=np.float64).reshape(4, 4).T
+    x, y, z, w = np.array(node.get("rotation", (0, 0, 0, 1)), dtype=np.float64)
+    length = x * x + y * y + z * z + w * w
+    if not length > 0:
+        raise ValueError("a rotation is the zero quaternion")
+    s = 2 / length  # exporters write quaternions in single precision, whose length is not quite one
+    rotation = np.array(
+        [
+            [1 - s * (y * y + z * z), s * (x * y - z * w), s * (x * z + y * w)],
+            [s * (x * y + z * w), 1 - s * (x * x + z * z), s * (y * z - x * w)],
+            [s * (x * z - y * w), s * (y * z + x * w), 1 - s * (x * x + y * y)],
+        ]
+    )
+    matrix = np.eye(4)
+    matrix[:3, :3] = rotation * np.array(node.get("scale", (1, 1, 1)), dtype=np.float64)
+    matrix[:3, 3] = node.get("translation", (0, 0, 0))
+    return matrix
+
+
+def _surface(document: dict[str, Any], mesh: dict[str, Any], buffers: Buffers) -> tuple[FloatArray, IntArray, int]:
+    """Points (n, 3) and triangles (m, 3) of all primitives of a mesh, and how many of them are no surfaces."""
+    all_points, all_triangles = [np.empty((0, 3))], [np.empty((0, 3), dtype=np.int64)]
+    count = left_out = 0
+    for primitive in mesh["primitives"]:
+        mode = primitive.get("mode", TRIANGLES)
+        if mode not in (TRIANGLES, STRIP, FAN):
+            left_out += 1
+            continue
+        points = read_accessor(document, primitive["attributes"]["POSITION"], buffers)
+        if points.ndim != 2 or points.shape[1] != 3:
+            raise ValueError("a position has not three coordinates")
+        rows = np.arange(len(points))
+        if "indices" in primitive:
+            rows = read_accessor(document, primitive["indices"], buffers).astype(np.int64).reshape(-1)
+        if rows.size and not rows.max() < len(points):
+            raise ValueError(f"a triangle names a point that does not exist; there are {len(points)}")
+        all_points.append(points)
+        all_triangles.append(_triangles(rows, mode) + count)
+        count += len(points)
+    return np.concatenate(all_points), np.concatenate(all_triangles), left_out
+
+
+def _triangles(rows: IntArray, mode: int) -> IntArray:
+    """(n, 3) rows of points, from the order of a list, a strip (every other one turned) or a fan."""
+    if mode == TRIANGLES:
+        return rows[: len(rows) // 3 * 3].reshape(-1, 3)
+    if mode == FAN:
+        return np.stack([rows[1:-1], rows[2:], np.full(max(len(rows) - 2, 0), rows[0])], axis=1)
+    strip = np.stack([rows[:-2], rows[1:-1], rows[2:]], axis=1)
+    strip[1::2] = strip[1::2, [0, 2, 1]]
+    return strip

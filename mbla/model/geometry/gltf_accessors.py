@@ -1,0 +1,95 @@
+"""Numbers of a glTF file: accessors over views of buffers, in the file, beside it, or in a text of base 64."""
+
+from __future__ import annotations
+
+import base64
+import binascii
+from pathlib import Path
+from typing import Any
+from urllib.parse import unquote
+
+import numpy as np
+
+from mbla.arrays import FloatArray
+from mbla.model.geometry.geometry import GeometryFileError
+
+COMPONENTS = {5120: np.int8, 5121: np.uint8, 5122: np.int16, 5123: np.uint16, 5125: np.uint32, 5126: np.float32}
+WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4}
+
+
+class Buffers:
+    """The buffers of a document, each read when it is first needed."""
+
+    def __init__(self, document: dict[str, Any], binary: bytes | None, folder: Path) -> None:
+        """``binary`` is the chunk of a .glb that stands for a first buffer without an address."""
+        self._entries = document.get("buffers", [])
+        self._folder = folder
+        self._read: dict[int, bytes] = {} if binary is None else {0: binary}
+        if binary is not None and self._entries and "uri" in self._entries[0]:
+            self._read = {}
+
+    def __getitem__(self, number: int) -> bytes:
+        if number not in self._read:
+            self._read[number] = self._load(self._entries[number])
+        return self._read[number]
+
+    def _load(self, entry: dict[str, Any]) -> bytes:
+        address = entry["uri"]
+        if address.startswith("data:"):
+            header, _, text = address.partition(",")
+            try:
+                return base64.b64decode(text, validate=True) if header.endswith(";base64") else unquote(text).encode()
+            except binascii.Error as error:
+                raise ValueError(f"a buffer is not base 64: {error}") from error
+        name = unquote(address)
+        root = self._folder.resolve()
+        path = (root / name).resolve()
+        if "://" in name or not path.is_relative_to(root):
+            raise GeometryFileError(f"its buffer {name[:100]} lies outside the folder of the file")
+        if not path.is_file():
+            raise GeometryFileError(f"its buffer {name[:100]} is missing: a .gltf needs the .bin written with it")
+        return path.read_bytes()
+
+
+def read_accessor(document: dict[str, Any], number: int, buffers: Buffers) -> FloatArray:
+    """Values of an accessor, (count,) or (count, width); whole numbers that stand for shares are turned into them."""
+    accessor = document["accessors"][number]
+    kind, width, count = np.dtype(COMPONENTS[accessor["componentType"]]), WIDTHS[accessor["type"]], accessor["count"]
+    if not 0 <= count < 2**31:
+        raise ValueError(f"accessor {number} has a count of {count}")
+    if "bufferView" in accessor:
+        values = _view(document, accessor["bufferView"], accessor.get("byteOffset", 0), kind, width, count, buffers)
+    else:
+        values = np.zeros((count, width))
+    if "sparse" in accessor:
+        _put_sparse(document, accessor["sparse"], kind, values, buffers)
+    if accessor.get("normalized") and kind.kind in "iu":
+        largest = 2 ** (8 * kind.itemsize - (kind.kind == "i")) - 1
+        values = np.maximum(values / largest, -1.0)
+    return values[:, 0] if width == 1 else values
+
+
+def _view(
+    document: dict[str, Any], view: int, offset: int, kind: np.dtype[Any], width: int, count: int, buffers: Buffers
+) -> FloatArray:
+    entry = document["bufferViews"][view]
+    stride = entry.get("byteStride") or kind.itemsize * width
+    first = entry.get("byteOffset", 0) + offset
+    content = buffers[entry["buffer"]]
+    if count and first + stride * (count - 1) + kind.itemsize * width > len(content):
+        raise ValueError("a buffer is shorter than the document says")
+    if not count:
+        return np.zeros((0, width))
+    rows = np.ndarray((count, width), kind.newbyteorder("<"), content, first, (stride, kind.itemsize))
+    return rows.astype(np.float64)
+
+
+def _put_sparse(
+    document: dict[str, Any], sparse: dict[str, Any], kind: np.dtype[Any], values: FloatArray, buffers: Buffers
+) -> None:
+    """Replace some rows of an accessor's values."""
+    rows, news, count = sparse["indices"], sparse["values"], sparse["count"]
+    of_rows = np.dtype(COMPONENTS[rows["componentType"]])
+    at = _view(document, rows["bufferView"], rows.get("byteOffset", 0), of_rows, 1, count, buffers)[:, 0]
+    new = _view(document, news["bufferView"], news.get("byteOffset", 0), kind, values.shape[1], count, buffers)
+    values[at.astype(np.int64)] = new

@@ -1,0 +1,252 @@
+"""Input files of Abaqus and CalculiX: nodes, elements, and the element sets that name them.
+
+Solid elements are blocks, one each; a file without any holds surfaces (shells, plane elements, facets). Elements of
+second order go by their corners. Read here because the library at hand keeps only the last of several ``*NODE`` cards,
+knows few types of elements, and follows ``*INCLUDE`` out of the deck's folder.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+
+from mbla.arrays import FloatArray, IntArray, starts
+from mbla.errors import Notice
+from mbla.model.geometry.cells import VOLUME_CELLS
+from mbla.model.geometry.geometry import Geometry, GeometryFileError
+from mbla.model.geometry.welding import own_vertices
+from mbla.model.polyhedra import Polyhedra, join_polyhedra, polyhedra_from_cells, take_polyhedra
+
+SOLIDS = re.compile(r"(?:C3D|F3D|DC3D|AC3D)(4|6|8|10|15|20|27)(?:[A-Z].*)?$")
+"""solid elements of stress, fluid and heat flow; the number is that of the nodes, letters are variants"""
+SHELLS = re.compile(r"(?:S|M3D|CPS|CPE|CPEG|CAX|R3D|SFM3D|DS|DCAX|STRI)(3|4|6|8|9|65)(?:[A-Z].*|5)?$")
+SOLID_SHAPES = {
+    4: "tetra",
+    10: "tetra",
+    6: "wedge",
+    15: "wedge",
+    8: "hexahedron",
+    20: "hexahedron",
+    27: "hexahedron",
+}
+SHELL_CORNERS = {3: 3, 6: 3, 65: 3, 4: 4, 8: 4, 9: 4}
+SHELL_NODES = {65: 6}
+REFUSED = {
+    "INCLUDE": "put the mesh into one file",
+    "INSTANCE": "write the input without parts and assemblies",
+    "SYSTEM": "write the nodes in global coordinates",
+    "NGEN": "write all nodes",
+    "ELGEN": "write all elements",
+    "NCOPY": "write all nodes",
+    "ELCOPY": "write all elements",
+}
+"""cards that change the mesh in ways that are not followed"""
+
+
+@dataclass
+class _Card:
+    """A card: its line, keyword and options in capitals, and its lines of data with their numbers, split at commas."""
+
+    line: int
+    keyword: str
+    options: dict[str, str]
+    data: list[tuple[int, list[str]]] = field(default_factory=list)
+
+
+@dataclass
+class _Content:
+    """The mesh as read: nodes by number, elements by number with type, nodes and set."""
+
+    nodes: dict[int, tuple[float, float, float]] = field(default_factory=dict)
+    elements: dict[int, tuple[str, list[int], str]] = field(default_factory=dict)
+    sets: dict[str, list[int]] = field(default_factory=dict)
+
+
+def read_inp(path: Path) -> Geometry:
+    """Solid elements, or else the surfaces, of an input file in the order of the file.
+
+    Raises
+    ------
+    GeometryFileError
+        for malformed lines, with their number, and for cards that are not followed
+    """
+    try:
+        text = path.read_text(encoding="utf-8", errors="replace")
+    except OSError as error:
+        raise GeometryFileError(f"cannot be read: {error.strerror or error}") from error
+    content = _read(text)
+    if text.strip() and not content.nodes and not content.elements:
+        raise GeometryFileError("is not a well-formed Abaqus or CalculiX .inp file: it has no nodes")
+    rows = {number: row for row, number in enumerate(content.nodes)}
+    points = np.array(list(content.nodes.values()), dtype=np.float64).reshape(-1, 3)
+    names = _set_of_elements(content)
+    solids = {n: e for n, e in content.elements.items() if SOLIDS.match(e[0])}
+    shells = {} if solids else {n: e for n, e in content.elements.items() if SHELLS.match(e[0])}
+    used = solids or shells
+    notices = _left_out(content, used, bool(solids))
+    try:
+        if solids:
+            cells, order = _solids(solids, rows, points)
+            named = tuple(names.get(number, "") for number in order)
+            return Geometry(cells, notices, named if any(named) else (), cells=True)
+        return _surfaces(shells, rows, points, names, notices)
+    except KeyError as error:
+        raise GeometryFileError(f"an element names node {error}, which does not exist") from error
+
+
+def _read(text: str) -> _Content:
+    content = _Content()
+    for card in _cards(text):
+        if card.keyword in REFUSED:
+            raise GeometryFileError(f"line {card.line}: *{card.keyword} is not followed: {REFUSED[card.keyword]}")
+        read = {"NODE": _read_nodes, "ELEMENT": _read_elements, "ELSET": _read_set}.get(card.keyword)
+        if read is not None:
+            read(content, card)
+    return content
+
+
+def _read_nodes(content: _Content, card: _Card) -> None:
+    for number, fields in card.data:
+        try:
+            x, y, z = [float(each) for each in fields[1:4]] + [0.0] * (3 - len(fields[1:4]))
+            content.nodes[int(fields[0])] = (x, y, z)
+        except ValueError as error:
+            raise _unreadable(number, error) from error
+
+
+def _read_elements(content: _Content, card: _Card) -> None:
+    """Elements of one type; one may go on over several lines."""
+    kind, name = card.options.get("TYPE", "").upper(), card.options.get("ELSET", "")
+    needed = _node_count(kind)
+    numbers: list[int] = []
+    for number, fields in card.data:
+        try:
+            numbers += [int(each) for each in fields]
+        except ValueError as error:
+            raise _unreadable(number, error) from error
+        if needed is None or len(numbers) > needed:
+            content.elements[numbers[0]] = (kind, numbers[1:], name)
+            numbers = []
+    if numbers:
+        raise GeometryFileError(f"line {card.line}: the last element has fewer than the {needed} nodes of a {kind}")
+
+
+def _read_set(content: _Content, card: _Card) -> None:
+    """Members of ``*ELSET``: numbers, ranges with GENERATE, or names of earlier sets."""
+    members = content.sets.setdefault(card.options.get("ELSET", ""), [])
+    for number, fields in card.data:
+        try:
+            if "GENERATE" in card.options:
+                first, last, *step = (int(each) for each in fields)
+                members += range(first, last + 1, step[0] if step else 1)
+                continue
+            for each in fields:
+                members += [int(each)] if each.isdigit() else content.sets.get(each, [])
+        except ValueError as error:
+            raise _unreadable(number, error) from error
+
+
+def _unreadable(line: int, error: ValueError) -> GeometryFileError:
+    return GeometryFileError(f"line {line} cannot be read: {error}")
+
+
+def _cards(text: str) -> Iterator[_Card]:
+    card: _Card | None = None
+    for number, raw in enumerate(text.splitlines(), start=1):
+        line = raw.strip()
+        if not line or line.startswith("**"):
+            continue
+        if line.startswith("*"):
+            if card is not None:
+                yield card
+            keyword, *rest = (each.strip() for each in line[1:].split(","))
+            pairs = (each.partition("=") for each in rest)
+            options = {key.strip().upper(): value.strip().strip('"') for key, _, value in pairs}
+            card = _Card(number, keyword.upper(), options)
+        elif card is not None:
+            card.data.append((number, [each.strip() for each in line.rstrip(",").split(",")]))
+    if card is not None:
+        yield card
+
+
+def _node_count(kind: str) -> int | None:
+    """Number of nodes of a type that is read; None for others, whose elements are only counted."""
+    if match := SOLIDS.match(kind):
+        return int(match[1])
+    if match := SHELLS.match(kind):
+        return SHELL_NODES.get(int(match[1]), int(match[1]))
+    return None
+
+
+def _set_of_elements(content: _Content) -> dict[int, str]:
+    """Name of the smallest set that each element is in; of equal ones that of an ``*ELSET`` card."""
+    sets: dict[tuple[bool, str], list[int]] = {(True, name): members for name, members in content.sets.items()}
+    for number, (_, _, name) in content.elements.items():
+        if name:
+            sets.setdefault((False, name), []).append(number)
+    names: dict[int, str] = {}
+    for (_, name), members in sorted(sets.items(), key=lambda item: (-len(item[1]), item[0][0])):
+        names.update(dict.fromkeys(members, name))
+    return names
+
+
+def _solids(
+    solids: dict[int, tuple[str, list[int], str]], rows: dict[int, int], points: FloatArray
+) -> tuple[Polyhedra, list[int]]:
+    """One polyhedron for each solid element in the order of the file, and their numbers."""
+    by_shape: dict[str, list[int]] = {}
+    for number, (kind, _, _) in solids.items():
+        match = SOLIDS.match(kind)
+        assert match is not None  # chosen by it
+        by_shape.setdefault(SOLID_SHAPES[int(match[1])], []).append(number)
+    parts, numbers = [], []
+    for shape, members in by_shape.items():
+        count, faces = VOLUME_CELLS[shape]
+        corners = np.array([[rows[node] for node in solids[number][1][:count]] for number in members])
+        parts.append(polyhedra_from_cells(points[corners], faces))
+        numbers += members
+    position = {number: place for place, number in enumerate(solids)}
+    order = np.argsort([position[number] for number in numbers], kind="stable")
+    return take_polyhedra(join_polyhedra(parts), order), [numbers[row] for row in order]
+
+
+def _surfaces(
+    shells: dict[int, tuple[str, list[int], str]],
+    rows: dict[int, int],
+    points: FloatArray,
+    names: dict[int, str],
+    notices: tuple[Notice, ...],
+) -> Geometry:
+    """Faces of each element set as one surface; of a file without sets all faces as one."""
+    faces, owners = [], []
+    for number, (kind, nodes, _) in shells.items():
+        match = SHELLS.match(kind)
+        assert match is not None  # chosen by it
+        faces.append([rows[node] for node in nodes[: SHELL_CORNERS[int(match[1])]]])
+        owners.append(names.get(number, ""))
+    present = list(dict.fromkeys(owners))
+    block = np.array([present.index(owner) for owner in owners], dtype=np.int64)
+    order = np.argsort(block, kind="stable")
+    faces = [faces[row] for row in order]
+    counts = np.array([len(face) for face in faces], dtype=np.int64)
+    corners: IntArray = np.array([corner for face in faces for corner in face], dtype=np.int64)
+    surfaces = own_vertices(points, corners, starts(counts), block[order])
+    return Geometry(surfaces, notices, tuple(present) if any(present) else ())
+
+
+def _left_out(
+    content: _Content, used: dict[int, tuple[str, list[int], str]], beside_solids: bool
+) -> tuple[Notice, ...]:
+    counts: dict[str, int] = {}
+    for number, (kind, _, _) in content.elements.items():
+        if number not in used:
+            counts[kind] = counts.get(kind, 0) + 1
+    if not counts:
+        return ()
+    words = ", ".join(f"{count} of type {kind}" for kind, count in counts.items())
+    reason = "beside volume cells only those are blocks" if beside_solids else "these cells are not blocks"
+    return (Notice("notice", "mesh-cells-left-out", f"cells were left out: {words}; {reason}"),)

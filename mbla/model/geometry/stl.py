@@ -1,0 +1,88 @@
+"""STL, binary or text: triangles without shared vertices; solids of a text file are kept apart under their names.
+
+Read here because the library at hand refuses the text of other writers, and makes one surface of several solids.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from mbla.model.geometry.geometry import Geometry, GeometryFileError
+from mbla.model.polyhedra import Polyhedra, join_polyhedra
+
+HEADER, TRIANGLE = 84, 50
+"""bytes before the first triangle of a binary file, and of each triangle"""
+
+
+def read_stl(path: Path) -> Geometry:
+    """The solids of a text file, or all triangles of a binary one.
+
+    Raises
+    ------
+    GeometryFileError
+        for files that are neither, or end amid a triangle
+    """
+    try:
+        content = path.read_bytes()
+    except OSError as error:
+        raise GeometryFileError(f"cannot be read: {error.strerror or error}") from error
+    n_triangles = int.from_bytes(content[80:HEADER], "little") if len(content) >= HEADER else -1
+    if len(content) == HEADER + TRIANGLE * n_triangles:  # binary headers may begin with "solid", too
+        return _geometry([_triangles(content)], [""])
+    if content.lstrip()[:5].lower() == b"solid":
+        return _solids(content.decode("utf-8", errors="replace"))
+    announced = f": {n_triangles} triangles are announced" if n_triangles >= 0 else ""
+    raise GeometryFileError(f"is not a well-formed STL file{announced}, it has {len(content)} bytes")
+
+
+def _triangles(content: bytes) -> np.typing.NDArray[np.float64]:
+    """Corners of the triangles of a binary file, (n, 3, 3); normals are made anew from them."""
+    record = np.dtype([("numbers", "<f4", (4, 3)), ("attribute", "<u2")])
+    return np.frombuffer(content, record, offset=HEADER)["numbers"][:, 1:].astype(np.float64)
+
+
+def _solids(text: str) -> Geometry:
+    """Solids of a text file; a line ``vertex x y z`` is all that counts of a facet."""
+    names: list[str] = []
+    corners: list[list[tuple[float, float, float]]] = []
+    complete = True
+    for number, line in enumerate(text.splitlines(), start=1):
+        fields = line.split(None, 4)
+        word = fields[0].lower() if fields else ""
+        if word == "solid":
+            names.append(" ".join(line.split()[1:]))
+            corners.append([])
+            complete = False
+        elif word == "vertex":
+            try:
+                corners[-1].append((float(fields[1]), float(fields[2]), float(fields[3])))
+            except (ValueError, IndexError) as error:
+                raise GeometryFileError(f"is not a well-formed STL file: line {number} is no vertex") from error
+        elif word == "endloop" and len(corners[-1]) % 3:
+            raise GeometryFileError(
+                f"is not a well-formed STL file: the loop that ends in line {number} is no triangle"
+            )
+        elif word == "endsolid":
+            complete = True
+    if not complete:
+        raise GeometryFileError("is not a well-formed STL file: its last solid has no end")
+    return _geometry([np.array(each, dtype=np.float64).reshape(-1, 3, 3) for each in corners], names)
+
+
+def _geometry(solids: list[np.typing.NDArray[np.float64]], names: list[str]) -> Geometry:
+    kept = [row for row, triangles in enumerate(solids) if len(triangles)]
+    parts = [_soup(solids[row]) for row in kept]
+    named = tuple(names[row] for row in kept)
+    several = len(kept) > 1 and any(named)
+    if not several and len(parts) > 1:
+        parts = [_soup(np.concatenate([solids[row] for row in kept]))]
+    return Geometry(join_polyhedra(parts), names=named if several else (), indexed=False)
+
+
+def _soup(triangles: np.typing.NDArray[np.float64]) -> Polyhedra:
+    n = len(triangles)
+    return Polyhedra(
+        triangles.reshape(-1, 3), np.array([0, 3 * n]), np.arange(3 * n), 3 * np.arange(n + 1), np.array([0, n])
+    )

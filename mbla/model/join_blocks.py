@@ -1,0 +1,71 @@
+"""Blocks joined to bigger ones: each has the faces of its members, those on which they touch included.
+
+Volume and mass are the sums, the centroid is the common one of the volumes. Faces that members share stay inside, so
+that such a block is no closed surface without more; mechanics needs its centroid, size and mass only.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from mbla.arrays import FloatArray, IntArray, starts
+from mbla.model.blocks import Blocks
+from mbla.model.labels import BlockLabels
+from mbla.model.ragged import items_of_rows
+
+
+def join_blocks(blocks: Blocks, joined: IntArray) -> Blocks:
+    """The joined blocks, named after the first member of each.
+
+    joined : (n_blocks,) which joined block each becomes part of; numbered from 0 without gaps
+    """
+    order = np.argsort(joined, kind="stable")
+    count = int(joined.max(initial=-1)) + 1
+    first = order[np.searchsorted(joined[order], np.arange(count))]
+    vertices, faces = items_of_rows(blocks.vertex_start, order), items_of_rows(blocks.face_start, order)
+    corners = items_of_rows(blocks.loop_start, faces)
+    new_vertex = np.empty(len(blocks.vertices), dtype=np.int64)
+    new_vertex[vertices] = np.arange(len(vertices))
+    volumes = _sums(blocks.volumes, joined, count)
+    alone = np.bincount(joined, minlength=count) == 1
+    centroids = _sums(blocks.volumes[:, None] * blocks.centroids, joined, count) / volumes[:, None]
+    densities = _sums(blocks.masses, joined, count) / volumes
+    # what stands alone keeps its numbers to the last digit
+    centroids[alone], densities[alone] = blocks.centroids[first[alone]], blocks.densities[first[alone]]
+    labels = blocks.labels
+    return Blocks(
+        vertices=blocks.vertices[vertices],
+        vertex_start=_joined_start(blocks.vertex_start, joined, count),
+        loops=new_vertex[blocks.loops[corners]],
+        loop_start=starts(np.diff(blocks.loop_start)[faces]),
+        face_start=_joined_start(blocks.face_start, joined, count),
+        facet_of_face=_numbered(blocks.facet_of_face[faces]),
+        face_normals=blocks.face_normals[faces],
+        convex=alone & blocks.convex[first],
+        volumes=volumes,
+        centroids=centroids,
+        densities=densities,
+        groups=tuple(blocks.groups[block] for block in first),
+        group_indices=blocks.group_indices[first],
+        labels=BlockLabels(tuple(labels.members[block] for block in first), labels.positions[first]),
+    )
+
+
+def _sums(values: FloatArray, joined: IntArray, count: int) -> FloatArray:
+    total = np.zeros((count, *values.shape[1:]))
+    np.add.at(total, joined, values)
+    return total
+
+
+def _joined_start(start: IntArray, joined: IntArray, count: int) -> IntArray:
+    items = np.zeros(count, dtype=np.int64)
+    np.add.at(items, joined, np.diff(start))
+    return starts(items)
+
+
+def _numbered(facets: IntArray) -> IntArray:
+    """Facets numbered in the order in which they come."""
+    _, first, row = np.unique(facets, return_index=True, return_inverse=True)
+    number = np.empty(len(first), dtype=np.int64)
+    number[np.argsort(first)] = np.arange(len(first))
+    return np.asarray(number[row])

@@ -1,0 +1,74 @@
+"""A solution for solids told for the blocks that glue joins in them, and back (see :mod:`mbla.contacts.glue`).
+
+Motions are mapped; forces, contact velocities and modes belong to contact points, which both have in common.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from mbla.arrays import FloatArray
+from mbla.contacts.glue import Solids
+from mbla.solution.solution import Mechanics, Solution, StandingResult
+
+MOTIONS = ("mechanics", "associative", "lower", "upper", "peak", "outer")
+"""parts of a solution that hold a mechanism"""
+
+
+def solution_on_blocks(solution: Solution, solids: Solids) -> Solution:
+    """The solution for the solids with the motions of all blocks; the block that falls is the first of its solid."""
+    if solids.solid_of_block is None:
+        return solution
+    standing = solution.standing
+    if standing is not None and standing.block is not None:
+        standing = replace(standing, block=int(solids.first_blocks[standing.block]))
+    return _with_motions(replace(solution, standing=standing), solids.block_motions)
+
+
+def solution_on_solids(solution: Solution, solids: Solids) -> tuple[Solution, float]:
+    """The solution with motions of the solids, and how far blocks that are glued move apart, over the largest motion.
+
+    The block that falls stays as it is: it is a name for messages.
+    """
+    if solids.solid_of_block is None:
+        return solution, 0.0
+    apart = [0.0]
+
+    def checked(motions: FloatArray) -> FloatArray:
+        of_solids = solids.solid_motions(motions)
+        lengths = np.repeat([1.0, float(solids.model.blocks.sizes.max(initial=0.0)) or 1.0], 3)
+        difference = np.abs((solids.block_motions(of_solids) - motions) * lengths).max(initial=0.0)
+        size = np.abs(motions * lengths).max(initial=0.0)
+        if difference > 0.0:
+            apart.append(float(difference / size))
+        return of_solids
+
+    return _with_motions(solution, checked), max(apart)
+
+
+def _with_motions(solution: Solution, mapped: Callable[[FloatArray], FloatArray]) -> Solution:
+    """The solution with every motion mapped; what was one object stays one."""
+    known: dict[int, Mechanics] = {}
+
+    def of(mechanics: Mechanics) -> Mechanics:
+        if id(mechanics) not in known:
+            known[id(mechanics)] = replace(mechanics, mechanism=mapped(mechanics.mechanism))
+        return known[id(mechanics)]
+
+    parts: dict[str, Any] = {name: of(part) for name in MOTIONS if (part := getattr(solution, name)) is not None}
+    return replace(
+        solution,
+        **parts,
+        certificate=None if solution.certificate is None else mapped(solution.certificate),
+        standing=_standing(solution.standing, mapped),
+    )
+
+
+def _standing(standing: StandingResult | None, mapped: Callable[[FloatArray], FloatArray]) -> StandingResult | None:
+    if standing is None or standing.settlement is None:
+        return standing
+    return replace(standing, settlement=mapped(standing.settlement))

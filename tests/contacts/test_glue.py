@@ -1,0 +1,127 @@
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from mbla.contacts import Contacts, find_contacts
+from mbla.contacts.glue import glue_blocks, held_model, solids_of
+from mbla.deck.types import ContactOverride, ContactsSection
+from mbla.model.model import LoadCase, Model
+from mbla.model.polyhedra import take_polyhedra
+from tests.contacts.structures import blocks_of, boxes, ground, model_of
+
+TOWER = boxes(*(([0, 0, i], [1, 1, i + 1]) for i in range(5)))
+GROUPS = ["a", "b", "c", "d", "e"]
+
+
+def glued(*pairs: tuple[str, str], joint: str = "glued") -> tuple[Model, Contacts]:
+    """The tower on the ground with some of its beds glued."""
+    model = model_of(blocks_of(TOWER, GROUPS), grounds=(ground(),))
+    overrides = [ContactOverride(between=pair, joint=joint) for pair in pairs]
+    contacts = find_contacts(model, ContactsSection(joint="dry", overrides=overrides))
+    return held_model(model, contacts), contacts
+
+
+def identifiers(contacts: Contacts) -> list[str]:
+    return [notice.identifier for notice in contacts.report.notices]
+
+
+def test_nothing_glued_is_the_same_model() -> None:
+    model, contacts = glued()
+    solids = solids_of(model, contacts)
+    assert solids.model is model
+    assert solids.contacts is contacts
+    assert contacts.solid_of_block is None
+    loads = np.ones((5, 6))
+    assert solids.loads(loads) is loads
+    assert solids.block_motions(loads) is loads
+
+
+def test_glue_joins_blocks_through_others() -> None:
+    model, contacts = glued(("b", "c"), ("c", "d"))
+    assert contacts.solid_of_block is not None
+    assert contacts.solid_of_block.tolist() == [0, 1, 1, 1, 2]
+    assert len(contacts) == 3
+    assert contacts.report.glued_interfaces == 2
+    assert identifiers(contacts) == ["blocks-glued"]
+    assert "3 blocks make 1 rigid body" in contacts.report.notices[0].message
+    solids = solids_of(model, contacts)
+    assert len(solids.model.blocks) == 3
+    np.testing.assert_allclose(solids.model.blocks.volumes, [1, 3, 1])
+    np.testing.assert_allclose(solids.model.blocks.centroids[:, 2], [0.5, 2.5, 4.5])
+    assert solids.contacts.bodies.tolist() == [[0, 1], [1, 2], [3, 0]]
+    assert [solids.model.blocks.name(solid) for solid in range(3)] == ["a[0]", "b[0]", "e[0]"]
+
+
+def test_what_is_glued_to_a_support_does_not_move() -> None:
+    model, contacts = glued(("ground", "a"), ("a", "b"), ("d", "e"))
+    assert model.fixed.tolist() == [True, True, False, False, False]
+    assert contacts.report.held.tolist() == [0, 1]
+    assert contacts.bodies.tolist() == [[1, 2], [2, 3]]
+    assert contacts.solid_of_block is not None
+    assert contacts.solid_of_block.tolist() == [0, 1, 2, 3, 3]
+    assert "2 blocks glued to a support do not move" in contacts.report.notices[-1].message
+    assert len(contacts.report.unsupported) == 0
+
+
+def test_a_support_does_not_join_what_is_glued_to_it() -> None:
+    glue = glue_blocks(model_of(blocks_of(TOWER, GROUPS), fixed=[1]), np.array([[0, 1], [1, 2]]))
+    assert glue.solid_of_block is None
+    assert glue.held.tolist() == [True, False, True, False, False]
+
+
+def test_a_dry_joint_inside_of_a_rigid_body_is_left_out() -> None:
+    """Three blocks touch each other in pairs; two of the three joints are glued."""
+    ring = boxes(([0, 0, 0], [2, 1, 1]), ([0, 0, 1], [1, 1, 2]), ([1, 0, 1], [2, 1, 2]))
+    model = model_of(blocks_of(ring, ["base", "left", "right"]), grounds=(ground(),))
+    overrides = [ContactOverride(between=("base", ["left", "right"]), joint="glued")]
+    contacts = find_contacts(model, ContactsSection(joint="dry", overrides=overrides))
+    assert contacts.bodies.tolist() == [[3, 0]]
+    assert contacts.report.glued_interfaces == 3
+    assert contacts.report.fixed_contacts == 0
+
+
+def test_numbers_do_not_depend_on_the_order_of_blocks() -> None:
+    order = [3, 1, 4, 0, 2]
+    model = model_of(blocks_of(take_polyhedra(TOWER, np.array(order)), [GROUPS[i] for i in order]), grounds=(ground(),))
+    overrides = [ContactOverride(between=("b", "c"), joint="glued"), ContactOverride(between=("c", "d"), joint="glued")]
+    contacts = find_contacts(model, ContactsSection(joint="dry", overrides=overrides))
+    assert contacts.solid_of_block is not None
+    assert contacts.solid_of_block.tolist() == [0, 0, 1, 2, 0]
+    blocks = solids_of(model, contacts).model.blocks
+    np.testing.assert_allclose(blocks.centroids[:, 2], [2.5, 4.5, 0.5])
+    for solid, height in enumerate((3, 1, 1)):
+        vertices = blocks.vertices[blocks.vertex_start[solid] : blocks.vertex_start[solid + 1]]
+        assert np.ptp(vertices[:, 2]) == height
+        faces = slice(blocks.face_start[solid], blocks.face_start[solid + 1])
+        corners = blocks.loops[blocks.loop_start[faces.start] : blocks.loop_start[faces.stop]]
+        assert (blocks.block_of_vertex[corners] == solid).all()
+
+
+def test_loads_and_motions_keep_their_power() -> None:
+    rng = np.random.default_rng(3)
+    model, contacts = glued(("b", "c"), ("d", "e"))
+    model = replace(model, load_cases=(LoadCase("x", rng.normal(size=(5, 6)), rng.normal(size=(5, 6)), (), ()),))
+    solids = solids_of(model, contacts)
+    motions = rng.normal(size=(3, 6))
+    on_blocks = solids.block_motions(motions)
+    np.testing.assert_allclose(solids.solid_motions(on_blocks), motions, atol=1e-14)
+    case, of_solids = model.load_cases[0], solids.model.load_cases[0]
+    assert np.sum(of_solids.dead_load * motions) == pytest.approx(np.sum(case.dead_load * on_blocks), rel=1e-12)
+    assert np.sum(of_solids.live_load * motions) == pytest.approx(np.sum(case.live_load * on_blocks), rel=1e-12)
+
+
+def test_open_joints_are_no_contacts() -> None:
+    _, contacts = glued(("b", "c"), joint="open")
+    assert len(contacts) == 4
+    assert contacts.report.open_interfaces == 1
+    assert [part.tolist() for part in contacts.report.unsupported] == [[2, 3, 4]]
+    assert set(identifiers(contacts)) == {"open-interfaces-left-out", "unsupported-parts"}
+
+
+def test_blocks_that_are_glued_may_not_overlap_either() -> None:
+    pair = boxes(([0, 0, 0], [1, 1, 1]), ([0, 0, 0.9], [1, 1, 2]))
+    model = model_of(blocks_of(pair), grounds=(ground(),))
+    assert len(find_contacts(model, ContactsSection(joint="glued")).report.overlaps) == 1

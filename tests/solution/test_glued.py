@@ -1,0 +1,189 @@
+"""Blocks that are glued: as one block of their union in every flow rule, contact model, result and verification."""
+
+from __future__ import annotations
+
+import io
+from dataclasses import replace
+from pathlib import Path
+
+import h5py
+import numpy as np
+import pytest
+
+from mbla.contacts.glue import held_model, solids_of
+from mbla.deck import read_deck
+from mbla.errors import FileError
+from mbla.model import Model, build_model
+from mbla.results.collapse import collapse_of
+from mbla.results.hdf5 import read_results_hdf5
+from mbla.results.results import CaseResult
+from mbla.results.sta import StatusFile
+from mbla.run import RunOptions, contacts_of, run, solve_case
+from mbla.solution.settings import solver_settings
+from mbla.solution.solution import Status
+from mbla.verify_file import verify_results
+
+HEAD = """\
+mbla: 1
+materials: {stone: {density: 2000}, light: {density: 700}}
+joints: {dry: {friction: 0.7}}
+supports: [{ground: {z: 0}}]
+output: {vtu: false}
+"""
+BRACKET = (
+    HEAD
+    + """\
+blocks:
+  - box: {group: low, material: stone, min: [0, 0, 0], max: [1, 1, 1]}
+  - box: {group: high, material: light, min: [0.5, 0, 1], max: [2, 1, 1.5]}
+contacts: {joint: dry, overrides: [{between: [low, high], joint: glued}]}
+load_cases: {push: {live: [{acceleration: [1, 0, 0]}]}}
+"""
+)
+"""A block with an arm that reaches out by its own breadth."""
+
+TWO_STACKS = (
+    HEAD
+    + """\
+parameters: {cx: 1, cy: 0}
+blocks:
+  - box: {group: base, material: stone, min: [0, 0, 0], max: [1, 1, 0.5]}
+BLOCKS
+load_cases: {push: {live: [{acceleration: ["=cx", "=cy", 0]}]}}
+"""
+)
+STACK = """\
+  - box: {group: tower, material: stone, min: [0.1, 0.1, 0.5], max: [0.9, 0.7, 1]}
+  - box: {group: tower, material: stone, min: [0.1, 0.1, 1], max: [0.9, 0.7, 1.3]}
+  - box: {group: tower, material: stone, min: [0.1, 0.1, 1.3], max: [0.9, 0.7, 2.4]}
+contacts: {joint: dry, overrides: [{between: [tower, tower], orientation: bed, joint: glued}]}
+"""
+ONE = """\
+  - box: {group: tower, material: stone, min: [0.1, 0.1, 0.5], max: [0.9, 0.7, 2.4]}
+contacts: {joint: dry}
+"""
+RULES = (
+    ("analysis.flow_rule=associative",),
+    ("analysis.flow_rule=associative", "analysis.contact_model=convex"),
+    ("analysis.flow_rule=non_associative",),
+    ("analysis.flow_rule=non_associative", "analysis.contact_model=convex"),
+    ("analysis.flow_rule=dilatancy",),
+)
+
+
+def solved(folder: Path, text: str, *overrides: str) -> tuple[Model, CaseResult]:
+    path = folder / "deck.yaml"
+    path.write_text(text, encoding="utf-8")
+    deck = read_deck(path, overrides)
+    model = build_model(deck)
+    contacts = contacts_of(deck, model)
+    model = held_model(model, contacts)
+    status_file = StatusFile(io.StringIO(), "test")
+    settings = solver_settings(deck.analysis)
+    return model, solve_case(deck, model, contacts, model.load_cases[0], settings, status_file, None)
+
+
+def factor(case: CaseResult) -> float:
+    assert case.status is Status.SOLVED, (case.solution.reason, case.checks.failures)
+    assert case.solution.mechanics is not None
+    return case.solution.mechanics.load_factor
+
+
+@pytest.mark.parametrize("rule", RULES, ids=" ".join)
+def test_a_bracket_rocks_as_its_union(tmp_path: Path, rule: tuple[str, ...]) -> None:
+    """Moments about the edge x = 1: Σ W (1 − x) = λ Σ W z, with weights 2000 · 1 and 700 · 0.75."""
+    weights, arms, heights = np.array([2000.0, 525.0]), np.array([0.5, -0.25]), np.array([0.5, 1.25])
+    _, case = solved(tmp_path, BRACKET, *rule)
+    assert factor(case) == pytest.approx(weights @ arms / (weights @ heights), rel=1e-6)
+
+
+@pytest.mark.parametrize("rule", RULES, ids=" ".join)
+@pytest.mark.parametrize("direction", [(1.0, 0.0), (0.6, 0.8)], ids=["planar", "spatial"])
+def test_a_glued_stack_is_one_box(tmp_path: Path, rule: tuple[str, ...], direction: tuple[float, float]) -> None:
+    ways = [f"parameters.cx={direction[0]}", f"parameters.cy={direction[1]}"]
+    _, stack = solved(tmp_path, TWO_STACKS.replace("BLOCKS\n", STACK), *rule, *ways)
+    _, one = solved(tmp_path, TWO_STACKS.replace("BLOCKS\n", ONE), *rule, *ways)
+    assert factor(stack) == pytest.approx(factor(one), rel=1e-9)
+
+
+def test_velocities_are_those_of_one_rigid_body(tmp_path: Path) -> None:
+    model, case = solved(tmp_path, BRACKET, "analysis.flow_rule=associative")
+    assert case.solution.mechanics is not None
+    motion = case.solution.mechanics.mechanism
+    # turning about the edge x = 1, z = 0
+    arms = model.blocks.centroids - [1.0, 0.5, 0.0]
+    np.testing.assert_allclose(motion[:, :3], np.cross(motion[:, 3:], arms), atol=1e-6 * np.abs(motion).max())
+    np.testing.assert_array_equal(motion[0, 3:], motion[1, 3:])
+
+
+def test_a_glued_bracket_is_one_part_of_the_mechanism(tmp_path: Path) -> None:
+    path = tmp_path / "deck.yaml"
+    path.write_text(BRACKET, encoding="utf-8")
+    results = run(path, RunOptions())
+    case = results.cases[0]
+    assert case.solution.mechanics is not None
+    collapse = collapse_of(results.model, results.contacts, case.load_case, case.solution.mechanics)
+    assert collapse.parts.tolist() == [1, 1]
+
+
+def test_the_result_file_is_verified_alone_and_seen_through(tmp_path: Path) -> None:
+    path = tmp_path / "deck.yaml"
+    path.write_text(BRACKET, encoding="utf-8")
+    run(path, RunOptions())
+    results = read_results_hdf5(tmp_path / "deck.out" / "deck.h5")
+    assert results.contacts.solid_of_block is not None
+    again, disagreements = verify_results(results)
+    assert disagreements == ()
+    assert again.exit_code == 0
+    case = results.cases[0]
+    assert case.solution.mechanics is not None
+    motion = case.solution.mechanics.mechanism.copy()
+    motion[1, 0] *= 1.001
+    forged = replace(
+        case, solution=replace(case.solution, mechanics=replace(case.solution.mechanics, mechanism=motion))
+    )
+    again, _ = verify_results(replace(results, cases=(forged,)))
+    assert any("move apart" in failure for failure in again.cases[0].checks.failures)
+    assert again.exit_code == 4
+
+
+def test_a_certificate_moves_the_blocks_of_a_body_together(tmp_path: Path) -> None:
+    """The arm is too heavy: no equilibrium, and what falls is told block by block."""
+    text = BRACKET.replace("material: light", "material: stone").replace("max: [2, 1, 1.5]", "max: [3.2, 1, 1.5]")
+    model, case = solved(tmp_path, text)
+    assert case.status is Status.NO_EQUILIBRIUM
+    certificate = case.solution.certificate
+    assert certificate is not None
+    assert certificate.shape == (len(model.blocks), 6)
+    np.testing.assert_array_equal(certificate[0, 3:], certificate[1, 3:])
+    assert certificate[1, 2] < 0
+
+
+def test_glued_to_the_ground_is_fixed(tmp_path: Path) -> None:
+    """What is left is the upper block on a fixed one."""
+    text = BRACKET.replace("between: [low, high]", "between: [low, ground]").replace("[2, 1, 1.5]", "[1.2, 1, 1.5]")
+    model, case = solved(tmp_path, text, "analysis.flow_rule=associative")
+    assert model.fixed.tolist() == [True, False]
+    # 0.7 wide, centroid 0.35 from the left edge and 0.15 from the end of the bed at x = 1, 0.25 above it
+    assert factor(case) == pytest.approx(0.6, rel=1e-6)
+
+
+def test_restoring_a_file_refuses_numbers_with_gaps(tmp_path: Path) -> None:
+    path = tmp_path / "deck.yaml"
+    path.write_text(BRACKET, encoding="utf-8")
+    run(path, RunOptions())
+    file = tmp_path / "deck.out" / "deck.h5"
+    with h5py.File(file, "r+") as opened:
+        opened["contacts/solid_of_block"][:] = [0, 2]
+    with pytest.raises(FileError, match="rigid bodies"):
+        read_results_hdf5(file)
+
+
+def test_solids_of_the_bracket(tmp_path: Path) -> None:
+    path = tmp_path / "deck.yaml"
+    path.write_text(BRACKET, encoding="utf-8")
+    deck = read_deck(path)
+    model = build_model(deck)
+    solids = solids_of(model, contacts_of(deck, model))
+    assert solids.model.blocks.masses.tolist() == pytest.approx([2525.0])
+    assert solids.model.load_cases[0].dead_load[0, 2] == pytest.approx(-2525 * 9.81)
