@@ -24,6 +24,7 @@ from mbla.deck.contacts import ContactPoints as ContactPoints
 from mbla.deck.contacts import ContactsSection as ContactsSection
 from mbla.deck.items import ArchItem as ArchItem
 from mbla.deck.items import ArchPiers as ArchPiers
+from mbla.deck.items import BarrelVaultItem as BarrelVaultItem
 from mbla.deck.items import BlockItem as BlockItem
 from mbla.deck.items import BoxItem as BoxItem
 from mbla.deck.items import BridgeAbutments as BridgeAbutments
@@ -32,11 +33,15 @@ from mbla.deck.items import BridgeParapets as BridgeParapets
 from mbla.deck.items import BridgePiers as BridgePiers
 from mbla.deck.items import ColumnEnd as ColumnEnd
 from mbla.deck.items import ColumnItem as ColumnItem
+from mbla.deck.items import CrossWall as CrossWall
+from mbla.deck.items import CrossVaultItem as CrossVaultItem
 from mbla.deck.items import DomeDrum as DomeDrum
 from mbla.deck.items import DomeItem as DomeItem
 from mbla.deck.items import Item as Item
+from mbla.deck.items import Masonry as Masonry
 from mbla.deck.items import MeshItem as MeshItem
 from mbla.deck.items import Opening as Opening
+from mbla.deck.items import PavilionVaultItem as PavilionVaultItem
 from mbla.deck.items import PolyhedronItem as PolyhedronItem
 from mbla.deck.items import Reflection as Reflection
 from mbla.deck.items import Repetition as Repetition
@@ -45,7 +50,9 @@ from mbla.deck.items import StackItem as StackItem
 from mbla.deck.items import TableItem as TableItem
 from mbla.deck.items import TransformStep as TransformStep
 from mbla.deck.items import TrilithonItem as TrilithonItem
+from mbla.deck.items import VaultItem as VaultItem
 from mbla.deck.items import WallItem as WallItem
+from mbla.deck.items import WallsItem as WallsItem
 from mbla.deck.joints import JointLaw as JointLaw
 from mbla.deck.loads import Load as Load
 from mbla.deck.loads import LoadCaseSection as LoadCaseSection

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -50,12 +50,16 @@ class _Collected:
 
 @dataclass(frozen=True)
 class _Entry:
-    """What all blocks of an item share: its number in the deck, group, density, and the deck's default joint law."""
+    """What all blocks of an item share: its number in the deck, group, material, and the deck's default joint law.
+
+    densities : by the name of each material
+    """
 
     number: int
     group: str
-    density: float
+    material: str
     joint: str
+    densities: Mapping[str, float]
 
 
 def build_model(deck: Deck) -> Model:
@@ -166,7 +170,7 @@ def _generate_items(deck: Deck, faults: list[Fault]) -> _Collected:
         except DeckError as error:
             faults += error.faults
         else:
-            entry = _Entry(number, group, densities[item.material], deck.contacts.joint)
+            entry = _Entry(number, group, item.material, deck.contacts.joint, densities)
             _collect_copies(collected, generated, item, entry)
             collected.notices += generated.notices
             continue
@@ -209,7 +213,7 @@ def _collect(collected: _Collected, generated: Generated, entry: _Entry, copy: i
     for part in generated.parts:
         collected.polyhedra.append(part.polyhedra)
         collected.groups.append(entry.group + part.suffix)
-        collected.densities.append(entry.density)
+        collected.densities.append(entry.densities[part.material or entry.material])
         collected.items.append(entry.number)
         collected.fixed.append(part.fixed)
         collected.labels.append(labels_of(len(part.polyhedra), part.member, part.labels, copy))

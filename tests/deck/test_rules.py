@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from mbla.deck import read_deck, rules, types
+from mbla.deck.items.masonry import OpeningArch
 from mbla.deck.section import RULES, Section
 from tests.deck.decks import BLOCK, changed, write
 
@@ -86,6 +87,22 @@ def test_every_rule_is_registered_and_broken_by_a_faulty_deck() -> None:
             "must be even in running bond",
             "a springing on ground is level",
         ],
+        types.WallsItem: [
+            "must lie along x or along y",
+            "must be a corner",
+            "there are 4 walls",
+            "has a gable already",
+        ],
+        types.Opening: ["only one of lintel and arch may be given"],
+        OpeningArch: ["applies to flat arches", "the end joints of a flat arch meet below it"],
+        types.ArchItem: ["applies to segmental arches only", "applies with springers: ground only"],
+        types.BarrelVaultItem: ["needs rise for shape: catenary", "applies to shape: segmental only", "half the span"],
+        types.CrossVaultItem: [
+            "must be <= 180: two barrels",
+            "springings on ground are level",
+            "for a segmental vault: two",
+        ],
+        types.PavilionVaultItem: ["a keystone closes the crown", "would be a kink in it"],
         types.SelectorTerm: ["box[1][2] = -1: must be > 0", "applies with group only", "the first of the range"],
         types.GroundPlane: ["needs a normal beside its point", "applies with point only"],
         types.Support: [

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from mbla.deck import types
-from mbla.deck.rules.common import exactly_one, given
+from mbla.deck.rules.common import ROUNDING, exactly_one, given
 from mbla.deck.section import Finding, rule
 
 
@@ -40,3 +40,74 @@ def dome_springers(dome: types.DomeItem) -> Iterator[Finding]:
         yield ("springers",), "a drum carries the dome: write ground or none"
     if dome.joint is not None and dome.springers != "ground":
         yield ("joint",), "applies with springers: ground only"
+
+
+CURVED = (types.BarrelVaultItem, types.CrossVaultItem, types.PavilionVaultItem)
+LEVEL = ("semicircular", "pointed", "elliptic")
+"""shapes that are upright at their springings, so that the joints there are level"""
+
+
+def vault_curve(vault: types.VaultItem) -> Iterator[Finding]:
+    """A semicircle is given by its span alone; a segment needs its rise or its angle, other shapes their rise."""
+    if vault.shape == "segmental":
+        yield from exactly_one(vault, ("rise", "embrace"), " for a segmental vault")
+        return
+    if vault.embrace is not None:
+        yield ("embrace",), f"applies to shape: segmental only: leave it out, or change shape ({vault.shape} given)"
+    if vault.shape == "semicircular" and vault.rise is not None:
+        yield ("rise",), "does not apply to shape: semicircular: leave it out, or change shape"
+    if vault.shape != "semicircular" and vault.rise is None:
+        yield (), f"needs rise for shape: {vault.shape}"
+
+
+def vault_apex(vault: types.VaultItem) -> Iterator[Finding]:
+    """A pointed vault is more than a semicircle high, with a joint at its apex."""
+    span = vault.span if isinstance(vault, types.BarrelVaultItem) else vault.bay[0]  # type: ignore[attr-defined]
+    if vault.shape == "pointed":
+        if vault.rise is not None and vault.rise <= span / 2 * (1 + ROUNDING):
+            yield ("rise",), f"must be > {span / 2:g}, half the span, for a pointed vault"
+        if vault.courses % 2 and not isinstance(vault, types.PavilionVaultItem):
+            yield ("courses",), "must be even for a pointed vault: its apex is a joint"
+
+
+def vault_springers(vault: types.VaultItem) -> Iterator[Finding]:
+    """The joint law of a ground needs a ground."""
+    if vault.joint is not None and vault.springers != "ground":
+        yield ("joint",), "applies with springers: ground only"
+
+
+for _vault in CURVED:
+    for _check in (vault_curve, vault_apex, vault_springers):
+        rule(_vault)(_check)
+
+
+def at_most_semicircular(vault: types.VaultItem) -> Iterator[Finding]:
+    """Webs that lean in below their widest place would cut each other there."""
+    if vault.embrace is not None and vault.embrace > 180:
+        yield ("embrace",), "must be <= 180: two barrels meet in it"
+    bay: float = vault.bay[0]  # type: ignore[attr-defined]
+    if vault.shape == "segmental" and vault.rise is not None and vault.rise > bay / 2 * (1 + ROUNDING):
+        yield ("rise",), f"must be <= {bay / 2:g}, half the span, for a segmental vault: two barrels meet in it"
+
+
+def level_springers(vault: types.VaultItem) -> Iterator[Finding]:
+    """Where two webs meet at a springing, ground is one plane if it is level."""
+    if vault.springers == "ground" and vault.shape not in LEVEL:
+        yield (
+            ("springers",),
+            f"springings on ground are level, those of a {vault.shape} vault slope in each web: write blocks",
+        )
+
+
+for _vault in (types.CrossVaultItem, types.PavilionVaultItem):
+    rule(_vault)(level_springers)
+    rule(_vault)(at_most_semicircular)
+
+
+@rule(types.PavilionVaultItem)
+def pavilion_keystone(vault: types.PavilionVaultItem) -> Iterator[Finding]:
+    """Four webs end in a keystone, which is flat."""
+    if vault.courses % 2 == 0:
+        yield ("courses",), "must be odd: a keystone closes the crown"
+    if vault.shape == "pointed":
+        yield ("shape",), "must not be pointed: a keystone closes the crown, and the apex would be a kink in it"

@@ -18,21 +18,21 @@ import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.deck.types import DomeDrum, DomeItem
-from mbla.model.generators.arcs import Arc, arc_of
 from mbla.model.generators.chains import chains
+from mbla.model.generators.curves import Circle, named_curve
 from mbla.model.generators.generator import Generated, GroundPart, ItemRefused, Part, Site
 from mbla.model.generators.rings import meridians, ring_blocks
 from mbla.model.polyhedra import Polyhedra, join_polyhedra
 
 FLUSH = 1e-9
-"""relative to the thickness: a drum by no more than this wider than the dome's foot is as wide as it"""
+"""relative to the thickness: lengths and heights that differ by no more are the same"""
 
 
 @dataclass(frozen=True)
 class _Dome:
     """Intrados circle, thickness, angles of the joints from the springing up, height of the springing, facets."""
 
-    arc: Arc
+    circle: Circle
     thickness: float
     angles: FloatArray
     springing: float
@@ -42,9 +42,8 @@ class _Dome:
 
     def joint(self, angle: float) -> FloatArray:
         """Intrados and extrados point of a joint, (2, 2): distance from the axis, height."""
-        radii = (self.arc.radius, self.arc.radius + self.thickness)
-        points = np.concatenate([self.arc.points(radius, np.array([angle])) for radius in radii])
-        return np.asarray(points + np.array([0.0, self.springing]))
+        points = self.circle.points(np.array([angle]), np.array([[0.0, self.thickness]]))[0]
+        return np.asarray(points - [self.circle.span / 2, -self.springing], dtype=np.float64)
 
     def ring(self, profile: FloatArray, number: int) -> Polyhedra:
         """The blocks of a ring, counted from the springing; rings below it have negative numbers."""
@@ -82,23 +81,25 @@ def generate_dome(item: DomeItem, site: Site) -> Generated:
 
 
 def _dome(item: DomeItem) -> _Dome:
-    arc = arc_of(item.span, item.rise, item.embrace)
+    shape = "semicircular" if item.shape == "hemispherical" else item.shape
+    circle = named_curve(shape, item.span, item.rise, item.embrace)
+    assert isinstance(circle, Circle)  # which both shapes are
     facets = item.facets or (2 if item.bond == "running" else 1)
     springing = item.drum.height if item.drum else 0.0
-    angles = np.linspace(arc.half_angle, _top(item, arc), item.rings + 1)
-    return _Dome(arc, item.thickness, angles, springing, item.segments, facets, item.bond == "running")
+    angles = np.linspace(circle.half_angle, _top(item, circle), item.rings + 1)
+    return _Dome(circle, item.thickness, angles, springing, item.segments, facets, item.bond == "running")
 
 
-def _top(item: DomeItem, arc: Arc) -> float:
+def _top(item: DomeItem, circle: Circle) -> float:
     """Angle of the last joint from the crown."""
     key = "oculus" if item.oculus is not None else "keystone"
     diameter: float | None = getattr(item, key)
     if diameter is None:
-        return arc.half_angle / (2 * item.rings + 1)
-    widest = 2 * arc.radius * np.sin(min(arc.half_angle, np.pi / 2))
+        return circle.half_angle / (2 * item.rings + 1)
+    widest = 2 * circle.radius * np.sin(min(circle.half_angle, np.pi / 2))
     if diameter >= widest:
         raise ItemRefused([((key,), f"must be < {widest:g}, the greatest diameter of the intrados")])
-    return float(np.arcsin(diameter / (2 * arc.radius)))
+    return float(np.arcsin(diameter / (2 * circle.radius)))
 
 
 def _part(rings: list[Polyhedra], member: str, position: str) -> Part:
@@ -109,7 +110,7 @@ def _part(rings: list[Polyhedra], member: str, position: str) -> Part:
 
 def _drum(dome: _Dome, drum: DomeDrum) -> Iterator[Polyhedra]:
     """Courses from the bottom; the last has a bevelled bed for the dome, and a ledge where the drum is wider."""
-    foot = dome.joint(dome.arc.half_angle)
+    foot = dome.joint(dome.circle.half_angle)
     inside = foot[0, 0]
     outside = inside + (dome.thickness if drum.thickness is None else drum.thickness)
     if foot[1, 0] > outside + FLUSH * dome.thickness:
@@ -118,7 +119,7 @@ def _drum(dome: _Dome, drum: DomeDrum) -> Iterator[Polyhedra]:
     heights = np.linspace(0.0, drum.height, drum.courses + 1)
     for course, (low, high) in enumerate(pairwise(heights)):
         profile = np.array([[inside, low], [inside, high], [outside, high], [outside, low]])
-        if course == drum.courses - 1 and dome.arc.centre != 0.0:
+        if course == drum.courses - 1 and abs(foot[1, 1] - high) > FLUSH * dome.thickness:
             profile[2, 1] = foot[1, 1]
             if outside - foot[1, 0] > FLUSH * dome.thickness:
                 profile = np.insert(profile, 2, foot[1], axis=0)
@@ -136,5 +137,5 @@ def _keystone(dome: _Dome, joint: FloatArray) -> Polyhedra:
 
 def _behind(dome: _Dome, joint: FloatArray) -> FloatArray:
     """Profile of the fixed blocks: from the springing joint back by the thickness."""
-    back = dome.thickness * np.array([np.cos(dome.arc.half_angle), -np.sin(dome.arc.half_angle)])
+    back = dome.thickness * np.array([np.cos(dome.circle.half_angle), -np.sin(dome.circle.half_angle)])
     return np.array([joint[0] + back, joint[0], joint[1], joint[1] + back])
