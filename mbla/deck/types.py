@@ -33,8 +33,8 @@ from mbla.deck.items import BridgeParapets as BridgeParapets
 from mbla.deck.items import BridgePiers as BridgePiers
 from mbla.deck.items import ColumnEnd as ColumnEnd
 from mbla.deck.items import ColumnItem as ColumnItem
-from mbla.deck.items import CrossWall as CrossWall
 from mbla.deck.items import CrossVaultItem as CrossVaultItem
+from mbla.deck.items import CrossWall as CrossWall
 from mbla.deck.items import DomeDrum as DomeDrum
 from mbla.deck.items import DomeItem as DomeItem
 from mbla.deck.items import Item as Item
