@@ -22,6 +22,7 @@ DECKS = ROOT / "decks"
 FOLDERS = ("tutorials", "benchmarks", "structures")
 PATHS = tuple(sorted(path for folder in FOLDERS for path in DECKS.glob(f"{folder}/*.yaml")))
 LONG = (
+    "structures/arch_bridge",
     "tutorials/crossvault_without_dilatancy",
     "structures/house",
     "structures/room",
