@@ -44,7 +44,7 @@ def volume(bay: tuple[float, float], edge: float, half_angle: float, courses: in
         levels = np.array([0.0, 0.5, 1.0])  # Simpson's rule is exact for a quadratic
         half = sides[0] + (sides[1] - sides[0]) * levels
         ridge += 2 * float((2 * across * half * (length - scale * half) * [1, 4, 1]).sum() * depth / 6)
-    return webs + frustum + ridge
+    return float(webs + frustum + ridge)
 
 
 @pytest.mark.parametrize("courses", [2, 6, 9])
