@@ -62,6 +62,7 @@ def check(deck_path: Path, options: RunOptions, vtu: bool = False) -> tuple[Resu
 
 def needs_of(deck: Deck, model: Model, contacts: Contacts, load_case: LoadCase) -> dict[str, int | str]:
     """What of the model reaches the solver, the size of its first cone programs, and who solves them."""
+    model = model.of_case(load_case)
     solids = solids_of(model, contacts)
     program = assemble(solids.model, solids.contacts, solids.load_case(load_case))
     reduced = reduced_program(deck, solids.model, solids.contacts, program)

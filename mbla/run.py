@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from mbla.contacts import Contacts, find_contacts
@@ -29,6 +29,7 @@ from mbla.solution import Status, solve, verified_status, verify
 from mbla.solution.convex import solve_convex
 from mbla.solution.glued import solution_on_blocks
 from mbla.solution.settings import SolverSettings, solver_settings
+from mbla.solution.settlement import posed
 from mbla.solution.solution import IterationRecord
 
 Progress = Callable[[str, IterationRecord], None]
@@ -79,6 +80,7 @@ def run(deck_path: Path, options: RunOptions, progress: Progress | None = None) 
         model = held_model(model, contacts)
         found = time.perf_counter()
         settings = solver_settings(deck.analysis, options.threads)
+        model, load_cases = with_settlements(model, contacts, load_cases, settings)
         cases = [
             solve_case(deck, model, contacts, load_case, settings, status_file, progress) for load_case in load_cases
         ]
@@ -98,6 +100,15 @@ def run(deck_path: Path, options: RunOptions, progress: Progress | None = None) 
         return write_results(results, out, output.vtu, output.frames, output.plots)
 
 
+def with_settlements(
+    model: Model, contacts: Contacts, load_cases: tuple[LoadCase, ...], settings: SolverSettings
+) -> tuple[Model, tuple[LoadCase, ...]]:
+    """Load cases to be solved in which a support gives way get the reaction that it starts from."""
+    ready = {case.name: posed(model, contacts, case, settings) for case in load_cases}
+    everything = tuple(ready.get(case.name, case) for case in model.load_cases)
+    return replace(model, load_cases=everything), tuple(ready.values())
+
+
 def solve_case(
     deck: Deck,
     model: Model,
@@ -114,6 +125,7 @@ def solve_case(
         if progress is not None:
             progress(load_case.name, record)
 
+    model = model.of_case(load_case)
     solids = solids_of(model, contacts)
     on_solids = (solids.model, solids.contacts, solids.load_case(load_case))
     if deck.analysis.contact_model == "convex":

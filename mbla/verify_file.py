@@ -21,7 +21,7 @@ def verify_results(results: Results) -> tuple[Results, tuple[str, ...]]:
     """Results with checks, status and exit status recomputed, and where they disagree with what the file says."""
     cases, disagreements = [], []
     for case in results.cases:
-        checks = verify(results.model, results.contacts, case.load_case, case.solution)
+        checks = verify(results.model.of_case(case.load_case), results.contacts, case.load_case, case.solution)
         status = verified_status(case.solution, checks)
         name = case.load_case.name
         disagreements += [f"{name}: {text}" for text in _differences(case.checks, checks)]

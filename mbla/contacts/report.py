@@ -41,6 +41,8 @@ def build_report(model: Model, section: ContactsSection, findings: Findings, not
     bodies = _without(touching, findings.open_bodies, len(model.blocks) + len(model.grounds))
     slivers, widths = _slivers(model, findings.slivers)
     near_misses, gaps = _near_misses(model, findings.near_misses, overlaps)
+    held = model.fixed.copy()
+    held[model.guides.blocks] = True
     report = ContactReport(
         slivers=slivers,
         sliver_widths=widths,
@@ -50,7 +52,7 @@ def build_report(model: Model, section: ContactsSection, findings: Findings, not
         overlap_depths=overlaps.depths,
         unchecked=overlaps.unchecked,
         isolated=isolated_blocks(len(model.blocks), bodies),
-        unsupported=unsupported_parts(model.fixed, bodies),
+        unsupported=unsupported_parts(held, bodies),
         fixed_contacts=int(both_fixed(model, touching).sum()),
         open_interfaces=len(findings.open_bodies),
         glued_interfaces=findings.glued_interfaces,
@@ -73,7 +75,10 @@ def _without(bodies: IntArray, taken: IntArray, n_bodies: int) -> IntArray:
 
 
 def both_fixed(model: Model, bodies: IntArray) -> BoolArray:
-    """True where neither body of a pair can move, (n,)."""
+    """True where neither body of a pair can move but as a support that gives way, (n,).
+
+    Supports do not rub on each other: a footing that sinks beside another would lock against it by dilatancy alone.
+    """
     still = np.concatenate([model.fixed, np.ones(len(model.grounds), dtype=bool)])
     return np.asarray(still[bodies[:, 0]] & still[bodies[:, 1]])
 

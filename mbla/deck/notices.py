@@ -39,7 +39,7 @@ def _gravity(tree: Tree, content: DeckContent, units: Units) -> Iterator[Notice]
 
 def _loads(content: DeckContent) -> Iterator[tuple[KeyPath, Load]]:
     for name, case in content.load_cases.items():
-        for key, loads in (("dead", case.dead or []), ("live", case.live)):
+        for key, loads in (("dead", case.dead or []), ("live", case.live or [])):
             for number, load in enumerate(loads):
                 yield ("load_cases", name, key, number), load
 

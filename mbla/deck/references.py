@@ -34,6 +34,14 @@ REFERENCES = (
     Reference("blocks.#.arch.joint", "joint law", BUILT_IN),
     Reference("contacts.joint", "joint law", BUILT_IN),
     Reference("contacts.overrides.#.joint", "joint law", BUILT_IN),
+    *(
+        Reference(f"blocks.#.{kind}.openings.#.{over}.material", "material")
+        for kind in ("wall", "walls")
+        for over in ("lintel", "arch")
+    ),
+    Reference("blocks.#.arch.joint", "joint law"),
+    Reference("contacts.joint", "joint law"),
+    Reference("contacts.overrides.#.joint", "joint law"),
     Reference("contacts.overrides.#.between.#", "group", (GROUND,)),
     Reference("contacts.overrides.#.between.#.#", "group", (GROUND,)),
     Reference("contacts.overrides.#.between.#.group", "group"),
@@ -41,7 +49,12 @@ REFERENCES = (
     Reference("supports.#.joint", "joint law", BUILT_IN),
     *(
         Reference(f"{place}{form}", "group")
-        for place in ("supports.#.blocks", "load_cases.*.dead.#.on", "load_cases.*.live.#.on")
+        for place in (
+            "supports.#.blocks",
+            "load_cases.*.dead.#.on",
+            "load_cases.*.live.#.on",
+            "load_cases.*.settlement.on",
+        )
         for form in ("", ".group", ".#", ".#.group")
     ),
 )

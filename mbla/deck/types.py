@@ -27,12 +27,18 @@ from mbla.deck.items import ArchPiers as ArchPiers
 from mbla.deck.items import BarrelVaultItem as BarrelVaultItem
 from mbla.deck.items import BlockItem as BlockItem
 from mbla.deck.items import BoxItem as BoxItem
+from mbla.deck.items import BridgeAbutments as BridgeAbutments
+from mbla.deck.items import BridgeItem as BridgeItem
+from mbla.deck.items import BridgeParapets as BridgeParapets
+from mbla.deck.items import BridgePiers as BridgePiers
 from mbla.deck.items import ColumnEnd as ColumnEnd
 from mbla.deck.items import ColumnItem as ColumnItem
 from mbla.deck.items import CrossVaultItem as CrossVaultItem
+from mbla.deck.items import CrossWall as CrossWall
 from mbla.deck.items import DomeDrum as DomeDrum
 from mbla.deck.items import DomeItem as DomeItem
 from mbla.deck.items import Item as Item
+from mbla.deck.items import Masonry as Masonry
 from mbla.deck.items import MeshItem as MeshItem
 from mbla.deck.items import Opening as Opening
 from mbla.deck.items import PavilionVaultItem as PavilionVaultItem
@@ -47,9 +53,11 @@ from mbla.deck.items import TransformStep as TransformStep
 from mbla.deck.items import TrilithonItem as TrilithonItem
 from mbla.deck.items import VaultItem as VaultItem
 from mbla.deck.items import WallItem as WallItem
+from mbla.deck.items import WallsItem as WallsItem
 from mbla.deck.joints import JointLaw as JointLaw
 from mbla.deck.loads import Load as Load
 from mbla.deck.loads import LoadCaseSection as LoadCaseSection
+from mbla.deck.loads import SettlementSection as SettlementSection
 from mbla.deck.names import Line, Name, ParameterName
 from mbla.deck.quantities import (
     Number,
@@ -64,6 +72,7 @@ from mbla.deck.selectors import Selector as Selector
 from mbla.deck.selectors import SelectorTerm as SelectorTerm
 from mbla.deck.supports import GroundPlane as GroundPlane
 from mbla.deck.supports import Support as Support
+from mbla.deck.supports import Turn as Turn
 
 
 def _no_boolean(value: Any) -> Any:
@@ -104,6 +113,7 @@ class Expectation(Section):
 
     load_factor: Number | None = Field(None, description="by the deck's own flow rule")
     associative_load_factor: Number | None = Field(None, description="by the associative flow rule")
+    reaction: Number | None = Field(None, description="of the support that gives way")
     lower: Number | None = Field(None, description="least load factor for the mechanism found, without normality")
     status: Literal["solved", "approximate", "not_verified", "no_equilibrium", "unbounded"] | None = Field(
         None, description="status of the case"

@@ -10,6 +10,7 @@ from pydantic import ValidationError
 from mbla.deck import rules  # noqa: F401  registers the rules across keys
 from mbla.deck.fields import allowed_keys, description
 from mbla.deck.names import PATTERNS
+from mbla.deck.refused_keys import refusal
 from mbla.deck.replaced import REPLACED
 from mbla.deck.suggestions import did_you_mean, listed, unknown
 from mbla.deck.tree import KeyPath, MappingMarks, SequenceMarks, Tree, own_mark
@@ -136,7 +137,7 @@ def _words(data: Any, path: KeyPath, error: Any) -> tuple[str, bool]:
         meaning = description(DeckContent, path)
         return "is missing" + (f": {meaning}" if meaning else ""), False
     if kind == "extra_forbidden":
-        return _unknown_key(path), True
+        return refusal(path) or _unknown_key(path), True
     if kind in ("too_long", "too_short"):
         return _length(context, _items(data, path)), False
     if kind in _TYPES:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -12,7 +12,7 @@ import numpy as np
 from mbla.deck.deck import Deck
 from mbla.deck.joints import FRICTIONLESS
 from mbla.deck.tree import KeyPath
-from mbla.deck.types import BlockItem, Item, JointLaw, Material
+from mbla.deck.types import BlockItem, Item, JointLaw, LoadCaseSection, Material
 from mbla.deck.units import Units
 from mbla.errors import DeckError, Fault, Notice
 from mbla.model.build_blocks import BuiltBlocks, Labels, build_blocks, indices_in_groups
@@ -20,11 +20,12 @@ from mbla.model.generators import GENERATORS
 from mbla.model.generators.generator import Generated, ItemRefused, Site
 from mbla.model.labels import NONE, BlockLabels, join_labels, labels_of
 from mbla.model.loads import LoadSite, build_load_case
-from mbla.model.model import Ground, Joint, Model
+from mbla.model.model import Ground, Joint, LoadCase, Model
 from mbla.model.overrides import check_overrides
 from mbla.model.polyhedra import Polyhedra, join_polyhedra
 from mbla.model.selectors import build_roster
-from mbla.model.supports import Supports, build_supports
+from mbla.model.settlement import build_settlement
+from mbla.model.supports import Supports, build_supports, does_nothing
 from mbla.model.transform import build_transform, repetitions, transform_item
 
 MOST_FAULTS_PER_ITEM = 10
@@ -49,12 +50,16 @@ class _Collected:
 
 @dataclass(frozen=True)
 class _Entry:
-    """What all blocks of an item share: its number in the deck, group, density, and the deck's default joint law."""
+    """What all blocks of an item share: its number in the deck, group, material, and the deck's default joint law.
+
+    densities : by the name of each material
+    """
 
     number: int
     group: str
-    density: float
+    material: str
     joint: str
+    densities: Mapping[str, float]
 
 
 def build_model(deck: Deck) -> Model:
@@ -83,7 +88,7 @@ def build_model(deck: Deck) -> Model:
     supports = build_supports(deck.content.supports, joint, brought_along, roster, tolerance, faults)
     check_overrides(deck.contacts.overrides, roster, faults)
     site = LoadSite(roster, supports.fixed, deck.units, deck.resolve_file, faults, notices)
-    load_cases = tuple(build_load_case(name, section, site) for name, section in deck.content.load_cases.items())
+    load_cases = tuple(_load_case(name, section, site, supports) for name, section in deck.content.load_cases.items())
     if faults:
         raise DeckError(faults)
     return Model(
@@ -95,6 +100,7 @@ def build_model(deck: Deck) -> Model:
         joints=_joints(deck, supports.grounds),
         load_cases=load_cases,
         notices=(*items.notices, *built.notices, *notices),
+        guides=supports.guides,
     )
 
 
@@ -105,6 +111,21 @@ def _joints(deck: Deck, grounds: Sequence[Ground]) -> dict[str, Joint]:
     if FRICTIONLESS in used | {ground.joint for ground in grounds}:
         laws[FRICTIONLESS] = Joint(FRICTIONLESS, 0.0)
     return laws
+
+
+def _load_case(name: str, section: LoadCaseSection, site: LoadSite, supports: Supports) -> LoadCase:
+    """Loads of one case, or its dead loads and the support that gives way."""
+    load_case = build_load_case(name, section, site)
+    path: KeyPath = ("load_cases", name)
+    if section.settlement is not None:
+        settles = (*path, "settlement")
+        return build_settlement(section.settlement, settles, load_case, supports, site.roster, site.faults)
+    if not site.faults and does_nothing(load_case.live_load, supports):
+        site.refuse(
+            (*path, "live"),
+            "the supports take every live load, for they act on guided blocks across what these may do",
+        )
+    return load_case
 
 
 def build_joint(name: str, law: JointLaw) -> Joint:
@@ -149,7 +170,7 @@ def _generate_items(deck: Deck, faults: list[Fault]) -> _Collected:
         except DeckError as error:
             faults += error.faults
         else:
-            entry = _Entry(number, group, densities[item.material], deck.contacts.joint)
+            entry = _Entry(number, group, item.material, deck.contacts.joint, densities)
             _collect_copies(collected, generated, item, entry)
             collected.notices += generated.notices
             continue
@@ -192,7 +213,7 @@ def _collect(collected: _Collected, generated: Generated, entry: _Entry, copy: i
     for part in generated.parts:
         collected.polyhedra.append(part.polyhedra)
         collected.groups.append(entry.group + part.suffix)
-        collected.densities.append(entry.density)
+        collected.densities.append(entry.densities[part.material or entry.material])
         collected.items.append(entry.number)
         collected.fixed.append(part.fixed)
         collected.labels.append(labels_of(len(part.polyhedra), part.member, part.labels, copy))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -10,6 +10,7 @@ from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.deck.units import Units
 from mbla.errors import Notice
 from mbla.model.blocks import Blocks
+from mbla.model.guides import NO_GUIDES, Guides, joined
 
 
 @dataclass(frozen=True)
@@ -43,11 +44,48 @@ class Ground:
 
 
 @dataclass(frozen=True)
+class Settlement:
+    """Fixed blocks that give way together in one motion, and the reaction of their support against it.
+
+    The dead load of the case holds the reaction ``reference`` against the motion, the live load takes ``unit`` from it:
+    reaction = reference − load factor × unit. What acts on these blocks themselves goes straight into their support and
+    does not count.
+
+    blocks    : (m,)
+    motions   : (m, 6) velocity and angular velocity about the centroid of each block; a unit velocity along the
+                direction of the settlement, or a unit rotation
+    turns     : the motion is a rotation, the reaction a moment
+    words     : in words, for the listing
+    reference : reaction of the structure at rest on the support that has not moved yet, nan where not known yet
+    unit      : weight of the free blocks; times their mean distance from the axis where the support turns
+    """
+
+    blocks: IntArray
+    motions: FloatArray
+    turns: bool
+    words: str
+    reference: float
+    unit: float
+
+    def reaction(self, load_factor: float) -> float:
+        """Of the support, in the deck's unit of force, or force times length where it turns."""
+        return self.reference - load_factor * self.unit
+
+    @property
+    def guides(self) -> Guides:
+        """The blocks as one body with one way to move."""
+        motions = np.zeros((len(self.blocks), 6, 6))
+        motions[:, :, 0] = self.motions
+        return Guides(self.blocks, np.zeros(len(self.blocks), dtype=np.int64), motions)
+
+
+@dataclass(frozen=True)
 class LoadCase:
     """Loads of one case on every block, about its centroid.
 
     dead_load, live_load : (n_blocks, 6) force N and moment N m, also on fixed blocks (they go into the support)
     dead_words, live_words : the loads in words, for the listing
+    settlement : support that gives way, None for none
     """
 
     name: str
@@ -55,6 +93,7 @@ class LoadCase:
     live_load: FloatArray
     dead_words: tuple[str, ...]
     live_words: tuple[str, ...]
+    settlement: Settlement | None = None
 
 
 @dataclass(frozen=True)
@@ -67,6 +106,7 @@ class Model:
     joints      : joint laws by name
     load_cases  : in the order of the deck
     notices     : repairs and remarks from building it
+    guides      : blocks that may move in given ways only; they count as free
     """
 
     title: str
@@ -77,6 +117,16 @@ class Model:
     joints: dict[str, Joint]
     load_cases: tuple[LoadCase, ...]
     notices: tuple[Notice, ...]
+    guides: Guides = NO_GUIDES
+
+    def of_case(self, load_case: LoadCase) -> Model:
+        """The model as it may move under a load case: with the blocks of its settlement as a guided body."""
+        settlement = load_case.settlement
+        if settlement is None:
+            return self
+        fixed = self.fixed.copy()
+        fixed[settlement.blocks] = False
+        return replace(self, fixed=fixed, guides=joined(self.guides, settlement.guides))
 
     @property
     def free(self) -> IntArray:

@@ -10,11 +10,21 @@ from mbla.contacts.contacts import Contacts
 from mbla.model.model import LoadCase, Model
 from mbla.program.equilibrium import equilibrium_matrix, lever_arms
 from mbla.program.program import Program, Scaling
+from mbla.program.reductions.guided import guide_projector, guided_program
 from mbla.program.yield_conditions.limits import YieldLimits
 
 
 def assemble(model: Model, contacts: Contacts, load_case: LoadCase) -> Program:
-    """Build the program of one load case; nothing in it depends on the deck's units."""
+    """Build the program of one load case; nothing in it depends on the deck's units.
+
+    With guided blocks it is a reduction of the program in which these are free.
+    """
+    program = _assemble_unguided(model, contacts, load_case)
+    return guided_program(program, program.allowed)
+
+
+def _assemble_unguided(model: Model, contacts: Contacts, load_case: LoadCase) -> Program:
+    """The program in which guided blocks move as they like, six rows a free block."""
     free = model.free
     dead, live = load_case.dead_load[free].ravel(), load_case.live_load[free].ravel()
     scaling = _scaling(lever_arms(model, contacts, free), dead, live)
@@ -27,6 +37,7 @@ def assemble(model: Model, contacts: Contacts, load_case: LoadCase) -> Program:
         free=free,
         n_blocks=len(model.blocks),
         scaling=scaling,
+        allowed=guide_projector(model, free, scaling),
     )
 
 

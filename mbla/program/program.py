@@ -73,6 +73,9 @@ class Program:
     n_blocks           : blocks of the model
     components         : of the force at a contact point: 3 (N, T1, T2), or 2 (N, T) in a planar program
     reduction          : where this program came from, None for that of the whole model
+    guided             : the reduction is to motions that guides allow
+    allowed            : of the program of the whole model: (n_rows, n_rows) projector on the motions that guides allow,
+                         None where no block is guided
     """
 
     equilibrium_matrix: sp.csr_array
@@ -84,6 +87,8 @@ class Program:
     scaling: Scaling
     components: int = 3
     reduction: Reduction | None = None
+    guided: bool = False
+    allowed: sp.csr_array | None = None
 
     @property
     def n_points(self) -> int:
@@ -102,14 +107,29 @@ class Program:
         1 for the program of the whole model. What depends on the size of load factors must not change because parts
         that cannot interact are solved together or apart.
         """
-        rows = 3 if self.components == 2 else 6
-        dead, live = (np.linalg.norm(load.reshape(-1, rows), axis=1) for load in (self.dead_load, self.live_load))
+        dead, live = (np.linalg.norm(load, axis=1) for load in self._loads_of_blocks())
         if not np.any(dead) or not np.any(live):
             return 1.0
         return float(dead[dead > 0].mean() / np.sqrt(np.mean(live**2)))
 
+    def _loads_of_blocks(self) -> tuple[FloatArray, FloatArray]:
+        """Dead and live load, a row for each block; of guided blocks what does work in their ways."""
+        dead, live = self.dead_load, self.live_load
+        if self.guided and self.reduction is not None:
+            dead, live = self.reduction.velocities @ dead, self.reduction.velocities @ live
+        rows = 3 if self.components == 2 else 6
+        return dead.reshape(-1, rows), live.reshape(-1, rows)
+
     def mechanism(self, scaled: FloatArray) -> FloatArray:
-        """Velocities of all blocks, fixed ones at rest, (n_blocks, 6), from those of the program, (6 n_free,)."""
+        """Velocities of all blocks, fixed ones at rest, (n_blocks, 6), from those of the program, (n_rows,)."""
+        if self.reduction is not None:
+            return self.reduction.full.mechanism(self.reduction.velocities @ scaled)
         full = np.zeros((self.n_blocks, 6))
         full[self.free] = self.scaling.velocities(scaled)
         return full
+
+    def velocities(self, mechanism: FloatArray) -> FloatArray:
+        """The way back from ``mechanism``: (n_rows,) from (n_blocks, 6), as near to it as its motions come."""
+        if self.reduction is not None:
+            return np.asarray(self.reduction.velocities.T @ self.reduction.full.velocities(mechanism))
+        return np.asarray(mechanism[self.free].ravel() / (self.scaling.row * self.scaling.live))

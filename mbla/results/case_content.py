@@ -52,7 +52,7 @@ TEXT_COLUMNS = ("kind", "status", *SOLVER_FIELDS)
 
 def case_content(model: Model, contacts: Contacts, case: CaseResult) -> Content:
     """Everything of one load case but its loads."""
-    solution, checks = case.solution, case.checks
+    solution, checks, model = case.solution, case.checks, model.of_case(case.load_case)
     content: Content = {
         "status": case.status.value,
         "claimed_status": solution.status.value,
@@ -72,6 +72,9 @@ def case_content(model: Model, contacts: Contacts, case: CaseResult) -> Content:
         **_table("programs", (*PROGRAM_FIELDS, *SOLVER_FIELDS), solution.programs, whole=("program", "iterations")),
         **_table("iterations", ITERATION_FIELDS, solution.iterations, whole=("program", "iteration")),
     }
+    settlement = case.load_case.settlement
+    if settlement is not None and solution.mechanics is not None:
+        content["reaction"] = settlement.reaction(solution.mechanics.load_factor)
     return content | _answers(case) | _collapse(model, contacts, case) | _further(solution)
 
 

@@ -26,6 +26,48 @@ LOADS = (
     Field(f"{CASE}/live_words", "text", ("live_item",), "1", "live loads in words"),
 )
 
+SETTLEMENT = (
+    Field(
+        f"{CASE}/settlement/blocks",
+        "int",
+        ("settling_block",),
+        "1",
+        "fixed blocks that give way under this case",
+        index_of="block",
+        part="settlement",
+    ),
+    Field(
+        f"{CASE}/settlement/motions",
+        "float",
+        ("settling_block", "component"),
+        "motion",
+        "their velocity and angular velocity in the unit motion of the support",
+        part="settlement",
+    ),
+    Field(
+        f"{CASE}/settlement/turns", "bool", (), "1", "1: the support turns, its reaction is a moment", part="settlement"
+    ),
+    Field(f"{CASE}/settlement/words", "text", (), "1", "the settlement in words", part="settlement"),
+    Field(
+        f"{CASE}/settlement/reference",
+        "float",
+        (),
+        "load",
+        "reaction at rest, a force or a moment; reaction = reference - load factor x unit",
+        open=True,
+        part="settlement",
+    ),
+    Field(f"{CASE}/settlement/unit", "float", (), "load", "unit of the loss of reaction", part="settlement"),
+    Field(
+        f"{CASE}/reaction",
+        "float",
+        (),
+        "load",
+        "reaction of the support at which the structure follows it, positive against the motion",
+        part="reaction",
+    ),
+)
+
 ANSWER = (
     Field(f"{CASE}/status", "text", (), "1", "status of the case after verification", part="solution"),
     Field(f"{CASE}/claimed_status", "text", (), "1", "status that the solver stage claimed", part="solution"),
@@ -224,6 +266,7 @@ HISTORY = (
 
 CASE_FIELDS: tuple[Field, ...] = (
     *LOADS,
+    *SETTLEMENT,
     *ANSWER,
     *MECHANICS,
     *COLLAPSE,

@@ -11,13 +11,14 @@ from mbla.results.mechanism_json import mechanism_json
 from mbla.results.numbers import number
 from mbla.results.outcome import associative_of, best_iterate, factor_unique, range_of, result_of
 from mbla.results.results import CaseResult
+from mbla.results.settlement_words import reaction_json
 from mbla.results.solver_words import solver_json
 from mbla.solution.solution import Checks, Mechanics, Solution
 
 
 def case_json(model: Model, contacts: Contacts, case: CaseResult) -> dict[str, Any]:
     """Everything that is said of a case; ``load_factor`` and ``mechanism`` only where they are results."""
-    solution, checks = case.solution, case.checks
+    solution, checks, model = case.solution, case.checks, model.of_case(case.load_case)
     mechanics, associative, ends = result_of(case), associative_of(case), range_of(case)
     solver = float(sum(program.seconds for program in solution.programs))
     return {
@@ -28,6 +29,7 @@ def case_json(model: Model, contacts: Contacts, case: CaseResult) -> dict[str, A
         "flow_rule": solution.flow_rule,
         "scheme": solution.scheme or None,
         "load_factor": None if mechanics is None else number(mechanics.load_factor),
+        "reaction": reaction_json(case),
         "factor_unique": factor_unique(case),
         "range": None if ends is None else [number(end) for end in ends],
         "peak": number(checks.peak_load_factor),

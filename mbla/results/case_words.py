@@ -20,7 +20,7 @@ from mbla.results.work_words import work_lines
 
 def case_lines(model: Model, contacts: Contacts, case: CaseResult) -> list[str]:
     """The section of one load case."""
-    solution = case.solution
+    solution, model = case.solution, model.of_case(case.load_case)
     mechanics = solution.mechanics
     collapse = None if mechanics is None else collapse_of(model, contacts, case.load_case, mechanics)
     says = verdict(model, case)

@@ -44,6 +44,7 @@ CONTACT_ARRAYS = (
     "frames",
     "point_areas",
 )
+SETTLEMENT_FIELDS = ("blocks", "motions", "turns", "words", "reference", "unit")
 REPORT_FIELDS = (
     "slivers",
     "sliver_widths",
@@ -143,6 +144,7 @@ def _model(model: Model) -> Content:
         "model/fixed": model.fixed,
         **_joints(model),
         **_grounds(model),
+        **_guides(model),
         **_notices("model/notices", model.notices),
     }
     return content
@@ -189,5 +191,22 @@ def _contacts(contacts: Contacts) -> Content:
     }
 
 
+def _guides(model: Model) -> Content:
+    """Blocks that move in given ways only; nothing where there are none."""
+    guides = model.guides
+    if not len(guides):
+        return {}
+    return {
+        "model/guided_blocks": guides.blocks,
+        "model/guided_bodies": guides.bodies,
+        "model/guide_motions": guides.motions,
+        "model/guide_words": guides.words,
+    }
+
+
 def _loads(load_case: LoadCase) -> Content:
-    return {name: getattr(load_case, name) for name in ("dead_load", "live_load", "dead_words", "live_words")}
+    loads: Content = {name: getattr(load_case, name) for name in ("dead_load", "live_load", "dead_words", "live_words")}
+    settlement = load_case.settlement
+    if settlement is not None:
+        loads |= {f"settlement/{name}": getattr(settlement, name) for name in SETTLEMENT_FIELDS}
+    return loads

@@ -7,6 +7,7 @@ import numpy as np
 from mbla.model.model import Model
 from mbla.results.outcome import associative_of, best_iterate, locked_in, range_of, result_of
 from mbla.results.results import CaseResult
+from mbla.results.settlement_words import settlement_lines
 from mbla.results.solver_words import solver_lines
 from mbla.results.text import counted, entry, number, sentence, small
 from mbla.solution.solution import Checks, Mechanics, ModelSize
@@ -14,7 +15,7 @@ from mbla.solution.solution import Checks, Mechanics, ModelSize
 
 def figures(model: Model, case: CaseResult) -> list[str]:
     """Load factors by both flow rules, bounds, residuals, size of the program, verdict of the verification."""
-    lines = entry("status", case.status.value) + _factors(case) + _bounds(case)
+    lines = entry("status", case.status.value) + settlement_lines(model, case) + _factors(case) + _bounds(case)
     for name, value, measure in _residuals(case.checks):
         if not np.isnan(value):
             lines += entry(name, f"{small(value)}   {measure}")

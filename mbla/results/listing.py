@@ -101,7 +101,8 @@ def model_lines(model: Model) -> list[str]:
     for case in model.load_cases:
         lines += sentence(f"{case.name}")
         lines += [line for words in case.dead_words or ("none",) for line in entry("  dead load", words)]
-        lines += [line for words in case.live_words for line in entry("  live load", words)]
+        kind = "  live load" if case.settlement is None else "  gives way"
+        lines += [line for words in case.live_words for line in entry(kind, words)]
     return lines
 
 
@@ -167,6 +168,7 @@ def _supports(model: Model) -> list[str]:
         held = int(model.fixed[chosen].sum())
         if held:
             lines += sentence(f"{counted(held, 'block')} of group {name} fixed")
+    lines += [line for words in model.guides.words for line in sentence(words)]
     return lines or sentence("none")
 
 

@@ -54,6 +54,25 @@ MODEL_FIELDS: tuple[Field, ...] = (
     Field("model/ground_selective", "bool", ("ground",), "1", "1 where the plane carries only the blocks listed"),
     Field("model/ground_start", "int", ("ground_bound",), "1", "first listed block", start_of="ground_block"),
     Field("model/ground_blocks", "int", ("ground_block",), "1", "blocks that it may carry", index_of="block"),
+    Field(
+        "model/guided_blocks",
+        "int",
+        ("guided_block",),
+        "1",
+        "blocks that move in given ways only",
+        index_of="block",
+        part="guides",
+    ),
+    Field("model/guided_bodies", "int", ("guided_block",), "1", "rigid body that each belongs to", part="guides"),
+    Field(
+        "model/guide_motions",
+        "float",
+        ("guided_block", "component", "way"),
+        "motion",
+        "velocity and angular velocity about the centroid in each way to move of its body; zero beyond its ways",
+        part="guides",
+    ),
+    Field("model/guide_words", "text", ("guide",), "1", "guides in words", part="guides"),
     *notice_fields("model/notices", "from building the model"),
     Field(
         "contacts/bodies", "int", ("interface", "pair"), "1", "bodies a and b: blocks, then grounds", index_of="body"

@@ -59,7 +59,7 @@ class _Scene:
 
     @property
     def model(self) -> Model:
-        return self.results.model
+        return self.results.model.of_case(self.case.load_case)
 
     @property
     def contacts(self) -> Contacts:
@@ -168,7 +168,7 @@ def _pyvista() -> Any:
 
 def _scene(results: Results, case: CaseResult) -> _Scene:
     blocks = results.model.blocks
-    motion = drawn_motion(results.model, case)
+    motion = drawn_motion(results.model.of_case(case.load_case), case)
     size = float(np.linalg.norm(np.ptp(blocks.vertices, axis=0)))
     return _Scene(results, case, motion, moved_vertices(blocks, motion), size)
 
@@ -261,7 +261,7 @@ def _add_live_load(plotter: Any, scene: _Scene) -> list[list[str]]:
     shape = {"shaft_radius": 0.02, "tip_radius": 0.06, "tip_length": 0.25}
     arrow = _pyvista().Arrow(start=start, direction=(tip - start) / length, scale=length, **shape)
     plotter.add_mesh(arrow, color=INK, ambient=0.5)
-    return [["live load", INK]]
+    return [["live load" if scene.case.load_case.settlement is None else "settlement", INK]]
 
 
 def _set_camera(plotter: Any, scene: _Scene) -> None:

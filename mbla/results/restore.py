@@ -15,11 +15,12 @@ from mbla.deck.selectors import POSITIONS
 from mbla.deck.units import KILOGRAMS, METRES, NEWTONS, Units
 from mbla.errors import Notice
 from mbla.model.blocks import Blocks
+from mbla.model.guides import NO_GUIDES, Guides
 from mbla.model.labels import BlockLabels
-from mbla.model.model import Ground, Joint, LoadCase, Model
+from mbla.model.model import Ground, Joint, LoadCase, Model, Settlement
 from mbla.results.case_content import Content
 from mbla.results.case_restore import case_from
-from mbla.results.content import BLOCK_ARRAYS, CONTACT_ARRAYS, REPORT_FIELDS
+from mbla.results.content import BLOCK_ARRAYS, CONTACT_ARRAYS, REPORT_FIELDS, SETTLEMENT_FIELDS
 from mbla.results.results import DeckRecord, Results
 
 
@@ -76,7 +77,18 @@ def _model(get: dict[str, Any], load_cases: tuple[LoadCase, ...]) -> Model:
         joints=_joints(get),
         load_cases=load_cases,
         notices=_notices(_part(get, "notices/")),
+        guides=_guides(get),
     )
+
+
+def _guides(get: dict[str, Any]) -> Guides:
+    if "guided_blocks" not in get:
+        return NO_GUIDES
+    blocks, bodies = get["guided_blocks"], get["guided_bodies"]
+    numbers = np.unique(bodies)
+    if len(np.unique(blocks)) < len(blocks) or not np.array_equal(numbers, np.arange(len(numbers))):
+        raise ValueError("guided blocks and bodies")
+    return Guides(blocks, bodies, get["guide_motions"], tuple(get["guide_words"]))
 
 
 def _labels(get: dict[str, Any]) -> BlockLabels:
@@ -128,4 +140,10 @@ def _contacts(get: dict[str, Any]) -> Contacts:
 
 
 def _load_case(name: str, get: dict[str, Any]) -> LoadCase:
-    return LoadCase(name, get["dead_load"], get["live_load"], tuple(get["dead_words"]), tuple(get["live_words"]))
+    words = tuple(get["dead_words"]), tuple(get["live_words"])
+    settlement = None
+    if "settlement/blocks" in get:
+        settlement = Settlement(**{field: get[f"settlement/{field}"] for field in SETTLEMENT_FIELDS})
+        if len(np.unique(settlement.blocks)) < len(settlement.blocks) or not settlement.unit > 0:
+            raise ValueError("settlement of a support")
+    return LoadCase(name, get["dead_load"], get["live_load"], *words, settlement)

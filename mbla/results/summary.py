@@ -46,7 +46,7 @@ def _row(case: CaseResult) -> list[str]:
 
 def _in_words(results: Results, case: CaseResult) -> list[str]:
     """How it collapses; where it does not, or that is not known, why and what is known all the same."""
-    model, solution, mechanics = results.model, case.solution, result_of(case)
+    model, solution, mechanics = results.model.of_case(case.load_case), case.solution, result_of(case)
     text = f"{case.load_case.name}: {verdict(model, case)}"
     if mechanics is not None:
         text += f": {mechanism_summary(model, collapse_of(model, results.contacts, case.load_case, mechanics))}"

@@ -16,6 +16,7 @@ from mbla.results.outcome import (
     result_of,
 )
 from mbla.results.results import CaseResult
+from mbla.results.settlement_words import reaction_words
 from mbla.results.text import number, small
 from mbla.solution.solution import Status
 from mbla.solution.verify import SOLVED_RESIDUAL
@@ -43,7 +44,12 @@ SCHEMES = {
 
 
 def load_factor_words(model: Model, load_case: LoadCase, load_factor: float) -> str:
-    """``0.145 g`` where the live load is an acceleration, else ``0.643 times the live load``."""
+    """``0.145 g`` where the live load is an acceleration, else ``0.643 times the live load``.
+
+    ``a reaction of 5232 N`` where a support gives way.
+    """
+    if load_case.settlement is not None:
+        return reaction_words(model, load_case.settlement, load_factor)
     size = live_load_in_g(model, load_case)
     if size is None:
         return f"{number(load_factor)} times the live load"
@@ -65,8 +71,9 @@ def verdict(model: Model, case: CaseResult) -> str:
     known = f"{value}, verified" if verified else f"about {value}, approximate"
     if np.isfinite(case.checks.peak_load_factor):
         peak = load_factor_words(model, case.load_case, case.checks.peak_load_factor)
-        return f"collapses at {peak}, the peak of its load path; once moving it carries {known}"
-    return f"collapses at {known}"
+        moves = "follows its support" if case.load_case.settlement is not None else "collapses"
+        return f"{moves} at {peak}, the peak of its load path; once moving it carries {known}"
+    return f"follows its support at {known}" if case.load_case.settlement is not None else f"collapses at {known}"
 
 
 def _without_load_factor(model: Model, case: CaseResult) -> str:
@@ -85,6 +92,8 @@ def _without_load_factor(model: Model, case: CaseResult) -> str:
 def _without_figures(case: CaseResult) -> str:
     if case.status is Status.NO_EQUILIBRIUM:
         return "no equilibrium: the structure cannot carry its dead load"
+    if case.status is Status.UNBOUNDED and case.load_case.settlement is not None:
+        return "no least reaction: the structure holds the support back however hard that pulls away from it"
     if case.status is Status.UNBOUNDED and case.solution.flow_rule in DECIDED:
         return "no collapse: no multiple of the live load brings the structure down"
     if case.status is Status.UNBOUNDED:
@@ -111,6 +120,8 @@ def bound_words(model: Model, case: CaseResult) -> str:
     if verified or case.solution.mechanics is None or np.isnan(case.checks.kinematic_bound):
         return ""
     value = load_factor_words(model, case.load_case, case.checks.kinematic_bound)
+    if case.load_case.settlement is not None:
+        return f"certain all the same: its support gives way at no less than {value} (valid for every flow rule)"
     return f"certain all the same: it collapses at no more than {value} (kinematic bound, valid for every flow rule)"
 
 
@@ -123,9 +134,8 @@ def uniqueness_words(model: Model, case: CaseResult) -> str:
     def value(load_factor: float) -> str:
         return load_factor_words(model, case.load_case, load_factor)
 
-    above = (
-        f"; the associative factor, {value(associative.load_factor)}, is an upper limit to all" if associative else ""
-    )
+    limit = "an upper limit" if case.load_case.settlement is None else "the greatest loss of reaction, an upper limit"
+    above = f"; the associative factor, {value(associative.load_factor)}, is {limit} to all" if associative else ""
     if ends is None or not np.isfinite(ends).all():
         known = "" if ends is None else f" (of the range for this mechanism only one end is verified: {_ends(ends)})"
         return f"The load factor without normality need not be unique, and its range is not known{known}{above}."

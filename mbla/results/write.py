@@ -65,7 +65,7 @@ def write_outputs(
 
 def _write_mesh_files(results: Results, case: CaseResult, out: OutputFolder, frames: int) -> None:
     """``STEM_CASE_blocks.vtu`` and its like, the frames, and the collection that plays them."""
-    model, contacts = results.model, results.contacts
+    model, contacts = results.model.of_case(case.load_case), results.contacts
     stem = f"{out.stem}_{case.load_case.name}"
     cells = block_cells(model.blocks)
     with out.writing(f"{stem}_blocks.vtu") as path:

@@ -89,7 +89,7 @@ def _solved(convex: ConvexProgram, analysis: AnalysisSection, settings: SolverSe
 def _with_standing(convex: ConvexProgram, solution: Solution, settings: SolverSettings) -> Solution:
     """The standing of the blocks on their contact points; torsion of interfaces is left out."""
     if solution.certificate is not None:
-        velocities = solution.certificate[convex.points.free].ravel() / convex.points.scaling.row
+        velocities = convex.points.velocities(solution.certificate)
         return replace(solution, standing=standing_without_equilibrium(convex.points, velocities))
     decided = solution.associative is not None or solution.status is Status.UNBOUNDED
     standing = assess_standing(convex.points, settings, True if decided else None)

@@ -18,6 +18,7 @@ import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.program.program import Program
+from mbla.program.reductions.guided import guided_program
 from mbla.program.static import gravity_form
 from mbla.program.yield_conditions.limits import YieldLimits
 from mbla.solution.boundedness import lasting_limits
@@ -47,7 +48,7 @@ def locking_forces(parts: Sequence[Program], settings: SolverSettings, log: Log)
         if not forces or len(forces) < len(loaded):
             continue
         whole = _root(loaded[0])
-        exact = _in_balance(whole, np.sum(forces, axis=0))
+        exact = _in_balance(guided_program(whole, whole.allowed), np.sum(forces, axis=0))
         if exact is not None:
             return whole.scaling.forces(exact) / whole.scaling.live
     return None

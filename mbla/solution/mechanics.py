@@ -58,11 +58,9 @@ def lifted(program: Program, state: LawState) -> LawState:
 
 
 def contact_velocities(program: Program, velocities: FloatArray) -> FloatArray:
-    """Velocities at the contact points of the whole model in the deck's units, (n_points, 3)."""
-    # the rows of the matrix carry the program's units; undo them to get velocities in the deck's units
+    """Velocities at the contact points of a spatial program of the whole model in the deck's units, (n_points, 3)."""
     scaling = program.scaling
-    physical = scaling.velocities(velocities).ravel()
-    return (program.equilibrium_matrix.T @ (physical / (scaling.row * scaling.force))).reshape(-1, 3)
+    return (program.equilibrium_matrix.T @ velocities).reshape(-1, 3) * (scaling.live / scaling.force)
 
 
 def slope_of(flow_rule: str, limits: YieldLimits) -> FloatArray:

@@ -19,6 +19,7 @@ from mbla.model.model import LoadCase, Model
 from mbla.program import assemble
 from mbla.program.yield_conditions import YieldLimits, yield_violation
 from mbla.solution.bounds import repaired_forces, repaired_mechanisms
+from mbla.solution.guides import allowed_motion
 from mbla.solution.load_scale import LoadScale
 from mbla.solution.residuals import unbalanced_loads
 from mbla.solution.solution import Mechanics
@@ -58,9 +59,11 @@ def associative_bounds(
     if not np.any(load_case.dead_load[model.free]):
         static = float(np.fmax(static, 0.0))  # no forces balance no load
     largest = 2.0 * float(np.abs(associative.contact_forces[:, 0]).max(initial=0.0))
-    velocities = associative.mechanism[program.free].ravel() / (scaling.row * scaling.live)
+    velocities = program.velocities(associative.mechanism)
     values = [
-        _proved_kinematic(model, contacts, load_case, program.mechanism(u), limits, largest)
+        _proved_kinematic(
+            model, contacts, load_case, allowed_motion(model, program.mechanism(u), scale.arms), limits, largest
+        )
         for u in repaired_mechanisms(program, velocities)
     ]
     return static, min((value for value in values if np.isfinite(value)), default=np.nan)
@@ -76,12 +79,13 @@ def certificate_failures(
 ) -> tuple[str, ...]:
     """Why a mechanism, (n_blocks, 6), does not prove that the dead load alone is not carried; nothing where it does."""
     program = assemble(model, contacts, load_case)
-    velocities = certificate[program.free].ravel() / (program.scaling.row * program.scaling.live)
+    velocities = program.velocities(certificate)
     failures: tuple[str, ...] = ()
     for u in repaired_mechanisms(program, velocities):
-        v = contact_velocities(model, contacts, program.mechanism(u))
+        motion = allowed_motion(model, program.mechanism(u), scale.arms)
+        v = contact_velocities(model, contacts, motion)
         dissipated, lack = _dissipation(limits, v)
-        work = power(load_case.dead_load, program.mechanism(u)) - dissipated
+        work = power(load_case.dead_load, motion) - dissipated
         charge = LOCKED_IN * float(scale.own.sum()) * lack
         if work > charge:
             return ()

@@ -22,6 +22,7 @@ from mbla.contacts.contacts import Contacts
 from mbla.model.model import LoadCase, Model
 from mbla.program.assemble import yield_limits
 from mbla.program.yield_conditions import YieldLimits, yield_violation
+from mbla.solution.guides import left_to_balance, off_guides
 from mbla.solution.load_scale import LoadScale, load_scale
 from mbla.solution.solution import Mechanics
 from mbla.solution.statics import contact_resultants, contact_velocities, power
@@ -35,7 +36,8 @@ class Residuals:
                       the block itself has to balance where that is less
     yielding        : largest excess of a force over its yield conditions, over the same of the lighter block
     tension         : the part of it that is tension beyond the tensile strength
-    penetration     : largest closing velocity over the largest contact speed, where the joint cannot crush
+    penetration     : largest closing velocity over the largest contact speed, where the joint cannot crush; or the
+                      largest velocity of a block against its guide, over the largest of any, if that is more
     complementarity : see the module's text
     slip            : the part of it that is sliding not against friction
     live_power      : of the live load on the mechanism, should be 1
@@ -92,7 +94,7 @@ def residuals_of(
         equilibrium=float((unbalanced / scale.block_scale(contacts, x)[model.free]).max(initial=0.0)),
         yielding=float((yield_violation(x, limits) / point_scale).max(initial=0.0)),
         tension=float((tension / point_scale).max(initial=0.0)),
-        penetration=share_of(float(closing.max(initial=0.0)), speed),
+        penetration=max(share_of(float(closing.max(initial=0.0)), speed), off_guides(model, u, scale.arms)),
         complementarity=share_of(flow.normal + flow.slip, balance),
         slip=share_of(flow.slip, balance),
         live_power=live_power,
@@ -103,9 +105,13 @@ def residuals_of(
 def unbalanced_loads(
     model: Model, contacts: Contacts, load_case: LoadCase, contact_forces: FloatArray, factor: float, scale: LoadScale
 ) -> FloatArray:
-    """Largest unbalanced component of each block, moments over the lever arm, zero on fixed blocks, (n_blocks,)."""
+    """Largest unbalanced component of each block, moments over the lever arm, zero on fixed blocks, (n_blocks,).
+
+    Of guided blocks only what their guides do not take counts.
+    """
     loads = load_case.dead_load + factor * load_case.live_load
-    unbalanced = np.abs(contact_resultants(model, contacts, contact_forces) + loads)
+    acting = contact_resultants(model, contacts, contact_forces) + loads
+    unbalanced = np.abs(left_to_balance(model, acting, scale.arms))
     unbalanced[:, 3:] /= scale.arms[:, None]
     return np.where(model.fixed, 0.0, unbalanced.max(axis=1))
 

@@ -18,6 +18,7 @@ from mbla.program.assemble import yield_limits
 from mbla.program.convex import ConvexProgram, assemble_convex
 from mbla.program.yield_conditions import YieldLimits, yield_violation
 from mbla.solution.convex_repair import repaired_convex_forces, repaired_convex_motions
+from mbla.solution.guides import allowed_motion, off_guides
 from mbla.solution.interface_laws import (
     InterfaceLaws,
     crushing_excess,
@@ -149,12 +150,12 @@ def _moved(
     What a torsional motion lacks in opening is added to it first.
     """
     program, scaling = convex.points, convex.points.scaling
-    velocities = mechanism[program.free].ravel() / (scaling.row * scaling.live)
+    velocities = program.velocities(mechanism)
     opened = motions.copy()
     opened[:, 0, 0] += np.maximum(torsion_power(case.laws, motions[:, 0])[1], 0.0)
     to_deck = scaling.live / scaling.force
     found = repaired_convex_motions(convex, velocities, opened / to_deck)
-    return [(program.mechanism(u), moved * to_deck) for u, moved in found]
+    return [(allowed_motion(case.model, program.mechanism(u), case.scale.arms), moved * to_deck) for u, moved in found]
 
 
 def _forces_prove(case: _Case, forces: FloatArray, factor: float) -> bool:
@@ -255,7 +256,7 @@ def _residuals(case: _Case, mechanics: Mechanics, flow_rule: str) -> Residuals:
         equilibrium=float((unbalanced / scale.block_scale(case.contacts, x)[case.model.free]).max(initial=0.0)),
         yielding=max(excess, float((_interface_excess(case, x) / interface_scale).max(initial=0.0))),
         tension=float((np.maximum(-x[:, 0] - limits.tension, 0.0) / point_scale).max(initial=0.0)),
-        penetration=share_of(float(closing.max(initial=0.0)), speed),
+        penetration=max(share_of(float(closing.max(initial=0.0)), speed), off_guides(case.model, u, scale.arms)),
         complementarity=share_of(flow.normal + flow.slip + float((of_torsion + of_crushing).sum()), balance),
         slip=share_of(flow.slip + float(of_torsion.sum()), balance),
         live_power=live_power,

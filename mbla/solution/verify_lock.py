@@ -16,6 +16,7 @@ from mbla.contacts.contacts import Contacts
 from mbla.model.model import LoadCase, Model
 from mbla.program.assemble import yield_limits
 from mbla.program.yield_conditions import YieldLimits
+from mbla.solution.guides import left_to_balance
 from mbla.solution.load_scale import load_scale, load_sizes
 from mbla.solution.statics import contact_resultants
 
@@ -39,7 +40,8 @@ def lock_failures(model: Model, contacts: Contacts, load_case: LoadCase, lock: F
         return ("there is no live load on blocks that can move",)
     scale = load_scale(model, contacts, replace(load_case, dead_load=load_case.live_load), limits)
     allowed = np.where(model.fixed, np.inf, scale.allowed(contacts, lock, LASTING, ROUNDING))
-    unbalanced = load_sizes(contact_resultants(model, contacts, lock) + load_case.live_load, scale.arms)
+    acting = contact_resultants(model, contacts, lock) + load_case.live_load
+    unbalanced = load_sizes(left_to_balance(model, acting, scale.arms), scale.arms)
     failures = []
     worst = int((unbalanced / allowed).argmax())
     if unbalanced[worst] > allowed[worst]:

@@ -21,6 +21,7 @@ from mbla.contacts.contacts import Contacts
 from mbla.model.model import LoadCase, Model
 from mbla.program.assemble import yield_limits
 from mbla.program.yield_conditions import yield_violation
+from mbla.solution.guides import left_to_balance, off_guides
 from mbla.solution.load_scale import load_scale, load_sizes
 from mbla.solution.statics import contact_resultants, contact_velocities
 
@@ -51,7 +52,8 @@ def standing_failures(
     limits = yield_limits(model, contacts)
     scale = load_scale(model, contacts, load_case, limits)
     allowed = np.where(model.fixed, np.inf, scale.allowed(contacts, forces, UNBALANCED, ROUNDING))
-    unbalanced = load_sizes(contact_resultants(model, contacts, forces) + load_case.dead_load, scale.arms)
+    acting = contact_resultants(model, contacts, forces) + load_case.dead_load
+    unbalanced = load_sizes(left_to_balance(model, acting, scale.arms), scale.arms)
     failures = []
     worst = int((unbalanced / allowed).argmax())
     if unbalanced[worst] > allowed[worst]:
@@ -61,6 +63,8 @@ def standing_failures(
         failures.append("forces under the dead load alone exceed the yield conditions")
     if np.any(model.fixed[:, None] & (settlement != 0)):
         failures.append("fixed blocks are displaced")
+    if off_guides(model, settlement, scale.arms) > AGAINST:
+        failures.append("guided blocks are displaced against their guides")
     displaced = contact_velocities(model, contacts, settlement)
     if _astray(forces, displaced) > AGAINST:
         failures.append("forces under the dead load alone do not come from the displacements of the blocks")

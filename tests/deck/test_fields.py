@@ -6,7 +6,7 @@ from mbla.deck.types import DeckContent
 
 def test_keys_along_a_path() -> None:
     assert allowed_keys(DeckContent, ("units",)) == ["length", "force", "mass"]
-    assert allowed_keys(DeckContent, ("blocks", 3, "wall", "openings", 0)) == ["from", "to"]
+    assert allowed_keys(DeckContent, ("blocks", 3, "wall", "openings", 0)) == ["from", "to", "lintel", "arch"]
     assert allowed_keys(DeckContent, ("supports", 0, "blocks", 2))[:4] == ["group", "box", "index", "member"]
     assert allowed_keys(DeckContent, ("blocks", 0, "box", "transform", "rotate")) == ["axis", "angle", "about"]
     assert allowed_keys(DeckContent, ("joints", "dry"))[0] == "friction"

@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from mbla.deck import read_deck, rules, types
+from mbla.deck.items.masonry import OpeningArch
 from mbla.deck.section import RULES, Section
 from tests.deck.decks import BLOCK, changed, write
 
@@ -32,6 +33,13 @@ LIVE = "[{acceleration: [1, 0, 0]}]"
         (LIVE, "[{acceleration: [1, 0, 0], on: block}]"),
         (LIVE, "[{force: [1, 0, 0], on: {group: block, index: 0}}]"),
         (LIVE, LIVE + "\n    dead: []"),
+        ("{ground: {z: 0}}", "{blocks: block, fixed: [x, rz]}"),
+        (
+            "{ground: {z: 0}}",
+            "{blocks: block, slide: [1, 0, 0], turn: {axis: [1, 0, 0], about: [0, 0, 0]}, together: true}",
+        ),
+        (f"live: {LIVE}", "settlement: {on: block, direction: [0, 0, -1]}"),
+        (f"live: {LIVE}", "settlement: {on: [block], turn: {axis: [0, 1, 0], about: [0, 0, 0]}}"),
         (LIVE, LIVE + "\n    dead: [{gravity: [0, 0, 0]}]"),
         (LIVE, LIVE + "\n    dead: [{acceleration: [0, 0, -1]}]"),
         ("supports:\n  - {ground: {z: 0}}\n", ""),
@@ -64,6 +72,7 @@ def test_every_rule_is_registered_and_broken_by_a_faulty_deck() -> None:
         types.BoxItem: ["box.max[1] = -1: must be > 0"],
         types.PolyhedronItem: ["there are 4 vertices", "is a corner of this face already"],
         types.WallItem: ["that of from", "the length of the wall", "the height of the wall"],
+        types.ArchItem: ["applies to shape: segmental", "applies with springers: ground only"],
         types.ArchItem: ["only: leave it out, or change shape", "applies with springers: ground only"],
         types.ColumnItem: ["needs height and drums", "is what drum_heights says", "has no effect on a single drum"],
         types.StackItem: ["would not rest on the one below", "numbers, count - 1", "only one of shift, offsets"],
@@ -73,6 +82,15 @@ def test_every_rule_is_registered_and_broken_by_a_faulty_deck() -> None:
             "must be even in running bond",
             "a springing on ground is level",
         ],
+        types.WallsItem: [
+            "must lie along x or along y",
+            "must be a corner",
+            "there are 4 walls",
+            "has a gable already",
+        ],
+        types.Opening: ["only one of lintel and arch may be given"],
+        OpeningArch: ["applies to flat arches", "the end joints of a flat arch meet below it"],
+        types.ArchItem: ["applies to segmental arches only", "applies with springers: ground only"],
         types.BarrelVaultItem: ["needs rise for shape: catenary", "applies to shape: segmental only", "half the span"],
         types.CrossVaultItem: [
             "must be <= 180: two barrels",
@@ -83,7 +101,17 @@ def test_every_rule_is_registered_and_broken_by_a_faulty_deck() -> None:
         types.SpiralStairItem: ["the inner radius", "the angle from tread to tread", "the rise", "needs built_in"],
         types.SelectorTerm: ["box[1][2] = -1: must be > 0", "applies with group only", "the first of the range"],
         types.GroundPlane: ["needs a normal beside its point", "applies with point only"],
-        types.Support: ["needs one of ground or blocks", "applies with ground only"],
+        types.Support: [
+            "needs one of ground or blocks",
+            "applies with ground only",
+            "does not apply to ground, which does not move",
+            "only one of fixed, and slide or turn, may be given",
+            "applies with fixed, slide or turn only",
+            "fixed[2] = x: x is listed already",
+            "slide = [0, 0, 0]: must not be the zero vector",
+        ],
+        types.Turn: ["turn.axis = [0, 0, 0]: must not be the zero vector"],
+        types.SettlementSection: ["settlement.direction = [0, 0, 0]: must not be the zero vector"],
         types.Load: ["a force needs `on`", "applies to a force only", "does not apply to gravity"],
         types.LoadCaseSection: ["is a live load with no effect"],
         types.AnalysisSection: ["applies to flow_rule: associative", "applies to contact_model: concave"],

@@ -34,7 +34,7 @@ def _rows(path: Path) -> Iterator[str]:
 def _figure(expectation: Expectation, flow_rule: str) -> str:
     """The factor by the deck's flow rule, the associative one where it differs, a status other than solved."""
     own, associative = expectation.load_factor, expectation.associative_load_factor
-    words = []
+    words = [] if expectation.reaction is None else [f"reaction {expectation.reaction:.8g}"]
     if own is not None:
         words.append(f"{own:.8g}")
     if associative is not None and (own is None or abs(own - associative) > 1e-9):
@@ -43,7 +43,7 @@ def _figure(expectation: Expectation, flow_rule: str) -> str:
         words.append(f"least {expectation.lower:.8g}")
     if expectation.status not in (None, "solved"):
         words.append(str(expectation.status))
-    if flow_rule == "associative" and own is not None:
+    if flow_rule == "associative" and words and (own, expectation.reaction) != (None, None):
         words[0] = f"associative {words[0]}"
     return ", ".join(words)
 

@@ -14,8 +14,9 @@ from mbla.contacts.contacts import ContactReport, Contacts
 from mbla.deck.units import Units
 from mbla.errors import Notice
 from mbla.model.blocks import Blocks
+from mbla.model.guides import Guides
 from mbla.model.labels import no_labels
-from mbla.model.model import Ground, Joint, LoadCase, Model
+from mbla.model.model import Ground, Joint, LoadCase, Model, Settlement
 from mbla.results.results import CaseResult, DeckRecord, Results
 from mbla.solution.solution import (
     Checks,
@@ -252,8 +253,17 @@ def full_results() -> Results:
         failures=("x",),
     )
     contacts = replace(results.contacts, solid_of_block=np.arange(len(results.model.blocks)))
-    cases = (replace(case, solution=solution, checks=checks), results.cases[1])
-    return replace(results, contacts=contacts, cases=cases)
+    sinking = np.array([[0.0, 0, -1, 0, 0, 0]])
+    settlement = Settlement(np.array([0]), sinking, False, "settlement of 1 block", 30.0, 20.0)
+    load_case = replace(case.load_case, settlement=settlement)
+    ways = np.eye(6)[None] * np.array([1.0, 1, 1, 1, 1, 0])
+    model = replace(
+        results.model,
+        load_cases=(load_case, *results.model.load_cases[1:]),
+        guides=Guides(np.array([2]), np.array([0]), ways, ("1 block held in rz",)),
+    )
+    full = replace(case, load_case=load_case, solution=solution, checks=checks)
+    return replace(results, model=model, contacts=contacts, cases=(full, results.cases[1]))
 
 
 def same(first: Any, second: Any) -> bool:

@@ -135,7 +135,7 @@ def test_everything_together_keeps_to_the_width_and_names_everything() -> None:
         "circumscribed polyhedron 0.56 (8 sides; the cone lies between)",
         "solved as planar, 2 free blocks, 4 contact points, 1 mirror plane used, 3 parts solved apart, "
         "4 contact points left out",
-        "Load path of 3 steps: its peak, 0.6 g at step 1, is a limit point",
+        "Load path of 3 steps: its peak, a reaction of 18 N at step 1, is a limit point",
         "Normal forces that are possible at this load factor",
         "tension violation 1.0e-09",
         "slip residual 2.0e-09",

@@ -6,6 +6,10 @@ from mbla.deck.items.arch import ArchItem as ArchItem
 from mbla.deck.items.arch import ArchPiers as ArchPiers
 from mbla.deck.items.barrel_vault import BarrelVaultItem as BarrelVaultItem
 from mbla.deck.items.box import BoxItem as BoxItem
+from mbla.deck.items.bridge import BridgeAbutments as BridgeAbutments
+from mbla.deck.items.bridge import BridgeItem as BridgeItem
+from mbla.deck.items.bridge import BridgeParapets as BridgeParapets
+from mbla.deck.items.bridge import BridgePiers as BridgePiers
 from mbla.deck.items.column import ColumnEnd as ColumnEnd
 from mbla.deck.items.column import ColumnItem as ColumnItem
 from mbla.deck.items.cross_vault import CrossVaultItem as CrossVaultItem
@@ -16,6 +20,8 @@ from mbla.deck.items.item import Reflection as Reflection
 from mbla.deck.items.item import Repetition as Repetition
 from mbla.deck.items.item import Rotation as Rotation
 from mbla.deck.items.item import TransformStep as TransformStep
+from mbla.deck.items.masonry import Masonry as Masonry
+from mbla.deck.items.masonry import Opening as Opening
 from mbla.deck.items.mesh import MeshItem as MeshItem
 from mbla.deck.items.pavilion_vault import PavilionVaultItem as PavilionVaultItem
 from mbla.deck.items.polyhedron import PolyhedronItem as PolyhedronItem
@@ -26,6 +32,8 @@ from mbla.deck.items.trilithon import TrilithonItem as TrilithonItem
 from mbla.deck.items.vault import VaultItem as VaultItem
 from mbla.deck.items.wall import Opening as Opening
 from mbla.deck.items.wall import WallItem as WallItem
+from mbla.deck.items.walls import CrossWall as CrossWall
+from mbla.deck.items.walls import WallsItem as WallsItem
 from mbla.deck.section import Section
 
 
@@ -35,12 +43,14 @@ class BlockItem(Section):
     box: BoxItem | None = None
     polyhedron: PolyhedronItem | None = None
     wall: WallItem | None = None
+    walls: WallsItem | None = None
     arch: ArchItem | None = None
     mesh: MeshItem | None = None
     table: TableItem | None = None
     column: ColumnItem | None = None
     stack: StackItem | None = None
     trilithon: TrilithonItem | None = None
+    bridge: BridgeItem | None = None
     dome: DomeItem | None = None
     barrel_vault: BarrelVaultItem | None = None
     cross_vault: CrossVaultItem | None = None

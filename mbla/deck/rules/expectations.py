@@ -12,5 +12,5 @@ from mbla.deck.section import Finding, rule
 @rule(types.Expectation)
 def expectation(item: types.Expectation) -> Iterator[Finding]:
     """Something must be expected."""
-    if not given(item, ("load_factor", "associative_load_factor", "lower", "status")):
-        yield (), "needs at least one of load_factor, associative_load_factor, lower or status"
+    if not given(item, ("load_factor", "associative_load_factor", "reaction", "lower", "status")):
+        yield (), "needs at least one of load_factor, associative_load_factor, reaction, lower or status"

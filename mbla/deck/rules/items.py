@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from mbla.deck import types
-from mbla.deck.rules.common import ROUNDING, is_zero, least_below_greatest
+from mbla.deck.rules.common import is_zero, least_below_greatest
 from mbla.deck.section import Finding, rule
 
 
@@ -40,18 +40,3 @@ def polyhedron_faces(polyhedron: types.PolyhedronItem) -> Iterator[Finding]:
         elif len(set(face)) < len(face):
             position = next(i for i, corner in enumerate(face) if corner in face[:i])
             yield ("faces", number, position), "is a corner of this face already"
-
-
-@rule(types.WallItem)
-def wall_openings(wall: types.WallItem) -> Iterator[Finding]:
-    """Openings have an extent and lie within the wall."""
-    height = wall.courses * wall.unit[2]
-    for number, opening in enumerate(wall.openings):
-        for axis, (limit, what) in enumerate(((wall.length, "length"), (height, "height"))):
-            low, high = opening.from_[axis], opening.to[axis]
-            if not low < high:
-                yield ("openings", number, "to", axis), f"must be > {low:g}, that of from"
-            if low < -ROUNDING * limit:
-                yield ("openings", number, "from", axis), "must be >= 0: the opening must lie within the wall"
-            if high > limit * (1 + ROUNDING):
-                yield ("openings", number, "to", axis), f"must be <= {limit:g}, the {what} of the wall"

@@ -26,7 +26,14 @@ def load_keys(load: types.Load) -> Iterator[Finding]:
 @rule(types.LoadCaseSection)
 def live_load_effect(case: types.LoadCaseSection) -> Iterator[Finding]:
     """A live load must do something."""
-    for number, load in enumerate(case.live):
+    for number, load in enumerate(case.live or ()):
         for key in given(load, EXACTLY_ONE[types.Load]):
             if is_zero(getattr(load, key)):
                 yield ("live", number, key), "is a live load with no effect"
+
+
+@rule(types.SettlementSection)
+def settlement_direction(settlement: types.SettlementSection) -> Iterator[Finding]:
+    """A settlement goes somewhere."""
+    if settlement.direction is not None and is_zero(settlement.direction):
+        yield ("direction",), "must not be the zero vector"

@@ -10,7 +10,14 @@ import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
 from mbla.deck.types import ArchItem
-from mbla.model.generators.arches.piers import LEVEL, SpringingJoint, courses, end_springer, springing_joints
+from mbla.model.generators.arches.piers import (
+    LEVEL,
+    SpringingJoint,
+    courses,
+    end_springer,
+    springing_joints,
+    unfit_rise,
+)
 from mbla.model.generators.arches.prisms import in_space, prisms
 from mbla.model.generators.arches.section import Section, Thickness, build_section, voussoir_polygons
 from mbla.model.generators.curves import Curve, named_curve
@@ -137,9 +144,10 @@ def _piers(item: ArchItem, section: Section, shear: float) -> list[Part]:
 def _check_piers(item: ArchItem, joints: tuple[SpringingJoint, SpringingJoint]) -> None:
     assert item.piers is not None
     least = max(joint.reach for joint in joints)
-    if min(joint.rise for joint in joints) < 0:
-        message = "a pier needs a springing joint that is level or rises outwards: at most half a circle"
-        raise ItemRefused([(("piers",), message)])
+    for joint in joints:
+        unfit = unfit_rise(joint)
+        if unfit is not None:
+            raise ItemRefused([(("piers",), unfit)])
     if item.piers.width < least * (1 - LEVEL):
         raise ItemRefused([(("piers", "width"), f"must be >= {least:g}, the extent of the springing joint")])
     if joints[1].intrados[0] <= joints[0].intrados[0]:

@@ -20,6 +20,7 @@ class Part:
     member : part of a composite item, such as "lintel": of all the blocks, or of each; empty where there is none
     labels : (n,) positions of the blocks by name, from 0; names are those of ``mbla.deck.selectors.POSITIONS``
              ("copy" is set by the repetition of items)
+    material : name of the material, where it is not that of the item
     """
 
     polyhedra: Polyhedra
@@ -27,6 +28,7 @@ class Part:
     fixed: bool = False
     member: str | Sequence[str] = ""
     labels: Mapping[str, IntArray] = field(default_factory=dict)
+    material: str | None = None
 
 
 @dataclass(frozen=True)

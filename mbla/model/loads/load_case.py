@@ -49,9 +49,9 @@ def build_load_case(name: str, section: LoadCaseSection, site: LoadSite) -> Load
         dead_loads = [Load.model_construct(gravity=(0.0, 0.0, -site.units.standard_gravity))]
     before = len(site.faults)
     dead = _add_up(dead_loads, (*path, "dead"), site, live=False)
-    live = _add_up(section.live, (*path, "live"), site, live=True)
+    live = _add_up(section.live or [], (*path, "live"), site, live=True)
     free = ~site.fixed
-    judged = len(site.faults) == before and free.any() and not site.roster.partial
+    judged = len(site.faults) == before and free.any() and not site.roster.partial and section.live is not None
     rest = np.abs(live.total[free]).max(initial=0.0)
     if judged and rest <= CANCELLED * live.gross[free].max(initial=0.0):
         site.refuse((*path, "live"), "the live loads cancel each other: they have no effect")

@@ -15,6 +15,7 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from mbla.arrays import FloatArray, IntArray
+from mbla.program.reductions.restrict import block_matrix
 from mbla.program.reductions.scene import Scene
 
 SYMMETRIC = 1e-9
@@ -78,7 +79,7 @@ def mirror_about(scene: Scene, normal: FloatArray) -> Mirror | None:
         return None
     velocity_map = np.zeros((6, 6))
     velocity_map[:3, :3], velocity_map[3:, 3:] = reflect, -reflect
-    if not _loads_match(scene, block_of, velocity_map):
+    if not _loads_match(scene, block_of, velocity_map) or not _guides_match(scene, block_of, velocity_map):
         return None
     return _with_points(scene, normal, reflect, middle, block_of, velocity_map)
 
@@ -100,6 +101,16 @@ def _loads_match(scene: Scene, block_of: IntArray, velocity_map: FloatArray) -> 
         if np.abs(image - load).max(initial=0.0) > SYMMETRIC * size:
             return False
     return True
+
+
+def _guides_match(scene: Scene, block_of: IntArray, velocity_map: FloatArray) -> bool:
+    """Whether the image of every motion that guides allow is allowed: M Π Mᵀ = Π."""
+    if scene.allowed is None:
+        return True
+    n = len(block_of)
+    image = block_matrix(np.broadcast_to(velocity_map, (n, 6, 6)), block_of, np.arange(n), (n, n))
+    off = abs(image @ scene.allowed @ image.T - scene.allowed)
+    return off.nnz == 0 or float(off.max()) <= SYMMETRIC
 
 
 def _with_points(

@@ -15,6 +15,8 @@ def split_into_parts(scene: Scene) -> list[Scene]:
     n = len(scene.centroids)
     both = (scene.bodies >= 0).all(axis=1)
     pairs = scene.bodies[both]
+    if scene.allowed is not None:  # blocks of one guided body
+        pairs = np.vstack([pairs, np.column_stack(scene.allowed.nonzero()) // 6])
     graph = sp.coo_array((np.ones(len(pairs)), (pairs[:, 0], pairs[:, 1])), shape=(n, n))
     count, label = connected_components(graph, directed=False)
     if count == 1:

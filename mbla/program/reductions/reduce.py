@@ -11,11 +11,13 @@ from mbla.contacts.contacts import Contacts
 from mbla.deck.analysis import ReductionSwitches
 from mbla.model.model import Model
 from mbla.program.program import Program
+from mbla.program.reductions.guided import guided_program
 from mbla.program.reductions.half import half_of
 from mbla.program.reductions.mirror import Mirror, mirror_about, mirror_candidates
 from mbla.program.reductions.parts import split_into_parts
 from mbla.program.reductions.planar import is_planar, planar_program
 from mbla.program.reductions.points import without_inner_points
+from mbla.program.reductions.restrict import tidy
 from mbla.program.reductions.scene import Scene, scene_of
 
 
@@ -61,6 +63,8 @@ def reduce_program(
     associative : only then may points inside the hull of others and one of two symmetric halves be left out, since
                   the answer is unique
     """
+    if program.guided and program.reduction is not None:
+        program = program.reduction.full  # guides come last, on what the other reductions leave
     scene = scene_of(model, contacts, program)
     if switches.points and associative:
         scene = without_inner_points(scene)
@@ -68,7 +72,7 @@ def reduce_program(
     reduced, planes, blocks = [], 0, 0
     for part in parts:
         smaller, mirror = _reduced_part(part, switches, associative)
-        reduced.append(smaller)
+        reduced.append(_guided(part, smaller))
         planes = max(planes, int(mirror is not None))
         own = np.arange(len(part.centroids))
         blocks += len(own) if mirror is None else int(np.sum(mirror.block_of >= own))
@@ -88,6 +92,17 @@ def _reduced_part(part: Scene, switches: ReductionSwitches, associative: bool) -
     if switches.mirror and associative:
         return half_of(part, mirror), mirror
     return part.program, None
+
+
+def _guided(part: Scene, smaller: Program) -> Program:
+    """The reduced program of a part, in the motions that its guides allow."""
+    if part.allowed is None:
+        return smaller
+    allowed = part.allowed
+    if smaller is not part.program and smaller.reduction is not None:
+        own = smaller.reduction.velocities
+        allowed = tidy(own.T @ allowed @ own)
+    return guided_program(smaller, allowed)
 
 
 def _first_mirror(part: Scene, switches: ReductionSwitches) -> Mirror | None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+import scipy.sparse as sp
 
 from mbla.arrays import FloatArray, IntArray
 from mbla.contacts.contacts import Contacts
@@ -21,6 +22,7 @@ class Scene:
     points    : (n_points, 3); frames : (n_points, 3, 3); areas : (n_points,)
     bodies    : (n_points, 2) row of each free block, −1 for what does not move
     interfaces: (n_points,) number of the interface
+    allowed   : projector on the motions that guides allow, (6 n_free, 6 n_free) in the program's units; None for all
     """
 
     program: Program
@@ -31,6 +33,7 @@ class Scene:
     areas: FloatArray
     bodies: IntArray
     interfaces: IntArray
+    allowed: sp.csr_array | None = None
 
     @property
     def length(self) -> float:
@@ -55,6 +58,7 @@ def scene_of(model: Model, contacts: Contacts, program: Program) -> Scene:
         areas=contacts.point_areas,
         bodies=row[contacts.bodies[contacts.interface_of_point]],
         interfaces=contacts.interface_of_point,
+        allowed=program.allowed,
     )
 
 
@@ -71,4 +75,12 @@ def part_of(scene: Scene, program: Program, blocks: IntArray, points: IntArray) 
         areas=scene.areas[points],
         bodies=row[scene.bodies[points]],
         interfaces=scene.interfaces[points],
+        allowed=None if scene.allowed is None else _own(scene.allowed, blocks),
     )
+
+
+def _own(allowed: sp.csr_array, blocks: IntArray) -> sp.csr_array | None:
+    """The projector of some blocks, none of which belongs to a body with others; None where all motions are allowed."""
+    rows = (6 * blocks[:, None] + np.arange(6)).ravel()
+    own = sp.csr_array(allowed[rows][:, rows])
+    return own if own.diagonal().sum() < len(rows) - 0.5 else None

@@ -11,6 +11,9 @@ from mbla.model.generators.arches.section import Section
 
 LEVEL = 1e-9
 """rise of a springing joint, relative to its length, that is rounding of a level one"""
+LEAST_RISE = 0.02
+"""rise of an inclined springing joint, relative to its length: a springer block under a flatter one is a sliver, which
+the tolerance of contacts sees through"""
 
 
 @dataclass(frozen=True)
@@ -31,6 +34,15 @@ class SpringingJoint:
         """Height of the extrados over the intrados [length]; exactly zero where level."""
         rise = float(self.extrados[1] - self.intrados[1])
         return 0.0 if abs(rise) <= LEVEL * float(np.linalg.norm(self.extrados - self.intrados)) else rise
+
+
+def unfit_rise(joint: SpringingJoint) -> str | None:
+    """What is wrong with the inclination of a joint that a pier shall carry; None where nothing is."""
+    if joint.rise < 0:
+        return "a pier needs a springing joint that is level or rises outwards: at most half a circle"
+    if 0 < joint.rise < LEAST_RISE * float(np.linalg.norm(joint.extrados - joint.intrados)):
+        return "the springing joint is almost level, its springer block a sliver: make it level, or incline it more"
+    return None
 
 
 def springing_joints(section: Section) -> tuple[SpringingJoint, SpringingJoint]:

@@ -1,79 +1,24 @@
-"""Supports: blocks that do not move, and rigid ground behind planes."""
+"""Rigid ground behind planes: floors, walls, abutments of any inclination."""
 
 from __future__ import annotations
-
-from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.deck.tree import KeyPath
-from mbla.deck.types import GroundPlane, Support
+from mbla.deck.types import GroundPlane
 from mbla.errors import Fault
 from mbla.model.blocks import Blocks
 from mbla.model.model import Ground
 from mbla.model.ragged import row_maxima
-from mbla.model.selectors import Roster, select_blocks
+from mbla.model.selectors import Roster
 from mbla.model.wording import named, vector
 
 FACING = 0.99
 """cosine of the greatest angle between a face and the ground it lies on"""
 
 
-@dataclass(frozen=True)
-class Supports:
-    """``fixed`` (n_blocks,) blocks that do not move; grounds in the order of the deck, those of arches first."""
-
-    fixed: BoolArray
-    grounds: tuple[Ground, ...]
-
-
-def build_supports(
-    supports: Sequence[Support],
-    default_joint: str,
-    brought_along: Supports,
-    roster: Roster,
-    tolerance: float,
-    faults: list[Fault],
-) -> Supports:
-    """Supports of the deck, with those that items bring along.
-
-    brought_along : fixed blocks and grounds of items, such as the springers of arches
-    tolerance     : by which faces may leave the plane of the ground, relative to block size
-
-    Adds to ``faults``: grounds with blocks below them or without a face on them, structures without support, and
-    structures in which nothing can move.
-    """
-    fixed = brought_along.fixed.copy()
-    grounds: list[tuple[KeyPath, Ground]] = []
-    complete = not roster.partial
-    for number, support in enumerate(supports):
-        path: KeyPath = ("supports", number)
-        chosen = None
-        if support.blocks is not None:
-            chosen = select_blocks(support.blocks, (*path, "blocks"), roster, faults)
-            if chosen is None:
-                complete = False
-                continue
-        if support.ground is None:
-            fixed[chosen] = True
-        else:
-            point, normal, label = _plane(support.ground)
-            joint = support.joint or default_joint
-            grounds.append(((*path, "ground"), Ground(point, normal, joint, chosen, label)))
-    for path, ground in grounds:
-        _check_ground(ground, path, fixed, roster, tolerance, faults)
-    everything = (*brought_along.grounds, *(ground for _, ground in grounds))
-    if complete:
-        if not fixed.any() and not everything:
-            faults.append(roster.fault_at(("supports",), "nothing holds the structure: give ground or fixed blocks"))
-        if fixed.all():
-            faults.append(roster.fault_at(("supports",), "every block is fixed: nothing can move"))
-    return Supports(fixed, everything)
-
-
-def _plane(ground: GroundPlane) -> tuple[FloatArray, FloatArray, str]:
+def plane(ground: GroundPlane) -> tuple[FloatArray, FloatArray, str]:
     """Point, unit normal and label of a ground plane."""
     for axis, key in enumerate("xyz"):
         coordinate = getattr(ground, key)
@@ -87,7 +32,7 @@ def _plane(ground: GroundPlane) -> tuple[FloatArray, FloatArray, str]:
     return point, normal, f"ground at {vector(point)} with normal {vector(normal)}"
 
 
-def _check_ground(
+def check_ground(
     ground: Ground, path: KeyPath, fixed: BoolArray, roster: Roster, tolerance: float, faults: list[Fault]
 ) -> None:
     """Blocks it may carry must not reach below it, and one of their faces must lie on it."""

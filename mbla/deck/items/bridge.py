@@ -1,0 +1,87 @@
+"""Item `bridge`."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal, TypeAlias
+
+from pydantic import Discriminator, Field, Tag
+
+from mbla.deck.items.arch import CurveShape
+from mbla.deck.items.item import Item
+from mbla.deck.quantities import Count, PositiveLength, SideAngle
+from mbla.deck.section import Section
+
+
+def _number_or_list(value: object) -> str:
+    return "list" if isinstance(value, (list, tuple)) else "number"
+
+
+Rises: TypeAlias = Annotated[
+    Annotated[PositiveLength, Tag("number")] | Annotated[list[PositiveLength], Tag("list")],
+    Discriminator(_number_or_list),
+]
+Counts: TypeAlias = Annotated[
+    Annotated[Count, Tag("number")] | Annotated[list[Count], Tag("list")], Discriminator(_number_or_list)
+]
+
+
+class BridgePiers(Section):
+    """Piers between the spans, of one block per course."""
+
+    width: PositiveLength = Field(description="extent along x, between the springings of neighbouring spans")
+    height: PositiveLength = Field(description="from the base to the springings")
+    courses: Count = Field(description="number of courses")
+
+
+class BridgeAbutments(Section):
+    """Ends of the bridge behind the outer springings."""
+
+    width: PositiveLength = Field(description="extent along x, outwards from the springing")
+    height: PositiveLength | None = Field(
+        None, description="from the base to the springings; unless given the abutments start at the springings"
+    )
+    courses: Count | None = Field(None, description="number of courses below the springings; with height")
+
+
+class BridgeParapets(Section):
+    """One course on top of the spandrels along both faces."""
+
+    height: PositiveLength = Field(description="over the top of the spandrels")
+    thickness: PositiveLength = Field(description="extent along y, from each face inwards")
+
+
+class BridgeItem(Item):
+    """An arch bridge in the x-z plane, extruded along +y: arches, piers, abutments, spandrels, backing, parapets.
+
+    The springings are at z = 0, the first one of the intrados at the origin. Spandrels are coursed masonry cut to the
+    chords of the extrados and filling the space up to a level top without gaps. Beds of courses keep a quarter of the
+    height of a unit away from crowns, and joints keep away from the tips of courses, so that no slivers arise. Members:
+    `voussoir` (with `span`, `voussoir`, `ring`), `pier` and `abutment` (`course`, `unit` from the left), `springer`
+    (`unit`), `spandrel`, `backing` and `parapet` (`course`, `unit`; `leaf` 0 at y = 0, 1 at the far face). Fill is not
+    modelled: its weight can be given as a load.
+    """
+
+    spans: list[PositiveLength] = Field(min_length=1, description="clear span of each arch, from left to right")
+    shape: CurveShape = Field(description="of every intrados; a segmental one is given by its rise")
+    rise: Rises | None = Field(None, description="of the intrados: one for all spans or one for each; not semicircular")
+    side_angle: SideAngle | None = Field(None, description="basket: angle of each side arc in degrees, 60 unless given")
+    thickness: PositiveLength = Field(description="of the arches, along their joints")
+    voussoirs: Counts = Field(description="number of voussoirs of each ring: one for all spans or one for each")
+    rings: Count = Field(1, description="rings of equal thickness")
+    width: PositiveLength = Field(description="extent along y")
+    piers: BridgePiers | None = Field(None, description="piers; needed with more than one span")
+    abutments: BridgeAbutments = Field(description="abutments")
+    spandrels: Literal["full", "edges", "none"] = Field(
+        "full", description="full: through the whole width; edges: a wall along each face; none: bare arches"
+    )
+    unit: tuple[PositiveLength, PositiveLength] | None = Field(
+        None, description="spandrels: length and height of a unit; courses are evened out to fit"
+    )
+    cover: PositiveLength | None = Field(
+        None, description="spandrels: height of their top over the highest crown of the extrados"
+    )
+    spandrel_thickness: PositiveLength | None = Field(None, description="edges: extent of each wall along y")
+    backing: Count | None = Field(
+        None, description="edges: number of courses, from the bottom, that are filled with blocks between the walls"
+    )
+    parapets: BridgeParapets | None = Field(None, description="parapets on the spandrels; none unless given")

@@ -1,0 +1,244 @@
+"""Generator of arch bridges: arches between piers and abutments, coursed spandrels on them, backing and parapets.
+
+The springings lie at z = 0, the first one at the origin; the spans follow each other along +x with the piers between
+them, the width along +y. In the plane of the arches the blocks fill exactly what lies between the base of piers and
+abutments and the top of the spandrels, less the openings under the chords of the intrados.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+
+from mbla.arrays import FloatArray, IntArray
+from mbla.deck.tree import KeyPath
+from mbla.deck.types import BridgeItem
+from mbla.model.generators.arches.piers import (
+    LEVEL,
+    SpringingJoint,
+    courses,
+    end_springer,
+    springing_joints,
+    unfit_rise,
+)
+from mbla.model.generators.arches.prisms import prisms
+from mbla.model.generators.arches.section import Section, Thickness, build_section, voussoir_polygons
+from mbla.model.generators.bridges.courses import Course, Masonry, bed_levels, bond_of_course, course_pieces
+from mbla.model.generators.bridges.outline import Outline, build_outline
+from mbla.model.generators.curves import Curve, named_curve
+from mbla.model.generators.generator import Generated, ItemRefused, Part, Site
+
+MOST_UNITS = 1_000_000
+"""a slip in the units of length asks for far more"""
+
+
+@dataclass(frozen=True)
+class _Row:
+    """Blocks of one member of the bridge: polygons, extent across (n, 2), labels (n,)."""
+
+    member: str
+    polygons: list[FloatArray]
+    across: FloatArray
+    labels: dict[str, IntArray]
+
+
+@dataclass(frozen=True)
+class _Frame:
+    """Arches in place, and the springer blocks between and beside them, with their springing joints."""
+
+    sections: tuple[Section, ...]
+    joints: tuple[tuple[SpringingJoint, SpringingJoint], ...]
+    springers: tuple[FloatArray | None, ...]
+    left: float
+    right: float
+
+
+def generate_bridge(item: BridgeItem, site: Site) -> Generated:
+    """Voussoirs span by span, piers and abutments, springers, spandrels, backing, parapets.
+
+    Raises
+    ------
+    ItemRefused
+        where voussoirs are too few or cross, springing joints do not fit piers and abutments, or units are too many
+    """
+    frame = _frame(item)
+    rows = [*_arches(item, frame), *_supports(item, frame)]
+    if item.spandrels != "none":
+        rows += _spandrels(item, frame)
+    return Generated(
+        tuple(Part(prisms(row.polygons, row.across), member=row.member, labels=row.labels) for row in rows)
+    )
+
+
+# --- arches and what carries them ---------------------------------------------------------------------------------
+
+
+def _frame(item: BridgeItem) -> _Frame:
+    gap = 0.0 if item.piers is None else item.piers.width
+    starts = np.concatenate([[0.0], np.cumsum(np.array(item.spans) + gap)])
+    sections = []
+    for number, span in enumerate(item.spans):
+        rise = item.rise[number] if isinstance(item.rise, list) else item.rise
+        voussoirs = item.voussoirs[number] if isinstance(item.voussoirs, list) else item.voussoirs
+        curve = named_curve(item.shape, span, rise, None, item.side_angle)
+        at_origin = _section(item, number, curve, voussoirs)
+        onwards = np.array([starts[number], 0.0])
+        apex = None if at_origin.apex is None else at_origin.apex + onwards
+        sections.append(Section(at_origin.joints + onwards, at_origin.forwards, apex))
+    joints = tuple(springing_joints(section) for section in sections)
+    _check_widths(item, joints)
+    first, last = joints[0][0], joints[-1][1]
+    between = [_pier_springer(one[1], other[0]) for one, other in pairwise(joints)]
+    ends = [end_springer(joint, item.abutments.width) for joint in (first, last)]
+    left, right = -item.abutments.width, float(last.intrados[0]) + item.abutments.width
+    return _Frame(tuple(sections), joints, (ends[0], *between, ends[1]), left, right)
+
+
+def _section(item: BridgeItem, number: int, curve: Curve, voussoirs: int) -> Section:
+    """Arch of one span; what is wrong with it is said of its own number of voussoirs."""
+    try:
+        return build_section(curve, voussoirs, item.rings, Thickness(item.thickness, item.thickness))
+    except ItemRefused as refused:
+        if isinstance(item.voussoirs, int):
+            raise
+        raise ItemRefused([((*path, number), message) for path, message in refused.findings]) from None
+
+
+def _check_widths(item: BridgeItem, joints: tuple[tuple[SpringingJoint, SpringingJoint], ...]) -> None:
+    findings: list[tuple[KeyPath, str]] = []
+    for number, both_sides in enumerate(joints):
+        unfit = unfit_rise(both_sides[0])
+        if unfit is not None:
+            raise ItemRefused([(("rise", number) if isinstance(item.rise, list) else ("rise",), unfit)])
+    least = max(joints[0][0].reach, joints[-1][1].reach)
+    if item.abutments.width < least * (1 - LEVEL):
+        findings.append((("abutments", "width"), f"must be >= {least:g}, the extent of the springing joint"))
+    for one, other in pairwise(joints):
+        assert item.piers is not None  # a rule of the deck
+        both = one[1].reach + other[0].reach
+        if item.piers.width < both * (1 + LEVEL):
+            message = f"must be > {both:g}, the extent of the springing joints on both sides"
+            findings.append((("piers", "width"), message))
+            break
+    if findings:
+        raise ItemRefused(findings)
+
+
+def _pier_springer(left: SpringingJoint, right: SpringingJoint) -> FloatArray | None:
+    """Block between the springing joints on both sides of a pier; None where they are level."""
+    if not left.rise:
+        return None
+    return np.stack([left.intrados, right.intrados, right.extrados, left.extrados])
+
+
+def _arches(item: BridgeItem, frame: _Frame) -> list[_Row]:
+    rows = []
+    for span, section in enumerate(frame.sections):
+        polygons, number, ring = voussoir_polygons(section)
+        labels = {"span": np.full(len(polygons), span), "voussoir": number, "ring": ring}
+        rows.append(_Row("voussoir", polygons, _across(item, len(polygons)), labels))
+    return rows
+
+
+def _supports(item: BridgeItem, frame: _Frame) -> list[_Row]:
+    """Piers and abutments under the springings, course by course, and the springer blocks on them."""
+    rows = []
+    if item.piers is not None:
+        ends = [(one[1].intrados[0], two[0].intrados[0]) for one, two in pairwise(frame.joints)]
+        rows.append(_stacks(item, "pier", ends, item.piers.height, item.piers.courses))
+    if item.abutments.height is not None and item.abutments.courses is not None:
+        ends = [(frame.left, 0.0), (frame.joints[-1][1].intrados[0], frame.right)]
+        rows.append(_stacks(item, "abutment", ends, item.abutments.height, item.abutments.courses))
+    springers = [springer for springer in frame.springers if springer is not None]
+    if springers:
+        labels = {"unit": np.arange(len(springers))}
+        rows.append(_Row("springer", springers, _across(item, len(springers)), labels))
+    return rows
+
+
+def _stacks(item: BridgeItem, member: str, ends: list[tuple[float, float]], height: float, count: int) -> _Row:
+    stacks = [courses(left, right, -height, 0.0, count) for left, right in ends]
+    polygons = [block for course in zip(*stacks, strict=True) for block in course]
+    number = np.arange(len(polygons))
+    labels = {"course": number // len(ends), "unit": number % len(ends)}
+    return _Row(member, polygons, _across(item, len(polygons)), labels)
+
+
+def _across(item: BridgeItem, count: int) -> FloatArray:
+    """Through the whole width, (count, 2)."""
+    return np.tile([0.0, item.width], (count, 1))
+
+
+# --- masonry on the arches ----------------------------------------------------------------------------------------
+
+
+def _spandrels(item: BridgeItem, frame: _Frame) -> list[_Row]:
+    assert item.unit is not None  # rules of the deck
+    assert item.cover is not None
+    masonry = Masonry(*item.unit)
+    outline = _outline(frame)
+    crowns = np.array([section.line(-1)[:, 1].max() for section in frame.sections])
+    top = float(crowns.max()) + item.cover
+    about = (frame.right - frame.left) * top / (masonry.length * masonry.height)
+    if about > MOST_UNITS:
+        raise ItemRefused([(("unit",), f"makes about {about:.0e} units; at most {MOST_UNITS:,} can be handled")])
+    shelves = np.array([springer[:, 1].max() for springer in frame.springers if springer is not None])
+    beds = bed_levels(outline, top, crowns, shelves, masonry)
+    polygons: list[FloatArray] = []
+    levels, units = [], []
+    pits: tuple[tuple[float, float], ...] = ()
+    for course in range(len(beds) - 1):
+        bond = bond_of_course(frame.left, frame.right, course % 2 == 1, masonry.length)
+        pieces, pits = course_pieces(outline, Course(beds[course], beds[course + 1], bond, pits), masonry)
+        polygons += pieces
+        levels += [course] * len(pieces)
+        units += list(range(len(pieces)))
+    labels = {"course": np.array(levels, dtype=np.int64), "unit": np.array(units, dtype=np.int64)}
+    rows = _in_place(item, polygons, labels)
+    if item.parapets is not None:
+        rows.append(_parapets(item, frame, masonry, top, len(beds) - 1))
+    return rows
+
+
+def _outline(frame: _Frame) -> Outline:
+    """The extrados of all arches, level to the ends of the bridge."""
+    chains = [section.line(-1) for section in frame.sections]
+    left, right = [[frame.left, chains[0][0, 1]]], [[frame.right, chains[-1][-1, 1]]]
+    return build_outline([np.array(left), *chains, np.array(right)])
+
+
+def _in_place(item: BridgeItem, polygons: list[FloatArray], labels: dict[str, IntArray]) -> list[_Row]:
+    """Through the whole width; or a wall along each face, and backing between them in the lowest courses."""
+    if item.spandrel_thickness is None:
+        return [_Row("spandrel", polygons, _across(item, len(polygons)), labels)]
+    near, far = item.spandrel_thickness, item.width - item.spandrel_thickness
+    rows = [_along_both_faces(item, "spandrel", polygons, labels, item.spandrel_thickness)]
+    filled = np.flatnonzero(labels["course"] < (item.backing or 0))
+    if len(filled) and near < far:
+        between = np.tile([near, far], (len(filled), 1))
+        chosen = {name: values[filled] for name, values in labels.items()}
+        rows.append(_Row("backing", [polygons[i] for i in filled.tolist()], between, chosen))
+    return rows
+
+
+def _along_both_faces(
+    item: BridgeItem, member: str, polygons: list[FloatArray], labels: dict[str, IntArray], thickness: float
+) -> _Row:
+    count = len(polygons)
+    across = np.concatenate(
+        [np.tile([0.0, thickness], (count, 1)), np.tile([item.width - thickness, item.width], (count, 1))]
+    )
+    both = {name: np.tile(values, 2) for name, values in labels.items()} | {"leaf": np.repeat([0, 1], count)}
+    return _Row(member, polygons * 2, across, both)
+
+
+def _parapets(item: BridgeItem, frame: _Frame, masonry: Masonry, top: float, course: int) -> _Row:
+    """One course on both faces, in bond with the course under it."""
+    assert item.parapets is not None
+    bond = bond_of_course(frame.left, frame.right, course % 2 == 1, masonry.length)
+    outline = Outline(np.array([[frame.left, top], [frame.right, top]]))
+    polygons, _ = course_pieces(outline, Course(top, top + item.parapets.height, bond), masonry)
+    labels = {"course": np.full(len(polygons), course), "unit": np.arange(len(polygons))}
+    return _along_both_faces(item, "parapet", polygons, labels, item.parapets.thickness)

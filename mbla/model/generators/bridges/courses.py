@@ -1,0 +1,163 @@
+"""Coursed masonry over an outline: level courses, cut by the outline from below and by upright joints.
+
+A course between two beds exists where the outline lies below its upper bed. Joints follow a running bond about the
+middle of the bridge. Three rules keep slivers away, in units of the masonry's own size: beds keep clear of crowns; a
+joint that would leave a short piece at the tip of a course is left out, the piece then being part of its neighbour; and
+where a whole stretch of a course would be a sliver, above a narrow pier for example, the course on top reaches down.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+
+from mbla.arrays import BoolArray, FloatArray
+from mbla.model.generators.bridges.outline import Outline
+
+CLEAR = 0.25
+"""least distance of a bed from a crown, in heights of a unit"""
+LEAST_COURSE = 0.5
+"""least height of a course, in heights of a unit"""
+LEAST_PIECE = 0.35
+"""least length of a piece, by its area over its height, in lengths of a unit"""
+LEAST_STRETCH = 0.1
+"""least area of a stretch of a course between two tips, in areas of a unit"""
+UPRIGHT = 0.5
+"""least height of a joint in a course that ends in a tip, in heights of the course"""
+SNAP = 0.02
+"""beds and joints this close to a corner of the outline go through it, in units: no faces that are slivers"""
+SAME = 1e-9
+"""in heights of a unit: rounding"""
+
+
+@dataclass(frozen=True)
+class Masonry:
+    """Length and height of a unit [length]."""
+
+    length: float
+    height: float
+
+
+def bed_levels(outline: Outline, top: float, crowns: FloatArray, shelves: FloatArray, masonry: Masonry) -> FloatArray:
+    """Beds from the springings, 0, to the top, ascending.
+
+    crowns  : heights of extrados crowns, over which a course must have a thickness
+    shelves : heights of level surfaces at the springings, best met by a bed
+    """
+    nominal = np.linspace(0.0, top, max(1, round(top / masonry.height)) + 1)[1:-1]
+    levels = [0.0]
+    for bed in nominal.tolist():
+        moved = _snapped(bed, shelves, CLEAR * masonry.height)
+        for crown in sorted(crowns.tolist(), reverse=True):
+            if abs(moved - crown) < CLEAR * masonry.height:
+                moved = crown - CLEAR * masonry.height
+        moved = _snapped(moved, outline.points[:, 1], SNAP * masonry.height)
+        if moved - levels[-1] >= LEAST_COURSE * masonry.height:
+            levels.append(moved)
+    if len(levels) > 1 and top - levels[-1] < LEAST_COURSE * masonry.height:
+        levels.pop()
+    return np.array([*levels, top])
+
+
+@dataclass(frozen=True)
+class Course:
+    """Of masonry: beds low and high, upright joints (n,) ascending, pits (left, right) left by the course below.
+
+    Over a pit the course reaches down to the outline.
+    """
+
+    low: float
+    high: float
+    bond: FloatArray
+    pits: tuple[tuple[float, float], ...] = ()
+
+    def floor(self, outline: Outline, places: FloatArray) -> FloatArray:
+        """Height of its underside at places (n,)."""
+        heights = outline.heights(places)
+        return np.where(self.over_pit(places), heights, np.maximum(heights, self.low))
+
+    def over_pit(self, places: FloatArray) -> BoolArray:
+        """Which places (n,) lie over a pit, its ends included: there the outline passes the bed."""
+        found = np.zeros(len(places), dtype=bool)
+        for left, right in self.pits:
+            found |= (places >= left) & (places <= right)
+        return found
+
+
+def course_pieces(
+    outline: Outline, course: Course, masonry: Masonry
+) -> tuple[list[FloatArray], tuple[tuple[float, float], ...]]:
+    """Polygons of a course from left to right, counter-clockwise; and the pits that it leaves to the course above."""
+    same = SAME * masonry.height
+    ends = outline.points[[0, -1], 0]
+    marks = np.concatenate([ends[:1], outline.crossings(course.high, same), ends[1:]])
+    pieces, pits = [], []
+    for start, end in pairwise(marks.tolist()):
+        middle = float(outline.heights(np.array([(start + end) / 2]))[0])
+        if end - start <= same or middle >= course.high - same:
+            continue
+        whole = _piece(outline, course, start, end, same)
+        if end - start < np.ptp(ends) and _area(whole) < LEAST_STRETCH * masonry.length * masonry.height:
+            pits.append((start, end))
+        else:
+            pieces += _cut(outline, course, (start, end), masonry)
+    return pieces, tuple(pits)
+
+
+def bond_of_course(left: float, right: float, odd: bool, length: float) -> FloatArray:
+    """Joints of a running bond about the middle of the bridge, both ends excluded."""
+    reach = int((right - left) / (2 * length)) + 2
+    places = (left + right) / 2 + length * (np.arange(-reach, reach + 1) + (0.5 if odd else 0.0))
+    return np.asarray(places[(places > left) & (places < right)], dtype=np.float64)
+
+
+def _snapped(bed: float, marks: FloatArray, within: float) -> float:
+    """The nearest of some heights, where it is near enough."""
+    if not len(marks):
+        return bed
+    nearest = float(marks[np.argmin(np.abs(marks - bed))])
+    return nearest if abs(nearest - bed) < within else bed
+
+
+def _cut(outline: Outline, course: Course, ends: tuple[float, float], masonry: Masonry) -> list[FloatArray]:
+    """A stretch of a course, cut by those joints of the bond that leave no slivers."""
+    same = SAME * masonry.height
+    corners = outline.points[outline.points[:, 1] > course.low + same, 0]
+    places = np.array([_snapped(place, corners, SNAP * masonry.length) for place in course.bond.tolist()])
+    places = places[(places > ends[0] + same) & (places < ends[1] - same)]
+    places = places[~course.over_pit(places)]
+    tips = course.high - outline.heights(np.array(ends)) <= same
+    if tips.any():
+        places = places[course.high - course.floor(outline, places) >= UPRIGHT * (course.high - course.low)]
+    joints = [ends[0], *places.tolist(), ends[1]]
+    while len(joints) > 2 and _short(_piece(outline, course, joints[0], joints[1], same), masonry):
+        del joints[1]
+    while len(joints) > 2 and _short(_piece(outline, course, joints[-2], joints[-1], same), masonry):
+        del joints[-2]
+    return [_piece(outline, course, a, b, same) for a, b in pairwise(joints)]
+
+
+def _short(polygon: FloatArray, masonry: Masonry) -> bool:
+    return _area(polygon) < LEAST_PIECE * masonry.length * float(np.ptp(polygon[:, 1]))
+
+
+def _area(polygon: FloatArray) -> float:
+    x, z = polygon.T
+    return float((x * np.roll(z, -1) - np.roll(x, -1) * z).sum()) / 2
+
+
+def _piece(outline: Outline, course: Course, left: float, right: float, same: float) -> FloatArray:
+    """Between two upright joints, the outline or the lower bed, and the upper bed; counter-clockwise."""
+    low, high = course.low, course.high
+    x, z = outline.points.T
+    corners = x[(x > left + same) & (x < right - same) & ((z > low + same) | course.over_pit(x))]
+    crossings = outline.crossings(low, same)
+    crossings = crossings[(crossings > left + same) & (crossings < right - same)]
+    lower = np.concatenate([[left], np.union1d(corners, crossings), [right]])
+    heights = course.floor(outline, lower)
+    heights = np.where(np.abs(heights - low) <= same, low, heights)
+    chain = np.stack([lower, heights], axis=1)
+    upper = [[end, high] for end, height in ((right, heights[-1]), (left, heights[0])) if high - height > same]
+    return np.array([*chain.tolist(), *upper])

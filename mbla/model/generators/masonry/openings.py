@@ -1,0 +1,144 @@
+"""Openings of a wall, and the lintels and arches that span them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from mbla.arrays import FloatArray
+from mbla.deck.items.masonry import Masonry, Opening, OpeningArch
+from mbla.deck.section import Finding
+from mbla.model.generators.generator import Part
+from mbla.model.generators.masonry.leg import NO_UNIT, Leg
+from mbla.model.generators.masonry.solids import blocks_in
+from mbla.model.generators.masonry.stretches import Void
+
+USUAL_EMBRACE = 60.0
+"""degrees between the end joints of a flat arch unless given"""
+
+
+@dataclass(frozen=True)
+class PlacedOpening:
+    """An opening on the grid of its wall; ``number`` is that in the deck."""
+
+    number: int
+    opening: Opening
+    void: Void
+    span: Void | None
+    """room of what spans it; none where nothing does"""
+
+    @property
+    def voids(self) -> tuple[Void, ...]:
+        """What it leaves free of units."""
+        return (self.void,) if self.span is None else (self.void, self.span)
+
+
+def place_opening(item: Masonry, number: int, opening: Opening, shift: float = 0.0) -> PlacedOpening:
+    """An opening on bed joints; ``shift`` is from the start of its line to that of its wall."""
+    height = item.unit[2]
+    left, right = opening.from_[0] + shift, opening.to[0] + shift
+    void = Void(left, right, round(opening.from_[1] / height), round(opening.to[1] / height))
+    span = None
+    if opening.lintel is not None:
+        bearing, top = opening.lintel.bearing, void.top + opening.lintel.courses
+        span = Void(left - bearing, right + bearing, void.top, top)
+    if opening.arch is not None:
+        span = Void(left, right, void.top, void.top + opening.arch.courses, lean_of(opening.arch, right - left))
+    return PlacedOpening(number, opening, void, span)
+
+
+def lean_of(arch: OpeningArch, span: float) -> float:
+    """Tangent of the angle between the end joints of an arch and the vertical."""
+    if arch.rise > 0:
+        # half the rise over half the span is the tangent of half the half angle
+        return math.tan(2 * math.atan2(2 * arch.rise, span))
+    return math.tan(math.radians(USUAL_EMBRACE if arch.embrace is None else arch.embrace) / 2)
+
+
+def check_opening(item: Masonry, opening: Opening, tolerance: float) -> Iterator[Finding]:
+    """Bottom and top of an opening lie on bed joints, or so close that they mean them; key paths below it."""
+    height = item.unit[2]
+    for key, value in (("from", opening.from_[1]), ("to", opening.to[1])):
+        if abs(value - round(value / height) * height) > tolerance * height:
+            below = int(value // height)
+            yield (key, 1), f"must lie on a bed joint; the nearest are {below * height:g} and {(below + 1) * height:g}"
+    if round(opening.to[1] / height) == round(opening.from_[1] / height):
+        yield ("to", 1), "must be at least a course above from"
+    if opening.to[0] - opening.from_[0] <= NO_UNIT * item.unit[0]:
+        yield ("to", 0), "the opening is too narrow to separate two units"
+
+
+def check_spans(placed: Sequence[PlacedOpening], length: float, item: Masonry) -> Iterator[Finding]:
+    """What spans an opening lies within its wall, and on solid courses on both sides; key paths below the item.
+
+    length : of the wall, both ends of which are ends of its courses
+    """
+    for each in placed:
+        if each.span is None:
+            continue
+        key = "lintel" if each.opening.lintel is not None else "arch"
+        widest = each.span.lean * (each.span.top - each.span.bottom) * item.unit[2]
+        left, right = each.span.left - widest, each.span.right + widest
+        room = NO_UNIT * item.unit[0]
+        if left < -room or right > length + room:
+            what = "a bearing" if key == "lintel" else "a skewback"
+            yield ("openings", each.number, key), f"{what} reaches beyond the end of the wall"
+        if each.span.top > item.courses:
+            yield ("openings", each.number, key, "courses"), "reaches above the top course"
+        for other in placed:
+            if other is each:
+                continue
+            # with the course that carries it
+            if any(_meet((left, right, each.void.top - 1, each.span.top), void, room) for void in other.voids):
+                message = f"meets openings[{other.number}]: it must lie in solid courses, and on one at either side"
+                yield ("openings", each.number, key), message
+
+
+def _meet(box: tuple[float, float, int, int], void: Void, room: float) -> bool:
+    left, right, bottom, top = box
+    return void.left < right - room and void.right > left + room and void.bottom < top and void.top > bottom
+
+
+def spans_of(leg: Leg, placed: Sequence[PlacedOpening]) -> Iterator[Part]:
+    """Lintels and voussoirs of a wall, one part for each opening that has them."""
+    for each in placed:
+        if each.span is None:
+            continue
+        low, high = float(leg.levels[each.span.bottom]), float(leg.levels[each.span.top])
+        if each.opening.lintel is not None:
+            box = np.array([[each.span.left, each.span.right, low, high]])
+            made = blocks_in(leg, box, np.array([[0.0, leg.thickness]]))
+            labels = {"course": np.array([each.span.bottom])}
+            yield Part(made, member="lintel", labels=labels, material=each.opening.lintel.material)
+        if each.opening.arch is not None:
+            outlines = voussoir_outlines(each.opening.arch, each.span, low, high)
+            n = len(outlines)
+            cut = [(number, outline) for number, outline in enumerate(outlines)]
+            made = blocks_in(leg, np.zeros((n, 4)), np.tile([0.0, leg.thickness], (n, 1)), cut)
+            labels = {"course": np.full(n, each.span.bottom), "voussoir": np.arange(n)}
+            yield Part(made, member="voussoir", labels=labels, material=each.opening.arch.material)
+
+
+def voussoir_outlines(arch: OpeningArch, room: Void, low: float, high: float) -> FloatArray:
+    """Voussoirs from left to right, (n, 4, 2) along the wall and up, counter-clockwise.
+
+    Of a flat arch the intrados is divided into equal lengths, of a segment of a circle into equal angles; all joints
+    lie on lines through one centre, at the depth (span/2)/lean below the springing.
+    """
+    middle, half = (room.left + room.right) / 2, (room.right - room.left) / 2
+    centre = low - half / room.lean
+    if arch.rise > 0:
+        angles = math.atan(room.lean) * np.linspace(-1.0, 1.0, arch.voussoirs + 1)
+        radius = math.hypot(half, low - centre)
+        intrados = np.stack([middle + radius * np.sin(angles), centre + radius * np.cos(angles)], axis=1)
+        slopes = np.tan(angles)
+        intrados[[0, -1]] = [[room.left, low], [room.right, low]]
+    else:
+        places = np.linspace(room.left, room.right, arch.voussoirs + 1)
+        intrados = np.stack([places, np.full(len(places), low)], axis=1)
+        slopes = (places - middle) / (low - centre)
+    extrados = np.stack([middle + (high - centre) * slopes, np.full(len(slopes), high)], axis=1)
+    return np.stack([intrados[:-1], intrados[1:], extrados[1:], extrados[:-1]], axis=1)

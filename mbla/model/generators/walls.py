@@ -1,0 +1,118 @@
+"""Generator of walls along the lines of a plan, bonded where they meet."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+from mbla.deck.section import Finding
+from mbla.deck.types import WallsItem
+from mbla.model.generators.generator import Generated, ItemRefused, Site
+from mbla.model.generators.masonry.buttresses import PlacedButtress, check_buttresses, place_buttress
+from mbla.model.generators.masonry.irregular import random_levels
+from mbla.model.generators.masonry.leg import NO_UNIT, Leg, Passage
+from mbla.model.generators.masonry.openings import PlacedOpening, check_opening, check_spans, place_opening
+from mbla.model.generators.masonry.plan import Line, check_plan, lines_of, passages_of
+from mbla.model.generators.masonry.walls import Wall, check_number, fixed_levels, parts_of, with_gable
+
+
+@dataclass(frozen=True)
+class _Placed:
+    """A wall of the plan with what belongs to it, and the walls that it shares squares with, by number."""
+
+    line: Line
+    openings: list[PlacedOpening]
+    buttresses: list[PlacedButtress]
+    meets: tuple[tuple[int, Passage], ...]
+
+
+def generate_walls(item: WallsItem, site: Site) -> Generated:
+    """Units wall by wall, in each course by course from the bottom, leaf by leaf; then lintels, arches, buttresses.
+
+    Raises
+    ------
+    ItemRefused
+        for walls that meet in part or lie on each other, openings off the bed joints or in corners, lintels and arches
+        without support, buttresses across openings, gables that meet, too many units
+    """
+    lines = lines_of(item)
+    check_number(item, sum(line.whole_length for line in lines), ("plan",))
+    findings: list[Finding] = list(check_plan(lines))
+    for number, opening in enumerate(item.openings):
+        found = check_opening(item, opening, site.tolerance)
+        findings += [(("openings", number, *path), message) for path, message in found]
+    if findings:
+        raise ItemRefused(findings)
+    meets = passages_of(lines, item.courses)
+    placed = [_place(item, number, line, meets[number]) for number, line in enumerate(lines)]
+    for wall in placed:
+        findings += check_spans(wall.openings, wall.line.whole_length, item)
+        findings += check_buttresses(wall.buttresses, wall.openings, item)
+        findings += _check_meetings(item, wall)
+    findings += _check_gables(item, meets)
+    if findings:
+        raise ItemRefused(findings)
+    fixed = [level for wall in placed for level in fixed_levels(wall.openings, wall.buttresses)]
+    levels = random_levels(item, fixed)
+    walls = []
+    for number, wall in enumerate(placed):
+        leg = Leg(
+            item=item,
+            origin=wall.line.origin,
+            along=wall.line.along,
+            length=wall.line.whole_length,
+            levels=levels,
+            level_courses=item.courses,
+            voids=tuple(void for opening in wall.openings for void in opening.voids),
+            passages=_passages(wall),
+            swapped=not wall.line.along_x,
+            fitted=True,
+            number=number,
+        )
+        gable = next((gable for gable in item.gables if gable.segment == number), None)
+        walls.append(Wall(with_gable(leg, gable, wall.line.before), wall.openings, wall.buttresses))
+    return Generated(tuple(parts_of(walls, numbered=True)))
+
+
+def _place(item: WallsItem, number: int, line: Line, meets: tuple[tuple[int, Passage], ...]) -> _Placed:
+    openings = [
+        place_opening(item, n, opening, line.before)
+        for n, opening in enumerate(item.openings)
+        if opening.segment == number
+    ]
+    buttresses = [
+        place_buttress(item, n, buttress, line.before)
+        for n, buttress in enumerate(item.buttresses)
+        if buttress.segment == number
+    ]
+    return _Placed(line, openings, buttresses, meets)
+
+
+def _passages(wall: _Placed) -> tuple[Passage, ...]:
+    """Walls and buttresses that run through a wall in every other course, along it."""
+    found = [passage for _, passage in wall.meets]
+    found += [placed.passage for placed in wall.buttresses if placed.buttress.bonded]
+    return tuple(sorted(found, key=lambda passage: passage.left))
+
+
+def _check_meetings(item: WallsItem, wall: _Placed) -> Iterator[Finding]:
+    """Openings and bonded buttresses keep off the squares that walls share; key paths below the item."""
+    room = NO_UNIT * item.unit[0]
+    for other, passage in wall.meets:
+        for opening in wall.openings:
+            for void in opening.voids:
+                reach = void.lean * (void.top - void.bottom) * item.unit[2]
+                if void.left - reach < passage.right - room and void.right + reach > passage.left + room:
+                    yield ("openings", opening.number), f"reaches into wall {other}"
+                    break
+        for placed in wall.buttresses:
+            if placed.buttress.bonded and placed.start < passage.right - room and placed.end > passage.left + room:
+                yield ("buttresses", placed.number), f"reaches into wall {other}"
+
+
+def _check_gables(item: WallsItem, meets: Sequence[tuple[tuple[int, Passage], ...]]) -> Iterator[Finding]:
+    """Of two walls that meet one has a gable at most."""
+    numbers = [gable.segment for gable in item.gables]
+    for n, gable in enumerate(item.gables):
+        if any(other in numbers[:n] for other, _ in meets[gable.segment]):
+            yield ("gables", n, "segment"), "meets a wall that has a gable too"

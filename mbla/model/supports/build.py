@@ -1,0 +1,116 @@
+"""All supports of a deck: ground planes, blocks that do not move, blocks that move in given ways only."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from mbla.arrays import BoolArray, FloatArray, IntArray
+from mbla.deck.tree import KeyPath
+from mbla.deck.types import Support
+from mbla.errors import Fault
+from mbla.model.guides import NO_GUIDES, Guides, joined
+from mbla.model.model import Ground
+from mbla.model.selectors import Roster, select_blocks
+from mbla.model.supports.ground import check_ground, plane
+from mbla.model.supports.guide import guides_of, is_guide
+from mbla.model.wording import named
+
+
+@dataclass(frozen=True)
+class Supports:
+    """What holds the structure.
+
+    fixed   : (n_blocks,) blocks that do not move
+    grounds : in the order of the deck, those of arches first
+    guides  : blocks that move in given ways only
+    """
+
+    fixed: BoolArray
+    grounds: tuple[Ground, ...]
+    guides: Guides = NO_GUIDES
+
+
+def build_supports(
+    supports: Sequence[Support],
+    default_joint: str,
+    brought_along: Supports,
+    roster: Roster,
+    tolerance: float,
+    faults: list[Fault],
+) -> Supports:
+    """Supports of the deck, with those that items bring along.
+
+    brought_along : fixed blocks and grounds of items, such as the springers of arches
+    tolerance     : by which faces may leave the plane of the ground, relative to block size
+
+    Adds to ``faults``: grounds with blocks below them or without a face on them, blocks held in two ways, structures
+    without support, and structures in which nothing can move.
+    """
+    fixed = brought_along.fixed.copy()
+    grounds: list[tuple[KeyPath, Ground]] = []
+    guides: list[tuple[KeyPath, Guides]] = []
+    complete = not roster.partial
+    for number, support in enumerate(supports):
+        path: KeyPath = ("supports", number)
+        chosen = None
+        if support.blocks is not None:
+            chosen = select_blocks(support.blocks, (*path, "blocks"), roster, faults)
+            if chosen is None:
+                complete = False
+                continue
+        if support.ground is not None:
+            point, normal, label = plane(support.ground)
+            joint = support.joint or default_joint
+            grounds.append(((*path, "ground"), Ground(point, normal, joint, chosen, label)))
+        elif chosen is not None and is_guide(support):
+            guides.append((path, guides_of(support, chosen, roster.blocks)))
+        else:
+            fixed[chosen] = True
+    everything_guided = _joined_guides(guides, fixed, roster, faults)
+    for path, ground in grounds:
+        check_ground(ground, path, fixed, roster, tolerance, faults)
+    everything = (*brought_along.grounds, *(ground for _, ground in grounds))
+    if complete:
+        if not fixed.any() and not everything and not len(everything_guided):
+            faults.append(roster.fault_at(("supports",), "nothing holds the structure: give ground or fixed blocks"))
+        if fixed.all():
+            faults.append(roster.fault_at(("supports",), "every block is fixed: nothing can move"))
+    return Supports(fixed, everything, everything_guided)
+
+
+def _joined_guides(
+    guides: Sequence[tuple[KeyPath, Guides]], fixed: BoolArray, roster: Roster, faults: list[Fault]
+) -> Guides:
+    """All guides; a block that is fixed as well, or guided twice, is a fault of the later item."""
+    result, held = NO_GUIDES, np.zeros_like(fixed)
+    for path, own in guides:
+        for other, words in ((fixed, "fixed by another item of supports"), (held, "guided by an earlier item")):
+            twice: IntArray = own.blocks[other[own.blocks]]
+            if len(twice):
+                verb = "is" if len(twice) == 1 else "are"
+                message = f"{named(twice, roster.blocks.name)} {verb} {words}: say how a block is held in one item"
+                faults.append(roster.fault_at((*path, "blocks"), message))
+        held[own.blocks] = True
+        result = joined(result, own)
+    return result
+
+
+UNMOVED = 1e-12
+"""work of the live loads in the ways of a guide, relative to the loads, at which they move nothing"""
+
+
+def does_nothing(load: FloatArray, supports: Supports) -> bool:
+    """Whether a load, (n_blocks, 6), acts on guided and fixed blocks alone, and does no work in any of their ways."""
+    guides = supports.guides
+    elsewhere = ~supports.fixed
+    elsewhere[guides.blocks] = False
+    if np.any(load[elsewhere]) or not len(guides) or not np.any(load[guides.blocks]):
+        return False
+    own = load[guides.blocks]
+    work, gross = np.zeros((guides.n_bodies, 6)), np.zeros((guides.n_bodies, 6))
+    np.add.at(work, guides.bodies, np.einsum("mij,mi->mj", guides.motions, own))
+    np.add.at(gross, guides.bodies, np.einsum("mij,mi->mj", np.abs(guides.motions), np.abs(own)))
+    return bool(np.all(np.abs(work) <= UNMOVED * gross))

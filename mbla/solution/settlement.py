@@ -1,0 +1,63 @@
+"""The reaction of a structure at rest on a support that has not given way yet: where a settlement starts from.
+
+Any reaction R0 with which the structure is in equilibrium would do, since the answer R = R0 − λ U does not depend on it
+(:mod:`mbla.model.settlement`). It is taken from the least contact forces, in the sense of ½ ‖x‖², that carry the dead
+load while the support is held.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from mbla.contacts.contacts import Contacts
+from mbla.deck.analysis import ReductionSwitches
+from mbla.model.model import LoadCase, Model
+from mbla.model.settlement import with_reference
+from mbla.program.assemble import assemble
+from mbla.program.reductions import reduce_program
+from mbla.solution.bounds import repaired_forces
+from mbla.solution.cone_solution import Log
+from mbla.solution.mechanics import forces_of
+from mbla.solution.settings import SolverSettings
+from mbla.solution.solution import IterationRecord
+from mbla.solution.statics import contact_resultants
+from mbla.solution.whole import at_rest
+
+MARGIN = 1e-9
+"""Added to the reaction at rest, over the unit of reactions: where statics alone gives the reaction, rounding must not
+make it too small to carry the dead load."""
+
+HIGH = 10.0
+"""Reaction over its unit, more than any structure is likely to need."""
+
+
+def _silent(_: IterationRecord) -> None:
+    """Iterations of the state at rest are not recorded."""
+
+
+def posed(
+    model: Model, contacts: Contacts, load_case: LoadCase, settings: SolverSettings, log: Log = _silent
+) -> LoadCase:
+    """A load case with its settlement posed; the same one where no support gives way.
+
+    Where no forces were found that carry the dead load while the support is held the reaction starts high: it is then
+    not for want of reaction if the programs that follow find no equilibrium.
+    """
+    settlement = load_case.settlement
+    if settlement is None:
+        return load_case
+    held = replace(load_case, live_load=load_case.dead_load, settlement=None)
+    program = assemble(model, contacts, held)
+    parts = reduce_program(model, contacts, program, ReductionSwitches(), associative=True).parts
+    total = np.zeros((len(contacts.points), 3))
+    for part in parts:
+        state = at_rest(part, 0.0, settings, log)
+        if state is None:
+            return with_reference(load_case, HIGH * settlement.unit)
+        repaired = repaired_forces(replace(part, live_load=np.zeros_like(part.live_load)), state.forces, 0.0)
+        total += forces_of(part, state.forces if repaired is None else repaired[0])
+    on_blocks = contact_resultants(model, contacts, total)[settlement.blocks]
+    reaction = float((settlement.motions * on_blocks).sum())
+    return with_reference(load_case, reaction + MARGIN * settlement.unit)

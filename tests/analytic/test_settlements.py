@@ -1,0 +1,110 @@
+"""Supports that give way, against statics on their own."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from mbla.results.results import CaseResult, Results
+from mbla.results.settlement_words import reaction_of
+from mbla.run import RunOptions, run
+from tests.analytic.cases import BENCHMARKS
+from tests.analytic.thrust_line import springer_thrusts, voussoirs
+
+WEIGHT = 2000 * 9.81
+EXACT = 1e-7
+
+
+def solved(tmp_path: Path, deck: str, *overrides: str, cases: tuple[str, ...] = ()) -> Results:
+    options = RunOptions(folder=tmp_path / "out", overrides=(*overrides, "output.vtu=false"), cases=cases, force=True)
+    return run(BENCHMARKS / f"{deck}.yaml", options)
+
+
+def reaction(case: CaseResult) -> float:
+    found = reaction_of(case)
+    assert found is not None, (case.status, case.solution.reason, case.checks.failures)
+    return found
+
+
+@pytest.mark.parametrize("flow_rule", ["associative", "non_associative"])
+@pytest.mark.parametrize(("length", "height"), [(2.0, 0.05), (20.0, 2.0)])
+def test_the_beam_on_three_supports(tmp_path: Path, length: float, height: float, flow_rule: str) -> None:
+    overrides = [f"parameters.l={length}", f"parameters.h={height}", f"analysis.flow_rule={flow_rule}"]
+    results = solved(tmp_path, "beam_on_three_supports", *overrides)
+    weight = WEIGHT * length * 0.5 * height
+    assert reaction(results.case("right_settles")) == pytest.approx(weight / 3, rel=EXACT)
+    assert abs(reaction(results.case("left_settles"))) < EXACT * weight
+
+
+@pytest.mark.parametrize("friction", [0.05, 0.5])
+def test_a_support_that_slides_away_is_let_go_by_friction(tmp_path: Path, friction: float) -> None:
+    overrides = [
+        "load_cases.right_settles.settlement.direction=[1, 0, 0]",
+        f"joints.dry.friction={friction}",
+        "analysis.flow_rule=associative",
+    ]
+    results = solved(tmp_path, "beam_on_three_supports", *overrides, cases=("right_settles",))
+    # the beam rests on the right pad with W/2 at most, which then bears all friction it can: the pad has to be pulled
+    assert reaction(results.cases[0]) == pytest.approx(-friction * WEIGHT * 0.8 / 2, rel=1e-6)
+
+
+@pytest.mark.parametrize(("t", "n", "mu"), [(0.6, 26, 1.0), (0.5, 15, 0.9), (0.9, 12, 0.45)])
+def test_the_thrusts_of_an_arch(tmp_path: Path, t: float, n: int, mu: float) -> None:
+    overrides = [
+        f"parameters.t={t}",
+        f"parameters.n={n}",
+        f"parameters.mu={mu}",
+        "analysis.flow_rule=associative",
+    ]
+    results = solved(tmp_path, "spreading_arch", *overrides)
+    exact = springer_thrusts(4.0, t, 1.0, n, mu, WEIGHT)
+    assert reaction(results.case("spreads")) == pytest.approx(exact["least"], rel=EXACT)
+    assert reaction(results.case("pushed_in")) == pytest.approx(-exact["greatest"], rel=EXACT)
+    assert reaction(results.case("sinks")) == pytest.approx(exact["vertical"], rel=EXACT)
+
+
+def test_the_least_thrust_is_that_of_three_hinges(tmp_path: Path) -> None:
+    """H = max over joints j of the moment about the intrados over the rise from there to the extrados of the crown."""
+    angles = np.linspace(np.pi / 2, 0, 14)
+    radial = np.column_stack([np.cos(angles), np.sin(angles)])
+    inner, outer = 2.0 * radial, 2.6 * radial
+    weights, centroids = voussoirs(inner, outer, WEIGHT)
+    moments = [(weights[:j] * (inner[j, 0] - centroids[:j, 0])).sum() for j in range(1, 14)]
+    exact = max(moment / (2.6 - inner[j, 1]) for j, moment in enumerate(moments, start=1))
+    case = solved(tmp_path, "spreading_arch", cases=("spreads",)).cases[0]
+    assert reaction(case) == pytest.approx(exact, rel=EXACT)
+    settlement = case.load_case.settlement
+    assert settlement is not None
+    # the kinematic bound of the load factor is the lower bound of the reaction
+    assert settlement.reaction(case.checks.kinematic_bound) <= exact * (1 + 1e-9)
+    assert settlement.reaction(case.checks.static_bound) >= exact * (1 - 1e-9)
+
+
+def test_the_mechanism_has_unit_power_and_moves_the_support_along(tmp_path: Path) -> None:
+    case = solved(tmp_path, "spreading_arch", cases=("spreads",)).cases[0]
+    settlement, mechanics = case.load_case.settlement, case.solution.mechanics
+    assert settlement is not None
+    assert mechanics is not None
+    motion = mechanics.mechanism[settlement.blocks]
+    np.testing.assert_allclose(motion, [[1 / settlement.unit, 0, 0, 0, 0, 0]], atol=1e-12 / settlement.unit)
+    left = 26  # the other springer
+    assert settlement.blocks.tolist() == [27]
+    assert not mechanics.mechanism[left].any()
+
+
+def test_a_structure_that_does_not_stand_on_the_held_support_has_no_reaction(tmp_path: Path) -> None:
+    results = solved(tmp_path, "spreading_arch", "parameters.t=0.2", cases=("spreads",))
+    assert results.cases[0].status.value == "no_equilibrium"
+    assert reaction_of(results.cases[0]) is None
+
+
+@pytest.mark.parametrize("length", ["mm", "ft"])
+def test_the_reaction_follows_the_units(tmp_path: Path, length: str) -> None:
+    """The same numbers in another unit of length: another arch, whose thrust goes with the volume."""
+    plain = reaction(solved(tmp_path, "spreading_arch", cases=("spreads",)).cases[0])
+    metres = {"mm": 1e-3, "ft": 0.3048}[length]
+    overrides = [f"units.length={length}", 'materials.stone.density="2000 kg/m^3"']
+    other = reaction(solved(tmp_path, "spreading_arch", *overrides, cases=("spreads",)).cases[0])
+    assert other == pytest.approx(plain * metres**3, rel=EXACT)
