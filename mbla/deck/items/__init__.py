@@ -30,7 +30,6 @@ from mbla.deck.items.stack import StackItem as StackItem
 from mbla.deck.items.table import TableItem as TableItem
 from mbla.deck.items.trilithon import TrilithonItem as TrilithonItem
 from mbla.deck.items.vault import VaultItem as VaultItem
-from mbla.deck.items.wall import Opening as Opening
 from mbla.deck.items.wall import WallItem as WallItem
 from mbla.deck.items.walls import CrossWall as CrossWall
 from mbla.deck.items.walls import WallsItem as WallsItem
