@@ -31,7 +31,7 @@ class Reference:
 
 REFERENCES = (
     Reference("blocks.#.*.material", "material"),
-    Reference("blocks.#.arch.joint", "joint law", BUILT_IN),
+    Reference("blocks.#.*.joint", "joint law", BUILT_IN),
     Reference("contacts.joint", "joint law", BUILT_IN),
     Reference("contacts.overrides.#.joint", "joint law", BUILT_IN),
     *(
@@ -39,9 +39,6 @@ REFERENCES = (
         for kind in ("wall", "walls")
         for over in ("lintel", "arch")
     ),
-    Reference("blocks.#.arch.joint", "joint law"),
-    Reference("contacts.joint", "joint law"),
-    Reference("contacts.overrides.#.joint", "joint law"),
     Reference("contacts.overrides.#.between.#", "group", (GROUND,)),
     Reference("contacts.overrides.#.between.#.#", "group", (GROUND,)),
     Reference("contacts.overrides.#.between.#.group", "group"),
@@ -106,7 +103,7 @@ def groups(data: dict[str, Any]) -> Iterator[str]:
             group = item.get("group", kind)
             if isinstance(group, str):
                 yield group
-                if kind == "arch" and item.get("springers") == "blocks":
+                if item.get("springers") == "blocks":
                     yield f"{group}_springers"
 
 

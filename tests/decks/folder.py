@@ -22,6 +22,7 @@ DECKS = ROOT / "decks"
 FOLDERS = ("tutorials", "benchmarks", "structures")
 PATHS = tuple(sorted(path for folder in FOLDERS for path in DECKS.glob(f"{folder}/*.yaml")))
 LONG = (
+    "structures/spiral_stair",
     "tutorials/crossvault_without_dilatancy",
 )  # fmt: skip
 """take more than ten seconds: run by ``pytest -m long`` only"""

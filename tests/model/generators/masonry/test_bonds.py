@@ -42,7 +42,8 @@ def widths(built: Built, course: int, leaf: int | None) -> list[float]:
     """Along the wall: of units of one leaf, or of headers, from left to right."""
     chosen = (built.position("course") == course) & (built.position("leaf") == (-1 if leaf is None else leaf))
     boxes = built.boxes()[chosen]
-    return np.ptp(boxes[np.argsort(boxes[:, 0, 0])], axis=1)[:, 0].round(9).tolist()
+    found: list[float] = np.ptp(boxes[np.argsort(boxes[:, 0, 0])], axis=1)[:, 0].round(9).tolist()
+    return found
 
 
 def test_english_bond_has_courses_of_stretchers_and_of_headers_with_closers(tmp_path: Path) -> None:
