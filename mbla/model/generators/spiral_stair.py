@@ -15,13 +15,21 @@ import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.deck.types import SpiralStairItem
+from mbla.model.generators.amounts import refuse_too_many
 from mbla.model.generators.chains import chains
 from mbla.model.generators.generator import Generated, GroundPart, Part, Site
 from mbla.model.polyhedra import Polyhedra, join_polyhedra, polyhedra_from_cells
 
 
 def generate_spiral_stair(item: SpiralStairItem, site: Site) -> Generated:
-    """Treads from the bottom; shelves, then blocks on top of the ends of the treads."""
+    """Treads from the bottom; shelves, then blocks on top of the ends of the treads.
+
+    Raises
+    ------
+    ItemRefused
+        for more facets than can be handled
+    """
+    refuse_too_many(float(item.treads) * (item.facets + 2), "facets", "facets")
     angles = _angles(item)
     number = np.arange(item.treads)
     outer = item.outer_radius + item.built_in
