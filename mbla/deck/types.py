@@ -46,6 +46,7 @@ from mbla.deck.items import PolyhedronItem as PolyhedronItem
 from mbla.deck.items import Reflection as Reflection
 from mbla.deck.items import Repetition as Repetition
 from mbla.deck.items import Rotation as Rotation
+from mbla.deck.items import SpiralStairItem as SpiralStairItem
 from mbla.deck.items import StackItem as StackItem
 from mbla.deck.items import TableItem as TableItem
 from mbla.deck.items import TransformStep as TransformStep
