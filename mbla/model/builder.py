@@ -29,6 +29,8 @@ from mbla.model.settlement import build_settlement
 from mbla.model.supports import Supports, build_supports, does_nothing
 from mbla.model.transform import build_transform, repetitions, transform_item
 
+FROM_FILES = ("mesh", "table")
+"""kinds of items whose blocks have names of their own"""
 MOST_FAULTS_PER_ITEM = 10
 """defects of blocks of one item that are told one by one; a mesh in the wrong format has one in every block"""
 
@@ -260,12 +262,18 @@ def _defects_in_words(deck: Deck, built: BuiltBlocks, item_of_block: Sequence[in
         told[number] += 1
         if told[number] <= MOST_FAULTS_PER_ITEM:
             path = _path_of_defect(deck, defect.face, number)
-            faults.append(deck.fault_at(path, f"block {built.blocks.name(defect.block)}: {defect.message}"))
+            faults.append(deck.fault_at(path, f"block {_called(deck, built, defect.block, number)}: {defect.message}"))
     for number, count in told.items():
         if count > MOST_FAULTS_PER_ITEM:
             message = f"{count - MOST_FAULTS_PER_ITEM} more blocks of this item are refused"
             faults.append(deck.fault_at(_path_of_defect(deck, None, number), message))
     return faults
+
+
+def _called(deck: Deck, built: BuiltBlocks, block: int, number: int) -> str:
+    """Name of a block; with that which its file gives it, where it comes from one: ``vault[17] (key_stone)``."""
+    member = built.blocks.labels.members[block] if _kind(deck.content.blocks[number])[0] in FROM_FILES else ""
+    return f"{built.blocks.name(block)}{f' ({member})' if member else ''}"
 
 
 def _path_of_defect(deck: Deck, face: int | None, number: int) -> KeyPath:

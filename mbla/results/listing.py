@@ -13,6 +13,7 @@ from mbla.model.model import Model
 from mbla.results.case_words import case_lines
 from mbla.results.contact_words import contact_lines, finding_lines
 from mbla.results.figure_words import figures
+from mbla.results.label_words import label_words
 from mbla.results.outcome import notices_of
 from mbla.results.results import Results
 from mbla.results.series import series_of
@@ -103,7 +104,7 @@ def model_lines(model: Model) -> list[str]:
     if added:
         mass = f"{number(float(blocks.added_masses.sum()))} {units.mass} on {counted(added, 'block')}"
         lines += entry("added masses", f"{mass}; they count to the weights")
-    lines += ["", *_group_table(model), "", *_joint_table(model)]
+    lines += ["", *_group_table(model), *_labels(model), "", *_joint_table(model)]
     lines += heading("Supports") + _supports(model)
     lines += heading("Loads")
     for case in model.load_cases:
@@ -141,6 +142,15 @@ def _group_table(model: Model) -> list[str]:
         )
     volume, weight = f"volume [{units.length}3]", f"weight [{units.force}]"
     return table(["group", "blocks", "fixed", volume, weight, f"density [{units.mass}/{units.length}3]"], rows)
+
+
+def _labels(model: Model) -> list[str]:
+    """What selectors can say within each group."""
+    lines = []
+    for name, chosen in _blocks_of_groups(model).items():
+        if words := label_words(model.blocks.labels, chosen):
+            lines += sentence(f"{name}: {words}")
+    return ["", *lines] if lines else []
 
 
 def _blocks_of_groups(model: Model) -> dict[str, IntArray]:
