@@ -8,7 +8,8 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from mbla.contacts import Contacts, find_contacts
-from mbla.contacts.glue import glue_findings, held_model, solids_of
+from mbla.contacts.glue import held_model, solids_of
+from mbla.contacts.glue_findings import glue_findings
 from mbla.contacts.interface_points import PointsRefused
 from mbla.contacts.notices import overlap_messages
 from mbla.deck import Deck, read_deck
@@ -16,6 +17,7 @@ from mbla.errors import DeckError, Notice, UsageError
 from mbla.expected import compare_with_expected
 from mbla.model import Model, build_model
 from mbla.model.model import LoadCase
+from mbla.model.settlement import with_reference
 from mbla.program import Program, assemble
 from mbla.program.convex import assemble_convex
 from mbla.program.reductions import Reduced, allowed_reductions, reduce_program
@@ -104,7 +106,13 @@ def with_settlements(
     model: Model, contacts: Contacts, load_cases: tuple[LoadCase, ...], settings: SolverSettings
 ) -> tuple[Model, tuple[LoadCase, ...]]:
     """Load cases to be solved in which a support gives way get the reaction that it starts from."""
-    ready = {case.name: posed(model, contacts, case, settings) for case in load_cases}
+    solids = solids_of(model, contacts)
+
+    def ready_case(case: LoadCase) -> LoadCase:
+        settlement = posed(solids.model, solids.contacts, solids.load_case(case), settings).settlement
+        return case if settlement is None else with_reference(case, settlement.reference)
+
+    ready = {case.name: ready_case(case) for case in load_cases}
     everything = tuple(ready.get(case.name, case) for case in model.load_cases)
     return replace(model, load_cases=everything), tuple(ready.values())
 

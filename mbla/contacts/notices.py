@@ -41,8 +41,8 @@ def glue_notices(report: ContactReport, glue: Glue) -> tuple[Notice, ...]:
     if report.open_interfaces:
         text = f"{_count(report.open_interfaces, 'interface')} with open joints left out: no contact"
         found.append(Notice("notice", "open-interfaces-left-out", text))
-    if report.glued_interfaces:
-        text = f"{_count(report.glued_interfaces, 'interface')} glued, and left out: {glue_words(report, glue.sizes)}"
+    if len(report.glued):
+        text = f"{_count(len(report.glued), 'interface')} glued, and left out: {glue_words(report, glue.sizes)}"
         found.append(Notice("notice", "blocks-glued", text))
     return tuple(found)
 

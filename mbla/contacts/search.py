@@ -62,7 +62,7 @@ def find_contacts(model: Model, section: ContactsSection) -> Contacts:
             near_misses=without_covered(verdicts.near_misses, verdicts.contacts),
             overlaps=overlaps,
             open_bodies=movable.overlays.bodies[laws.open],
-            glued_interfaces=int(np.sum(inside & ~laws.open)),
+            glued_bodies=movable.overlays.bodies[inside & ~laws.open],
             glue=glue,
         ),
         [*notices, *left_alone],

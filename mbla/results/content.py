@@ -56,7 +56,7 @@ REPORT_FIELDS = (
     "isolated",
     "fixed_contacts",
     "open_interfaces",
-    "glued_interfaces",
+    "glued",
     "held",
 )
 

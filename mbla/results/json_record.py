@@ -92,7 +92,7 @@ def contacts_json(results: Results) -> dict[str, Any]:
     sizes = solid_sizes(contacts.solid_of_block)
     return {
         "open_interfaces": contacts.report.open_interfaces,
-        "glued_interfaces": contacts.report.glued_interfaces,
+        "glued_interfaces": len(contacts.report.glued),
         "glued_blocks": int(sizes.sum()),
         "rigid_bodies": len(sizes),
         "held_blocks": len(contacts.report.held),

@@ -107,7 +107,14 @@ MODEL_FIELDS: tuple[Field, ...] = (
     Field("contacts/report/unchecked", "int", ("unchecked_pair", "pair"), "1", "overlaps not judged", index_of="body"),
     Field("contacts/report/fixed_contacts", "int", (), "1", "contacts between fixed bodies, left out"),
     Field("contacts/report/open_interfaces", "int", (), "1", "interfaces whose joint law is open, left out"),
-    Field("contacts/report/glued_interfaces", "int", (), "1", "interfaces inside of rigid bodies, left out"),
+    Field(
+        "contacts/report/glued",
+        "int",
+        ("glued_interface", "pair"),
+        "1",
+        "bodies of interfaces inside of rigid bodies, left out",
+        index_of="body",
+    ),
     Field(
         "contacts/report/held",
         "int",

@@ -81,7 +81,7 @@ def empty_report(notices: Any = ()) -> ContactReport:
         unsupported=(),
         fixed_contacts=0,
         open_interfaces=0,
-        glued_interfaces=0,
+        glued=pairs,
         held=rows,
         notices=tuple(notices),
     )
