@@ -21,23 +21,15 @@ from mbla.model.generators import GENERATORS
 from mbla.model.generators.generator import Generated, ItemRefused, Site
 from mbla.model.interfaces import COLUMNS, given_interfaces
 from mbla.model.labels import NONE, BlockLabels, join_labels, labels_of
-<<<<<<< HEAD
 from mbla.model.loads import LoadSite, build_load_cases
-from mbla.model.model import Ground, Joint, LoadCase, Model
-=======
-from mbla.model.loads import LoadSite, build_load_case
 from mbla.model.model import GivenInterfaces, Ground, Joint, LoadCase, Model
->>>>>>> 2c09ff1ebe3d272b754cd3ca6968480cd4fafd3c
 from mbla.model.overrides import check_overrides
 from mbla.model.polyhedra import Polyhedra, join_polyhedra
 from mbla.model.selectors import Roster, build_roster
 from mbla.model.settlement import build_settlement
 from mbla.model.supports import Supports, build_supports, does_nothing
-<<<<<<< HEAD
 from mbla.model.symmetry import symmetry_faults, with_images
-=======
 from mbla.model.tables import TableRefused, read_table
->>>>>>> 2c09ff1ebe3d272b754cd3ca6968480cd4fafd3c
 from mbla.model.transform import build_transform, repetitions, transform_item
 
 FROM_FILES = ("mesh", "table")
@@ -101,7 +93,7 @@ def build_model(deck: Deck) -> Model:
     tolerance, joint = deck.contacts.tolerance, deck.contacts.joint
     supports = build_supports(deck.content.supports, joint, brought_along, roster, tolerance, faults)
     check_overrides(deck.contacts.overrides, roster, faults)
-<<<<<<< HEAD
+    given = _given_interfaces(deck, roster, supports, faults)
     if deck.content.masses:
         roster = replace(roster, blocks=with_added_masses(deck.content.masses, roster, supports.fixed, faults, notices))
     site = LoadSite(
@@ -117,11 +109,6 @@ def build_model(deck: Deck) -> Model:
     )
     sections = deck.content.load_cases.items()
     load_cases = tuple(case for name, section in sections for case in _load_cases(name, section, site, supports))
-=======
-    given = _given_interfaces(deck, roster, supports, faults)
-    site = LoadSite(roster, supports.fixed, deck.units, deck.resolve_file, faults, notices)
-    load_cases = tuple(_load_case(name, section, site, supports) for name, section in deck.content.load_cases.items())
->>>>>>> 2c09ff1ebe3d272b754cd3ca6968480cd4fafd3c
     if faults:
         raise DeckError(faults)
     model = Model(

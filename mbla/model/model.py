@@ -174,12 +174,9 @@ class Model:
     load_cases  : in the order of the deck
     notices     : repairs and remarks from building it
     guides      : blocks that may move in given ways only; they count as free
-<<<<<<< HEAD
     mirrors     : unit normal m and offset d of the planes of symmetry that the deck gives, m·x = d: only symmetric
                   states are looked for
-=======
     interfaces  : those that the deck gives by their corners; None where they are to be found
->>>>>>> 2c09ff1ebe3d272b754cd3ca6968480cd4fafd3c
     """
 
     title: str
@@ -191,11 +188,8 @@ class Model:
     load_cases: tuple[LoadCase, ...]
     notices: tuple[Notice, ...]
     guides: Guides = NO_GUIDES
-<<<<<<< HEAD
     mirrors: tuple[tuple[float, float, float, float], ...] = ()
-=======
     interfaces: GivenInterfaces | None = None
->>>>>>> 2c09ff1ebe3d272b754cd3ca6968480cd4fafd3c
 
     def of_case(self, load_case: LoadCase) -> Model:
         """The model as it may move under a load case: with the blocks of its settlement as a guided body."""
