@@ -103,6 +103,16 @@ def test_every_rule_is_registered_and_broken_by_a_faulty_deck() -> None:
         ],
         types.PavilionVaultItem: ["a keystone closes the crown", "would be a kink in it"],
         types.SpiralStairItem: ["the inner radius", "the angle from tread to tread", "the rise", "needs built_in"],
+        types.BridgeItem: [
+            "give one for all or one for each",
+            "is half the span for shape: semicircular",
+            "needs piers between its spans",
+            "half the span: the extrados",
+            "for spandrels: full",
+            "half the width: use spandrels: full",
+            "applies to a bridge with spandrels",
+            "needs both height and courses",
+        ],
         types.SelectorTerm: ["box[1][2] = -1: must be > 0", "applies with group only", "the first of the range"],
         types.GroundPlane: ["needs a normal beside its point", "applies with point only"],
         types.Support: [
