@@ -22,9 +22,11 @@ DECKS = ROOT / "decks"
 FOLDERS = ("tutorials", "benchmarks", "structures")
 PATHS = tuple(sorted(path for folder in FOLDERS for path in DECKS.glob(f"{folder}/*.yaml")))
 LONG = (
-    "tutorials/crossvault_without_dilatancy",
+    "structures/arch_bridge",
     "structures/house",
     "structures/room",
+    "structures/spiral_stair",
+    "tutorials/crossvault_without_dilatancy",
 )  # fmt: skip
 """take more than ten seconds: run by ``pytest -m long`` only"""
 
