@@ -53,8 +53,12 @@ def generate_walls(item: WallsItem, site: Site) -> Generated:
     findings += _check_gables(item, meets)
     if findings:
         raise ItemRefused(findings)
-    fixed = [level for wall in placed for level in fixed_levels(wall.openings, wall.buttresses)]
-    levels = random_levels(item, fixed)
+    return Generated(tuple(parts_of(_walls(item, placed), numbered=True)))
+
+
+def _walls(item: WallsItem, placed: Sequence[_Placed]) -> list[Wall]:
+    """Walls with their legs, which share their bed joints."""
+    levels = random_levels(item, [level for wall in placed for level in fixed_levels(wall.openings, wall.buttresses)])
     walls = []
     for number, wall in enumerate(placed):
         leg = Leg(
@@ -72,7 +76,7 @@ def generate_walls(item: WallsItem, site: Site) -> Generated:
         )
         gable = next((gable for gable in item.gables if gable.segment == number), None)
         walls.append(Wall(with_gable(leg, gable, wall.line.before), wall.openings, wall.buttresses))
-    return Generated(tuple(parts_of(walls, numbered=True)))
+    return walls
 
 
 def _place(item: WallsItem, number: int, line: Line, meets: tuple[tuple[int, Passage], ...]) -> _Placed:

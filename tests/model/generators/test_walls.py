@@ -91,6 +91,28 @@ def test_units_of_any_shape(tmp_path: Path, unit: list[float]) -> None:
         assert np.ptp(boxes, axis=1)[:, :2].max() <= max(1.5 * unit[0], unit[1]) * (1 + 1e-9)
 
 
+@pytest.mark.parametrize("bond", ["running", "stack", "english", "flemish", "header"])
+@pytest.mark.parametrize("side", ["front", "back"])
+def test_bonds_that_begin_with_half_a_unit_and_run_through_buttresses(tmp_path: Path, bond: str, side: str) -> None:
+    leaves = 1 if bond in ("running", "stack") else 2
+    thickness, pier = 0.2 * leaves, {"width": 0.3, "depth": 0.5, "side": side, "slope": 0.15}
+    for start in ("full", "half"):
+        built = walls(
+            tmp_path,
+            **ROOM,
+            bond=bond,
+            leaves=leaves,
+            start=start,
+            buttresses=[{"segment": 0, "at": 1.9, **pier}, {"segment": 1, "at": 1.3, **pier}],
+        )
+        is_sound(built)
+        expected = (14 - 4 * thickness) * thickness * 0.9 + 2 * 0.3 * 0.5 * (0.9 - 0.15 / 2)
+        assert built.volume == pytest.approx(expected, rel=1e-12)
+        plain = walls(tmp_path, **ROOM, bond=bond, leaves=leaves, start=start)
+        assert plain.volume == pytest.approx((14 - 4 * thickness) * thickness * 0.9, rel=1e-12)
+        is_sound(plain)
+
+
 def test_corner_courses_alternate(tmp_path: Path) -> None:
     built = walls(tmp_path, **ROOM)
     corner = (built.boxes()[:, 0, :2] < 0.1).all(axis=1)
