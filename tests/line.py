@@ -2,16 +2,21 @@
 
 from __future__ import annotations
 
+import io
 from dataclasses import dataclass
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from mbla.contacts import Contacts, find_contacts
+from mbla.contacts.glue import held_model
 from mbla.deck import Deck, read_deck
 from mbla.model import Model, build_model
 from mbla.model.model import LoadCase
 from mbla.program import Program, assemble
 from mbla.program.reductions import allowed_reductions, reduce_program
+from mbla.results.results import CaseResult
+from mbla.results.sta import StatusFile
+from mbla.run import contacts_of, solve_case, with_settlements
 from mbla.solution import Checks, Solution, solve, verified_status, verify
 from mbla.solution.settings import solver_settings
 from mbla.solution.solution import Status
@@ -104,3 +109,25 @@ def load_factor(text: str, *overrides: str, case: int = 0) -> float:
     assert status is Status.SOLVED, (status, solution.reason, checks.failures)
     assert solution.mechanics is not None
     return solution.mechanics.load_factor
+
+
+def case_of(text: str, *overrides: str, case: int = 0) -> tuple[Model, CaseResult]:
+    """A load case as ``mbla run`` solves it: any contact model, glued blocks as one."""
+    with TemporaryDirectory() as folder:
+        path = Path(folder) / "deck.yaml"
+        path.write_text(text, encoding="utf-8")
+        deck = read_deck(path, overrides)
+        model = build_model(deck)
+        contacts = contacts_of(deck, model)
+        model = held_model(model, contacts)
+        settings, status_file = solver_settings(deck.analysis), StatusFile(io.StringIO(), "test")
+        model, (load_case,) = with_settlements(model, contacts, (model.load_cases[case],), settings)
+        return model, solve_case(deck, model, contacts, load_case, settings, status_file, None)
+
+
+def factor_of(text: str, *overrides: str, case: int = 0) -> float:
+    """Its load factor; it must come out solved and verified."""
+    _, result = case_of(text, *overrides, case=case)
+    assert result.status is Status.SOLVED, (result.status, result.solution.reason, result.checks.failures)
+    assert result.solution.mechanics is not None
+    return result.solution.mechanics.load_factor

@@ -91,7 +91,8 @@ class ContactReport:
                      contact included)
     fixed_contacts : contacts between bodies that are both fixed; they are left out of ``Contacts``, like the next two
     open_interfaces : interfaces whose joint law is open
-    glued_interfaces : interfaces inside of rigid bodies: glued ones, and others between blocks that glue joins anyway
+    glued          : (n, 2) bodies of interfaces inside of rigid bodies: glued ones, and others between blocks that glue
+                     joins anyway
     held           : blocks that do not move because they are glued to a support
     notices        : the above in words
     """
@@ -107,7 +108,7 @@ class ContactReport:
     unsupported: tuple[IntArray, ...]
     fixed_contacts: int
     open_interfaces: int
-    glued_interfaces: int
+    glued: IntArray
     held: IntArray
     notices: tuple[Notice, ...]
 

@@ -22,7 +22,7 @@ import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.contacts.contacts import Contacts
-from mbla.deck.tree import KeyPath
+from mbla.contacts.glued_guides import solid_guides
 from mbla.model.join_blocks import join_blocks
 from mbla.model.model import LoadCase, Model
 
@@ -91,10 +91,18 @@ class Solids:
     arms: FloatArray
 
     def load_case(self, load_case: LoadCase) -> LoadCase:
-        """Loads on the solids, about their centroids."""
+        """Loads on the solids, about their centroids; blocks that settle are not glued."""
         if self.solid_of_block is None:
             return load_case
-        return replace(load_case, dead_load=self.loads(load_case.dead_load), live_load=self.loads(load_case.live_load))
+        settlement = load_case.settlement
+        if settlement is not None:
+            settlement = replace(settlement, blocks=self.solid_of_block[settlement.blocks])
+        tilt = load_case.tilt
+        if tilt is not None:
+            fixed, turning, across = (self.loads(loads) for loads in (tilt.fixed, tilt.turning, tilt.across))
+            tilt = replace(tilt, fixed=fixed, turning=turning, across=across)
+        dead, live = self.loads(load_case.dead_load), self.loads(load_case.live_load)
+        return replace(load_case, dead_load=dead, live_load=live, settlement=settlement, tilt=tilt)
 
     def loads(self, loads: FloatArray) -> FloatArray:
         """Forces and moments on solids, (n_solids, 6), from those on blocks, (n_blocks, 6)."""
@@ -143,48 +151,18 @@ def solids_of(model: Model, contacts: Contacts) -> Solids:
         ground if ground.blocks is None else replace(ground, blocks=np.unique(label[ground.blocks]))
         for ground in model.grounds
     )
+    arms = model.blocks.centroids - blocks.centroids[label]
     body = np.concatenate([label, len(blocks) + np.arange(len(grounds))])
     solids = Solids(
-        model=replace(model, blocks=blocks, fixed=fixed, grounds=grounds),
+        model=replace(
+            model, blocks=blocks, fixed=fixed, grounds=grounds, guides=solid_guides(model.guides, label, arms)
+        ),
         contacts=replace(contacts, bodies=body[contacts.bodies], solid_of_block=None),
         solid_of_block=label,
-        arms=model.blocks.centroids - blocks.centroids[label],
+        arms=arms,
     )
     cases = tuple(solids.load_case(case) for case in model.load_cases)
     return replace(solids, model=replace(solids.model, load_cases=cases))
-
-
-CANCELLED = 1e-12
-"""sum of live loads on a solid, relative to the loads themselves, at which nothing is left of them"""
-
-
-def glue_findings(model: Model, contacts: Contacts) -> list[tuple[KeyPath, str]]:
-    """Key path and words of what glue makes a fault: nothing is left that can move, or a live load can move nothing."""
-    if contacts.solid_of_block is None and not len(contacts.report.held):
-        return []
-    held = held_model(model, contacts)
-    if held.fixed.all():
-        return [(("contacts",), "every block is glued to a support: nothing can move")]
-    solids = solids_of(held, contacts)
-    free = ~solids.model.fixed
-    found: list[tuple[KeyPath, str]] = []
-    for case in model.load_cases:
-        net, gross = np.abs(solids.loads(case.live_load)[free]), _gross(solids, case.live_load)[free]
-        if (net.max(axis=0) <= CANCELLED * gross.max(axis=0)).all():
-            message = "the live loads have no effect: they act on blocks glued to a support, or cancel on glued blocks"
-            found.append((("load_cases", case.name, "live"), message))
-    return found
-
-
-def _gross(solids: Solids, loads: FloatArray) -> FloatArray:
-    """Sum of the sizes of forces, and of moments about the solid's centroid, on each solid, (n_solids, 6)."""
-    sizes = np.abs(loads)
-    arms = np.linalg.norm(solids.arms, axis=1) * np.linalg.norm(loads[:, :3], axis=1)
-    sizes[:, 3:] += arms[:, None]
-    total = np.zeros((len(solids.model.blocks), 6))
-    label = np.arange(len(loads)) if solids.solid_of_block is None else solids.solid_of_block
-    np.add.at(total, label, sizes)
-    return total
 
 
 def held_model(model: Model, contacts: Contacts) -> Model:

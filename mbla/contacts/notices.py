@@ -12,9 +12,12 @@ from mbla.contacts.glue import Glue
 from mbla.deck.types import ContactsSection
 from mbla.errors import Notice
 from mbla.model.model import Model
+from mbla.model.ragged import next_item
 
 # So many are named in a notice; the arrays of the report have all.
 _NAMED = 3
+# Relative difference of two thicknesses that are one; solids are intersected to about half the digits.
+WHOLE = 1e-6
 
 
 def report_notices(
@@ -38,8 +41,8 @@ def glue_notices(report: ContactReport, glue: Glue) -> tuple[Notice, ...]:
     if report.open_interfaces:
         text = f"{_count(report.open_interfaces, 'interface')} with open joints left out: no contact"
         found.append(Notice("notice", "open-interfaces-left-out", text))
-    if report.glued_interfaces:
-        text = f"{_count(report.glued_interfaces, 'interface')} glued, and left out: {glue_words(report, glue.sizes)}"
+    if len(report.glued):
+        text = f"{_count(len(report.glued), 'interface')} glued, and left out: {glue_words(report, glue.sizes)}"
         found.append(Notice("notice", "blocks-glued", text))
     return tuple(found)
 
@@ -58,11 +61,33 @@ def glue_words(report: ContactReport, sizes: IntArray) -> str:
 
 def overlap_messages(model: Model, report: ContactReport) -> tuple[str, ...]:
     """One sentence for each pair of blocks that overlap: names, depth, remedy; the deck is wrong if there is any."""
-    return tuple(
+    pairs = zip(report.overlaps.tolist(), report.overlap_depths.tolist(), strict=True)
+    return tuple(_overlap_in_words(model, a, b, depth) for (a, b), depth in pairs)
+
+
+def _overlap_in_words(model: Model, a: int, b: int, depth: float) -> str:
+    for inner, outer in ((a, b), (b, a)):
+        if _wholly_inside(model, inner, outer, depth):
+            where = f"{model.body_name(inner)} lies wholly inside {model.body_name(outer)}"
+            return f"{where}: leave one of them out; a block has no hollows"
+    return (
         f"{model.body_name(a)} and {model.body_name(b)} overlap by {_length(model, (a, b), depth)}: move them apart"
         f"{_by_tolerance(depth, ', or set contacts.tolerance above {:.2g} if they are meant to touch')}"
-        for (a, b), depth in zip(report.overlaps.tolist(), report.overlap_depths.tolist(), strict=True)
     )
+
+
+def _wholly_inside(model: Model, inner: int, outer: int, depth: float) -> bool:
+    """Whether what two blocks share is one of them: its thickness, 2 V / S, is then that of this block."""
+    blocks = model.blocks
+    if blocks.volumes[inner] > blocks.volumes[outer]:
+        return False
+    faces = slice(blocks.face_start[inner], blocks.face_start[inner + 1])
+    corners = blocks.vertices[blocks.loops[blocks.loop_start[faces.start] : blocks.loop_start[faces.stop]]]
+    start = blocks.loop_start[faces.start : faces.stop + 1] - blocks.loop_start[faces.start]
+    arms = corners - corners[0]
+    vectors = 0.5 * np.add.reduceat(np.cross(arms, arms[next_item(start)]), start[:-1], axis=0)
+    thickness = 2 * blocks.volumes[inner] / np.linalg.norm(vectors, axis=1).sum()
+    return bool(abs(depth * blocks.sizes[[inner, outer]].min() / thickness - 1) < WHOLE)
 
 
 def _overlaps(model: Model, report: ContactReport) -> list[Notice]:

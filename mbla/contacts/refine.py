@@ -30,6 +30,11 @@ and with eccentricity e, ν = N/(f_c A) and ξ = 1 − 2e/h, the stress block gi
 
 With both eccentricities the two rules are applied one after the other: either moment exceeds that of a force point of
 the exact stress block by no more than its own f_c A h/(8 n²).
+
+On the triangles of other polygons the sum is the integral of the linear interpolant of φ, which lies above φ by at most
+|β| w/4, and only in triangles that the kink crosses, w their extent along β. With h the extent of the polygon, w ≤ h/n;
+with b its greatest breadth across, these triangles cover at most 2 w b: moments exceed those of the stress block by at
+most f_c b h²/(2 n²).
 """
 
 from __future__ import annotations

@@ -23,7 +23,7 @@ class Findings:
     """What the search found: all contacts, those between fixed bodies included, and what is not a contact.
 
     open_bodies      : (n, 2) bodies of the contacts whose joint law is open
-    glued_interfaces : contacts inside of rigid bodies
+    glued_bodies     : (n, 2) bodies of the contacts inside of rigid bodies
     """
 
     contacts: Patches
@@ -31,7 +31,7 @@ class Findings:
     near_misses: Patches
     overlaps: Overlaps
     open_bodies: IntArray
-    glued_interfaces: int
+    glued_bodies: IntArray
     glue: Glue
 
 
@@ -55,7 +55,7 @@ def build_report(model: Model, section: ContactsSection, findings: Findings, not
         unsupported=unsupported_parts(held, bodies),
         fixed_contacts=int(both_fixed(model, touching).sum()),
         open_interfaces=len(findings.open_bodies),
-        glued_interfaces=findings.glued_interfaces,
+        glued=findings.glued_bodies,
         held=np.flatnonzero(findings.glue.held),
         notices=(),
     )

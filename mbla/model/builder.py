@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -15,19 +15,25 @@ from mbla.deck.tree import KeyPath
 from mbla.deck.types import BlockItem, Item, JointLaw, LoadCaseSection, Material
 from mbla.deck.units import Units
 from mbla.errors import DeckError, Fault, Notice
+from mbla.model.added_masses import with_added_masses
 from mbla.model.build_blocks import BuiltBlocks, Labels, build_blocks, indices_in_groups
 from mbla.model.generators import GENERATORS
 from mbla.model.generators.generator import Generated, ItemRefused, Site
+from mbla.model.interfaces import COLUMNS, given_interfaces
 from mbla.model.labels import NONE, BlockLabels, join_labels, labels_of
-from mbla.model.loads import LoadSite, build_load_case
-from mbla.model.model import Ground, Joint, LoadCase, Model
+from mbla.model.loads import LoadSite, build_load_cases
+from mbla.model.model import GivenInterfaces, Ground, Joint, LoadCase, Model
 from mbla.model.overrides import check_overrides
 from mbla.model.polyhedra import Polyhedra, join_polyhedra
-from mbla.model.selectors import build_roster
+from mbla.model.selectors import Roster, build_roster
 from mbla.model.settlement import build_settlement
 from mbla.model.supports import Supports, build_supports, does_nothing
+from mbla.model.symmetry import symmetry_faults, with_images
+from mbla.model.tables import TableRefused, read_table
 from mbla.model.transform import build_transform, repetitions, transform_item
 
+FROM_FILES = ("mesh", "table")
+"""kinds of items whose blocks have names of their own"""
 MOST_FAULTS_PER_ITEM = 10
 """defects of blocks of one item that are told one by one; a mesh in the wrong format has one in every block"""
 
@@ -87,21 +93,55 @@ def build_model(deck: Deck) -> Model:
     tolerance, joint = deck.contacts.tolerance, deck.contacts.joint
     supports = build_supports(deck.content.supports, joint, brought_along, roster, tolerance, faults)
     check_overrides(deck.contacts.overrides, roster, faults)
-    site = LoadSite(roster, supports.fixed, deck.units, deck.resolve_file, faults, notices)
-    load_cases = tuple(_load_case(name, section, site, supports) for name, section in deck.content.load_cases.items())
+    given = _given_interfaces(deck, roster, supports, faults)
+    if deck.content.masses:
+        roster = replace(roster, blocks=with_added_masses(deck.content.masses, roster, supports.fixed, faults, notices))
+    site = LoadSite(
+        roster=roster,
+        fixed=supports.fixed,
+        units=deck.units,
+        resolve_file=deck.resolve_file,
+        grounds=supports.grounds,
+        named=deck.content.loads,
+        tolerance=tolerance,
+        faults=faults,
+        notices=notices,
+    )
+    sections = deck.content.load_cases.items()
+    load_cases = tuple(case for name, section in sections for case in _load_cases(name, section, site, supports))
     if faults:
         raise DeckError(faults)
-    return Model(
+    model = Model(
         title=deck.content.title,
         units=deck.units,
-        blocks=built.blocks,
+        blocks=roster.blocks,
         fixed=supports.fixed,
         grounds=supports.grounds,
         joints=_joints(deck, supports.grounds),
         load_cases=load_cases,
         notices=(*items.notices, *built.notices, *notices),
         guides=supports.guides,
+        interfaces=given,
     )
+    faults += symmetry_faults(deck, model)
+    if faults:
+        raise DeckError(faults)
+    return with_images(deck, model)
+
+
+def _given_interfaces(deck: Deck, roster: Roster, supports: Supports, faults: list[Fault]) -> GivenInterfaces | None:
+    """Interfaces of the deck's table; None where it has none, or where it is at fault."""
+    path: KeyPath = ("contacts", "table")
+    if deck.contacts.table is None or roster.partial:
+        return None
+    try:
+        table = read_table(deck.resolve_file(path, deck.contacts.table), COLUMNS)
+        return given_interfaces(table, roster.blocks, roster.members, supports.grounds, deck.contacts.tolerance)
+    except DeckError as error:
+        faults += error.faults
+    except TableRefused as refused:
+        faults += [deck.fault_at(path, fault) for fault in refused.faults]
+    return None
 
 
 def _joints(deck: Deck, grounds: Sequence[Ground]) -> dict[str, Joint]:
@@ -113,19 +153,24 @@ def _joints(deck: Deck, grounds: Sequence[Ground]) -> dict[str, Joint]:
     return laws
 
 
-def _load_case(name: str, section: LoadCaseSection, site: LoadSite, supports: Supports) -> LoadCase:
-    """Loads of one case, or its dead loads and the support that gives way."""
-    load_case = build_load_case(name, section, site)
+def _load_cases(name: str, section: LoadCaseSection, site: LoadSite, supports: Supports) -> Sequence[LoadCase]:
+    """Loads of one case, or of one for each position of a load that travels; or a support that gives way."""
+    load_cases = build_load_cases(name, section, site)
     path: KeyPath = ("load_cases", name)
     if section.settlement is not None:
         settles = (*path, "settlement")
-        return build_settlement(section.settlement, settles, load_case, supports, site.roster, site.faults)
-    if not site.faults and does_nothing(load_case.live_load, supports):
-        site.refuse(
-            (*path, "live"),
-            "the supports take every live load, for they act on guided blocks across what these may do",
-        )
-    return load_case
+        return [
+            build_settlement(section.settlement, settles, load_case, supports, site.roster, site.faults)
+            for load_case in load_cases
+        ]
+    for load_case in load_cases:
+        if not site.faults and does_nothing(load_case.live_load, supports):
+            where = "" if load_case.travel is None else f" at position {load_case.travel.number}"
+            site.refuse(
+                (*path, "live"),
+                f"the supports take every live load{where}, for they act on guided blocks across what these may do",
+            )
+    return load_cases
 
 
 def build_joint(name: str, law: JointLaw) -> Joint:
@@ -241,12 +286,18 @@ def _defects_in_words(deck: Deck, built: BuiltBlocks, item_of_block: Sequence[in
         told[number] += 1
         if told[number] <= MOST_FAULTS_PER_ITEM:
             path = _path_of_defect(deck, defect.face, number)
-            faults.append(deck.fault_at(path, f"block {built.blocks.name(defect.block)}: {defect.message}"))
+            faults.append(deck.fault_at(path, f"block {_called(deck, built, defect.block, number)}: {defect.message}"))
     for number, count in told.items():
         if count > MOST_FAULTS_PER_ITEM:
             message = f"{count - MOST_FAULTS_PER_ITEM} more blocks of this item are refused"
             faults.append(deck.fault_at(_path_of_defect(deck, None, number), message))
     return faults
+
+
+def _called(deck: Deck, built: BuiltBlocks, block: int, number: int) -> str:
+    """Name of a block; with that which its file gives it, where it comes from one: ``vault[17] (key_stone)``."""
+    member = built.blocks.labels.members[block] if _kind(deck.content.blocks[number])[0] in FROM_FILES else ""
+    return f"{built.blocks.name(block)}{f' ({member})' if member else ''}"
 
 
 def _path_of_defect(deck: Deck, face: int | None, number: int) -> KeyPath:

@@ -65,7 +65,7 @@ def _counts(model: Model, contacts: Contacts) -> list[str]:
             lines += entry("greatest gap or overlap", f"{small(widest)} {length}")
     unsupported = sum(len(part) for part in report.unsupported)
     parts = f", {counted(len(report.unsupported), 'part')}" if unsupported else ""
-    glued = f": {glue_words(report, solid_sizes(contacts.solid_of_block))}" if report.glued_interfaces else ""
+    glued = f": {glue_words(report, solid_sizes(contacts.solid_of_block))}" if len(report.glued) else ""
     for name, count, rest in (
         ("nearly touching, no contact", len(report.near_misses), ""),
         ("slivers dropped", len(report.slivers), ""),
@@ -75,7 +75,7 @@ def _counts(model: Model, contacts: Contacts) -> list[str]:
         ("blocks held by no support", unsupported, parts),
         ("between fixed bodies, left out", report.fixed_contacts, ""),
         ("open, left out", report.open_interfaces, ""),
-        ("inside of rigid bodies, left out", report.glued_interfaces, glued),
+        ("inside of rigid bodies, left out", len(report.glued), glued),
     ):
         lines += entry(name, f"{count or 'none'}{rest}")
     return lines

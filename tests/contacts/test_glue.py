@@ -44,7 +44,7 @@ def test_glue_joins_blocks_through_others() -> None:
     assert contacts.solid_of_block is not None
     assert contacts.solid_of_block.tolist() == [0, 1, 1, 1, 2]
     assert len(contacts) == 3
-    assert contacts.report.glued_interfaces == 2
+    assert contacts.report.glued.tolist() == [[1, 2], [2, 3]]
     assert identifiers(contacts) == ["blocks-glued"]
     assert "3 blocks make 1 rigid body" in contacts.report.notices[0].message
     solids = solids_of(model, contacts)
@@ -79,7 +79,7 @@ def test_a_dry_joint_inside_of_a_rigid_body_is_left_out() -> None:
     overrides = [ContactOverride(between=("base", ["left", "right"]), joint="glued")]
     contacts = find_contacts(model, ContactsSection(joint="dry", overrides=overrides))
     assert contacts.bodies.tolist() == [[3, 0]]
-    assert contacts.report.glued_interfaces == 3
+    assert len(contacts.report.glued) == 3
     assert contacts.report.fixed_contacts == 0
 
 

@@ -118,3 +118,14 @@ def test_block_that_is_no_closed_solid_is_said_to_be_unchecked() -> None:
     assert report.unchecked.tolist() == [[0, 1]]
     assert len(report.overlaps) == 0
     assert "overlap-not-checked" in {notice.identifier for notice in report.notices}
+
+
+@pytest.mark.parametrize("turn", [None, any_rotation(4)], ids=["along the axes", "turned"])
+def test_a_block_inside_another_is_called_that(turn: np.ndarray | None) -> None:
+    three = boxes(([0, 0, 0], [3, 3, 3]), ([1, 1, 1], [2, 2, 2.5]), ([2.5, 0, 0], [5, 3, 3]))
+    contacts = contacts_of(moved(three, turn=turn), fixed=[0])
+    words = [notice.message for notice in contacts.report.notices if notice.identifier == "blocks-overlap"]
+    assert words == [
+        "block[1] lies wholly inside block[0]: leave one of them out; a block has no hollows",
+        "block[0] and block[2] overlap by 0.375 m, 0.13 of the block size: move them apart",
+    ]

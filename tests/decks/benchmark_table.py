@@ -14,6 +14,7 @@ from dataclasses import dataclass, replace
 from functools import cache
 
 from mbla.contacts import Contacts
+from mbla.contacts.glue import held_model
 from mbla.deck import Deck, read_deck
 from mbla.deck.types import AnalysisSection
 from mbla.errors import DeckError, MblaError
@@ -89,7 +90,8 @@ def _model_of(case: BenchmarkCase) -> tuple[Model, Contacts]:
     """Model and contacts, which no formulation changes."""
     deck = read_deck(DECKS / "benchmarks" / f"{case.deck}.yaml", case.overrides)
     model = build_model(deck)
-    return model, contacts_of(deck, model)
+    contacts = contacts_of(deck, model)
+    return held_model(model, contacts), contacts
 
 
 def watched(deck: Deck) -> tuple[Deck, set[str]]:

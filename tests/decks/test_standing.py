@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from mbla.contacts import find_contacts
+from mbla.contacts.glue import held_model, solids_of
 from mbla.deck.analysis import ReductionSwitches
 from mbla.model import build_model
 from mbla.program import assemble
 from mbla.program.reductions import reduce_program
-from mbla.run import with_settlements
+from mbla.run import contacts_of, with_settlements
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Standing
 from mbla.solution.standing import assess_standing, worst_standing
@@ -22,7 +22,9 @@ LOCKED_IN = ("benchmarks/bar_between_walls",)
 def test_decks_stand_unless_they_say_that_they_do_not(path: Path) -> None:
     deck = deck_of(path)
     model = build_model(deck)
-    contacts = find_contacts(model, deck.contacts)
+    contacts = contacts_of(deck, model)
+    solids = solids_of(held_model(model, contacts), contacts)
+    model, contacts = solids.model, solids.contacts
     settings = SolverSettings(tolerance=1e-8)
     model, load_cases = with_settlements(model, contacts, model.load_cases, settings)
     for load_case in load_cases:

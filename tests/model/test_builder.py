@@ -149,7 +149,7 @@ def test_many_faults_of_one_item_are_counted(tmp_path: Path) -> None:
         build_model(deck(tmp_path, ["mesh: {material: stone, file: open.obj}"]))
     messages = [fault.message for fault in caught.value.faults]
     assert len(messages) == 11
-    assert messages[0].startswith("block mesh[0]: is not closed")
+    assert messages[0].startswith("block mesh[0] (open0): is not closed")
     assert messages[-1] == "20 more blocks of this item are refused"
 
 

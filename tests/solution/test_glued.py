@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import io
 from dataclasses import replace
 from pathlib import Path
 
@@ -10,18 +9,16 @@ import h5py
 import numpy as np
 import pytest
 
-from mbla.contacts.glue import held_model, solids_of
+from mbla.contacts.glue import solids_of
 from mbla.deck import read_deck
 from mbla.errors import FileError
-from mbla.model import Model, build_model
+from mbla.model import build_model
 from mbla.results.collapse import collapse_of
 from mbla.results.hdf5 import read_results_hdf5
-from mbla.results.results import CaseResult
-from mbla.results.sta import StatusFile
-from mbla.run import RunOptions, contacts_of, run, solve_case
-from mbla.solution.settings import solver_settings
+from mbla.run import RunOptions, contacts_of, run
 from mbla.solution.solution import Status
 from mbla.verify_file import verify_results
+from tests.line import case_of, factor_of
 
 HEAD = """\
 mbla: 1
@@ -71,43 +68,23 @@ RULES = (
 )
 
 
-def solved(folder: Path, text: str, *overrides: str) -> tuple[Model, CaseResult]:
-    path = folder / "deck.yaml"
-    path.write_text(text, encoding="utf-8")
-    deck = read_deck(path, overrides)
-    model = build_model(deck)
-    contacts = contacts_of(deck, model)
-    model = held_model(model, contacts)
-    status_file = StatusFile(io.StringIO(), "test")
-    settings = solver_settings(deck.analysis)
-    return model, solve_case(deck, model, contacts, model.load_cases[0], settings, status_file, None)
-
-
-def factor(case: CaseResult) -> float:
-    assert case.status is Status.SOLVED, (case.solution.reason, case.checks.failures)
-    assert case.solution.mechanics is not None
-    return case.solution.mechanics.load_factor
-
-
 @pytest.mark.parametrize("rule", RULES, ids=" ".join)
-def test_a_bracket_rocks_as_its_union(tmp_path: Path, rule: tuple[str, ...]) -> None:
+def test_a_bracket_rocks_as_its_union(rule: tuple[str, ...]) -> None:
     """Moments about the edge x = 1: Σ W (1 − x) = λ Σ W z, with weights 2000 · 1 and 700 · 0.75."""
     weights, arms, heights = np.array([2000.0, 525.0]), np.array([0.5, -0.25]), np.array([0.5, 1.25])
-    _, case = solved(tmp_path, BRACKET, *rule)
-    assert factor(case) == pytest.approx(weights @ arms / (weights @ heights), rel=1e-6)
+    assert factor_of(BRACKET, *rule) == pytest.approx(weights @ arms / (weights @ heights), rel=1e-6)
 
 
 @pytest.mark.parametrize("rule", RULES, ids=" ".join)
 @pytest.mark.parametrize("direction", [(1.0, 0.0), (0.6, 0.8)], ids=["planar", "spatial"])
-def test_a_glued_stack_is_one_box(tmp_path: Path, rule: tuple[str, ...], direction: tuple[float, float]) -> None:
+def test_a_glued_stack_is_one_box(rule: tuple[str, ...], direction: tuple[float, float]) -> None:
     ways = [f"parameters.cx={direction[0]}", f"parameters.cy={direction[1]}"]
-    _, stack = solved(tmp_path, TWO_STACKS.replace("BLOCKS\n", STACK), *rule, *ways)
-    _, one = solved(tmp_path, TWO_STACKS.replace("BLOCKS\n", ONE), *rule, *ways)
-    assert factor(stack) == pytest.approx(factor(one), rel=1e-9)
+    stack, one = (factor_of(TWO_STACKS.replace("BLOCKS\n", blocks), *rule, *ways) for blocks in (STACK, ONE))
+    assert stack == pytest.approx(one, rel=1e-9)
 
 
-def test_velocities_are_those_of_one_rigid_body(tmp_path: Path) -> None:
-    model, case = solved(tmp_path, BRACKET, "analysis.flow_rule=associative")
+def test_velocities_are_those_of_one_rigid_body() -> None:
+    model, case = case_of(BRACKET, "analysis.flow_rule=associative")
     assert case.solution.mechanics is not None
     motion = case.solution.mechanics.mechanism
     # turning about the edge x = 1, z = 0
@@ -147,10 +124,10 @@ def test_the_result_file_is_verified_alone_and_seen_through(tmp_path: Path) -> N
     assert again.exit_code == 4
 
 
-def test_a_certificate_moves_the_blocks_of_a_body_together(tmp_path: Path) -> None:
+def test_a_certificate_moves_the_blocks_of_a_body_together() -> None:
     """The arm is too heavy: no equilibrium, and what falls is told block by block."""
     text = BRACKET.replace("material: light", "material: stone").replace("max: [2, 1, 1.5]", "max: [3.2, 1, 1.5]")
-    model, case = solved(tmp_path, text)
+    model, case = case_of(text)
     assert case.status is Status.NO_EQUILIBRIUM
     certificate = case.solution.certificate
     assert certificate is not None
@@ -159,13 +136,15 @@ def test_a_certificate_moves_the_blocks_of_a_body_together(tmp_path: Path) -> No
     assert certificate[1, 2] < 0
 
 
-def test_glued_to_the_ground_is_fixed(tmp_path: Path) -> None:
+def test_glued_to_the_ground_is_fixed() -> None:
     """What is left is the upper block on a fixed one."""
     text = BRACKET.replace("between: [low, high]", "between: [low, ground]").replace("[2, 1, 1.5]", "[1.2, 1, 1.5]")
-    model, case = solved(tmp_path, text, "analysis.flow_rule=associative")
+    model, case = case_of(text, "analysis.flow_rule=associative")
+    assert case.status is Status.SOLVED
+    assert case.solution.mechanics is not None
     assert model.fixed.tolist() == [True, False]
     # 0.7 wide, centroid 0.35 from the left edge and 0.15 from the end of the bed at x = 1, 0.25 above it
-    assert factor(case) == pytest.approx(0.6, rel=1e-6)
+    assert case.solution.mechanics.load_factor == pytest.approx(0.6, rel=1e-6)
 
 
 def test_restoring_a_file_refuses_numbers_with_gaps(tmp_path: Path) -> None:
@@ -187,3 +166,16 @@ def test_solids_of_the_bracket(tmp_path: Path) -> None:
     solids = solids_of(model, contacts_of(deck, model))
     assert solids.model.blocks.masses.tolist() == pytest.approx([2525.0])
     assert solids.model.load_cases[0].dead_load[0, 2] == pytest.approx(-2525 * 9.81)
+
+
+@pytest.mark.parametrize("cohesion", [0, 50], ids=["tangent", "angle"])
+def test_a_bracket_on_a_tilting_table(cohesion: int) -> None:
+    """It tips at the angle of the tangent (1 − x)/z, also where cohesion has the angle searched for by itself."""
+    text = BRACKET.replace("acceleration: [1, 0, 0]", "tilt: {axis: [0, 1, 0]}")
+    _, case = case_of(text.replace("friction: 0.7", f"friction: 0.7, cohesion: {cohesion}"))
+    assert case.status is Status.SOLVED
+    assert case.solution.mechanics is not None
+    assert case.load_case.tilt is not None
+    factor, angle = case.solution.mechanics.load_factor, case.load_case.tilt.angle
+    expected = (1000 - 0.25 * 525) / (1000 + 1.25 * 525)
+    assert (np.tan(np.radians(angle)) if cohesion else factor) == pytest.approx(expected, rel=1e-6)

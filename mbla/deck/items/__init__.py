@@ -25,6 +25,7 @@ from mbla.deck.items.masonry import Opening as Opening
 from mbla.deck.items.mesh import MeshItem as MeshItem
 from mbla.deck.items.pavilion_vault import PavilionVaultItem as PavilionVaultItem
 from mbla.deck.items.polyhedron import PolyhedronItem as PolyhedronItem
+from mbla.deck.items.spiral_stair import SpiralStairItem as SpiralStairItem
 from mbla.deck.items.stack import StackItem as StackItem
 from mbla.deck.items.table import TableItem as TableItem
 from mbla.deck.items.trilithon import TrilithonItem as TrilithonItem
@@ -53,3 +54,4 @@ class BlockItem(Section):
     barrel_vault: BarrelVaultItem | None = None
     cross_vault: CrossVaultItem | None = None
     pavilion_vault: PavilionVaultItem | None = None
+    spiral_stair: SpiralStairItem | None = None

@@ -111,3 +111,23 @@ def pavilion_keystone(vault: types.PavilionVaultItem) -> Iterator[Finding]:
         yield ("courses",), "must be odd: a keystone closes the crown"
     if vault.shape == "pointed":
         yield ("shape",), "must not be pointed: a keystone closes the crown, and the apex would be a kink in it"
+
+
+@rule(types.SpiralStairItem)
+def stair_extents(stair: types.SpiralStairItem) -> Iterator[Finding]:
+    """Radii in order; a tread is longer than it overlaps the next, and higher than its rebate."""
+    if stair.outer_radius <= stair.inner_radius:
+        yield ("outer_radius",), f"must be > {stair.inner_radius:g}, the inner radius"
+    if stair.overlap >= stair.angle:
+        yield ("overlap",), f"must be < {stair.angle:g}, the angle from tread to tread"
+    if stair.rebate >= stair.rise:
+        yield ("rebate",), f"must be < {stair.rise:g}, the rise"
+
+
+@rule(types.SpiralStairItem)
+def stair_supports(stair: types.SpiralStairItem) -> Iterator[Finding]:
+    """A wall holds what is built into it."""
+    if stair.wall != "none" and stair.built_in == 0:
+        yield ("wall",), "needs built_in: the wall holds the ends of treads that reach into it"
+    if stair.joint is not None and stair.foot != "ground":
+        yield ("joint",), "applies with foot: ground only"

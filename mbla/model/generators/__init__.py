@@ -13,6 +13,7 @@ from mbla.model.generators.generator import Generator
 from mbla.model.generators.mesh import generate_mesh
 from mbla.model.generators.pavilion_vault import generate_pavilion_vault
 from mbla.model.generators.polyhedron import generate_polyhedron
+from mbla.model.generators.spiral_stair import generate_spiral_stair
 from mbla.model.generators.stack import generate_stack
 from mbla.model.generators.table import generate_table
 from mbla.model.generators.trilithon import generate_trilithon
@@ -35,5 +36,6 @@ GENERATORS: dict[str, Generator] = {
     "barrel_vault": generate_barrel_vault,
     "cross_vault": generate_cross_vault,
     "pavilion_vault": generate_pavilion_vault,
+    "spiral_stair": generate_spiral_stair,
 }
 """by the key of the item in the deck"""

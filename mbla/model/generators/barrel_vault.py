@@ -10,15 +10,14 @@ import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.deck.types import BarrelVaultItem
+from mbla.model.generators.amounts import refuse_too_many
 from mbla.model.generators.chains import prisms
-from mbla.model.generators.generator import Generated, GroundPart, ItemRefused, Part, Site
+from mbla.model.generators.generator import Generated, GroundPart, Part, Site
 from mbla.model.generators.vault_sections import VaultSection, vault_section
 from mbla.model.polyhedra import Polyhedra
 
 NO_UNIT = 1e-6
 """length of a remainder, relative to the unit, that is no unit of its own"""
-MOST_UNITS = 2_000_000
-"""a slip in the units of length asks for far more"""
 
 
 def generate_barrel_vault(item: BarrelVaultItem, site: Site) -> Generated:
@@ -29,9 +28,7 @@ def generate_barrel_vault(item: BarrelVaultItem, site: Site) -> Generated:
     ItemRefused
         for more units than can be handled
     """
-    about = item.courses * item.length / item.unit
-    if about > MOST_UNITS:
-        raise ItemRefused([(("length",), f"makes about {about:.0e} units; at most {MOST_UNITS:,} can be handled")])
+    refuse_too_many(item.courses * item.length / item.unit, "length")
     section = vault_section(item, item.span)
     rows = [_ends(item, item.bond == "running" and course % 2 == 1) for course in range(item.courses)]
     course = np.repeat(np.arange(item.courses), [len(row) for row in rows])

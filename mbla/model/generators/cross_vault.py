@@ -13,6 +13,7 @@ import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.deck.types import CrossVaultItem
+from mbla.model.generators.amounts import refuse_too_many
 from mbla.model.generators.generator import Generated, GroundPart, ItemRefused, Part, Site
 from mbla.model.generators.mitres import (
     CORNERS,
@@ -29,8 +30,6 @@ from mbla.model.polyhedra import Polyhedra, join_polyhedra
 
 LEAST_EDGE = 1e-3
 """of the thickness: the webs end at least so far beyond the feet of the groins"""
-MOST_UNITS = 2_000_000
-"""a slip in the units of length asks for far more"""
 
 
 @dataclass
@@ -93,9 +92,7 @@ def _ends(item: CrossVaultItem, section: HalfSection) -> FloatArray:
     if edge < feet.max() + LEAST_EDGE * item.thickness:
         message = f"must be > {feet.max():g}: the webs end beyond the feet of the groins"
         raise ItemRefused([(("edge",), message)])
-    about = item.courses * 2 * (sum(item.bay) / 2 + 2 * edge) / item.unit
-    if about > MOST_UNITS:
-        raise ItemRefused([(("unit",), f"makes about {about:.0e} units; at most {MOST_UNITS:,} can be handled")])
+    refuse_too_many(item.courses * 2 * (sum(item.bay) / 2 + 2 * edge) / item.unit, "unit")
     return np.array(item.bay) / 2 + edge
 
 

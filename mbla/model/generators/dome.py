@@ -18,6 +18,7 @@ import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.deck.types import DomeDrum, DomeItem
+from mbla.model.generators.amounts import refuse_too_many
 from mbla.model.generators.chains import chains
 from mbla.model.generators.curves import Circle, named_curve
 from mbla.model.generators.generator import Generated, GroundPart, ItemRefused, Part, Site
@@ -56,7 +57,7 @@ def generate_dome(item: DomeItem, site: Site) -> Generated:
     Raises
     ------
     ItemRefused
-        for an opening or keystone as wide as the dome, or a drum that does not carry it
+        for an opening or keystone as wide as the dome, a drum that does not carry it, or too many facets
     """
     dome = _dome(item)
     joints = [dome.joint(angle) for angle in dome.angles]
@@ -85,6 +86,8 @@ def _dome(item: DomeItem) -> _Dome:
     circle = named_curve(shape, item.span, item.rise, item.embrace)
     assert isinstance(circle, Circle)  # which both shapes are
     facets = item.facets or (2 if item.bond == "running" else 1)
+    courses = item.drum.courses if item.drum else 0
+    refuse_too_many(float(item.rings + courses) * item.segments * facets, "segments", "facets")
     springing = item.drum.height if item.drum else 0.0
     angles = np.linspace(circle.half_angle, _top(item, circle), item.rings + 1)
     return _Dome(circle, item.thickness, angles, springing, item.segments, facets, item.bond == "running")

@@ -10,7 +10,8 @@ import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.deck.types import PavilionVaultItem
-from mbla.model.generators.generator import Generated, GroundPart, ItemRefused, Part, Site
+from mbla.model.generators.amounts import refuse_too_many
+from mbla.model.generators.generator import Generated, GroundPart, Part, Site
 from mbla.model.generators.mitres import (
     CORNERS,
     SHORTEST,
@@ -24,9 +25,6 @@ from mbla.model.generators.mitres import (
 )
 from mbla.model.polyhedra import Polyhedra, join_polyhedra
 
-MOST_UNITS = 2_000_000
-"""a slip in the units of length asks for far more"""
-
 
 def generate_pavilion_vault(item: PavilionVaultItem, site: Site) -> Generated:
     """Hips from the springings up, four blocks in each course; units of the webs; keystone; fixed springers.
@@ -36,9 +34,7 @@ def generate_pavilion_vault(item: PavilionVaultItem, site: Site) -> Generated:
     ItemRefused
         for more units than can be handled
     """
-    about = item.courses * sum(item.bay) / item.unit
-    if about > MOST_UNITS:
-        raise ItemRefused([(("unit",), f"makes about {about:.0e} units; at most {MOST_UNITS:,} can be handled")])
+    refuse_too_many(item.courses * sum(item.bay) / item.unit, "unit")
     section = half_section(item, item.bay)
     hips, webs, labels = [], [], []
     for course in range(section.courses):

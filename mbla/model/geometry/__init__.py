@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from pathlib import Path
 
+import numpy as np
+
 from mbla.model.geometry.compas_json import read_compas_json
 from mbla.model.geometry.dxf import read_dxf
 from mbla.model.geometry.geometry import Geometry, GeometryFileError
@@ -43,4 +45,6 @@ def read_geometry(path: Path) -> Geometry:
     geometry = reader(path)
     if not len(geometry.polyhedra):
         raise GeometryFileError("the file holds no blocks: no surface and no volume cell was found")
+    if (np.diff(geometry.polyhedra.loop_start) < 3).any():
+        raise GeometryFileError("a face has fewer than three corners")
     return geometry

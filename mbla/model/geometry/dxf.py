@@ -53,29 +53,37 @@ def read_dxf(path: Path) -> Geometry:
     Raises
     ------
     GeometryFileError
-        for files that are no DXF, and outlines that do not lie in the x-y plane
+        for files that are no DXF or have no closed outline, and for outlines that do not lie in the x-y plane
     """
     import ezdxf
 
+    drawing = _Drawing()
     try:
         document = ezdxf.readfile(path)  # type: ignore[attr-defined]
-    except OSError as error:
-        raise GeometryFileError(f"is not a well-formed DXF file: {error.strerror or error}"[:300]) from error
-    except Exception as error:  # damaged files let all kinds of exceptions through
-        reason = " ".join(str(error).split())
+        _collect(document, drawing)
+    except GeometryFileError:
+        raise
+    except Exception as error:  # damaged files let all kinds of exceptions through, some when an entity is looked at
+        reason = " ".join(str(getattr(error, "strerror", None) or error).split())
         raise GeometryFileError(f"is not a well-formed DXF file: {reason}"[:300]) from error
-    drawing = _Drawing()
+    notices = _close_networks(drawing)
+    if not drawing.outlines:
+        remarks = "; ".join(notice.message for notice in (*notices, *_left_out(drawing)))
+        raise GeometryFileError(f"has no closed outline{f': {remarks}' if remarks else ''}")
+    names = tuple(layer for layer, _ in drawing.outlines)
+    polyhedra = join_polyhedra([prism(outline) for _, outline in drawing.outlines])
+    unit = UNITS.get(document.header.get("$INSUNITS", 0))
+    return Geometry(polyhedra, (*_left_out(drawing), *notices), names, unit=unit, planar=True)
+
+
+def _collect(document: Any, drawing: _Drawing) -> None:
+    """Curves of the drawing's model space, in its order."""
     hidden = {layer.dxf.name.lower() for layer in document.layers if layer.is_off() or layer.is_frozen()}
     for layer, entity in _entities(document.modelspace(), None, 0):
         if layer.lower() in hidden:
             drawing.hidden[layer] = drawing.hidden.get(layer, 0) + 1
         else:
             _add(drawing, layer, entity)
-    notices = _close_networks(drawing)
-    names = tuple(layer for layer, _ in drawing.outlines)
-    polyhedra = join_polyhedra([prism(outline) for _, outline in drawing.outlines])
-    unit = UNITS.get(document.header.get("$INSUNITS", 0))
-    return Geometry(polyhedra, (*_left_out(drawing), *notices), names, unit=unit, planar=True)
 
 
 def _entities(space: Any, inserted_on: str | None, depth: int) -> Iterator[tuple[str, Any]]:
@@ -104,6 +112,8 @@ def _add(drawing: _Drawing, layer: str, entity: Any) -> None:
     closed, points = _flattened(entity)
     if len(points) < 2:
         return
+    if not np.isfinite(points).all():
+        raise GeometryFileError(f"a {kind} on layer {layer} has a coordinate that is not finite")
     extent = float(np.ptp(points, axis=0).max())
     if np.ptp(points[:, 2]) > LEVEL * extent:
         raise GeometryFileError(f"a {kind} on layer {layer} does not lie in the drawing's x-y plane")

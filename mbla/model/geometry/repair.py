@@ -16,6 +16,7 @@ import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.errors import Notice
+from mbla.model.defects import LARGEST_COORDINATE
 from mbla.model.geometry.duplicate_faces import face_codes, repeated_faces
 from mbla.model.geometry.edge_lengths import lone_edge_corners, shortest_edges
 from mbla.model.geometry.flat_faces import flat_faces
@@ -56,6 +57,8 @@ def repair(geometry: Geometry, tolerance: float, weld_distance: float | None = N
     tolerance     : relative to the shortest edge, for gaps inside a block
     weld_distance : distance within which corners of an object are one
     """
+    if not (np.abs(geometry.polyhedra.vertices) <= LARGEST_COORDINATE).all():
+        return replace(geometry, cells=True)  # left to be refused by block
     work = _Work(geometry.polyhedra, np.arange(len(geometry.polyhedra)))
     work.put(geometry.polyhedra)
     _weld_equal(work, geometry)

@@ -22,8 +22,9 @@ from mbla.model.orientation import connected_labels
 from mbla.model.polyhedra import Polyhedra
 from mbla.model.ragged import ranges
 
-SAME_DIRECTION = 1e-6
-"""angle in radians below which two faces at an edge lie on each other and bound different blocks"""
+SAME_DIRECTION = 0.05
+"""angle in radians below which two faces at an edge lie on each other and bound different blocks: where blocks meet
+at a face that is not quite planar, each has its own triangles of it. No block is a wedge of 3 degrees there"""
 
 
 @dataclass(frozen=True)

@@ -11,6 +11,12 @@ as second-order cones, with helping unknowns g and h:  g² ≤ N,  h² ≤ Q_1 Q
 the last one scaled by F^¼. A tensile strength f_t shifts the origin exactly: N + f_t A in place of N and f_c + f_t in
 place of f_c.
 
+How safe: the exact stress block under a biaxial eccentricity is the part of the interface cut off by a line that has
+its centroid at p. For a rectangle it bears between 1 and 9/8 of what is allowed here: 9/8 where both eccentricities are
+a sixth of the side or more and the part is a triangle at a corner, 4.5 u v against 4 u v with u, v the distances of p
+from the sides; 1 where one eccentricity is zero. Of other outlines no such bound holds: near the middle of an edge of a
+triangle the homothetic copy shrinks with the square of the distance from it, the exact part with the distance.
+
 As rows: α, β, γ are the multipliers of the three cones, q_e those of the bounds of Q.
 """
 

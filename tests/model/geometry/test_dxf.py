@@ -131,6 +131,14 @@ def test_an_outline_off_the_plane_is_refused(tmp_path: Path) -> None:
         read(document, tmp_path)
 
 
+def test_a_damaged_entity_is_refused(tmp_path: Path) -> None:
+    path = tmp_path / "bad.dxf"
+    polyline = "  0\nPOLYLINE\n  8\n0\n 70\n1\n  0\nVERTEX\n  8\n0\n  0\nVERTEX\n  8\n0\n 10\n1\n 20\n1\n  0\nSEQEND\n"
+    path.write_text(f"  0\nSECTION\n  2\nENTITIES\n{polyline}  0\nENDSEC\n  0\nEOF\n")
+    with pytest.raises(GeometryFileError):
+        read_dxf(path)
+
+
 @pytest.mark.parametrize("content", [b"", b"  0\nSECTION", bytes(range(256)), b"AutoCAD Binary DXF\r\n\x1a\x00xx"])
 def test_rubbish(tmp_path: Path, content: bytes) -> None:
     path = tmp_path / "bad.dxf"

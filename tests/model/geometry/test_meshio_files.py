@@ -280,3 +280,13 @@ def test_write_mesh_says_which_file_it_could_not_write(tmp_path: Path) -> None:
 def test_meshio_is_imported_only_when_needed() -> None:
     code = "import sys; import mbla.model; sys.exit('meshio' in sys.modules)"
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
+
+
+def test_a_face_without_corners(tmp_path: Path) -> None:
+    path = tmp_path / "bad.ply"
+    path.write_text(
+        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+        "element face 2\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n0\n"
+    )
+    with pytest.raises(GeometryFileError):
+        read_geometry(path)

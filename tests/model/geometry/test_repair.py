@@ -198,3 +198,12 @@ def test_an_open_object_beside_closed_ones_is_not_completed_from_them() -> None:
     (defect,) = build_raw(geometry.polyhedra).defects
     assert defect.block == 1
     assert defect.message.startswith("is not closed")
+
+
+@pytest.mark.parametrize("wild", [np.nan, np.inf, 1e60])
+def test_wild_coordinates_are_left_to_be_refused_by_block(wild: float) -> None:
+    vertices, faces = box((2, 0, 0), (3, 1, 1))
+    geometry = repaired(raw(box()), raw(([[wild, 0.0, 0.0], *vertices[1:]], faces[1:])))
+    (defect,) = build_raw(geometry.polyhedra).defects
+    assert defect.block == 1
+    assert "not finite or exceeds" in defect.message

@@ -1,0 +1,20 @@
+"""How many blocks an item may ask for: a slip in the units of length asks for far more than anyone can mean."""
+
+from __future__ import annotations
+
+from mbla.model.generators.generator import ItemRefused
+
+MOST = 2_000_000
+"""of units, or of facets of their surfaces: some GB of memory"""
+
+
+def refuse_too_many(amount: float, key: str, what: str = "units") -> None:
+    """Refuse an item at a key that makes about so many units.
+
+    Raises
+    ------
+    ItemRefused
+        for more than can be handled
+    """
+    if amount > MOST:
+        raise ItemRefused([((key,), f"makes about {amount:.0e} {what}; at most {MOST:,} can be handled")])
