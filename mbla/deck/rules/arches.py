@@ -40,10 +40,15 @@ def arch_shape(arch: types.ArchItem) -> Iterator[Finding]:
 
 @rule(types.ArchItem)
 def arch_points(arch: types.ArchItem) -> Iterator[Finding]:
-    """A spline over the length of its chords needs chords."""
+    """A spline over the length of its chords needs chords, and a finite sum of them."""
     points = arch.points or []
-    for number, (one, other) in enumerate(pairwise(points)):
-        if one == other:
+    chords = [math.hypot(other[0] - one[0], other[1] - one[1]) for one, other in pairwise(points)]
+    whole = math.fsum(chords) if all(map(math.isfinite, chords)) else math.inf
+    if not math.isfinite(whole):
+        yield ("points",), "the points lie too far apart to be told by a number: use other units"
+        return
+    for number, chord in enumerate(chords):
+        if chord <= ROUNDING * whole:
             yield ("points", number + 1), "is the same point as the one before"
 
 

@@ -181,6 +181,8 @@ def _spandrels(item: BridgeItem, frame: _Frame) -> list[_Row]:
     outline = _outline(frame)
     crowns = np.array([section.line(-1)[:, 1].max() for section in frame.sections])
     top = float(crowns.max()) + item.cover
+    if not np.isfinite(top):
+        return []  # coordinates beyond what a double holds: the voussoirs are refused
     about = (frame.right - frame.left) * top / (masonry.length * masonry.height)
     if about > MOST_UNITS:
         raise ItemRefused([(("unit",), f"makes about {about:.0e} units; at most {MOST_UNITS:,} can be handled")])

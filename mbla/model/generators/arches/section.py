@@ -107,6 +107,8 @@ def _check_count(curve: Curve, voussoirs: int) -> None:
     forwards = curve.forwards(curve.divide(8, 0.0))
     across = forwards[:-1, 1] * forwards[1:, 0] - forwards[:-1, 0] * forwards[1:, 1]
     turned = np.degrees(np.arctan2(across, (forwards[:-1] * forwards[1:]).sum(axis=1)).sum())
+    if not np.isfinite(turned):
+        return  # coordinates beyond what a double holds: refused block by block
     least = int((turned + 1e-9) // 180) + 1  # a semicircle up to rounding is one
     if voussoirs < least:
         message = f"too few: at least {least}, so that each spans less than 180 degrees"

@@ -52,7 +52,8 @@ class Ellipse:
         from scipy.special import ellipeinc
 
         half = self.span / 2
-        return np.asarray(half * ellipeinc(parameters, 1 - (self.rise / half) ** 2), dtype=np.float64)
+        ratio = self.rise / half
+        return np.asarray(half * ellipeinc(parameters, 1 - ratio * ratio), dtype=np.float64)
 
 
 def _cosine(parameters: FloatArray) -> FloatArray:

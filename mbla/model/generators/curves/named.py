@@ -6,16 +6,13 @@ from collections.abc import Callable
 
 import numpy as np
 
+from mbla.deck.rules.arches import SIDE_ANGLE as SIDE_ANGLE
 from mbla.model.generators.curves.basket import Basket
 from mbla.model.generators.curves.catenary import Catenary
 from mbla.model.generators.curves.circle import Circle, segmental
 from mbla.model.generators.curves.curve import Curve
 from mbla.model.generators.curves.ellipse import Ellipse
 from mbla.model.generators.curves.pointed import Pointed
-
-SIDE_ANGLE = 60.0
-"""of a basket arch [degrees]: all three arcs have the same angle"""
-
 
 WITH_RISE: dict[str, Callable[[float, float], Curve]] = {
     "segmental": segmental,

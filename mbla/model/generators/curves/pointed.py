@@ -30,7 +30,7 @@ class Pointed:
     @property
     def radius(self) -> float:
         """[length]."""
-        return (self.span**2 / 4 + self.rise**2) / self.span
+        return self.span / 4 + self.rise / self.span * self.rise
 
     def divide(self, count: int, offset: float) -> FloatArray:
         """As ``Curve.divide``; the apex is a joint where the number of voussoirs is even."""
@@ -46,9 +46,9 @@ class Pointed:
         # from the springing: radius - reach cos p, which is exact at p = 0
         x = self.radius - reach * np.cos(turned)
         z = reach * np.sin(turned)
-        apex = (parameters == APEX)[:, None]
+        apex, axis = (parameters == APEX)[:, None], self.radius - self.span / 2
         x = np.where(apex, self.span / 2, np.where(left[:, None], x, self.span - x))
-        z = np.where(apex, np.sqrt(np.maximum(reach**2 - (self.radius - self.span / 2) ** 2, 0.0)), z)
+        z = np.where(apex, np.sqrt(np.maximum((reach - axis) * (reach + axis), 0.0)), z)
         return np.stack([x, z], axis=-1)
 
     def forwards(self, parameters: FloatArray) -> FloatArray:

@@ -58,7 +58,8 @@ class Spline:
 
     @cached_property
     def _knots(self) -> FloatArray:
-        return np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(np.array(self.given), axis=0), axis=1))])
+        steps = np.diff(np.array(self.given), axis=0)
+        return np.concatenate([[0.0], np.cumsum(np.hypot(steps[:, 0], steps[:, 1]))])
 
     @cached_property
     def _spline(self) -> Any:
