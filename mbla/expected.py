@@ -3,12 +3,37 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 from mbla.deck.types import Expectation
 from mbla.results.outcome import associative_of, result_of
 from mbla.results.results import CaseResult
+from mbla.results.series import position_of, series_of
 from mbla.results.settlement_words import reaction_of
+from mbla.results.tilt_angle import angle_of
 from mbla.solution.solution import Mechanics
+
+
+def differences(cases: Sequence[CaseResult], expected: dict[str, Expectation]) -> list[str]:
+    """What differs in all cases, one sentence each; of a travelling load the worst position is compared."""
+    found = [text for case in cases if case.load_case.name in expected for text in _of_case(case, expected)]
+    for series in series_of(cases):
+        if series.name not in expected:
+            continue
+        wanted = expected[series.name]
+        if series.worst is None or not series.complete:
+            why = "no worst position is known" if series.complete else "not every position was solved"
+            found.append(f"{series.name}: {why} ({wanted.source})")
+            continue
+        found += compare_with_expected(series.worst, wanted)
+        worst = position_of(series.worst).number
+        if wanted.position is not None and worst != wanted.position:
+            found.append(f"{series.name}: worst at position {worst}, expected {wanted.position} ({wanted.source})")
+    return found
+
+
+def _of_case(case: CaseResult, expected: dict[str, Expectation]) -> list[str]:
+    return compare_with_expected(case, expected[case.load_case.name])
 
 
 def compare_with_expected(case: CaseResult, expected: Expectation) -> list[str]:
@@ -19,9 +44,10 @@ def compare_with_expected(case: CaseResult, expected: Expectation) -> list[str]:
         differences.append(f"{name}: status {case.status.value}, expected {expected.status} ({expected.source})")
     found = {
         "load_factor": _factor(result_of(case)),
+        "angle": _number(angle_of(case)),
         "associative_load_factor": _factor(associative_of(case)),
         "reaction": reaction_of(case),
-        "lower": None if math.isnan(case.checks.lower) else case.checks.lower,
+        "lower": _number(case.checks.lower),
     }
     for key, value in found.items():
         wanted = getattr(expected, key)
@@ -38,6 +64,10 @@ def compare_with_expected(case: CaseResult, expected: Expectation) -> list[str]:
 
 def _factor(mechanics: Mechanics | None) -> float | None:
     return None if mechanics is None else mechanics.load_factor
+
+
+def _number(value: float) -> float | None:
+    return None if math.isnan(value) else value
 
 
 ZERO_REACTION = 1e-3

@@ -14,7 +14,7 @@ from mbla.contacts.interface_points import PointsRefused
 from mbla.contacts.notices import overlap_messages
 from mbla.deck import Deck, read_deck
 from mbla.errors import DeckError, Notice, UsageError
-from mbla.expected import compare_with_expected
+from mbla.expected import differences
 from mbla.model import Model, build_model
 from mbla.model.model import LoadCase
 from mbla.model.settlement import with_reference
@@ -25,6 +25,7 @@ from mbla.program.remarks import program_notices
 from mbla.results.files import OutputFolder
 from mbla.results.provenance import collect_provenance
 from mbla.results.results import CaseResult, DeckRecord, Results
+from mbla.results.series import series_of
 from mbla.results.sta import StatusFile
 from mbla.results.write import write_results
 from mbla.solution import Status, solve, verified_status, verify
@@ -32,7 +33,8 @@ from mbla.solution.convex import solve_convex
 from mbla.solution.glued import solution_on_blocks
 from mbla.solution.settings import SolverSettings, solver_settings
 from mbla.solution.settlement import posed
-from mbla.solution.solution import IterationRecord
+from mbla.solution.solution import Checks, IterationRecord, Solution
+from mbla.solution.tilt import solve_tilt
 
 Progress = Callable[[str, IterationRecord], None]
 
@@ -86,17 +88,18 @@ def run(deck_path: Path, options: RunOptions, progress: Progress | None = None) 
         cases = [
             solve_case(deck, model, contacts, load_case, settings, status_file, progress) for load_case in load_cases
         ]
-        differences = differences_from_expected(deck, cases) if options.expected else []
+        model = with_loads_found(model, cases)
+        unexpected = differences_from_expected(deck, cases) if options.expected else []
         results = Results(
             deck=deck_record(deck),
             model=model,
             contacts=contacts,
             cases=tuple(cases),
-            notices=(*notices_of(deck, model, contacts), *differences),
+            notices=(*notices_of(deck, model, contacts), *unexpected),
             provenance=collect_provenance(),
             settings=settings_in_words(deck, settings),
             time={"read": read - started, "contacts": found - read, "solve": time.perf_counter() - found},
-            exit_code=exit_code(cases, differences),
+            exit_code=exit_code(cases, unexpected),
         )
         output = deck.content.output
         return write_results(results, out, output.vtu, output.frames, output.plots)
@@ -135,17 +138,32 @@ def solve_case(
 
     model = model.of_case(load_case)
     solids = solids_of(model, contacts)
-    on_solids = (solids.model, solids.contacts, solids.load_case(load_case))
-    if deck.analysis.contact_model == "convex":
-        solution = solve_convex(assemble_convex(*on_solids), deck.analysis, settings, log)
+
+    def ask(case: LoadCase) -> tuple[Solution, Checks]:
+        on_solids = (solids.model, solids.contacts, solids.load_case(case))
+        if deck.analysis.contact_model == "convex":
+            solution = solve_convex(assemble_convex(*on_solids), deck.analysis, settings, log)
+        else:
+            reduced = reduced_program(deck, solids.model, solids.contacts, assemble(*on_solids))
+            solution = solve(reduced, deck.analysis, settings, log)
+        solution = solution_on_blocks(solution, solids)
+        return solution, verify(model, contacts, case, solution)
+
+    if load_case.tilt is None:
+        solution, checks = ask(load_case)
     else:
-        reduced = reduced_program(deck, solids.model, solids.contacts, assemble(*on_solids))
-        solution = solve(reduced, deck.analysis, settings, log)
-    solution = solution_on_blocks(solution, solids)
-    checks = verify(model, contacts, load_case, solution)
+        answer = solve_tilt(model, contacts, load_case, ask)
+        load_case, solution = answer.load_case, answer.solution
+        checks = verify(model, contacts, load_case, solution)
     status = verified_status(solution, checks)
     status_file.remark(f"{load_case.name}: {status}")
     return CaseResult(load_case, solution, checks, status)
+
+
+def with_loads_found(model: Model, cases: Sequence[CaseResult]) -> Model:
+    """The model with the load cases as they were solved: the loads of a tilting table are those of its angle."""
+    found = {case.load_case.name: case.load_case for case in cases}
+    return replace(model, load_cases=tuple(found.get(case.name, case) for case in model.load_cases))
 
 
 def reduced_program(deck: Deck, model: Model, contacts: Contacts, program: Program) -> Reduced:
@@ -178,12 +196,19 @@ def notices_of(deck: Deck, model: Model, contacts: Contacts) -> tuple[Notice, ..
 
 
 def select_cases(model: Model, names: Sequence[str]) -> tuple[LoadCase, ...]:
-    """The load cases of those names in the order of the deck, all if none is named; UsageError for an unknown one."""
-    known = [case.name for case in model.load_cases]
+    """The load cases of those names in the order of the deck, all if none is named; UsageError for an unknown one.
+
+    The name of a load that travels stands for all its positions.
+    """
+    known = dict.fromkeys(case.name if case.travel is None else case.travel.series for case in model.load_cases)
     for name in names:
-        if name not in known:
+        if name not in known and name not in [case.name for case in model.load_cases]:
             raise UsageError(f"--case {name}: the deck has no such load case; it has {', '.join(known)}")
-    return tuple(case for case in model.load_cases if not names or case.name in names)
+    return tuple(
+        case
+        for case in model.load_cases
+        if not names or case.name in names or (case.travel is not None and case.travel.series in names)
+    )
 
 
 def deck_record(deck: Deck) -> DeckRecord:
@@ -241,17 +266,17 @@ def differences_from_expected(deck: Deck, cases: Sequence[CaseResult]) -> list[N
     expected = deck.content.expected
     if not expected:
         raise UsageError(f"--expected: {deck.path} has no expected section")
-    return [
-        Notice("warning", "not-as-expected", difference)
-        for case in cases
-        if case.load_case.name in expected
-        for difference in compare_with_expected(case, expected[case.load_case.name])
-    ]
+    return [Notice("warning", "not-as-expected", difference) for difference in differences(cases, expected)]
 
 
 def exit_code(cases: Sequence[CaseResult], differences: Sequence[Notice] = ()) -> int:
-    """Exit status of a run: the gravest of its cases; a difference from what is expected counts as not verified."""
-    codes = {EXIT_CODES[case.status] for case in cases} | ({4} if differences else set())
+    """Exit status of a run: the gravest of its cases; a difference from what is expected counts as not verified.
+
+    Positions of a travelling load that bring nothing down are no failure where another is the worst.
+    """
+    harmless = {id(case) for series in series_of(cases) if series.worst is not None for case in series.cases}
+    judged = [case for case in cases if case.status is not Status.UNBOUNDED or id(case) not in harmless]
+    codes = {EXIT_CODES[case.status] for case in judged} | ({4} if differences else set())
     return next((code for code in GRAVEST_FIRST if code in codes), 0)
 
 

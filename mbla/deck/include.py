@@ -17,7 +17,7 @@ from mbla.deck.tree import MappingMarks, Marks, SequenceMarks, Tree, key_text, o
 from mbla.errors import DeckError, Fault, FileError
 
 MAX_FILES = 100
-NAMED = frozenset({"parameters", "materials", "joints", "load_cases", "expected"})
+NAMED = frozenset({"parameters", "materials", "joints", "loads", "load_cases", "expected"})
 """Sections whose entries are things with a name, never merged with one another."""
 
 

@@ -1,17 +1,92 @@
-"""Section `load_cases`: loads that stay, and loads that the load factor multiplies."""
+"""Sections `loads` and `load_cases`: loads that stay, and loads that the load factor multiplies."""
 
 from __future__ import annotations
 
+from typing import Literal
+
 from pydantic import Field
 
-from mbla.deck.quantities import Acceleration, Direction, Force, Point
+from mbla.deck.names import Name
+from mbla.deck.quantities import (
+    Acceleration,
+    Direction,
+    FacingAngle,
+    Force,
+    ForcePerLength,
+    Length,
+    Moment,
+    Number,
+    Point,
+    Positions,
+    Stress,
+    UnitWeight,
+)
 from mbla.deck.section import Section
 from mbla.deck.selectors import Selector
 from mbla.deck.supports import Turn
 
 
+class HeightPattern(Section):
+    """How an acceleration grows along a direction: linearly from 0 at base to 1 at top, or through points."""
+
+    along: Direction = Field((0.0, 0.0, 1.0), description="direction along which heights are measured, from the origin")
+    base: Length | None = Field(None, description="height of factor 0, as below it; lowest point of the blocks loaded")
+    top: Length | None = Field(None, description="height of factor 1, as above it; highest point of the blocks loaded")
+    points: list[tuple[Length, Number]] | None = Field(
+        None,
+        min_length=2,
+        description="instead of base and top: heights and factors, straight lines between, constant beyond the ends",
+    )
+
+
+class LineLoad(Section):
+    """A load along a straight line, carried by the blocks that lie under it."""
+
+    from_: Point = Field(alias="from", description="beginning of the line")
+    to: Point = Field(description="end of the line")
+    force_per_length: tuple[ForcePerLength, ForcePerLength, ForcePerLength] = Field(
+        description="force per length of the line; it acts where the line is drawn, with its moment"
+    )
+    towards: Direction = Field(
+        (0.0, 0.0, -1.0), description="direction in which the blocks under the line are looked for"
+    )
+
+
+class PressureLoad(Section):
+    """Pressure on faces: the same everywhere, or growing with depth below a level, and none above it."""
+
+    value: Stress = Field(0.0, description="pressure, at the level if there is one; positive pushes against the face")
+    level: Length | None = Field(None, description="height z above which there is no pressure")
+    per_depth: UnitWeight | None = Field(None, description="increase of the pressure with the depth below the level")
+    normal: Direction | None = Field(None, description="outward normal of the faces; every face unless given")
+    within: FacingAngle = Field(10.0, description="greatest angle between the normal of a face and that, in degrees")
+    box: tuple[Point, Point] | None = Field(
+        None, description="least and greatest coordinates: faces whose centroid lies inside"
+    )
+    faces: Literal["free", "all"] = Field(
+        "free", description="free: only what of a face no other block and no ground covers; all: covered parts too"
+    )
+
+
+class Travel(Section):
+    """A force that travels along a path: a load case for each position, and the worst of them."""
+
+    force: tuple[Force, Force, Force] = Field(description="the force; it acts where the path is drawn, with its moment")
+    path: list[Point] = Field(min_length=2, description="corners of the path")
+    positions: Positions = Field(description="positions at equal distances along the path, its ends among them")
+    towards: Direction = Field((0.0, 0.0, -1.0), description="direction in which the block under it is looked for")
+
+
+class Tilt(Section):
+    """Tilting table: the structure turns with its supports until it collapses; the answer is an angle."""
+
+    axis: Direction = Field(
+        description="axis about which the table turns, by the right hand: about [0, 1, 0] it tips towards +x"
+    )
+
+
 class Load(Section):
-    """One load: exactly one of gravity, acceleration, force, table; each may be a dead load or a live one."""
+    """One load of exactly one kind; dead or live, save `travel` and `tilt`, which are live only."""
 
     gravity: tuple[Acceleration, Acceleration, Acceleration] | None = Field(
         None, description="gravitational acceleration, in the deck's unit of length per s^2"
@@ -20,16 +95,27 @@ class Load(Section):
         None, description="mass-proportional load in units of g = 9.81 m/s^2, pointing where it pushes"
     )
     force: tuple[Force, Force, Force] | None = Field(None, description="force on one block")
+    moment: tuple[Moment, Moment, Moment] | None = Field(None, description="moment on one block")
+    line: LineLoad | None = Field(None, description="load along a line")
+    pressure: PressureLoad | None = Field(None, description="pressure on faces")
+    loads: Name | None = Field(None, description="the loads of that name in section loads, all of them")
+    travel: Travel | None = Field(None, description="force at one position after the other")
+    tilt: Tilt | None = Field(None, description="gravity turns; the only load of its list")
     table: str | None = Field(
         None,
         min_length=1,
         description="CSV file, relative to the deck: a header line with the columns group,index,fx,fy,fz, optionally "
         "x,y,z (where the force acts; the centroid unless given) and mx,my,mz (moment); then a row for each force",
     )
-    on: Selector | None = Field(None, description="force: the block; acceleration: the blocks, all unless given")
+    on: Selector | None = Field(
+        None,
+        description="force, moment: the block; other kinds: the only blocks that they may act on, all unless given",
+    )
     at: Point | None = Field(
         None, description="point of application, carried with its moment; the centroid unless given"
     )
+    pattern: HeightPattern | None = Field(None, description="acceleration: factor by height; 1 everywhere unless given")
+    factor: Number = Field(1.0, description="factor on the load")
 
 
 class SettlementSection(Section):

@@ -38,6 +38,8 @@ def _gravity(tree: Tree, content: DeckContent, units: Units) -> Iterator[Notice]
 
 
 def _loads(content: DeckContent) -> Iterator[tuple[KeyPath, Load]]:
+    for name, named in content.loads.items():
+        yield from ((("loads", name, number), load) for number, load in enumerate(named))
     for name, case in content.load_cases.items():
         for key, loads in (("dead", case.dead or []), ("live", case.live or [])):
             for number, load in enumerate(loads):

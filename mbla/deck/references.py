@@ -29,6 +29,9 @@ class Reference:
     also: tuple[str, ...] = ()
 
 
+LOADS = ("loads.*", "load_cases.*.dead", "load_cases.*.live")
+"""Where lists of loads stand."""
+
 REFERENCES = (
     Reference("blocks.#.*.material", "material"),
     Reference("blocks.#.*.joint", "joint law", BUILT_IN),
@@ -48,12 +51,13 @@ REFERENCES = (
         Reference(f"{place}{form}", "group")
         for place in (
             "supports.#.blocks",
-            "load_cases.*.dead.#.on",
-            "load_cases.*.live.#.on",
+            "masses.#.on",
+            *(f"{loads}.#.on" for loads in LOADS),
             "load_cases.*.settlement.on",
         )
         for form in ("", ".group", ".#", ".#.group")
     ),
+    *(Reference(f"{loads}.#.loads", "load") for loads in LOADS),
 )
 
 
@@ -63,6 +67,7 @@ def check_references(tree: Tree) -> Iterator[Fault]:
     known: dict[str, list[str]] = {
         "material": _keys(data.get("materials")),
         "joint law": _keys(data.get("joints")),
+        "load": _keys(data.get("loads")),
         "group": list(dict.fromkeys(groups(data))),
     }
     for reference in REFERENCES:
@@ -84,8 +89,8 @@ def check_references(tree: Tree) -> Iterator[Fault]:
 
 
 def unused_names(data: dict[str, Any]) -> Iterator[tuple[str, str]]:
-    """(section, name) of materials and joint laws that nothing uses."""
-    for section, kind in (("materials", "material"), ("joints", "joint law")):
+    """(section, name) of materials, joint laws and named loads that nothing uses."""
+    for section, kind in (("materials", "material"), ("joints", "joint law"), ("loads", "load")):
         used = {
             name
             for reference in REFERENCES

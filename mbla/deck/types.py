@@ -55,11 +55,18 @@ from mbla.deck.items import VaultItem as VaultItem
 from mbla.deck.items import WallItem as WallItem
 from mbla.deck.items import WallsItem as WallsItem
 from mbla.deck.joints import JointLaw as JointLaw
+from mbla.deck.loads import HeightPattern as HeightPattern
+from mbla.deck.loads import LineLoad as LineLoad
 from mbla.deck.loads import Load as Load
 from mbla.deck.loads import LoadCaseSection as LoadCaseSection
+from mbla.deck.loads import PressureLoad as PressureLoad
 from mbla.deck.loads import SettlementSection as SettlementSection
+from mbla.deck.loads import Tilt as Tilt
+from mbla.deck.loads import Travel as Travel
+from mbla.deck.masses import AddedMass as AddedMass
 from mbla.deck.names import Line, Name, ParameterName
 from mbla.deck.quantities import (
+    Count,
     Number,
     PositiveDensity,
     PositiveNumber,
@@ -112,6 +119,8 @@ class Expectation(Section):
     """What a load case should give, with its source."""
 
     load_factor: Number | None = Field(None, description="by the deck's own flow rule")
+    angle: Number | None = Field(None, description="tilt: angle of collapse in degrees")
+    position: Count | None = Field(None, description="travel: number of the worst position, from 1")
     associative_load_factor: Number | None = Field(None, description="by the associative flow rule")
     reaction: Number | None = Field(None, description="of the support that gives way")
     lower: Number | None = Field(None, description="least load factor for the mechanism found, without normality")
@@ -137,6 +146,10 @@ class DeckContent(Section):
     blocks: list[BlockItem] = Field(min_length=1, description="the structure, item by item")
     contacts: ContactsSection = Field(description="joint law and tolerance of contacts")
     supports: list[Support] = Field(default_factory=list, description="what holds the structure")
+    masses: list[AddedMass] = Field(default_factory=list, description="masses that rest on blocks, such as floors")
+    loads: dict[Name, Annotated[list[Load], Field(min_length=1)]] = Field(
+        default_factory=dict, description="loads by name, for several load cases"
+    )
     load_cases: dict[Name, LoadCaseSection] = Field(min_length=1, description="load cases by name")
     analysis: AnalysisSection = Field(default_factory=AnalysisSection, description="how it is solved")
     output: OutputSection = Field(default_factory=OutputSection, description="what is written")

@@ -28,6 +28,8 @@ class Blocks:
     volumes          : (n_blocks,) m3
     centroids        : (n_blocks, 3) m
     densities        : (n_blocks,) kg/m3
+    added_masses     : (n_blocks,) kg, what blocks carry along beside their own mass
+    added_mass_points : (n_blocks, 3) m, its centroid; that of the block where there is none
     groups           : group of each block
     group_indices    : (n_blocks,)      position of the block in its group, from 0
     labels           : members and positions within the group
@@ -45,6 +47,8 @@ class Blocks:
     volumes: FloatArray
     centroids: FloatArray
     densities: FloatArray
+    added_masses: FloatArray
+    added_mass_points: FloatArray
     groups: tuple[str, ...]
     group_indices: IntArray
     labels: BlockLabels
@@ -63,8 +67,8 @@ class Blocks:
 
     @cached_property
     def masses(self) -> FloatArray:
-        """(n_blocks,) kg."""
-        return self.volumes * self.densities
+        """Own and added mass, (n_blocks,) kg."""
+        return self.volumes * self.densities + self.added_masses
 
     @cached_property
     def block_of_vertex(self) -> IntArray:

@@ -139,6 +139,8 @@ def build_blocks(polyhedra: Polyhedra, labels: Labels, tolerance: float) -> Buil
         volumes=volumes,
         centroids=centroids,
         densities=labels.densities,
+        added_masses=np.zeros(len(volumes)),
+        added_mass_points=centroids,
         groups=labels.groups,
         group_indices=labels.group_indices,
         labels=labels.within,

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -15,11 +15,12 @@ from mbla.deck.tree import KeyPath
 from mbla.deck.types import BlockItem, Item, JointLaw, LoadCaseSection, Material
 from mbla.deck.units import Units
 from mbla.errors import DeckError, Fault, Notice
+from mbla.model.added_masses import with_added_masses
 from mbla.model.build_blocks import BuiltBlocks, Labels, build_blocks, indices_in_groups
 from mbla.model.generators import GENERATORS
 from mbla.model.generators.generator import Generated, ItemRefused, Site
 from mbla.model.labels import NONE, BlockLabels, join_labels, labels_of
-from mbla.model.loads import LoadSite, build_load_case
+from mbla.model.loads import LoadSite, build_load_cases
 from mbla.model.model import Ground, Joint, LoadCase, Model
 from mbla.model.overrides import check_overrides
 from mbla.model.polyhedra import Polyhedra, join_polyhedra
@@ -89,14 +90,27 @@ def build_model(deck: Deck) -> Model:
     tolerance, joint = deck.contacts.tolerance, deck.contacts.joint
     supports = build_supports(deck.content.supports, joint, brought_along, roster, tolerance, faults)
     check_overrides(deck.contacts.overrides, roster, faults)
-    site = LoadSite(roster, supports.fixed, deck.units, deck.resolve_file, faults, notices)
-    load_cases = tuple(_load_case(name, section, site, supports) for name, section in deck.content.load_cases.items())
+    if deck.content.masses:
+        roster = replace(roster, blocks=with_added_masses(deck.content.masses, roster, supports.fixed, faults, notices))
+    site = LoadSite(
+        roster=roster,
+        fixed=supports.fixed,
+        units=deck.units,
+        resolve_file=deck.resolve_file,
+        grounds=supports.grounds,
+        named=deck.content.loads,
+        tolerance=tolerance,
+        faults=faults,
+        notices=notices,
+    )
+    sections = deck.content.load_cases.items()
+    load_cases = tuple(case for name, section in sections for case in _load_cases(name, section, site, supports))
     if faults:
         raise DeckError(faults)
     return Model(
         title=deck.content.title,
         units=deck.units,
-        blocks=built.blocks,
+        blocks=roster.blocks,
         fixed=supports.fixed,
         grounds=supports.grounds,
         joints=_joints(deck, supports.grounds),
@@ -115,19 +129,24 @@ def _joints(deck: Deck, grounds: Sequence[Ground]) -> dict[str, Joint]:
     return laws
 
 
-def _load_case(name: str, section: LoadCaseSection, site: LoadSite, supports: Supports) -> LoadCase:
-    """Loads of one case, or its dead loads and the support that gives way."""
-    load_case = build_load_case(name, section, site)
+def _load_cases(name: str, section: LoadCaseSection, site: LoadSite, supports: Supports) -> Sequence[LoadCase]:
+    """Loads of one case, or of one for each position of a load that travels; or a support that gives way."""
+    load_cases = build_load_cases(name, section, site)
     path: KeyPath = ("load_cases", name)
     if section.settlement is not None:
         settles = (*path, "settlement")
-        return build_settlement(section.settlement, settles, load_case, supports, site.roster, site.faults)
-    if not site.faults and does_nothing(load_case.live_load, supports):
-        site.refuse(
-            (*path, "live"),
-            "the supports take every live load, for they act on guided blocks across what these may do",
-        )
-    return load_case
+        return [
+            build_settlement(section.settlement, settles, load_case, supports, site.roster, site.faults)
+            for load_case in load_cases
+        ]
+    for load_case in load_cases:
+        if not site.faults and does_nothing(load_case.live_load, supports):
+            where = "" if load_case.travel is None else f" at position {load_case.travel.number}"
+            site.refuse(
+                (*path, "live"),
+                f"the supports take every live load{where}, for they act on guided blocks across what these may do",
+            )
+    return load_cases
 
 
 def build_joint(name: str, law: JointLaw) -> Joint:

@@ -29,9 +29,12 @@ def join_blocks(blocks: Blocks, joined: IntArray) -> Blocks:
     volumes = _sums(blocks.volumes, joined, count)
     alone = np.bincount(joined, minlength=count) == 1
     centroids = _sums(blocks.volumes[:, None] * blocks.centroids, joined, count) / volumes[:, None]
-    densities = _sums(blocks.masses, joined, count) / volumes
+    densities = _sums(blocks.volumes * blocks.densities, joined, count) / volumes
     # what stands alone keeps its numbers to the last digit
     centroids[alone], densities[alone] = blocks.centroids[first[alone]], blocks.densities[first[alone]]
+    added = _sums(blocks.added_masses, joined, count)
+    arms = blocks.added_mass_points - centroids[joined]
+    arms = _sums(blocks.added_masses[:, None] * arms, joined, count) / np.where(added > 0.0, added, 1.0)[:, None]
     labels = blocks.labels
     return Blocks(
         vertices=blocks.vertices[vertices],
@@ -45,6 +48,8 @@ def join_blocks(blocks: Blocks, joined: IntArray) -> Blocks:
         volumes=volumes,
         centroids=centroids,
         densities=densities,
+        added_masses=added,
+        added_mass_points=centroids + arms,
         groups=tuple(blocks.groups[block] for block in first),
         group_indices=blocks.group_indices[first],
         labels=BlockLabels(tuple(labels.members[block] for block in first), labels.positions[first]),

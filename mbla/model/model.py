@@ -44,6 +44,54 @@ class Ground:
 
 
 @dataclass(frozen=True)
+class TravelPosition:
+    """Where a travelling load stands in a load case.
+
+    series   : name of the load case in the deck, which became one for each position
+    number   : of the position, from 1; ``count`` of them
+    point    : (3,) m
+    distance : from the beginning of the path m
+    block    : the block that carries the load
+    """
+
+    series: str
+    number: int
+    count: int
+    point: FloatArray
+    distance: float
+    block: int
+
+
+@dataclass(frozen=True)
+class Tilt:
+    """Loads on a tilting table, fixed + cos(angle) turning + sin(angle) across, all (n_blocks, 6).
+
+    axis    : (3,) unit, about which the table turns by the right hand
+    fixed   : dead loads that keep their direction in the structure, and what of gravity lies along the axis
+    turning : gravity across the axis while the table is level
+    across  : the same after a turn of 90 degrees
+    angle   : of collapse in degrees; nan where it is not known, or where the load factor is its tangent
+    tangent : the live load is ``across`` alone and the load factor the tangent of the angle, which is exact where only
+              the direction of the load counts; else the live load leads from the level table to the angle, and the
+              load factor is 1 there
+    upright : proved multiple of ``across`` that the level table bears, nan where nothing is known
+    """
+
+    axis: FloatArray
+    fixed: FloatArray
+    turning: FloatArray
+    across: FloatArray
+    angle: float = np.nan
+    tangent: bool = True
+    upright: float = np.nan
+
+    def loads_at(self, angle: float) -> FloatArray:
+        """Loads after a turn by an angle in degrees, (n_blocks, 6)."""
+        turn = np.deg2rad(angle)
+        return np.asarray(self.fixed + np.cos(turn) * self.turning + np.sin(turn) * self.across)
+
+
+@dataclass(frozen=True)
 class Settlement:
     """Fixed blocks that give way together in one motion, and the reaction of their support against it.
 
@@ -86,6 +134,7 @@ class LoadCase:
     dead_load, live_load : (n_blocks, 6) force N and moment N m, also on fixed blocks (they go into the support)
     dead_words, live_words : the loads in words, for the listing
     settlement : support that gives way, None for none
+    travel, tilt : where it is a position of a travelling load, or a tilting table
     """
 
     name: str
@@ -94,6 +143,8 @@ class LoadCase:
     dead_words: tuple[str, ...]
     live_words: tuple[str, ...]
     settlement: Settlement | None = None
+    travel: TravelPosition | None = None
+    tilt: Tilt | None = None
 
 
 @dataclass(frozen=True)

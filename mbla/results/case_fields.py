@@ -26,6 +26,40 @@ LOADS = (
     Field(f"{CASE}/live_words", "text", ("live_item",), "1", "live loads in words"),
 )
 
+_TRAVEL = (
+    ("series", "text", (), "1", "name of the load case in the deck, of which this is one position"),
+    ("number", "int", (), "1", "number of the position, from 1"),
+    ("count", "int", (), "1", "positions on the path"),
+    ("point", "float", ("axis",), "length", "the position"),
+    ("distance", "float", (), "length", "its distance along the path"),
+    ("block", "int", (), "1", "the block that carries the load"),
+)
+_TILT = (
+    ("axis", ("axis",), "1", "unit vector about which the table turns, by the right hand"),
+    ("fixed", ("block", "component"), "load", "dead load that does not turn"),
+    ("turning", ("block", "component"), "load", "dead load that turns, while the table is level"),
+    ("across", ("block", "component"), "load", "the same after a turn of 90 degrees"),
+    (
+        "angle",
+        (),
+        "degree",
+        "angle of collapse, to which live_load leads; nan: none, or see tangent",
+    ),
+    ("upright", (), "1", "proved multiple of `across` that the level table bears, inf: any, nan: not known"),
+)
+
+SPECIAL_LOADS = (
+    *(
+        Field(f"{CASE}/travel/{name}", kind, dims, unit, words, part="travel")  # type: ignore[arg-type]
+        for name, kind, dims, unit, words in _TRAVEL
+    ),
+    *(
+        Field(f"{CASE}/tilt/{name}", "float", dims, unit, words, open=not dims, part="tilt")  # type: ignore[arg-type]
+        for name, dims, unit, words in _TILT
+    ),
+    Field(f"{CASE}/tilt/tangent", "bool", (), "1", "1 where the load factor is the tangent of the angle", part="tilt"),
+)
+
 SETTLEMENT = (
     Field(
         f"{CASE}/settlement/blocks",
@@ -266,6 +300,7 @@ HISTORY = (
 
 CASE_FIELDS: tuple[Field, ...] = (
     *LOADS,
+    *SPECIAL_LOADS,
     *SETTLEMENT,
     *ANSWER,
     *MECHANICS,

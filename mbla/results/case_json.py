@@ -13,6 +13,7 @@ from mbla.results.outcome import associative_of, best_iterate, factor_unique, ra
 from mbla.results.results import CaseResult
 from mbla.results.settlement_words import reaction_json
 from mbla.results.solver_words import solver_json
+from mbla.results.tilt_angle import angle_bounds, angle_of
 from mbla.solution.solution import Checks, Mechanics, Solution
 
 
@@ -29,6 +30,8 @@ def case_json(model: Model, contacts: Contacts, case: CaseResult) -> dict[str, A
         "flow_rule": solution.flow_rule,
         "scheme": solution.scheme or None,
         "load_factor": None if mechanics is None else number(mechanics.load_factor),
+        "angle": number(angle_of(case)),
+        "angle_bounds": _angle_bounds(case),
         "reaction": reaction_json(case),
         "factor_unique": factor_unique(case),
         "range": None if ends is None else [number(end) for end in ends],
@@ -78,6 +81,10 @@ def residuals_json(checks: Checks) -> dict[str, float | None]:
         "complementarity": number(checks.complementarity_residual),
         "slip": number(checks.slip_residual),
     }
+
+
+def _angle_bounds(case: CaseResult) -> list[float | None] | None:
+    return None if case.load_case.tilt is None else [number(angle) for angle in angle_bounds(case)]
 
 
 def _best_iterate(case: CaseResult) -> dict[str, Any] | None:

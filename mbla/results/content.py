@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import fields
 
 import numpy as np
 
@@ -29,6 +30,8 @@ BLOCK_ARRAYS = (
     "volumes",
     "centroids",
     "densities",
+    "added_masses",
+    "added_mass_points",
     "group_indices",
 )
 CONTACT_ARRAYS = (
@@ -205,8 +208,14 @@ def _guides(model: Model) -> Content:
 
 
 def _loads(load_case: LoadCase) -> Content:
-    loads: Content = {name: getattr(load_case, name) for name in ("dead_load", "live_load", "dead_words", "live_words")}
+    content: Content = {
+        name: getattr(load_case, name) for name in ("dead_load", "live_load", "dead_words", "live_words")
+    }
+    for name in ("travel", "tilt"):
+        part = getattr(load_case, name)
+        if part is not None:
+            content |= {f"{name}/{field.name}": getattr(part, field.name) for field in fields(part)}
     settlement = load_case.settlement
     if settlement is not None:
-        loads |= {f"settlement/{name}": getattr(settlement, name) for name in SETTLEMENT_FIELDS}
-    return loads
+        content |= {f"settlement/{name}": getattr(settlement, name) for name in SETTLEMENT_FIELDS}
+    return content

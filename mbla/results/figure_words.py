@@ -10,6 +10,7 @@ from mbla.results.results import CaseResult
 from mbla.results.settlement_words import settlement_lines
 from mbla.results.solver_words import solver_lines
 from mbla.results.text import counted, entry, number, sentence, small
+from mbla.results.tilt_angle import angle_bounds, angle_of
 from mbla.solution.solution import Checks, Mechanics, ModelSize
 
 
@@ -35,6 +36,7 @@ def _factors(case: CaseResult) -> list[str]:
         lines += entry(f"load factor, {rule}", number(own.load_factor))
     if best is not None:
         lines += entry(f"best iterate, {rule}", f"{number(best.load_factor)}   (no load factor)")
+    lines += _angle(case)
     ends = range_of(case)
     if ends is not None:
         lines += entry("range for this mechanism", f"{_digits(ends[0])} .. {_digits(ends[1])}   (verified)")
@@ -46,6 +48,17 @@ def _factors(case: CaseResult) -> list[str]:
     if associative is not None and solution.flow_rule != "associative":
         lines += entry("load factor, associative", _beside(associative, own))
     return lines + _bracket(case)
+
+
+def _angle(case: CaseResult) -> list[str]:
+    """A tilting table: the angle, and those between which it is proved to lie."""
+    if case.load_case.tilt is None:
+        return []
+    lines = entry("angle", f"{_digits(angle_of(case))} degrees")
+    low, high = angle_bounds(case)
+    if np.isnan(low) and np.isnan(high):
+        return lines
+    return lines + entry("angle, associative bounds", f"{_digits(low)} .. {_digits(high)} degrees")
 
 
 def _bracket(case: CaseResult) -> list[str]:

@@ -14,6 +14,8 @@ from mbla.results.case_json import case_json
 from mbla.results.numbers import number, numbers
 from mbla.results.outcome import dimension_of, notices_of, standing_of
 from mbla.results.results import Results
+from mbla.results.series import series_of
+from mbla.results.series_json import series_json
 
 
 def results_json(results: Results) -> dict[str, Any]:
@@ -28,6 +30,7 @@ def results_json(results: Results) -> dict[str, Any]:
         | model_json(results.model)
         | contacts_json(results),
         "cases": [case_json(results.model, results.contacts, case) for case in results.cases],
+        "series": [series_json(results.model, series) for series in series_of(results.cases)],
         "settings": results.settings,
         "notices": [notice_json(notice) for notice in notices_of(results)],
         "time": {stage: number(seconds) for stage, seconds in results.time.items()},
@@ -39,7 +42,7 @@ def check_json(results: Results, needs: Mapping[str, Mapping[str, int | str]]) -
     """The record of a check: no cases; ``needs`` says by load case what reaches the solver."""
     report = results.contacts.report
     record = results_json(results)
-    for key in ("cases", "files"):
+    for key in ("cases", "series", "files"):
         del record[key]
     record["model"] |= {
         "load_cases": [case.name for case in results.model.load_cases],
@@ -82,6 +85,7 @@ def model_json(model: Model) -> dict[str, Any]:
         "extents": [numbers(corner) for corner in (low, high)],
         "total_volume": number(model.blocks.volumes.sum()),
         "total_weight": number(model.total_weight),
+        "added_mass": number(float(model.blocks.added_masses.sum())),
         "units": {"length": units.length, "force": units.force, "mass": units.mass},
     }
 

@@ -16,6 +16,8 @@ from mbla.results.figure_words import figures
 from mbla.results.label_words import label_words
 from mbla.results.outcome import notices_of
 from mbla.results.results import Results
+from mbla.results.series import series_of
+from mbla.results.series_words import series_lines, worst_words
 from mbla.results.text import WIDTH, counted, entry, heading, number, sentence, table
 from mbla.results.verdict_words import verdict
 
@@ -31,6 +33,8 @@ def listing(results: Results) -> str:
     ]
     for case in results.cases:
         lines += case_lines(results.model, results.contacts, case)
+    for series in series_of(results.cases):
+        lines += series_lines(results.model, series)
     lines += _recap(results)
     return "\n".join(line.rstrip() for line in lines) + "\n"
 
@@ -96,6 +100,10 @@ def model_lines(model: Model) -> list[str]:
     lines += _extents(model)
     lines += entry("volume", f"{number(float(blocks.volumes.sum()))} {units.length}3")
     lines += entry("weight (9.81 m/s2)", f"{number(model.total_weight)} {units.force}")
+    added = int((blocks.added_masses > 0.0).sum())
+    if added:
+        mass = f"{number(float(blocks.added_masses.sum()))} {units.mass} on {counted(added, 'block')}"
+        lines += entry("added masses", f"{mass}; they count to the weights")
     lines += ["", *_group_table(model), *_labels(model), "", *_joint_table(model)]
     lines += heading("Supports") + _supports(model)
     lines += heading("Loads")
@@ -194,6 +202,7 @@ def _recap(results: Results) -> list[str]:
     lines = heading("Summary")
     for case in results.cases:
         lines += entry(case.load_case.name, verdict(results.model, case))
+    lines += [line for series in series_of(results.cases) for line in sentence(worst_words(results.model, series))]
     left_out = len(results.model.load_cases) - len(results.cases)
     if left_out:
         lines += sentence(f"{counted(left_out, 'load case')} of the deck not run")

@@ -31,6 +31,8 @@ MODEL_FIELDS: tuple[Field, ...] = (
     Field("model/centroids", "float", ("block", "axis"), "length", "centroid"),
     Field("model/volumes", "float", ("block",), "volume", "volume"),
     Field("model/densities", "float", ("block",), "density", "mass per volume"),
+    Field("model/added_masses", "float", ("block",), "mass", "mass that the block carries along beside its own"),
+    Field("model/added_mass_points", "float", ("block", "axis"), "length", "centroid of that mass"),
     Field("model/weights", "float", ("block",), "force", "weight under standard gravity, 9.81 m/s2"),
     Field("model/groups", "int", ("block",), "1", "group, as row of group_names", index_of="group"),
     Field("model/group_indices", "int", ("block",), "1", "position of the block in its group"),

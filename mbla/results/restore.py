@@ -17,7 +17,7 @@ from mbla.errors import Notice
 from mbla.model.blocks import Blocks
 from mbla.model.guides import NO_GUIDES, Guides
 from mbla.model.labels import BlockLabels
-from mbla.model.model import Ground, Joint, LoadCase, Model, Settlement
+from mbla.model.model import Ground, Joint, LoadCase, Model, Settlement, Tilt, TravelPosition
 from mbla.results.case_content import Content
 from mbla.results.case_restore import case_from
 from mbla.results.content import BLOCK_ARRAYS, CONTACT_ARRAYS, REPORT_FIELDS, SETTLEMENT_FIELDS
@@ -140,10 +140,19 @@ def _contacts(get: dict[str, Any]) -> Contacts:
 
 
 def _load_case(name: str, get: dict[str, Any]) -> LoadCase:
-    words = tuple(get["dead_words"]), tuple(get["live_words"])
+    travel, tilt = _part(get, "travel/"), _part(get, "tilt/")
     settlement = None
     if "settlement/blocks" in get:
         settlement = Settlement(**{field: get[f"settlement/{field}"] for field in SETTLEMENT_FIELDS})
         if len(np.unique(settlement.blocks)) < len(settlement.blocks) or not settlement.unit > 0:
             raise ValueError("settlement of a support")
-    return LoadCase(name, get["dead_load"], get["live_load"], *words, settlement)
+    return LoadCase(
+        name,
+        get["dead_load"],
+        get["live_load"],
+        tuple(get["dead_words"]),
+        tuple(get["live_words"]),
+        settlement=settlement,
+        travel=TravelPosition(**travel) if travel else None,
+        tilt=Tilt(**tilt) if tilt else None,
+    )

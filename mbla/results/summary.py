@@ -7,6 +7,8 @@ from mbla.results.collapse import collapse_of
 from mbla.results.mechanism_words import mechanism_summary
 from mbla.results.outcome import associative_of, notices_of, result_of
 from mbla.results.results import CaseResult, Results
+from mbla.results.series import series_of
+from mbla.results.series_words import worst_words
 from mbla.results.text import counted, number, sentence, table
 from mbla.results.verdict_words import bound_words, range_summary, reasons, verdict
 from mbla.solution.solution import Status
@@ -24,6 +26,7 @@ def summary_lines(results: Results) -> list[str]:
     lines = [counts, *_table(results)]
     for case in results.cases:
         lines += _in_words(results, case)
+    lines += [line for series in series_of(results.cases) for line in sentence(worst_words(results.model, series))]
     warnings = [notice for notice in notices_of(results) if notice.severity == "warning"]
     return lines + [line for notice in warnings for line in sentence(str(notice))]
 

@@ -18,6 +18,7 @@ from mbla.results.outcome import (
 from mbla.results.results import CaseResult
 from mbla.results.settlement_words import reaction_words
 from mbla.results.text import number, small
+from mbla.results.tilt_angle import angle_of, tilt_words
 from mbla.solution.solution import Status
 from mbla.solution.verify import SOLVED_RESIDUAL
 
@@ -46,10 +47,12 @@ SCHEMES = {
 def load_factor_words(model: Model, load_case: LoadCase, load_factor: float) -> str:
     """``0.145 g`` where the live load is an acceleration, else ``0.643 times the live load``.
 
-    ``a reaction of 5232 N`` where a support gives way.
+    ``a reaction of 5232 N`` where a support gives way, ``31.2 degrees of tilt`` for a tilting table.
     """
     if load_case.settlement is not None:
         return reaction_words(model, load_case.settlement, load_factor)
+    if load_case.tilt is not None:
+        return tilt_words(load_case, load_factor)
     size = live_load_in_g(model, load_case)
     if size is None:
         return f"{number(load_factor)} times the live load"
@@ -61,6 +64,8 @@ def verdict(model: Model, case: CaseResult) -> str:
     mechanics = result_of(case)
     if mechanics is None:
         return _without_load_factor(model, case)
+    if case.load_case.tilt is not None and np.isnan(angle_of(case)):
+        return "no angle of collapse: it bears gravity turned by every angle that was tried, up to 180 degrees"
     value = load_factor_words(model, case.load_case, mechanics.load_factor)
     verified = case.status is Status.SOLVED
     outer = case.solution.outer

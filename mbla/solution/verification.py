@@ -6,6 +6,7 @@
 - :mod:`mbla.solution.verify_range`: both ends of the range of a load factor without normality;
 - :mod:`mbla.solution.verify_peak`: a greater load factor that is passed before the structure comes to rest;
 - :mod:`mbla.solution.verify_standing`: that the dead load is carried from the stress-free assembly;
+- :mod:`mbla.solution.verify_tilt`: the angle of a tilting table;
 - :mod:`mbla.solution.verify_lock`: forces that carry every multiple of the live load.
 """
 
@@ -25,6 +26,7 @@ from mbla.solution.verify_peak import peak_check
 from mbla.solution.verify_polyhedral import verify_polyhedral
 from mbla.solution.verify_range import range_checks
 from mbla.solution.verify_standing import standing_failures
+from mbla.solution.verify_tilt import tilt_failures
 
 APART = 1e-9
 """Motion of glued blocks against each other, over the largest motion: rounding of the map from solids to blocks."""
@@ -51,7 +53,7 @@ def _verify(model: Model, contacts: Contacts, load_case: LoadCase, solution: Sol
     if solution.contact_model == "convex":
         of_mechanics = verify_convex
     checks = of_mechanics(model, contacts, load_case, solution)
-    failures = _standing_failures(model, contacts, load_case, solution)
+    failures = (*_standing_failures(model, contacts, load_case, solution), *tilt_failures(load_case, solution))
     if failures:
         checks = replace(checks, verified=False, failures=(*checks.failures, *failures))
     lower, upper = range_checks(model, contacts, load_case, solution)

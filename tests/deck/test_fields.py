@@ -20,7 +20,7 @@ def test_no_keys_where_names_are_free_or_nothing_is() -> None:
 
 def test_mappings_of_names() -> None:
     names = [key for key in DeckContent.model_fields if takes_names(DeckContent, (key,))]
-    assert names == ["parameters", "materials", "joints", "load_cases", "expected"]
+    assert names == ["parameters", "materials", "joints", "loads", "load_cases", "expected"]
 
 
 def test_description() -> None:

@@ -37,6 +37,10 @@ def _figure(expectation: Expectation, flow_rule: str) -> str:
     words = [] if expectation.reaction is None else [f"reaction {expectation.reaction:.8g}"]
     if own is not None:
         words.append(f"{own:.8g}")
+    if expectation.angle is not None:
+        words.append(f"{expectation.angle:.8g} degrees")
+    if expectation.position is not None:
+        words.append(f"worst at position {expectation.position}")
     if associative is not None and (own is None or abs(own - associative) > 1e-9):
         words.append(f"associative {associative:.8g}")
     if expectation.lower is not None:

@@ -59,6 +59,8 @@ def blocks_of(shapes: Any, seed: int = 0) -> Blocks:
         convex=np.ones(n, dtype=bool),
         volumes=np.array([volume for _, _, volume in shapes]),
         centroids=np.array(centroids),
+        added_masses=np.zeros(n),
+        added_mass_points=np.array(centroids),
         densities=np.ones(n),
         groups=("shape",) * n,
         group_indices=np.arange(n),

@@ -16,7 +16,7 @@ from mbla.errors import Notice
 from mbla.model.blocks import Blocks
 from mbla.model.guides import Guides
 from mbla.model.labels import no_labels
-from mbla.model.model import Ground, Joint, LoadCase, Model, Settlement
+from mbla.model.model import Ground, Joint, LoadCase, Model, Settlement, Tilt, TravelPosition
 from mbla.results.results import CaseResult, DeckRecord, Results
 from mbla.solution.solution import (
     Checks,
@@ -59,6 +59,8 @@ def cuboids(lower: Any, upper: Any, groups: Any, densities: Any = 1.0) -> Blocks
         convex=np.ones(n, dtype=bool),
         volumes=np.prod(upper - lower, axis=1),
         centroids=(lower + upper) / 2,
+        added_masses=np.zeros(n),
+        added_mass_points=(lower + upper) / 2,
         densities=np.broadcast_to(np.asarray(densities, float), (n,)).copy(),
         groups=tuple(groups),
         group_indices=np.array(indices, dtype=np.int64),
@@ -252,6 +254,12 @@ def full_results() -> Results:
         peak_load_factor=0.6,
         failures=("x",),
     )
+    arrays = np.arange(54.0).reshape(3, 3, 6)
+    not_run = replace(
+        results.model.load_cases[2],
+        travel=TravelPosition("train", 2, 12, np.array([1.0, 2.0, 3.0]), 2.5, 1),
+        tilt=Tilt(np.array([0.0, 1.0, 0.0]), arrays[0], arrays[1], arrays[2], 12.5, False, np.inf),
+    )
     contacts = replace(results.contacts, solid_of_block=np.arange(len(results.model.blocks)))
     sinking = np.array([[0.0, 0, -1, 0, 0, 0]])
     settlement = Settlement(np.array([0]), sinking, False, "settlement of 1 block", 30.0, 20.0)
@@ -259,7 +267,7 @@ def full_results() -> Results:
     ways = np.eye(6)[None] * np.array([1.0, 1, 1, 1, 1, 0])
     model = replace(
         results.model,
-        load_cases=(load_case, *results.model.load_cases[1:]),
+        load_cases=(load_case, results.model.load_cases[1], not_run),
         guides=Guides(np.array([2]), np.array([0]), ways, ("1 block held in rz",)),
     )
     full = replace(case, load_case=load_case, solution=solution, checks=checks)

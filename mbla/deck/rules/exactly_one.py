@@ -19,7 +19,7 @@ EXACTLY_ONE: dict[type[Section], tuple[str, ...]] = {
     types.GroundPlane: ("x", "y", "z", "point"),
     types.LoadCaseSection: ("live", "settlement"),
     types.SettlementSection: ("direction", "turn"),
-    types.Load: ("gravity", "acceleration", "force", "table"),
+    types.Load: ("gravity", "acceleration", "force", "moment", "line", "pressure", "table", "loads", "travel", "tilt"),
 }
 """Keys of which a section has exactly one; the schema says so too."""
 

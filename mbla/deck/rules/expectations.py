@@ -8,9 +8,22 @@ from mbla.deck import types
 from mbla.deck.rules.common import given
 from mbla.deck.section import Finding, rule
 
+FIGURES = ("load_factor", "angle", "position", "associative_load_factor", "reaction", "lower", "status")
+
 
 @rule(types.Expectation)
 def expectation(item: types.Expectation) -> Iterator[Finding]:
     """Something must be expected."""
-    if not given(item, ("load_factor", "associative_load_factor", "reaction", "lower", "status")):
-        yield (), "needs at least one of load_factor, associative_load_factor, reaction, lower or status"
+    if not given(item, FIGURES):
+        yield (), f"needs at least one of {', '.join(FIGURES[:-1])} or {FIGURES[-1]}"
+
+
+@rule(types.DeckContent)
+def expectations_of_kinds(deck: types.DeckContent) -> Iterator[Finding]:
+    """An angle belongs to a tilt, a worst position to a load that travels."""
+    for name, item in deck.expected.items():
+        case = deck.load_cases.get(name)
+        for key, kind in (("angle", "tilt"), ("position", "travel")):
+            live = [] if case is None or getattr(item, key) is None else (case.live or [])
+            if live and not any(getattr(load, kind) is not None for load in live):
+                yield ("expected", name, key), f"applies to load cases with {kind} only"

@@ -1,4 +1,7 @@
-"""Load `acceleration`: mass times an acceleration in units of standard gravity, at the centroids of the blocks."""
+"""Load `acceleration`: mass times an acceleration in units of standard gravity, at the centroids of the blocks.
+
+With a `pattern` the acceleration is multiplied by a factor that depends on the height of the centroid.
+"""
 
 from __future__ import annotations
 
@@ -7,16 +10,23 @@ import numpy as np
 from mbla.arrays import IntArray
 from mbla.deck.tree import KeyPath
 from mbla.deck.types import Load
+from mbla.model.loads.height_pattern import pattern_factors
 from mbla.model.loads.load_kind import AppliedLoad, LoadSite
 from mbla.model.loads.mass_forces import mass_forces
 from mbla.model.wording import counted, vector
 
 
-def acceleration_load(load: Load, blocks: IntArray | None, path: KeyPath, site: LoadSite) -> AppliedLoad:
+def acceleration_load(load: Load, blocks: IntArray | None, path: KeyPath, site: LoadSite) -> AppliedLoad | None:
     """Mass forces on the blocks selected, on all unless some are."""
     assert load.acceleration is not None  # what makes it this kind
     chosen = np.arange(len(site.blocks)) if blocks is None else blocks
     where = "" if len(chosen) == len(site.blocks) else f" on {counted(len(chosen), 'block')}"
     acceleration = np.array(load.acceleration) * site.units.standard_gravity
     words = f"acceleration {vector(load.acceleration)} g{where}"
+    if load.pattern is not None:
+        factors = pattern_factors(load.pattern, site.blocks.centroids[chosen], chosen, (*path, "pattern"), site)
+        if factors is None:
+            return None
+        acceleration = factors[:, None] * acceleration
+        words += f" times {factors.min():.6g} to {factors.max():.6g}, by height along {vector(load.pattern.along)}"
     return AppliedLoad(chosen, mass_forces(chosen, acceleration, site), words)

@@ -4,14 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from mbla.arrays import FloatArray, IntArray
+from mbla.arrays import IntArray
 from mbla.deck.tree import KeyPath
 from mbla.deck.types import Load
 from mbla.model.loads.load_kind import AppliedLoad, LoadSite, wrenches_of
+from mbla.model.outside import distance_outside
 from mbla.model.wording import vector
-
-OUTSIDE = 0.01
-"""distance of a force from the bounding box of its block, relative to the diagonal, from which it is remarked on"""
 
 
 def force_load(load: Load, blocks: IntArray | None, path: KeyPath, site: LoadSite) -> AppliedLoad | None:
@@ -28,17 +26,10 @@ def force_load(load: Load, blocks: IntArray | None, path: KeyPath, site: LoadSit
     point = centroid if load.at is None else np.array(load.at)
     if load.at is not None:
         words += f" at {vector(load.at)} {site.units.length}"
-        _remark_outside(block, point, words, site)
+        off = distance_outside(point, block, site.blocks)
+        if off:
+            message = f"the {words} acts {off:.4g} {site.units.length} outside that block; its moment is kept"
+            site.warn("force-outside-block", message)
     else:
         words += " at its centroid"
     return AppliedLoad(blocks, wrenches_of(np.array([load.force]), point[None], centroid[None]), words)
-
-
-def _remark_outside(block: int, point: FloatArray, words: str, site: LoadSite) -> None:
-    blocks = site.blocks
-    vertices = blocks.vertices[blocks.vertex_start[block] : blocks.vertex_start[block + 1]]
-    least, greatest = vertices.min(axis=0), vertices.max(axis=0)
-    off = float(np.linalg.norm(np.maximum(0.0, np.maximum(least - point, point - greatest))))
-    if off > OUTSIDE * float(np.linalg.norm(greatest - least)):
-        message = f"the {words} acts {off:.4g} {site.units.length} outside that block; its moment is kept"
-        site.warn("force-outside-block", message)

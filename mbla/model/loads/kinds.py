@@ -5,12 +5,18 @@ from __future__ import annotations
 from mbla.model.loads.acceleration import acceleration_load
 from mbla.model.loads.force import force_load
 from mbla.model.loads.gravity import gravity_load
+from mbla.model.loads.line import line_load
 from mbla.model.loads.load_kind import LoadKind
+from mbla.model.loads.moment import moment_load
+from mbla.model.loads.pressure import pressure_load
 from mbla.model.loads.table import table_load
 
 LOAD_KINDS: dict[str, LoadKind] = {
     "gravity": gravity_load,
     "acceleration": acceleration_load,
     "force": force_load,
+    "moment": moment_load,
+    "line": line_load,
+    "pressure": pressure_load,
     "table": table_load,
 }

@@ -3,18 +3,24 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from mbla.arrays import FloatArray
+from mbla.deck.rules.common import given
+from mbla.deck.rules.loads import LIVE_ONLY
 from mbla.deck.tree import KeyPath
 from mbla.deck.types import Load, LoadCaseSection
 from mbla.errors import Fault
 from mbla.model.loads.kinds import LOAD_KINDS
 from mbla.model.loads.load_kind import AppliedLoad, LoadSite
-from mbla.model.model import LoadCase
+from mbla.model.loads.named_loads import Entry, entries_of
+from mbla.model.loads.tilt import tilt_loads
+from mbla.model.loads.travel import PositionLoad, case_name, travel_loads, travel_of
+from mbla.model.model import LoadCase, Tilt
 from mbla.model.selectors import select_blocks
+from mbla.model.wording import named, vector
 
 CANCELLED = 1e-12
 """sum of live loads, relative to the loads themselves, at which nothing is left of them"""
@@ -24,11 +30,15 @@ COMPUTABLE = (1e-100, 1e100)
 
 @dataclass
 class _Sum:
-    """Loads added up: ``total`` (n_blocks, 6), ``gross`` (n_blocks, 6) without signs, and each in words."""
+    """Loads added up: ``total`` (n_blocks, 6), ``gross`` (n_blocks, 6) without signs, and each in words.
+
+    complete : none of them left a fault
+    """
 
     total: FloatArray
     gross: FloatArray
     words: list[str] = field(default_factory=list)
+    complete: bool = True
 
     def add(self, applied: AppliedLoad) -> None:
         """One load more."""
@@ -36,12 +46,18 @@ class _Sum:
         self.gross[applied.blocks] += np.abs(applied.wrenches)
         self.words.append(applied.words)
 
+    def with_load(self, applied: AppliedLoad) -> _Sum:
+        """The same with one load more; this one stays as it is."""
+        longer = _Sum(self.total.copy(), self.gross.copy(), list(self.words), self.complete)
+        longer.add(applied)
+        return longer
 
-def build_load_case(name: str, section: LoadCaseSection, site: LoadSite) -> LoadCase:
-    """Dead and live load of one case; gravity of 9.81 m/s2 along -z is the dead load unless the deck gives one.
 
-    Adds to ``site.faults`` what no load can be made of, and live loads without effect, which are those that act on
-    fixed blocks only or cancel each other.
+def build_load_cases(name: str, section: LoadCaseSection, site: LoadSite) -> tuple[LoadCase, ...]:
+    """Dead and live load of one case, or of one for each position of a load that travels.
+
+    Gravity of 9.81 m/s2 along -z is the dead load unless the deck gives one. Adds to ``site.faults`` what no load can
+    be made of, and live loads without effect, which are those that act on fixed blocks only or cancel each other.
     """
     path: KeyPath = ("load_cases", name)
     dead_loads = section.dead
@@ -50,16 +66,60 @@ def build_load_case(name: str, section: LoadCaseSection, site: LoadSite) -> Load
     before = len(site.faults)
     dead = _add_up(dead_loads, (*path, "dead"), site, live=False)
     live = _add_up(section.live or [], (*path, "live"), site, live=True)
+    tilt, positions = _tilt(section, dead_loads, path, dead, live, site), _positions(name, section, path, site)
+    cases = []
+    for position in positions:
+        own = live if position is None else live.with_load(position.applied)
+        if len(site.faults) == before and own.complete and section.live is not None:
+            _judge_case(position, path, section, dead, own, site)
+        words = (tuple(dead.words), tuple(own.words))
+        case = LoadCase(name, dead.total, own.total, *words, tilt=tilt)
+        if position is not None:
+            case = replace(case, name=case_name(position.position), travel=position.position)
+        cases.append(case)
+    return tuple(cases)
+
+
+def _positions(name: str, section: LoadCaseSection, path: KeyPath, site: LoadSite) -> Sequence[PositionLoad | None]:
+    """The load at every position; one None for a load case in which nothing travels."""
+    number = travel_of(section.live or [])
+    if number is None or section.live is None:
+        return [None]
+    load = section.live[number]
+    return travel_loads(name, Entry(load, (*path, "live", number), load.factor), site) or []
+
+
+def _tilt(
+    section: LoadCaseSection, dead_loads: Sequence[Load], path: KeyPath, dead: _Sum, live: _Sum, site: LoadSite
+) -> Tilt | None:
+    """Loads of a tilting table; what it turns them by first stands in for the live load."""
+    load = section.live[0].tilt if section.live else None
+    if load is None:
+        return None
+    tilt = tilt_loads(load, list(entries_of(dead_loads, (*path, "dead"), site.named)), dead.total, path, site)
+    live.total += tilt.across
+    live.gross += np.abs(tilt.across)
+    live.words.append(f"tilt about {vector(load.axis)}")
+    return tilt
+
+
+def _judge_case(
+    position: PositionLoad | None, path: KeyPath, section: LoadCaseSection, dead: _Sum, live: _Sum, site: LoadSite
+) -> None:
+    """Live loads must leave something on blocks that move, and all loads must be numbers to compute with."""
     free = ~site.fixed
-    judged = len(site.faults) == before and free.any() and not site.roster.partial and section.live is not None
+    if not free.any() or site.roster.partial:
+        return
     rest = np.abs(live.total[free]).max(initial=0.0)
-    if judged and rest <= CANCELLED * live.gross[free].max(initial=0.0):
-        site.refuse((*path, "live"), "the live loads cancel each other: they have no effect")
-    elif judged:
-        site.faults.extend(_beyond_computing((*path, "live"), live.total[free], site))
+    if rest > CANCELLED * live.gross[free].max(initial=0.0):
         place = (*path, "dead") if section.dead is not None else path
+        site.faults.extend(_beyond_computing((*path, "live"), live.total[free], site))
         site.faults.extend(_beyond_computing(place, dead.total[free], site))
-    return LoadCase(name, dead.total, live.total, tuple(dead.words), tuple(live.words))
+    elif position is not None and site.fixed[position.position.block]:
+        words = f"{position.applied.words} has no effect: the block does not move; change the path"
+        site.refuse((*path, "live"), words)
+    else:
+        site.refuse((*path, "live"), "the live loads cancel each other: they have no effect")
 
 
 def _beyond_computing(path: KeyPath, loads: FloatArray, site: LoadSite) -> list[Fault]:
@@ -75,12 +135,14 @@ def _beyond_computing(path: KeyPath, loads: FloatArray, site: LoadSite) -> list[
 def _add_up(loads: Sequence[Load], path: KeyPath, site: LoadSite, live: bool) -> _Sum:
     shape = (len(site.fixed), 6)
     result = _Sum(np.zeros(shape), np.zeros(shape))
-    for number, load in enumerate(loads):
-        here = (*path, number)
-        applied = _apply(load, here, site)
+    for entry in entries_of(loads, path, site.named):
+        if given(entry.load, LIVE_ONLY):
+            continue
+        applied = _apply(entry, site)
+        result.complete &= applied is not None
         if applied is not None:
             result.add(applied)
-            _judge_fixed(load, applied, here, site, live)
+            _judge_effect(entry, applied, site, live)
     return result
 
 
@@ -89,27 +151,34 @@ def kind_of(load: Load) -> str:
     return next(kind for kind in LOAD_KINDS if getattr(load, kind) is not None)
 
 
-def _apply(load: Load, path: KeyPath, site: LoadSite) -> AppliedLoad | None:
+def _apply(entry: Entry, site: LoadSite) -> AppliedLoad | None:
     """One load on its blocks; None where a fault was left, or where blocks it depends on could not be built."""
-    blocks = None
+    load, path, blocks = entry.load, entry.path, None
     if load.on is not None:
         blocks = select_blocks(load.on, (*path, "on"), site.roster, site.faults)
         if blocks is None:
             return None
-    return LOAD_KINDS[kind_of(load)](load, blocks, path, site)
+    applied = LOAD_KINDS[kind_of(load)](load, blocks, path, site)
+    if applied is None or entry.factor == 1.0:
+        return applied
+    words = f"{entry.factor:.6g} times {applied.words}"
+    return AppliedLoad(applied.blocks, entry.factor * applied.wrenches, words)
 
 
-def _judge_fixed(load: Load, applied: AppliedLoad, path: KeyPath, site: LoadSite, live: bool) -> None:
-    """A load on blocks that do not move goes straight into the support: no live load does that alone."""
-    blocks = applied.blocks
+def _judge_effect(entry: Entry, applied: AppliedLoad, site: LoadSite, live: bool) -> None:
+    """A live load must do something; on blocks that do not move any load goes straight into the support."""
+    blocks, kind = applied.blocks, kind_of(entry.load)
+    key = "on" if entry.load.on is not None else kind
+    # what weighs nothing is refused as such, and rows of a table that cancel each other as live loads that do
+    weightless = kind == "table" or (kind in ("gravity", "acceleration") and not site.blocks.masses[blocks].any())
+    if live and not applied.wrenches.any() and not weightless:
+        site.refuse((*entry.path, kind), "is a live load with no effect")
     if not site.fixed[blocks].all() or site.fixed.all():  # a structure that is fixed altogether is refused as such
         return
-    kind = kind_of(load)
     if live:
-        key = "on" if load.on is not None else kind
-        site.refuse((*path, key), "every block it acts on is fixed: the live load has no effect")
+        site.refuse((*entry.path, key), "every block it acts on is fixed: the live load has no effect")
     elif kind not in ("gravity", "acceleration"):
-        name = site.blocks.name(int(blocks[0])) + (f" and {len(blocks) - 1} more" if len(blocks) > 1 else "")
+        name = named(blocks, site.blocks.name)
         moves = "does not move" if len(blocks) == 1 else "do not move"
         words = f"the dead {kind} on {name} goes straight into the support, for {name} {moves}"
         site.warn("dead-load-on-support", words)

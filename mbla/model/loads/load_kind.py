@@ -6,7 +6,7 @@ A kind is a function ``(load, blocks, path, site) -> AppliedLoad | None``; where
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TypeAlias
@@ -19,6 +19,7 @@ from mbla.deck.types import Load
 from mbla.deck.units import Units
 from mbla.errors import Fault, Notice
 from mbla.model.blocks import Blocks
+from mbla.model.model import Ground
 from mbla.model.selectors import Roster
 
 
@@ -28,6 +29,9 @@ class LoadSite:
 
     fixed   : (n_blocks,) blocks that do not move
     resolve_file : path of a file named by the value at a key path of the deck
+    grounds : planes of rigid ground
+    named   : loads of the deck by name
+    tolerance : of contacts, relative to block size
     faults  : what is wrong with a load goes here
     notices : what its author should look at twice goes here
     """
@@ -36,6 +40,9 @@ class LoadSite:
     fixed: BoolArray
     units: Units
     resolve_file: Callable[[KeyPath, str], Path]
+    grounds: tuple[Ground, ...] = ()
+    named: Mapping[str, Sequence[Load]] = field(default_factory=dict)
+    tolerance: float = 1e-3
     faults: list[Fault] = field(default_factory=list)
     notices: list[Notice] = field(default_factory=list)
 
@@ -45,8 +52,10 @@ class LoadSite:
         return self.roster.blocks
 
     def refuse(self, path: KeyPath, message: str) -> None:
-        """Add a fault."""
-        self.faults.append(self.roster.fault_at(path, message))
+        """Add a fault, once: several load cases may have the same named load."""
+        fault = self.roster.fault_at(path, message)
+        if fault not in self.faults:
+            self.faults.append(fault)
 
     def warn(self, identifier: str, message: str) -> None:
         """Add a warning, once."""
@@ -76,3 +85,11 @@ LoadKind: TypeAlias = Callable[[Load, IntArray | None, KeyPath, LoadSite], Appli
 def wrenches_of(forces: FloatArray, points: FloatArray, centroids: FloatArray) -> FloatArray:
     """Forces at points as forces and moments about centroids, (p - x) x F; all (n, 3), the result (n, 6)."""
     return np.hstack([forces, np.cross(points - centroids, forces)])
+
+
+def sum_on_blocks(blocks: IntArray, wrenches: FloatArray) -> tuple[IntArray, FloatArray]:
+    """Blocks, each once, ascending, and the sums of the wrenches on them, from (n,) and (n, 6)."""
+    unique, row = np.unique(blocks, return_inverse=True)
+    total = np.zeros((len(unique), 6))
+    np.add.at(total, row, wrenches)
+    return unique, total

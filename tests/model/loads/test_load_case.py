@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from mbla.deck.rules import EXACTLY_ONE
+from mbla.deck.rules.loads import LIVE_ONLY
 from mbla.deck.types import Load
 from mbla.errors import DeckError
 from mbla.model import build_model
@@ -152,4 +153,4 @@ def test_a_couple_has_an_effect(tmp_path: Path) -> None:
 
 
 def test_every_kind_of_load_of_the_deck_has_its_meaning() -> None:
-    assert tuple(LOAD_KINDS) == EXACTLY_ONE[Load]
+    assert (*LOAD_KINDS, "loads", *LIVE_ONLY) == EXACTLY_ONE[Load]

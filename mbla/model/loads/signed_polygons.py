@@ -1,0 +1,50 @@
+"""Polygons cut by half-planes, many at once, as loops of which only the signed integral counts.
+
+Sutherland and Hodgman 1974 (doi:10.1145/360767.360802): along each edge a corner inside is kept, and where an edge
+crosses the line the crossing is added. Corners that fall away repeat the one before them, so that all loops of an array
+keep one length; repeated corners and edges there and back along the line add nothing to an integral over the loop.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from mbla.arrays import FloatArray
+
+
+def cut(loops: FloatArray, heights: FloatArray) -> FloatArray:
+    """What of loops lies where ``heights`` >= 0, (n, 2 k, d) from (n, k, d) and the height of each corner, (n, k)."""
+    n, k = heights.shape
+    after = np.roll(np.arange(k), -1)
+    inside = np.greater_equal(heights, 0.0)
+    h, h_after = heights, heights[:, after]
+    crosses = np.not_equal(inside, np.take(inside, after, axis=1))
+    t = h / np.where(crosses, h - h_after, 1.0)
+    crossing = loops + t[..., None] * (loops[:, after] - loops)
+    corners = np.stack([loops, crossing], axis=2).reshape(n, 2 * k, loops.shape[-1])
+    kept = np.stack([inside, crosses], axis=2).reshape(n, 2 * k)
+    last = np.maximum.accumulate(np.where(kept, np.arange(2 * k), -1), axis=1)
+    last = np.where(last < 0, last[:, -1:], last)  # before the first one that is kept stands the last
+    found = np.take_along_axis(corners, np.maximum(last, 0)[..., None], axis=1)
+    return np.where(np.any(kept, axis=1, keepdims=True)[..., None], found, 0.0)
+
+
+def intersections(triangles: FloatArray, others: FloatArray) -> FloatArray:
+    """Common part of pairs of triangles in the plane, as loops, (n, 24, 2) from (n, 3, 2) each.
+
+    ``others`` turn counter-clockwise.
+    """
+    loops = triangles
+    for i in range(3):
+        a, b = others[:, i], others[:, (i + 1) % 3]
+        edge = b - a
+        to = loops - a[:, None]
+        loops = cut(loops, edge[:, None, 0] * to[..., 1] - edge[:, None, 1] * to[..., 0])
+    return loops
+
+
+def signed_areas(loops: FloatArray) -> FloatArray:
+    """Signed areas of plane loops, (n,) from (n, k, 2)."""
+    to = loops - loops[:, :1]
+    after = np.roll(to, -1, axis=1)
+    return np.asarray((to[..., 0] * after[..., 1] - to[..., 1] * after[..., 0]).sum(axis=1) / 2)

@@ -1,0 +1,51 @@
+"""Loads on a tilting table: gravity turns, seen from the structure.
+
+The table turns about the axis k by the angle t; in the axes of the structure gravity g turns back by it (Rodrigues),
+
+    g(t) = (g · k) k + cos t (g - (g · k) k) - sin t k × g
+
+so that the load of every block is fixed + cos t turning + sin t across. Only gravity turns: forces, pressures and
+accelerations keep their direction in the structure, as if they turned with the table.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from mbla.arrays import FloatArray
+from mbla.deck.tree import KeyPath
+from mbla.deck.types import Tilt as TiltSection
+from mbla.model.loads.blocks_under import unit
+from mbla.model.loads.load_kind import LoadSite
+from mbla.model.loads.mass_forces import mass_forces
+from mbla.model.loads.named_loads import Entry
+from mbla.model.model import Tilt
+
+ALONG = 1e-9
+"""share of gravity across the axis, below which the axis counts as parallel to it"""
+
+
+def tilt_loads(load: TiltSection, dead: Sequence[Entry], dead_total: FloatArray, path: KeyPath, site: LoadSite) -> Tilt:
+    """What turns of the dead load, and how; a fault where nothing does."""
+    axis = unit(np.array(load.axis))
+    gravity = np.zeros(3)
+    others = False
+    for entry in dead:
+        if entry.load.gravity is not None:
+            gravity += entry.factor * np.array(entry.load.gravity)
+        else:
+            others = True
+    level = gravity - (gravity @ axis) * axis
+    everywhere = np.arange(len(site.blocks))
+    turning = mass_forces(everywhere, level, site)
+    across = mass_forces(everywhere, -np.cross(axis, gravity), site)
+    if np.linalg.norm(level) <= ALONG * np.linalg.norm(gravity):
+        what = "gravity lies along the axis" if gravity.any() else "there is no gravity among the dead loads"
+        site.refuse((*path, "live", 0, "tilt"), f"nothing turns: {what}")
+    if others:
+        name = path[-1]
+        message = f"{name}: only gravity turns; the other dead loads keep their direction in the structure"
+        site.warn("tilt-turns-gravity-only", message)
+    return Tilt(axis, dead_total - turning, turning, across)

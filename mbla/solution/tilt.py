@@ -1,0 +1,177 @@
+"""Tilting table: the angle at which the structure collapses.
+
+Where joints have no strength but friction and only gravity acts, the size of the loads does not matter: the level
+structure with the live load ``across`` has the tangent of the angle for its load factor, in one go.
+
+Else the loads of the angle t itself must be those at collapse. Of an angle t the load factor λ of the line from the
+level loads to those at t is found; λ < 1 says that t is too large. Associative flow: its mechanism gives a line that no
+load that can be borne passes (:mod:`mbla.solution.tilt_circle`), and the table leaves it at the next angle. All these
+angles are too large, and they fall to the angle of collapse as Newton's method does, or in one step where a straight
+part of the limit decides. Other flow: λ = 1 is found by secants, as nothing bounds the loads that are borne.
+
+What the limit cuts off between the level table and the angle found would be a collapse before it. It is ruled out if
+the level table bears tan(t/2) times the load across: the tangents of the circle at both ends meet there.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import TypeAlias
+
+import numpy as np
+
+from mbla.contacts.contacts import Contacts
+from mbla.model.model import LoadCase, Model, Tilt
+from mbla.solution.solution import Checks, Mechanics, Solution, Status
+from mbla.solution.tilt_circle import chord, line_of
+
+Ask: TypeAlias = Callable[[LoadCase], tuple[Solution, Checks]]
+"""Solve and verify a load case."""
+
+ENDED = 1e-9
+"""distance of the load factor from 1 at which the angle is that of collapse: below what the bounds resolve"""
+SETTLED = 1e-10
+"""change of the angle in radians below which steps go round in rounding"""
+GOOD = 1e-6
+"""distance of the load factor from 1 up to which the case may be called solved"""
+MOST_STEPS = 16
+"""steps; Newton's method takes 3 to 6, secants about as many"""
+PROBES = (0.5 * math.pi, 0.75 * math.pi, math.pi)
+"""angles tried where the load across alone, from the level table, brings nothing down"""
+BETWEEN = 8
+"""angles tried before the one found where nothing proves that the table gets there"""
+
+WITH_VALUE = (Status.SOLVED, Status.APPROXIMATE)
+
+
+@dataclass(frozen=True)
+class Answer:
+    """What was asked last, and what came of it."""
+
+    load_case: LoadCase
+    solution: Solution
+    checks: Checks
+
+    @property
+    def bounding(self) -> Mechanics | None:
+        """The mechanism that bounds the loads, with a load factor that holds."""
+        return self.solution.associative
+
+    @property
+    def load_factor(self) -> float:
+        """By the flow rule of the analysis; inf where no multiple brings it down, nan where there is none."""
+        if self.solution.status is Status.UNBOUNDED:
+            return math.inf
+        known = self.solution.mechanics is not None and self.solution.status in WITH_VALUE
+        return self.solution.mechanics.load_factor if known and self.solution.mechanics is not None else math.nan
+
+    def next_angle(self, tilt: Tilt) -> float:
+        """Angle that the mechanism bounds, inf where it bounds none."""
+        found = self.bounding
+        return math.inf if found is None else line_of(tilt, found, found.load_factor).first_crossing()
+
+
+def only_direction_counts(model: Model, contacts: Contacts, tilt: Tilt) -> bool:
+    """Whether loads can be borne in any multiple if in one: no strength but friction, and nothing but gravity."""
+    laws = [model.joints[name] for name in contacts.joint_names]
+    strength = any(law.cohesion or law.tensile_strength or math.isfinite(law.compressive_strength) for law in laws)
+    size = float(np.abs(tilt.turning).max(initial=0.0))
+    return not strength and float(np.abs(tilt.fixed[model.free]).max(initial=0.0)) <= 1e-12 * size
+
+
+def solve_tilt(model: Model, contacts: Contacts, load_case: LoadCase, ask: Ask) -> Answer:
+    """The angle of collapse, in ``tilt.angle`` or as tangent by the load factor, with the loads and forces there."""
+    tilt = load_case.tilt
+    assert tilt is not None  # that is why it is asked for
+    tangent = only_direction_counts(model, contacts, tilt)
+    level = Answer(replace(load_case, tilt=replace(tilt, tangent=tangent)), *ask(load_case))
+    if math.isnan(level.load_factor) or (tangent and math.isfinite(level.load_factor)):
+        return level
+    upright = math.inf if level.solution.status is Status.UNBOUNDED else level.checks.static_bound
+    search = _Search(load_case, replace(tilt, tangent=False, upright=upright), ask)
+    start = level.next_angle(tilt)
+    found = search.from_angle(start) if start < math.pi else search.from_probes()
+    return search.with_words(search.before(found))
+
+
+class _Search:
+    """Answers at one angle after the other."""
+
+    def __init__(self, load_case: LoadCase, tilt: Tilt, ask: Ask) -> None:
+        self.load_case, self.tilt, self.ask = load_case, tilt, ask
+        self.angles: list[float] = []
+        self.seconds = 0.0
+
+    def at(self, angle: float) -> Answer:
+        """The answer of the line from the level loads to those at an angle."""
+        tilt = replace(self.tilt, angle=math.degrees(angle))
+        case = replace(self.load_case, live_load=chord(tilt, angle), tilt=tilt)
+        answer = Answer(case, *self.ask(case))
+        self.angles.append(angle)
+        self.seconds += answer.solution.seconds
+        return answer
+
+    def from_probes(self) -> Answer:
+        """From the first of some angles that is too large; the last of them where none is."""
+        for angle in PROBES:
+            answer = self.at(angle)
+            if not answer.load_factor > 1.0:
+                start = answer.next_angle(self.tilt)
+                return self.from_angle(min(start, angle)) if math.isfinite(answer.load_factor) else answer
+        return answer
+
+    def from_angle(self, angle: float) -> Answer:
+        """Down to the angle whose load factor is 1, from one that is too large."""
+        steps: list[tuple[float, float]] = []
+        for _ in range(MOST_STEPS):
+            answer = self.at(angle)
+            factor = answer.load_factor
+            if not math.isfinite(factor) or abs(factor - 1.0) <= ENDED:
+                return answer
+            steps.append((angle, factor))
+            following = self._next(answer, steps)
+            if not 0.0 < following < math.pi or abs(following - angle) <= SETTLED:
+                return answer
+            angle = following
+        return answer
+
+    def _next(self, answer: Answer, steps: list[tuple[float, float]]) -> float:
+        angle, factor = steps[-1]
+        if answer.solution.flow_rule == "associative":
+            return answer.next_angle(self.tilt)
+        if len(steps) > 1 and steps[-2][1] != factor:
+            before, other = steps[-2]
+            return angle + (1.0 - factor) * (angle - before) / (factor - other)
+        own = answer.solution.mechanics
+        return math.inf if own is None else line_of(self.tilt, own, factor).first_crossing()
+
+    def before(self, found: Answer) -> Answer:
+        """The same, or an earlier collapse where nothing proves that the table gets so far."""
+        angle = math.radians(found.load_case.tilt.angle) if found.load_case.tilt is not None else math.nan
+        if not found.load_factor <= 1.0 + GOOD or self.tilt.upright >= math.tan(angle / 2.0):
+            return found
+        for step in range(1, BETWEEN):
+            answer = self.at(angle * step / BETWEEN)
+            if answer.load_factor < 1.0 - GOOD:
+                return self.from_angle(answer.next_angle(self.tilt))
+        return found
+
+    def with_words(self, found: Answer) -> Answer:
+        """With what a reader must know of the search."""
+        solution, tilt = found.solution, found.load_case.tilt
+        assert tilt is not None  # every answer has one
+        degrees = ", ".join(f"{math.degrees(angle):.7g}" for angle in self.angles)
+        words = [f"The load factor is that of the change of the loads from the level table; angles tried: {degrees}"]
+        angle, factor = math.radians(tilt.angle), found.load_factor
+        if factor > 1.0 + GOOD:
+            words.append(f"It does not collapse at any of these angles up to {tilt.angle:g} degrees")
+            tilt = replace(tilt, angle=math.nan)
+        elif abs(factor - 1.0) > GOOD and solution.status is Status.SOLVED:
+            reason = f"the angle did not settle: its load factor differs from 1 by {abs(factor - 1.0):.1e}"
+            solution = replace(solution, status=Status.APPROXIMATE, reason=reason)
+        elif self.tilt.upright < math.tan(angle / 2.0):
+            words.append(f"That it does not collapse before was seen at {BETWEEN - 1} angles, not proved")
+        solution = replace(solution, remarks=(*solution.remarks, *words), seconds=self.seconds)
+        return Answer(replace(found.load_case, tilt=tilt), solution, found.checks)

@@ -1,0 +1,69 @@
+"""The unit circle of a tilting table, and the lines that bound the loads it can bear.
+
+Loads fixed + a turning + b across make a plane (a, b); the table goes along the circle (cos t, sin t) from (1, 0). The
+loads that can be borne are a convex set of the plane. A mechanism u with the load factor λ of the line from (1, 0) to
+a point (a, b) says that p a + q b <= p + λ on that set, where p = turning · u, q = across · u and the live load, the
+difference of the loads at both ends of the line, has the power 1 (limit theorems; Drucker, Prager and Greenberg 1952).
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from mbla.arrays import FloatArray
+from mbla.model.model import Tilt
+from mbla.solution.solution import Mechanics
+
+FULL_TURN = 2.0 * math.pi
+STEEPEST = 1e6
+"""multiple of the load across that stands for every multiple; a right angle to 1e-6"""
+
+
+@dataclass(frozen=True)
+class Line:
+    """p a + q b <= limit for all loads that can be borne."""
+
+    p: float
+    q: float
+    limit: float
+
+    def first_crossing(self) -> float:
+        """Angle at which the circle leaves the half-plane, from 0 to 2π; inf where it never does."""
+        size = math.hypot(self.p, self.q)
+        if not size > self.limit:
+            return math.inf
+        return (math.atan2(self.q, self.p) - math.acos(max(-1.0, self.limit / size))) % FULL_TURN
+
+
+def line_of(tilt: Tilt, mechanics: Mechanics, load_factor: float) -> Line:
+    """The line of a mechanism; ``load_factor`` the one that it is good for."""
+    p = float((tilt.turning * mechanics.mechanism).sum())
+    q = float((tilt.across * mechanics.mechanism).sum())
+    return Line(p, q, p + load_factor)
+
+
+def chord(tilt: Tilt, angle: float) -> FloatArray:
+    """Live load that leads from the level table to an angle in radians, (n_blocks, 6)."""
+    # 1 - cos t without cancellation
+    lowered = 2.0 * math.sin(angle / 2.0) ** 2
+    return math.sin(angle) * tilt.across - lowered * tilt.turning
+
+
+def angle_above(upright: float, share: float, angle: float) -> float:
+    """Angle up to which the circle is proved to be borne, in radians; nan where nothing is.
+
+    The corners of the proof are (1, 0), (1, ``upright``) and the point at ``share`` of the chord from (1, 0) to the
+    circle at ``angle``: what lies between them is borne. The circle leaves them on the side between the last two.
+    """
+    top = min(upright, STEEPEST)
+    if not (0.0 < angle < math.pi and top >= math.tan(angle / 2.0) and share > 0.0):
+        return math.nan
+    if share >= 1.0:
+        return angle
+    a, b = 1.0 - share * (1.0 - math.cos(angle)), share * math.sin(angle)
+    # |(a, b) + s (1 - a, top - b)| = 1, the lesser s above 0
+    run, rise = 1.0 - a, top - b
+    square, half, rest = run**2 + rise**2, a * run + b * rise, a**2 + b**2 - 1.0
+    s = (-half + math.sqrt(max(half**2 - square * rest, 0.0))) / square
+    return math.atan2(b + s * rise, a + s * run)

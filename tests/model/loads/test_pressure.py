@@ -1,0 +1,157 @@
+"""Pressure on faces: resultants of hydrostatics, Archimedes, and faces that other blocks cover."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from mbla.arrays import FloatArray
+from mbla.errors import DeckError
+from mbla.model import build_model
+from mbla.model.model import Model
+from tests.model.shapes import deck
+
+DAM = ["box: {group: dam, material: stone, min: [0, 0, 0], max: [2, 3, 4]}"]
+WEDGE = [
+    "polyhedron: {group: wedge, material: stone, vertices: [[0,0,0],[2,0,0],[0,1,0],[0.4,0.3,1.5]], "
+    "faces: [[0,2,1],[0,1,3],[1,2,3],[2,0,3]]}"
+]
+GROUND = "[{ground: {z: 0}}]"
+FIXED = "[{blocks: held}]"
+HELD = "box: {group: held, material: stone, min: [90, 90, 90], max: [91, 91, 91]}"
+
+
+def model(folder: Path, pressure: str, blocks: list[str], supports: str = GROUND, more: str = "") -> Model:
+    loads = f"dead: [{{pressure: {{{pressure}}}{more}}}], live: [{{acceleration: [1, 0, 0]}}]"
+    return build_model(deck(folder, blocks, supports, loads))
+
+
+def refused(folder: Path, pressure: str, blocks: list[str]) -> str:
+    with pytest.raises(DeckError) as caught:
+        model(folder, pressure, blocks)
+    assert len(caught.value.faults) == 1
+    return caught.value.faults[0].message
+
+
+def load_about(model: Model, point: list[float]) -> FloatArray:
+    """Force and moment of the dead load about a point."""
+    load = model.load_cases[0].dead_load
+    moments = load[:, 3:] + np.cross(model.blocks.centroids - np.array(point), load[:, :3])
+    return np.concatenate([load[:, :3].sum(axis=0), moments.sum(axis=0)])
+
+
+@pytest.mark.parametrize(("level", "depth"), [(4.0, 4.0), (3.0, 3.0), (0.7, 0.7), (9.0, None)])
+def test_water_against_a_dam(tmp_path: Path, level: float, depth: float | None) -> None:
+    """γ h² b / 2 at a third of the depth; with water above the crest the trapezium."""
+    found = load_about(model(tmp_path, f"normal: [-1, 0, 0], level: {level}, per_depth: 10000", DAM), [0, 0, 0])
+    if depth is not None:
+        force, arm = 10000 * depth**2 / 2 * 3, depth / 3
+    else:
+        force, arm = 10000 * (9 + 5) / 2 * 4 * 3, 4 / 3 * (2 * 5 + 9) / (5 + 9)
+    assert found == pytest.approx([force, 0, 0, 0, force * arm, -force * 1.5], rel=1e-12, abs=1e-7)
+
+
+def test_uniform_pressure_and_surcharge_below_a_level(tmp_path: Path) -> None:
+    plain = load_about(model(tmp_path, "normal: [-1, 0, 0], value: 500", DAM), [0, 0, 0])
+    assert plain == pytest.approx([500 * 12, 0, 0, 0, 500 * 12 * 2, -500 * 12 * 1.5], rel=1e-12)
+    cut = load_about(model(tmp_path, "normal: [-1, 0, 0], value: 500, level: 2.5", DAM), [0, 0, 0])
+    assert cut == pytest.approx([500 * 7.5, 0, 0, 0, 500 * 7.5 * 1.25, -500 * 7.5 * 1.5], rel=1e-12)
+    suction = load_about(model(tmp_path, "normal: [-1, 0, 0], value: -500", DAM), [0, 0, 0])
+    assert suction == pytest.approx(-plain)
+
+
+@pytest.mark.parametrize("level", [0.6, 1.5, 4.0])
+def test_archimedes(tmp_path: Path, level: float) -> None:
+    """Water all around lifts a body by the weight of what it displaces, at the centroid of the part below the level."""
+    found = model(tmp_path, f"level: {level}, per_depth: 7", [*WEDGE, HELD], FIXED, ", on: wedge")
+    volume = 0.5 * (1 - max(0.0, 1 - level / 1.5) ** 3)
+    force = load_about(found, [0, 0, 0])[:3]
+    assert force == pytest.approx([0, 0, 7 * volume], rel=1e-12, abs=1e-12)
+    if level >= 1.5:
+        assert found.load_cases[0].dead_load[0, 3:] == pytest.approx(np.zeros(3), abs=1e-12)
+
+
+def test_an_l_shaped_face_and_its_moment(tmp_path: Path) -> None:
+    """A face that is not convex: an L of area 3, centroid (5/6, 5/6), pushed down by 2 Pa."""
+    ell = (
+        "polyhedron: {group: ell, material: stone, vertices: [[0,0,0],[2,0,0],[2,1,0],[1,1,0],[1,2,0],[0,2,0],"
+        "[0,0,1],[2,0,1],[2,1,1],[1,1,1],[1,2,1],[0,2,1]], faces: [[5,4,3,2,1,0],[6,7,8,9,10,11],[0,1,7,6],[1,2,8,7],"
+        "[2,3,9,8],[3,4,10,9],[4,5,11,10],[5,0,6,11]]}"
+    )
+    found = load_about(model(tmp_path, "normal: [0, 0, 1], value: 2", [ell]), [0, 0, 0])
+    assert found == pytest.approx([0, 0, -6, -6 * 5 / 6, 6 * 5 / 6, 0], rel=1e-12)
+    # a box on one arm of the L leaves the rest of it free: two squares
+    top = "box: {group: top, material: stone, min: [1, 0, 1], max: [2, 1, 2]}"
+    both = model(tmp_path, "normal: [0, 0, 1], value: 2", [ell, top], more=", on: ell")
+    assert load_about(both, [0, 0, 0]) == pytest.approx([0, 0, -4, -4, 2, 0], rel=1e-12)
+    assert [notice.identifier for notice in both.notices] == ["pressure-on-part-of-face"]
+
+
+def test_no_pressure_between_blocks(tmp_path: Path) -> None:
+    """A wall in water: on its joints there is none, so that only its outside counts, which is closed save the foot."""
+    wall = ["wall: {group: wall, material: stone, unit: [0.4, 0.2, 0.2], length: 2.0, courses: 4}"]
+    found = model(tmp_path, "value: 1", wall)
+    # the pressure on the closed outside adds up to nothing; that on the foot, 0.4 m2, is missing
+    assert load_about(found, [1, 0.1, 0]) == pytest.approx([0, 0, -0.4, 0, 0, 0], abs=1e-12)
+    everywhere = model(tmp_path, "value: 1, faces: all", wall).load_cases[0].dead_load
+    assert everywhere == pytest.approx(np.zeros_like(everywhere), abs=1e-12)
+    assert not found.notices
+
+
+def test_a_face_partly_covered_by_two_blocks(tmp_path: Path) -> None:
+    blocks = [
+        "box: {group: slab, material: stone, min: [0, 0, 0], max: [10, 2, 1]}",
+        "box: {group: post, material: stone, min: [1, 0, 1], max: [2, 1, 3]}",
+        "box: {group: post, material: stone, min: [9, 1, 1], max: [11, 3, 3]}",
+    ]
+    found = model(tmp_path, "normal: [0, 0, 1], value: 1", blocks, more=", on: slab").load_cases[0].dead_load
+    # free: 20 - 1 - 1; moments of the two squares at (1.5, 0.5) and (9.5, 1.5) about the middle (5, 1)
+    expected = -np.cross([1.5 - 5, 0.5 - 1, 0.5], [0, 0, -1]) - np.cross([9.5 - 5, 1.5 - 1, 0.5], [0, 0, -1])
+    assert found[0, 2] == pytest.approx(-18)
+    assert found[0, 3:] == pytest.approx(expected, abs=1e-12)
+
+
+def test_box_and_angle_choose_faces(tmp_path: Path) -> None:
+    blocks = ["wall: {group: wall, material: stone, unit: [0.4, 0.2, 0.2], length: 2.0, courses: 4}"]
+    words = "normal: [0, -1, 0], value: 1, box: [[-1, -1, 0.4], [3, 1, 0.8]]"
+    found = load_about(model(tmp_path, words, blocks), [0, 0, 0])
+    assert found[1] == pytest.approx(0.8, rel=1e-12)
+    arch = [
+        "arch: {group: arch, material: stone, shape: semicircular, span: 4, thickness: 0.4, width: 1, voussoirs: 18, "
+        "springers: ground}"
+    ]
+    # joints are radial every 10 degrees, outer faces at 5, 15, ... from the crown on either side
+    for within, faces in ((4.9, 0), (5.1, 2), (40, 8), (89, 18)):
+        pressure = f"normal: [0, 0, 1], within: {within}, value: 1"
+        if faces:
+            words = model(tmp_path, pressure, arch, "[]").load_cases[0].dead_words[0]
+            assert f"on {faces} faces" in words
+        else:
+            with pytest.raises(DeckError, match="no face of these blocks lies so"):
+                model(tmp_path, pressure, arch, "[]")
+
+
+def test_pressure_on_nothing(tmp_path: Path) -> None:
+    assert refused(tmp_path, "normal: [0, 1, 1], value: 5", DAM) == (
+        "no face of these blocks lies so: a normal within 10 degrees of (0, 1, 1)"
+    )
+    assert refused(tmp_path, "normal: [0, 0, -1], value: 5", DAM) == (
+        "other blocks or the ground cover all of these faces; faces: all loads them all the same"
+    )
+    assert refused(tmp_path, "normal: [-1, 0, 0], level: -1, per_depth: 5", DAM) == (
+        "all of these faces lie above its level, z = -1, or are covered by other blocks"
+    )
+
+
+@pytest.mark.parametrize(("units", "length", "force"), [("length: mm, force: kN, mass: t", 1e3, 1e-3)])
+def test_units(tmp_path: Path, units: str, length: float, force: float) -> None:
+    metres = load_about(model(tmp_path, "normal: [-1, 0, 0], level: 3, per_depth: 10000", DAM), [0, 0, 0])
+    size = [each * length for each in (2, 3, 4)]
+    box = [f"box: {{group: dam, material: stone, min: [0, 0, 0], max: {size}}}"]
+    pressure = "pressure: {normal: [-1, 0, 0], level: 3 m, per_depth: 10 kN/m^3}"
+    text = f"dead: [{{{pressure}}}], live: [{{acceleration: [1, 0, 0]}}]"
+    found = load_about(build_model(deck(tmp_path, box, GROUND, text, units)), [0, 0, 0])
+    assert found[:3] == pytest.approx(metres[:3] * force, abs=1e-9)
+    assert found[3:] == pytest.approx(metres[3:] * force * length, abs=1e-6)

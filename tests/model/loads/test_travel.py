@@ -1,0 +1,89 @@
+"""Travelling loads: one load case for each position, on the block under it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from mbla.errors import DeckError
+from mbla.model import build_model
+from mbla.model.model import Model
+from tests.model.loads.test_line import TWO_STOREYS
+from tests.model.shapes import deck
+
+ROW = [f"box: {{group: row, material: stone, min: [{x}, 0, 0], max: [{x + 1}, 1, 1]}}" for x in range(4)]
+GROUND = "[{ground: {z: 0}}]"
+
+
+def model(folder: Path, travel: str, blocks: list[str], more: str = "", supports: str = GROUND) -> Model:
+    return build_model(deck(folder, blocks, supports, f"live: [{{travel: {{{travel}}}{more}}}]"))
+
+
+def refused(folder: Path, travel: str, blocks: list[str], supports: str = GROUND) -> str:
+    with pytest.raises(DeckError) as caught:
+        model(folder, travel, blocks, supports=supports)
+    assert len(caught.value.faults) == 1
+    return caught.value.faults[0].message
+
+
+def test_a_load_case_for_each_position(tmp_path: Path) -> None:
+    path = "force: [0, 0, -10], path: [[0.5, 0.5, 1], [2.5, 0.5, 1], [2.5, 0.5, 2], [3.5, 0.5, 2]], positions: 11"
+    found = model(tmp_path, path, ROW).load_cases
+    assert [case.name for case in found] == [f"push@{number:02d}" for number in range(1, 12)]
+    places = [case.travel for case in found if case.travel is not None]
+    assert [place.distance for place in places] == pytest.approx(np.linspace(0, 4, 11))
+    assert places[6].point == pytest.approx([2.5, 0.5, 1.4])
+    assert [place.block for place in places] == [0, 0, 1, 1, 2, 2, 2, 2, 2, 3, 3]
+    assert found[1].live_load[0] == pytest.approx([0, 0, -10, 0, 4, 0])
+    assert found[1].live_words == ("force (0, 0, -10) N at (0.9, 0.5, 1) m on row[0], position 2 of 11",)
+    assert (found[1].dead_load == found[0].dead_load).all()
+
+
+def test_other_live_loads_and_factors_act_at_every_position(tmp_path: Path) -> None:
+    loads = (
+        "live: [{acceleration: [1, 0, 0]}, {travel: {force: [0, 0, -10], path: [[0.5, 0.5, 1], [3.5, 0.5, 1]], "
+        "positions: 4}, factor: 2}]"
+    )
+    for number, case in enumerate(build_model(deck(tmp_path, ROW, GROUND, loads)).load_cases):
+        assert case.live_load[:, 0] == pytest.approx(9.81 * 2000 * np.ones(4))
+        assert case.live_load[:, 2].tolist() == [-20.0 * (block == number) for block in range(4)]
+
+
+def test_it_lands_on_the_floor_it_is_drawn_on(tmp_path: Path) -> None:
+    for z, block in ((1, 0), (2.9, 0), (3.2, 3), (4, 3), (8, 3)):
+        travel = f"force: [0, 0, -1], path: [[1.1, 0.5, {z}], [1.9, 0.5, {z}]], positions: 2"
+        found = model(tmp_path, travel, TWO_STOREYS)
+        assert [case.travel.block for case in found.load_cases if case.travel] == [block, block], z
+    below = "force: [0, 0, -1], path: [[1.1, 0.5, 9], [1.9, 0.5, 9]], positions: 2"
+    found = model(tmp_path, below, TWO_STOREYS, ", on: lower")
+    assert [case.travel.block for case in found.load_cases if case.travel] == [0, 0]
+
+
+def test_on_an_edge_and_on_a_corner(tmp_path: Path) -> None:
+    """The ends of paths often lie on edges: 0 and 4 are the ends of the row, y = 0 its side, x = 1 a joint."""
+    found = model(tmp_path, "force: [0, 0, -1], path: [[0, 0, 1], [4, 0, 1]], positions: 5", ROW)
+    assert [case.travel.block for case in found.load_cases if case.travel] == [0, 0, 1, 2, 3]
+
+
+def test_against_gravity_and_sideways(tmp_path: Path) -> None:
+    path = "force: [5, 0, 0], path: [[-1, 0.5, 0.2], [-1, 0.5, 0.8]], positions: 3, towards: [1, 0, 0]"
+    assert [case.travel.block for case in model(tmp_path, path, ROW).load_cases if case.travel] == [0, 0, 0]
+
+
+def test_positions_over_no_block_are_named(tmp_path: Path) -> None:
+    path = "force: [0, 0, -1], path: [[-0.5, 0.5, 1], [4.5, 0.5, 1]], positions: 11"
+    assert refused(tmp_path, path, ROW) == (
+        "position 1 of 11, at (-0.5, 0.5, 1) m, and 1 more lie over no block; change the path, or look for blocks in "
+        "another direction with towards"
+    )
+
+
+def test_a_position_on_a_fixed_block(tmp_path: Path) -> None:
+    blocks = [*ROW, "box: {group: abutment, material: stone, min: [4, 0, 0], max: [5, 1, 1]}"]
+    path = "force: [0, 0, -1], path: [[0.5, 0.5, 1], [4.5, 0.5, 1]], positions: 5"
+    assert refused(tmp_path, path, blocks, "[{blocks: abutment}, {ground: {z: 0}}]") == (
+        "force (0, 0, -1) N at (4.5, 0.5, 1) m on abutment[0], position 5 of 5 has no effect: the block does not move; "
+        "change the path"
+    )

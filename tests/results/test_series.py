@@ -1,0 +1,131 @@
+"""Travelling loads and tilting tables from the deck to the files and back."""
+
+from __future__ import annotations
+
+import json
+import math
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from mbla.errors import UsageError
+from mbla.expected import differences
+from mbla.results.hdf5 import read_results_hdf5
+from mbla.results.json_record import json_line, results_json
+from mbla.results.listing import listing
+from mbla.results.results import Results
+from mbla.results.series import factor_of, series_of
+from mbla.results.summary import summary_lines
+from mbla.results.tilt_angle import angle_bounds, angle_of
+from mbla.run import RunOptions, exit_code, run
+from mbla.solution.solution import Status
+from mbla.verify_file import verify_results
+
+DECK = """mbla: 1
+materials: {stone: {unit_weight: 25000}}
+joints: {dry: {friction: 0.6}, mortar: {friction: 0.6, cohesion: 100}}
+blocks:
+  - box: {group: pier, material: stone, min: [2, 0, 0], max: [2.5, 0.5, 2]}
+  - box: {group: pier, material: stone, min: [5.5, 0, 0], max: [6, 0.5, 2]}
+  - box: {group: beam, material: stone, min: [0, 0, 2], max: [8, 0.5, 2.4]}
+contacts: {joint: JOINT}
+supports: [{blocks: pier}]
+load_cases:
+  crane: {live: [{travel: {force: [0, 0, -10000], path: [[8, 0.25, 3], [0, 0.25, 3]], positions: 5}}]}
+  table: {live: [{tilt: {axis: [0, 1, 0]}}]}
+analysis: {flow_rule: associative}
+output: {vtu: false}
+expected:
+  crane: {load_factor: 4, position: 1, status: solved, source: closed form}
+  table: {angle: 30.963757, source: closed form}
+"""
+
+
+@pytest.fixture(scope="module", params=["dry", "mortar"])
+def folder(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    path = tmp_path_factory.mktemp("series")
+    (path / "beam.yaml").write_text(DECK.replace("JOINT", request.param), encoding="utf-8")
+    return path
+
+
+@pytest.fixture(scope="module")
+def results(folder: Path) -> Results:
+    return run(folder / "beam.yaml", RunOptions())
+
+
+def test_a_load_factor_for_each_position_and_the_worst(results: Results) -> None:
+    (series,) = series_of(results.cases)
+    assert series.complete
+    assert [case.load_case.name for case in series.cases] == [f"crane@{number}" for number in range(1, 6)]
+    assert factor_of(series.cases[0]) == pytest.approx(4, rel=1e-2)
+    assert math.isinf(factor_of(series.cases[2]))
+    assert series.worst is series.cases[0]  # of equal ones the first
+
+
+def test_positions_without_collapse_are_no_failure(results: Results) -> None:
+    assert [case.status for case in results.cases[:5]].count(Status.UNBOUNDED) == 3
+    assert results.exit_code == 0
+    assert exit_code(results.cases[1:4]) == 5
+
+
+def test_the_worst_is_not_claimed_where_a_position_has_no_result(results: Results) -> None:
+    cases = (results.cases[0], replace(results.cases[4], status=Status.NOT_VERIFIED))
+    (series,) = series_of(cases)
+    assert series.worst is None
+    assert not series.complete
+    lines = " ".join(" ".join(summary_lines(replace(results, cases=cases))).split())
+    assert "the worst position is not known, for there is no load factor at crane@5" in lines
+
+
+def test_listing_json_and_file_say_the_same(results: Results, folder: Path) -> None:
+    record = json.loads(json_line(results_json(results)))
+    (series,) = record["series"]
+    assert series["worst"]["case"] == "crane@1"
+    assert series["worst"]["point"] == [8.0, 0.25, 3.0]
+    assert [position["status"] for position in series["positions"]][1:4] == ["unbounded"] * 3
+    assert series["positions"][2]["load_factor"] is None
+    case = record["cases"][-1]
+    assert case["angle_bounds"][0] <= case["angle"] * (1 + 1e-9)
+    assert case["angle_bounds"][1] >= case["angle"] * (1 - 1e-9)
+    assert all(each["angle"] is None and each["angle_bounds"] is None for each in record["cases"][:5])
+    text = " ".join(listing(results).split())
+    assert "Travelling load crane" in text
+    assert "worst at position 1 of 5, at (8, 0.25, 3) m" in text
+    assert "degrees of tilt, verified" in text
+    again = read_results_hdf5(folder / "beam.out" / "beam.h5")
+    assert json.loads(json_line(results_json(again))) == record
+    assert verify_results(again)[1] == ()
+
+
+def test_the_angle(results: Results) -> None:
+    angle = angle_of(results.cases[-1])
+    if "mortar" in results.model.joints and results.contacts.joint_names == ("mortar",):
+        # W sin t = mu W cos t + c A with W/A = 25000 * 8 * 0.2/0.5 on the two heads of the piers
+        expected = math.atan(0.6) + math.asin(100 * 0.5 * math.cos(math.atan(0.6)) / (25000 * 8 * 0.5 * 0.4))
+    else:
+        expected = math.atan(0.6)
+    assert angle == pytest.approx(math.degrees(expected), rel=1e-8)
+    low, high = angle_bounds(results.cases[-1])
+    assert low <= math.degrees(expected) * (1 + 1e-10)
+    assert high >= math.degrees(expected) * (1 - 1e-10)
+
+
+def test_what_differs_from_what_is_expected(results: Results, folder: Path) -> None:
+    from mbla.deck import read_deck
+
+    expected = read_deck(folder / "beam.yaml").content.expected
+    strict = results.contacts.joint_names == ("dry",)
+    assert (differences(results.cases, expected) == []) == strict
+    other = {name: item.model_copy(update={"position": 3, "angle": 40.0}) for name, item in expected.items()}
+    found = differences(results.cases, other)
+    assert "crane: worst at position 1, expected 3 (closed form)" in found
+    assert any(text.startswith("table: angle 3") and "expected 40" in text for text in found)
+    assert "crane: not every position was solved (closed form)" in differences(results.cases[:2], expected)
+
+
+def test_cases_by_name(folder: Path) -> None:
+    one = run(folder / "beam.yaml", RunOptions(cases=("crane@5",), force=True))
+    assert [case.load_case.name for case in one.cases] == ["crane@5"]
+    with pytest.raises(UsageError, match="it has crane, table"):
+        run(folder / "beam.yaml", RunOptions(cases=("crane@9",), force=True))

@@ -1,0 +1,148 @@
+"""Angle of collapse of a tilting table against closed forms, and against tilted gravity without any table."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import pytest
+
+from mbla.model.model import LoadCase
+from mbla.program import assemble
+from mbla.solution import Status, verified_status, verify
+from mbla.solution.solution import Checks, Solution
+from mbla.solution.tilt import Answer, solve_tilt
+from mbla.solution.verify_tilt import tilt_failures
+from tests.line import line_of, solution_of
+
+BLOCK = """mbla: 1
+units: {length: %(length)s, force: %(force)s, mass: %(mass)s}
+parameters: {mu: 0.4, c: 0.0, f: 0.0, w: 20000, m: %(m)s, s: %(s)s}
+materials: {stone: {unit_weight: "=w*s/m**3"}}
+joints: {bed: {friction: "=mu", cohesion: "=c*s/m**2", tensile_strength: "=f*s/m**2"}}
+blocks: [{box: {group: block, material: stone, min: [0, 0, 0], max: ["=3*m", "=0.9*m", "=2.2*m"]}}]
+contacts: {joint: bed}
+supports: [{ground: {z: 0}}]
+load_cases: {turn: {live: [{tilt: {axis: [0, 1, 0]}}]}}
+analysis: {flow_rule: associative}
+"""
+METRES = BLOCK % {"length": "m", "force": "N", "mass": "kg", "m": "1", "s": "1"}
+MILLIMETRES = BLOCK % {"length": "mm", "force": "kN", "mass": "t", "m": "1000", "s": "0.001"}
+WALL = """mbla: 1
+parameters: {c: 3000, f: 1000, t: 0}
+materials: {stone: {density: 2000}}
+joints: {bed: {friction: 0.65, cohesion: "=c", tensile_strength: "=f"}}
+blocks: [{wall: {material: stone, unit: [0.4, 0.2, 0.175], length: 1.2, courses: 4}}]
+contacts: {joint: bed}
+supports: [{ground: {z: 0}}]
+load_cases:
+  turn: {live: [{tilt: {axis: [0, 1, 0]}}]}
+  slope: {dead: [{gravity: ["=9.81*sin(radians(t))", 0, "=-9.81*cos(radians(t))"]}], live: [{acceleration: [1, 0, 0]}]}
+analysis: {flow_rule: associative}
+"""
+
+
+def turned(text: str, *overrides: str) -> Answer:
+    line = line_of(text, *overrides)
+
+    def ask(case: LoadCase) -> tuple[Solution, Checks]:
+        program = assemble(line.model, line.contacts, case)
+        solution = solution_of(replace(line, load_case=case, program=program))
+        return solution, verify(line.model, line.contacts, case, solution)
+
+    answer = solve_tilt(line.model, line.contacts, line.load_case, ask)
+    checks = verify(line.model, line.contacts, answer.load_case, answer.solution)
+    return Answer(answer.load_case, answer.solution, checks)
+
+
+def angle(answer: Answer) -> float:
+    tilt = answer.load_case.tilt
+    assert tilt is not None
+    assert verified_status(answer.solution, answer.checks) is Status.SOLVED
+    return math.degrees(math.atan(answer.load_factor)) if tilt.tangent else tilt.angle
+
+
+@pytest.mark.parametrize("mu", [0.1, 0.4, 0.9])
+def test_dry_blocks_need_one_program_only(mu: float) -> None:
+    answer = turned(METRES, f"parameters.mu={mu}")
+    assert angle(answer) == pytest.approx(math.degrees(math.atan(mu)), rel=1e-8)
+    assert answer.load_case.tilt is not None
+    assert answer.load_case.tilt.tangent
+
+
+@pytest.mark.parametrize(("mu", "c"), [(0.4, 4000), (0.1, 25000), (0.0, 30000)])
+def test_cohesion(mu: float, c: float) -> None:
+    """W sin t = mu W cos t + c A, W/A = 44,000 N/m2; the tangent of the angle is no load factor here."""
+    expected = math.atan(mu) + math.asin(c / 44000 * math.cos(math.atan(mu)))
+    assert angle(turned(METRES, f"parameters.mu={mu}", f"parameters.c={c}")) == pytest.approx(
+        math.degrees(expected), rel=1e-8
+    )
+
+
+def test_units_do_not_matter() -> None:
+    overrides = ("parameters.c=4000", "parameters.f=2000")
+    assert angle(turned(MILLIMETRES, *overrides)) == pytest.approx(angle(turned(METRES, *overrides)), rel=1e-9)
+
+
+def test_beyond_the_vertical() -> None:
+    """Glued to its base, the block comes off in tension after the table has turned over: -W cos t = f A."""
+    expected = math.degrees(math.acos(-0.9))
+    answer = turned(METRES, "parameters.mu=0.01", "parameters.c=200000", "parameters.f=39600")
+    # the tilted block also bends the joint, which goes first: a bound from above, and beyond 90 degrees
+    assert 90 < angle(answer) < expected
+
+
+def test_a_wall_in_mortar_against_tilted_gravity() -> None:
+    """Just below the angle the wall stands under gravity tilted by it, just above it does not."""
+    found = angle(turned(WALL))
+    assert 10 < found < 80
+    for turn, status in ((found - 1e-3, Status.SOLVED), (found + 1e-3, Status.NO_EQUILIBRIUM)):
+        line = line_of(WALL, f"parameters.t={turn}", case=1)
+        assert solution_of(line).status is status, turn
+
+
+@pytest.mark.parametrize("rule", ["non_associative", "dilatancy"])
+def test_without_normality(rule: str) -> None:
+    """At or below the associative angle, with the load factor 1 there."""
+    associative = angle(turned(WALL))
+    answer = turned(WALL, f"analysis.flow_rule={rule}", "analysis.range=false")
+    assert abs(answer.load_factor - 1.0) <= 1e-6
+    assert angle(answer) <= associative + 1e-6
+
+
+def test_what_holds_at_every_angle_has_none() -> None:
+    answer = turned(METRES, "parameters.c=500000", "parameters.f=400000")
+    assert answer.load_case.tilt is not None
+    assert math.isnan(answer.load_case.tilt.angle)
+    assert answer.load_factor > 1.0
+    assert any("does not collapse" in remark for remark in answer.solution.remarks)
+
+
+def test_what_falls_while_level_has_none() -> None:
+    text = METRES.replace("max:", "transform: {rotate: {axis: [0, 1, 0], angle: 0}}, max:")
+    lean = text.replace("{live: [{tilt", "{dead: [{gravity: [6, 0, -9]}], live: [{tilt")
+    answer = turned(lean, "parameters.c=100")
+    assert answer.solution.status is Status.NO_EQUILIBRIUM
+    assert answer.load_case.tilt is not None
+    assert math.isnan(answer.load_case.tilt.angle)
+
+
+def test_crushing_on_the_way_is_not_passed_over() -> None:
+    """Gravity begins 30 degrees behind the vertical; as it comes upright the joint is crushed, long before 30 degrees
+    on the other side, where friction would give way. N = W cos u >= f_c A at u = acos(0.95), less for the lever arm of
+    the block, a thousandth of its length."""
+    text = METRES.replace("tensile_strength:", "compressive_strength: 19, tensile_strength:")
+    text = text.replace('"=2.2*m"', '"=0.001*m"').replace(
+        "{live: [{tilt", "{dead: [{gravity: [-4.905, 0, -8.4957]}], live: [{tilt"
+    )
+    answer = turned(text, "parameters.mu=0.9")
+    assert angle(answer) == pytest.approx(30 - math.degrees(math.acos(0.95)), abs=0.1)
+
+
+def test_a_false_angle_is_found_out() -> None:
+    answer = turned(METRES, "parameters.c=4000")
+    tilt = answer.load_case.tilt
+    assert tilt is not None
+    assert not tilt_failures(answer.load_case, answer.solution)
+    false = replace(answer.load_case, tilt=replace(tilt, angle=tilt.angle + 0.01))
+    assert len(tilt_failures(false, answer.solution)) == 1
