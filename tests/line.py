@@ -16,7 +16,7 @@ from mbla.program import Program, assemble
 from mbla.program.reductions import allowed_reductions, reduce_program
 from mbla.results.results import CaseResult
 from mbla.results.sta import StatusFile
-from mbla.run import contacts_of, solve_case
+from mbla.run import contacts_of, solve_case, with_settlements
 from mbla.solution import Checks, Solution, solve, verified_status, verify
 from mbla.solution.settings import solver_settings
 from mbla.solution.solution import Status
@@ -121,7 +121,8 @@ def case_of(text: str, *overrides: str, case: int = 0) -> tuple[Model, CaseResul
         contacts = contacts_of(deck, model)
         model = held_model(model, contacts)
         settings, status_file = solver_settings(deck.analysis), StatusFile(io.StringIO(), "test")
-        return model, solve_case(deck, model, contacts, model.load_cases[case], settings, status_file, None)
+        model, (load_case,) = with_settlements(model, contacts, (model.load_cases[case],), settings)
+        return model, solve_case(deck, model, contacts, load_case, settings, status_file, None)
 
 
 def factor_of(text: str, *overrides: str, case: int = 0) -> float:

@@ -97,8 +97,12 @@ class Solids:
         settlement = load_case.settlement
         if settlement is not None:
             settlement = replace(settlement, blocks=self.solid_of_block[settlement.blocks])
+        tilt = load_case.tilt
+        if tilt is not None:
+            fixed, turning, across = (self.loads(loads) for loads in (tilt.fixed, tilt.turning, tilt.across))
+            tilt = replace(tilt, fixed=fixed, turning=turning, across=across)
         dead, live = self.loads(load_case.dead_load), self.loads(load_case.live_load)
-        return replace(load_case, dead_load=dead, live_load=live, settlement=settlement)
+        return replace(load_case, dead_load=dead, live_load=live, settlement=settlement, tilt=tilt)
 
     def loads(self, loads: FloatArray) -> FloatArray:
         """Forces and moments on solids, (n_solids, 6), from those on blocks, (n_blocks, 6)."""

@@ -9,10 +9,11 @@ from mbla.contacts.broad_phase import find_block_pairs
 from mbla.contacts.contacts import Contacts
 from mbla.contacts.corners import areas_and_centroids, needed_corners
 from mbla.contacts.facets import build_facets
+from mbla.contacts.given import patches_of
 from mbla.contacts.glue import Glue, glue_blocks
 from mbla.contacts.interface_points import interface_points
 from mbla.contacts.joints import Sites, joints_of_interfaces
-from mbla.contacts.narrow_phase import Patches, find_patches, judge
+from mbla.contacts.narrow_phase import Patches, Verdicts, find_patches, judge
 from mbla.contacts.near_misses import without_covered
 from mbla.contacts.overlaps import find_overlaps
 from mbla.contacts.polygons import centroids
@@ -37,6 +38,10 @@ def find_contacts(model: Model, section: ContactsSection) -> Contacts:
     facets = build_facets(blocks)
     pairs = find_block_pairs(blocks, tolerance)
     verdicts = judge(find_patches(blocks, facets, pairs, model.grounds, tolerance), tolerance)
+    if model.interfaces is not None:
+        nothing = np.empty(0, dtype=np.int64)
+        slivers, near_misses = verdicts.slivers.take(nothing), verdicts.near_misses.take(nothing)
+        verdicts = Verdicts(patches_of(model, model.interfaces), slivers, near_misses)
     touching = verdicts.contacts.overlays.bodies
     overlaps = find_overlaps(blocks, facets, pairs, tolerance)
     movable = _sorted(verdicts.contacts.take(~both_fixed(model, touching)))

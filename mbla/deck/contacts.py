@@ -79,5 +79,12 @@ class ContactsSection(Section):
     tolerance: Annotated[float, Quantity("number", gt=0, le=0.1)] = Field(
         1e-3, description="greatest gap, overlap and sliver width, relative to block size"
     )
+    table: str | None = Field(
+        None,
+        min_length=1,
+        description="CSV file with the interfaces, which are then not looked for: a header line with the columns "
+        "interface,group_a,index_a,group_b,index_b,x,y,z, then a row for each corner, in order around each interface. "
+        "For a ground plane the group is `ground` and the index its number. Each must lie on faces of both bodies",
+    )
     points: ContactPoints = Field(default_factory=ContactPoints, description="where contact points lie")
     overrides: list[ContactOverride] = Field(default_factory=list, description="the last that fits a contact holds")

@@ -54,6 +54,7 @@ REFERENCES = (
             "masses.#.on",
             *(f"{loads}.#.on" for loads in LOADS),
             "load_cases.*.settlement.on",
+            "symmetry.#.halves",
         )
         for form in ("", ".group", ".#", ".#.group")
     ),

@@ -80,6 +80,7 @@ from mbla.deck.selectors import SelectorTerm as SelectorTerm
 from mbla.deck.supports import GroundPlane as GroundPlane
 from mbla.deck.supports import Support as Support
 from mbla.deck.supports import Turn as Turn
+from mbla.deck.symmetry import SymmetryPlane as SymmetryPlane
 
 
 def _no_boolean(value: Any) -> Any:
@@ -149,6 +150,9 @@ class DeckContent(Section):
     masses: list[AddedMass] = Field(default_factory=list, description="masses that rest on blocks, such as floors")
     loads: dict[Name, Annotated[list[Load], Field(min_length=1)]] = Field(
         default_factory=dict, description="loads by name, for several load cases"
+    )
+    symmetry: Annotated[list[SymmetryPlane], Field(max_length=3)] = Field(
+        default_factory=list, description="planes that mirror what the deck gives, one after the other"
     )
     load_cases: dict[Name, LoadCaseSection] = Field(min_length=1, description="load cases by name")
     analysis: AnalysisSection = Field(default_factory=AnalysisSection, description="how it is solved")

@@ -19,14 +19,17 @@ from mbla.model.added_masses import with_added_masses
 from mbla.model.build_blocks import BuiltBlocks, Labels, build_blocks, indices_in_groups
 from mbla.model.generators import GENERATORS
 from mbla.model.generators.generator import Generated, ItemRefused, Site
+from mbla.model.interfaces import COLUMNS, given_interfaces
 from mbla.model.labels import NONE, BlockLabels, join_labels, labels_of
 from mbla.model.loads import LoadSite, build_load_cases
-from mbla.model.model import Ground, Joint, LoadCase, Model
+from mbla.model.model import GivenInterfaces, Ground, Joint, LoadCase, Model
 from mbla.model.overrides import check_overrides
 from mbla.model.polyhedra import Polyhedra, join_polyhedra
-from mbla.model.selectors import build_roster
+from mbla.model.selectors import Roster, build_roster
 from mbla.model.settlement import build_settlement
 from mbla.model.supports import Supports, build_supports, does_nothing
+from mbla.model.symmetry import symmetry_faults, with_images
+from mbla.model.tables import TableRefused, read_table
 from mbla.model.transform import build_transform, repetitions, transform_item
 
 FROM_FILES = ("mesh", "table")
@@ -90,6 +93,7 @@ def build_model(deck: Deck) -> Model:
     tolerance, joint = deck.contacts.tolerance, deck.contacts.joint
     supports = build_supports(deck.content.supports, joint, brought_along, roster, tolerance, faults)
     check_overrides(deck.contacts.overrides, roster, faults)
+    given = _given_interfaces(deck, roster, supports, faults)
     if deck.content.masses:
         roster = replace(roster, blocks=with_added_masses(deck.content.masses, roster, supports.fixed, faults, notices))
     site = LoadSite(
@@ -107,7 +111,7 @@ def build_model(deck: Deck) -> Model:
     load_cases = tuple(case for name, section in sections for case in _load_cases(name, section, site, supports))
     if faults:
         raise DeckError(faults)
-    return Model(
+    model = Model(
         title=deck.content.title,
         units=deck.units,
         blocks=roster.blocks,
@@ -117,7 +121,27 @@ def build_model(deck: Deck) -> Model:
         load_cases=load_cases,
         notices=(*items.notices, *built.notices, *notices),
         guides=supports.guides,
+        interfaces=given,
     )
+    faults += symmetry_faults(deck, model)
+    if faults:
+        raise DeckError(faults)
+    return with_images(deck, model)
+
+
+def _given_interfaces(deck: Deck, roster: Roster, supports: Supports, faults: list[Fault]) -> GivenInterfaces | None:
+    """Interfaces of the deck's table; None where it has none, or where it is at fault."""
+    path: KeyPath = ("contacts", "table")
+    if deck.contacts.table is None or roster.partial:
+        return None
+    try:
+        table = read_table(deck.resolve_file(path, deck.contacts.table), COLUMNS)
+        return given_interfaces(table, roster.blocks, roster.members, supports.grounds, deck.contacts.tolerance)
+    except DeckError as error:
+        faults += error.faults
+    except TableRefused as refused:
+        faults += [deck.fault_at(path, fault) for fault in refused.faults]
+    return None
 
 
 def _joints(deck: Deck, grounds: Sequence[Ground]) -> dict[str, Joint]:

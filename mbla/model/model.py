@@ -148,6 +148,22 @@ class LoadCase:
 
 
 @dataclass(frozen=True)
+class GivenInterfaces:
+    """Interfaces by their outlines, in the order of the table.
+
+    bodies       : (n, 2)  blocks, then grounds, numbered as in ``Contacts``; a < b, but ground is always a
+    normals      : (n, 3)  unit, from a to b
+    corners      : (m, 3)  counter-clockwise about the normal
+    corner_start : (n + 1,)
+    """
+
+    bodies: IntArray
+    normals: FloatArray
+    corners: FloatArray
+    corner_start: IntArray
+
+
+@dataclass(frozen=True)
 class Model:
     """A structure and what acts on it.
 
@@ -158,6 +174,9 @@ class Model:
     load_cases  : in the order of the deck
     notices     : repairs and remarks from building it
     guides      : blocks that may move in given ways only; they count as free
+    mirrors     : unit normal m and offset d of the planes of symmetry that the deck gives, m·x = d: only symmetric
+                  states are looked for
+    interfaces  : those that the deck gives by their corners; None where they are to be found
     """
 
     title: str
@@ -169,6 +188,8 @@ class Model:
     load_cases: tuple[LoadCase, ...]
     notices: tuple[Notice, ...]
     guides: Guides = NO_GUIDES
+    mirrors: tuple[tuple[float, float, float, float], ...] = ()
+    interfaces: GivenInterfaces | None = None
 
     def of_case(self, load_case: LoadCase) -> Model:
         """The model as it may move under a load case: with the blocks of its settlement as a guided body."""

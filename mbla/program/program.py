@@ -74,6 +74,7 @@ class Program:
     components         : of the force at a contact point: 3 (N, T1, T2), or 2 (N, T) in a planar program
     reduction          : where this program came from, None for that of the whole model
     guided             : the reduction is to motions that guides allow
+    halved             : the reduction is to one half of a structure with a plane of symmetry
     allowed            : of the program of the whole model: (n_rows, n_rows) projector on the motions that guides allow,
                          None where no block is guided
     """
@@ -88,6 +89,7 @@ class Program:
     components: int = 3
     reduction: Reduction | None = None
     guided: bool = False
+    halved: bool = False
     allowed: sp.csr_array | None = None
 
     @property
@@ -114,10 +116,11 @@ class Program:
 
     def _loads_of_blocks(self) -> tuple[FloatArray, FloatArray]:
         """Dead and live load, a row for each block; of guided blocks what does work in their ways."""
-        dead, live = self.dead_load, self.live_load
-        if self.guided and self.reduction is not None:
-            dead, live = self.reduction.velocities @ dead, self.reduction.velocities @ live
-        rows = 3 if self.components == 2 else 6
+        dead, live, program = self.dead_load, self.live_load, self
+        while program.reduction is not None and (program.guided or program.halved):
+            dead, live = program.reduction.velocities @ dead, program.reduction.velocities @ live
+            program = program.reduction.full
+        rows = 3 if program.components == 2 else 6
         return dead.reshape(-1, rows), live.reshape(-1, rows)
 
     def mechanism(self, scaled: FloatArray) -> FloatArray:

@@ -20,7 +20,7 @@ from mbla.results.work_words import work_lines
 
 def case_lines(model: Model, contacts: Contacts, case: CaseResult) -> list[str]:
     """The section of one load case."""
-    solution, model = case.solution, model.of_case(case.load_case)
+    solution, held, model = case.solution, model, model.of_case(case.load_case)
     mechanics = solution.mechanics
     collapse = None if mechanics is None else collapse_of(model, contacts, case.load_case, mechanics)
     says = verdict(model, case)
@@ -35,7 +35,7 @@ def case_lines(model: Model, contacts: Contacts, case: CaseResult) -> list[str]:
     if mechanics is not None and collapse is not None:
         lines += ["", *mechanism_lines(model, contacts, collapse)]
         lines += work_lines(model, contacts, case.load_case, mechanics, collapse.work)
-        lines += reaction_lines(model, contacts, case.load_case, mechanics)
+        lines += reaction_lines(held, contacts, case.load_case, mechanics)  # a support is one even as it gives way
         if solution.force_ranges is not None:
             lines += force_range_lines(model, contacts, mechanics, solution.force_ranges)
     if mechanics is None and solution.lock is not None:

@@ -7,7 +7,7 @@ import numpy as np
 from mbla.arrays import FloatArray
 from mbla.contacts.contacts import Contacts
 from mbla.model.model import LoadCase, Model
-from mbla.results.mechanics import interface_resultants, load_on_structure, support_reactions
+from mbla.results.mechanics import guide_reactions, interface_resultants, load_on_structure, support_reactions
 from mbla.results.outcome import UNIQUE
 from mbla.results.text import counted, number, sentence, table, vector
 from mbla.solution.solution import Mechanics
@@ -18,7 +18,10 @@ MOST_ROWS = 20
 
 def reaction_lines(model: Model, contacts: Contacts, load_case: LoadCase, mechanics: Mechanics) -> list[str]:
     """Forces of the supports on the structure, and how they balance the loads on the free blocks."""
-    reactions = support_reactions(model, contacts, mechanics.contact_forces)
+    reactions = (
+        *support_reactions(model, contacts, mechanics.contact_forces),
+        *guide_reactions(model, contacts, load_case, mechanics),
+    )
     total = np.sum([reaction.wrench for reaction in reactions], axis=0) if reactions else np.zeros(6)
     load = load_on_structure(model, load_case, mechanics.load_factor)
     named = [(reaction.support, reaction.wrench) for reaction in reactions]

@@ -14,6 +14,8 @@ from mbla.arrays import FloatArray, IntArray
 from mbla.contacts.contacts import Contacts
 from mbla.contacts.glue import solids_of
 from mbla.model.model import LoadCase, Model
+from mbla.solution.solution import Mechanics
+from mbla.solution.statics import contact_resultants
 
 MOST_SINGLE_SUPPORTS = 12
 """fixed blocks up to this number have their reactions listed one by one"""
@@ -90,6 +92,28 @@ def support_reactions(model: Model, contacts: Contacts, contact_forces: FloatArr
     total = np.zeros((len(touched), 6))
     np.add.at(total, row, onto_structure)
     return _named_reactions(model, touched, total)
+
+
+def guide_reactions(
+    model: Model, contacts: Contacts, load_case: LoadCase, mechanics: Mechanics
+) -> tuple[Reaction, ...]:
+    """What guides take: the forces and moments that leave guided blocks in balance.
+
+    They stand one by one where they are few, else their groups do.
+    """
+    blocks = model.guides.blocks
+    if not len(blocks):
+        return ()
+    acting = contact_resultants(model, contacts, mechanics.contact_forces)
+    acting += load_case.dead_load + mechanics.load_factor * load_case.live_load
+    taken = -acting[blocks]
+    taken[:, 3:] += np.cross(model.blocks.centroids[blocks], taken[:, :3])
+    sums: dict[str, FloatArray] = {}
+    for block, wrench in zip(blocks.tolist(), taken, strict=True):
+        few = len(blocks) <= MOST_SINGLE_SUPPORTS
+        name = f"guide of {model.body_name(block)}" if few else f"guides of {model.blocks.groups[block]}"
+        sums[name] = sums.get(name, np.zeros(6)) + wrench
+    return tuple(Reaction(name, wrench) for name, wrench in sums.items())
 
 
 def _named_reactions(model: Model, bodies: IntArray, wrenches: FloatArray) -> tuple[Reaction, ...]:

@@ -12,6 +12,7 @@ from dataclasses import replace
 import numpy as np
 
 from mbla.contacts.contacts import Contacts
+from mbla.contacts.glue import solids_of
 from mbla.deck.analysis import ReductionSwitches
 from mbla.model.model import LoadCase, Model
 from mbla.model.settlement import with_reference
@@ -49,8 +50,9 @@ def posed(
     if settlement is None:
         return load_case
     held = replace(load_case, live_load=load_case.dead_load, settlement=None)
-    program = assemble(model, contacts, held)
-    parts = reduce_program(model, contacts, program, ReductionSwitches(), associative=True).parts
+    solids = solids_of(model, contacts)
+    program = assemble(solids.model, solids.contacts, solids.load_case(held))
+    parts = reduce_program(solids.model, solids.contacts, program, ReductionSwitches(), associative=True).parts
     total = np.zeros((len(contacts.points), 3))
     for part in parts:
         state = at_rest(part, 0.0, settings, log)

@@ -25,7 +25,7 @@ import numpy as np
 from mbla.contacts.contacts import Contacts
 from mbla.model.model import LoadCase, Model, Tilt
 from mbla.solution.solution import Checks, Mechanics, Solution, Status
-from mbla.solution.tilt_circle import chord, line_of
+from mbla.solution.tilt_circle import AT_ONCE, chord, line_of
 
 Ask: TypeAlias = Callable[[LoadCase], tuple[Solution, Checks]]
 """Solve and verify a load case."""
@@ -90,8 +90,10 @@ def solve_tilt(model: Model, contacts: Contacts, load_case: LoadCase, ask: Ask) 
     if math.isnan(level.load_factor) or (tangent and math.isfinite(level.load_factor)):
         return level
     upright = math.inf if level.solution.status is Status.UNBOUNDED else level.checks.static_bound
-    search = _Search(load_case, replace(tilt, tangent=False, upright=upright), ask)
     start = level.next_angle(tilt)
+    if start <= AT_ONCE:  # the level table bears nothing more: an angle of 0, and so is its tangent
+        return replace(level, load_case=replace(load_case, tilt=replace(tilt, tangent=True)))
+    search = _Search(load_case, replace(tilt, tangent=False, upright=upright), ask)
     found = search.from_angle(start) if start < math.pi else search.from_probes()
     return search.with_words(search.before(found))
 
@@ -155,7 +157,7 @@ class _Search:
         for step in range(1, BETWEEN):
             answer = self.at(angle * step / BETWEEN)
             if answer.load_factor < 1.0 - GOOD:
-                return self.from_angle(answer.next_angle(self.tilt))
+                return self.from_angle(min(answer.next_angle(self.tilt), angle * step / BETWEEN))
         return found
 
     def with_words(self, found: Answer) -> Answer:

@@ -16,6 +16,8 @@ from mbla.model.model import Tilt
 from mbla.solution.solution import Mechanics
 
 FULL_TURN = 2.0 * math.pi
+AT_ONCE = 1e-8
+"""angle within which the circle is left at its beginning; the arc cosine near 1 knows angles no better"""
 STEEPEST = 1e6
 """multiple of the load across that stands for every multiple; a right angle to 1e-6"""
 
@@ -33,7 +35,8 @@ class Line:
         size = math.hypot(self.p, self.q)
         if not size > self.limit:
             return math.inf
-        return (math.atan2(self.q, self.p) - math.acos(max(-1.0, self.limit / size))) % FULL_TURN
+        angle = (math.atan2(self.q, self.p) - math.acos(max(-1.0, self.limit / size))) % FULL_TURN
+        return 0.0 if FULL_TURN - angle < AT_ONCE else angle
 
 
 def line_of(tilt: Tilt, mechanics: Mechanics, load_factor: float) -> Line:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import itertools
 import math
+from typing import Any
 
 import numpy as np
 import pytest
@@ -52,6 +53,7 @@ def by_points(n: int, e1: float, e2: float, weight: float = 0.0) -> float:
     balance = (points.points - [e1, e2]).T
     needed = -weight * np.array([e1, e2])  # the weight is centred
     found = linprog(-np.ones(len(shares)), A_eq=balance, b_eq=needed, bounds=[(0.0, share) for share in shares])
+    assert found.fun is not None, found.message
     return -float(found.fun) - weight
 
 
@@ -69,11 +71,12 @@ def stress_block(e1: float, e2: float) -> float:
         corners = [edge + far * across, edge - far * across, edge - far * across + far * along]
         part = whole & shapely.Polygon([*corners, edge + far * across + far * along])
         centroid = np.array(part.centroid.coords[0])
-        return part.area * float(1 + beta @ (centroid - [e1, e2])) / (B * H)
+        return float(part.area * (1 + beta @ (centroid - [e1, e2])) / (B * H))
 
     start = np.array([6 * e1 / B**2 + 0.3, 6 * e2 / H**2 + 0.3])
-    options = {"xatol": 1e-9, "fatol": 1e-13, "maxiter": 2000}
-    return float(minimize(total, start, method="Nelder-Mead", options=options).fun)
+    options: Any = {"xatol": 1e-9, "fatol": 1e-13, "maxiter": 2000}
+    found = minimize(total, start, method="Nelder-Mead", options=options)
+    return float(found.fun)
 
 
 @pytest.mark.parametrize("share", [0.0, 0.1, 0.25, 0.4])

@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from mbla.results.mechanics import guide_reactions, load_on_structure, support_reactions
 from mbla.results.results import CaseResult, Results
 from mbla.results.settlement_words import reaction_of
 from mbla.run import RunOptions, run
@@ -108,3 +109,21 @@ def test_the_reaction_follows_the_units(tmp_path: Path, length: str) -> None:
     overrides = [f"units.length={length}", 'materials.stone.density="2000 kg/m^3"']
     other = reaction(solved(tmp_path, "spreading_arch", *overrides, cases=("spreads",)).cases[0])
     assert other == pytest.approx(plain * metres**3, rel=EXACT)
+
+
+def test_supports_and_guides_balance_the_loads(tmp_path: Path) -> None:
+    """Reactions of the listing: beds, guides and supports that give way hold what acts on the structure."""
+    for deck in ("guided_blocks", "spreading_arch"):
+        results = solved(tmp_path, deck)
+        for case in results.cases:
+            mechanics = case.solution.mechanics
+            assert mechanics is not None
+            model = results.model
+            found = (
+                *support_reactions(model, results.contacts, mechanics.contact_forces),
+                *guide_reactions(model, results.contacts, case.load_case, mechanics),
+            )
+            load = load_on_structure(model, case.load_case, mechanics.load_factor)
+            total = np.sum([each.wrench for each in found], axis=0)
+            np.testing.assert_allclose(total, -load, atol=1e-6 * np.abs(load).max())
+            assert any(each.support.startswith("guide of") for each in found) == (deck == "guided_blocks")

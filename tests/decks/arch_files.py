@@ -170,6 +170,19 @@ def loads_csv() -> str:
     return _csv("group,index,fx,fy,fz", (f"arch,{n},{area:.15g},0,0" for n in range(9)))
 
 
+def contacts_csv() -> str:
+    """The joints between the voussoirs and those on the ground, each by its four corners."""
+    joints = [(f"J{n}", "arch", n, "arch", n + 1, voussoirs()[n][[1, 2, 6, 5]]) for n in range(8)]
+    joints += [("left", "arch", 0, "ground", 0, voussoirs()[0][[0, 3, 7, 4]])]
+    joints += [("right", "arch", 8, "ground", 0, voussoirs()[8][[1, 2, 6, 5]])]
+    rows = (
+        f"{name},{a},{i},{b},{j},{x:.15g},{y:.15g},{z:.15g}"
+        for name, a, i, b, j, corners in joints
+        for x, y, z in corners + 0.0
+    )
+    return _csv("interface,group_a,index_a,group_b,index_b,x,y,z", rows)
+
+
 def _csv(header: str, rows: Iterator[str]) -> str:
     return "\n".join([f"# {REMARK}", header, *rows]) + "\n"
 
@@ -186,6 +199,7 @@ FILES: dict[str, Callable[[], str | bytes]] = {
     "arch_9_vertices.csv": vertices_csv,
     "arch_9_faces.csv": faces_csv,
     "arch_9_loads.csv": loads_csv,
+    "arch_9_contacts.csv": contacts_csv,
 }
 
 

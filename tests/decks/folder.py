@@ -22,8 +22,11 @@ DECKS = ROOT / "decks"
 FOLDERS = ("tutorials", "benchmarks", "structures")
 PATHS = tuple(sorted(path for folder in FOLDERS for path in DECKS.glob(f"{folder}/*.yaml")))
 LONG = (
+    "structures/arch_bridge",
     "structures/spiral_stair",
     "tutorials/crossvault_without_dilatancy",
+    "structures/house",
+    "structures/room",
 )  # fmt: skip
 """take more than ten seconds: run by ``pytest -m long`` only"""
 

@@ -166,3 +166,16 @@ def test_solids_of_the_bracket(tmp_path: Path) -> None:
     solids = solids_of(model, contacts_of(deck, model))
     assert solids.model.blocks.masses.tolist() == pytest.approx([2525.0])
     assert solids.model.load_cases[0].dead_load[0, 2] == pytest.approx(-2525 * 9.81)
+
+
+@pytest.mark.parametrize("cohesion", [0, 50], ids=["tangent", "angle"])
+def test_a_bracket_on_a_tilting_table(cohesion: int) -> None:
+    """It tips at the angle of the tangent (1 − x)/z, also where cohesion has the angle searched for by itself."""
+    text = BRACKET.replace("acceleration: [1, 0, 0]", "tilt: {axis: [0, 1, 0]}")
+    _, case = case_of(text.replace("friction: 0.7", f"friction: 0.7, cohesion: {cohesion}"))
+    assert case.status is Status.SOLVED
+    assert case.solution.mechanics is not None
+    assert case.load_case.tilt is not None
+    factor, angle = case.solution.mechanics.load_factor, case.load_case.tilt.angle
+    expected = (1000 - 0.25 * 525) / (1000 + 1.25 * 525)
+    assert (np.tan(np.radians(angle)) if cohesion else factor) == pytest.approx(expected, rel=1e-6)

@@ -6,9 +6,17 @@ from dataclasses import replace
 
 import numpy as np
 
+from mbla.contacts import find_contacts
+from mbla.deck import read_deck
+from mbla.model import build_model
 from mbla.model.guides import Guides, held_components, joined, rigid_motions, slide, turn
 from mbla.model.model import Model
+from mbla.program import assemble
+from mbla.program.reductions import unreduced
+from mbla.solution import solve, verify
 from mbla.solution.guides import allowed_motion, left_to_balance, off_guides
+from mbla.solution.settings import solver_settings
+from tests.analytic.cases import BENCHMARKS
 from tests.results.synthetic import tower_model
 
 ARMS = np.array([1.0, 2.0, 0.5])
@@ -79,3 +87,23 @@ def test_joined_guides_keep_bodies_apart_and_blocks_once() -> None:
     assert both.bodies.tolist() == [0, 1, 2, 2, 3]
     assert both.n_bodies == 4
     np.testing.assert_array_equal(both.motions[2:], 2 * ways)
+
+
+def test_a_mechanism_against_a_guide_is_not_verified() -> None:
+    """A solved case, with its mechanism turned across the guide by a thousandth."""
+    deck = read_deck(BENCHMARKS / "guided_blocks.yaml")
+    model = build_model(deck)
+    contacts = find_contacts(model, deck.contacts)
+    case = next(case for case in model.load_cases if case.name == "on_a_rail")
+    solution = solve(
+        unreduced(assemble(model, contacts, case), contacts), deck.analysis, solver_settings(deck.analysis)
+    )
+    assert verify(model, contacts, case, solution).verified
+    assert solution.mechanics is not None
+    mechanism = solution.mechanics.mechanism.copy()
+    block = model.guides.blocks[[model.blocks.groups[b] == "on_a_rail" for b in model.guides.blocks]][0]
+    mechanism[block, 1] += 1e-3 * np.abs(mechanism[block]).max()
+    tampered = replace(solution, mechanics=replace(solution.mechanics, mechanism=mechanism))
+    checks = verify(model, contacts, case, tampered)
+    assert not checks.verified
+    assert checks.penetration > 5e-4

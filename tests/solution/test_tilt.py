@@ -127,6 +127,15 @@ def test_what_falls_while_level_has_none() -> None:
     assert math.isnan(answer.load_case.tilt.angle)
 
 
+def test_what_is_at_its_limit_while_level_falls_at_once() -> None:
+    """A force through the centroid that the joint just bears: mu W + c A."""
+    force = "{dead: [{gravity: [0, 0, -9.81]}, {force: ['=0.4*w*5.94+4000*2.7', 0, 0], on: block, at: [0, 0.45, 0]}], "
+    answer = turned(METRES.replace("{live: [{tilt", force + "live: [{tilt"), "parameters.c=4000")
+    assert answer.load_case.tilt is not None
+    assert answer.load_case.tilt.tangent
+    assert answer.load_factor == pytest.approx(0.0, abs=1e-7)
+
+
 def test_crushing_on_the_way_is_not_passed_over() -> None:
     """Gravity begins 30 degrees behind the vertical; as it comes upright the joint is crushed, long before 30 degrees
     on the other side, where friction would give way. N = W cos u >= f_c A at u = acos(0.95), less for the lever arm of

@@ -46,3 +46,10 @@ def test_what_is_proved_reaches_the_angle_as_the_share_reaches_one() -> None:
 def test_nothing_is_proved_where_the_level_table_bears_too_little() -> None:
     assert math.isnan(angle_above(math.tan(math.radians(29)), 1.0, math.radians(60)))
     assert not math.isnan(angle_above(math.inf, 0.5, math.radians(60)))
+
+
+def test_left_at_its_beginning() -> None:
+    """Rounding on either side of nothing is nothing, not a whole turn."""
+    for limit in (1.0, 1.0 - 1e-16, 1.0 + 1e-16):
+        assert Line(limit, 1.0, limit - 1e-16).first_crossing() <= 1e-7
+        assert Line(1.0, 1.0, limit).first_crossing() <= 1e-7

@@ -92,7 +92,8 @@ class Buttress(Section):
     width: PositiveLength = Field(description="along the wall")
     depth: PositiveLength = Field(description="out from the face of the wall")
     side: Literal["front", "back"] = Field(
-        "back", description="face that it stands against: front is that at least y, or on the line's left of a plan"
+        "back",
+        description="face that it stands against: front is that at least y, of a plan that to the right of the line",
     )
     courses: Count | None = Field(None, description="height of its level part; that of the wall less the slope")
     bonded: Switch = Field(True, description="true: odd courses run through the wall; false: it stands against it")

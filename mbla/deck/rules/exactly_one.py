@@ -17,6 +17,7 @@ EXACTLY_ONE: dict[type[Section], tuple[str, ...]] = {
     types.ColumnEnd: ("side", "radius"),
     types.Repetition: ("translate", "rotate"),
     types.GroundPlane: ("x", "y", "z", "point"),
+    types.SymmetryPlane: ("x", "y", "z", "point"),
     types.LoadCaseSection: ("live", "settlement"),
     types.SettlementSection: ("direction", "turn"),
     types.Load: ("gravity", "acceleration", "force", "moment", "line", "pressure", "table", "loads", "travel", "tilt"),

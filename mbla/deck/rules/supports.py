@@ -12,6 +12,16 @@ from mbla.deck.section import Finding, rule
 @rule(types.GroundPlane)
 def ground_plane(ground: types.GroundPlane) -> Iterator[Finding]:
     """A normal goes with a point."""
+    yield from _plane_normal(ground)
+
+
+@rule(types.SymmetryPlane)
+def symmetry_plane(plane: types.SymmetryPlane) -> Iterator[Finding]:
+    """A normal goes with a point."""
+    yield from _plane_normal(plane)
+
+
+def _plane_normal(ground: types.GroundPlane | types.SymmetryPlane) -> Iterator[Finding]:
     if ground.point is not None and ground.normal is None:
         yield (), "needs a normal beside its point"
     if ground.normal is not None and ground.point is None:

@@ -23,7 +23,8 @@ def generate_wall(item: WallItem, site: Site) -> Generated:
         for openings off the bed joints, lintels and arches without support, buttresses across openings, too many
         units, or where nothing is left of the wall
     """
-    check_number(item, item.length, ("length",))
+    rises = [*([item.gable.rise] if item.gable else []), *(buttress.depth for buttress in item.buttresses)]
+    check_number(item, item.length, ("length",), rises)
     findings: list[tuple[KeyPath, str]] = []
     openings = []
     for number, opening in enumerate(item.openings):

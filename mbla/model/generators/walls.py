@@ -36,7 +36,8 @@ def generate_walls(item: WallsItem, site: Site) -> Generated:
         without support, buttresses across openings, gables that meet, too many units
     """
     lines = lines_of(item)
-    check_number(item, sum(line.whole_length for line in lines), ("plan",))
+    rises = [*(gable.rise for gable in item.gables), *(buttress.depth for buttress in item.buttresses)]
+    check_number(item, sum(line.whole_length for line in lines), ("plan",), rises)
     findings: list[Finding] = list(check_plan(lines))
     for number, opening in enumerate(item.openings):
         found = check_opening(item, opening, site.tolerance)

@@ -29,7 +29,8 @@ def half_of(scene: Scene, mirror: Mirror) -> Program:
         tension=stands_for * limits.tension,
         compression=stands_for * limits.compression,
     )
-    return restricted(scene.program, _symmetric_motions(mirror), _symmetric_forces(mirror), limits)
+    half = restricted(scene.program, _symmetric_motions(mirror), _symmetric_forces(mirror), limits)
+    return replace(half, halved=True)
 
 
 def in_plane_directions(normal: FloatArray) -> FloatArray:

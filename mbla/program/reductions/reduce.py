@@ -13,7 +13,7 @@ from mbla.model.model import Model
 from mbla.program.program import Program
 from mbla.program.reductions.guided import guided_program
 from mbla.program.reductions.half import half_of
-from mbla.program.reductions.mirror import Mirror, mirror_about, mirror_candidates
+from mbla.program.reductions.mirror import SYMMETRIC, Mirror, mirror_about, mirror_candidates
 from mbla.program.reductions.parts import split_into_parts
 from mbla.program.reductions.planar import is_planar, planar_program
 from mbla.program.reductions.points import without_inner_points
@@ -61,7 +61,7 @@ def reduce_program(
     """Find and apply the reductions that are switched on.
 
     associative : only then may points inside the hull of others and one of two symmetric halves be left out, since
-                  the answer is unique
+                  the answer is unique. A half is left out as well about a plane that the deck says to mirror it
     """
     if program.guided and program.reduction is not None:
         program = program.reduction.full  # guides come last, on what the other reductions leave
@@ -71,7 +71,7 @@ def reduce_program(
     parts = split_into_parts(scene) if switches.parts else [scene]
     reduced, planes, blocks = [], 0, 0
     for part in parts:
-        smaller, mirror = _reduced_part(part, switches, associative)
+        smaller, mirror = _reduced_part(part, switches, associative, model.mirrors)
         reduced.append(_guided(part, smaller))
         planes = max(planes, int(mirror is not None))
         own = np.arange(len(part.centroids))
@@ -82,14 +82,16 @@ def reduce_program(
     return Reduced(tuple(reduced), size, contacts.interface_of_point, contacts.point_areas)
 
 
-def _reduced_part(part: Scene, switches: ReductionSwitches, associative: bool) -> tuple[Program, Mirror | None]:
+def _reduced_part(
+    part: Scene, switches: ReductionSwitches, associative: bool, given: Mirrors
+) -> tuple[Program, Mirror | None]:
     """The planar program, that of one half with its mirror, or the part's own."""
-    mirror = _first_mirror(part, switches) if len(part.points) else None
+    mirror = _first_mirror(part, switches, given) if len(part.points) else None
     if mirror is None:
         return part.program, None
     if switches.planar and is_planar(part, mirror):
         return planar_program(part, mirror), None
-    if switches.mirror and associative:
+    if switches.mirror and (associative or _is_given(part, mirror.normal, given)):
         return half_of(part, mirror), mirror
     return part.program, None
 
@@ -105,10 +107,28 @@ def _guided(part: Scene, smaller: Program) -> Program:
     return guided_program(smaller, allowed)
 
 
-def _first_mirror(part: Scene, switches: ReductionSwitches) -> Mirror | None:
-    """The first plane that makes the part planar, else the first plane of symmetry."""
+OFF_PLANE = 1e-6
+"""Distance of the middle of a part from a plane of symmetry, relative to block size, that is rounding: a part beside
+the plane that happens to be symmetric about a parallel one is apart from it by the size of blocks."""
+
+Mirrors = tuple[tuple[float, float, float, float], ...]
+
+
+def _is_given(part: Scene, normal: FloatArray, given: Mirrors) -> bool:
+    """Whether the plane of that unit normal through the middle of a part is one of those given, up to rounding."""
+    middle = part.centroids.mean(axis=0)
+    for *direction, offset in given:
+        along = float(normal @ np.array(direction))
+        away = abs(float(np.array(direction) @ middle) - offset)
+        if abs(abs(along) - 1.0) <= SYMMETRIC and away <= OFF_PLANE * part.length:
+            return True
+    return False
+
+
+def _first_mirror(part: Scene, switches: ReductionSwitches, given: Mirrors) -> Mirror | None:
+    """The first plane that makes the part planar, else the first plane of symmetry, those given before all others."""
     first = None
-    for normal in mirror_candidates(part):
+    for normal in (*(np.array(plane[:3]) for plane in given), *mirror_candidates(part)):
         mirror = mirror_about(part, normal)
         if mirror is None:
             continue

@@ -150,6 +150,14 @@ def test_distances_along_a_wall_are_from_the_first_point_of_its_line(tmp_path: P
         assert edges.count(1.0) == edges.count(1.8) == 1
 
 
+def test_the_front_of_a_wall_is_to_the_right_of_its_line(tmp_path: Path) -> None:
+    buttress = {"segment": 0, "side": "front", "at": 1, "width": 0.4, "depth": 0.3}
+    assert walls(tmp_path, **ROOM, buttresses=[buttress]).boxes()[..., 1].min() == pytest.approx(-0.3)
+    built = walls(tmp_path, **ROOM, buttresses=[{**buttress, "segment": 1}])
+    assert built.boxes()[..., 0].max() == pytest.approx(4.3)
+    is_sound(built)
+
+
 def test_a_plan_turned_by_a_transform(tmp_path: Path) -> None:
     built = walls(tmp_path, **ROOM, transform={"rotate": {"axis": [0, 0, 1], "angle": 30}})
     is_sound(built)

@@ -39,15 +39,10 @@ def _in_leaves(
     header = through[unit] & (leaves > 1)
     across = np.stack([leaf, np.where(header, leaves, leaf + 1)], axis=1) * thickness
     cut = [(int(block), outlines[int(unit[block])]) for block in np.flatnonzero(np.isin(unit, list(outlines)))]
-    member = [_member(leg, course, is_header) for course, is_header in zip(rows[unit, 0], header, strict=True)]
     labels = {"course": rows[unit, 0], "unit": rows[unit, 1], "leaf": np.where(header, NONE, leaf)}
-    return Part(blocks_in(leg, boxes[unit], across, cut), member=member if any(member) else "", labels=labels)
-
-
-def _member(leg: Leg, course: int, header: bool) -> str:
-    if course >= leg.level_courses:
-        return leg.top_member
-    return leg.member or ("header" if header else "")
+    member = np.where(header & (not leg.member), "header", leg.member)
+    member = np.where(rows[unit, 0] >= leg.level_courses, leg.top_member, member)
+    return Part(blocks_in(leg, boxes[unit], across, cut), member=member.tolist(), labels=labels)
 
 
 def blocks_in(leg: Leg, boxes: FloatArray, across: FloatArray, cut: Sequence[tuple[int, FloatArray]] = ()) -> Polyhedra:

@@ -30,15 +30,19 @@ class Wall:
     buttresses: Sequence[PlacedButtress]
 
 
-def check_number(item: Masonry, length: float, key: KeyPath) -> None:
-    """Refuse walls of far more units than can be handled; ``length`` is that of all walls together.
+def check_number(item: Masonry, length: float, key: KeyPath, rises: Sequence[float] = ()) -> None:
+    """Refuse walls of far more units than can be handled.
+
+    length : of all walls together
+    rises  : of gables, and depths of buttresses [length]
 
     Raises
     ------
     ItemRefused
         at a key path below the item
     """
-    about = item.courses * item.leaves * length / min(item.unit[0], item.unit[1] if item.leaves > 1 else item.unit[0])
+    courses = item.courses + max(rises, default=0.0) / min(item.unit[0], item.unit[2])
+    about = courses * item.leaves * length / min(item.unit[0], item.unit[1] if item.leaves > 1 else item.unit[0])
     if about > MOST_UNITS:
         raise ItemRefused([(key, f"makes about {about:.0e} units; at most {MOST_UNITS:,} can be handled")])
 

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import math
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 
+from mbla.errors import DeckError
 from tests.model.generators.masonry.built import build, is_sound, least_distance, perpends
 
 
@@ -78,3 +80,20 @@ def test_the_joints_of_a_wall_keep_off_the_faces_of_its_buttresses(tmp_path: Pat
     inside = [place for course in (0, 2) for place in places[course] if 1.0 < place < 1.6]
     assert all(abs(place - face) >= 0.1 - 1e-9 for place in inside for face in (1.15, 1.45))
     assert math.isfinite(least_distance(places))
+
+
+@pytest.mark.parametrize(
+    "keys",
+    [{"bond": "english", "leaves": 2}, {"irregular": {"seed": 2, "variation": 0.3, "heights": 0.2}}],
+    ids=["english", "random"],
+)
+def test_gables_of_other_walls(tmp_path: Path, keys: dict[str, Any]) -> None:
+    built = build(tmp_path, length=4.0, courses=4, gable={"rise": 1.5}, **keys)
+    is_sound(built)
+    assert built.volume == pytest.approx(0.2 * keys.get("leaves", 1) * (4.0 * 0.6 + 4.0 * 1.5 / 2), rel=1e-12)
+    assert built.member("gable").sum() > 40
+
+
+def test_a_gable_too_high_is_a_slip_in_the_units(tmp_path: Path) -> None:
+    with pytest.raises(DeckError, match="at most 2,000,000"):
+        build(tmp_path, length=4.0, courses=4, gable={"rise": 1.5e6})

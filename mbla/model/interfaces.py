@@ -1,0 +1,147 @@
+"""Interfaces that a deck gives as a table of their corners, instead of having them found.
+
+Each must lie on a face of either body, within the tolerance of contacts: what lies beside a face is no interface.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from mbla.arrays import FloatArray, IntArray, starts
+from mbla.deck.suggestions import did_you_mean
+from mbla.model.blocks import Blocks
+from mbla.model.model import GivenInterfaces, Ground
+from mbla.model.tables import Table, TableRefused
+
+GROUND = "ground"
+"""name that stands for ground planes, numbered in their order"""
+COLUMNS = ("interface", "group_a", "index_a", "group_b", "index_b", "x", "y", "z")
+FLAT = 1e-6
+"""area over perimeter squared below which an outline has none"""
+FACING = 0.99
+"""cosine of the angle between an interface and a face that it may lie on, as of faces of one facet"""
+
+
+def given_interfaces(
+    table: Table, blocks: Blocks, members: dict[str, IntArray], grounds: tuple[Ground, ...], tolerance: float
+) -> GivenInterfaces:
+    """Interfaces of a table with the columns ``COLUMNS``, a row for each corner, those of an interface together.
+
+    members : blocks of each group; tolerance : relative to block size
+
+    Raises
+    ------
+    TableRefused
+        with every fault, by file and line
+    """
+    faults: list[str] = []
+    points = table.numbers("xyz", faults)
+    bodies = np.array([_bodies(table, row, members, len(blocks), len(grounds), faults) for row in range(len(table))])
+    names = table.columns["interface"]
+    first = [row for row in range(len(table)) if row == 0 or names[row] != names[row - 1]]
+    start = starts(np.diff([*first, len(table)]))
+    seen: set[str] = set()
+    for row, last in zip(first, start[1:], strict=True):
+        if names[row] in seen:
+            faults.append(f"{table.place(row)}: the rows of interface {names[row]} do not follow each other")
+        seen.add(names[row])
+        if (bodies[row:last] != bodies[row]).any():
+            faults.append(f"{table.place(row)}: interface {names[row]} is between different blocks in its rows")
+    if faults:
+        raise TableRefused(faults)
+    pairs, normals, outlines = [], [], []
+    for row, last in zip(first, start[1:], strict=True):
+        words = f"{table.place(row)}: interface {names[row]}"
+        a, b = sorted(bodies[row].tolist(), key=lambda body: (body < len(blocks), body))
+        found = _oriented(points[row:last], (a, b), blocks, grounds, tolerance)
+        if isinstance(found, str):
+            faults.append(f"{words} {found}")
+            continue
+        pairs.append((a, b))
+        normals.append(found[0])
+        outlines.append(found[1])
+    if faults:
+        raise TableRefused(faults)
+    return GivenInterfaces(np.array(pairs), np.array(normals), np.concatenate(outlines), start)
+
+
+def _bodies(
+    table: Table, row: int, members: dict[str, IntArray], n_blocks: int, n_grounds: int, faults: list[str]
+) -> tuple[int, int]:
+    """Both bodies of a row; -1 where there is a fault."""
+    found = []
+    for side in "ab":
+        group, index = table.columns[f"group_{side}"][row], table.columns[f"index_{side}"][row]
+        known = np.arange(n_blocks, n_blocks + n_grounds) if group == GROUND else members.get(group)
+        if known is None:
+            faults.append(f"{table.place(row)}: unknown group {group}{did_you_mean(group, members)}")
+        elif not index.isdecimal() or int(index) >= len(known):
+            there = f"has 0 to {len(known) - 1}" if len(known) else "has none: give ground under supports"
+            faults.append(f"{table.place(row)}: index_{side} = {index or '(empty)'}: {group} {there}")
+        else:
+            found.append(int(known[int(index)]))
+    if len(found) == 2 and (found[0] == found[1] or min(found) >= n_blocks):
+        faults.append(f"{table.place(row)}: an interface is between two blocks, or a block and ground")
+    return (found[0], found[1]) if len(found) == 2 else (-1, -1)
+
+
+def _oriented(
+    points: FloatArray, bodies: tuple[int, int], blocks: Blocks, grounds: tuple[Ground, ...], tolerance: float
+) -> tuple[FloatArray, FloatArray] | str:
+    """Normal from a to b and outline counter-clockwise about it; or what is wrong with them."""
+    if len(points) < 3:
+        return f"has {len(points)} corners: at least three make an outline"
+    arms = points - points.mean(axis=0)
+    ahead = np.roll(arms, -1, axis=0)
+    area_vector = 0.5 * np.cross(arms, ahead).sum(axis=0)
+    area = float(np.linalg.norm(area_vector))
+    if area <= FLAT * np.linalg.norm(ahead - arms, axis=1).sum() ** 2:
+        return "has no area"
+    normal = area_vector / area
+    size = min(float(blocks.sizes[body]) for body in bodies if body < len(blocks))
+    departure = float(np.abs(arms @ normal).max())
+    if departure > tolerance * size:
+        return f"is not planar: corners leave its plane by {departure:.3g}"
+    for turn in (1.0, -1.0):
+        if all(
+            _lies_on(points, sign * turn * normal, body, blocks, grounds, tolerance * size)
+            for body, sign in zip(bodies, (1.0, -1.0), strict=True)
+        ):
+            return turn * normal, points if turn > 0 else points[::-1]
+    return "does not lie on a face of both: its corners must, within contacts.tolerance"
+
+
+def _lies_on(
+    points: FloatArray, normal: FloatArray, body: int, blocks: Blocks, grounds: tuple[Ground, ...], reach: float
+) -> bool:
+    """Whether all corners lie on a ground, or within one facet of a block, that faces along the normal."""
+    if body >= len(blocks):
+        ground = grounds[body - len(blocks)]
+        return bool(
+            ground.normal @ normal > FACING and (np.abs((points - ground.point) @ ground.normal) <= reach).all()
+        )
+    faces = np.arange(blocks.face_start[body], blocks.face_start[body + 1])
+    faces = faces[blocks.face_normals[faces] @ normal > FACING]
+    for facet in np.unique(blocks.facet_of_face[faces]):
+        outlines = [
+            blocks.vertices[blocks.loops[blocks.loop_start[face] : blocks.loop_start[face + 1]]]
+            for face in faces[blocks.facet_of_face[faces] == facet]
+        ]
+        if all(any(_within(point, outline, normal, reach) for outline in outlines) for point in points):
+            return True
+    return False
+
+
+def _within(point: FloatArray, outline: FloatArray, normal: FloatArray, reach: float) -> bool:
+    """Whether a point lies in a face: near its plane, and inside its outline or near a side of it."""
+    arms = point - outline
+    if np.abs(arms @ normal).min() > reach:
+        return False
+    sides = np.roll(outline, -1, axis=0) - outline
+    share = np.clip(np.einsum("ij,ij->i", arms, sides) / np.einsum("ij,ij->i", sides, sides), 0, 1)
+    if np.linalg.norm(arms - share[:, None] * sides, axis=1).min() <= reach:
+        return True
+    flat = arms - np.outer(arms @ normal, normal)  # the angle that the outline spans about a point inside is a turn
+    following = np.roll(flat, -1, axis=0)
+    angles = np.arctan2(np.cross(flat, following) @ normal, np.einsum("ij,ij->i", flat, following))
+    return bool(abs(angles.sum()) > np.pi)

@@ -1,0 +1,234 @@
+"""A model mirrored about a plane: the whole of a structure of which the deck gives half.
+
+With unit normal m and reflection R = I − 2 m mᵀ a block becomes its mirror image; a force F becomes R F, a moment M,
+which is an axial vector, −R M, and so velocity and angular velocity. A block that the plane cuts in two becomes one
+with its image: both without their faces on the plane.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from mbla.arrays import FloatArray, IntArray
+from mbla.deck.deck import Deck
+from mbla.deck.rules.common import given
+from mbla.deck.rules.exactly_one import EXACTLY_ONE
+from mbla.deck.tree import KeyPath
+from mbla.deck.types import Load, LoadCaseSection
+from mbla.errors import Fault, Notice
+from mbla.model.build_blocks import Labels, build_blocks
+from mbla.model.guides import Guides
+from mbla.model.labels import BlockLabels, join_labels
+from mbla.model.mirror import Mirror, find_mirror
+from mbla.model.mirrored_blocks import halves_joined, polyhedra_of, reflected
+from mbla.model.model import Ground, LoadCase, Model, Settlement
+from mbla.model.polyhedra import join_polyhedra, take_polyhedra
+from mbla.model.settlement import with_reference
+from mbla.model.wording import counted, named
+
+ON_MASSES = ("gravity", "acceleration")
+AT_PLACES = ("force", "moment", "line", "pressure")
+"""kinds of loads that have to lie in the plane, and those of which images are taken"""
+
+ACROSS = 1e-9
+"""component across the plane, relative to a vector, that is rounding"""
+
+
+def with_images(deck: Deck, model: Model) -> Model:
+    """The model mirrored about every plane of the deck in turn.
+
+    Raises
+    ------
+    DeckError is left to the caller: faults are returned by ``symmetry_faults`` beforehand
+    """
+    for number, plane in enumerate(deck.content.symmetry):
+        mirror, faults = find_mirror(deck, model, plane, ("symmetry", number))
+        assert mirror is not None, faults  # found by symmetry_faults
+        model = _mirrored(model, mirror, deck.contacts.tolerance)
+    return model
+
+
+def symmetry_faults(deck: Deck, model: Model) -> list[Fault]:
+    """What keeps the deck's planes from mirroring the model."""
+    faults: list[Fault] = []
+    for number, plane in enumerate(deck.content.symmetry):
+        path: KeyPath = ("symmetry", number)
+        mirror, found = find_mirror(deck, model, plane, path)
+        faults += found
+        if mirror is None:
+            return faults
+        for name, section in deck.content.load_cases.items():
+            faults += _loads_across(deck, section, ("load_cases", name), mirror)
+        if faults:
+            return faults
+        faults += _cannot_mirror(deck, model, mirror, path)
+        if faults:
+            return faults
+        model = _mirrored(model, mirror, deck.contacts.tolerance)
+    return faults
+
+
+def _loads_across(deck: Deck, section: LoadCaseSection, path: KeyPath, mirror: Mirror) -> list[Fault]:
+    """Loads on masses that are not their own mirror image, and kinds of loads that have no image."""
+    faults = []
+    for key, loads in (("dead", section.dead or []), ("live", section.live or [])):
+        for number, load in enumerate(loads):
+            kind = given(load, EXACTLY_ONE[Load])[0]
+            value = getattr(load, kind)
+            if kind in ON_MASSES:
+                if abs(float(np.array(value) @ mirror.normal)) <= ACROSS * np.abs(value).max():
+                    continue
+                message = (
+                    f"acts across the plane of symmetry {mirror.label}: the other half would have to be pushed the "
+                    "other way; give the whole structure"
+                )
+            elif kind in AT_PLACES:
+                continue
+            else:
+                message = f"is no load that can be mirrored about {mirror.label}: give the whole structure"
+            faults.append(deck.fault_at((*path, key, number, kind), message))
+    return faults
+
+
+def _cannot_mirror(deck: Deck, model: Model, mirror: Mirror, path: KeyPath) -> list[Fault]:
+    """Supports and forces that have no image."""
+    faults = []
+    for ground in model.grounds:
+        if abs(float(ground.normal @ mirror.normal)) > 1.0 - ACROSS and abs(
+            float((ground.point - mirror.point) @ mirror.normal)
+        ) <= deck.contacts.tolerance * float(model.blocks.sizes.min()):
+            faults.append(deck.fault_at(path, f"{ground.label} lies in it: what is mirrored is not held there"))
+    guided = model.guides.blocks[mirror.halves[model.guides.blocks]]
+    if len(guided):
+        message = (
+            f"{named(guided, model.blocks.name)} cannot be guided and halved: by symmetry it moves in the plane only"
+        )
+        faults.append(deck.fault_at((*path, "halves"), message))
+    for case in model.load_cases:
+        across = np.zeros_like(mirror.halves)
+        for load in (case.dead_load, case.live_load):
+            across |= np.abs(load[:, :3] @ mirror.normal) > ACROSS * np.abs(load[:, :3]).max(initial=0.0)
+        if (cut := np.flatnonzero(across & mirror.halves)).size and case.settlement is None:
+            message = (
+                f"a load acts across {mirror.label} on {named(cut, model.blocks.name)}, which is cut by it: the other "
+                "half is loaded the other way, and nothing is left of it"
+            )
+            faults.append(deck.fault_at(("load_cases", case.name), message))
+        settlement = case.settlement
+        if settlement is not None and mirror.halves[settlement.blocks].any():
+            moved = settlement.motions[mirror.halves[settlement.blocks]]
+            if settlement.turns or np.any(np.abs(moved[:, :3] @ mirror.normal) > ACROSS):
+                message = (
+                    "a support that the plane of symmetry cuts can only give way along that plane, without turning"
+                )
+                faults.append(deck.fault_at(("load_cases", case.name, "settlement"), message))
+    return faults
+
+
+def _mirrored(model: Model, mirror: Mirror, tolerance: float) -> Model:
+    """The model with its image."""
+    blocks, others = model.blocks, np.flatnonzero(~mirror.halves)
+    own = polyhedra_of(blocks)
+    image = reflected(own, mirror.point, mirror.normal)
+    whole = halves_joined(own, image, mirror.halves, mirror.point, mirror.normal, tolerance * blocks.sizes)
+    polyhedra = join_polyhedra([whole, take_polyhedra(image, others)])
+    built = build_blocks(polyhedra, _labels(model, others), tolerance)
+    assert not built.defects, "images of sound blocks are sound"
+    centroids = built.blocks.centroids
+    text = (
+        f"mirrored about {mirror.label}: {counted(len(blocks), 'block')} given, {counted(len(others), 'image')} added"
+        + (f", {counted(int(mirror.halves.sum()), 'block')} joined with its other half" if mirror.halves.any() else "")
+    )
+    return replace(
+        model,
+        blocks=built.blocks,
+        fixed=np.concatenate([model.fixed, model.fixed[others]]),
+        grounds=_grounds(model.grounds, mirror),
+        guides=_guides(model.guides, mirror),
+        load_cases=tuple(_load_case(case, model, mirror, centroids) for case in model.load_cases),
+        notices=(*model.notices, Notice("notice", "mirrored", text)),
+        mirrors=(*model.mirrors, (*mirror.normal.tolist(), float(mirror.normal @ mirror.point))),
+    )
+
+
+def _labels(model: Model, others: IntArray) -> Labels:
+    """Names of blocks and images: images go on counting in the groups of their originals."""
+    blocks = model.blocks
+    groups = np.array(blocks.groups, dtype=np.str_)
+    names, codes = np.unique(groups, return_inverse=True)
+    counts = np.bincount(codes, minlength=len(names))
+    indices = blocks.group_indices.copy()
+    following = np.zeros(len(others), dtype=np.int64)
+    for code in range(len(names)):
+        own = np.flatnonzero(codes[others] == code)
+        order = own[np.argsort(indices[others][own], kind="stable")]
+        following[order] = counts[code] + np.arange(len(order))
+    own_labels = blocks.labels
+    images = BlockLabels(tuple(own_labels.members[b] for b in others.tolist()), own_labels.positions[others])
+    return Labels(
+        (*blocks.groups, *(blocks.groups[b] for b in others.tolist())),
+        np.concatenate([indices, following]),
+        np.concatenate([blocks.densities, blocks.densities[others]]),
+        join_labels([own_labels, images]),
+    )
+
+
+def _grounds(grounds: Sequence[Ground], mirror: Mirror) -> tuple[Ground, ...]:
+    """Planes across the mirror carry images too; others have an image of their own."""
+    result, images = [], []
+    for ground in grounds:
+        carried = None if ground.blocks is None else mirror.image_of[ground.blocks]
+        if abs(float(ground.normal @ mirror.normal)) <= ACROSS:
+            both = None if ground.blocks is None else np.union1d(ground.blocks, carried)  # type: ignore[arg-type]
+            result.append(replace(ground, blocks=both))
+            continue
+        result.append(ground)
+        point = ground.point - 2.0 * float((ground.point - mirror.point) @ mirror.normal) * mirror.normal
+        normal = mirror.reflection @ ground.normal
+        images.append(Ground(point, normal, ground.joint, carried, f"image of {ground.label}"))
+    return (*result, *images)
+
+
+def _guides(guides: Guides, mirror: Mirror) -> Guides:
+    if not len(guides):
+        return guides
+    return Guides(
+        np.concatenate([guides.blocks, mirror.image_of[guides.blocks]]),
+        np.concatenate([guides.bodies, guides.n_bodies + guides.bodies]),
+        np.concatenate([guides.motions, mirror.motions(guides.motions)]),
+        guides.words,
+    )
+
+
+def _load_case(case: LoadCase, model: Model, mirror: Mirror, centroids: FloatArray) -> LoadCase:
+    """Loads on blocks and images; on a block that is joined with its other half, of both about the common centroid."""
+    count, own = len(model.blocks), model.blocks.centroids
+
+    def both(load: FloatArray) -> FloatArray:
+        moved = load.copy()
+        moved[:, 3:] += np.cross(own - centroids[:count], load[:, :3])
+        total = np.zeros((len(centroids), 6))
+        total[:count] = moved
+        np.add.at(total, mirror.image_of, mirror.motions(moved))
+        return total
+
+    mirrored = replace(case, dead_load=both(case.dead_load), live_load=both(case.live_load))
+    if case.settlement is None:
+        return mirrored
+    return with_reference(replace(mirrored, settlement=_settlement(case.settlement, mirror)), np.nan)
+
+
+def _settlement(settlement: Settlement, mirror: Mirror) -> Settlement:
+    """The support with its image, which moves as far."""
+    apart = ~mirror.halves[settlement.blocks]
+    images = mirror.motions(settlement.motions)[apart]
+    return replace(
+        settlement,
+        blocks=np.concatenate([settlement.blocks, mirror.image_of[settlement.blocks[apart]]]),
+        motions=np.concatenate([settlement.motions, images]),
+        unit=2.0 * settlement.unit,
+        words=f"{settlement.words}, with its mirror image",
+    )

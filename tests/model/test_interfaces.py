@@ -1,0 +1,85 @@
+"""Interfaces given as a table: equal to those found, and refused where they lie on no face."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from mbla.contacts import Contacts, find_contacts
+from mbla.deck import read_deck
+from mbla.errors import DeckError
+from mbla.model import build_model
+from tests.model.shapes import write_deck
+
+HEADER = "interface,group_a,index_a,group_b,index_b,x,y,z\n"
+BLOCKS = [
+    "box: {group: low, material: stone, min: [0, 0, 0], max: [2, 1, 1]}",
+    "box: {group: high, material: stone, min: [0.5, 0, 1], max: [3, 1, 2]}",
+]
+SQUARE = [(0.5, 0, 1), (2, 0, 1), (2, 1, 1), (0.5, 1, 1)]
+FOOT = [(0, 0, 0), (2, 0, 0), (2, 1, 0), (0, 1, 0)]
+
+
+def rows(name: str, bodies: str, corners: Sequence[tuple[float, ...]]) -> str:
+    return "".join(f"{name},{bodies},{','.join(map(str, corner))}\n" for corner in corners)
+
+
+def contacts(folder: Path, text: str | None, transform: str = "") -> Contacts:
+    blocks = [block[:-1] + f", {transform}}}" if transform else block for block in BLOCKS]
+    path = write_deck(folder, blocks)
+    if text is not None:
+        (folder / "contacts.csv").write_text(HEADER + text)
+        path.write_text(path.read_text().replace("contacts: {", "contacts: {table: contacts.csv, "))
+    deck = read_deck(path)
+    return find_contacts(build_model(deck), deck.contacts)
+
+
+def refused(folder: Path, text: str) -> list[str]:
+    with pytest.raises(DeckError) as caught:
+        contacts(folder, text)
+    return [fault.message for fault in caught.value.faults]
+
+
+@pytest.mark.parametrize("bodies", ["low,0,high,0", "high,0,low,0"])
+@pytest.mark.parametrize("turn", [1, -1])
+def test_given_interfaces_are_those_that_are_found(tmp_path: Path, bodies: str, turn: int) -> None:
+    found = contacts(tmp_path, None)
+    given = contacts(tmp_path, rows("bed", bodies, SQUARE[::turn]) + rows("foot", "low,0,ground,0", FOOT[::turn]))
+    assert given.bodies.tolist() == found.bodies.tolist()
+    for name in ("normals", "areas", "centroids", "gaps", "outline"):
+        assert getattr(given, name) == pytest.approx(getattr(found, name), abs=1e-12)
+    assert np.sort(given.points, axis=0) == pytest.approx(np.sort(found.points, axis=0))
+    assert given.frames == pytest.approx(found.frames)
+
+
+def test_only_what_is_given_is_in_contact(tmp_path: Path) -> None:
+    half = [(1, 0, 1), (2, 0, 1), (2, 1, 1), (1, 1, 1)]
+    given = contacts(tmp_path, rows("bed", "low,0,high,0", half) + rows("foot", "ground,0,low,0", FOOT))
+    assert sorted(given.areas.tolist()) == pytest.approx([1, 2])
+    assert contacts(tmp_path, rows("foot", "ground,0,low,0", FOOT)).report.isolated.tolist() == [1]
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        (rows("bed", "low,0,high,0", [(0, 0, 1), *SQUARE[1:]]), "interface bed does not lie on a face of both"),
+        (rows("bed", "low,0,high,0", [(x, y, z + 0.01) for x, y, z in SQUARE]), "interface bed does not lie on a"),
+        (rows("bed", "low,0,high,0", [(2, 0, 0), (2, 1, 0), (2, 1, 1)]), "interface bed does not lie on a face"),
+        (rows("bed", "low,0,high,0", SQUARE[:2]), "interface bed has 2 corners: at least three make an outline"),
+        (rows("bed", "low,0,high,0", [SQUARE[0]] * 4), "interface bed has no area"),
+        (rows("bed", "low,0,high,0", [*SQUARE[:3], (0.5, 1, 1.1)]), "interface bed is not planar: corners leave"),
+        (rows("bed", "low,0,low,0", SQUARE), "an interface is between two blocks, or a block and ground"),
+        (rows("bed", "low,0,high,1", SQUARE), "index_b = 1: high has 0 to 0"),
+        (rows("bed", "low,0,hihg,0", SQUARE), "unknown group hihg; did you mean high?"),
+        (rows("a", "low,0,high,0", SQUARE) + rows("b", "low,0,ground,0", FOOT) + rows("a", "low,0,high,0", SQUARE),
+         "the rows of interface a do not follow each other"),
+        (rows("a", "low,0,high,0", SQUARE[:2]) + rows("a", "low,0,ground,0", FOOT), "interface a is between different"),
+    ],
+)  # fmt: skip
+def test_faults_by_file_and_line(tmp_path: Path, text: str, message: str) -> None:
+    found = refused(tmp_path, text)
+    assert found[0].startswith("contacts.csv:")
+    assert message in found[0]
