@@ -55,15 +55,15 @@ def test_a_solid_moves_as_its_guided_block_may(tmp_path: Path, blocks: str) -> N
 
 
 def test_guides_that_glue_makes_contradict_each_other_are_refused(tmp_path: Path) -> None:
-    with pytest.raises(DeckError, match=r"upper\[0\]: glue joins them to what is held in another way"):
+    with pytest.raises(DeckError, match=r"lower\[0\] and upper\[0\] are glued to one rigid body, but may move in different"):
         results_of(tmp_path, "", "lower", "\n  - {blocks: upper, slide: [1, 0, 0]}")
 
 
 def test_blocks_glued_to_supports_do_not_settle(tmp_path: Path) -> None:
-    with pytest.raises(DeckError, match=r"settle.*beam\[0\], beam\[1\] glued to a support: where a support gives way"):
+    with pytest.raises(DeckError, match=r"settle.*on = far: beam\[1\] held by glue on a support that gives way"):
         results_of(tmp_path, ", {between: [base, beam], joint: glued}", "lower", "")
 
 
 def test_a_guided_block_that_is_glued_to_a_support_is_refused(tmp_path: Path) -> None:
-    with pytest.raises(DeckError, match=r"lower\[0\]: glue joins them to what is held in another way"):
+    with pytest.raises(DeckError, match=r"lower\[0\] may move in some way, but glue holds it to a support"):
         results_of(tmp_path, ", {between: [base, lower], joint: glued}", "lower", "")
