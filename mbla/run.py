@@ -200,15 +200,11 @@ def select_cases(model: Model, names: Sequence[str]) -> tuple[LoadCase, ...]:
 
     The name of a load that travels stands for all its positions.
     """
-    known = dict.fromkeys(case.name if case.travel is None else case.travel.series for case in model.load_cases)
+    known = dict.fromkeys(case.deck_name for case in model.load_cases)
     for name in names:
         if name not in known and name not in [case.name for case in model.load_cases]:
             raise UsageError(f"--case {name}: the deck has no such load case; it has {', '.join(known)}")
-    return tuple(
-        case
-        for case in model.load_cases
-        if not names or case.name in names or (case.travel is not None and case.travel.series in names)
-    )
+    return tuple(case for case in model.load_cases if not names or case.name in names or case.deck_name in names)
 
 
 def deck_record(deck: Deck) -> DeckRecord:

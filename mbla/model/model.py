@@ -146,6 +146,11 @@ class LoadCase:
     travel: TravelPosition | None = None
     tilt: Tilt | None = None
 
+    @property
+    def deck_name(self) -> str:
+        """Name in the deck, where a travelling load is one load case for all its positions."""
+        return self.name if self.travel is None else self.travel.series
+
 
 @dataclass(frozen=True)
 class GivenInterfaces:
