@@ -69,7 +69,7 @@ def _glued_settlements(model: Model, contacts: Contacts) -> Iterator[tuple[KeyPa
         others = np.setdiff1d(on_it, case.settlement.blocks)
         if len(others):
             names = ", ".join(model.body_name(int(body)) for body in others[:3])
-            message = f"{names} held by glue on a support that gives way: fix that as well, and let it settle with the support"
+            message = f"{names} held by glue on a support that gives way: fix that too, so that it settles along"
             yield ("load_cases", case.name, "settlement", "on"), message
 
 

@@ -77,9 +77,7 @@ def test_what_is_glued_to_a_support_that_gives_way_is_refused() -> None:
     text = tower("[a,b]", ", {blocks: a}", "{settlement: {on: a, direction: [0, 0, -1]}}")
     words = message(text.replace("{ground: {z: 0}}, ", ""))
     assert "settlement.on" in words
-    assert (
-        "b[0] held by glue on a support that gives way: fix that as well, and let it settle with the support" in words
-    )
+    assert "b[0] held by glue on a support that gives way: fix that too, so that it settles along" in words
 
 
 def test_a_body_on_a_support_that_gives_way() -> None:
