@@ -26,7 +26,12 @@ def reaction_of(case: CaseResult) -> float | None:
 
 def reaction_words(model: Model, settlement: Settlement, load_factor: float) -> str:
     """``a reaction of 5232 N``, or ``a reaction of 120 N m``."""
-    return f"a reaction of {_figure(settlement.reaction(load_factor), settlement)} {_unit(model, settlement)}"
+    return f"a reaction of {reaction_figure(settlement, load_factor)} {reaction_unit(model, settlement)}"
+
+
+def reaction_figure(settlement: Settlement, load_factor: float) -> str:
+    """The reaction of a load factor in digits, without its unit."""
+    return _figure(settlement.reaction(load_factor), settlement)
 
 
 def reaction_json(case: CaseResult) -> dict[str, Any] | None:
@@ -50,7 +55,7 @@ def settlement_lines(model: Model, case: CaseResult) -> list[str]:
     settlement, checks = case.load_case.settlement, case.checks
     if settlement is None:
         return []
-    value, unit = reaction_of(case), _unit(model, settlement)
+    value, unit = reaction_of(case), reaction_unit(model, settlement)
     lines = []
     if value is not None:
         share = _figure(value / settlement.unit, settlement, 1.0)
@@ -77,6 +82,7 @@ def _of(settlement: Settlement) -> str:
     return f"{what} times its mean distance from the axis" if settlement.turns else what
 
 
-def _unit(model: Model, settlement: Settlement) -> str:
+def reaction_unit(model: Model, settlement: Settlement) -> str:
+    """``N``, or ``N m`` where the support turns."""
     units = model.units
     return f"{units.force} {units.length}" if settlement.turns else units.force

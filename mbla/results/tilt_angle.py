@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from mbla.model.model import LoadCase
+from mbla.model.model import LoadCase, Tilt
 from mbla.results.outcome import result_of
 from mbla.results.results import CaseResult
 from mbla.results.text import number
@@ -20,6 +20,13 @@ def angle_of(case: CaseResult) -> float:
     if tilt is None or found is None:
         return math.nan
     return math.degrees(math.atan(found.load_factor)) if tilt.tangent else tilt.angle
+
+
+def angle_at(tilt: Tilt, load_factor: float) -> float:
+    """Angle in degrees that a load factor stands for; nan where it stands for none."""
+    if tilt.tangent:
+        return math.degrees(math.atan(load_factor))
+    return tilt.angle if abs(load_factor - 1.0) <= AT_COLLAPSE else math.nan
 
 
 def angle_bounds(case: CaseResult) -> tuple[float, float]:
@@ -40,8 +47,7 @@ def tilt_words(load_case: LoadCase, load_factor: float) -> str:
     """``31.2 degrees of tilt``, for a load factor of a tilting table."""
     tilt = load_case.tilt
     assert tilt is not None  # asked for such cases only
-    if tilt.tangent:
-        return f"{number(math.degrees(math.atan(load_factor)))} degrees of tilt"
-    if not math.isnan(tilt.angle) and abs(load_factor - 1.0) <= AT_COLLAPSE:
-        return f"{number(tilt.angle)} degrees of tilt"
+    angle = angle_at(tilt, load_factor)
+    if not math.isnan(angle):
+        return f"{number(angle)} degrees of tilt"
     return f"{number(load_factor)} times the change of the loads by the tilt"

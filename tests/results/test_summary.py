@@ -4,6 +4,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from mbla.model.model import Settlement, Tilt
 from mbla.results.results import Results
 from mbla.results.summary import summary_lines
 from mbla.results.text import WIDTH
@@ -77,3 +78,37 @@ def test_a_reason_that_is_also_a_failure_stands_once(results: Results) -> None:
         checks=replace(first.checks, failures=("the time limit was reached",)),
     )
     assert summary(replace(results, cases=(changed,))).count("the time limit was reached") == 1
+
+
+def with_answers(results: Results, tangent: bool = True, factor: float = 0.5) -> Results:
+    """The tower pushed, settling (reaction 30 - 20 x factor) and on a tilting table."""
+    case = results.cases[0]
+    assert case.solution.mechanics is not None
+    solution = replace(case.solution, mechanics=replace(case.solution.mechanics, load_factor=factor))
+    settlement = Settlement(np.array([0]), np.array([[0.0, 0, -1, 0, 0, 0]]), False, "sinks", 30.0, 20.0)
+    nothing = np.zeros((3, 6))
+    tilt = Tilt(np.array([0.0, 1.0, 0.0]), nothing, nothing, nothing, 12.5, tangent, np.inf)
+    settling = replace(case.load_case, name="sinks", settlement=settlement)
+    tilted = replace(case.load_case, name="tilted", tilt=tilt)
+    cases = tuple(replace(case, load_case=each, solution=solution) for each in (settling, tilted))
+    return replace(results, cases=(case, *cases))
+
+
+def test_what_the_load_factor_stands_for_is_shown_in_its_place(results: Results) -> None:
+    head, *rows = (line.split("  ") for line in summary_lines(with_answers(results))[1:5])
+    columns = [word.strip() for word in head if word.strip()]
+    assert columns == ["load case", "status", "load factor", "reaction [N]", "angle [degree]", "associative"]
+    shown = [[word.strip() for word in row if word.strip()] for row in rows]
+    assert shown == [
+        ["push_x", "solved", "0.5", "0.5"],
+        ["sinks", "solved", "20", "20"],
+        ["tilted", "solved", "26.5651", "26.5651"],
+    ]
+
+
+@pytest.mark.parametrize(("factor", "angle"), [(1.0, "12.5"), (0.7, "-")])
+def test_angle_of_a_table_whose_load_factor_is_no_tangent(results: Results, factor: float, angle: str) -> None:
+    tilted = with_answers(results, tangent=False, factor=factor)
+    lines = summary_lines(replace(tilted, cases=tilted.cases[2:]))
+    assert lines[1].split() == ["load", "case", "status", "angle", "[degree]", "associative"]
+    assert lines[2].split() == ["tilted", "solved", angle, "-"]
