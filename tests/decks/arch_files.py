@@ -147,6 +147,30 @@ def msh() -> str:
     return "\n".join([*lines, "$EndElements"]) + "\n"
 
 
+def vtu() -> str:
+    """Metres: voussoirs as hexahedra, the vertices at their joints not shared."""
+    corners = voussoirs().reshape(-1, 3) + 0.0
+    points = " ".join(f"{value:.15g}" for value in corners.ravel())
+    arrays = {
+        "connectivity": " ".join(map(str, range(len(corners)))),
+        "offsets": " ".join(str(8 * n + 8) for n in range(VOUSSOIRS)),
+        "types": " ".join(["12"] * VOUSSOIRS),
+    }
+    cells = [
+        f'<DataArray type="Int64" Name="{name}" format="ascii">{text}</DataArray>' for name, text in arrays.items()
+    ]
+    lines = [
+        '<?xml version="1.0"?>',
+        f"<!-- {REMARK} -->",
+        '<VTKFile type="UnstructuredGrid" version="0.1" byte_order="LittleEndian"><UnstructuredGrid>',
+        f'<Piece NumberOfPoints="{len(corners)}" NumberOfCells="{VOUSSOIRS}">',
+        f'<Points><DataArray type="Float64" NumberOfComponents="3" format="ascii">{points}</DataArray></Points>',
+        *("<Cells>", *cells, "</Cells>"),
+        "</Piece></UnstructuredGrid></VTKFile>",
+    ]
+    return "\n".join(lines) + "\n"
+
+
 def vertices_csv() -> str:
     """Metres; the voussoirs are called V0 ... V8."""
     rows = (
@@ -196,6 +220,7 @@ FILES: dict[str, Callable[[], str | bytes]] = {
     "arch_9.dxf": dxf,
     "arch_9.inp": inp,
     "arch_9.msh": msh,
+    "arch_9.vtu": vtu,
     "arch_9_vertices.csv": vertices_csv,
     "arch_9_faces.csv": faces_csv,
     "arch_9_loads.csv": loads_csv,

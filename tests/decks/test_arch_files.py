@@ -28,7 +28,7 @@ def test_files_are_those_that_are_written(name: str) -> None:
 
 
 def test_there_is_a_deck_for_every_kind_of_file() -> None:
-    kinds = {"obj", "stl", "ply", "gltf", "compas", "dxf", "inp", "msh", "tables", "generator"}
+    kinds = {"obj", "stl", "ply", "gltf", "compas", "dxf", "inp", "msh", "vtu", "tables", "generator"}
     assert {kind(path) for path in DECKS} == kinds
 
 

@@ -154,3 +154,11 @@ def test_a_couple_has_an_effect(tmp_path: Path) -> None:
 
 def test_every_kind_of_load_of_the_deck_has_its_meaning() -> None:
     assert (*LOAD_KINDS, "loads", *LIVE_ONLY) == EXACTLY_ONE[Load]
+
+
+def test_moment_turns_one_block_about_its_centroid(tmp_path: Path) -> None:
+    found = case(tmp_path, "live: [{moment: [1, -2, 3], on: {group: top, index: 1}}]")
+    block = int(np.flatnonzero(np.any(found.live_load, axis=1)).item())
+    assert found.live_load[block].tolist() == [0, 0, 0, 1, -2, 3]
+    (words,) = found.live_words
+    assert "moment (1, -2, 3)" in words

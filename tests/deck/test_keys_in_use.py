@@ -1,0 +1,107 @@
+"""Every kind of thing that a deck may have, and every key but those listed here, appears in a deck under decks/."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from mbla.deck.joints import BUILT_IN
+from mbla.deck.rules.exactly_one import EXACTLY_ONE
+from mbla.deck.section import Section
+from mbla.deck.types import BlockItem, DeckContent, Load, LoadCaseSection, Support, TransformStep
+from mbla.model.geometry import READERS
+from mbla.model.loads.kinds import LOAD_KINDS
+from tests.deck.keys_in_use import Key, all_keys, keys_in_use, sections_of
+from tests.decks.folder import PATHS, deck_of
+
+MODEL = Path(__file__).parents[1] / "model"
+
+UNUSED: dict[str, str] = {
+    "AnalysisSection": "force_ranges forces interior max_iterations path proximal range reductions second_opinion "
+    "standing time_limit tolerance",
+    "ArchItem": "joint points side_angle",
+    "BridgeItem": "backing parapets rings side_angle spandrel_thickness",
+    "BridgeParapets": "height thickness",
+    "Buttress": "courses side",
+    "ColumnItem": "drum_heights entasis",
+    "ContactPoints": "per_edge rounding",
+    "DomeItem": "embrace facets joint rise shape",
+    "Gable": "apex",
+    "GroundPlane": "y",
+    "HeightPattern": "along",
+    "InteriorScheme": "max_factorizations tries",
+    "LineLoad": "towards",
+    "Lintel": "courses",
+    "LowestScheme": "seed",
+    "MeshItem": "weld",
+    "OpeningArch": "material",
+    "OutputSection": "plots",
+    "PathScheme": "steps",
+    "PressureLoad": "faces within",
+    "ProximalScheme": "max_programs",
+    "PublishedScheme": "averaging max_programs",
+    "ReductionSwitches": "mirror parts planar points",
+    "Rotation": "about",
+    "SegmentButtress": "segment",
+    "SelectorTerm": "leaf level span",
+    "SpiralStairItem": "facets joint",
+    "StackItem": "offsets",
+    "SymmetryPlane": "normal point y z",
+    "Travel": "towards",
+    "VaultItem": "bond embrace joint",
+    "WallsItem": "buttresses side",
+}
+"""Type -> keys that no deck gives. A new key belongs into a deck; one of these that a deck takes up leaves the list."""
+
+LOAD_TESTS = dict.fromkeys(("gravity", "acceleration", "force", "moment"), "test_load_case")
+READER_TESTS = {"meshio_files": (".vtu", ".msh", ".ply"), "compas_json": (".json",), "gltf": (".gltf", ".glb")}
+"""Test files of those that are not tested in a file of their own name."""
+
+
+@pytest.fixture(scope="module")
+def contents() -> list[DeckContent]:
+    return [deck_of(path).content for path in PATHS]
+
+
+def test_keys_that_no_deck_gives_are_listed(contents: list[DeckContent]) -> None:
+    listed: set[Key] = {(section, name) for section, names in UNUSED.items() for name in names.split()}
+    assert listed <= all_keys()
+    assert all_keys() - keys_in_use(contents) == listed
+
+
+@pytest.mark.parametrize("section", [BlockItem, Load, LoadCaseSection, TransformStep])
+def test_every_kind_is_in_a_deck(contents: list[DeckContent], section: type[Section]) -> None:
+    used = {name for each in sections_of(contents) if isinstance(each, section) for name in each.model_fields_set}
+    assert set(EXACTLY_ONE[section]) <= used
+
+
+def test_every_kind_of_support_is_in_a_deck(contents: list[DeckContent]) -> None:
+    supports = [each for each in sections_of(contents) if isinstance(each, Support)]
+    assert any(each.model_fields_set == {"blocks"} for each in supports)  # blocks that do not move at all
+    used = {name for each in supports for name in each.model_fields_set}
+    assert used == set(Support.model_fields)
+
+
+def test_every_built_in_joint_law_is_in_a_deck(contents: list[DeckContent]) -> None:
+    used = {getattr(each, "joint", None) for each in sections_of(contents)}
+    assert set(BUILT_IN) <= used
+
+
+def test_every_kind_of_geometry_file_is_in_a_deck(contents: list[DeckContent]) -> None:
+    used = {Path(item.mesh.file).suffix.lower() for each in contents for item in each.blocks if item.mesh is not None}
+    assert set(READERS) - {".glb"} == used  # .glb is .gltf in one binary file: tests/model/geometry/test_gltf.py
+
+
+@pytest.mark.parametrize("kind", EXACTLY_ONE[Load])
+def test_every_kind_of_load_has_a_test_file(kind: str) -> None:
+    assert kind in LOAD_KINDS or kind in ("loads", "travel", "tilt")  # these make a case, or stand for other loads
+    name = {"loads": "test_named_loads"}.get(kind, LOAD_TESTS.get(kind, f"test_{kind}"))
+    assert f"{{{kind}: " in (MODEL / "loads" / f"{name}.py").read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize("extension", READERS)
+def test_every_reader_has_a_test_file(extension: str) -> None:
+    name = next((file for file, extensions in READER_TESTS.items() if extension in extensions), extension[1:])
+    text = (MODEL / "geometry" / f"test_{name}.py").read_text(encoding="utf-8")
+    assert extension in text
