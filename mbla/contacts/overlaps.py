@@ -16,7 +16,7 @@ from mbla.arrays import FloatArray, IntArray, starts
 from mbla.contacts.broad_phase import BlockPairs
 from mbla.contacts.facets import Facets
 from mbla.contacts.ragged import rows_and_items
-from mbla.contacts.solids import Solid, triangulate_block
+from mbla.contacts.solids import Solid, triangulate_blocks
 from mbla.model.blocks import Blocks
 from mbla.model.ragged import chunks, ranges
 
@@ -101,14 +101,11 @@ def _least_of_large(vertices: FloatArray, normals: FloatArray, origins: FloatArr
 def _by_solids(blocks: Blocks, pairs: BlockPairs, rows: IntArray, tolerance: float) -> Overlaps:
     """Judge the pairs left over one by one."""
     found, depths, unchecked = [], [], []
-    triangles: dict[int, IntArray] = {}
+    triangles = triangulate_blocks(blocks, np.unique(pairs.blocks[rows]))
     for row in rows:
         a, b = (int(block) for block in pairs.blocks[row])
         size = float(pairs.sizes[row])
         origin = blocks.centroids[a if blocks.sizes[a] <= blocks.sizes[b] else b]
-        for block in (a, b):
-            if block not in triangles:
-                triangles[block] = triangulate_block(blocks, block)
         solids = [Solid(blocks.vertices, triangles[block], origin, size) for block in (a, b)]
         if not all(solid.sound for solid in solids):
             unchecked.append((a, b))
