@@ -8,10 +8,14 @@ from __future__ import annotations
 import numpy as np
 
 from mbla.arrays import FloatArray, IntArray, starts
+from mbla.deck.deck import Deck
 from mbla.deck.suggestions import did_you_mean
+from mbla.deck.tree import KeyPath
+from mbla.errors import DeckError, Fault
 from mbla.model.blocks import Blocks
 from mbla.model.model import GivenInterfaces, Ground
-from mbla.model.tables import Table, TableRefused
+from mbla.model.selectors import Roster
+from mbla.model.tables import Table, TableRefused, read_table
 
 GROUND = "ground"
 """name that stands for ground planes, numbered in their order"""
@@ -20,6 +24,23 @@ FLAT = 1e-6
 """area over perimeter squared below which an outline has none"""
 FACING = 0.99
 """cosine of the angle between an interface and a face that it may lie on, as of faces of one facet"""
+
+
+def read_interfaces(
+    deck: Deck, roster: Roster, grounds: tuple[Ground, ...], faults: list[Fault]
+) -> GivenInterfaces | None:
+    """Interfaces of the deck's table; None where it has none, or where it is at fault."""
+    path: KeyPath = ("contacts", "table")
+    if deck.contacts.table is None or roster.partial:
+        return None
+    try:
+        table = read_table(deck.resolve_file(path, deck.contacts.table), COLUMNS)
+        return given_interfaces(table, roster.blocks, roster.members, grounds, deck.contacts.tolerance)
+    except DeckError as error:
+        faults += error.faults
+    except TableRefused as refused:
+        faults += [deck.fault_at(path, fault) for fault in refused.faults]
+    return None
 
 
 def given_interfaces(

@@ -72,20 +72,38 @@ def contact_displacements(model: Model, contacts: Contacts, motion: FloatArray) 
     return total / 2
 
 
-def moved_vertices(blocks: Blocks, motion: FloatArray) -> FloatArray:
+def moved_vertices(blocks: Blocks, contacts: Contacts, motion: FloatArray) -> FloatArray:
     """Vertices after a finite motion, (n_vertices, 3) m; see ``moved_points``."""
-    return moved_points(blocks, motion, blocks.block_of_vertex, blocks.vertices)
+    return moved_points(blocks, contacts, motion, blocks.block_of_vertex, blocks.vertices)
 
 
-def moved_points(blocks: Blocks, motion: FloatArray, owners: IntArray, points: FloatArray) -> FloatArray:
-    """Points of blocks after a finite motion, c + u + exp(θ)(p − c), (n, 3) m. Blocks keep their shape.
+def moved_points(
+    blocks: Blocks, contacts: Contacts, motion: FloatArray, owners: IntArray, points: FloatArray
+) -> FloatArray:
+    """Points of blocks after a finite motion, o + u + θ × (o − c) + exp(θ)(p − o), (n, 3) m. Blocks keep their shape.
+
+    About the centroid of its own, o = c, a block would part from those it is glued to, for they turn about theirs: o
+    is the centroid of the rigid body that they make.
 
     motion : (n_blocks, 6) displacement of the centroid m and rotation vector rad
     owners : (n,) block of each point
     """
-    centroids = blocks.centroids[owners]
-    turned = np.einsum("vij,vj->vi", rotation_matrices(motion[:, 3:])[owners], points - centroids)
-    return np.asarray(centroids + motion[owners, :3] + turned)
+    pivots = centres_of_bodies(blocks, contacts.solid_of_block)
+    travel = motion[:, :3] + np.cross(motion[:, 3:], pivots - blocks.centroids)
+    turned = np.einsum("vij,vj->vi", rotation_matrices(motion[:, 3:])[owners], points - pivots[owners])
+    return np.asarray((pivots + travel)[owners] + turned)
+
+
+def centres_of_bodies(blocks: Blocks, solid_of_block: IntArray | None) -> FloatArray:
+    """Centroid of the rigid body that each block belongs to, (n_blocks, 3) m: its own where it is not glued.
+
+    solid_of_block : (n_blocks,) numbers of the rigid bodies; None where each block is one
+    """
+    if solid_of_block is None:
+        return blocks.centroids
+    volumes = np.bincount(solid_of_block, weights=blocks.volumes)
+    columns = [np.bincount(solid_of_block, weights=blocks.volumes * column) / volumes for column in blocks.centroids.T]
+    return np.stack(columns, axis=1)[solid_of_block]
 
 
 def moved_contact_points(model: Model, contacts: Contacts, motion: FloatArray, side: int) -> FloatArray:
@@ -93,7 +111,7 @@ def moved_contact_points(model: Model, contacts: Contacts, motion: FloatArray, s
     owners = contacts.bodies[contacts.interface_of_point, side]
     block = owners < len(model.blocks)
     moved = contacts.points.copy()
-    moved[block] = moved_points(model.blocks, motion, owners[block], contacts.points[block])
+    moved[block] = moved_points(model.blocks, contacts, motion, owners[block], contacts.points[block])
     return moved
 
 

@@ -1,3 +1,5 @@
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy.linalg import expm
@@ -51,14 +53,31 @@ def test_tower_turns_about_its_edge(results: Results) -> None:
 def test_finite_motion_keeps_distances_and_begins_as_the_linear_one(results: Results) -> None:
     blocks = results.model.blocks
     motion = np.random.default_rng(1).normal(size=(3, 6))
-    moved = moved_vertices(blocks, motion)
+    moved = moved_vertices(blocks, results.contacts, motion)
     for b in range(3):
         before, after = blocks.vertices[8 * b : 8 * b + 8], moved[8 * b : 8 * b + 8]
         pairs = np.linalg.norm(before[:, None] - before[None], axis=2)
         assert np.linalg.norm(after[:, None] - after[None], axis=2) == pytest.approx(pairs)
     small = 1e-6 * motion
     linear = vertex_displacements(blocks, small)
-    assert moved_vertices(blocks, small) - blocks.vertices == pytest.approx(linear, abs=1e-10)
+    assert moved_vertices(blocks, results.contacts, small) - blocks.vertices == pytest.approx(linear, abs=1e-10)
+
+
+def test_glued_blocks_turn_about_their_common_centroid(results: Results) -> None:
+    blocks = results.model.blocks
+    glued = replace(results.contacts, solid_of_block=np.array([0, 1, 1]))
+    turn, travel = np.array([0.2, -0.7, 1.1]), np.array([0.5, 0.0, -0.3])
+    motion = np.zeros((3, 6))
+    motion[1:, 3:] = turn
+    motion[1:, :3] = travel + np.cross(turn, blocks.centroids[1:] - blocks.centroids[1])
+    moved = moved_vertices(blocks, glued, motion)
+    both = blocks.block_of_vertex > 0
+    before, after = blocks.vertices[both], moved[both]
+    pairs = np.linalg.norm(before[:, None] - before[None], axis=2)
+    assert np.linalg.norm(after[:, None] - after[None], axis=2) == pytest.approx(pairs)  # one body keeps its shape
+    apart = moved_vertices(blocks, results.contacts, motion)[both]
+    assert np.abs(np.linalg.norm(apart[:, None] - apart[None], axis=2) - pairs).max() > 0.1
+    assert moved[~both] == pytest.approx(blocks.vertices[~both], abs=0)
 
 
 def test_small_spinning_block_does_not_turn_several_times(results: Results) -> None:
