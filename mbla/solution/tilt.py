@@ -25,7 +25,7 @@ import numpy as np
 from mbla.contacts.contacts import Contacts
 from mbla.model.model import LoadCase, Model, Tilt
 from mbla.solution.solution import Checks, Mechanics, Solution, Status
-from mbla.solution.tilt_circle import AT_ONCE, chord, line_of
+from mbla.solution.tilt_circle import AT_ONCE, chord, line_of, never_left
 
 Ask: TypeAlias = Callable[[LoadCase], tuple[Solution, Checks]]
 """Solve and verify a load case."""
@@ -98,6 +98,16 @@ def solve_tilt(model: Model, contacts: Contacts, load_case: LoadCase, ask: Ask) 
     return search.with_words(search.before(found))
 
 
+def never_collapses(tilt: Tilt, found: Answer) -> Solution:
+    """The solution of the last angle tried, which is no collapse of the table either."""
+    if found.solution.status is Status.UNBOUNDED:
+        return found.solution
+    reason = f"it does not collapse at any of the angles that were tried, up to {tilt.angle:g} degrees"
+    if never_left(tilt.upright, found.checks.static_bound):
+        return replace(found.solution, status=Status.UNBOUNDED, reason=f"{reason}, and forces are known for all others")
+    return replace(found.solution, status=Status.NOT_VERIFIED, reason=f"{reason}; nothing is proved of those between")
+
+
 class _Search:
     """Answers at one angle after the other."""
 
@@ -168,7 +178,7 @@ class _Search:
         words = [f"The load factor is that of the change of the loads from the level table; angles tried: {degrees}"]
         angle, factor = math.radians(tilt.angle), found.load_factor
         if factor > 1.0 + GOOD:
-            words.append(f"It does not collapse at any of these angles up to {tilt.angle:g} degrees")
+            solution = never_collapses(tilt, found)
             tilt = replace(tilt, angle=math.nan)
         elif abs(factor - 1.0) > GOOD and solution.status is Status.SOLVED:
             reason = f"the angle did not settle: its load factor differs from 1 by {abs(factor - 1.0):.1e}"
