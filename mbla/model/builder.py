@@ -54,7 +54,7 @@ def build_model(deck: Deck) -> Model:
         blocks=roster.blocks,
         fixed=supports.fixed,
         grounds=supports.grounds,
-        joints=build_joints(deck, supports.grounds),
+        joints=build_joints(deck, supports.grounds, interfaces),
         load_cases=load_cases,
         notices=(*items.notices, *built.notices, *notices),
         guides=supports.guides,

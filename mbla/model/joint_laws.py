@@ -8,14 +8,15 @@ from collections.abc import Sequence
 from mbla.deck.deck import Deck
 from mbla.deck.joints import FRICTIONLESS
 from mbla.deck.types import JointLaw
-from mbla.model.model import Ground, Joint
+from mbla.model.model import GivenInterfaces, Ground, Joint
 
 
-def build_joints(deck: Deck, grounds: Sequence[Ground]) -> dict[str, Joint]:
+def build_joints(deck: Deck, grounds: Sequence[Ground], interfaces: GivenInterfaces | None) -> dict[str, Joint]:
     """Joint laws of the deck, and that without friction where it is asked for by its name."""
     laws = {name: build_joint(name, law) for name, law in deck.content.joints.items()}
     used = {deck.contacts.joint, *(override.joint for override in deck.contacts.overrides)}
-    if FRICTIONLESS in used | {ground.joint for ground in grounds}:
+    used |= {ground.joint for ground in grounds}
+    if FRICTIONLESS in used.union(interfaces.joints if interfaces else ()):
         laws[FRICTIONLESS] = Joint(FRICTIONLESS, 0.0)
     return laws
 

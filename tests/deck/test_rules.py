@@ -104,6 +104,7 @@ WORDS: dict[type[Section], list[str]] = {
     types.ContactPoints: ["only one of per_edge or spacing", "only one of inset or rounding"],
     types.DeckContent: [
         "contacts.points.inset = 0.2: applies to contact_model: concave only",
+        "contacts.table = model_contacts.csv: does not go with symmetry",
         "contains itself",
         "must stand in the live loads of a load case itself",
         "applies to load cases with tilt only",

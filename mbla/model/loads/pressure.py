@@ -21,8 +21,8 @@ from mbla.model.blocks import Blocks
 from mbla.model.loads.blocks_under import unit
 from mbla.model.loads.free_faces import FaceParts, face_parts
 from mbla.model.loads.load_kind import AppliedLoad, LoadSite, sum_on_blocks
-from mbla.model.loads.signed_polygons import cut
 from mbla.model.ragged import items_of_rows, row_means
+from mbla.model.signed_polygons import cut
 from mbla.model.wording import counted, vector
 
 
