@@ -36,6 +36,8 @@ SETTLED = 1e-10
 """change of the angle in radians below which steps go round in rounding"""
 GOOD = 1e-6
 """distance of the load factor from 1 up to which the case may be called solved"""
+NEAR = 1e-2
+"""distance up to which it is approximate; beyond, the angle is no result"""
 MOST_STEPS = 16
 """steps; Newton's method takes 3 to 6, secants about as many"""
 PROBES = (0.5 * math.pi, 0.75 * math.pi, math.pi)
@@ -71,6 +73,10 @@ class Answer:
         """Angle that the mechanism bounds, inf where it bounds none."""
         found = self.bounding
         return math.inf if found is None else line_of(tilt, found, found.load_factor).first_crossing()
+
+    def falls_at_once(self, tilt: Tilt) -> bool:
+        """Whether nothing of the change of the loads is borne, so that every turn brings it down."""
+        return abs(self.load_factor) <= GOOD and self.next_angle(tilt) <= AT_ONCE
 
 
 def only_direction_counts(model: Model, contacts: Contacts, tilt: Tilt) -> bool:
@@ -129,6 +135,8 @@ class _Search:
         """From the first of some angles that is too large; the last of them where none is."""
         for angle in PROBES:
             answer = self.at(angle)
+            if answer.falls_at_once(self.tilt):
+                return answer
             if not answer.load_factor > 1.0:
                 start = answer.next_angle(self.tilt)
                 return self.from_angle(min(start, angle)) if math.isfinite(answer.load_factor) else answer
@@ -137,10 +145,11 @@ class _Search:
     def from_angle(self, angle: float) -> Answer:
         """Down to the angle whose load factor is 1, from one that is too large."""
         steps: list[tuple[float, float]] = []
+        angle = max(angle, AT_ONCE)  # of no turn at all the loads would not change
         for _ in range(MOST_STEPS):
             answer = self.at(angle)
             factor = answer.load_factor
-            if not math.isfinite(factor) or abs(factor - 1.0) <= ENDED:
+            if not math.isfinite(factor) or abs(factor - 1.0) <= ENDED or answer.falls_at_once(self.tilt):
                 return answer
             steps.append((angle, factor))
             following = self._next(answer, steps)
@@ -162,10 +171,16 @@ class _Search:
     def before(self, found: Answer) -> Answer:
         """The same, or an earlier collapse where nothing proves that the table gets so far."""
         angle = math.radians(found.load_case.tilt.angle) if found.load_case.tilt is not None else math.nan
-        if not found.load_factor <= 1.0 + GOOD or self.tilt.upright >= math.tan(angle / 2.0):
+        if (
+            found.falls_at_once(self.tilt)
+            or not found.load_factor <= 1.0 + GOOD
+            or self.tilt.upright >= math.tan(angle / 2.0)
+        ):
             return found
         for step in range(1, BETWEEN):
             answer = self.at(angle * step / BETWEEN)
+            if answer.falls_at_once(self.tilt):
+                return answer
             if answer.load_factor < 1.0 - GOOD:
                 return self.from_angle(min(answer.next_angle(self.tilt), angle * step / BETWEEN))
         return found
@@ -180,9 +195,13 @@ class _Search:
         if factor > 1.0 + GOOD:
             solution = never_collapses(tilt, found)
             tilt = replace(tilt, angle=math.nan)
+        elif found.falls_at_once(self.tilt):
+            words.append("It collapses as soon as it turns: the level structure bears nothing of the change")
+            tilt = replace(tilt, angle=0.0)
         elif abs(factor - 1.0) > GOOD and solution.status is Status.SOLVED:
             reason = f"the angle did not settle: its load factor differs from 1 by {abs(factor - 1.0):.1e}"
-            solution = replace(solution, status=Status.APPROXIMATE, reason=reason)
+            near = abs(factor - 1.0) <= NEAR
+            solution = replace(solution, status=Status.APPROXIMATE if near else Status.NOT_VERIFIED, reason=reason)
         elif self.tilt.upright < math.tan(angle / 2.0):
             words.append(f"That it does not collapse before was seen at {BETWEEN - 1} angles, not proved")
         solution = replace(solution, remarks=(*solution.remarks, *words), seconds=self.seconds)

@@ -175,3 +175,16 @@ def test_a_false_angle_is_found_out() -> None:
     assert not tilt_failures(answer.load_case, answer.solution)
     false = replace(answer.load_case, tilt=replace(tilt, angle=tilt.angle + 0.01))
     assert len(tilt_failures(false, answer.solution)) == 1
+
+
+@pytest.mark.parametrize("rule", ["associative", "non_associative"])
+def test_what_slips_with_the_first_turn_has_the_angle_zero(rule: str) -> None:
+    """Between two upright walls that hold it along x, frictionless; the axis is not level, so that a part of gravity
+    along y comes up as the table turns."""
+    text = METRES.replace("axis: [0, 1, 0]", "axis: [0, 1, 0.2]").replace(
+        "supports: [", "supports: [{ground: {x: 0}}, {ground: {point: [3, 0, 0], normal: [-1, 0, 0]}}, "
+    )
+    text = text.replace("blocks: [", "# a little strength, so that the size of the loads counts\nblocks: [")
+    answer = turned(text, "parameters.mu=0", "parameters.f=1", f"analysis.flow_rule={rule}")
+    assert angle(answer) == 0.0
+    assert any("as soon as it turns" in remark for remark in answer.solution.remarks)
