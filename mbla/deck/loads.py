@@ -27,11 +27,19 @@ from mbla.deck.supports import Turn
 
 
 class HeightPattern(Section):
-    """How an acceleration grows along a direction: linearly from 0 at base to 1 at top, or through points."""
+    """How an acceleration grows along a direction: linearly from 0 at base to 1 at top, or through points.
+
+    Every part of a block has the factor of its own height, so that it does not matter how a structure is divided into
+    blocks; an added mass that of the place where it is.
+    """
 
     along: Direction = Field((0.0, 0.0, 1.0), description="direction along which heights are measured, from the origin")
-    base: Length | None = Field(None, description="height of factor 0, as below it; lowest point of the blocks loaded")
-    top: Length | None = Field(None, description="height of factor 1, as above it; highest point of the blocks loaded")
+    base: Length | None = Field(
+        None, description="height of factor 0, as below it; lowest point of the blocks loaded unless given"
+    )
+    top: Length | None = Field(
+        None, description="height of factor 1, as above it; highest point of the blocks loaded unless given"
+    )
     points: list[tuple[Length, Number]] | None = Field(
         None,
         min_length=2,
