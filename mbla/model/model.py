@@ -49,9 +49,9 @@ class TravelPosition:
 
     series   : name of the load case in the deck, which became one for each position
     number   : of the position, from 1; ``count`` of them
-    point    : (3,) m
-    distance : from the beginning of the path m
-    block    : the block that carries the load
+    point    : (3,) m, where the foremost of its forces on the path is
+    distance : of that from the beginning of the path m
+    block    : the block that carries that one
     """
 
     series: str

@@ -170,7 +170,7 @@ def _scene(results: Results, case: CaseResult) -> _Scene:
     blocks = results.model.blocks
     motion = drawn_motion(results.model.of_case(case.load_case), case)
     size = float(np.linalg.norm(np.ptp(blocks.vertices, axis=0)))
-    return _Scene(results, case, motion, moved_vertices(blocks, results.contacts, motion), size)
+    return _Scene(results, case, motion, moved_vertices(blocks, motion), size)
 
 
 def _draw(plotter: Any, scene: _Scene) -> list[list[str]]:

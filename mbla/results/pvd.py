@@ -8,7 +8,6 @@ from xml.sax.saxutils import quoteattr
 
 import numpy as np
 
-from mbla.contacts.contacts import Contacts
 from mbla.model.model import Model
 from mbla.results.cells import BlockCells, block_cells
 from mbla.results.motion import drawn_motion, moved_vertices
@@ -16,14 +15,12 @@ from mbla.results.results import CaseResult
 from mbla.results.vtu import block_data, write_cells
 
 
-def write_frame_vtu(
-    path: Path, model: Model, contacts: Contacts, case: CaseResult, time: float, cells: BlockCells | None = None
-) -> None:
+def write_frame_vtu(path: Path, model: Model, case: CaseResult, time: float, cells: BlockCells | None = None) -> None:
     """Blocks at a time from 0 (as built) to 1 (the motion as drawn).
 
     Point data: ``displacement``, what they have moved. Cell data: ``block``, ``group``, ``fixed``.
     """
-    vertices = moved_vertices(model.blocks, contacts, time * drawn_motion(model, case))
+    vertices = moved_vertices(model.blocks, time * drawn_motion(model, case))
     data = block_data(model)
     del data["weight"]
     write_cells(path, vertices, vertices - model.blocks.vertices, data, cells or block_cells(model.blocks))

@@ -26,7 +26,7 @@ def angle_at(tilt: Tilt, load_factor: float) -> float:
     """Angle in degrees that a load factor stands for; nan where it stands for none."""
     if tilt.tangent:
         return math.degrees(math.atan(load_factor))
-    return tilt.angle if abs(load_factor - 1.0) <= AT_COLLAPSE else math.nan
+    return tilt.angle if tilt.angle == 0.0 or abs(load_factor - 1.0) <= AT_COLLAPSE else math.nan
 
 
 def angle_bounds(case: CaseResult) -> tuple[float, float]:

@@ -77,7 +77,7 @@ def _write_mesh_files(results: Results, case: CaseResult, out: OutputFolder, fra
     names = [f"{stem}_frame_{i:03d}.vtu" for i in range(len(times))]
     for name, moment in zip(names, times, strict=True):
         with out.writing(name) as path:
-            write_frame_vtu(path, model, contacts, case, moment, cells)
+            write_frame_vtu(path, model, case, moment, cells)
     out.write_text(f"{stem}.pvd", collection_pvd(names, times))
 
 

@@ -80,7 +80,7 @@ def steps(results: Results, folder: Path) -> dict[str, Callable[[], object]]:
         "blocks.vtu, polyhedra": lambda: write_blocks_vtu(folder / "polyhedra.vtu", model, contacts, case, polyhedra),
         "contacts.vtu": lambda: write_contacts_vtu(folder / "contacts.vtu", model, contacts, case),
         "interfaces.vtu": lambda: write_interfaces_vtu(folder / "interfaces.vtu", model, contacts, case),
-        "one frame": lambda: write_frame_vtu(folder / "frame.vtu", model, contacts, case, 0.5, cells),
+        "one frame": lambda: write_frame_vtu(folder / "frame.vtu", model, case, 0.5, cells),
         f"all files, {FRAMES} frames": lambda: write_outputs(
             results, folder / "all", "wall", True, True, FRAMES, False
         ),
