@@ -60,7 +60,7 @@ def _walk(value: Any, annotation: Any, extra: tuple[Any, ...], change: Callable[
     if isinstance(value, dict):
         return _walk_mapping(value, annotation, change)
     if isinstance(value, list):
-        inner = [args for args in map(get_args, _choices(annotation, (list, tuple)))]
+        inner = list(map(get_args, _choices(annotation, (list, tuple))))
         kinds = next((args for args in inner if len(args) == len(value) and len(args) > 1), inner[0])
         each = kinds if len(kinds) == len(value) else kinds[:1] * len(value)
         return [_walk(part, kind, (), change) for part, kind in zip(value, each, strict=True)]
