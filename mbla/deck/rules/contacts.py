@@ -45,3 +45,11 @@ def convex_outlines(deck: types.DeckContent) -> Iterator[Finding]:
         for key in ("inset", "rounding"):
             if getattr(deck.contacts.points, key) > 0:
                 yield ("contacts", "points", key), "applies to contact_model: concave only: use 0"
+
+
+@rule(types.DeckContent)
+def table_of_the_whole(deck: types.DeckContent) -> Iterator[Finding]:
+    """A table names blocks of the deck: it cannot say what images touch, nor what meets at the plane."""
+    if deck.contacts.table is not None and deck.symmetry:
+        message = "names no images, nor what meets at a plane of symmetry: give the whole structure, or no table"
+        yield ("contacts", "table"), message
