@@ -1,0 +1,49 @@
+"""Random decks: no internal error, exit status and files that agree with each other, faults told by their place."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from mbla.cli import main
+from mbla.run import EXIT_CODES, GRAVEST_FIRST
+from mbla.solution import Status
+from tests.properties.random_decks import random_deck
+from tests.properties.run_deck import run_deck, write_deck
+
+FEW = (0, 3, 10, 13, 23, 39, 46, 49)
+"""one each of solved, without equilibrium, unbounded, convex, a dome on a tilting table, dilatancy and mortar"""
+MANY = range(60, 460)
+
+
+def check(seed: int, folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = write_deck(random_deck(seed), folder)
+    run = run_deck(path, capsys)
+    assert run.code in (0, 3, 4, 5), run.errors
+    checked = main(["check", str(path), "--vtu"])
+    told = capsys.readouterr()
+    if run.code == 3:
+        assert checked == 3
+        assert run.record == {}
+        assert all(f"{path.name}:1:" in line for line in run.errors.splitlines())
+        assert not path.with_suffix(".out").exists()
+        return
+    assert checked == 0, told.err
+    codes = {EXIT_CODES[Status(case["status"])] for case in run.cases}
+    assert run.code == run.record["exit_code"] == next((code for code in GRAVEST_FIRST if code in codes), 0)
+    assert all((case["load_factor"] is None) != (case["status"] in ("solved", "approximate")) for case in run.cases)
+    file = str(path.with_suffix(".out") / "deck.h5")
+    assert main(["verify", file]) == run.code, capsys.readouterr().out
+    assert main(["show", file]) == 0
+
+
+@pytest.mark.parametrize("seed", FEW)
+def test_a_few(seed: int, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    check(seed, tmp_path, capsys)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("seed", MANY)
+def test_many(seed: int, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    check(seed, tmp_path, capsys)
