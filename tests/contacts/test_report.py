@@ -109,7 +109,7 @@ def test_the_gap_below_a_part_without_support() -> None:
     )
     above = boxes(([0, 0, 0.02], [1, 1, 1]))
     assert (
-        "nearest to it is ground z = 0, 0.02 m from block[0]"
+        "nearest to it is ground, 0.02 m from block[0]"
         in words(contacts_of(above, grounds=(ground(),)).report)["isolated-blocks"]
     )
 
