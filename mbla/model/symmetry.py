@@ -19,6 +19,7 @@ from mbla.deck.rules.exactly_one import EXACTLY_ONE
 from mbla.deck.tree import KeyPath
 from mbla.deck.types import Load, LoadCaseSection
 from mbla.errors import Fault, Notice
+from mbla.model.blocks import Blocks
 from mbla.model.build_blocks import Labels, build_blocks
 from mbla.model.guides import Guides
 from mbla.model.labels import BlockLabels, join_labels
@@ -144,7 +145,7 @@ def _mirrored(model: Model, mirror: Mirror, tolerance: float) -> Model:
     )
     return replace(
         model,
-        blocks=built.blocks,
+        blocks=_with_masses(built.blocks, blocks, mirror),
         fixed=np.concatenate([model.fixed, model.fixed[others]]),
         grounds=_grounds(model.grounds, mirror),
         guides=_guides(model.guides, mirror),
@@ -152,6 +153,18 @@ def _mirrored(model: Model, mirror: Mirror, tolerance: float) -> Model:
         notices=(*model.notices, Notice("notice", "mirrored", text)),
         mirrors=(*model.mirrors, (*mirror.normal.tolist(), float(mirror.normal @ mirror.point))),
     )
+
+
+def _with_masses(whole: Blocks, own: Blocks, mirror: Mirror) -> Blocks:
+    """The blocks with the added masses of what they are images of; those of both halves on a block joined of two."""
+    masses, points = np.zeros(len(whole)), own.added_mass_points
+    moments = np.zeros((len(whole), 3))
+    images = points - 2.0 * ((points - mirror.point) @ mirror.normal)[:, None] * mirror.normal
+    for rows, places in ((np.arange(len(own)), points), (mirror.image_of, images)):
+        masses[rows] += own.added_masses
+        moments[rows] += own.added_masses[:, None] * (places - whole.centroids[rows])
+    arms = moments / np.where(masses > 0.0, masses, 1.0)[:, None]
+    return replace(whole, added_masses=masses, added_mass_points=whole.centroids + arms)
 
 
 def _labels(model: Model, others: IntArray) -> Labels:

@@ -43,8 +43,8 @@ class DomeItem(Item):
     )
     oculus: PositiveLength | None = Field(
         None,
-        description="diameter of an opening in the intrados at the crown; the rim is cut along the cone and has no level "
-        "seat for a lantern",
+        description="diameter of an opening in the intrados at the crown; the rim is cut along the cone and has no "
+        "level seat for a lantern",
     )
     keystone: PositiveLength | None = Field(
         None,
