@@ -23,6 +23,7 @@ from mbla.model.blocks import Blocks
 from mbla.model.build_blocks import Labels, build_blocks
 from mbla.model.guides import Guides
 from mbla.model.labels import BlockLabels, join_labels
+from mbla.model.loads.named_loads import entries_of
 from mbla.model.mirror import Mirror, find_mirror
 from mbla.model.mirrored_blocks import halves_joined, polyhedra_of, reflected
 from mbla.model.model import Ground, LoadCase, Model, Settlement
@@ -76,21 +77,20 @@ def _loads_across(deck: Deck, section: LoadCaseSection, path: KeyPath, mirror: M
     """Loads on masses that are not their own mirror image, and kinds of loads that have no image."""
     faults = []
     for key, loads in (("dead", section.dead or []), ("live", section.live or [])):
-        for number, load in enumerate(loads):
-            kind = given(load, EXACTLY_ONE[Load])[0]
-            value = getattr(load, kind)
+        for entry in entries_of(loads, (*path, key), deck.content.loads):
+            kind = given(entry.load, EXACTLY_ONE[Load])[0]
+            if kind in AT_PLACES:
+                continue
+            message = f"is no load that can be mirrored about {mirror.label}: give the whole structure"
             if kind in ON_MASSES:
-                if abs(float(np.array(value) @ mirror.normal)) <= ACROSS * np.abs(value).max():
+                value = np.array(getattr(entry.load, kind))
+                if abs(float(value @ mirror.normal)) <= ACROSS * np.abs(value).max():
                     continue
                 message = (
                     f"acts across the plane of symmetry {mirror.label}: the other half would have to be pushed the "
                     "other way; give the whole structure"
                 )
-            elif kind in AT_PLACES:
-                continue
-            else:
-                message = f"is no load that can be mirrored about {mirror.label}: give the whole structure"
-            faults.append(deck.fault_at((*path, key, number, kind), message))
+            faults.append(deck.fault_at((*entry.path, kind), message))
     return faults
 
 

@@ -9,6 +9,7 @@ import pytest
 
 from mbla.contacts import find_contacts
 from mbla.deck import read_deck
+from mbla.errors import DeckError
 from mbla.model import Model, build_model
 from mbla.results.results import Results
 from mbla.results.settlement_words import reaction_of
@@ -183,3 +184,11 @@ def test_added_masses_are_those_of_the_whole(tmp_path: Path) -> None:
         strict=True,
     ):
         assert one == pytest.approx(other, abs=1e-9)
+
+
+def test_named_loads_have_images(tmp_path: Path) -> None:
+    named = HALF.replace("[{acceleration: [0, 1, 0]}]", "[{loads: quake, factor: 2}]")
+    one = model_of(tmp_path, f"{named}loads: {{quake: [{{acceleration: [0, 0.5, 0]}}]}}\n")
+    assert one.load_cases[0].live_load == pytest.approx(model_of(tmp_path, HALF).load_cases[0].live_load)
+    with pytest.raises(DeckError, match=r"loads\.quake\[0\]\.acceleration.*acts across the plane of symmetry x = 1"):
+        model_of(tmp_path, f"{named}loads: {{quake: [{{acceleration: [0.5, 0.5, 0]}}]}}\n")
