@@ -14,14 +14,21 @@ Semismooth Newton (Alart and Curnier 1991, doi:10.1016/0045-7825(91)90022-X) on 
 
 Where Newton's method fails the limits of shear are held at l = μN + c of the last iterate. What is left is the minimum
 of a convex function, which Newton's method with a line search always finds; limits and minima alternate until Newton's
-method on the whole law takes over.
+method on the whole law takes over. More friction takes thrust off a joint, and less brings it back: where limits swing
+to and fro in this way they move only part of the way to those of the minimum.
+
+Where that does not end either, the assembly moves there in time: dashpots η W act beside the springs, ::
+
+    A x(v) + f − κ W u − η W (u − u_before) = 0
+
+a state on springs κ + η, which is easy where η is large; u_before moves up to u, and η falls from step to step.
 """
 
 from __future__ import annotations
 
 import time
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import scipy.sparse as sp
@@ -39,8 +46,23 @@ ROUNDING = 64 * np.finfo(float).eps
 NEWTON_STEPS = 40
 BACKTRACKS = 8
 
-LAGS, TRY_EVERY = 15, 3
+MOST_UPHILL = 2
+"""Steps in a row of Newton's method that need not come nearer to balance than any before."""
+
+LAGS, TRY_EVERY = 9, 3
 """Times that the limits of shear are brought up to date at one κ; Newton's method is tried after every third."""
+
+LEAST_MOVE = 0.1
+"""Least share of their way that limits of shear move: it is halved where they turn back, and grows by half where not.
+Limits that swing by −q each time come to rest where the share is below 2/(1 + q)."""
+
+DASHPOT_STEPS, MOST_REFUSED = 60, 20
+"""Steps in time at one κ, with those that are not found, and the most of these."""
+
+DASHPOT, STRONGER, WEAKER, TRY_DASHPOTS_EVERY = 1.0, 4.0, 0.3, 4
+"""η of the first step; what it is multiplied by where no state is found, and where one is; and the steps after which
+Newton's method is tried without dashpots. Of nine walls with openings all were settled with these, two to five with
+springs alone."""
 
 CONVEX_STEPS = 30
 LINE_STEPS = 20
@@ -115,14 +137,45 @@ def spring_state(problem: SpringProblem, kappa: float, starts: Sequence[FloatArr
     """
     start = min(starts, key=lambda u: float(np.linalg.norm(_joints(problem, kappa, u, None).unbalanced)))
     found, u = _newton(problem, kappa, start)
-    for lag in range(LAGS):
-        if found or problem.late:
-            break
-        u = _convex_minimum(problem, kappa, u)
-        if lag % TRY_EVERY == TRY_EVERY - 1:
-            found, near = _newton(problem, kappa, u)
-            u = near if found else u
+    if not found:
+        found, u = _by_lagged_limits(problem, kappa, u)
+    if not found:
+        found, u = _by_dashpots(problem, kappa, u)
     return u if found else None
+
+
+def _by_lagged_limits(problem: SpringProblem, kappa: float, u: FloatArray) -> tuple[bool, FloatArray]:
+    """Minima under limits of shear that follow the normal forces; whether they led there, and the last minimum."""
+    limit, share, before = _joints(problem, kappa, u, None).limit, 1.0, np.zeros(len(problem.limits.friction))
+    for lag in range(1, LAGS + 1):
+        if problem.late:
+            break
+        u = _convex_minimum(problem, kappa, u, limit)
+        misfit = _joints(problem, kappa, u, None).limit - limit
+        share = max(0.5 * share, LEAST_MOVE) if misfit @ before < 0.0 else min(1.5 * share, 1.0)
+        limit, before = limit + share * misfit, misfit
+        if lag % TRY_EVERY == 0:
+            found, near = _newton(problem, kappa, u)
+            if found:
+                return True, near
+    return False, u
+
+
+def _by_dashpots(problem: SpringProblem, kappa: float, u: FloatArray) -> tuple[bool, FloatArray]:
+    """Steps in time with ever weaker dashpots; whether they led there, and the last state."""
+    eta, steps, refused = DASHPOT, 0, 0
+    while steps + refused < DASHPOT_STEPS and refused < MOST_REFUSED and not problem.late:
+        held = replace(problem, load=problem.load + eta * (problem.springs @ u))
+        found, near = _newton(held, kappa + eta, u)
+        if not found:
+            eta, refused = STRONGER * eta, refused + 1
+            continue
+        u, eta, steps = near, WEAKER * eta, steps + 1
+        if eta < kappa or steps % TRY_DASHPOTS_EVERY == 0:
+            found, near = _newton(problem, kappa, u)
+            if found:
+                return True, near
+    return False, u
 
 
 def joint_forces(problem: SpringProblem, u: FloatArray) -> FloatArray:
@@ -131,29 +184,46 @@ def joint_forces(problem: SpringProblem, u: FloatArray) -> FloatArray:
 
 
 def _newton(problem: SpringProblem, kappa: float, u: FloatArray) -> tuple[bool, FloatArray]:
-    """Newton's method on the whole law, backtracking on the norm; whether it converged, and the last iterate."""
+    """Newton's method on the whole law; whether it converged, and the iterate nearest to balance.
+
+    Steps are shortened until they come nearer to balance. At a kink of the law none may: then the shortened step that
+    is left nearest is taken all the same, a few times in a row, for on its other side the way often goes on.
+    """
     now = _joints(problem, kappa, u, None)
+    nearest, least, uphill = u, float(np.linalg.norm(now.unbalanced)), 0
     for _ in range(NEWTON_STEPS):
         if _balanced(problem, u, now):
             return True, u
-        step = _direction(problem, kappa, now, lagged=False)
+        step = None if problem.late else _direction(problem, kappa, now, lagged=False)
         if step is None:
-            return False, u
-        norm, size = float(np.linalg.norm(now.unbalanced)), 1.0
-        for _ in range(BACKTRACKS):
-            trial = _joints(problem, kappa, u + size * step, None)
-            if np.linalg.norm(trial.unbalanced) < (1.0 - 1e-4 * size) * norm:
-                break
-            size *= 0.5
-        else:
-            return False, u
-        u, now = u + size * step, trial
+            return False, nearest
+        u, now = _backtracked(problem, kappa, u, step, float(np.linalg.norm(now.unbalanced)))
+        norm = float(np.linalg.norm(now.unbalanced))
+        if norm < least:
+            nearest, least, uphill = u, norm, 0
+        elif (uphill := uphill + 1) > MOST_UPHILL:
+            return False, nearest
     return _balanced(problem, u, now), u
 
 
-def _convex_minimum(problem: SpringProblem, kappa: float, u: FloatArray) -> FloatArray:
-    """Equilibrium under the limits of shear that belong to u; the unbalanced force is the negative gradient."""
-    limit = _joints(problem, kappa, u, None).limit
+def _backtracked(
+    problem: SpringProblem, kappa: float, u: FloatArray, step: FloatArray, norm: float
+) -> tuple[FloatArray, _Joints]:
+    """The first of ever shorter steps that comes nearer to balance, or else the one that comes nearest."""
+    size, best = 1.0, (np.inf, u, _joints(problem, kappa, u, None))
+    for _ in range(BACKTRACKS):
+        trial = _joints(problem, kappa, u + size * step, None)
+        here = float(np.linalg.norm(trial.unbalanced))
+        if here < best[0]:
+            best = (here, u + size * step, trial)
+        if here < (1.0 - 1e-4 * size) * norm:
+            break
+        size *= 0.5
+    return best[1], best[2]
+
+
+def _convex_minimum(problem: SpringProblem, kappa: float, u: FloatArray, limit: FloatArray) -> FloatArray:
+    """Equilibrium under given limits of shear, (n_points,), from u; the unbalanced force is the negative gradient."""
     now = _joints(problem, kappa, u, limit)
     for _ in range(CONVEX_STEPS):
         if _balanced(problem, u, now):

@@ -59,19 +59,25 @@ def test_held_limits_of_shear_leave_a_minimum_that_is_found() -> None:
     problem = problem_of(rafters(0.6))
     start = np.random.default_rng(1).normal(size=len(problem.load))
     limit = _joints(problem, 1e-3, start, None).limit
-    u = _convex_minimum(problem, 1e-3, start)
+    u = _convex_minimum(problem, 1e-3, start, limit)
     assert np.abs(_joints(problem, 1e-3, u, limit).unbalanced).max() < 1e-9
 
 
-def test_alternating_limits_find_a_state_where_newtons_method_does_not(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Newton's method may try again only close by: one step of it, from the lagged states."""
-    problem = problem_of(rafters(0.6))
-    direct = spring_state(problem, 1e-3, [np.zeros(len(problem.load))])
-    monkeypatch.setattr("mbla.solution.spring_state.NEWTON_STEPS", 2)
-    lagged = spring_state(problem, 1e-3, [np.zeros(len(problem.load))])
+@pytest.mark.parametrize(("lags", "dashpot_steps"), [(9, 0), (0, 60)], ids=["limits", "dashpots"])
+def test_detours_find_the_state_where_newtons_method_does_not(
+    lags: int, dashpot_steps: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Two steps of Newton's method do not lead there from rest; close by they do."""
+    problem = problem_of(rafters(0.4))
+    start = [np.zeros(len(problem.load))]
+    direct = spring_state(problem, 1e-3, start)
     assert direct is not None
-    assert lagged is not None
-    assert lagged == pytest.approx(direct, abs=1e-6)
+    for name, value in (("NEWTON_STEPS", 2), ("LAGS", 0), ("DASHPOT_STEPS", 0)):
+        monkeypatch.setattr(f"mbla.solution.spring_state.{name}", value)
+    assert spring_state(problem, 1e-3, start) is None
+    monkeypatch.setattr("mbla.solution.spring_state.LAGS", lags)
+    monkeypatch.setattr("mbla.solution.spring_state.DASHPOT_STEPS", dashpot_steps)
+    assert spring_state(problem, 1e-3, start) == pytest.approx(direct, abs=1e-9)
 
 
 def test_the_share_is_what_friction_leaves_over() -> None:

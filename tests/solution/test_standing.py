@@ -17,6 +17,7 @@ from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Standing, StandingResult, Status
 from mbla.solution.standing import assess_standing, standing_without_equilibrium, worst_standing
 from mbla.solution.weakening import Outcome, Weakening, agreed, weaken_springs
+from tests.decks.folder import DECKS
 from tests.line import WALL, line_of
 from tests.solution.standing_structures import STRUCTURES, Structure, arch, bar, incline, leaning, overhang
 
@@ -120,6 +121,17 @@ def test_ratios_of_stiffness_that_disagree_leave_it_doubtful() -> None:
     for pair in ((carried, falls), (falls, carried)):
         both = agreed(*pair)
         assert (both.outcome, both.block) == (Outcome.UNDECIDED, 7)
+
+
+@pytest.mark.parametrize(("rise", "friction"), [(0.15, 0.65), (0.17, 0.5), (0.17, 0.65), (0.17, 0.8)])
+def test_segmental_arches_in_a_wall_are_decided(rise: float, friction: float) -> None:
+    """Thrust and friction of the arch take each other away in turn: with limits that follow the normal forces at once
+    no state was found near κ = 5e-3, or at 1."""
+    text = (DECKS / "tutorials" / "lintels_and_arches.yaml").read_text()
+    line = line_of(text.replace("rise: 0.2", f"rise: {rise}").replace("friction: 0.65", f"friction: {friction}"))
+    reduced = reduce_program(line.model, line.contacts, line.program, ReductionSwitches(), associative=True)
+    (planar,) = reduced.parts
+    assert weaken_springs(planar, "dead_load", planar.limits, SETTINGS).outcome is Outcome.CARRIED
 
 
 def test_a_load_that_is_zero_is_carried() -> None:
