@@ -9,6 +9,7 @@ import numpy as np
 from mbla.arrays import IntArray
 from mbla.contacts.contacts import ContactReport
 from mbla.contacts.glue import Glue
+from mbla.contacts.nearest import nearest_words
 from mbla.deck.types import ContactsSection
 from mbla.errors import Notice
 from mbla.model.model import Model
@@ -134,6 +135,8 @@ def _isolated(model: Model, report: ContactReport) -> list[Notice]:
     if not len(report.isolated):
         return []
     text = f"{_count(len(report.isolated), 'block')} without any contact: {_names(model, report.isolated)}"
+    adrift = [part for part in report.unsupported if len(part) == 1 and int(part[0]) in set(report.isolated.tolist())]
+    text += nearest_words(model, adrift[0]) if adrift else ""
     return [Notice("warning", "isolated-blocks", text)]
 
 
@@ -146,6 +149,7 @@ def _unsupported(model: Model, report: ContactReport) -> list[Notice]:
         f"{_count(len(parts), 'part')} of the structure not connected to a support; the "
         f"{'largest' if len(parts) > 1 else 'part'} has "
         f"{_count(max(len(part) for part in parts), 'block')}: {_names(model, max(parts, key=len))}"
+        f"{nearest_words(model, max(parts, key=len))}"
     )
     return [Notice("warning", "unsupported-parts", text)]
 

@@ -83,9 +83,10 @@ def _table(title: str, section: type[BaseModel]) -> str:
 
 
 def _first(field: FieldInfo) -> str:
-    """First line about the section a field holds, for fields without words of their own."""
+    """First sentence about the section a field holds, for fields without words of their own."""
     sections = [section for _, section in _sections_in(field.annotation, "")]
-    return ((sections[0].__doc__ or "").strip().splitlines()[0]).rstrip(".") if sections else ""
+    paragraph = inspect.cleandoc(sections[0].__doc__ or "").split("\n\n")[0] if sections else ""
+    return " ".join(paragraph.split()).split(". ")[0].rstrip(".")
 
 
 def _default(field: FieldInfo) -> str:
@@ -107,7 +108,7 @@ def _value(annotation: Any, metadata: list[Any] | tuple[Any, ...] = ()) -> str:
         if isinstance(item, Quantity):
             return _quantity(item)
         if isinstance(item, Whole):
-            return f"whole number, {item.ge} " + ("or more" if item.le >= 1_000_000 else f"to {item.le}")
+            return _whole(item)
         if getattr(item, "pattern", None) in (NAME_PATTERN, PARAMETER_PATTERN):
             return "name"
     origin, arguments = get_origin(annotation), get_args(annotation)
@@ -138,6 +139,14 @@ def _plural(words: str) -> str:
     for noun in ("number", "name", "mapping", "list", "text"):
         words = re.sub(rf"\b{noun}\b(?!:)", f"{noun}s", words)
     return words
+
+
+def _whole(item: Whole) -> str:
+    """``whole number, 2 to 1000``; limits beyond a million are none."""
+    least, most = item.ge > -1_000_000, item.le < 1_000_000
+    if not least:
+        return f"whole number, {item.le} or less" if most else "whole number"
+    return f"whole number, {item.ge} " + (f"to {item.le}" if most else "or more")
 
 
 def _quantity(quantity: Quantity) -> str:

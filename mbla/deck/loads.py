@@ -162,6 +162,7 @@ class LoadCaseSection(Section):
     settlement: SettlementSection | None = Field(
         None,
         description="in place of live: a support that gives way, free of other supports; the answer is the mechanism "
-        "and the reaction with which the support meets it, the least that equilibrium allows. The load factor is the "
-        "loss of reaction, from that of the structure at rest on, over the weight of the free blocks",
+        "and the reaction with which the support meets it, the least that equilibrium allows; negative where the "
+        "support must be pushed that way, as with springings that close in. The load factor is the loss of reaction, "
+        "from that of the structure at rest on, over the weight of the free blocks",
     )

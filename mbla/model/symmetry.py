@@ -19,9 +19,11 @@ from mbla.deck.rules.exactly_one import EXACTLY_ONE
 from mbla.deck.tree import KeyPath
 from mbla.deck.types import Load, LoadCaseSection
 from mbla.errors import Fault, Notice
+from mbla.model.blocks import Blocks
 from mbla.model.build_blocks import Labels, build_blocks
 from mbla.model.guides import Guides
 from mbla.model.labels import BlockLabels, join_labels
+from mbla.model.loads.named_loads import entries_of
 from mbla.model.mirror import Mirror, find_mirror
 from mbla.model.mirrored_blocks import halves_joined, polyhedra_of, reflected
 from mbla.model.model import Ground, LoadCase, Model, Settlement
@@ -75,21 +77,20 @@ def _loads_across(deck: Deck, section: LoadCaseSection, path: KeyPath, mirror: M
     """Loads on masses that are not their own mirror image, and kinds of loads that have no image."""
     faults = []
     for key, loads in (("dead", section.dead or []), ("live", section.live or [])):
-        for number, load in enumerate(loads):
-            kind = given(load, EXACTLY_ONE[Load])[0]
-            value = getattr(load, kind)
+        for entry in entries_of(loads, (*path, key), deck.content.loads):
+            kind = given(entry.load, EXACTLY_ONE[Load])[0]
+            if kind in AT_PLACES:
+                continue
+            message = f"is no load that can be mirrored about {mirror.label}: give the whole structure"
             if kind in ON_MASSES:
-                if abs(float(np.array(value) @ mirror.normal)) <= ACROSS * np.abs(value).max():
+                value = np.array(getattr(entry.load, kind))
+                if abs(float(value @ mirror.normal)) <= ACROSS * np.abs(value).max():
                     continue
                 message = (
                     f"acts across the plane of symmetry {mirror.label}: the other half would have to be pushed the "
                     "other way; give the whole structure"
                 )
-            elif kind in AT_PLACES:
-                continue
-            else:
-                message = f"is no load that can be mirrored about {mirror.label}: give the whole structure"
-            faults.append(deck.fault_at((*path, key, number, kind), message))
+            faults.append(deck.fault_at((*entry.path, kind), message))
     return faults
 
 
@@ -144,7 +145,7 @@ def _mirrored(model: Model, mirror: Mirror, tolerance: float) -> Model:
     )
     return replace(
         model,
-        blocks=built.blocks,
+        blocks=_with_masses(built.blocks, blocks, mirror),
         fixed=np.concatenate([model.fixed, model.fixed[others]]),
         grounds=_grounds(model.grounds, mirror),
         guides=_guides(model.guides, mirror),
@@ -152,6 +153,18 @@ def _mirrored(model: Model, mirror: Mirror, tolerance: float) -> Model:
         notices=(*model.notices, Notice("notice", "mirrored", text)),
         mirrors=(*model.mirrors, (*mirror.normal.tolist(), float(mirror.normal @ mirror.point))),
     )
+
+
+def _with_masses(whole: Blocks, own: Blocks, mirror: Mirror) -> Blocks:
+    """The blocks with the added masses of what they are images of; those of both halves on a block joined of two."""
+    masses, points = np.zeros(len(whole)), own.added_mass_points
+    moments = np.zeros((len(whole), 3))
+    images = points - 2.0 * ((points - mirror.point) @ mirror.normal)[:, None] * mirror.normal
+    for rows, places in ((np.arange(len(own)), points), (mirror.image_of, images)):
+        masses[rows] += own.added_masses
+        moments[rows] += own.added_masses[:, None] * (places - whole.centroids[rows])
+    arms = moments / np.where(masses > 0.0, masses, 1.0)[:, None]
+    return replace(whole, added_masses=masses, added_mass_points=whole.centroids + arms)
 
 
 def _labels(model: Model, others: IntArray) -> Labels:

@@ -26,8 +26,9 @@ def program_notices(model: Model, contacts: Contacts, contact_model: str = "conc
     text = f"joint law {names}: compressive strength limits each contact point to its share of the area"
     if not (crushable & _corners_alone(contacts)).any():
         text += (
-            "; an interface bears moments that exceed those of a stress block by at most fc b h^2/(8 n^2), with its "
-            "length h in n parts and its greatest breadth b (four times that where it is no parallelogram)"
+            "; an interface bears moments that exceed those of stress blocks by at most (fc + ft) b h^2/(8 n^2), with "
+            "the tensile strength ft, its length h in n parts and its greatest breadth b (four times that where it is "
+            "no parallelogram)"
         )
         return (Notice("notice", "crushing-at-points", text),)
     text += (

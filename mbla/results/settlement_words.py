@@ -61,6 +61,9 @@ def settlement_lines(model: Model, case: CaseResult) -> list[str]:
         share = _figure(value / settlement.unit, settlement, 1.0)
         words = f"{_figure(value, settlement)} {unit}   ({share} of {_of(settlement)})"
         lines += entry("reaction of the support", words)
+        if value < -NOTHING * settlement.unit:
+            pushed = "turned" if settlement.turns else "pushed"
+            lines += entry("", f"negative: the structure withstands; the support must be {pushed} the way it gives")
     if np.isfinite(checks.kinematic_bound) and np.isfinite(checks.static_bound):
         ends = (settlement.reaction(checks.kinematic_bound), settlement.reaction(checks.static_bound))
         lines += entry("associative, its bounds", f"{' .. '.join(f'{end:.8g}' for end in ends)} {unit}")

@@ -81,7 +81,10 @@ def test_isolated_block() -> None:
     ).report
     assert report.isolated.tolist() == [1]
     assert [part.tolist() for part in report.unsupported] == [[1]]
-    assert words(report) == {"isolated-blocks": "1 block without any contact: block[1]"}
+    assert words(report) == {
+        "isolated-blocks": "1 block without any contact: block[1]; nearest to it is block[0], 4 m from block[1], by "
+        "the boxes around them"
+    }
 
 
 def test_part_that_reaches_no_support() -> None:
@@ -90,8 +93,25 @@ def test_part_that_reaches_no_support() -> None:
     assert [part.tolist() for part in report.unsupported] == [[1, 3]]
     assert words(report) == {
         "unsupported-parts": "1 part of the structure not connected to a support; the part has 2 blocks: "
-        "block[1], block[3]"
+        "block[1], block[3]; nearest to it is block[0], 4 m from block[1], by the boxes around them"
     }
+
+
+def test_the_gap_below_a_part_without_support() -> None:
+    """The box of a tier 0.0128 m above the one it was meant to stand on; a block that meets an edge only; a ground."""
+    tiers = boxes(([0, 0, 0], [3, 1, 1]), ([0, 0, 1.0128], [1, 1, 2]), ([1, 0, 1.0128], [2, 1, 2]))
+    assert "nearest to it is block[0], 0.0128 m from block[1]" in words(contacts_of(tiers, fixed=[0]).report).get(
+        "unsupported-parts", ""
+    )
+    edge = boxes(([0, 0, 0], [1, 1, 1]), ([1, 0, 1], [2, 1, 2]))
+    assert words(contacts_of(edge, fixed=[0]).report)["isolated-blocks"].endswith(
+        "nearest to it is block[0], which block[1] meets or overlaps without a common surface"
+    )
+    above = boxes(([0, 0, 0.02], [1, 1, 1]))
+    assert (
+        "nearest to it is ground, 0.02 m from block[0]"
+        in words(contacts_of(above, grounds=(ground(),)).report)["isolated-blocks"]
+    )
 
 
 def test_parts_are_not_connected_through_a_support_that_only_one_touches() -> None:

@@ -40,9 +40,20 @@ def test_units_defaults_and_bounds() -> None:
     assert tables["output"]["vtu"][:2] == ["`true`, `false`", "`true`"]
     assert tables["output"]["frames"][:2] == ["whole number, 2 to 1000", "`11`"]
     assert tables["blocks[].*.*.rotate"]["about"][:2] == ["3 numbers [L]", "`[0, 0, 0]`"]
+    position = next(table for table in tables.values() if "voussoir" in table)
+    assert position["voussoir"][0] == "whole number or 2 whole numbers"  # negative ones count from the last
+    assert position["index"][0] == "whole number, 0 or more"
     assert tables["deck"]["parameters"][0] == "name: number"
     assert tables["supports[]"]["blocks"][0] == "name or mapping or list of names or mappings"
 
 
 def test_every_row_has_a_meaning() -> None:
     assert all(cells[-1] for table in rows().values() for cells in table.values())
+
+
+def test_words_about_a_kind_of_item_end_where_its_sentence_does() -> None:
+    items = rows()["blocks[]"]
+    assert (
+        items["stack"][2] == "Equal cuboids one on the other along +z, the lowest with its least corner at the origin"
+    )
+    assert items["cross_vault"][2].endswith("the middle of the bay at the origin, springings at z = 0")

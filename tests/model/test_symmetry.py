@@ -9,6 +9,7 @@ import pytest
 
 from mbla.contacts import find_contacts
 from mbla.deck import read_deck
+from mbla.errors import DeckError
 from mbla.model import Model, build_model
 from mbla.results.results import Results
 from mbla.results.settlement_words import reaction_of
@@ -162,3 +163,32 @@ def test_parts_beside_the_plane_keep_their_own_states(tmp_path: Path) -> None:
     assert (found.solution.size.parts, found.solution.size.mirror_planes) == (2, 0)
     assert found.solution.mechanics is not None
     assert found.solution.mechanics.load_factor == pytest.approx(0.5, rel=1e-7)
+
+
+def test_added_masses_are_those_of_the_whole(tmp_path: Path) -> None:
+    """On a block and its image, and on one that the plane cuts, of which the deck gives half the mass."""
+    masses = (
+        "masses:\n"
+        "  - {mass: 70, on: {group: side, index: 4}, at: [0.15, 0.6, 0.7]}\n"
+        "  - {mass: %s, on: {group: front, unit: 2, course: 2}, at: [%s, 0.1, 0.6]}\n"
+    )
+    half = model_of(tmp_path, HALF + masses % (15, 0.9))
+    image = "  - {mass: 70, on: {group: side, index: 13}, at: [1.85, 0.6, 0.7]}\n"
+    whole = model_of(tmp_path, WHOLE + masses % (30, 1.0) + image)
+    assert half.total_weight == pytest.approx(whole.total_weight, rel=1e-12)
+    assert half.total_weight - model_of(tmp_path, HALF).total_weight == pytest.approx(170 * 9.81)
+    rows = [np.lexsort(np.round(each.blocks.centroids, 9).T) for each in (half, whole)]
+    for one, other in zip(
+        (half.blocks.added_masses[rows[0]], half.blocks.added_mass_points[rows[0]]),
+        (whole.blocks.added_masses[rows[1]], whole.blocks.added_mass_points[rows[1]]),
+        strict=True,
+    ):
+        assert one == pytest.approx(other, abs=1e-9)
+
+
+def test_named_loads_have_images(tmp_path: Path) -> None:
+    named = HALF.replace("[{acceleration: [0, 1, 0]}]", "[{loads: quake, factor: 2}]")
+    one = model_of(tmp_path, f"{named}loads: {{quake: [{{acceleration: [0, 0.5, 0]}}]}}\n")
+    assert one.load_cases[0].live_load == pytest.approx(model_of(tmp_path, HALF).load_cases[0].live_load)
+    with pytest.raises(DeckError, match=r"loads\.quake\[0\]\.acceleration.*acts across the plane of symmetry x = 1"):
+        model_of(tmp_path, f"{named}loads: {{quake: [{{acceleration: [0.5, 0.5, 0]}}]}}\n")

@@ -1,8 +1,12 @@
 from __future__ import annotations
 
+from pathlib import Path
+
 import pytest
 
 from mbla.program.remarks import program_notices
+from mbla.results.series import factor_of
+from mbla.run import RunOptions, run
 from tests.line import BLOCK, line_of
 
 
@@ -41,3 +45,34 @@ def test_a_single_edge_without_points_is_enough_for_the_warning() -> None:
 def test_joints_without_it_are_not() -> None:
     line = line_of(BLOCK)
     assert program_notices(line.model, line.contacts) == ()
+
+
+PIER = """mbla: 1
+units: {length: mm, force: N, mass: t}
+materials: {stone: {unit_weight: 1.0e-5}}
+joints: {mortar: {friction: 0.7, cohesion: 5, tensile_strength: 2, compressive_strength: 2}}
+blocks:
+  - box: {group: pier, material: stone, min: [0, 0, 0], max: [300, 200, 1000]}
+contacts: {joint: mortar, points: {per_edge: PARTS}}
+supports: [{ground: {z: 0}}]
+load_cases:
+  top: {live: [{force: [1000, 0, 0], on: pier, at: [150, 100, 1000]}]}
+analysis: {flow_rule: associative}
+"""
+
+
+@pytest.mark.parametrize("parts", [9, 11])
+def test_the_excess_of_points_that_also_bear_tension(tmp_path: Path, parts: int) -> None:
+    """Blocks of fc on a and of ft on h - a: N = fc a b - ft (h - a) b, M = (fc + ft) b a (h - a)/2.
+
+    Odd parts have their greatest excess in the middle, where a weight of next to nothing puts the end of the block.
+    """
+    path = tmp_path / "pier.yaml"
+    path.write_text(PIER.replace("PARTS", str(parts)))
+    results = run(path, RunOptions())
+    b, h, strengths = 200.0, 300.0, 2.0 + 2.0
+    a = (600.0 + 2.0 * b * h) / (strengths * b)
+    moment = factor_of(results.cases[0]) * 1000 * 1000
+    excess = moment - strengths * b * a * (h - a) / 2
+    bound = strengths * b * h**2 / (8 * parts**2)
+    assert 0.8 * bound < excess <= bound

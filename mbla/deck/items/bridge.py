@@ -78,7 +78,9 @@ class BridgeItem(Item):
         None, description="spandrels: length and height of a unit; courses are evened out to fit"
     )
     cover: PositiveLength | None = Field(
-        None, description="spandrels: height of their top over the highest crown of the extrados"
+        None,
+        description="spandrels: height of their top over the highest crown of the extrados, which of an odd number of "
+        "voussoirs is the middle of a chord and a little below the curve (`mbla check` says how high the top lies)",
     )
     spandrel_thickness: PositiveLength | None = Field(None, description="edges: extent of each wall along y")
     backing: Count | None = Field(

@@ -41,7 +41,11 @@ class DomeItem(Item):
     embrace: EmbraceAngle | None = Field(
         None, description="segmental: angle between the springing joints in a section through the axis, degrees"
     )
-    oculus: PositiveLength | None = Field(None, description="diameter of an opening in the intrados at the crown")
+    oculus: PositiveLength | None = Field(
+        None,
+        description="diameter of an opening in the intrados at the crown; the rim is cut along the cone and has no "
+        "level seat for a lantern",
+    )
     keystone: PositiveLength | None = Field(
         None,
         description="diameter, in the intrados, of the block that closes the crown; without it and without an oculus "
