@@ -81,7 +81,9 @@ def settlement_of(program: Program, displacements: FloatArray) -> FloatArray:
     """
     stiffest = 1.0
     while program.reduction is not None:
-        stiffest *= max(float(program.reduction.forces.power(2).sum(axis=1).max(initial=0.0)), 1.0)
+        unit = float(program.reduction.velocities.power(2).sum(axis=0).max(initial=0.0)) or 1.0  # 1/f² of a part
+        most = float(program.reduction.forces.power(2).sum(axis=1).max(initial=0.0)) * unit
+        stiffest *= max(most, 1.0) / unit
         displacements, program = program.reduction.velocities @ displacements, program.reduction.full
     scaling = program.scaling
     return program.mechanism(displacements) * (stiffest * scaling.force**2 / scaling.live)
