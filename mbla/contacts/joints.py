@@ -1,5 +1,7 @@
 """Which joint law each interface has: the section's, the ground's, or that of the last override that fits.
 
+The law that a table of interfaces gives for one of them holds before all others.
+
 An override fits where all its conditions hold:
 
 - ``between``: one body is in the first selection and the other in the second;
@@ -12,6 +14,7 @@ An override fits where all its conditions hold:
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -32,11 +35,15 @@ ROUNDING = 1e-9
 
 @dataclass(frozen=True)
 class Sites:
-    """What decides about joint laws: ``bodies`` (n, 2), unit ``normals`` (n, 3) and ``centroids`` (n, 3) m."""
+    """What decides about joint laws: ``bodies`` (n, 2), unit ``normals`` (n, 3) and ``centroids`` (n, 3) m.
+
+    given : (n) name of the law that the table of interfaces gives; empty where it gives none; None without a table
+    """
 
     bodies: IntArray
     normals: FloatArray
     centroids: FloatArray
+    given: Sequence[str] | None = None
 
 
 @dataclass(frozen=True)
@@ -73,11 +80,15 @@ def joints_of_interfaces(model: Model, section: ContactsSection, sites: Sites) -
     rows = np.full(len(sites.bodies), names.index(section.joint))
     for index, ground in enumerate(model.grounds):
         rows[sites.bodies[:, 0] == n_blocks + index] = names.index(ground.joint)
+    settled = np.zeros(len(rows), dtype=bool)
+    if sites.given is not None:
+        settled = np.array([bool(name) for name in sites.given], dtype=bool)
+        rows[settled] = [names.index(name) for name in sites.given if name]
     roster = build_roster(model.blocks, frozenset(), _not_to_be_reported) if section.overrides else None
     notices = []
     for override in section.overrides:
         assert roster is not None
-        fits = _fits(model, roster, sites, override)
+        fits = _fits(model, roster, sites, override) & ~settled
         rows[fits] = names.index(override.joint)
         if not fits.any():
             text = f"no contact {override_words(override)}: the override with joint {override.joint} has no effect"

@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
-from mbla.contacts.broad_phase import find_block_pairs
-from mbla.contacts.contacts import Contacts
+from mbla.contacts.broad_phase import BlockPairs, find_block_pairs
+from mbla.contacts.contacts import ContactReport, Contacts
 from mbla.contacts.corners import areas_and_centroids, needed_corners
-from mbla.contacts.facets import build_facets
+from mbla.contacts.facets import Facets, build_facets
 from mbla.contacts.given import patches_of
 from mbla.contacts.glue import Glue, glue_blocks
 from mbla.contacts.interface_points import interface_points
@@ -17,7 +17,7 @@ from mbla.contacts.narrow_phase import Patches, Verdicts, find_patches, judge
 from mbla.contacts.near_misses import without_covered
 from mbla.contacts.overlaps import find_overlaps
 from mbla.contacts.polygons import centroids
-from mbla.contacts.refine import point_starts
+from mbla.contacts.refine import InterfacePoints, point_starts
 from mbla.contacts.report import Findings, both_fixed, build_report
 from mbla.deck.types import ContactsSection
 from mbla.model.model import Model
@@ -34,55 +34,72 @@ def find_contacts(model: Model, section: ContactsSection) -> Contacts:
     two bodies that are both fixed are counted in the report and left out: nothing depends on their forces. So are open
     interfaces, and those inside of the rigid bodies that glued ones make.
     """
-    blocks, tolerance = model.blocks, section.tolerance
-    facets = build_facets(blocks)
-    pairs = find_block_pairs(blocks, tolerance)
-    verdicts = judge(find_patches(blocks, facets, pairs, model.grounds, tolerance), tolerance)
-    if model.interfaces is not None:
-        nothing = np.empty(0, dtype=np.int64)
-        slivers, near_misses = verdicts.slivers.take(nothing), verdicts.near_misses.take(nothing)
-        verdicts = Verdicts(patches_of(model, model.interfaces), slivers, near_misses)
-    touching = verdicts.contacts.overlays.bodies
-    overlaps = find_overlaps(blocks, facets, pairs, tolerance)
-    movable = _sorted(verdicts.contacts.take(~both_fixed(model, touching)))
-    laws, notices = joints_of_interfaces(model, section, _sites(movable))
-    glue = glue_blocks(model, movable.overlays.bodies[laws.glued])
-    inside = laws.glued | _inside(model, glue, movable.overlays.bodies)
+    facets = build_facets(model.blocks)
+    pairs = find_block_pairs(model.blocks, section.tolerance)
+    verdicts = _verdicts(model, facets, pairs, section.tolerance)
+    overlaps = find_overlaps(model.blocks, facets, pairs, section.tolerance)
+    order = _order(verdicts.contacts, ~both_fixed(model, verdicts.contacts.overlays.bodies))
+    movable = verdicts.contacts.take(order)
+    bodies = movable.overlays.bodies
+    laws, notices = joints_of_interfaces(model, section, _sites(model, movable, order))
+    glue = glue_blocks(model, bodies[laws.glued])
+    inside = laws.glued | _inside(model, glue, bodies)
     rows = np.flatnonzero(~laws.open & ~inside)
-    kept, (joints, joint_names) = movable.take(rows), laws.in_use(rows)
-    corners = needed_corners(kept.polygons, tolerance)
-    area, centroid = areas_and_centroids(corners, len(kept))
+    kept = movable.take(rows)
+    corners = needed_corners(kept.polygons, section.tolerance)
+    _, centroid = areas = areas_and_centroids(corners, len(kept))
     found, left_alone = interface_points(corners, centroid, kept.overlays.sizes, section.points)
-    report = build_report(
-        model,
-        section,
-        Findings(
-            contacts=verdicts.contacts,
-            slivers=verdicts.slivers,
-            near_misses=without_covered(verdicts.near_misses, verdicts.contacts),
-            overlaps=overlaps,
-            open_bodies=movable.overlays.bodies[laws.open],
-            glued_bodies=movable.overlays.bodies[inside & ~laws.open],
-            glue=glue,
-        ),
-        [*notices, *left_alone],
+    findings = Findings(
+        contacts=verdicts.contacts,
+        slivers=verdicts.slivers,
+        near_misses=without_covered(verdicts.near_misses, verdicts.contacts),
+        overlaps=overlaps,
+        open_bodies=bodies[laws.open],
+        glued_bodies=bodies[inside & ~laws.open],
+        glue=glue,
     )
-    interface, size = found.polygon, kept.overlays.sizes
+    report = build_report(model, section, findings, [*notices, *left_alone])
+    return _contacts(kept, areas, found, laws.in_use(rows), report, glue.solid_of_block)
+
+
+def _verdicts(model: Model, facets: Facets, pairs: BlockPairs, tolerance: float) -> Verdicts:
+    """What touches, and what nearly does; where the model gives its interfaces these, and nothing besides."""
+    if model.interfaces is None:
+        return judge(find_patches(model.blocks, facets, pairs, model.grounds, tolerance), tolerance)
+    given = patches_of(model, model.interfaces)
+    nothing = given.take(np.empty(0, dtype=np.int64))
+    return Verdicts(given, nothing, nothing)
+
+
+def _contacts(
+    kept: Patches,
+    areas: tuple[FloatArray, FloatArray],
+    found: InterfacePoints,
+    joints: tuple[IntArray, tuple[str, ...]],
+    report: ContactReport,
+    solid_of_block: IntArray | None,
+) -> Contacts:
+    """The interfaces kept, in space and in the deck's unit of length.
+
+    areas  : area and centroid of each, relative to block size
+    joints : row of each in the names of laws, and these names
+    """
+    size, interface = kept.overlays.sizes, found.polygon
     return Contacts(
         bodies=kept.overlays.bodies,
         normals=kept.overlays.frames[:, 0],
-        areas=area * size**2,
-        centroids=_in_space(kept, np.arange(len(kept)), centroid),
+        areas=areas[0] * size**2,
+        centroids=_in_space(kept, np.arange(len(kept)), areas[1]),
         gaps=kept.gaps * size,
-        joints=joints,
-        joint_names=joint_names,
+        joints=joints[0],
+        joint_names=joints[1],
         point_start=point_starts(found),
         outline=found.outline,
         points=_in_space(kept, interface, found.points),
         frames=kept.overlays.frames[interface],
         point_areas=found.areas * size[interface] ** 2,
         report=report,
-        solid_of_block=glue.solid_of_block,
+        solid_of_block=solid_of_block,
     )
 
 
@@ -94,18 +111,20 @@ def _inside(model: Model, glue: Glue, bodies: IntArray) -> BoolArray:
     return np.asarray(of_bodies[:, 0] == of_bodies[:, 1])
 
 
-def _sites(patches: Patches) -> Sites:
-    rows = np.arange(len(patches))
-    return Sites(
-        patches.overlays.bodies, patches.overlays.frames[:, 0], _in_space(patches, rows, centroids(patches.polygons))
-    )
+def _sites(model: Model, patches: Patches, order: IntArray) -> Sites:
+    """What decides about joint laws; ``order`` has the rows of the patches among all that were found or given."""
+    given = None if model.interfaces is None else [model.interfaces.joints[row] for row in order.tolist()]
+    centres = _in_space(patches, np.arange(len(patches)), centroids(patches.polygons))
+    return Sites(patches.overlays.bodies, patches.overlays.frames[:, 0], centres, given)
 
 
-def _sorted(patches: Patches) -> Patches:
-    """By body a, body b, position."""
-    bodies = patches.overlays.bodies
-    along = _in_space(patches, np.arange(len(patches)), centroids(patches.polygons)) @ _ODD_DIRECTION
-    return patches.take(np.lexsort((along, bodies[:, 1], bodies[:, 0])))
+def _order(patches: Patches, chosen: BoolArray) -> IntArray:
+    """Rows of the chosen patches by body a, body b, position."""
+    rows = np.flatnonzero(chosen)
+    some = patches.take(rows)
+    bodies = some.overlays.bodies
+    along = _in_space(some, np.arange(len(some)), centroids(some.polygons)) @ _ODD_DIRECTION
+    return np.asarray(rows[np.lexsort((along, bodies[:, 1], bodies[:, 0]))])
 
 
 def _in_space(patches: Patches, row: IntArray, points: FloatArray) -> FloatArray:

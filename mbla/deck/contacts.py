@@ -84,7 +84,8 @@ class ContactsSection(Section):
         min_length=1,
         description="CSV file with the interfaces, which are then not looked for: a header line with the columns "
         "interface,group_a,index_a,group_b,index_b,x,y,z, then a row for each corner, in order around each interface. "
-        "For a ground plane the group is `ground` and the index its number. Each must lie on faces of both bodies",
+        "For a ground plane the group is `ground` and the index its number. Each must lie on faces of both bodies. A "
+        "further column `joint` may give the law of single interfaces, which then holds before overrides",
     )
     points: ContactPoints = Field(default_factory=ContactPoints, description="where contact points lie")
     overrides: list[ContactOverride] = Field(default_factory=list, description="the last that fits a contact holds")

@@ -18,6 +18,7 @@ from mbla.deck.quantities import (
     Number,
     Point,
     Positions,
+    PositiveLength,
     Stress,
     UnitWeight,
 )
@@ -27,11 +28,19 @@ from mbla.deck.supports import Turn
 
 
 class HeightPattern(Section):
-    """How an acceleration grows along a direction: linearly from 0 at base to 1 at top, or through points."""
+    """How an acceleration grows along a direction: linearly from 0 at base to 1 at top, or through points.
+
+    Every part of a block has the factor of its own height, so that it does not matter how a structure is divided into
+    blocks; an added mass that of the place where it is.
+    """
 
     along: Direction = Field((0.0, 0.0, 1.0), description="direction along which heights are measured, from the origin")
-    base: Length | None = Field(None, description="height of factor 0, as below it; lowest point of the blocks loaded")
-    top: Length | None = Field(None, description="height of factor 1, as above it; highest point of the blocks loaded")
+    base: Length | None = Field(
+        None, description="height of factor 0, as below it; lowest point of the blocks loaded unless given"
+    )
+    top: Length | None = Field(
+        None, description="height of factor 1, as above it; highest point of the blocks loaded unless given"
+    )
     points: list[tuple[Length, Number]] | None = Field(
         None,
         min_length=2,
@@ -68,12 +77,29 @@ class PressureLoad(Section):
     )
 
 
+class Axle(Section):
+    """A force that follows the first one of a travelling load."""
+
+    behind: PositiveLength = Field(description="distance behind the first force, along the path")
+    force: tuple[Force, Force, Force] = Field(description="the force; it acts where the path is drawn, with its moment")
+
+
 class Travel(Section):
-    """A force that travels along a path: a load case for each position, and the worst of them."""
+    """A force, or several in a row, along a path: a load case for each position, and the worst of them."""
 
     force: tuple[Force, Force, Force] = Field(description="the force; it acts where the path is drawn, with its moment")
     path: list[Point] = Field(min_length=2, description="corners of the path")
-    positions: Positions = Field(description="positions at equal distances along the path, its ends among them")
+    positions: Positions = Field(
+        description="positions at equal distances along the path, its ends among them; with axles from the first force "
+        "at the beginning of the path to the last axle at its end"
+    )
+    axles: list[Axle] | None = Field(
+        None,
+        min_length=1,
+        max_length=100,
+        description="forces that follow the first one, as the axles of a lorry; none acts before it is on the path and "
+        "beyond its end",
+    )
     towards: Direction = Field((0.0, 0.0, -1.0), description="direction in which the block under it is looked for")
 
 

@@ -1,16 +1,26 @@
-"""Keys that users of other programs look for here and that a deck cannot have, with the reason instead of a list."""
+"""Keys that a deck cannot have and that users look for all the same, with the reason instead of a list of others."""
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 from mbla.deck.tree import KeyPath
 
-REASONS = {
+FOREIGN: Mapping[tuple[str, str], str] = {
     ("supports", "stiffness"): "elastic supports are not taken: the collapse load of rigid blocks does not depend on "
     "how stiff their supports are; leave it out, or let the support give way with load_cases.NAME.settlement",
 }
-"""(section, key) of a mapping in that section, at any depth -> why"""
+"""Keys of other programs: (section, key of a mapping in that section, at any depth) -> why"""
+
+REPLACED: Mapping[KeyPath, str] = {
+    ("contacts", "refine"): "contacts.points.per_edge",
+    ("contacts", "inset"): "contacts.points.inset",
+}
+"""Keys of earlier versions: path of the key -> the key that says the same now"""
 
 
 def refusal(path: KeyPath) -> str | None:
     """Why a deck cannot have the key at a path; None where there is no more to say than that it is unknown."""
-    return REASONS.get((str(path[0]), str(path[-1]))) if len(path) > 1 else None
+    if path in REPLACED:
+        return f"is not a key any more: write {REPLACED[path]}"
+    return FOREIGN.get((str(path[0]), str(path[-1]))) if len(path) > 1 else None

@@ -55,6 +55,7 @@ from mbla.deck.items import VaultItem as VaultItem
 from mbla.deck.items import WallItem as WallItem
 from mbla.deck.items import WallsItem as WallsItem
 from mbla.deck.joints import JointLaw as JointLaw
+from mbla.deck.loads import Axle as Axle
 from mbla.deck.loads import HeightPattern as HeightPattern
 from mbla.deck.loads import LineLoad as LineLoad
 from mbla.deck.loads import Load as Load

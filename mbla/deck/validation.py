@@ -8,10 +8,10 @@ from typing import Any
 from pydantic import ValidationError
 
 from mbla.deck import rules  # noqa: F401  registers the rules across keys
-from mbla.deck.fields import allowed_keys, description
+from mbla.deck.fields import allowed_keys, description, sections_at
 from mbla.deck.names import PATTERNS
 from mbla.deck.refused_keys import refusal
-from mbla.deck.replaced import REPLACED
+from mbla.deck.rules.exactly_one import KINDS
 from mbla.deck.suggestions import did_you_mean, listed, unknown
 from mbla.deck.tree import KeyPath, MappingMarks, SequenceMarks, Tree, own_mark
 from mbla.deck.types import DeckContent
@@ -159,9 +159,12 @@ def _comes_to(data: Any, path: KeyPath, value: Any) -> str:
 
 
 def _unknown_key(path: KeyPath) -> str:
-    if path in REPLACED:
-        return f"is not a key any more: write {REPLACED[path]}"
-    return unknown("key", str(path[-1]), allowed_keys(DeckContent, path[:-1]))
+    """With the keys that are allowed, or where to find them when they are too many for one line."""
+    key, allowed = str(path[-1]), allowed_keys(DeckContent, path[:-1])
+    kinds = [KINDS[section] for section in sections_at(DeckContent, path[:-1]) if section in KINDS]
+    if not kinds:
+        return unknown("key", key, allowed)
+    return f"unknown key{did_you_mean(key, allowed) or ';'} the key reference lists every {kinds[0]}"
 
 
 def _items(data: Any, path: KeyPath) -> str:

@@ -5,29 +5,61 @@ Each must lie on a face of either body, within the tolerance of contacts: what l
 
 from __future__ import annotations
 
+from collections.abc import Collection
+
 import numpy as np
 
 from mbla.arrays import FloatArray, IntArray, starts
-from mbla.deck.suggestions import did_you_mean
+from mbla.deck.deck import Deck
+from mbla.deck.joints import BUILT_IN
+from mbla.deck.suggestions import did_you_mean, unknown
+from mbla.deck.tree import KeyPath
+from mbla.errors import DeckError, Fault
 from mbla.model.blocks import Blocks
+from mbla.model.interface_overlaps import overlapping
 from mbla.model.model import GivenInterfaces, Ground
-from mbla.model.tables import Table, TableRefused
+from mbla.model.selectors import Roster
+from mbla.model.tables import Table, TableRefused, read_table
 
 GROUND = "ground"
 """name that stands for ground planes, numbered in their order"""
 COLUMNS = ("interface", "group_a", "index_a", "group_b", "index_b", "x", "y", "z")
+OPTIONAL = ("joint",)
 FLAT = 1e-6
 """area over perimeter squared below which an outline has none"""
 FACING = 0.99
 """cosine of the angle between an interface and a face that it may lie on, as of faces of one facet"""
 
 
+def read_interfaces(
+    deck: Deck, roster: Roster, grounds: tuple[Ground, ...], faults: list[Fault]
+) -> GivenInterfaces | None:
+    """Interfaces of the deck's table; None where it has none, or where it is at fault."""
+    path: KeyPath = ("contacts", "table")
+    if deck.contacts.table is None or roster.partial:
+        return None
+    try:
+        table = read_table(deck.resolve_file(path, deck.contacts.table), COLUMNS, OPTIONAL)
+        laws = (*deck.content.joints, *BUILT_IN)
+        return given_interfaces(table, roster.blocks, roster.members, grounds, laws, deck.contacts.tolerance)
+    except DeckError as error:
+        faults += error.faults
+    except TableRefused as refused:
+        faults += [deck.fault_at(path, fault) for fault in refused.faults]
+    return None
+
+
 def given_interfaces(
-    table: Table, blocks: Blocks, members: dict[str, IntArray], grounds: tuple[Ground, ...], tolerance: float
+    table: Table,
+    blocks: Blocks,
+    members: dict[str, IntArray],
+    grounds: tuple[Ground, ...],
+    joints: Collection[str],
+    tolerance: float,
 ) -> GivenInterfaces:
     """Interfaces of a table with the columns ``COLUMNS``, a row for each corner, those of an interface together.
 
-    members : blocks of each group; tolerance : relative to block size
+    members : blocks of each group; joints : names of laws; tolerance : relative to block size
 
     Raises
     ------
@@ -37,7 +69,36 @@ def given_interfaces(
     faults: list[str] = []
     points = table.numbers("xyz", faults)
     bodies = np.array([_bodies(table, row, members, len(blocks), len(grounds), faults) for row in range(len(table))])
-    names = table.columns["interface"]
+    start = _starts(table, bodies, joints, faults)
+    if faults:
+        raise TableRefused(faults)
+    first = start[:-1]
+    pairs, normals, outlines = [], [], []
+    for row, last in zip(first, start[1:], strict=True):
+        a, b = sorted(bodies[row].tolist(), key=lambda body: (body < len(blocks), body))
+        found = _oriented(points[row:last], (a, b), blocks, grounds, tolerance)
+        if isinstance(found, str):
+            faults.append(f"{_called(table, row)} {found}")
+            continue
+        pairs.append((a, b))
+        normals.append(found[0])
+        outlines.append(found[1])
+    if not faults:
+        reach = tolerance * np.array([_size(pair, blocks) for pair in pairs])
+        for one, other in overlapping(pairs, normals, outlines, reach):
+            earlier = table.columns["interface"][first[one]]
+            faults.append(f"{_called(table, first[other])} overlaps interface {earlier} between the same bodies")
+    if faults:
+        raise TableRefused(faults)
+    laws = table.columns.get("joint", [""] * len(table))
+    return GivenInterfaces(
+        np.array(pairs), np.array(normals), np.concatenate(outlines), start, tuple(laws[row] for row in first)
+    )
+
+
+def _starts(table: Table, bodies: IntArray, joints: Collection[str], faults: list[str]) -> IntArray:
+    """First row of each interface, and the number of rows; rows of one interface agree and follow each other."""
+    names, laws = table.columns["interface"], table.columns.get("joint", [""] * len(table))
     first = [row for row in range(len(table)) if row == 0 or names[row] != names[row - 1]]
     start = starts(np.diff([*first, len(table)]))
     seen: set[str] = set()
@@ -46,23 +107,22 @@ def given_interfaces(
             faults.append(f"{table.place(row)}: the rows of interface {names[row]} do not follow each other")
         seen.add(names[row])
         if (bodies[row:last] != bodies[row]).any():
-            faults.append(f"{table.place(row)}: interface {names[row]} is between different blocks in its rows")
-    if faults:
-        raise TableRefused(faults)
-    pairs, normals, outlines = [], [], []
-    for row, last in zip(first, start[1:], strict=True):
-        words = f"{table.place(row)}: interface {names[row]}"
-        a, b = sorted(bodies[row].tolist(), key=lambda body: (body < len(blocks), body))
-        found = _oriented(points[row:last], (a, b), blocks, grounds, tolerance)
-        if isinstance(found, str):
-            faults.append(f"{words} {found}")
-            continue
-        pairs.append((a, b))
-        normals.append(found[0])
-        outlines.append(found[1])
-    if faults:
-        raise TableRefused(faults)
-    return GivenInterfaces(np.array(pairs), np.array(normals), np.concatenate(outlines), start)
+            faults.append(f"{_called(table, row)} is between different blocks in its rows")
+        if len(set(laws[row:last])) > 1:
+            faults.append(f"{_called(table, row)} has different joint laws in its rows")
+        elif laws[row] and laws[row] not in joints:
+            faults.append(f"{table.place(row)}: {unknown('joint', laws[row], joints, 'known')}")
+    return start
+
+
+def _called(table: Table, row: int) -> str:
+    """``contacts.csv:7: interface bed``."""
+    return f"{table.place(row)}: interface {table.columns['interface'][row]}"
+
+
+def _size(bodies: tuple[int, int], blocks: Blocks) -> float:
+    """Size of the smaller block of a pair; grounds have none."""
+    return min(float(blocks.sizes[body]) for body in bodies if body < len(blocks))
 
 
 def _bodies(
@@ -98,7 +158,7 @@ def _oriented(
     if area <= FLAT * np.linalg.norm(ahead - arms, axis=1).sum() ** 2:
         return "has no area"
     normal = area_vector / area
-    size = min(float(blocks.sizes[body]) for body in bodies if body < len(blocks))
+    size = _size(bodies, blocks)
     departure = float(np.abs(arms @ normal).max())
     if departure > tolerance * size:
         return f"is not planar: corners leave its plane by {departure:.3g}"

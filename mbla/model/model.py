@@ -49,9 +49,9 @@ class TravelPosition:
 
     series   : name of the load case in the deck, which became one for each position
     number   : of the position, from 1; ``count`` of them
-    point    : (3,) m
-    distance : from the beginning of the path m
-    block    : the block that carries the load
+    point    : (3,) m, where the foremost of its forces on the path is
+    distance : of that from the beginning of the path m
+    block    : the block that carries that one
     """
 
     series: str
@@ -160,12 +160,14 @@ class GivenInterfaces:
     normals      : (n, 3)  unit, from a to b
     corners      : (m, 3)  counter-clockwise about the normal
     corner_start : (n + 1,)
+    joints       : (n) name of the joint law; empty for that of contacts
     """
 
     bodies: IntArray
     normals: FloatArray
     corners: FloatArray
     corner_start: IntArray
+    joints: tuple[str, ...]
 
 
 @dataclass(frozen=True)
@@ -181,7 +183,8 @@ class Model:
     guides      : blocks that may move in given ways only; they count as free
     mirrors     : unit normal m and offset d of the planes of symmetry that the deck gives, m·x = d: only symmetric
                   states are looked for
-    interfaces  : those that the deck gives by their corners; None where they are to be found
+    interfaces  : those that the deck gives by their corners; None where they are to be found, and in models from result
+                  files, which have the contacts that were made of them
     """
 
     title: str

@@ -144,7 +144,8 @@ def live_load_in_g(model: Model, load_case: LoadCase) -> float | None:
     Only then is the load factor an acceleration. A force that happens to be proportional to mass does not count: the
     words of the deck decide first.
     """
-    if not load_case.live_words or not all(word.startswith("acceleration") for word in load_case.live_words):
+    words = load_case.live_words
+    if not words or not all(word.startswith("acceleration") and ", by height" not in word for word in words):
         return None
     loaded = np.any(load_case.live_load[:, :3] != 0, axis=1)
     if not loaded.any():

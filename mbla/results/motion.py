@@ -78,14 +78,18 @@ def moved_vertices(blocks: Blocks, motion: FloatArray) -> FloatArray:
 
 
 def moved_points(blocks: Blocks, motion: FloatArray, owners: IntArray, points: FloatArray) -> FloatArray:
-    """Points of blocks after a finite motion, c + u + exp(θ)(p − c), (n, 3) m. Blocks keep their shape.
+    """Points of blocks after a finite motion, (n, 3) m: the screw that the motion of their block is the beginning of.
+
+    It is the exponential of the twist (u, θ), p' = c + V u + R (p − c) with R = exp(K) and V = ∫₀¹ exp(s K) ds, K the
+    cross-product matrix of θ. It keeps the shape of blocks, turns a part about its hinge and not about its centroid,
+    and moves blocks that move as one body alike, so that they do not part (Murray, Li and Sastry 1994, section 2.3.2).
 
     motion : (n_blocks, 6) displacement of the centroid m and rotation vector rad
     owners : (n,) block of each point
     """
-    centroids = blocks.centroids[owners]
-    turned = np.einsum("vij,vj->vi", rotation_matrices(motion[:, 3:])[owners], points - centroids)
-    return np.asarray(centroids + motion[owners, :3] + turned)
+    rotation, travel = screws(motion)
+    turned = np.einsum("vij,vj->vi", rotation[owners], points - blocks.centroids[owners])
+    return np.asarray((blocks.centroids + travel)[owners] + turned)
 
 
 def moved_contact_points(model: Model, contacts: Contacts, motion: FloatArray, side: int) -> FloatArray:
@@ -97,13 +101,24 @@ def moved_contact_points(model: Model, contacts: Contacts, motion: FloatArray, s
     return moved
 
 
-def rotation_matrices(vectors: FloatArray) -> FloatArray:
-    """Rotation matrices of rotation vectors, (n, 3, 3), by Rodrigues' formula I + sin θ K + (1 − cos θ) K²."""
+def screws(motion: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Rotation matrices R, (n, 3, 3), and displacements V u of the centroids, (n, 3), of finite motions.
+
+    With the angle θ and K of the unit axis: R = I + sin θ K + (1 − cos θ) K²,
+    V = I + (1 − cos θ)/θ K + (1 − sin θ/θ) K².
+    """
+    vectors = motion[:, 3:]
     angles = np.linalg.norm(vectors, axis=1)
     axes = vectors / np.where(angles > 0, angles, 1.0)[:, None]
     cross = np.zeros((len(vectors), 3, 3))
     x, y, z = axes.T
     cross[:, 0, 1], cross[:, 0, 2], cross[:, 1, 2] = -z, y, -x
     cross -= cross.transpose(0, 2, 1)
-    sine, versine = np.sin(angles)[:, None, None], (1 - np.cos(angles))[:, None, None]
-    return np.asarray(np.eye(3) + sine * cross + versine * (cross @ cross))
+    square = cross @ cross
+    angle = angles[:, None, None]
+    half = angle / 2
+    # (1 − cos θ)/θ and sin θ/θ without loss of digits near zero
+    lag, share = np.sin(half) * np.sinc(half / np.pi), np.sinc(angle / np.pi)
+    rotation = np.eye(3) + np.sin(angle) * cross + 2 * np.sin(half) ** 2 * square
+    path = np.eye(3) + lag * cross + (1 - share) * square
+    return rotation, np.einsum("nij,nj->ni", path, motion[:, :3])

@@ -32,13 +32,15 @@ def result_of(case: CaseResult) -> Mechanics | None:
 
 
 def best_iterate(case: CaseResult) -> Mechanics | None:
-    """The best that was reached where that is no result."""
-    return None if result_of(case) is not None else case.solution.mechanics
+    """The best that was reached where that is no result; nothing where it is settled that there is none."""
+    return None if result_of(case) is not None or case.status is Status.UNBOUNDED else case.solution.mechanics
 
 
 def associative_of(case: CaseResult) -> Mechanics | None:
     """The associative answer where it is a result: bounds confirm it whatever became of the deck's own flow rule."""
     associative = case.solution.associative
+    if case.status is Status.UNBOUNDED:
+        return None
     if case.solution.flow_rule == "associative":
         return None if result_of(case) is None else associative
     confirmed = case.status in WITH_VALUE or case.checks.gap <= APPROXIMATE_RESIDUAL

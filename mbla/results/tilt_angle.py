@@ -42,6 +42,6 @@ def tilt_words(load_case: LoadCase, load_factor: float) -> str:
     assert tilt is not None  # asked for such cases only
     if tilt.tangent:
         return f"{number(math.degrees(math.atan(load_factor)))} degrees of tilt"
-    if not math.isnan(tilt.angle) and abs(load_factor - 1.0) <= AT_COLLAPSE:
+    if tilt.angle == 0.0 or (not math.isnan(tilt.angle) and abs(load_factor - 1.0) <= AT_COLLAPSE):
         return f"{number(tilt.angle)} degrees of tilt"
     return f"{number(load_factor)} times the change of the loads by the tilt"

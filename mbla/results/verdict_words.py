@@ -18,7 +18,7 @@ from mbla.results.outcome import (
 from mbla.results.results import CaseResult
 from mbla.results.settlement_words import reaction_words
 from mbla.results.text import number, small
-from mbla.results.tilt_angle import angle_of, tilt_words
+from mbla.results.tilt_angle import tilt_words
 from mbla.solution.solution import Status
 from mbla.solution.verify import SOLVED_RESIDUAL
 
@@ -64,8 +64,6 @@ def verdict(model: Model, case: CaseResult) -> str:
     mechanics = result_of(case)
     if mechanics is None:
         return _without_load_factor(model, case)
-    if case.load_case.tilt is not None and np.isnan(angle_of(case)):
-        return "no angle of collapse: it bears gravity turned by every angle that was tried, up to 180 degrees"
     value = load_factor_words(model, case.load_case, mechanics.load_factor)
     verified = case.status is Status.SOLVED
     outer = case.solution.outer
@@ -99,10 +97,14 @@ def _without_figures(case: CaseResult) -> str:
         return "no equilibrium: the structure cannot carry its dead load"
     if case.status is Status.UNBOUNDED and case.load_case.settlement is not None:
         return "no least reaction: the structure holds the support back however hard that pulls away from it"
+    if case.status is Status.UNBOUNDED and case.load_case.tilt is not None:
+        turned = "no angle of collapse: it bears gravity turned by every angle up to 180 degrees"
+        decided = case.solution.flow_rule == "associative" or case.solution.lock is not None
+        return turned if decided else f"{turned} by associative flow; undecided for {_flow(case)} flow"
     if case.status is Status.UNBOUNDED and case.solution.flow_rule in DECIDED:
         return "no collapse: no multiple of the live load brings the structure down"
     if case.status is Status.UNBOUNDED:
-        return f"no collapse by associative flow; undecided for {case.solution.flow_rule.replace('_', '-')} flow"
+        return f"no collapse by associative flow; undecided for {_flow(case)} flow"
     if case.status is Status.NOT_VERIFIED and case.solution.certificate is not None:
         return "NOT VERIFIED: the lack of equilibrium could not be confirmed"
     if case.status is Status.NOT_VERIFIED and case.solution.lock is not None:
@@ -110,6 +112,10 @@ def _without_figures(case: CaseResult) -> str:
     if case.status is Status.NOT_VERIFIED:
         return "NOT VERIFIED: no load factor"
     return f"NOT SOLVED ({_stopped(case)})"
+
+
+def _flow(case: CaseResult) -> str:
+    return case.solution.flow_rule.replace("_", "-")
 
 
 def _stopped(case: CaseResult) -> str:
@@ -122,7 +128,12 @@ def bound_words(model: Model, case: CaseResult) -> str:
     The kinematic bound limits the associative load factor, and that limits the load factor of any other flow rule.
     """
     verified = case.status is Status.SOLVED and not locked_in(case)
-    if verified or case.solution.mechanics is None or np.isnan(case.checks.kinematic_bound):
+    if (
+        verified
+        or case.status is Status.UNBOUNDED
+        or case.solution.mechanics is None
+        or np.isnan(case.checks.kinematic_bound)
+    ):
         return ""
     value = load_factor_words(model, case.load_case, case.checks.kinematic_bound)
     if case.load_case.settlement is not None:

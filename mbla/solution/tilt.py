@@ -25,7 +25,7 @@ import numpy as np
 from mbla.contacts.contacts import Contacts
 from mbla.model.model import LoadCase, Model, Tilt
 from mbla.solution.solution import Checks, Mechanics, Solution, Status
-from mbla.solution.tilt_circle import AT_ONCE, chord, line_of
+from mbla.solution.tilt_circle import AT_ONCE, chord, line_of, never_left
 
 Ask: TypeAlias = Callable[[LoadCase], tuple[Solution, Checks]]
 """Solve and verify a load case."""
@@ -36,6 +36,8 @@ SETTLED = 1e-10
 """change of the angle in radians below which steps go round in rounding"""
 GOOD = 1e-6
 """distance of the load factor from 1 up to which the case may be called solved"""
+NEAR = 1e-2
+"""distance up to which it is approximate; beyond, the angle is no result"""
 MOST_STEPS = 16
 """steps; Newton's method takes 3 to 6, secants about as many"""
 PROBES = (0.5 * math.pi, 0.75 * math.pi, math.pi)
@@ -72,6 +74,10 @@ class Answer:
         found = self.bounding
         return math.inf if found is None else line_of(tilt, found, found.load_factor).first_crossing()
 
+    def falls_at_once(self, tilt: Tilt) -> bool:
+        """Whether nothing of the change of the loads is borne, so that every turn brings it down."""
+        return abs(self.load_factor) <= GOOD and self.next_angle(tilt) <= AT_ONCE
+
 
 def only_direction_counts(model: Model, contacts: Contacts, tilt: Tilt) -> bool:
     """Whether loads can be borne in any multiple if in one: no strength but friction, and nothing but gravity."""
@@ -98,6 +104,16 @@ def solve_tilt(model: Model, contacts: Contacts, load_case: LoadCase, ask: Ask) 
     return search.with_words(search.before(found))
 
 
+def never_collapses(tilt: Tilt, found: Answer) -> Solution:
+    """The solution of the last angle tried, which is no collapse of the table either."""
+    if found.solution.status is Status.UNBOUNDED:
+        return found.solution
+    reason = f"it does not collapse at any of the angles that were tried, up to {tilt.angle:g} degrees"
+    if never_left(tilt.upright, found.checks.static_bound):
+        return replace(found.solution, status=Status.UNBOUNDED, reason=f"{reason}, and forces are known for all others")
+    return replace(found.solution, status=Status.NOT_VERIFIED, reason=f"{reason}; nothing is proved of those between")
+
+
 class _Search:
     """Answers at one angle after the other."""
 
@@ -119,6 +135,8 @@ class _Search:
         """From the first of some angles that is too large; the last of them where none is."""
         for angle in PROBES:
             answer = self.at(angle)
+            if answer.falls_at_once(self.tilt):
+                return answer
             if not answer.load_factor > 1.0:
                 start = answer.next_angle(self.tilt)
                 return self.from_angle(min(start, angle)) if math.isfinite(answer.load_factor) else answer
@@ -127,10 +145,11 @@ class _Search:
     def from_angle(self, angle: float) -> Answer:
         """Down to the angle whose load factor is 1, from one that is too large."""
         steps: list[tuple[float, float]] = []
+        angle = max(angle, AT_ONCE)  # of no turn at all the loads would not change
         for _ in range(MOST_STEPS):
             answer = self.at(angle)
             factor = answer.load_factor
-            if not math.isfinite(factor) or abs(factor - 1.0) <= ENDED:
+            if not math.isfinite(factor) or abs(factor - 1.0) <= ENDED or answer.falls_at_once(self.tilt):
                 return answer
             steps.append((angle, factor))
             following = self._next(answer, steps)
@@ -152,10 +171,16 @@ class _Search:
     def before(self, found: Answer) -> Answer:
         """The same, or an earlier collapse where nothing proves that the table gets so far."""
         angle = math.radians(found.load_case.tilt.angle) if found.load_case.tilt is not None else math.nan
-        if not found.load_factor <= 1.0 + GOOD or self.tilt.upright >= math.tan(angle / 2.0):
+        if (
+            found.falls_at_once(self.tilt)
+            or not found.load_factor <= 1.0 + GOOD
+            or self.tilt.upright >= math.tan(angle / 2.0)
+        ):
             return found
         for step in range(1, BETWEEN):
             answer = self.at(angle * step / BETWEEN)
+            if answer.falls_at_once(self.tilt):
+                return answer
             if answer.load_factor < 1.0 - GOOD:
                 return self.from_angle(min(answer.next_angle(self.tilt), angle * step / BETWEEN))
         return found
@@ -168,11 +193,15 @@ class _Search:
         words = [f"The load factor is that of the change of the loads from the level table; angles tried: {degrees}"]
         angle, factor = math.radians(tilt.angle), found.load_factor
         if factor > 1.0 + GOOD:
-            words.append(f"It does not collapse at any of these angles up to {tilt.angle:g} degrees")
+            solution = never_collapses(tilt, found)
             tilt = replace(tilt, angle=math.nan)
+        elif found.falls_at_once(self.tilt):
+            words.append("It collapses as soon as it turns: the level structure bears nothing of the change")
+            tilt = replace(tilt, angle=0.0)
         elif abs(factor - 1.0) > GOOD and solution.status is Status.SOLVED:
             reason = f"the angle did not settle: its load factor differs from 1 by {abs(factor - 1.0):.1e}"
-            solution = replace(solution, status=Status.APPROXIMATE, reason=reason)
+            near = abs(factor - 1.0) <= NEAR
+            solution = replace(solution, status=Status.APPROXIMATE if near else Status.NOT_VERIFIED, reason=reason)
         elif self.tilt.upright < math.tan(angle / 2.0):
             words.append(f"That it does not collapse before was seen at {BETWEEN - 1} angles, not proved")
         solution = replace(solution, remarks=(*solution.remarks, *words), seconds=self.seconds)

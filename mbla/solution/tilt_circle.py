@@ -18,6 +18,8 @@ from mbla.solution.solution import Mechanics
 FULL_TURN = 2.0 * math.pi
 AT_ONCE = 1e-8
 """angle within which the circle is left at its beginning; the arc cosine near 1 knows angles no better"""
+CLOSE = 1e-9
+"""share of the radius by which a side of the proof may cut into the circle: what STEEPEST takes off it, and rounding"""
 STEEPEST = 1e6
 """multiple of the load across that stands for every multiple; a right angle to 1e-6"""
 
@@ -51,6 +53,21 @@ def chord(tilt: Tilt, angle: float) -> FloatArray:
     # 1 - cos t without cancellation
     lowered = 2.0 * math.sin(angle / 2.0) ** 2
     return math.sin(angle) * tilt.across - lowered * tilt.turning
+
+
+def never_left(upright: float, over: float) -> bool:
+    """Whether every angle up to 180 degrees is proved to be borne.
+
+    upright : multiple of the load across that the level table bears, inf for every multiple
+    over    : share of the way from the level table to the one turned over, (-1, 0), that is borne
+
+    The corners of the proof are (1, 0), (1, ``upright``) and (1 - 2 over, 0). The side between the last two must pass
+    the half circle at no less than its radius.
+    """
+    if not (upright > 0.0 and over >= 1.0):
+        return False
+    top = min(upright, STEEPEST)
+    return bool((2.0 * over - 1.0) * top >= (1.0 - CLOSE) * math.hypot(2.0 * over, top))
 
 
 def angle_above(upright: float, share: float, angle: float) -> float:

@@ -134,6 +134,6 @@ def test_grounds_of_springers_move_along() -> None:
     corners = moved.parts[0].polyhedra.vertices.reshape(-1, 8, 3)
     for ground in moved.grounds:
         assert np.linalg.norm(ground.normal) == pytest.approx(1)
-        heights = np.sort((corners[ground.block] - ground.point) @ ground.normal)
+        heights = np.sort((corners[ground.blocks[0]] - ground.point) @ ground.normal)
         assert heights[:4] == pytest.approx([0] * 4, abs=1e-12)
         assert heights[4] > 0.1

@@ -10,7 +10,7 @@ from mbla.results.motion import (
     motion_scale,
     movable_size,
     moved_vertices,
-    rotation_matrices,
+    screws,
     vertex_displacements,
 )
 from mbla.results.results import Results
@@ -23,12 +23,18 @@ def results() -> Results:
     return tower_results()
 
 
-def test_rotation_matrices_are_exponentials() -> None:
-    vectors = np.random.default_rng(0).normal(size=(20, 3))
-    vectors[0] = 0
-    for vector, matrix in zip(vectors, rotation_matrices(vectors), strict=True):
-        cross = np.array([[0, -vector[2], vector[1]], [vector[2], 0, -vector[0]], [-vector[1], vector[0], 0]])
-        assert matrix == pytest.approx(expm(cross), abs=1e-12)
+def test_screws_are_exponentials_of_twists() -> None:
+    motions = np.random.default_rng(0).normal(size=(20, 6))
+    motions[0, 3:] = 0
+    motions[1, 3:] *= 1e-9
+    for motion, rotation, travel in zip(motions, *screws(motions), strict=True):
+        x, y, z = motion[3:]
+        twist = np.zeros((4, 4))
+        twist[:3, :3] = [[0, -z, y], [z, 0, -x], [-y, x, 0]]
+        twist[:3, 3] = motion[:3]
+        moved = expm(twist)
+        assert rotation == pytest.approx(moved[:3, :3], abs=1e-12)
+        assert travel == pytest.approx(moved[:3, 3], abs=1e-12)
 
 
 def test_farthest_corner_moves_by_the_stated_share(results: Results) -> None:
@@ -59,6 +65,27 @@ def test_finite_motion_keeps_distances_and_begins_as_the_linear_one(results: Res
     small = 1e-6 * motion
     linear = vertex_displacements(blocks, small)
     assert moved_vertices(blocks, small) - blocks.vertices == pytest.approx(linear, abs=1e-10)
+
+
+def test_blocks_that_move_as_one_do_not_part(results: Results) -> None:
+    blocks = results.model.blocks
+    turn, travel = np.array([0.2, -0.7, 1.1]), np.array([0.5, 0.0, -0.3])
+    motion = np.zeros((3, 6))
+    motion[1:, 3:] = turn
+    motion[1:, :3] = travel + np.cross(turn, blocks.centroids[1:] - blocks.centroids[1])
+    moved = moved_vertices(blocks, motion)
+    both = blocks.block_of_vertex > 0
+    before, after = blocks.vertices[both], moved[both]
+    pairs = np.linalg.norm(before[:, None] - before[None], axis=2)
+    assert np.linalg.norm(after[:, None] - after[None], axis=2) == pytest.approx(pairs)
+    assert moved[~both] == pytest.approx(blocks.vertices[~both], abs=0)
+
+
+def test_a_hinge_stays_in_place_however_far_the_part_turns(results: Results) -> None:
+    motion = drawn_motion(results.model, results.cases[0])
+    vertices = results.model.blocks.vertices
+    edge = (vertices[:, 0] == 1) & (vertices[:, 2] == 1)
+    assert moved_vertices(results.model.blocks, 10 * motion)[edge] == pytest.approx(vertices[edge], abs=1e-12)
 
 
 def test_small_spinning_block_does_not_turn_several_times(results: Results) -> None:

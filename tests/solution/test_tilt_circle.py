@@ -6,7 +6,7 @@ import math
 
 import pytest
 
-from mbla.solution.tilt_circle import Line, angle_above
+from mbla.solution.tilt_circle import Line, angle_above, never_left
 
 
 @pytest.mark.parametrize("mu", [0.0, 0.3, 1.0, 40.0])
@@ -53,3 +53,14 @@ def test_left_at_its_beginning() -> None:
     for limit in (1.0, 1.0 - 1e-16, 1.0 + 1e-16):
         assert Line(limit, 1.0, limit - 1e-16).first_crossing() <= 1e-7
         assert Line(1.0, 1.0, limit).first_crossing() <= 1e-7
+
+
+def test_what_is_borne_all_the_way_round() -> None:
+    """The side from (1, u) to (1 - 2 o, 0) touches the circle where (2 o - 1) u = hypot(2 o, u); u = 2 at o = 4/3."""
+    assert never_left(math.inf, 1.0)
+    assert not never_left(math.inf, 0.999)
+    assert never_left(2.0, 4.0 / 3.0 + 1e-6)
+    assert not never_left(2.0, 4.0 / 3.0 - 1e-6)
+    assert not never_left(0.0, 1e9)
+    assert not never_left(math.nan, 2.0)
+    assert not never_left(2.0, math.nan)

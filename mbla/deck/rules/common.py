@@ -17,13 +17,21 @@ def given(section: Any, keys: Sequence[str]) -> list[str]:
     return [key for key in keys if getattr(section, key) is not None]
 
 
-def exactly_one(section: Any, keys: Sequence[str], what: str = "") -> Iterator[Finding]:
-    """Findings where a section has none or several of some keys; ``what`` ends the sentence."""
+def exactly_one(section: Any, keys: Sequence[str], what: str = "", kind: str = "") -> Iterator[Finding]:
+    """Findings where a section has none or several of some keys.
+
+    what : ends the sentence
+    kind : stands for the list of keys, where they are too many for one line
+    """
     found = given(section, keys)
     if not found:
-        yield (), f"needs one of {listed(keys)}{what}"
+        some = (
+            f"one {kind}, such as {listed(keys[:3])}: the key reference lists all" if kind else f"one of {listed(keys)}"
+        )
+        yield (), f"needs {some}{what}"
     elif len(found) > 1:
-        yield (found[1],), f"only one of {listed(keys)} may be given{what}, here are {listed(found, 'and')}"
+        one = f"one {kind}" if kind else f"one of {listed(keys)}"
+        yield (found[1],), f"only {one} may be given{what}, here are {listed(found, 'and')}"
 
 
 def least_below_greatest(low: Sequence[float], high: Sequence[float], key: str, names: str) -> Iterator[Finding]:

@@ -45,3 +45,14 @@ def convex_outlines(deck: types.DeckContent) -> Iterator[Finding]:
         for key in ("inset", "rounding"):
             if getattr(deck.contacts.points, key) > 0:
                 yield ("contacts", "points", key), "applies to contact_model: concave only: use 0"
+
+
+@rule(types.DeckContent)
+def given_interfaces_of_the_whole(deck: types.DeckContent) -> Iterator[Finding]:
+    """Interfaces on the plane of symmetry are found among the images, which a table of the half does not know."""
+    if deck.contacts.table is not None and deck.symmetry:
+        yield (
+            ("contacts", "table"),
+            "does not go with symmetry, which has interfaces with images: give the whole structure, or leave contacts "
+            "to be found",
+        )

@@ -24,6 +24,9 @@ EXACTLY_ONE: dict[type[Section], tuple[str, ...]] = {
 }
 """Keys of which a section has exactly one; the schema says so too."""
 
+KINDS: dict[type[Section], str] = {types.BlockItem: "kind of item", types.Load: "kind of load"}
+"""What the keys are where they are too many for one line; messages then leave the list to the key reference."""
+
 AT_LEAST_ONE: dict[type[Section], tuple[str, ...]] = {
     types.SelectorTerm: ("group", "box"),
 }
@@ -40,7 +43,7 @@ def _register_at_least_one(section: type[Section], keys: tuple[str, ...]) -> Non
 def _register_exactly_one(section: type[Section], keys: tuple[str, ...]) -> None:
     @rule(section)
     def one_key(item: Section) -> Iterator[Finding]:
-        yield from exactly_one(item, keys)
+        yield from exactly_one(item, keys, kind=KINDS.get(section, ""))
 
 
 for _section, _keys in EXACTLY_ONE.items():

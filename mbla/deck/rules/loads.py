@@ -126,7 +126,7 @@ def load_case(case: types.LoadCaseSection) -> Iterator[Finding]:
         yield ("live", other), "must not stand beside tilt, whose answer is an angle: make it a dead load"
 
 
-def _without_effect(load: types.Load) -> Iterator[tuple[str, ...]]:
+def _without_effect(load: types.Load) -> Iterator[tuple[str | int, ...]]:
     """Keys below a load that make it nothing."""
     if load.factor == 0.0:
         yield ("factor",)
@@ -138,6 +138,9 @@ def _without_effect(load: types.Load) -> Iterator[tuple[str, ...]]:
         yield ("line", "force_per_length")
     if load.travel is not None and is_zero(load.travel.force):
         yield ("travel", "force")
+    for number, axle in enumerate((load.travel.axles or []) if load.travel is not None else []):
+        if is_zero(axle.force):
+            yield ("travel", "axles", number, "force")
     if load.pressure is not None and not load.pressure.value and not load.pressure.per_depth:
         yield ("pressure",)
 

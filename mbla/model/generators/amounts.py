@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
+from mbla.deck.tree import KeyPath
 from mbla.model.generators.generator import ItemRefused
 
 MOST = 2_000_000
 """of units, or of facets of their surfaces: some GB of memory"""
 
 
-def refuse_too_many(amount: float, key: str, what: str = "units") -> None:
-    """Refuse an item at a key that makes about so many units.
+def refuse_too_many(amount: float, key: str | KeyPath, what: str = "units") -> None:
+    """Refuse an item that makes about so many units; at a key of the item, or a key path below it.
 
     Raises
     ------
@@ -17,4 +18,5 @@ def refuse_too_many(amount: float, key: str, what: str = "units") -> None:
         for more than can be handled
     """
     if amount > MOST:
-        raise ItemRefused([((key,), f"makes about {amount:.0e} {what}; at most {MOST:,} can be handled")])
+        path = (key,) if isinstance(key, str) else key
+        raise ItemRefused([(path, f"makes about {amount:.0e} {what}; at most {MOST:,} can be handled")])

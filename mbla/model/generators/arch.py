@@ -102,12 +102,12 @@ def _behind(section: Section, length: float) -> list[FloatArray]:
 
 
 def _grounds(item: ArchItem, section: Section, voussoirs: Part, shear: float) -> tuple[GroundPart, ...]:
-    """Ground under every block at a springing, left then right."""
+    """One plane under all blocks of a springing, left then right."""
     number = voussoirs.labels["voussoir"]
     grounds = []
     for joint, last, towards in ((0, 0, 1.0), (-1, section.n_voussoirs - 1, -1.0)):
         point, normal = in_space(section.joints[joint, 0]), _plane(towards * section.forwards[joint], shear)
-        grounds += [GroundPart(point, normal, int(b), item.joint) for b in np.flatnonzero(number == last)]
+        grounds.append(GroundPart(point, normal, np.flatnonzero(number == last), item.joint))
     return tuple(grounds)
 
 

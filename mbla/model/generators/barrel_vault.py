@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from mbla.arrays import FloatArray
+from mbla.arrays import FloatArray, IntArray
 from mbla.deck.types import BarrelVaultItem
 from mbla.model.generators.amounts import refuse_too_many
 from mbla.model.generators.chains import prisms
@@ -74,11 +74,11 @@ def _behind(item: BarrelVaultItem, section: VaultSection) -> Polyhedra:
     return _along_axis(outlines, np.tile([0.0, item.length], (2, 1)))
 
 
-def _grounds(item: BarrelVaultItem, section: VaultSection, course: np.typing.NDArray[np.int64]) -> list[GroundPart]:
-    """Ground under the units of the first and of the last course."""
+def _grounds(item: BarrelVaultItem, section: VaultSection, course: IntArray) -> list[GroundPart]:
+    """One plane under the units of the first course, and one under those of the last."""
     found = []
     for joint, number, side in ((0, 0, 1.0), (-1, item.courses - 1, -1.0)):
         (x, z), (dx, dz) = section.joints[joint, 0], side * section.forwards[joint]
         plane = np.array([x, 0.0, z]), np.array([dx, 0.0, dz])
-        found += [GroundPart(*plane, int(block), item.joint) for block in np.flatnonzero(course == number)]
+        found.append(GroundPart(*plane, np.flatnonzero(course == number), item.joint))
     return found

@@ -15,6 +15,7 @@ import numpy as np
 from mbla.arrays import FloatArray, IntArray
 from mbla.deck.tree import KeyPath
 from mbla.deck.types import BridgeItem
+from mbla.model.generators.amounts import refuse_too_many
 from mbla.model.generators.arches.piers import (
     LEVEL,
     SpringingJoint,
@@ -29,9 +30,6 @@ from mbla.model.generators.bridges.courses import Course, Masonry, bed_levels, b
 from mbla.model.generators.bridges.outline import Outline, build_outline
 from mbla.model.generators.curves import Curve, named_curve
 from mbla.model.generators.generator import Generated, ItemRefused, Part, Site
-
-MOST_UNITS = 1_000_000
-"""a slip in the units of length asks for far more"""
 
 
 @dataclass(frozen=True)
@@ -184,8 +182,7 @@ def _spandrels(item: BridgeItem, frame: _Frame) -> list[_Row]:
     if not np.isfinite(top):
         return []  # coordinates beyond what a double holds: the voussoirs are refused
     about = (frame.right - frame.left) * top / (masonry.length * masonry.height)
-    if about > MOST_UNITS:
-        raise ItemRefused([(("unit",), f"makes about {about:.0e} units; at most {MOST_UNITS:,} can be handled")])
+    refuse_too_many(about, "unit")
     shelves = np.array([springer[:, 1].max() for springer in frame.springers if springer is not None])
     beds = bed_levels(outline, top, crowns, shelves, masonry)
     polygons: list[FloatArray] = []

@@ -14,13 +14,14 @@ import numpy as np
 from mbla.arrays import FloatArray
 from mbla.deck.types import CrossVaultItem
 from mbla.model.generators.amounts import refuse_too_many
-from mbla.model.generators.generator import Generated, GroundPart, ItemRefused, Part, Site
+from mbla.model.generators.generator import Generated, ItemRefused, Part, Site, level_ground
 from mbla.model.generators.mitres import (
     CORNERS,
     SHORTEST,
     HalfSection,
     along_x,
     along_y,
+    first_course,
     half_section,
     keystone,
     mitred,
@@ -80,7 +81,7 @@ def generate_cross_vault(item: CrossVaultItem, site: Site) -> Generated:
         behind = _groin(section, -1, (ends[:1], ends[1:]))
         feet = join_polyhedra([reflected(behind, corner) for corner in CORNERS])
         parts.append(Part(feet, "_springers", fixed=True, labels={"segment": np.arange(4)}))
-    grounds = _grounds(item, parts) if item.springers == "ground" else ()
+    grounds = (level_ground(first_course(parts), item.joint),) if item.springers == "ground" else ()
     return Generated(tuple(parts), grounds)
 
 
@@ -146,10 +147,3 @@ def _add_ridges(webs: _Webs, section: HalfSection, item: CrossVaultItem, ends: F
     for span, corner in enumerate(((1, 1), (1, 1), (-1, 1), (1, -1))):
         stations = (across_y[1:], across_y[:-1]) if span % 2 == 0 else (across_x[:-1], across_x[1:])
         webs.add(np.stack(stations, axis=1), corner, course, span)
-
-
-def _grounds(item: CrossVaultItem, parts: list[Part]) -> tuple[GroundPart, ...]:
-    """Level ground under every block of the first course."""
-    course = np.concatenate([part.labels["course"] for part in parts])
-    up = np.array([0.0, 0.0, 1.0])
-    return tuple(GroundPart(np.zeros(3), up, int(block), item.joint) for block in np.flatnonzero(course == 0))

@@ -21,7 +21,7 @@ from mbla.deck.types import DomeDrum, DomeItem
 from mbla.model.generators.amounts import refuse_too_many
 from mbla.model.generators.chains import chains
 from mbla.model.generators.curves import Circle, named_curve
-from mbla.model.generators.generator import Generated, GroundPart, ItemRefused, Part, Site
+from mbla.model.generators.generator import Generated, ItemRefused, Part, Site, level_ground
 from mbla.model.generators.rings import meridians, ring_blocks
 from mbla.model.polyhedra import Polyhedra, join_polyhedra
 
@@ -68,17 +68,14 @@ def generate_dome(item: DomeItem, site: Site) -> Generated:
     parts = [_part(rings, "ring", "ring")]
     if item.drum is not None:
         parts.insert(0, _part(list(_drum(dome, item.drum)), "drum", "course"))
-    grounds: list[GroundPart] = []
-    if item.springers == "ground":
-        up = np.array([0.0, 0.0, 1.0])
-        grounds = [GroundPart(np.zeros(3), up, block, item.joint) for block in range(item.segments)]
     if item.oculus is None:
         labels = {"ring": np.array([item.rings]), "segment": np.array([0])}
         parts.append(Part(_keystone(dome, joints[-1]), member="keystone", labels=labels))
     if item.springers == "blocks":
         labels = {"segment": np.arange(item.segments)}
         parts.append(Part(dome.ring(_behind(dome, joints[0]), -1), "_springers", fixed=True, labels=labels))
-    return Generated(tuple(parts), tuple(grounds))
+    grounds = (level_ground(np.arange(item.segments), item.joint),) if item.springers == "ground" else ()
+    return Generated(tuple(parts), grounds)
 
 
 def _dome(item: DomeItem) -> _Dome:

@@ -7,6 +7,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Protocol
 
+import numpy as np
+
 from mbla.arrays import FloatArray, IntArray
 from mbla.deck.tree import KeyPath
 from mbla.errors import Notice
@@ -33,17 +35,22 @@ class Part:
 
 @dataclass(frozen=True)
 class GroundPart:
-    """Rigid ground that an item brings along, under one block of its first part.
+    """Rigid ground that an item brings along: one plane under some of its blocks.
 
     point, normal : (3,) of the plane, normal unit and towards the structure
-    block         : index in the first part
+    blocks        : those that it carries, increasing; counted through all parts of the item
     joint         : joint law; that of contacts where None
     """
 
     point: FloatArray
     normal: FloatArray
-    block: int
+    blocks: IntArray
     joint: str | None
+
+
+def level_ground(blocks: IntArray, joint: str | None) -> GroundPart:
+    """Level ground at z = 0 under blocks of an item."""
+    return GroundPart(np.zeros(3), np.array([0.0, 0.0, 1.0]), blocks, joint)
 
 
 @dataclass(frozen=True)

@@ -11,13 +11,15 @@ What is made here lies in the corner at +x+y and is reflected to the other three
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
-from mbla.arrays import FloatArray
+from mbla.arrays import FloatArray, IntArray
 from mbla.deck.items.vault import VaultItem
 from mbla.model.generators.chains import chains
+from mbla.model.generators.generator import Part
 from mbla.model.generators.vault_sections import vault_section
 from mbla.model.polyhedra import Polyhedra
 
@@ -100,3 +102,8 @@ def keystone(section: HalfSection) -> Polyhedra:
     flat = section.distance[-1][:, None, None] * signs
     height = np.broadcast_to(section.height[-1][:, None, None], (2, 4, 1))
     return chains(np.concatenate([flat, height], axis=2)[None])
+
+
+def first_course(parts: Sequence[Part]) -> IntArray:
+    """The blocks of the first course, counted through all parts."""
+    return np.flatnonzero(np.concatenate([part.labels["course"] for part in parts]) == 0)

@@ -11,13 +11,14 @@ import numpy as np
 from mbla.arrays import FloatArray
 from mbla.deck.types import PavilionVaultItem
 from mbla.model.generators.amounts import refuse_too_many
-from mbla.model.generators.generator import Generated, GroundPart, Part, Site
+from mbla.model.generators.generator import Generated, Part, Site, level_ground
 from mbla.model.generators.mitres import (
     CORNERS,
     SHORTEST,
     HalfSection,
     along_x,
     along_y,
+    first_course,
     half_section,
     keystone,
     mitred,
@@ -51,11 +52,7 @@ def generate_pavilion_vault(item: PavilionVaultItem, site: Site) -> Generated:
         positions = {"course": rows, "span": spans, "unit": units}
         parts.append(Part(join_polyhedra(webs), member="web", labels=positions))
     parts.append(Part(keystone(section), member="keystone", labels={"course": np.array([section.courses])}))
-    grounds: tuple[GroundPart, ...] = ()
-    if item.springers == "ground":
-        rows = np.concatenate([part.labels["course"] for part in parts])
-        up = np.array([0.0, 0.0, 1.0])
-        grounds = tuple(GroundPart(np.zeros(3), up, int(block), item.joint) for block in np.flatnonzero(rows == 0))
+    grounds = (level_ground(first_course(parts), item.joint),) if item.springers == "ground" else ()
     if item.springers == "blocks":
         behind = _hip(section, -1, (np.zeros(1), np.zeros(1)))
         feet = join_polyhedra([reflected(behind, corner) for corner in CORNERS])

@@ -17,7 +17,7 @@ from mbla.arrays import FloatArray
 from mbla.deck.types import SpiralStairItem
 from mbla.model.generators.amounts import refuse_too_many
 from mbla.model.generators.chains import chains
-from mbla.model.generators.generator import Generated, GroundPart, Part, Site
+from mbla.model.generators.generator import Generated, Part, Site, level_ground
 from mbla.model.polyhedra import Polyhedra, join_polyhedra, polyhedra_from_cells
 
 
@@ -49,7 +49,7 @@ def generate_spiral_stair(item: SpiralStairItem, site: Site) -> Generated:
         last = _sectors(item, number[-1:], angles, end, item.rise, 2 * item.rise)
         heads = join_polyhedra([chains(free), chains(last)])
         parts.append(Part(heads, "_wall", fixed=True, member="head", labels={"tread": number}))
-    grounds = (GroundPart(np.zeros(3), np.array([0.0, 0.0, 1.0]), 0, item.joint),) if item.foot == "ground" else ()
+    grounds = (level_ground(np.array([0]), item.joint),) if item.foot == "ground" else ()
     return Generated(tuple(parts), grounds)
 
 

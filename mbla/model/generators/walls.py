@@ -36,16 +36,30 @@ def generate_walls(item: WallsItem, site: Site) -> Generated:
         without support, buttresses across openings, gables that meet, too many units
     """
     lines = lines_of(item)
+    _check_each(item, lines, site.tolerance)
+    meets = passages_of(lines, item.courses)
+    placed = [_place(item, number, line, meets[number]) for number, line in enumerate(lines)]
+    _check_together(item, placed, meets)
+    return Generated(tuple(parts_of(_walls(item, placed), numbered=True)))
+
+
+def _check_each(item: WallsItem, lines: Sequence[Line], tolerance: float) -> None:
+    """Refuse what is wrong with the plan, or with an opening by itself."""
     rises = [*(gable.rise for gable in item.gables), *(buttress.depth for buttress in item.buttresses)]
     check_number(item, sum(line.whole_length for line in lines), ("plan",), rises)
     findings: list[Finding] = list(check_plan(lines))
     for number, opening in enumerate(item.openings):
-        found = check_opening(item, opening, site.tolerance)
+        found = check_opening(item, opening, tolerance)
         findings += [(("openings", number, *path), message) for path, message in found]
     if findings:
         raise ItemRefused(findings)
-    meets = passages_of(lines, item.courses)
-    placed = [_place(item, number, line, meets[number]) for number, line in enumerate(lines)]
+
+
+def _check_together(
+    item: WallsItem, placed: Sequence[_Placed], meets: Sequence[tuple[tuple[int, Passage], ...]]
+) -> None:
+    """Refuse what is wrong with openings, buttresses and gables in their places along the walls."""
+    findings: list[Finding] = []
     for wall in placed:
         findings += check_spans(wall.openings, wall.line.whole_length, item)
         findings += check_buttresses(wall.buttresses, wall.openings, item)
@@ -53,7 +67,6 @@ def generate_walls(item: WallsItem, site: Site) -> Generated:
     findings += _check_gables(item, meets)
     if findings:
         raise ItemRefused(findings)
-    return Generated(tuple(parts_of(_walls(item, placed), numbered=True)))
 
 
 def _walls(item: WallsItem, placed: Sequence[_Placed]) -> list[Wall]:

@@ -1,6 +1,6 @@
 """Load `acceleration`: mass times an acceleration in units of standard gravity, at the centroids of the blocks.
 
-With a `pattern` the acceleration is multiplied by a factor that depends on the height of the centroid.
+With a `pattern` the acceleration is multiplied by a factor that depends on height (``height_pattern``).
 """
 
 from __future__ import annotations
@@ -23,10 +23,11 @@ def acceleration_load(load: Load, blocks: IntArray | None, path: KeyPath, site: 
     where = "" if len(chosen) == len(site.blocks) else f" on {counted(len(chosen), 'block')}"
     acceleration = np.array(load.acceleration) * site.units.standard_gravity
     words = f"acceleration {vector(load.acceleration)} g{where}"
+    pattern = None
     if load.pattern is not None:
-        factors = pattern_factors(load.pattern, site.blocks.centroids[chosen], chosen, (*path, "pattern"), site)
-        if factors is None:
+        pattern = pattern_factors(load.pattern, chosen, (*path, "pattern"), site)
+        if pattern is None:
             return None
-        acceleration = factors[:, None] * acceleration
-        words += f" times {factors.min():.6g} to {factors.max():.6g}, by height along {vector(load.pattern.along)}"
-    return AppliedLoad(chosen, mass_forces(chosen, acceleration, site), words)
+        least, most = pattern.means.min(), pattern.means.max()
+        words += f" times {least:.6g} to {most:.6g}, by height along {vector(load.pattern.along)}"
+    return AppliedLoad(chosen, mass_forces(chosen, acceleration, site, pattern), words)

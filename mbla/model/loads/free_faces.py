@@ -13,9 +13,9 @@ import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.model.blocks import Blocks
-from mbla.model.loads.signed_polygons import intersections, signed_areas
 from mbla.model.model import Ground
 from mbla.model.ragged import chunks, items_of_rows, ranges, row_maxima
+from mbla.model.signed_polygons import intersections, signed_areas
 
 FACING = 0.99
 """cosine of the greatest angle between two faces that lie against each other"""

@@ -115,8 +115,9 @@ def _judge_case(
         place = (*path, "dead") if section.dead is not None else path
         site.faults.extend(_beyond_computing((*path, "live"), live.total[free], site))
         site.faults.extend(_beyond_computing(place, dead.total[free], site))
-    elif position is not None and site.fixed[position.position.block]:
-        words = f"{position.applied.words} has no effect: the block does not move; change the path"
+    elif position is not None and site.fixed[position.applied.blocks].all():
+        them = "the block does" if len(position.applied.blocks) == 1 else "the blocks do"
+        words = f"{position.applied.words} has no effect: {them} not move; change the path"
         site.refuse((*path, "live"), words)
     else:
         site.refuse((*path, "live"), "the live loads cancel each other: they have no effect")

@@ -21,8 +21,8 @@ from mbla.model.blocks import Blocks
 from mbla.model.loads.blocks_under import unit
 from mbla.model.loads.free_faces import FaceParts, face_parts
 from mbla.model.loads.load_kind import AppliedLoad, LoadSite, sum_on_blocks
-from mbla.model.loads.signed_polygons import cut
 from mbla.model.ragged import items_of_rows, row_means
+from mbla.model.signed_polygons import cut
 from mbla.model.wording import counted, vector
 
 
@@ -90,9 +90,11 @@ def _pressure(pressure: PressureLoad, points: FloatArray) -> FloatArray:
 
 def _in_words(pressure: PressureLoad, area: float, count: int, site: LoadSite) -> str:
     units = site.units
-    words = f"pressure {pressure.value:.6g} {units.force}/{units.length}2"
+    terms = [f"{pressure.value:.6g} {units.force}/{units.length}2"] if pressure.value or not pressure.per_depth else []
+    if pressure.per_depth:
+        terms.append(f"{pressure.per_depth:.6g} {units.force}/{units.length}3 times depth")
+    words = f"pressure {' + '.join(terms)}"
     if pressure.level is not None:
-        words += f" + {pressure.per_depth or 0.0:.6g} {units.force}/{units.length}3 times depth"
         words += f" below z = {pressure.level:.6g} {units.length}"
     return f"{words}, on {counted(count, 'face')} ({area:.6g} {units.length}2)"
 

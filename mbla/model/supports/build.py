@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
+from mbla.deck.deck import Deck
 from mbla.deck.tree import KeyPath
-from mbla.deck.types import Support
 from mbla.errors import Fault
 from mbla.model.guides import NO_GUIDES, Guides, joined
 from mbla.model.model import Ground
@@ -33,18 +33,10 @@ class Supports:
     guides: Guides = NO_GUIDES
 
 
-def build_supports(
-    supports: Sequence[Support],
-    default_joint: str,
-    brought_along: Supports,
-    roster: Roster,
-    tolerance: float,
-    faults: list[Fault],
-) -> Supports:
+def build_supports(deck: Deck, brought_along: Supports, roster: Roster, faults: list[Fault]) -> Supports:
     """Supports of the deck, with those that items bring along.
 
     brought_along : fixed blocks and grounds of items, such as the springers of arches
-    tolerance     : by which faces may leave the plane of the ground, relative to block size
 
     Adds to ``faults``: grounds with blocks below them or without a face on them, blocks held in two ways, structures
     without support, and structures in which nothing can move.
@@ -53,7 +45,7 @@ def build_supports(
     grounds: list[tuple[KeyPath, Ground]] = []
     guides: list[tuple[KeyPath, Guides]] = []
     complete = not roster.partial
-    for number, support in enumerate(supports):
+    for number, support in enumerate(deck.content.supports):
         path: KeyPath = ("supports", number)
         chosen = None
         if support.blocks is not None:
@@ -63,7 +55,7 @@ def build_supports(
                 continue
         if support.ground is not None:
             point, normal, label = plane(support.ground)
-            joint = support.joint or default_joint
+            joint = support.joint or deck.contacts.joint
             grounds.append(((*path, "ground"), Ground(point, normal, joint, chosen, label)))
         elif chosen is not None and is_guide(support):
             guides.append((path, guides_of(support, chosen, roster.blocks)))
@@ -71,14 +63,19 @@ def build_supports(
             fixed[chosen] = True
     everything_guided = _joined_guides(guides, fixed, roster, faults)
     for path, ground in grounds:
-        check_ground(ground, path, fixed, roster, tolerance, faults)
-    everything = (*brought_along.grounds, *(ground for _, ground in grounds))
+        check_ground(ground, path, fixed, roster, deck.contacts.tolerance, faults)
+    found = Supports(fixed, (*brought_along.grounds, *(ground for _, ground in grounds)), everything_guided)
     if complete:
-        if not fixed.any() and not everything and not len(everything_guided):
-            faults.append(roster.fault_at(("supports",), "nothing holds the structure: give ground or fixed blocks"))
-        if fixed.all():
-            faults.append(roster.fault_at(("supports",), "every block is fixed: nothing can move"))
-    return Supports(fixed, everything, everything_guided)
+        _check_hold(found, roster, faults)
+    return found
+
+
+def _check_hold(supports: Supports, roster: Roster, faults: list[Fault]) -> None:
+    """Something holds the structure, and something can move."""
+    if not supports.fixed.any() and not supports.grounds and not len(supports.guides):
+        faults.append(roster.fault_at(("supports",), "nothing holds the structure: give ground or fixed blocks"))
+    if supports.fixed.all():
+        faults.append(roster.fault_at(("supports",), "every block is fixed: nothing can move"))
 
 
 def _joined_guides(

@@ -83,14 +83,14 @@ def test_order_is_from_left_to_right() -> None:
 def test_ground_under_both_springings(embrace: float) -> None:
     made = arch(shape="segmental", embrace=embrace, springers="ground", joint="bed", voussoirs=9)
     left, right = made.grounds
-    assert [left.block, right.block] == [0, 8]
+    assert [left.blocks.tolist(), right.blocks.tolist()] == [[0], [8]]
     assert [left.joint, right.joint] == ["bed", "bed"]
     half = np.radians(embrace / 2)
     assert left.normal == pytest.approx([np.cos(half), 0, np.sin(half)])
     assert right.normal == pytest.approx([-np.cos(half), 0, np.sin(half)])
     corners = made.parts[0].polyhedra.vertices.reshape(-1, 8, 3)
     for ground in made.grounds:
-        heights = (corners[ground.block] - ground.point) @ ground.normal
+        heights = (corners[ground.blocks[0]] - ground.point) @ ground.normal
         assert sorted(heights)[:4] == pytest.approx([0] * 4, abs=1e-12)
         assert min(sorted(heights)[4:]) > 0.1
 

@@ -155,3 +155,16 @@ def test_units(tmp_path: Path, units: str, length: float, force: float) -> None:
     found = load_about(build_model(deck(tmp_path, box, GROUND, text, units)), [0, 0, 0])
     assert found[:3] == pytest.approx(metres[:3] * force, abs=1e-9)
     assert found[3:] == pytest.approx(metres[3:] * force * length, abs=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("keys", "words"),
+    [
+        ("value: 500", "pressure 500 N/m2, on 1 face (12 m2)"),
+        ("value: 500, level: 3", "pressure 500 N/m2 below z = 3 m, on 1 face (9 m2)"),
+        ("level: 3, per_depth: 20", "pressure 20 N/m3 times depth below z = 3 m, on 1 face (9 m2)"),
+        ("value: 5, level: 3, per_depth: 20", "pressure 5 N/m2 + 20 N/m3 times depth below z = 3 m, on 1 face (9 m2)"),
+    ],
+)
+def test_words_of_the_listing(tmp_path: Path, keys: str, words: str) -> None:
+    assert model(tmp_path, f"normal: [-1, 0, 0], {keys}", DAM).load_cases[0].dead_words == (words,)

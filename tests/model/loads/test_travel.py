@@ -87,3 +87,46 @@ def test_a_position_on_a_fixed_block(tmp_path: Path) -> None:
         "force (0, 0, -1) N at (4.5, 0.5, 1) m on abutment[0], position 5 of 5 has no effect: the block does not move; "
         "change the path"
     )
+
+
+def test_axles_follow_at_their_distances(tmp_path: Path) -> None:
+    """From the first at the beginning to the last at the end; who is not on the path does not act."""
+    axles = "axles: [{behind: 2, force: [0, 0, -3]}, {behind: 0.5, force: [0, 0, -5]}]"
+    path = f"force: [0, 0, -1], path: [[0.25, 0.5, 1], [3.25, 0.5, 1]], positions: 11, {axles}"
+    found = model(tmp_path, path, ROW, ", factor: 2").load_cases
+    downwards = [(-case.live_load[:, 2] / 2).tolist() for case in found]
+    assert downwards == [
+        [1, 0, 0, 0],
+        [6, 0, 0, 0],
+        [5, 1, 0, 0],
+        [0, 6, 0, 0],
+        [3, 5, 1, 0],
+        [3, 0, 6, 0],
+        [0, 3, 5, 1],
+        [0, 3, 0, 5],
+        [0, 0, 3, 0],
+        [0, 0, 3, 0],
+        [0, 0, 0, 3],
+    ]
+    assert found[1].live_load[0] == pytest.approx([0, 0, -12, 0, 2 * (0.25 - 5 * 0.25), 0])
+    places = [case.travel for case in found if case.travel is not None]
+    assert [place.distance for place in places] == pytest.approx([0, 0.5, 1, 1.5, 2, 2.5, 3, 3, 2, 2.5, 3])
+    assert found[1].live_words == (
+        "force (0, 0, -2) N at (0.75, 0.5, 1) m on row[0] and force (0, 0, -10) N at (0.25, 0.5, 1) m on row[0], "
+        "position 2 of 11",
+    )
+
+
+def test_axles_further_apart_than_the_path_is_long(tmp_path: Path) -> None:
+    path = "force: [0, 0, -1], path: [[1, 0.5, 1], [2, 0.5, 1]], positions: 5, axles: [{behind: 3, force: [0, 0, -1]}]"
+    assert refused(tmp_path, path, ROW) == (
+        "at position 3 of 5 no force is on the path: make it longer than the gaps between them"
+    )
+
+
+def test_an_axle_over_no_block_is_named(tmp_path: Path) -> None:
+    path = "force: [0, 0, -1], path: [[0, 0.5, 1], [5, 0.5, 1]], positions: 3, axles: [{behind: 1, force: [0, 0, -1]}]"
+    assert refused(tmp_path, path, ROW) == (
+        "position 3 of 3, at (5, 0.5, 1) m, lies over no block; change the path, or look for blocks in another "
+        "direction with towards"
+    )

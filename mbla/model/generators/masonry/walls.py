@@ -10,15 +10,13 @@ import numpy as np
 from mbla.arrays import FloatArray
 from mbla.deck.items.masonry import Gable, Masonry
 from mbla.deck.tree import KeyPath
+from mbla.model.generators.amounts import refuse_too_many
 from mbla.model.generators.generator import ItemRefused, Part
 from mbla.model.generators.masonry.buttresses import PlacedButtress, buttress_leg
 from mbla.model.generators.masonry.leg import Leg, Slopes
 from mbla.model.generators.masonry.openings import PlacedOpening, spans_of
 from mbla.model.generators.masonry.solids import units_of
 from mbla.model.generators.masonry.tops import levels_with_top
-
-MOST_UNITS = 2_000_000
-"""a slip in the units of length asks for far more"""
 
 
 @dataclass(frozen=True)
@@ -43,8 +41,7 @@ def check_number(item: Masonry, length: float, key: KeyPath, rises: Sequence[flo
     """
     courses = item.courses + max(rises, default=0.0) / min(item.unit[0], item.unit[2])
     about = courses * item.leaves * length / min(item.unit[0], item.unit[1] if item.leaves > 1 else item.unit[0])
-    if about > MOST_UNITS:
-        raise ItemRefused([(key, f"makes about {about:.0e} units; at most {MOST_UNITS:,} can be handled")])
+    refuse_too_many(about, key)
 
 
 def fixed_levels(openings: Iterable[PlacedOpening], buttresses: Iterable[PlacedButtress]) -> list[int]:

@@ -1,0 +1,177 @@
+"""What the items of a deck generate, put together: polyhedra, names, densities, and the supports they bring along."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from mbla.arrays import BoolArray, IntArray
+from mbla.deck.deck import Deck
+from mbla.deck.tree import KeyPath
+from mbla.deck.types import BlockItem, Item, Material
+from mbla.deck.units import Units
+from mbla.errors import DeckError, Fault, Notice
+from mbla.model.build_blocks import Labels, indices_in_groups
+from mbla.model.generators import GENERATORS
+from mbla.model.generators.generator import Generated, ItemRefused, Site
+from mbla.model.labels import NONE, BlockLabels, join_labels, labels_of
+from mbla.model.model import Ground
+from mbla.model.polyhedra import Polyhedra, join_polyhedra
+from mbla.model.transform import build_transform, repetitions, transform_item
+
+
+@dataclass(frozen=True)
+class CollectedItems:
+    """Everything that the items of a deck give, in their order.
+
+    labels  : names and densities of the blocks
+    items   : (n_blocks,) which item of the deck each belongs to
+    fixed   : (n_blocks,) blocks that items bring along as supports
+    grounds : planes that items bring along, under blocks of their own
+    partial : groups of items that could not be built
+    """
+
+    polyhedra: Polyhedra
+    labels: Labels
+    items: IntArray
+    fixed: BoolArray
+    grounds: tuple[Ground, ...]
+    notices: tuple[Notice, ...]
+    partial: frozenset[str]
+
+
+@dataclass
+class _Collection:
+    """What the items gave so far, one entry for each part."""
+
+    polyhedra: list[Polyhedra] = field(default_factory=list)
+    groups: list[str] = field(default_factory=list)
+    densities: list[float] = field(default_factory=list)
+    items: list[int] = field(default_factory=list)
+    fixed: list[bool] = field(default_factory=list)
+    labels: list[BlockLabels] = field(default_factory=list)
+    grounds: list[Ground] = field(default_factory=list)
+    notices: list[Notice] = field(default_factory=list)
+    partial: set[str] = field(default_factory=set)
+    n_blocks: int = 0
+
+
+@dataclass(frozen=True)
+class _Entry:
+    """What all blocks of an item share: its number in the deck, group, material, and the deck's default joint law.
+
+    densities : by the name of each material
+    """
+
+    number: int
+    group: str
+    material: str
+    joint: str
+    densities: Mapping[str, float]
+
+
+def collect_items(deck: Deck, faults: list[Fault]) -> CollectedItems:
+    """Raw polyhedra of all items with what they bring along.
+
+    Adds to ``faults``: items that cannot be built; their groups are partial.
+
+    Raises
+    ------
+    DeckError
+        with all faults, where no item can be built
+    """
+    collection = _Collection()
+    densities = {name: density_of(material, deck.units) for name, material in deck.content.materials.items()}
+    for number, block_item in enumerate(deck.content.blocks):
+        kind, item = kind_of(block_item)
+        path: KeyPath = ("blocks", number, kind)
+        entry = _Entry(number, item.group or kind, item.material, deck.contacts.joint, densities)
+        try:
+            generated = _generate(deck, kind, item, path)
+        except ItemRefused as refused:
+            faults += [deck.fault_at((*path, *below), message) for below, message in refused.findings]
+        except DeckError as error:
+            faults += error.faults
+        else:
+            _add_copies(collection, generated, item, entry)
+            continue
+        collection.partial |= {entry.group, f"{entry.group}_springers"}
+    if not collection.polyhedra:
+        raise DeckError(faults)
+    return _joined(collection)
+
+
+def kind_of(entry: BlockItem) -> tuple[str, Item]:
+    """Key and content of an item of the deck."""
+    return next((kind, item) for kind in GENERATORS if (item := getattr(entry, kind)) is not None)
+
+
+def density_of(material: Material, units: Units) -> float:
+    """Mass per volume; a unit weight is one under standard gravity."""
+    if material.density is not None:
+        return material.density
+    assert material.unit_weight is not None  # a rule of the deck: one of density and unit weight
+    return material.unit_weight / (units.standard_gravity * units.force_per_mass_acceleration)
+
+
+def _generate(deck: Deck, kind: str, item: Item, path: KeyPath) -> Generated:
+    """An item in the coordinates of the deck."""
+    site = Site(
+        deck.contacts.tolerance, lambda below, name: deck.resolve_file((*path, *below), name), deck.units.length
+    )
+    with np.errstate(over="ignore", invalid="ignore"):  # coordinates that are not finite are refused by block
+        generated = GENERATORS[kind](item, site)
+        transform = build_transform(item.transform)
+        return generated if transform is None else transform_item(generated, transform)
+
+
+def _add_copies(collection: _Collection, generated: Generated, item: Item, entry: _Entry) -> None:
+    """Add an item as often as it is repeated; what it has to say is said once."""
+    copies = repetitions(item.repeat)
+    for copy, onwards in enumerate(copies):
+        number = copy if len(copies) > 1 else NONE
+        _add(collection, transform_item(generated, onwards) if copy else generated, entry, number)
+    collection.notices += generated.notices
+
+
+def _add(collection: _Collection, generated: Generated, entry: _Entry, copy: int) -> None:
+    """Add one copy of an item; ``copy`` is -1 where there is but one."""
+    for ground in generated.grounds:
+        carried = collection.n_blocks + ground.blocks
+        joint = ground.joint or entry.joint
+        collection.grounds.append(Ground(ground.point, ground.normal, joint, carried, "ground"))
+    for part in generated.parts:
+        collection.polyhedra.append(part.polyhedra)
+        collection.groups.append(entry.group + part.suffix)
+        collection.densities.append(entry.densities[part.material or entry.material])
+        collection.items.append(entry.number)
+        collection.fixed.append(part.fixed)
+        collection.labels.append(labels_of(len(part.polyhedra), part.member, part.labels, copy))
+        collection.n_blocks += len(part.polyhedra)
+
+
+def _joined(collection: _Collection) -> CollectedItems:
+    """Values of parts as values of their blocks; grounds with the names of the blocks they carry."""
+    counts = [len(polyhedra) for polyhedra in collection.polyhedra]
+    groups = tuple(group for group, count in zip(collection.groups, counts, strict=True) for _ in range(count))
+    labels = Labels(
+        groups, indices_in_groups(groups), np.repeat(collection.densities, counts), join_labels(collection.labels)
+    )
+    return CollectedItems(
+        polyhedra=join_polyhedra(collection.polyhedra),
+        labels=labels,
+        items=np.repeat(collection.items, counts),
+        fixed=np.repeat(np.array(collection.fixed, dtype=bool), counts),
+        grounds=tuple(_named(ground, labels) for ground in collection.grounds),
+        notices=tuple(collection.notices),
+        partial=frozenset(collection.partial),
+    )
+
+
+def _named(ground: Ground, labels: Labels) -> Ground:
+    """``ground under arch[0]``, ``ground under dome[0] and 7 more``."""
+    assert ground.blocks is not None  # an item's ground carries blocks of its own
+    more = f" and {len(ground.blocks) - 1} more" if len(ground.blocks) > 1 else ""
+    return replace(ground, label=f"ground under {labels.name(int(ground.blocks[0]))}{more}")

@@ -1,0 +1,47 @@
+"""Defects of blocks as faults of the deck, at the items or faces that give the blocks."""
+
+from __future__ import annotations
+
+from collections import Counter
+
+from mbla.deck.deck import Deck
+from mbla.deck.tree import KeyPath
+from mbla.errors import Fault
+from mbla.model.build_blocks import BuiltBlocks
+from mbla.model.collect_items import CollectedItems, kind_of
+
+FROM_FILES = ("mesh", "table")
+"""kinds of items whose blocks have names of their own"""
+MOST_FAULTS_PER_ITEM = 10
+"""defects of blocks of one item that are told one by one; a mesh in the wrong format has one in every block"""
+
+
+def defects_in_words(deck: Deck, items: CollectedItems, built: BuiltBlocks) -> list[Fault]:
+    """A fault for each defect; many of one item are counted only."""
+    faults = []
+    told: Counter[int] = Counter()
+    for defect in built.defects:
+        number = int(items.items[defect.block])
+        told[number] += 1
+        if told[number] <= MOST_FAULTS_PER_ITEM:
+            path = _path(deck, defect.face, number)
+            faults.append(deck.fault_at(path, f"block {_called(deck, built, defect.block, number)}: {defect.message}"))
+    for number, count in told.items():
+        if count > MOST_FAULTS_PER_ITEM:
+            message = f"{count - MOST_FAULTS_PER_ITEM} more blocks of this item are refused"
+            faults.append(deck.fault_at(_path(deck, None, number), message))
+    return faults
+
+
+def _called(deck: Deck, built: BuiltBlocks, block: int, number: int) -> str:
+    """Name of a block; with that which its file gives it, where it comes from one: ``vault[17] (key_stone)``."""
+    member = built.blocks.labels.members[block] if kind_of(deck.content.blocks[number])[0] in FROM_FILES else ""
+    return f"{built.blocks.name(block)}{f' ({member})' if member else ''}"
+
+
+def _path(deck: Deck, face: int | None, number: int) -> KeyPath:
+    """The face of a block that the deck spells out, the file of a mesh, or the item."""
+    kind, _ = kind_of(deck.content.blocks[number])
+    if kind == "polyhedron" and face is not None:
+        return ("blocks", number, kind, "faces", face)
+    return ("blocks", number, kind, "file") if kind == "mesh" else ("blocks", number, kind)
