@@ -13,8 +13,8 @@ What this does to the strength of an interface, for a rectangle b × h with n pa
 
 *Torsion.* Under associative flow more points cannot lower the torsion that the interface bears, because the program may
 load its corners alone: a square of side a bears 0.7071 μWa with any number of points, against 0.3826 μWa under uniform
-pressure. Without dilatancy, starting from the gravity state, normal forces spread over the points and more of them do
-lower it.
+pressure. Without dilatancy, starting from the gravity state, normal forces spread over the points as their shares do,
+and an evenly pressed square bears what the trapezoidal rule gives: 0.3826 μWa and less than 0.32 μWa/n² more.
 
 *Crushing.* Points that bear up to f_c times their share allow all (N, M_1, M_2) whose support function is Σ A_i f_c
 φ(p_i), φ(p) = max(α + β·p, 0), in place of the integral of f_c φ over the interface, which belongs to the rectangular

@@ -134,5 +134,7 @@ class Program:
     def velocities(self, mechanism: FloatArray) -> FloatArray:
         """The way back from ``mechanism``: (n_rows,) from (n_blocks, 6), as near to it as its motions come."""
         if self.reduction is not None:
-            return np.asarray(self.reduction.velocities.T @ self.reduction.full.velocities(mechanism))
+            ways = self.reduction.velocities  # orthogonal, and of length 1 but for the unit of force of a part
+            lengths = np.asarray(ways.power(2).sum(axis=0))
+            return np.asarray(ways.T @ self.reduction.full.velocities(mechanism)) / np.maximum(lengths, 1e-300)
         return np.asarray(mechanism[self.free].ravel() / (self.scaling.row * self.scaling.live))

@@ -53,6 +53,10 @@ REGULARIZATION = 1e-15
 INSIDE = 1e-13
 """Excess over a yield condition, relative to the mean load of a block, that is rounding."""
 
+FORCE_ROUNDING = 16 * np.finfo(float).eps
+"""Share of the largest force that is rounding in a yield condition or in equilibrium: joints of a strength of millions
+of block loads bear forces of which no more digits are left."""
+
 RUNAWAY = 1e9
 """Growth of the forces that is no repair any more."""
 
@@ -171,8 +175,9 @@ def repaired_forces(
     for _ in range(ROUNDS + 1):
         off = float(np.abs(_unbalanced(program, x, factor)).max(initial=0.0))
         excess = float(yield_violation(x, program.limits).max(initial=0.0))
-        if excess <= inside and off <= min(least, EQUILIBRIUM_TOLERANCE):
-            enough = off <= BALANCED or off > PROGRESS * least
+        rounding = FORCE_ROUNDING * float(np.abs(x).max(initial=0.0))
+        if excess <= max(inside, rounding) and off <= min(least, max(EQUILIBRIUM_TOLERANCE, rounding)):
+            enough = off <= max(BALANCED, rounding) or off > PROGRESS * least
             best, least = (x, factor), off
             if enough:
                 break

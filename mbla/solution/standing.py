@@ -76,12 +76,17 @@ def settlement_of(program: Program, displacements: FloatArray) -> FloatArray:
     """Displacements and rotations of all blocks on joints of unit stiffness, (n_blocks, 6), zero where fixed.
 
     With a force of 1 per length of 1 in the deck's units, contact forces are what these displacements bring about; with
-    joints k times as stiff everything moves 1/k as far. Those of parts add up.
+    joints k times as stiff everything moves 1/k as far. Those of parts add up. Where points are as stiff as their
+    shares (:mod:`mbla.program.reductions.shares`) 1 is the stiffest of them.
     """
+    stiffest = 1.0
     while program.reduction is not None:
+        unit = float(program.reduction.velocities.power(2).sum(axis=0).max(initial=0.0)) or 1.0  # 1/f² of a part
+        most = float(program.reduction.forces.power(2).sum(axis=1).max(initial=0.0)) * unit
+        stiffest *= max(most, 1.0) / unit
         displacements, program = program.reduction.velocities @ displacements, program.reduction.full
     scaling = program.scaling
-    return program.mechanism(displacements) * (scaling.force**2 / scaling.live)
+    return program.mechanism(displacements) * (stiffest * scaling.force**2 / scaling.live)
 
 
 def worst_standing(results: Sequence[StandingResult]) -> StandingResult:

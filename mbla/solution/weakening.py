@@ -153,7 +153,12 @@ def springs_of(program: Program, load: Load) -> tuple[sp.csr_array, sp.csr_array
     sizes = np.linalg.norm(getattr(program, load).reshape(-1, 6), axis=1)
     sizes = np.where(sizes > 0, sizes, sizes[sizes > 0].mean())
     springs = way_back.T @ sp.diags_array(np.repeat(sizes, 6)) @ way_back
-    return sp.csr_array(springs), way_back, program.free
+    squares = way_back.power(2)
+    own = float(squares.sum(axis=0).max(initial=0.0)) or 1.0  # in the unit of force of a part, as if it were alone
+    if load == "dead_load":
+        mine = squares.sum(axis=1).reshape(-1, 6).any(axis=1)
+        own *= float(sizes[mine].mean()) if mine.any() else 1.0
+    return sp.csr_array(springs / own), sp.csr_array(way_back / own), program.free
 
 
 @dataclass(frozen=True)

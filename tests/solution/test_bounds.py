@@ -20,7 +20,7 @@ from mbla.solution.bounds import (
 )
 from mbla.solution.law_state import LawState
 from mbla.solution.settings import SolverSettings
-from tests.line import BLOCK, WALL, line_of
+from tests.line import BLOCK, WALL, line_of, verified
 
 SPATIAL = "analysis.reductions={planar: false, mirror: false, points: false}"
 LEDGE = BLOCK.replace("supports: [{ground: {z: 0}}]", "supports: [{blocks: ledge}]").replace(
@@ -143,3 +143,26 @@ def test_the_border_of_a_part_without_live_load_says_nothing() -> None:
         assert solve is not None
         answer = solve(np.array([3.0, 4.0]))
         np.testing.assert_allclose(answer, [1.0, 1.0, 0.0], atol=1e-9)
+
+
+@pytest.mark.parametrize("strength", [1e5, 1e6])
+def test_joints_stronger_than_their_loads_by_millions_have_a_static_bound(strength: float) -> None:
+    """All points crush at once under a slanting force, and there is but one field of forces.
+
+    At 5e5 and 5e6 times the block's weight they have no digits left at 1e-13 of it.
+    """
+    line = line_of(
+        BLOCK,
+        "parameters.h=1",
+        "materials.stone.density=2.e-5",
+        f"joints.dry={{friction: 0.6, compressive_strength: {strength}}}",
+        "load_cases.push.live=[{force: [300, 0, -1000], on: block, at: [0.5, 0.5, 1]}]",
+    )
+    _, checks, status = verified(line)
+    assert status == "solved", checks.failures
+    # N (1 + 2 e/b) = f_c A with N = 1000 λ + W and N e = 300 λ h at the base
+    weight = 2e-5 * 9.81
+    exact = (strength - weight) / 1600
+    assert checks.static_bound == pytest.approx(exact, rel=1e-6)
+    assert checks.static_bound <= exact * (1 + 1e-9)
+    assert checks.kinematic_bound >= exact * (1 - 1e-9)

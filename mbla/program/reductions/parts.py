@@ -1,4 +1,9 @@
-"""Parts that cannot interact: free blocks connected through contacts; what does not move connects nothing."""
+"""Parts that cannot interact: free blocks connected through contacts; what does not move connects nothing.
+
+Each part gets the mean dead load of its own blocks as its unit of force, as if it were alone: with forces x = f y and
+velocities u = q/f the power of the live load stays what it was, and the load factor too. In the unit of a part a
+million times as heavy all its loads would pass for rounding.
+"""
 
 from __future__ import annotations
 
@@ -6,6 +11,7 @@ import numpy as np
 import scipy.sparse as sp
 from scipy.sparse.csgraph import connected_components
 
+from mbla.arrays import FloatArray
 from mbla.program.reductions.restrict import chosen_limits, restricted, selection
 from mbla.program.reductions.scene import Scene, part_of
 
@@ -25,11 +31,18 @@ def split_into_parts(scene: Scene) -> list[Scene]:
     parts = []
     for part in range(count):
         blocks, points = np.flatnonzero(label == part), np.flatnonzero(part_of_point == part)
+        unit = _unit_of_force(scene.loads()[0][blocks])
         program = restricted(
             scene.program,
-            selection(blocks, n, 6),
-            selection(points, scene.program.n_points, 3),
-            chosen_limits(scene.program.limits, points),
+            sp.csr_array(selection(blocks, n, 6) / unit),
+            sp.csr_array(selection(points, scene.program.n_points, 3) * unit),
+            chosen_limits(scene.program.limits, points).scaled(1.0 / unit),
         )
         parts.append(part_of(scene, program, blocks, points))
     return parts
+
+
+def _unit_of_force(dead_load: FloatArray) -> float:
+    """Mean dead load of the blocks that have one, (n_blocks, 6); the unit of the whole where none has."""
+    sizes = np.linalg.norm(dead_load, axis=1)
+    return float(sizes[sizes > 0].mean()) if np.any(sizes > 0) else 1.0

@@ -18,6 +18,9 @@ from mbla.program.reductions.scene import Scene, part_of
 COPLANAR = 1e-9
 """Relative to block size: distance up to which points count as in one plane or on one line."""
 
+STRAIGHT_ON = 1e3 * COPLANAR
+"""Sine of a turn that counts as none."""
+
 
 def without_inner_points(scene: Scene) -> Scene:
     """The scene with the corners of the hulls alone; the same one where there is nothing to leave out."""
@@ -60,15 +63,20 @@ def _suspicious(scene: Scene) -> IntArray:
     first = np.flatnonzero(np.diff(scene.interfaces, prepend=-1))
     number, pair = scene.interfaces[first], np.sort(scene.bodies[first], axis=1)
     _, which, count = np.unique(pair, axis=0, return_inverse=True, return_counts=True)
-    several = number[count[which] > 1]
-    start, length = first, np.diff(np.append(first, len(scene.interfaces)))
+    return np.union1d(number[count[which] > 1], scene.interfaces[turns(scene) <= STRAIGHT_ON])
+
+
+def turns(scene: Scene) -> FloatArray:
+    """Sine of the turn to the left at each point of an interface, in their order, (n_points,)."""
+    start = np.flatnonzero(np.diff(scene.interfaces, prepend=-1))
+    length = np.diff(np.append(start, len(scene.interfaces)))
     place = np.arange(len(scene.interfaces)) - np.repeat(start, length)
     after = np.repeat(start, length) + (place + 1) % np.repeat(length, length)
     before = np.repeat(start, length) + (place - 1) % np.repeat(length, length)
     inward, outward = scene.points - scene.points[before], scene.points[after] - scene.points
     turn = (np.cross(inward, outward) * scene.frames[:, 0]).sum(axis=1)
     size = np.linalg.norm(inward, axis=1) * np.linalg.norm(outward, axis=1)
-    return np.union1d(several, scene.interfaces[turn <= 1e3 * COPLANAR * np.maximum(size, 1e-300)])
+    return np.asarray(turn / np.maximum(size, 1e-300))
 
 
 def _on_hull(scene: Scene, group: IntArray) -> BoolArray:

@@ -19,6 +19,7 @@ from mbla.program.reductions.planar import is_planar, planar_program
 from mbla.program.reductions.points import without_inner_points
 from mbla.program.reductions.restrict import tidy
 from mbla.program.reductions.scene import Scene, scene_of
+from mbla.program.reductions.shares import program_by_shares
 
 
 @dataclass(frozen=True)
@@ -72,7 +73,7 @@ def reduce_program(
     reduced, planes, blocks = [], 0, 0
     for part in parts:
         smaller, mirror = _reduced_part(part, switches, associative, model.mirrors)
-        reduced.append(_guided(part, smaller))
+        reduced.append(program_by_shares(part, _guided(part, smaller)))
         planes = max(planes, int(mirror is not None))
         own = np.arange(len(part.centroids))
         blocks += len(own) if mirror is None else int(np.sum(mirror.block_of >= own))

@@ -1,0 +1,88 @@
+"""Points as stiff as their shares: torsion by the trapezoidal rule, and unknowns that stand for the same forces."""
+
+from __future__ import annotations
+
+import itertools
+import math
+
+import numpy as np
+import pytest
+
+from mbla.deck.analysis import ReductionSwitches
+from mbla.program.reductions import Reduced, reduce_program
+from mbla.solution.settings import SolverSettings
+from mbla.solution.standing import assess_dead_load
+from tests.line import BLOCK, WALL, Line, line_of, verified
+
+SETTINGS = SolverSettings(tolerance=1e-8)
+
+TWIST = BLOCK.replace("analysis: {flow_rule: associative}", "analysis: {flow_rule: non_associative}").replace(
+    "live: [{acceleration: [1, 0, 0]}]",
+    "live: [{force: [0, 1, 0], on: block, at: [1, 0.5, 1]}, {force: [0, -1, 0], on: block, at: [0, 0.5, 1]}]",
+)
+"""A block 1 × 1 on the ground turned about its vertical middle axis by a couple of 1 N m."""
+
+
+def reduced(line: Line) -> Reduced:
+    return reduce_program(line.model, line.contacts, line.program, ReductionSwitches(), associative=False)
+
+
+@pytest.mark.parametrize("n", [2, 4, 7])
+def test_torsion_without_dilatancy_follows_the_trapezoidal_rule(n: int) -> None:
+    """Pressed evenly, every point slides with friction on its share: μ W Σ s r. With n → ∞ that is 0.3826 μ W a, from
+    which the rule is away by O(1/n²); equally stiff points would give 0.428 for n = 8."""
+    solution, checks, status = verified(line_of(TWIST, f"contacts.points.per_edge={n}"))
+    assert status == "solved", checks.failures
+    weight = 2000 * 9.81 * 2
+    at = np.arange(n + 1) / n - 0.5
+    share = np.where(np.abs(at) < 0.5 - 1e-9, 1.0, 0.5) / n
+    torsion = sum(share[i] * share[j] * math.hypot(at[i], at[j]) for i, j in itertools.product(range(n + 1), repeat=2))
+    assert solution.mechanics is not None
+    assert solution.mechanics.load_factor == pytest.approx(0.5 * weight * torsion, rel=1e-7)
+    assert 0 < torsion - (math.sqrt(2) + math.asinh(1)) / 6 < 0.32 / n**2
+
+
+@pytest.mark.parametrize("planar", [True, False])
+def test_points_share_the_dead_load_as_they_share_the_area(planar: bool) -> None:
+    """In the plane two lines of points, one behind the other, with a point between them that bears half of it all."""
+    push = "[1, 0, 0]" if planar else "[1, 0.3, 0]"
+    line = line_of(BLOCK, "contacts.points.per_edge=2", f"load_cases.push.live=[{{acceleration: {push}}}]")
+    (part,) = reduced(line).parts
+    assert part.components == (2 if planar else 3)
+    assert part.reduction is not None
+    state = assess_dead_load(part, SETTINGS)
+    assert state.forces is not None
+    forces = part.reduction.forces @ state.forces.ravel()
+    normal = forces[:: part.components]
+    expected = [0.25, 0.25, 0.5] if planar else [0.0625] * 4 + [0.125] * 4 + [0.25]
+    assert np.sort(normal / normal.sum()) == pytest.approx(np.array(expected), rel=1e-6)
+
+
+def test_standing_is_verified_with_unlike_points() -> None:
+    """The displacements are those of the stiffest point: others are pressed by less than they close."""
+    solution, checks, status = verified(line_of(BLOCK, "contacts.points.per_edge=3", "parameters.mu=0.3"))
+    assert status == "solved"
+    assert solution.standing is not None
+    assert solution.standing.settlement is not None
+    assert not checks.failures
+
+
+def test_strengths_stay_those_of_the_points() -> None:
+    """x = √s y: cohesion, tension and compression of y are those of x over √s."""
+    mortar = "joints.dry={friction: 0.5, cohesion: 3000, tensile_strength: 1000, compressive_strength: 2.e5}"
+    line = line_of(BLOCK, "contacts.points.per_edge=3", mortar, "load_cases.push.live=[{acceleration: [1, 0.3, 0]}]")
+    (part,) = reduced(line).parts
+    assert part.reduction is not None
+    root = part.reduction.forces.diagonal()[::3]
+    assert len(np.unique(root.round(9))) == 3
+    full = part.reduction.full.limits
+    assert root * part.limits.cohesion == pytest.approx(full.cohesion, rel=1e-12)
+    assert root * part.limits.tension == pytest.approx(full.tension, rel=1e-12)
+    assert root * part.limits.compression == pytest.approx(full.compression, rel=1e-12)
+    assert np.mean(root**2) == pytest.approx(1.0, rel=1e-12)
+
+
+def test_corners_are_all_alike() -> None:
+    """Nothing is changed where interfaces have their corners only."""
+    line = line_of(WALL, "load_cases.push.live=[{acceleration: [1, 0.3, 0]}]", "analysis.flow_rule=non_associative")
+    assert reduced(line).parts == (line.program,)
