@@ -72,7 +72,7 @@ def given_interfaces(
     start = _starts(table, bodies, joints, faults)
     if faults:
         raise TableRefused(faults)
-    first = start[:-1]
+    first, names = start[:-1], table.columns["interface"]
     pairs, normals, outlines = [], [], []
     for row, last in zip(first, start[1:], strict=True):
         a, b = sorted(bodies[row].tolist(), key=lambda body: (body < len(blocks), body))
@@ -85,9 +85,10 @@ def given_interfaces(
         outlines.append(found[1])
     if not faults:
         reach = tolerance * np.array([_size(pair, blocks) for pair in pairs])
-        for one, other in overlapping(pairs, normals, outlines, reach):
-            earlier = table.columns["interface"][first[one]]
-            faults.append(f"{_called(table, first[other])} overlaps interface {earlier} between the same bodies")
+        faults += [
+            f"{_called(table, first[other])} overlaps interface {names[first[one]]} between the same bodies"
+            for one, other in overlapping(pairs, normals, outlines, reach)
+        ]
     if faults:
         raise TableRefused(faults)
     laws = table.columns.get("joint", [""] * len(table))

@@ -8,6 +8,7 @@
 from __future__ import annotations
 
 import tempfile
+from collections.abc import Callable
 from functools import partial
 from pathlib import Path
 
@@ -77,7 +78,7 @@ def main() -> None:
             deck = read_deck(path)
             model = build_model(deck)
             contacts = find_contacts(model, deck.contacts)
-            stages = {
+            stages: dict[str, Callable[[], object]] = {
                 "read": partial(read_deck, path),
                 "build": partial(build_model, deck),
                 "contacts": partial(find_contacts, model, deck.contacts),
