@@ -33,6 +33,10 @@ make it too small to carry the dead load."""
 HIGH = 10.0
 """Reaction over its unit, more than any structure is likely to need."""
 
+EVERY_POINT = ReductionSwitches(mirror=False, points=False)
+"""Least forces need every point by itself: without those inside the hull of others a middle support would carry
+nothing, and points that stand for two would count by half."""
+
 
 def _silent(_: IterationRecord) -> None:
     """Iterations of the state at rest are not recorded."""
@@ -50,9 +54,9 @@ def posed(
     if settlement is None:
         return load_case
     held = replace(load_case, live_load=load_case.dead_load, settlement=None)
-    solids = solids_of(model, contacts)
+    solids = solids_of(replace(model, mirrors=()), contacts)
     program = assemble(solids.model, solids.contacts, solids.load_case(held))
-    parts = reduce_program(solids.model, solids.contacts, program, ReductionSwitches(), associative=True).parts
+    parts = reduce_program(solids.model, solids.contacts, program, EVERY_POINT, associative=True).parts
     total = np.zeros((len(contacts.points), 3))
     for part in parts:
         state = at_rest(part, 0.0, settings, log)

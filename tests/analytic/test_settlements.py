@@ -39,6 +39,37 @@ def test_the_beam_on_three_supports(tmp_path: Path, length: float, height: float
     assert abs(reaction(results.case("left_settles"))) < EXACT * weight
 
 
+PADS = """
+mbla: 1
+materials: {{stone: {{density: 2000}}}}
+joints: {{dry: {{friction: 0.5}}}}
+blocks:
+  - box: {{group: pads, material: stone, min: [0, 0, -1], max: [0.4, 0.5, 0]}}
+  - box: {{group: middle, material: stone, min: [1.8, 0, -1], max: [{end}, 0.5, 0]}}
+  - box: {{group: beam, material: stone, min: [0, 0, 0], max: [{length}, 0.5, 0.4]}}
+{more}
+contacts: {{joint: dry}}
+supports: [{{blocks: [pads, middle]}}]
+load_cases: {{sink: {{settlement: {{on: middle, direction: [0, 0, -1]}}}}}}
+analysis: {{flow_rule: associative}}
+"""
+RIGHT = "  - box: {group: pads, material: stone, min: [3.6, 0, -1], max: [4, 0.5, 0]}"
+WHOLE = PADS.format(end=2.2, length=4, more=RIGHT)
+HALF = PADS.format(end=2, length=2, more="symmetry: [{x: 2, halves: [middle, beam]}]")
+
+
+@pytest.mark.parametrize("deck", [WHOLE, HALF], ids=["whole", "half"])
+def test_at_rest_the_least_forces_spread_over_every_point(tmp_path: Path, deck: str) -> None:
+    """Three equal pads of four points carry a third each, in the squares of the forces the least; W/3 less nothing."""
+    path = tmp_path / "pads.yaml"
+    path.write_text(deck, encoding="utf-8")
+    (case,) = run(path, RunOptions(folder=tmp_path / "out", overrides=("output.vtu=false",), force=True)).cases
+    weight = WEIGHT * 4 * 0.5 * 0.4
+    assert abs(reaction(case)) < EXACT * weight
+    assert case.load_case.settlement is not None
+    assert case.load_case.settlement.reference == pytest.approx(weight / 3, rel=EXACT)
+
+
 @pytest.mark.parametrize("friction", [0.05, 0.5])
 def test_a_support_that_slides_away_is_let_go_by_friction(tmp_path: Path, friction: float) -> None:
     overrides = [
