@@ -1,93 +1,22 @@
+"""The convex contact model: torsion, crushing, and the concave model beside it."""
+
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
 
-from mbla.cli import main
-from mbla.program.convex import assemble_convex
 from mbla.program.remarks import program_notices
-from mbla.solution import Checks, Solution, verified_status
-from mbla.solution.convex import solve_convex
-from mbla.solution.settings import solver_settings
-from mbla.solution.solution import ContactMode, Mechanics, Status
+from mbla.solution.solution import ContactMode, Status
 from mbla.solution.verification import verify
-from tests.line import BLOCK, HEAD, WALL, Line, line_of, solution_of
+from tests.line import BLOCK, HEAD, WALL, line_of, solution_of
+from tests.solution.convex_structures import DECKS, TWIST, concave, convex, factor, prism
 
-DECKS = Path(__file__).parents[2] / "decks" / "benchmarks"
 SQUARE = (np.sqrt(2) + np.log(1 + np.sqrt(2))) / 6
+
 THETA = 2 - 4 * SQUARE * np.arcsinh(1.0)
-
-TWIST = (
-    HEAD
-    + """\
-parameters: {mu: 0.6, a: 1.0, h: 0.5, W: "=2000*9.81*a*a*h", e1: 0, e2: 0, c: 0, ft: 0, arm: 0.5}
-joints: {dry: {friction: "=mu", cohesion: "=c*W/(a*a)", tensile_strength: "=ft*W/(a*a)"}}
-blocks:
-  - box: {group: block, material: stone, min: [0, 0, 0], max: ["=a", "=a", "=h"]}
-supports: [{ground: {z: 0}}]
-load_cases:
-  couple:
-    dead: [{gravity: [0, 0, -9.81]}, {force: [0, 0, "=-W"], on: block, at: ["=a/2 + e1", "=a/2 + e2", "=h"]}]
-    live:
-      - {force: [0, "=W", 0], on: block, at: ["=a", "=a/2", "=h/2"]}
-      - {force: [0, "=-W", 0], on: block, at: [0, "=a/2", "=h/2"]}
-  push:
-    live: [{force: [0, "=W", 0], on: block, at: ["=a/2 + arm*a", "=a/2", 0]}]
-analysis: {flow_rule: associative, contact_model: convex}
-"""
-)
-"""Square block twisted by a couple W a under twice its weight W, or pushed along its base at an arm."""
-
-SLAB = (
-    HEAD
-    + """\
-parameters: {fc: 2.e+4}
-joints: {dry: {friction: 0.5, compressive_strength: "=fc"}}
-blocks:
-  - polyhedron: {group: block, material: stone, vertices: VERTICES, faces: FACES}
-supports: [{ground: {z: 0}}]
-load_cases:
-  press:
-    dead: [{force: [0, 0, -1000], on: block, at: POINT}]
-    live: [{force: [0, 0, -1000], on: block, at: POINT}]
-analysis: {flow_rule: associative, contact_model: convex}
-"""
-)
-"""A prism without weight, pressed by 1000 N at a point of its top."""
-
-
-def prism(outline: Sequence[tuple[float, float]], point: Sequence[float]) -> str:
-    n = len(outline)
-    vertices = [[x, y, z] for z in (0, 1) for x, y in outline]
-    faces = [list(range(n)), list(range(n, 2 * n))]
-    faces += [[i, (i + 1) % n, n + (i + 1) % n, n + i] for i in range(n)]
-    return SLAB.replace("VERTICES", str(vertices)).replace("FACES", str(faces)).replace("POINT", str([*point, 1]))
-
-
-def convex(line: Line, flow_rule: str = "associative") -> tuple[Solution, Checks]:
-    """Solve and verify with interface resultants."""
-    analysis = line.deck.analysis.model_copy(update={"flow_rule": flow_rule, "contact_model": "convex"})
-    program = assemble_convex(line.model, line.contacts, line.load_case)
-    solution = solve_convex(program, analysis, solver_settings(analysis))
-    return solution, verify(line.model, line.contacts, line.load_case, solution)
-
-
-def factor(text: str, *overrides: str, case: int = 0, flow_rule: str = "associative") -> float:
-    """Load factor of a case that must come out solved and verified."""
-    solution, checks = convex(line_of(text, *overrides, case=case), flow_rule)
-    assert verified_status(solution, checks) is Status.SOLVED, (solution.status, solution.reason, checks.failures)
-    assert solution.mechanics is not None
-    return solution.mechanics.load_factor
-
-
-def concave(line: Line) -> float:
-    solution = solution_of(line)
-    assert solution.associative is not None
-    return solution.associative.load_factor
 
 
 # --- torsion ------------------------------------------------------------------------------------------------------
@@ -151,7 +80,9 @@ def test_resultants_are_those_of_the_loads() -> None:
 
 
 RECTANGLE = ((0, 0), (1.2, 0), (1.2, 0.8), (0, 0.8))
+
 TRIANGLE = ((0, 0), (1, 0), (0.2, 0.9))
+
 CENTROID = np.array([0.4, 0.3])
 
 
@@ -293,72 +224,6 @@ def test_result_without_dilatancy_is_below_the_associative_one_and_fits_the_law(
     assert solution.associative is not None
     assert checks.complementarity_residual < 1e-8
     assert solution.mechanics.load_factor <= solution.associative.load_factor * (1 + 1e-7)
-
-
-# --- verification -----------------------------------------------------------------------------------------------------
-
-
-def twisted() -> tuple[Line, Solution, Mechanics]:
-    line = line_of(TWIST, "parameters.e1=0.3")
-    solution, checks = convex(line)
-    assert checks.verified
-    assert checks.gap < 1e-7
-    assert solution.mechanics is not None
-    return line, solution, solution.mechanics
-
-
-def failures_with(line: Line, solution: Solution, mechanics: Mechanics) -> Checks:
-    changed = replace(solution, mechanics=mechanics, associative=mechanics)
-    return verify(line.model, line.contacts, line.load_case, changed)
-
-
-def test_forces_beyond_the_torsional_strength_are_found() -> None:
-    """The concave solution is in equilibrium and within the cones of its points, and twists too much."""
-    line, solution, mechanics = twisted()
-    program_solution = solution_of(line)
-    corners = program_solution.associative
-    assert corners is not None
-    claim = replace(corners, resultants=mechanics.resultants, interface_motions=mechanics.interface_motions)
-    checks = failures_with(line, solution, claim)
-    assert checks.yield_violation > 0.1
-    assert not checks.verified
-
-
-def test_motions_that_do_not_open_enough_are_found() -> None:
-    line, solution, mechanics = twisted()
-    assert mechanics.interface_motions is not None
-    closed = mechanics.interface_motions.copy()
-    closed[:, 0, 0] = 0.0
-    checks = failures_with(line, solution, replace(mechanics, interface_motions=closed))
-    assert checks.complementarity_residual > 0.1
-    assert not checks.verified
-
-
-def test_a_mechanism_without_its_motions_proves_nothing() -> None:
-    line, solution, mechanics = twisted()
-    checks = failures_with(line, solution, replace(mechanics, interface_motions=None))
-    assert not checks.verified
-    assert checks.kinematic_bound > 1.5 * mechanics.load_factor  # that of the contact points at best
-
-
-def test_wrong_resultants_are_found() -> None:
-    line, solution, mechanics = twisted()
-    assert mechanics.resultants is not None
-    checks = failures_with(line, solution, replace(mechanics, resultants=mechanics.resultants * 1.001))
-    assert any("resultants" in failure for failure in checks.failures)
-
-
-def test_too_high_a_load_factor_is_found() -> None:
-    line, solution, mechanics = twisted()
-    checks = failures_with(line, solution, replace(mechanics, load_factor=1.01 * mechanics.load_factor))
-    assert not checks.verified
-
-
-@pytest.mark.parametrize("deck", ["torque_convex", "eccentric_compression_convex"])
-def test_result_file_is_verified_without_solver(deck: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(["run", str(DECKS / f"{deck}.yaml"), "-o", str(tmp_path / "out"), "--expected"]) == 0
-    assert main(["verify", str(tmp_path / "out" / f"{deck}.h5")]) == 0
-    assert "agrees" in capsys.readouterr().out
 
 
 def test_rotation_with_gravity_does_not_matter() -> None:
