@@ -1,4 +1,4 @@
-"""Cone programs with known answers, certificates that are checked by hand, and how runs end."""
+"""Cone programs with known answers, and how runs end."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 
 from mbla.errors import SolverError
 from mbla.program.associative_static import associative_static_form
-from mbla.program.kinematic import ConeProgram, kinematic_form
+from mbla.program.kinematic import kinematic_form
 from mbla.program.static import gravity_form
 from mbla.solution.clarabel_adapter import ClarabelProgram
 from mbla.solution.condensed.condensation import Condensation
@@ -31,24 +31,16 @@ from mbla.solution.cone_vectors import ConeVectors
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import IterationRecord, Status
 from tests.line import BLOCK, WALL, line_of
+from tests.solution.condensed.held_programs import held, least_in_cones, small, wall
 from tests.solution.condensed.vectors import Known, known_program, known_static_program
 
 Make = Callable[[int, bool], Known]
 
 quick = settings(max_examples=25, deadline=None, derandomize=True)
+
 seeds = st.integers(0, 2**32 - 1)
+
 RUN = Run(1e-9, 100, None, 0.0, lambda number, measures, length: None)
-
-
-def held(program: ConeProgram, log: list[IterationRecord] | None = None, **changed: object) -> CondensedProgram:
-    records: list[IterationRecord] = [] if log is None else log
-    asked = replace(SolverSettings(1e-9, solver="mbla", cholesky="qdldl"), **changed)  # type: ignore[arg-type]
-    return CondensedProgram(program, asked, records.append)
-
-
-def wall(*overrides: str) -> ConeProgram:
-    line = line_of(WALL, *overrides)
-    return kinematic_form(line.program, line.program.limits).cone_program
 
 
 def kinematic(seed: int, quadratic: bool) -> Known:
@@ -60,11 +52,6 @@ def kinematic(seed: int, quadratic: bool) -> Known:
 def static(seed: int, quadratic: bool) -> Known:
     rng = np.random.default_rng(seed)
     return known_static_program(rng, int(rng.integers(6, 10)), quadratic)
-
-
-def small(cost: list[float], rows: list[list[float]], rhs: list[float], lines: int, cones: int = 0) -> ConeProgram:
-    """One equation, then half-lines, then cones."""
-    return ConeProgram(np.array(cost), sp.csc_array(np.array(rows)), np.array(rhs), lines, cones)
 
 
 @pytest.mark.parametrize("quadratic", [False, True], ids=["linear", "quadratic"])
@@ -88,12 +75,6 @@ def test_programs_made_around_a_solution_give_its_value(seed: int, make: Make, q
     assert least_in_cones(program, solution.z[program.n_equations :]) >= 0.0
     assert least_in_cones(program, slack[program.n_equations :]) >= -1e-7 * (1.0 + np.abs(slack).max())
     assert abs(slack @ solution.z) <= 1e-6 * size * len(cones.sizes)
-
-
-def least_in_cones(program: ConeProgram, v: np.ndarray) -> float:
-    """Least of v on half-lines and of heads over tails."""
-    cones = ConeVectors.of(program)
-    return float((v[cones.head] - cones.tails(v)).min())
 
 
 @quick
@@ -122,77 +103,6 @@ def test_the_projection_on_a_simplex(target: list[float]) -> None:
     assert solution.status is Status.SOLVED
     np.testing.assert_allclose(solution.x, expected, atol=1e-4)
     assert solution.objective == pytest.approx(0.5 * expected @ expected - t @ expected, abs=1e-7)
-
-
-def infeasible_by(program: ConeProgram, z: np.ndarray) -> float:
-    """How small the ray's own error is beside what it proves: every admissible x is larger than the inverse."""
-    assert least_in_cones(program, z[program.n_equations :]) >= 0.0
-    assert program.rhs @ z < 0.0
-    return float(np.abs(program.matrix.T @ z).max() / -(program.rhs @ z))
-
-
-def unbounded_by(program: ConeProgram, x: np.ndarray) -> float:
-    """Likewise of a motion in which the cost falls without end: how far it leaves the cones, beside the cost."""
-    assert program.cost @ x < 0.0
-    away = -(program.matrix @ x)
-    outside = max(0.0, -least_in_cones(program, away[program.n_equations :]))
-    return max(outside, float(np.abs(away[: program.n_equations]).max(initial=0.0))) / float(-(program.cost @ x))
-
-
-@pytest.mark.parametrize("distance", [1e-3, 1.0, 1e3])
-def test_an_infeasible_program_comes_with_the_ray_that_proves_it(distance: float) -> None:
-    """x = 1 and x ≤ 1 − d."""
-    program = small([1.0, 1.0], [[1.0, 0.0], [1.0, 0.0], [0.0, -1.0]], [1.0, 1.0 - distance, 0.0], 2)
-    solution = held(program).solve(1, 1.0)
-    assert solution.status is Status.UNBOUNDED, solution.verdict
-    assert infeasible_by(program, solution.z) < 1e-6
-
-
-def test_a_cone_that_an_equation_misses() -> None:
-    """(1, x, y) in the cone and x = 2."""
-    program = small([0.0, 1.0], [[1.0, 0.0], [0.0, 0.0], [-1.0, 0.0], [0.0, -1.0]], [2.0, 1.0, 0.0, 0.0], 0, 1)
-    solution = held(program).solve(1, 1.0)
-    assert solution.status is Status.UNBOUNDED
-    assert infeasible_by(program, solution.z) < 1e-6
-
-
-@pytest.mark.parametrize("slope", [1e-3, 1.0, 1e3])
-def test_an_unbounded_program_comes_with_the_ray_that_proves_it(slope: float) -> None:
-    """min −k y, x = 1, y ≥ 0, and with a cone beside."""
-    rows = [[1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, -1.0], [0.0, 0.0, 0.0]]
-    program = small([0.0, -slope, 0.0], rows, [1.0, 0.0, 1.0, 0.0, 0.0], 1, 1)
-    solution = held(program).solve(1, 1.0)
-    assert solution.status is Status.NO_EQUILIBRIUM, solution.verdict
-    assert unbounded_by(program, solution.x) < 1e-6
-
-
-def test_a_block_that_is_pushed_into_the_ground_and_one_that_falls() -> None:
-    """Of the structures themselves; the clamped one by self-stress, the other by its own motion."""
-    line = line_of(BLOCK, "load_cases.push.live=[{acceleration: [0, 0, -1]}]")
-    locked = kinematic_form(line.program, line.program.limits).cone_program
-    solution = held(locked).solve(1, 1.0)
-    assert solution.status is Status.UNBOUNDED
-    assert infeasible_by(locked, solution.z) < 1e-6
-    line = line_of(BLOCK, "load_cases.push.dead=[{gravity: [0, 0, 9.81]}]")
-    falling = kinematic_form(line.program, line.program.limits).cone_program
-    solution = held(falling).solve(1, 1.0)
-    assert solution.status is Status.NO_EQUILIBRIUM
-    assert unbounded_by(falling, solution.x) < 1e-6
-
-
-def test_a_huge_vector_beside_which_the_work_vanishes_proves_nothing() -> None:
-    """Friction of a million: self-stress so large that what it leaves over looked small (infeasible was the verdict).
-
-    A slender block of width 1 and height 2 rocks at half its weight, however rough the ground is.
-    """
-    for mu in (1e3, 1e6):
-        program = wall("parameters.n=2", f"parameters.mu={mu!r}")
-        solution = held(program).solve(1, 1.0)
-        assert solution.status is not Status.UNBOUNDED, (mu, solution.verdict)
-    block = line_of(BLOCK, "parameters.mu=1e6")
-    form = kinematic_form(block.program, block.program.limits)
-    factor = block.program.scaling.load_factor(held(form.cone_program).solve(1, 1.0).objective)
-    assert factor == pytest.approx(0.5, rel=1e-5)
 
 
 def test_strengths_far_beyond_the_weights_leave_the_answer_alone() -> None:
