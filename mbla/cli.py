@@ -16,9 +16,9 @@ from pathlib import Path
 from types import FrameType
 from typing import TYPE_CHECKING, Any, NoReturn
 
-from mbla import __version__
 from mbla.arguments import build_parser
-from mbla.errors import DeckError, FileError, LimitError, MblaError, UsageError
+from mbla.errors import DeckError, FileError, MblaError, UsageError
+from mbla.failures import failure_record, words_of
 from mbla.threads import limit_threads
 
 if TYPE_CHECKING:
@@ -147,28 +147,11 @@ def _schema(options: argparse.Namespace) -> int:
 
 
 def _new(options: argparse.Namespace) -> int:
-    path = Path(options.name if options.name.endswith((".yaml", ".yml")) else f"{options.name}.yaml")
-    starter = (Path(__file__).parent / "starter.yaml").read_text(encoding="utf-8")
-    text = starter.replace("NAME.yaml", path.name).replace("NAME.out", f"{path.stem}.out")
-    text = text.replace("schemas/deck.schema.json", _schema_address())
-    if not path.parent.is_dir():
-        raise FileError(f"{path}: there is no folder {path.parent}")
-    try:
-        with path.open("w" if options.force else "x", encoding="utf-8") as file:
-            file.write(text)
-    except FileExistsError:
-        raise FileError(f"{path}: exists already; --force replaces it") from None
-    except OSError as error:
-        raise FileError(f"{path}: {error.strerror or error}") from error
+    from mbla.starter import write_starter
+
+    path = write_starter(options.name, replace=options.force)
     print(f"{path} written; run it with: mbla run {shlex.quote(str(path))}")
     return 0
-
-
-def _schema_address() -> str:
-    """Where editors find the schema that came with the program: inside the installed package, or beside its source."""
-    package = Path(__file__).resolve().parent
-    places = [folder / "schemas" / "deck.schema.json" for folder in (package, package.parent)]
-    return next((place.as_uri() for place in places if place.is_file()), "schemas/deck.schema.json")
 
 
 COMMANDS: dict[str, Callable[[argparse.Namespace], int]] = {
@@ -233,33 +216,16 @@ def _each_deck(options: argparse.Namespace, one: Callable[[Path], int], progress
             _clear_progress(progress)
             codes.append(_failed(error))
             if options.json:
-                print(json.dumps(_failure_record(deck, error, codes[-1])), flush=True)
+                print(json.dumps(failure_record(deck, error, codes[-1])), flush=True)
     return next((code for code in WORST_FIRST if code in codes), codes[0] if len(set(codes)) == 1 else max(codes))
-
-
-def _failure_record(deck: Path, error: Exception, code: int) -> dict[str, Any]:
-    messages = [str(fault) for fault in error.faults] if isinstance(error, DeckError) else [_words_of(error)[1]]
-    return {"mbla": __version__, "deck": deck.name, "exit_code": code, "errors": messages}
 
 
 def _failed(error: Exception) -> int:
     """Say what went wrong in one line per fault; the exit status."""
-    status, text = _words_of(error)
+    status, text = words_of(error)
     if status == MblaError.exit_status and os.environ.get("MBLA_TRACEBACK"):
         traceback.print_exception(error)
     return _say(text if isinstance(error, DeckError) else f"mbla: {text}", status)
-
-
-def _words_of(error: Exception) -> tuple[int, str]:
-    """Exit status, and what went wrong in words."""
-    if isinstance(error, MblaError):
-        return error.exit_status, str(error)
-    if isinstance(error, MemoryError):
-        return LimitError.exit_status, "out of memory"
-    if isinstance(error, OSError):
-        return FileError.exit_status, f"{error.filename or 'standard output'}: {error.strerror or error}"
-    words = " ".join(str(error).split())
-    return 1, f"internal error, please report it with the deck: {type(error).__name__}: {words}"
 
 
 def _say(text: str, status: int) -> int:

@@ -14,6 +14,7 @@ from mbla.contacts.interface_points import PointsRefused
 from mbla.contacts.notices import overlap_messages
 from mbla.deck import Deck, read_deck
 from mbla.errors import DeckError, Notice, UsageError
+from mbla.exit_status import exit_code
 from mbla.expected import differences
 from mbla.model import Model, build_model
 from mbla.model.model import LoadCase
@@ -25,10 +26,10 @@ from mbla.program.remarks import program_notices
 from mbla.results.files import OutputFolder
 from mbla.results.provenance import collect_provenance
 from mbla.results.results import CaseResult, DeckRecord, Results
-from mbla.results.series import series_of
 from mbla.results.sta import StatusFile
 from mbla.results.write import write_results
-from mbla.solution import Status, solve, verified_status, verify
+from mbla.settings_words import settings_in_words
+from mbla.solution import solve, verified_status, verify
 from mbla.solution.convex import solve_convex
 from mbla.solution.glued import solution_on_blocks
 from mbla.solution.settings import SolverSettings, solver_settings
@@ -213,77 +214,9 @@ def deck_record(deck: Deck) -> DeckRecord:
     return DeckRecord(deck.path.name, sources, deck.overrides, deck.sha256)
 
 
-def settings_in_words(deck: Deck, settings: SolverSettings) -> dict[str, str]:
-    """Analysis settings in effect, by name, for the result files."""
-    analysis = deck.analysis
-    words = {
-        "flow_rule": analysis.flow_rule,
-        "contact_model": analysis.contact_model,
-        "friction_cone": "circular" if analysis.friction_cone == "circular" else f"polyhedral, {analysis.sides} sides",
-        "accuracy": analysis.accuracy,
-        "solver": f"{analysis.solver}, {analysis.form} form",
-        "tolerance": f"{settings.tolerance:g}",
-        "max_iterations": str(settings.max_iterations),
-        "contact_points": _points_in_words(deck),
-        "contact_tolerance": f"{deck.contacts.tolerance:g}",
-    }
-    if analysis.flow_rule == "associative":
-        words["forces"] = analysis.forces
-    elif analysis.flow_rule == "non_associative":
-        words["scheme"] = analysis.scheme
-        parameters = getattr(analysis, analysis.scheme, None)  # none for auto
-        if parameters is not None:
-            words |= {f"scheme_{name}": f"{value:g}" for name, value in parameters.model_dump().items()}
-    off = [name for name, on in analysis.reductions.model_dump().items() if not on]
-    if off:
-        words["reductions_off"] = ", ".join(off)
-    if analysis.time_limit is not None:
-        words["time_limit"] = f"{analysis.time_limit:g} s"
-    return words
-
-
-def _points_in_words(deck: Deck) -> str:
-    """How an interface is represented."""
-    contacts = deck.contacts
-    if deck.analysis.contact_model == "convex":
-        return "resultants of each interface"
-    points, length = contacts.points, deck.units.length
-    words = "corners"
-    if points.spacing is not None:
-        words = f"at most {points.spacing:g} {length} apart along each edge, and inside"
-    elif (points.per_edge or 1) > 1:
-        words = f"{points.per_edge} along each edge, and inside"
-    inwards = f"{points.inset:g}" if points.inset else f"{points.rounding:g} {length}" if points.rounding else ""
-    return words + (f", inset by {inwards}" if inwards else "")
-
-
 def differences_from_expected(deck: Deck, cases: Sequence[CaseResult]) -> list[Notice]:
     """Where the results are not what the deck expects; UsageError if it expects nothing."""
     expected = deck.content.expected
     if not expected:
         raise UsageError(f"--expected: {deck.path} has no expected section")
     return [Notice("warning", "not-as-expected", difference) for difference in differences(cases, expected)]
-
-
-def exit_code(cases: Sequence[CaseResult], differences: Sequence[Notice] = ()) -> int:
-    """Exit status of a run: the gravest of its cases; a difference from what is expected counts as not verified.
-
-    Positions of a travelling load that bring nothing down are no failure where another is the worst.
-    """
-    harmless = {id(case) for series in series_of(cases) if series.worst is not None for case in series.cases}
-    judged = [case for case in cases if case.status is not Status.UNBOUNDED or id(case) not in harmless]
-    codes = {EXIT_CODES[case.status] for case in judged} | ({4} if differences else set())
-    return next((code for code in GRAVEST_FIRST if code in codes), 0)
-
-
-EXIT_CODES = {
-    Status.SOLVED: 0,
-    Status.APPROXIMATE: 4,
-    Status.NOT_VERIFIED: 4,
-    Status.NO_EQUILIBRIUM: 5,
-    Status.UNBOUNDED: 5,
-    Status.ITERATION_LIMIT: 4,
-    Status.TIME_LIMIT: 7,
-    Status.NUMERICAL_ERROR: 4,
-}
-GRAVEST_FIRST = (7, 4, 5)

@@ -6,8 +6,8 @@ from dataclasses import replace
 
 import numpy as np
 
+from mbla.exit_status import exit_code
 from mbla.results.results import Results
-from mbla.run import exit_code
 from mbla.solution.solution import Checks
 from mbla.solution.verification import verify
 from mbla.solution.verify import verified_status

@@ -19,7 +19,7 @@ import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.contacts.corners import Corners, areas_and_centroids
-from mbla.contacts.polygons import convex_loops
+from mbla.contacts.loops import convex_loops
 from mbla.contacts.refine import InterfacePoints, divided, parallelograms
 from mbla.deck.types import ContactPoints
 from mbla.errors import Notice

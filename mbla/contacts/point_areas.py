@@ -12,7 +12,8 @@ import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.contacts.corners import Corners
-from mbla.contacts.polygons import convex_loops, polygons_from_rings, triangles
+from mbla.contacts.loops import convex_loops
+from mbla.contacts.polygons import polygons_from_rings, triangles
 
 
 def point_areas(corners: Corners, n_polygons: int) -> FloatArray:

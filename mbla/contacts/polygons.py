@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from mbla.arrays import BoolArray, FloatArray, IntArray, starts
 from mbla.contacts.convex_clip import clip_convex
-from mbla.model.ragged import next_item
+from mbla.contacts.loops import convex_loops, signed_areas
 
 Polygons: TypeAlias = NDArray[np.object_]
 
@@ -82,29 +82,6 @@ def polygons_from_rings(points: FloatArray, ring_start: IntArray, polygon_of_rin
     """
     rings = shapely.linearrings(points, indices=np.repeat(np.arange(len(ring_start) - 1), np.diff(ring_start)))
     return np.atleast_1d(shapely.polygons(rings, indices=polygon_of_ring))
-
-
-def convex_loops(points: FloatArray, loop_start: IntArray) -> BoolArray:
-    """True for loops that turn one way only and only once around, (n_loops,).
-
-    points     : (n_corners, 2)
-    loop_start : (n_loops + 1,)
-
-    Turns below a millionth of the product of the two edges count as straight.
-    """
-    following = next_item(loop_start)
-    edge = points[following] - points
-    after = edge[following]
-    cross = edge[:, 0] * after[:, 1] - edge[:, 1] * after[:, 0]
-    dot = (edge * after).sum(axis=1)
-    size = np.hypot(*edge.T) * np.hypot(*after.T)
-    turn = np.arctan2(cross, dot)
-    first = loop_start[:-1]
-    left = np.logical_and.reduceat(cross >= -1e-6 * size, first)
-    right = np.logical_and.reduceat(cross <= 1e-6 * size, first)
-    winding = np.abs(np.add.reduceat(turn, first))
-    once: BoolArray = (left | right) & (winding < 3 * np.pi)
-    return once
 
 
 def convex_hulls(points: FloatArray, loop_start: IntArray) -> tuple[FloatArray, IntArray]:
@@ -254,7 +231,7 @@ def rings(polygons: Polygons) -> tuple[FloatArray, IntArray, IntArray]:
     start = starts(np.bincount(ring, minlength=len(loops)).astype(np.int64))
     outer = np.ones(len(loops), dtype=bool)
     outer[1:] = polygon[1:] != polygon[:-1]
-    wrong = (_signed_areas(points, start) > 0) != outer
+    wrong = (signed_areas(points, start) > 0) != outer
     position = np.arange(len(points))
     mirrored = start[ring] + start[ring + 1] - 1 - position
     return points[np.where(wrong[ring], mirrored, position)], start, polygon.astype(np.int64)
@@ -301,13 +278,6 @@ def triangles(polygons: Polygons) -> tuple[FloatArray, IntArray]:
     parts, row = shapely.get_parts(shapely.constrained_delaunay_triangles(polygons), return_index=True)
     points = shapely.get_coordinates(parts).reshape(len(parts), 4, 2)[:, :3]
     return points, row.astype(np.int64)
-
-
-def _signed_areas(points: FloatArray, loop_start: IntArray) -> FloatArray:
-    following = next_item(loop_start)
-    cross = points[:, 0] * points[following, 1] - points[:, 1] * points[following, 0]
-    areas: FloatArray = np.add.reduceat(cross, loop_start[:-1]) / 2
-    return areas
 
 
 def _polygonal(shapes: Polygons) -> Polygons:

@@ -127,14 +127,33 @@ def build_blocks(polyhedra: Polyhedra, labels: Labels, tolerance: float) -> Buil
     facets = (
         np.arange(len(polyhedra.block_of_face)) if defects else find_facets(polyhedra, edges, faces, tolerance * sizes)
     )
-    blocks = Blocks(
+    blocks = _blocks(polyhedra, faces.normals, facets, convex, volumes, centroids, labels)
+    notices = (
+        *_unused_vertices(unused, labels),
+        *_turned_faces(polyhedra, turned, labels),
+        *_bent_faces(polyhedra, faces, sizes, extents, labels),
+    )
+    return BuiltBlocks(blocks, notices, tuple(sorted(defects, key=lambda defect: defect.block)))
+
+
+def _blocks(
+    polyhedra: Polyhedra,
+    face_normals: FloatArray,
+    facets: IntArray,
+    convex: BoolArray,
+    volumes: FloatArray,
+    centroids: FloatArray,
+    labels: Labels,
+) -> Blocks:
+    """Blocks of what was measured, without added masses."""
+    return Blocks(
         vertices=polyhedra.vertices,
         vertex_start=polyhedra.vertex_start,
         loops=polyhedra.loops,
         loop_start=polyhedra.loop_start,
         face_start=polyhedra.face_start,
         facet_of_face=facets,
-        face_normals=faces.normals,
+        face_normals=face_normals,
         convex=convex,
         volumes=volumes,
         centroids=centroids,
@@ -145,12 +164,6 @@ def build_blocks(polyhedra: Polyhedra, labels: Labels, tolerance: float) -> Buil
         group_indices=labels.group_indices,
         labels=labels.within,
     )
-    notices = (
-        *_unused_vertices(unused, labels),
-        *_turned_faces(polyhedra, turned, labels),
-        *_bent_faces(polyhedra, faces, sizes, extents, labels),
-    )
-    return BuiltBlocks(blocks, notices, tuple(sorted(defects, key=lambda defect: defect.block)))
 
 
 def _among_sound(defects: list[Defect], found: list[Defect], n_blocks: int) -> list[Defect]:

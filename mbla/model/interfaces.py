@@ -5,7 +5,7 @@ Each must lie on a face of either body, within the tolerance of contacts: what l
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
 
 import numpy as np
 
@@ -72,29 +72,43 @@ def given_interfaces(
     start = _starts(table, bodies, joints, faults)
     if faults:
         raise TableRefused(faults)
-    first, names = start[:-1], table.columns["interface"]
-    pairs, normals, outlines = [], [], []
-    for row, last in zip(first, start[1:], strict=True):
-        a, b = sorted(bodies[row].tolist(), key=lambda body: (body < len(blocks), body))
-        found = _oriented(points[row:last], (a, b), blocks, grounds, tolerance)
-        if isinstance(found, str):
-            faults.append(f"{_called(table, row)} {found}")
-            continue
-        pairs.append((a, b))
-        normals.append(found[0])
-        outlines.append(found[1])
-    if not faults:
-        reach = tolerance * np.array([_size(pair, blocks) for pair in pairs])
-        faults += [
-            f"{_called(table, first[other])} overlaps interface {names[first[one]]} between the same bodies"
-            for one, other in overlapping(pairs, normals, outlines, reach)
-        ]
-    if faults:
-        raise TableRefused(faults)
+    first = start[:-1]
+    pairs = [_ground_first(bodies[row].tolist(), len(blocks)) for row in first]
+    normals, outlines = _fitted(table, points, start, pairs, blocks, grounds, tolerance)
     laws = table.columns.get("joint", [""] * len(table))
     return GivenInterfaces(
         np.array(pairs), np.array(normals), np.concatenate(outlines), start, tuple(laws[row] for row in first)
     )
+
+
+def _fitted(
+    table: Table,
+    points: FloatArray,
+    start: IntArray,
+    pairs: list[tuple[int, int]],
+    blocks: Blocks,
+    grounds: tuple[Ground, ...],
+    tolerance: float,
+) -> tuple[list[FloatArray], list[FloatArray]]:
+    """Normal and outline of each interface; TableRefused where one does not fit its bodies, or overlaps another."""
+    first = start[:-1]
+    found = [
+        _oriented(points[row:last], pair, blocks, grounds, tolerance)
+        for row, last, pair in zip(first, start[1:], pairs, strict=True)
+    ]
+    faults = [
+        f"{_called(table, row)} {wrong}" for row, wrong in zip(first, found, strict=True) if isinstance(wrong, str)
+    ]
+    fitting = [each for each in found if not isinstance(each, str)]
+    normals, outlines = [normal for normal, _ in fitting], [outline for _, outline in fitting]
+    if not faults:
+        reach = tolerance * np.array([_size(pair, blocks) for pair in pairs])
+        faults = [
+            _overlaps(table, first[one], first[other]) for one, other in overlapping(pairs, normals, outlines, reach)
+        ]
+    if faults:
+        raise TableRefused(faults)
+    return normals, outlines
 
 
 def _starts(table: Table, bodies: IntArray, joints: Collection[str], faults: list[str]) -> IntArray:
@@ -119,6 +133,17 @@ def _starts(table: Table, bodies: IntArray, joints: Collection[str], faults: lis
 def _called(table: Table, row: int) -> str:
     """``contacts.csv:7: interface bed``."""
     return f"{table.place(row)}: interface {table.columns['interface'][row]}"
+
+
+def _overlaps(table: Table, row: int, other: int) -> str:
+    """That the interface at row ``other`` overlaps the one at ``row``."""
+    return f"{_called(table, other)} overlaps interface {table.columns['interface'][row]} between the same bodies"
+
+
+def _ground_first(bodies: Sequence[int], n_blocks: int) -> tuple[int, int]:
+    """A pair of bodies as body a and body b: a ground plane is body a, else the block of lower number."""
+    a, b = sorted(bodies, key=lambda body: (body < n_blocks, body))
+    return a, b
 
 
 def _size(bodies: tuple[int, int], blocks: Blocks) -> float:

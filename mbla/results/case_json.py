@@ -20,7 +20,7 @@ from mbla.solution.solution import Checks, Mechanics, Solution
 def case_json(model: Model, contacts: Contacts, case: CaseResult) -> dict[str, Any]:
     """Everything that is said of a case; ``load_factor`` and ``mechanism`` only where they are results."""
     solution, checks, model = case.solution, case.checks, model.of_case(case.load_case)
-    mechanics, associative, ends = result_of(case), associative_of(case), range_of(case)
+    mechanics = result_of(case)
     solver = float(sum(program.seconds for program in solution.programs))
     return {
         "name": case.load_case.name,
@@ -29,6 +29,28 @@ def case_json(model: Model, contacts: Contacts, case: CaseResult) -> dict[str, A
         "remarks": list(solution.remarks),
         "flow_rule": solution.flow_rule,
         "scheme": solution.scheme or None,
+        **_load_factors(case),
+        **_single_checks(checks),
+        "residuals": residuals_json(checks),
+        "verified": checks.verified,
+        "failures": list(checks.failures),
+        "standing": _standing(model, solution),
+        "certificate": _certificate(solution),
+        "programs": len(solution.programs),
+        "iterations": sum(program.iterations for program in solution.programs),
+        "solver": solver_json(solution),
+        "size": None if solution.size is None else asdict(solution.size),
+        "path": [{name: finite(value) for name, value in asdict(point).items()} for point in solution.path],
+        "mechanism": None if mechanics is None else mechanism_json(model, contacts, case.load_case, mechanics),
+        "time": {"total": number(solution.seconds), "solver": number(solver)},
+    }
+
+
+def _load_factors(case: CaseResult) -> dict[str, Any]:
+    """The load factor, what it means, and everything that stands beside it."""
+    solution, checks = case.solution, case.checks
+    mechanics, associative, ends = result_of(case), associative_of(case), range_of(case)
+    return {
         "load_factor": None if mechanics is None else number(mechanics.load_factor),
         "angle": number(angle_of(case)),
         "angle_bounds": _angle_bounds(case),
@@ -43,6 +65,12 @@ def case_json(model: Model, contacts: Contacts, case: CaseResult) -> dict[str, A
         "gap": number(checks.gap),
         "associative_load_factor": None if associative is None else number(associative.load_factor),
         "bracket": _bracket(solution, associative),
+    }
+
+
+def _single_checks(checks: Checks) -> dict[str, float | None]:
+    """What was measured of forces and mechanism, a key each."""
+    return {
         "equilibrium_residual": number(checks.equilibrium_residual),
         "yield_violation": number(checks.yield_violation),
         "tension_violation": number(checks.tension_violation),
@@ -51,18 +79,6 @@ def case_json(model: Model, contacts: Contacts, case: CaseResult) -> dict[str, A
         "slip_residual": number(checks.slip_residual),
         "live_power": number(checks.live_power),
         "power_balance": number(checks.power_balance),
-        "residuals": residuals_json(checks),
-        "verified": checks.verified,
-        "failures": list(checks.failures),
-        "standing": _standing(model, solution),
-        "certificate": _certificate(solution),
-        "programs": len(solution.programs),
-        "iterations": sum(program.iterations for program in solution.programs),
-        "solver": solver_json(solution),
-        "size": None if solution.size is None else asdict(solution.size),
-        "path": [{name: finite(value) for name, value in asdict(point).items()} for point in solution.path],
-        "mechanism": None if mechanics is None else mechanism_json(model, contacts, case.load_case, mechanics),
-        "time": {"total": number(solution.seconds), "solver": number(solver)},
     }
 
 

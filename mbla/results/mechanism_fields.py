@@ -45,6 +45,13 @@ def _mechanics(group: str, part: str, what: str) -> tuple[Field, ...]:
             part=part,
         ),
         Field(f"{group}modes", "int", ("point",), "1", "contact mode: 0 stick, 1 slide, 2 open", part=part),
+        *_resultants(group, part),
+    )
+
+
+def _resultants(group: str, part: str) -> tuple[Field, ...]:
+    """Those of the convex contact model alone."""
+    return (
         Field(
             f"{group}resultants",
             "float",

@@ -21,9 +21,10 @@ from mbla.arrays import FloatArray
 from mbla.program.program import Program
 from mbla.program.static import gravity_form
 from mbla.solution.associative_form import AssociativeForm, in_forces, in_velocities
-from mbla.solution.bounds import falling_motion, repaired_forces
+from mbla.solution.bounds import falling_motion
 from mbla.solution.cone_solution import ConeSolution, Log
 from mbla.solution.cone_solver import cone_solver, interior_point_solver, other_method
+from mbla.solution.force_repair import repaired_forces
 from mbla.solution.highs_adapter import HighsProgram
 from mbla.solution.law_state import LawState, law_state
 from mbla.solution.proved_answer import (

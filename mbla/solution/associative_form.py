@@ -12,8 +12,8 @@ from mbla.arrays import FloatArray
 from mbla.program.associative_static import associative_static_form
 from mbla.program.kinematic import ConeProgram, kinematic_form
 from mbla.program.program import Program
-from mbla.solution.bounds import carried_loads
 from mbla.solution.cone_solution import ConeSolution
+from mbla.solution.force_repair import carried_loads
 from mbla.solution.solution import Status
 
 STATIC_SHARE = 0.01

@@ -1,9 +1,10 @@
 """Forces and motions of the convex contact model repaired so that they prove bounds of the associative load factor.
 
-As in :mod:`mbla.solution.bounds`, with the conditions on interfaces. *Static:* the dual variables z of the kinematic
-form are contact forces and the slacks of all conditions; any z in the cones with Mᵀz = −cost is in equilibrium and
-within all conditions. They are rebuilt from the contact forces, moved strictly inside and corrected in the metric of
-the barrier, whose inverse Hessian for a cone z_0 ≥ ‖z̄‖ is z zᵀ − ½ (z_0² − ‖z̄‖²) diag(1, −1, ...).
+As in :mod:`mbla.solution.force_repair` and :mod:`mbla.solution.mechanism_repair`, with the conditions on interfaces.
+*Static:* the dual variables z of the kinematic form are contact forces and the slacks of all conditions; any z in the
+cones with Mᵀz = −cost is in equilibrium and within all conditions. They are rebuilt from the contact forces, moved
+strictly inside and corrected in the metric of the barrier, whose inverse Hessian for a cone z_0 ≥ ‖z̄‖ is z zᵀ − ½
+(z_0² − ‖z̄‖²) diag(1, −1, ...).
 *Kinematic:* blocks and, all together, interfaces move towards points strictly inside their cones.
 What the repaired forces and motions prove is evaluated by ``verify_convex`` with its own statics.
 """
@@ -17,9 +18,10 @@ import scipy.sparse as sp
 
 from mbla.arrays import FloatArray
 from mbla.program.convex import ConvexProgram, convex_form
-from mbla.solution.bounds import bordered_solver, repaired_mechanisms
+from mbla.solution.bordered_system import bordered_solver
 from mbla.solution.cone_vectors import ConeVectors
 from mbla.solution.convex_slacks import slacks_of
+from mbla.solution.mechanism_repair import repaired_mechanisms
 
 ROUNDS = 6
 EQUILIBRIUM_TOLERANCE, GOOD_EQUILIBRIUM = 1e-11, 3e-10

@@ -5,7 +5,7 @@ taken (‖T‖ ≤ μN, without cohesion and tension, none where the joint can c
 times to forces that carry the dead load they stay within the yield conditions, because those are convex.
 
 They are found as the least forces of that kind, with a little less friction than there is so that they lie inside the
-cones, and then brought to exact equilibrium (:mod:`mbla.solution.bounds`). They are evaluated by other code:
+cones, and then brought to exact equilibrium (:mod:`mbla.solution.force_repair`). They are evaluated by other code:
 :mod:`mbla.solution.verify_lock`.
 """
 
@@ -22,9 +22,9 @@ from mbla.program.reductions.guided import guided_program
 from mbla.program.static import gravity_form
 from mbla.program.yield_conditions.limits import YieldLimits
 from mbla.solution.boundedness import lasting_limits
-from mbla.solution.bounds import repaired_forces
 from mbla.solution.cone_solution import Log
 from mbla.solution.cone_solver import interior_point_solver
+from mbla.solution.force_repair import repaired_forces
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Status
 

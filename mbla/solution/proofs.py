@@ -18,9 +18,10 @@ from mbla.contacts.contacts import Contacts
 from mbla.model.model import LoadCase, Model
 from mbla.program import assemble
 from mbla.program.yield_conditions import YieldLimits, yield_violation
-from mbla.solution.bounds import repaired_forces, repaired_mechanisms
+from mbla.solution.force_repair import repaired_forces
 from mbla.solution.guides import allowed_motion
 from mbla.solution.load_scale import LoadScale
+from mbla.solution.mechanism_repair import repaired_mechanisms
 from mbla.solution.residuals import unbalanced_loads
 from mbla.solution.solution import Mechanics
 from mbla.solution.statics import contact_velocities, power

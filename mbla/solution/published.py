@@ -91,6 +91,14 @@ def solve_published(
         if turned_back and change > scheme.tolerance:
             weight *= DAMPING
     assert best is not None  # there is at least one program
+    reason = _unsettled(program, scheme, factors, best, solution)
+    return SequenceResult(Status.APPROXIMATE, best, reason, tuple(records))
+
+
+def _unsettled(
+    program: Program, scheme: PublishedScheme, factors: list[float], best: LawState, solution: ConeSolution
+) -> str:
+    """Why a sequence that ran to its end is no answer, in words; ``solution`` is that of its last program."""
     last = [program.scaling.load_factor(factor) for factor in factors[-SPREAD_PROGRAMS:]]
     reason = (
         f"the sequence did not settle in {scheme.max_programs} programs: the last {len(last)} load factors lie between "
@@ -98,7 +106,7 @@ def solve_published(
     )
     if solution.status is Status.APPROXIMATE:
         reason = f"its programs end short of the solver's tolerance ({solution.verdict}); " + reason
-    return SequenceResult(Status.APPROXIMATE, best, reason, tuple(records))
+    return reason
 
 
 def _fictitious(limits: YieldLimits, slope: FloatArray, normal: FloatArray) -> YieldLimits:

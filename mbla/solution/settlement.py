@@ -18,8 +18,8 @@ from mbla.model.model import LoadCase, Model
 from mbla.model.settlement import with_reference
 from mbla.program.assemble import assemble
 from mbla.program.reductions import reduce_program
-from mbla.solution.bounds import repaired_forces
 from mbla.solution.cone_solution import Log
+from mbla.solution.force_repair import repaired_forces
 from mbla.solution.mechanics import forces_of
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import IterationRecord

@@ -22,7 +22,8 @@ from mbla.arrays import FloatArray, IntArray
 from mbla.program.program import Program
 from mbla.program.yield_conditions.limits import YieldLimits
 from mbla.solution.settings import SolverSettings
-from mbla.solution.spring_state import SpringProblem, joint_forces, spring_problem, spring_state
+from mbla.solution.spring_problem import SpringProblem, joint_forces, spring_problem
+from mbla.solution.spring_state import spring_state
 
 SHEAR_STIFFNESSES = (1.0, 0.4)
 """Shear over normal stiffness of a joint. How forces share between joints before anything slides depends on it, and so

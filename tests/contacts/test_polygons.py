@@ -6,11 +6,11 @@ import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from mbla.contacts.loops import convex_loops
 from mbla.contacts.polygons import (
     Polygons,
     box_pairs,
     connected_parts,
-    convex_loops,
     convex_polygons,
     intersect,
     polygons_from_loops,

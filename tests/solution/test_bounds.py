@@ -9,16 +9,11 @@ import scipy.sparse as sp
 from mbla.program.program import Program
 from mbla.program.reductions import reduce_program
 from mbla.solution.associative import solve_associative
-from mbla.solution.bounds import (
-    bordered_solver,
-    certified_gap,
-    falling_motion,
-    incompatibility,
-    kinematic_value,
-    repaired_forces,
-    repaired_mechanisms,
-)
+from mbla.solution.bordered_system import bordered_solver
+from mbla.solution.bounds import certified_gap, falling_motion, kinematic_value
+from mbla.solution.force_repair import repaired_forces
 from mbla.solution.law_state import LawState
+from mbla.solution.mechanism_repair import incompatibility, repaired_mechanisms
 from mbla.solution.settings import SolverSettings
 from tests.line import BLOCK, WALL, line_of, verified
 

@@ -8,15 +8,10 @@ import numpy as np
 import pytest
 import scipy.sparse as sp
 
+from mbla.solution.lagged_limits import convex_minimum
 from mbla.solution.settings import SolverSettings
-from mbla.solution.spring_state import (
-    SpringProblem,
-    _convex_minimum,
-    _joints,
-    _stiffness,
-    spring_problem,
-    spring_state,
-)
+from mbla.solution.spring_problem import SpringProblem, joints_at, spring_problem, stiffness_at
+from mbla.solution.spring_state import spring_state
 from mbla.solution.weakening import weaken_springs
 from tests.line import BLOCK, WALL, line_of
 from tests.solution.standing_structures import rafters
@@ -36,11 +31,11 @@ def test_the_tangent_is_that_of_the_law(lagged: bool) -> None:
     rng = np.random.default_rng(3)
     u, du = rng.normal(size=(2, len(problem.load)))
     limit = np.full(len(problem.limits.friction), 0.3) if lagged else None
-    here, there = _joints(problem, 0.2, u, limit), _joints(problem, 0.2, u + 1e-7 * du, limit)
+    here, there = joints_at(problem, 0.2, u, limit), joints_at(problem, 0.2, u + 1e-7 * du, limit)
     slips, open_ = here.size > here.limit, ~here.follows
     assert 0 < slips.sum() < len(slips)
     assert 0 < open_.sum() < len(open_)
-    tangent = _stiffness(problem, 0.2, here, lagged)
+    tangent = stiffness_at(problem, 0.2, here, lagged)
     assert (here.unbalanced - there.unbalanced) / 1e-7 == pytest.approx(tangent @ du, abs=1e-5)
 
 
@@ -58,9 +53,9 @@ def test_held_limits_of_shear_leave_a_minimum_that_is_found() -> None:
     """From a start far off, and with other limits than those that belong to it: balance under the held limits."""
     problem = problem_of(rafters(0.6))
     start = np.random.default_rng(1).normal(size=len(problem.load))
-    limit = _joints(problem, 1e-3, start, None).limit
-    u = _convex_minimum(problem, 1e-3, start, limit)
-    assert np.abs(_joints(problem, 1e-3, u, limit).unbalanced).max() < 1e-9
+    limit = joints_at(problem, 1e-3, start, None).limit
+    u = convex_minimum(problem, 1e-3, start, limit)
+    assert np.abs(joints_at(problem, 1e-3, u, limit).unbalanced).max() < 1e-9
 
 
 @pytest.mark.parametrize(("lags", "dashpot_steps"), [(9, 0), (0, 60)], ids=["limits", "dashpots"])
@@ -72,11 +67,11 @@ def test_detours_find_the_state_where_newtons_method_does_not(
     start = [np.zeros(len(problem.load))]
     direct = spring_state(problem, 1e-3, start)
     assert direct is not None
-    for name, value in (("NEWTON_STEPS", 2), ("LAGS", 0), ("DASHPOT_STEPS", 0)):
-        monkeypatch.setattr(f"mbla.solution.spring_state.{name}", value)
+    for name, value in (("spring_newton.NEWTON_STEPS", 2), ("lagged_limits.LAGS", 0), ("dashpots.DASHPOT_STEPS", 0)):
+        monkeypatch.setattr(f"mbla.solution.{name}", value)
     assert spring_state(problem, 1e-3, start) is None
-    monkeypatch.setattr("mbla.solution.spring_state.LAGS", lags)
-    monkeypatch.setattr("mbla.solution.spring_state.DASHPOT_STEPS", dashpot_steps)
+    monkeypatch.setattr("mbla.solution.lagged_limits.LAGS", lags)
+    monkeypatch.setattr("mbla.solution.dashpots.DASHPOT_STEPS", dashpot_steps)
     assert spring_state(problem, 1e-3, start) == pytest.approx(direct, abs=1e-9)
 
 

@@ -23,7 +23,7 @@ import numpy as np
 from mbla.arrays import FloatArray
 from mbla.solution.condensed.condensation import Condensation, refined_solution
 from mbla.solution.condensed.cone_data import ConeData
-from mbla.solution.condensed.cones import dot
+from mbla.solution.condensed.cones import ConeProduct, dot
 from mbla.solution.condensed.iterates import Point
 from mbla.solution.condensed.method import SHARE
 from mbla.solution.condensed.run import Ended, Run, best_of_run
@@ -116,24 +116,32 @@ def _step(data: ConeData, condensation: Condensation, now: _Embedded) -> tuple[_
         z = z1 + tau * z2
         return _Direction(x1 + tau * x2, y1 + tau * y2, -divided - z, z, tau, -(corner + now.kappa * tau) / now.tau)
 
-    def reach(d: _Direction) -> float:
-        ends = [product.longest_step(middle, d.s), product.longest_step(middle, d.z)]
-        ends += [-v / dv if dv < 0.0 else np.inf for v, dv in ((now.tau, d.tau), (now.kappa, d.kappa))]
-        return float(min(ends))
-
     mean = (dot(middle, middle) + now.tau * now.kappa) / (product.degree + 1)
     first = direction(product.product(middle, middle), now.tau * now.kappa, 1.0)
-    sigma = (1.0 - min(1.0, reach(first))) ** 3
+    sigma = (1.0 - min(1.0, _reach(product, middle, now, first))) ** 3
     products = product.product(middle, middle) + product.product(first.s, first.z) - sigma * mean * product.identity()
     corner = now.tau * now.kappa + first.tau * first.kappa - sigma * mean
     d = direction(products, corner, 1.0 - sigma)
     if not (np.isfinite(d.x).all() and np.isfinite(d.z).all() and np.isfinite(d.tau)):
         return None
-    length = min(1.0, SHARE * reach(d))
+    length = min(1.0, SHARE * _reach(product, middle, now, d))
+    return _moved(scaling, now, d, length), length
+
+
+def _reach(product: ConeProduct, middle: FloatArray, now: _Embedded, d: _Direction) -> float:
+    """Longest step along a direction that stays within the cones, τ and κ positive."""
+    ends = [product.longest_step(middle, d.s), product.longest_step(middle, d.z)]
+    ends += [-v / dv if dv < 0.0 else np.inf for v, dv in ((now.tau, d.tau), (now.kappa, d.kappa))]
+    return float(min(ends))
+
+
+def _moved(scaling: Scaling, now: _Embedded, d: _Direction, length: float) -> _Embedded:
+    """The iterate after a step; slacks and multipliers of a direction are scaled."""
+    p = now.point
     moved = Point(
         p.x + length * d.x,
         p.y + length * d.y,
         p.s + length * scaling.times(d.s),
         p.z + length * scaling.inverse(d.z),
     )
-    return _Embedded(moved, now.tau + length * d.tau, now.kappa + length * d.kappa), length
+    return _Embedded(moved, now.tau + length * d.tau, now.kappa + length * d.kappa)

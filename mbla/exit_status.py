@@ -1,0 +1,35 @@
+"""Exit status of a run, from its cases."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from mbla.errors import Notice
+from mbla.results.results import CaseResult
+from mbla.results.series import series_of
+from mbla.solution import Status
+
+
+def exit_code(cases: Sequence[CaseResult], differences: Sequence[Notice] = ()) -> int:
+    """Exit status of a run: the gravest of its cases; a difference from what is expected counts as not verified.
+
+    Positions of a travelling load that bring nothing down are no failure where another is the worst.
+    """
+    harmless = {id(case) for series in series_of(cases) if series.worst is not None for case in series.cases}
+    judged = [case for case in cases if case.status is not Status.UNBOUNDED or id(case) not in harmless]
+    codes = {EXIT_CODES[case.status] for case in judged} | ({4} if differences else set())
+    return next((code for code in GRAVEST_FIRST if code in codes), 0)
+
+
+EXIT_CODES = {
+    Status.SOLVED: 0,
+    Status.APPROXIMATE: 4,
+    Status.NOT_VERIFIED: 4,
+    Status.NO_EQUILIBRIUM: 5,
+    Status.UNBOUNDED: 5,
+    Status.ITERATION_LIMIT: 4,
+    Status.TIME_LIMIT: 7,
+    Status.NUMERICAL_ERROR: 4,
+}
+
+GRAVEST_FIRST = (7, 4, 5)

@@ -1,0 +1,27 @@
+"""What went wrong, in words and as a record."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from mbla import __version__
+from mbla.errors import DeckError, FileError, LimitError, MblaError
+
+
+def words_of(error: Exception) -> tuple[int, str]:
+    """Exit status, and what went wrong in words."""
+    if isinstance(error, MblaError):
+        return error.exit_status, str(error)
+    if isinstance(error, MemoryError):
+        return LimitError.exit_status, "out of memory"
+    if isinstance(error, OSError):
+        return FileError.exit_status, f"{error.filename or 'standard output'}: {error.strerror or error}"
+    words = " ".join(str(error).split())
+    return 1, f"internal error, please report it with the deck: {type(error).__name__}: {words}"
+
+
+def failure_record(deck: Path, error: Exception, code: int) -> dict[str, Any]:
+    """The object that ``--json`` prints of a deck that could not be run."""
+    messages = [str(fault) for fault in error.faults] if isinstance(error, DeckError) else [words_of(error)[1]]
+    return {"mbla": __version__, "deck": deck.name, "exit_code": code, "errors": messages}

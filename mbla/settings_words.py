@@ -1,0 +1,50 @@
+"""Settings of an analysis in words, as result files keep them."""
+
+from __future__ import annotations
+
+from mbla.deck import Deck
+from mbla.solution.settings import SolverSettings
+
+
+def settings_in_words(deck: Deck, settings: SolverSettings) -> dict[str, str]:
+    """Analysis settings in effect, by name, for the result files."""
+    analysis = deck.analysis
+    words = {
+        "flow_rule": analysis.flow_rule,
+        "contact_model": analysis.contact_model,
+        "friction_cone": "circular" if analysis.friction_cone == "circular" else f"polyhedral, {analysis.sides} sides",
+        "accuracy": analysis.accuracy,
+        "solver": f"{analysis.solver}, {analysis.form} form",
+        "tolerance": f"{settings.tolerance:g}",
+        "max_iterations": str(settings.max_iterations),
+        "contact_points": _points_in_words(deck),
+        "contact_tolerance": f"{deck.contacts.tolerance:g}",
+    }
+    if analysis.flow_rule == "associative":
+        words["forces"] = analysis.forces
+    elif analysis.flow_rule == "non_associative":
+        words["scheme"] = analysis.scheme
+        parameters = getattr(analysis, analysis.scheme, None)  # none for auto
+        if parameters is not None:
+            words |= {f"scheme_{name}": f"{value:g}" for name, value in parameters.model_dump().items()}
+    off = [name for name, on in analysis.reductions.model_dump().items() if not on]
+    if off:
+        words["reductions_off"] = ", ".join(off)
+    if analysis.time_limit is not None:
+        words["time_limit"] = f"{analysis.time_limit:g} s"
+    return words
+
+
+def _points_in_words(deck: Deck) -> str:
+    """How an interface is represented."""
+    contacts = deck.contacts
+    if deck.analysis.contact_model == "convex":
+        return "resultants of each interface"
+    points, length = contacts.points, deck.units.length
+    words = "corners"
+    if points.spacing is not None:
+        words = f"at most {points.spacing:g} {length} apart along each edge, and inside"
+    elif (points.per_edge or 1) > 1:
+        words = f"{points.per_edge} along each edge, and inside"
+    inwards = f"{points.inset:g}" if points.inset else f"{points.rounding:g} {length}" if points.rounding else ""
+    return words + (f", inset by {inwards}" if inwards else "")

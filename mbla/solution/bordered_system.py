@@ -1,0 +1,43 @@
+"""A sparse positive semidefinite matrix with a border: what repairs of forces and of mechanisms solve."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+import scipy.sparse as sp
+
+from mbla.arrays import FloatArray
+from mbla.solution.linear_algebra.superlu import factorize
+
+REGULARIZATION = 1e-15
+"""On the unit diagonal of the factorised matrix; refinement removes its trace."""
+
+
+def bordered_solver(normal: sp.csc_array, live: FloatArray, weight: float) -> Callable[[FloatArray], FloatArray] | None:
+    """Solver of [[N, f], [fᵀ, −1/weight]] (y, t) = (rhs, 0); weight inf makes f·y = 0 a constraint.
+
+    N is scaled to unit diagonal first; its one tiny eigenvalue is the collapse mechanism, which the border controls.
+    """
+    diagonal = normal.diagonal()
+    largest = float(diagonal.max(initial=0.0))
+    if not 0.0 < largest < np.inf:
+        return None
+    scale = 1.0 / np.sqrt(np.maximum(diagonal, 1e-16 * largest))
+    scaling = sp.diags_array(scale)
+    scaled = scaling @ normal @ scaling + REGULARIZATION * sp.eye_array(len(scale))
+    border = scale * live
+    size = float(np.linalg.norm(border))
+    corner = -1.0 / (weight * size**2) if size > 0.0 and np.isfinite(weight) else 0.0
+    if not size > 0.0:  # no live load: the border says nothing
+        size, corner = 1.0, -1.0
+    column = sp.csc_array((border / size)[:, None])
+    solve_scaled = factorize(sp.block_array([[scaled, column], [column.T, sp.csc_array([[corner]])]]), symmetric=True)
+    if solve_scaled is None:
+        return None
+
+    def solve(rhs: FloatArray) -> FloatArray:
+        solution = solve_scaled(np.append(scale * rhs, 0.0))
+        return np.append(scale * solution[:-1], solution[-1] / size)
+
+    return solve

@@ -1,0 +1,37 @@
+"""The deck that ``mbla new`` begins a structure with."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from mbla.errors import FileError
+
+
+def write_starter(name: str, *, replace: bool) -> Path:
+    """Write the starting deck under a name, with or without its ending; the path. FileError where that cannot be."""
+    path = Path(name if name.endswith((".yaml", ".yml")) else f"{name}.yaml")
+    if not path.parent.is_dir():
+        raise FileError(f"{path}: there is no folder {path.parent}")
+    text = starter_text(path)
+    try:
+        with path.open("w" if replace else "x", encoding="utf-8") as file:
+            file.write(text)
+    except FileExistsError:
+        raise FileError(f"{path}: exists already; --force replaces it") from None
+    except OSError as error:
+        raise FileError(f"{path}: {error.strerror or error}") from error
+    return path
+
+
+def starter_text(path: Path) -> str:
+    """The starting deck as it stands at a path, with the address of its schema."""
+    starter = (Path(__file__).parent / "starter.yaml").read_text(encoding="utf-8")
+    text = starter.replace("NAME.yaml", path.name).replace("NAME.out", f"{path.stem}.out")
+    return text.replace("schemas/deck.schema.json", _schema_address())
+
+
+def _schema_address() -> str:
+    """Where editors find the schema that came with the program: inside the installed package, or beside its source."""
+    package = Path(__file__).resolve().parent
+    places = [folder / "schemas" / "deck.schema.json" for folder in (package, package.parent)]
+    return next((place.as_uri() for place in places if place.is_file()), "schemas/deck.schema.json")
