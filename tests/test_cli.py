@@ -3,11 +3,6 @@
 from __future__ import annotations
 
 import json
-import os
-import signal
-import subprocess
-import sys
-import time
 from pathlib import Path
 from typing import Any
 
@@ -219,14 +214,6 @@ def test_a_file_that_is_no_result_is_refused(command: str, deck: Path, capsys: p
     assert "Traceback" not in capsys.readouterr().err
 
 
-def test_new_writes_a_deck_that_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.chdir(tmp_path)
-    assert main(["new", "house"]) == 0
-    assert main(["new", "house"]) == 6
-    assert main(["run", "house.yaml", "-q"]) == 0
-    assert (tmp_path / "house.out" / "house.h5").is_file()
-
-
 def test_schema_is_the_one_in_the_repository(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["schema"]) == 0
     shipped = Path(__file__).parents[1] / "schemas" / "deck.schema.json"
@@ -245,35 +232,6 @@ def test_read_only_folder(deck: Path, capsys: pytest.CaptureFixture[str]) -> Non
     target.write_text("not a folder")
     assert main(["run", str(deck), "-o", str(target)]) == 6
     assert "Traceback" not in capsys.readouterr().err
-
-
-@pytest.mark.parametrize(("number", "status"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
-def test_signals_end_the_run_and_keep_the_earlier_result(tmp_path: Path, number: signal.Signals, status: int) -> None:
-    deck = written(tmp_path / "wall.yaml", WALL)
-    assert main(["run", str(deck), "-q"]) == 0
-    folder = tmp_path / "wall.out"
-    before = {path.name: path.read_bytes() for path in folder.iterdir()}
-    long = ["--set", "parameters.n=25", "--flow-rule", "non_associative", "--force"]
-    process = subprocess.Popen(
-        [sys.executable, "-m", "mbla", "run", str(deck), *long],
-        stderr=subprocess.PIPE,
-        preexec_fn=lambda: signal.signal(number, signal.SIG_DFL),  # shells start background jobs with SIGINT ignored
-    )
-    deadline = time.monotonic() + 60
-    while (folder / "wall.sta").read_bytes().count(b"\n") < 5 or (folder / "wall.sta").read_bytes() == before[
-        "wall.sta"
-    ]:
-        assert time.monotonic() < deadline
-        assert process.poll() is None
-        time.sleep(0.02)
-    process.send_signal(number)
-    try:
-        _, err = process.communicate(timeout=30)
-    finally:
-        process.kill()
-    assert process.returncode == status
-    assert b"Traceback" not in err
-    assert {path.name: path.read_bytes() for path in folder.iterdir()} == before
 
 
 def test_a_folder_is_no_deck(capsys: pytest.CaptureFixture[str]) -> None:
@@ -319,83 +277,3 @@ def test_wrong_amounts_are_told_in_words(
     with pytest.raises(SystemExit):
         main(["run", str(deck), *arguments])
     assert words in capsys.readouterr().err
-
-
-def mbla(*arguments: str | Path, **options: Any) -> subprocess.CompletedProcess[bytes]:
-    """The program in a process of its own."""
-    command = [sys.executable, "-m", "mbla", *map(str, arguments)]
-    return subprocess.run(command, stderr=subprocess.PIPE, check=False, **options)
-
-
-def test_names_and_titles_in_any_script_whatever_the_terminal_speaks(tmp_path: Path) -> None:
-    title = "Bögen – 拱"
-    deck = written(tmp_path / "wänd 墙.yaml", f"title: {title}\n" + BLOCK)
-    environment = {"PATH": os.environ["PATH"], "LC_ALL": "C", "PYTHONIOENCODING": "ascii"}
-    done = mbla("run", deck, stdout=subprocess.PIPE, env=environment)
-    assert done.returncode == 0
-    assert b"w\\xe4nd" in done.stdout
-    done = mbla("run", deck, "--force", "--json", stdout=subprocess.PIPE, env=environment)
-    assert json.loads(done.stdout)["deck"] == deck.name
-    listing = mbla("show", tmp_path / "wänd 墙.out" / "wänd 墙.h5", stdout=subprocess.PIPE).stdout.decode()
-    assert title in listing
-
-
-@pytest.mark.skipif(sys.platform != "linux", reason="file names are bytes")
-def test_a_file_name_that_is_no_text_is_refused(tmp_path: Path) -> None:
-    name = os.fsdecode(bytes(tmp_path) + b"/q\xff.yaml")
-    written(Path(name), BLOCK)
-    done = mbla("run", name, "--json", stdout=subprocess.PIPE)
-    assert done.returncode == json.loads(done.stdout)["exit_code"] == 6
-    assert b"not UTF-8" in done.stderr
-    assert len(list(tmp_path.iterdir())) == 1
-
-
-@pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs /dev/full")
-def test_standard_output_that_takes_nothing(deck: Path) -> None:
-    main(["run", str(deck), "-q"])
-    for arguments in (["show", deck.with_suffix(".out") / "block.h5"], ["schema"], ["check", deck]):
-        with Path("/dev/full").open("w") as full:
-            done = mbla(*arguments, stdout=full)
-        assert done.returncode == 6
-        assert b"standard output: No space left on device" in done.stderr
-        assert b"Exception" not in done.stderr
-
-
-def test_a_reader_that_goes_away_is_no_error_of_ours(deck: Path) -> None:
-    read_end, write_end = os.pipe()
-    os.close(read_end)
-    done = mbla("check", deck, stdout=write_end)
-    os.close(write_end)
-    assert done.returncode == 6
-    assert done.stderr == b""
-
-
-def test_a_current_folder_that_is_gone(tmp_path: Path) -> None:
-    gone = tmp_path / "gone"
-    gone.mkdir()
-    command = f"cd {gone} && rmdir {gone} && exec {sys.executable} -m mbla check x.yaml"
-    done = subprocess.run(["sh", "-c", command], capture_output=True, check=False)
-    assert done.returncode == 6
-    assert b"the current folder does not exist" in done.stderr
-
-
-def test_new_points_editors_to_the_schema(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    monkeypatch.chdir(tmp_path)
-    assert main(["new", "a b"]) == 0
-    first = Path("a b.yaml").read_text().splitlines()[0]
-    address = first.removeprefix("# yaml-language-server: $schema=")
-    assert json.loads(Path(address.removeprefix("file://")).read_text())["title"]
-    assert "mbla run 'a b.yaml'" in capsys.readouterr().out
-    assert main(["new", "missing/x"]) == 6
-    assert "no folder missing" in capsys.readouterr().err
-
-
-def test_nothing_is_printed_for_progress_off_a_terminal(deck: Path) -> None:
-    environment = {**os.environ, "PYTHONUNBUFFERED": "1"}
-    done = subprocess.run(
-        [sys.executable, "-m", "mbla", "run", str(deck), "-q"], capture_output=True, env=environment, check=True
-    )
-    assert done.stdout == b""
-    assert done.stderr == b""

@@ -53,9 +53,37 @@ def load_factor(joints: Sequence[PlanarJoint], centroids: Array, dead: Array, li
 
     centroids : (n, 2); dead, live : (n, 2) forces at the centroids, or (n, 3) with moments x Fz - z Fx about them
     """
-    n, m = len(centroids), len(joints)
+    m = len(joints)
+    unit = np.abs(dead).max()
+    equilibrium, friction = _equilibrium(joints, centroids), _friction(joints)
+    answer = linprog(  # type: ignore[call-overload]  # its stubs do not know sparse matrices
+        np.append(np.zeros(3 * m), -1.0),
+        A_ub=friction,
+        b_ub=np.zeros(2 * m),
+        A_eq=sp.hstack([equilibrium, sp.csr_array(_with_moments(live).reshape(-1, 1) / unit)]).tocsr(),
+        b_eq=-_with_moments(dead).ravel() / unit,
+        bounds=[(0, None), (0, None), (None, None)] * m + [(0, None)],
+        method="highs",
+        options={"primal_feasibility_tolerance": 1e-10, "dual_feasibility_tolerance": 1e-10},
+    )
+    if answer.status == 2:
+        return None
+    if answer.status == 3:
+        return float("inf")
+    assert answer.status == 0, answer.message
+    return float(-answer.fun)
+
+
+def _with_moments(loads: Array) -> Array:
+    """Loads, (n, 3), without moments where none are given."""
+    full = np.zeros((len(loads), 3))
+    full[:, : loads.shape[1]] = loads
+    return full
+
+
+def _equilibrium(joints: Sequence[PlanarJoint], centroids: Array) -> sp.csr_array:
+    """Forces and moments on the blocks, (3 n,), by N at p, N at q and T of each joint, (3 m,)."""
     rows, columns, values = [], [], []
-    slip_rows, slip_columns, slip_values = [], [], []
     for j, joint in enumerate(joints):
         tangent = np.array([-joint.normal[1], joint.normal[0]])
         for k, (point, direction) in enumerate(((joint.p, joint.normal), (joint.q, joint.normal), (joint.p, tangent))):
@@ -67,34 +95,18 @@ def load_factor(joints: Sequence[PlanarJoint], centroids: Array, dead: Array, li
                 rows += [3 * body, 3 * body + 1, 3 * body + 2]
                 columns += [3 * j + k] * 3
                 values += [sign * value for value in wrench]
+    return sp.csr_array((values, (rows, columns)), shape=(3 * len(centroids), 3 * len(joints)))
+
+
+def _friction(joints: Sequence[PlanarJoint]) -> sp.csr_array:
+    """±T − μ (N at p + N at q) of each joint, (2 m,), by its forces and the load factor, (3 m + 1,)."""
+    rows, columns, values = [], [], []
+    for j, joint in enumerate(joints):
         for row, sign in ((2 * j, 1.0), (2 * j + 1, -1.0)):
-            slip_rows += [row] * 3
-            slip_columns += [3 * j, 3 * j + 1, 3 * j + 2]
-            slip_values += [-joint.mu, -joint.mu, sign]
-    loads = np.zeros((n, 3))
-    loads[:, : live.shape[1]] = live
-    unit = np.abs(dead).max()
-    equilibrium = sp.csr_array((values, (rows, columns)), shape=(3 * n, 3 * m))
-    equilibrium = sp.hstack([equilibrium, sp.csr_array(loads.reshape(-1, 1) / unit)]).tocsr()
-    loads[:] = 0.0
-    loads[:, : dead.shape[1]] = dead
-    friction = sp.csr_array((slip_values, (slip_rows, slip_columns)), shape=(2 * m, 3 * m + 1))
-    answer = linprog(  # type: ignore[call-overload]  # its stubs do not know sparse matrices
-        np.append(np.zeros(3 * m), -1.0),
-        A_ub=friction,
-        b_ub=np.zeros(2 * m),
-        A_eq=equilibrium,
-        b_eq=-loads.ravel() / unit,
-        bounds=[(0, None), (0, None), (None, None)] * m + [(0, None)],
-        method="highs",
-        options={"primal_feasibility_tolerance": 1e-10, "dual_feasibility_tolerance": 1e-10},
-    )
-    if answer.status == 2:
-        return None
-    if answer.status == 3:
-        return float("inf")
-    assert answer.status == 0, answer.message
-    return float(-answer.fun)
+            rows += [row] * 3
+            columns += [3 * j, 3 * j + 1, 3 * j + 2]
+            values += [-joint.mu, -joint.mu, sign]
+    return sp.csr_array((values, (rows, columns)), shape=(2 * len(joints), 3 * len(joints) + 1))
 
 
 def rectangles_in_contact(bricks: Sequence[Rectangle], mu: float, ground: float | None = 0.0) -> list[PlanarJoint]:

@@ -6,7 +6,6 @@ import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from mbla.contacts.loops import convex_loops
 from mbla.contacts.polygons import (
     Polygons,
     box_pairs,
@@ -92,17 +91,6 @@ def test_loop_with_a_bridge_to_its_hole_is_repaired() -> None:
     polygon = polygons_from_loops(loop, np.array([0, len(loop)]))
     assert polygon[0].is_valid
     assert polygon[0].area == pytest.approx(12.0)
-
-
-def test_convexity_of_loops() -> None:
-    star: list[list[float]] = [[np.cos(k * 4 * np.pi / 5), np.sin(k * 4 * np.pi / 5)] for k in range(5)]
-    square: list[list[float]] = [[0, 0], [1, 0], [1, 1], [0, 1]]
-    notched: list[list[float]] = [[0, 0], [1, 0], [0.5, 0.5], [1, 1], [0, 1]]
-    flat_corner: list[list[float]] = [[0, 0], [0.5, 0], [1, 0], [1, 1], [0, 1]]
-    turned = square[::-1]
-    loops = [square, turned, flat_corner, notched, star]
-    start = np.concatenate([[0], np.cumsum([len(loop) for loop in loops])])
-    assert convex_loops(np.concatenate(loops), start).tolist() == [True, True, True, False, False]
 
 
 def test_convexity_of_polygons() -> None:

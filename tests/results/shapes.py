@@ -4,6 +4,7 @@ from typing import Any
 
 import numpy as np
 
+from mbla.arrays import FloatArray
 from mbla.model.blocks import Blocks
 from mbla.model.labels import no_labels
 
@@ -25,6 +26,12 @@ PYRAMID = (
 )
 
 
+def normal_of(corners: FloatArray) -> FloatArray:
+    """Unit normal of a convex face, by the right hand."""
+    normal = np.cross(corners[1] - corners[0], corners[2] - corners[1])
+    return np.asarray(normal / np.linalg.norm(normal))
+
+
 def blocks_of(shapes: Any, seed: int = 0) -> Blocks:
     """Blocks of these shapes: vertices renumbered and the whole turned at random, one beside the other."""
     generator = np.random.default_rng(seed)
@@ -43,9 +50,7 @@ def blocks_of(shapes: Any, seed: int = 0) -> Blocks:
         loops += [np.asarray(face) + sum(len(v) for v in vertices) for face in faces]
         vertices.append(points)
         centroids.append(points.mean(axis=0))
-        for face in faces:
-            normal = np.cross(points[face[1]] - points[face[0]], points[face[2]] - points[face[1]])
-            normals.append(normal / np.linalg.norm(normal))
+        normals += [normal_of(points[face]) for face in faces]
     n = len(shapes)
     faces_of = [len(faces) for _, faces, _ in shapes]
     return Blocks(

@@ -217,11 +217,28 @@ def full_results() -> Results:
     """Every field of every record filled: nothing that a solver stage may say is missing, however unlikely together."""
     results = tower_results()
     case = results.cases[0]
+    checks = replace(
+        case.checks,
+        tension_violation=1e-9,
+        slip_residual=2e-9,
+        lower=0.45,
+        upper=0.52,
+        peak_load_factor=0.6,
+        failures=("x",),
+    )
+    contacts = replace(results.contacts, solid_of_block=np.arange(len(results.model.blocks)))
+    model = full_model(results.model)
+    full = replace(case, load_case=model.load_cases[0], solution=full_solution(case.solution), checks=checks)
+    return replace(results, model=model, contacts=contacts, cases=(full, results.cases[1]))
+
+
+def full_solution(solution: Solution) -> Solution:
+    """A solution with all its fields."""
     mechanics = replace(
         tower_mechanics(), resultants=np.arange(12.0).reshape(2, 6), interface_motions=np.arange(24.0).reshape(2, 2, 6)
     )
-    solution = replace(
-        case.solution,
+    return replace(
+        solution,
         mechanics=mechanics,
         associative=replace(mechanics, load_factor=0.55),
         certificate=np.arange(18.0).reshape(3, 6),
@@ -245,33 +262,24 @@ def full_results() -> Results:
         sides=8,
         solver="mbla",
     )
-    checks = replace(
-        case.checks,
-        tension_violation=1e-9,
-        slip_residual=2e-9,
-        lower=0.45,
-        upper=0.52,
-        peak_load_factor=0.6,
-        failures=("x",),
-    )
+
+
+def full_model(model: Model) -> Model:
+    """The tower with a settlement in its first load case, a tilt and a path in the last, and a guide."""
     arrays = np.arange(54.0).reshape(3, 3, 6)
     not_run = replace(
-        results.model.load_cases[2],
+        model.load_cases[2],
         travel=TravelPosition("train", 2, 12, np.array([1.0, 2.0, 3.0]), 2.5, 1),
         tilt=Tilt(np.array([0.0, 1.0, 0.0]), arrays[0], arrays[1], arrays[2], 12.5, False, np.inf),
     )
-    contacts = replace(results.contacts, solid_of_block=np.arange(len(results.model.blocks)))
     sinking = np.array([[0.0, 0, -1, 0, 0, 0]])
     settlement = Settlement(np.array([0]), sinking, False, "settlement of 1 block", 30.0, 20.0)
-    load_case = replace(case.load_case, settlement=settlement)
     ways = np.eye(6)[None] * np.array([1.0, 1, 1, 1, 1, 0])
-    model = replace(
-        results.model,
-        load_cases=(load_case, results.model.load_cases[1], not_run),
+    return replace(
+        model,
+        load_cases=(replace(model.load_cases[0], settlement=settlement), model.load_cases[1], not_run),
         guides=Guides(np.array([2]), np.array([0]), ways, ("1 block held in rz",)),
     )
-    full = replace(case, load_case=load_case, solution=solution, checks=checks)
-    return replace(results, model=model, contacts=contacts, cases=(full, results.cases[1]))
 
 
 def same(first: Any, second: Any) -> bool:

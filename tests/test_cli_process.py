@@ -1,0 +1,123 @@
+"""The command as a process of its own: signals, streams that end, names and folders that are none."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from mbla.cli import main
+from tests.line import BLOCK, WALL
+
+
+@pytest.fixture
+def deck(tmp_path: Path) -> Path:
+    return written(tmp_path / "block.yaml", BLOCK)
+
+
+def written(path: Path, text: str) -> Path:
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+def mbla(*arguments: str | Path, **options: Any) -> subprocess.CompletedProcess[bytes]:
+    """The program in a process of its own."""
+    command = [sys.executable, "-m", "mbla", *map(str, arguments)]
+    return subprocess.run(command, stderr=subprocess.PIPE, check=False, **options)
+
+
+@pytest.mark.parametrize(("number", "status"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
+def test_signals_end_the_run_and_keep_the_earlier_result(tmp_path: Path, number: signal.Signals, status: int) -> None:
+    deck = written(tmp_path / "wall.yaml", WALL)
+    assert main(["run", str(deck), "-q"]) == 0
+    folder = tmp_path / "wall.out"
+    before = {path.name: path.read_bytes() for path in folder.iterdir()}
+    long = ["--set", "parameters.n=25", "--flow-rule", "non_associative", "--force"]
+    process = subprocess.Popen(
+        [sys.executable, "-m", "mbla", "run", str(deck), *long],
+        stderr=subprocess.PIPE,
+        preexec_fn=lambda: signal.signal(number, signal.SIG_DFL),  # shells start background jobs with SIGINT ignored
+    )
+    deadline = time.monotonic() + 60
+    while (folder / "wall.sta").read_bytes().count(b"\n") < 5 or (folder / "wall.sta").read_bytes() == before[
+        "wall.sta"
+    ]:
+        assert time.monotonic() < deadline
+        assert process.poll() is None
+        time.sleep(0.02)
+    process.send_signal(number)
+    try:
+        _, err = process.communicate(timeout=30)
+    finally:
+        process.kill()
+    assert process.returncode == status
+    assert b"Traceback" not in err
+    assert {path.name: path.read_bytes() for path in folder.iterdir()} == before
+
+
+def test_names_and_titles_in_any_script_whatever_the_terminal_speaks(tmp_path: Path) -> None:
+    title = "Bögen – 拱"
+    deck = written(tmp_path / "wänd 墙.yaml", f"title: {title}\n" + BLOCK)
+    environment = {"PATH": os.environ["PATH"], "LC_ALL": "C", "PYTHONIOENCODING": "ascii"}
+    done = mbla("run", deck, stdout=subprocess.PIPE, env=environment)
+    assert done.returncode == 0
+    assert b"w\\xe4nd" in done.stdout
+    done = mbla("run", deck, "--force", "--json", stdout=subprocess.PIPE, env=environment)
+    assert json.loads(done.stdout)["deck"] == deck.name
+    listing = mbla("show", tmp_path / "wänd 墙.out" / "wänd 墙.h5", stdout=subprocess.PIPE).stdout.decode()
+    assert title in listing
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="file names are bytes")
+def test_a_file_name_that_is_no_text_is_refused(tmp_path: Path) -> None:
+    name = os.fsdecode(bytes(tmp_path) + b"/q\xff.yaml")
+    written(Path(name), BLOCK)
+    done = mbla("run", name, "--json", stdout=subprocess.PIPE)
+    assert done.returncode == json.loads(done.stdout)["exit_code"] == 6
+    assert b"not UTF-8" in done.stderr
+    assert len(list(tmp_path.iterdir())) == 1
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs /dev/full")
+def test_standard_output_that_takes_nothing(deck: Path) -> None:
+    main(["run", str(deck), "-q"])
+    for arguments in (["show", deck.with_suffix(".out") / "block.h5"], ["schema"], ["check", deck]):
+        with Path("/dev/full").open("w") as full:
+            done = mbla(*arguments, stdout=full)
+        assert done.returncode == 6
+        assert b"standard output: No space left on device" in done.stderr
+        assert b"Exception" not in done.stderr
+
+
+def test_a_reader_that_goes_away_is_no_error_of_ours(deck: Path) -> None:
+    read_end, write_end = os.pipe()
+    os.close(read_end)
+    done = mbla("check", deck, stdout=write_end)
+    os.close(write_end)
+    assert done.returncode == 6
+    assert done.stderr == b""
+
+
+def test_a_current_folder_that_is_gone(tmp_path: Path) -> None:
+    gone = tmp_path / "gone"
+    gone.mkdir()
+    command = f"cd {gone} && rmdir {gone} && exec {sys.executable} -m mbla check x.yaml"
+    done = subprocess.run(["sh", "-c", command], capture_output=True, check=False)
+    assert done.returncode == 6
+    assert b"the current folder does not exist" in done.stderr
+
+
+def test_nothing_is_printed_for_progress_off_a_terminal(deck: Path) -> None:
+    environment = {**os.environ, "PYTHONUNBUFFERED": "1"}
+    done = subprocess.run(
+        [sys.executable, "-m", "mbla", "run", str(deck), "-q"], capture_output=True, env=environment, check=True
+    )
+    assert done.stdout == b""
+    assert done.stderr == b""
