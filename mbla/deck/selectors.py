@@ -20,7 +20,6 @@ POSITIONS = (
     "tread",
     "drum",
     "span",
-    "level",
     "copy",
 )
 """Names of positions that items give their blocks, counted from 0; each is a key of selectors."""
@@ -50,7 +49,6 @@ class SelectorTerm(Section):
     tread: PositionRange | None = Field(None, description="step of a stair, from the bottom")
     drum: PositionRange | None = Field(None, description="position in a column or stack, from the bottom")
     span: PositionRange | None = Field(None, description="span of a bridge, or web of a vault")
-    level: PositionRange | None = Field(None, description="storey")
     copy_: PositionRange | None = Field(None, alias="copy", description="repetition of the item")
 
     def position(self, name: str) -> int | tuple[int, int] | None:

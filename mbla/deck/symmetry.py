@@ -14,7 +14,8 @@ class SymmetryPlane(Section):
 
     Blocks, supports, guides, settlements and forces given in the deck appear on both sides, images in the groups of
     what they are images of; results are those of the whole. A block with a face on the plane meets its image there,
-    with the joint law that contacts gives for the two.
+    with the joint law that contacts gives for the two. Of several planes each mirrors what those before it have made,
+    and its halves are chosen from that.
     """
 
     x: Length | None = Field(None, description="the plane at this x")
