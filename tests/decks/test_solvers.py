@@ -17,6 +17,9 @@ NOT_UNIQUE = ("ferris_wall_3_slope", "crossvault_without_dilatancy")
 """A published scheme whose steps do not come to rest, and which says so: exit status 4, factors 0.2 % apart; a vault
 whose state at rest depends on the rounding of sums, factors 1 % apart."""
 
+ALMOST = ("cross_vault_on_piers",)
+"""clarabel alone ends AlmostSolved, with proved bounds 1.03e-5 apart where 1e-5 is asked, and so says approximate."""
+
 
 @pytest.mark.long
 @every_deck
@@ -24,9 +27,9 @@ def test_both_solvers_say_the_same_of_a_deck(path: Path) -> None:
     if deck_of(path).content.analysis.contact_model == "convex":
         pytest.skip("cones of larger dimensions are clarabel's alone")
     own, other = (run_deck(path, "--set", f"analysis.solver={solver}") for solver in ("mbla", "clarabel"))
-    assert own.exit_status == other.exit_status
+    assert own.exit_status == other.exit_status or (path.stem in ALMOST and other.exit_status == 4)
     for case, second in zip(own.record["cases"], other.record["cases"], strict=True):
-        assert case["status"] == second["status"]
+        assert case["status"] == second["status"] or (path.stem in ALMOST and second["status"] == "approximate")
         assert (case["static_bound"] is None) == (second["static_bound"] is None)
         if case["associative_load_factor"] is not None:
             room = sum(each["kinematic_bound"] - each["static_bound"] for each in (case, second))
