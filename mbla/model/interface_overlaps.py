@@ -12,6 +12,7 @@ from itertools import combinations
 import numpy as np
 
 from mbla.arrays import FloatArray
+from mbla.model.plane_axes import plane_axes
 from mbla.model.signed_polygons import intersections, signed_areas
 
 SAME_PLANE = 0.99
@@ -45,10 +46,7 @@ def overlapping(
 
 def common_area(outline: FloatArray, other: FloatArray, normal: FloatArray) -> float:
     """Area that two outlines, both counter-clockwise about a unit normal, have in common as seen along it."""
-    across = np.eye(3)[np.argmin(np.abs(normal))]
-    first = np.cross(normal, across)
-    first /= np.linalg.norm(first)
-    frame = np.stack([first, np.cross(normal, first)], axis=1)
+    frame = plane_axes(normal[None])[0].T
     origin = outline.mean(axis=0)
     own, others = _fan((outline - origin) @ frame), _fan((other - origin) @ frame)
     signs = np.sign(signed_areas(others))

@@ -15,6 +15,7 @@ from mbla.arrays import BoolArray, FloatArray, IntArray, starts
 from mbla.model.defects import Defect, Extents
 from mbla.model.face_geometry import FaceGeometry
 from mbla.model.orientation import Edges
+from mbla.model.plane_axes import plane_axes
 from mbla.model.polyhedra import Polyhedra
 from mbla.model.ragged import chunks, items_of_rows, next_item, ranges, row_maxima
 
@@ -143,10 +144,7 @@ def _plane_outlines(
 ) -> tuple[FloatArray, FloatArray, IntArray, FloatArray]:
     """Outlines of faces in coordinates of their planes: tails and heads (n, 2), start, and the axes (n_faces, 2, 3)."""
     normals = faces.normals[face]
-    helper = np.eye(3)[np.argmin(np.abs(normals), axis=1)]
-    first = np.cross(normals, helper)
-    first /= np.linalg.norm(first, axis=1)[:, None]
-    axes = np.stack([first, np.cross(normals, first)], axis=1)
+    axes = plane_axes(normals)
     counts = np.diff(polyhedra.loop_start)[face]
     start = starts(counts)
     corners = polyhedra.local_vertices[polyhedra.loops[items_of_rows(polyhedra.loop_start, face)]]

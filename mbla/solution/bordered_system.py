@@ -10,6 +10,12 @@ import scipy.sparse as sp
 from mbla.arrays import FloatArray
 from mbla.solution.linear_algebra.superlu import factorize
 
+ROUNDS = 6
+"""Corrections in a row of one repair; each solves one sparse system. Two are usual."""
+
+PROGRESS = 0.2
+"""Share of what is wrong that a round may leave and still be followed by another."""
+
 REGULARIZATION = 1e-15
 """On the unit diagonal of the factorised matrix; refinement removes its trace."""
 

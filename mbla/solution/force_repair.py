@@ -20,10 +20,7 @@ from mbla.arrays import FloatArray
 from mbla.program.program import Program
 from mbla.program.yield_conditions import yield_violation
 from mbla.solution.barriers import force_metric
-from mbla.solution.bordered_system import bordered_solver
-
-ROUNDS = 6
-"""Corrections in a row; each solves one sparse system. Two are usual."""
+from mbla.solution.bordered_system import PROGRESS, ROUNDS, bordered_solver
 
 EQUILIBRIUM_TOLERANCE = 1e-9
 """Residual, relative to the mean load of a block, that counts as equilibrium: where all joints of a sliding plane are
@@ -31,9 +28,6 @@ on their cones at once, double precision does not get far below 1e-10."""
 
 BALANCED = 1e-13
 """Residual at which nothing is left to be mended."""
-
-PROGRESS = 0.2
-"""Share of the residual that a round may leave and still be followed by another."""
 
 INSIDE = 1e-13
 """Excess over a yield condition, relative to the mean load of a block, that is rounding."""

@@ -12,13 +12,7 @@ import scipy.sparse as sp
 from mbla.arrays import FloatArray
 from mbla.program.program import Program
 from mbla.solution.barriers import block_diagonal, velocity_hessian
-from mbla.solution.bordered_system import bordered_solver
-
-ROUNDS = 6
-"""Corrections in a row; each solves one sparse system. Two are usual."""
-
-PROGRESS = 0.2
-"""Share of the incompatibility that a round may leave and still be followed by another."""
+from mbla.solution.bordered_system import PROGRESS, ROUNDS, bordered_solver
 
 OPENINGS = (1e-13, 1e-11, 1e-9)
 """Opening velocities, relative to the largest contact speed, that the mechanism is moved towards in turn until it is

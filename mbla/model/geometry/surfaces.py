@@ -19,6 +19,7 @@ from mbla.model.face_geometry import face_geometry
 from mbla.model.geometry.duplicate_faces import face_codes
 from mbla.model.geometry.welding import own_vertices
 from mbla.model.orientation import connected_labels
+from mbla.model.plane_axes import plane_axes
 from mbla.model.polyhedra import Polyhedra
 from mbla.model.ragged import ranges
 
@@ -108,10 +109,7 @@ def _angles(
     axis /= np.linalg.norm(axis, axis=1)[:, None]
     normals = face_geometry(surface).normals[surface.face_of_corner[chosen]]
     leaving = np.cross(normals, np.where(forward[:, None], axis, -axis))
-    helper = np.eye(3)[np.argmin(np.abs(axis), axis=1)]
-    east = np.cross(axis, helper)
-    east /= np.linalg.norm(east, axis=1)[:, None]
-    north = np.cross(axis, east)
+    east, north = plane_axes(axis).transpose(1, 0, 2)
     angles = np.zeros(len(surface.loops))
     angles[chosen] = np.arctan2(np.einsum("ij,ij->i", leaving, north), np.einsum("ij,ij->i", leaving, east))
     forwards = np.zeros(len(surface.loops), dtype=bool)

@@ -14,6 +14,7 @@ import numpy as np
 from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.model.blocks import Blocks
 from mbla.model.model import Ground
+from mbla.model.plane_axes import plane_axes
 from mbla.model.ragged import chunks, items_of_rows, ranges, row_maxima
 from mbla.model.signed_polygons import intersections, signed_areas
 
@@ -87,12 +88,8 @@ def face_parts(
 
 
 def _frames(faces: IntArray, blocks: Blocks) -> _Frames:
-    normals = blocks.face_normals[faces]
-    helper = np.eye(3)[np.argmin(np.abs(normals), axis=1)]
-    first = np.cross(helper, normals)
-    first /= np.linalg.norm(first, axis=1)[:, None]
     origins = blocks.vertices[blocks.loops[blocks.loop_start[faces]]]
-    return _Frames(origins, np.stack([first, np.cross(normals, first)], axis=1))
+    return _Frames(origins, plane_axes(blocks.face_normals[faces]))
 
 
 def _fan(faces: IntArray, blocks: Blocks) -> tuple[IntArray, FloatArray]:

@@ -23,7 +23,7 @@ from mbla.arrays import FloatArray, IntArray
 from mbla.solution.condensed.condensation import SHIFT, across, bordered, factorized
 from mbla.solution.condensed.cone_data import ConeData, Units
 from mbla.solution.condensed.groups import backward, by_group, forward, taken, triangular_factor
-from mbla.solution.condensed.products import PlacedProducts, alike, dense_rows, placed_products
+from mbla.solution.condensed.products import PlacedProducts, alike, dense_rows, placed_products, sets_of_alike
 from mbla.solution.condensed.scaling import Scaling, boosted
 from mbla.solution.linear_algebra import Factorization, factorization
 
@@ -181,23 +181,15 @@ def _batches(data: ConeData, group: IntArray) -> tuple[list[_Batch], list[IntArr
     shapes = np.column_stack([*(np.diff(part[1]) for part in (unknowns, lines, cones)), columns.widths])
     batches, rows = [], []
     shape_of = alike(shapes)
-    for number in range(int(shape_of.max(initial=-1)) + 1):
-        here = np.flatnonzero(shape_of == number)
-        touched = columns.columns_of(here)
-        of_set = alike(touched)
-        size_of_set = np.bincount(of_set, minlength=1)
-        for size in np.unique(size_of_set[of_set]):
-            order = np.argsort(of_set, kind="stable")
-            chosen = order[size_of_set[of_set[order]] == size]
-            groups = here[chosen]
-            mine = taken(unknowns, groups), taken(lines, groups), taken(cones, groups)
-            place = np.zeros(len(group), dtype=np.int64)
-            place[mine[0]] = np.arange(mine[0].shape[1])
-            of_lines, of_cones = _dense(data, mine, place)
-            blocks = columns.blocks(groups, place, mine[0].shape[1])
-            root = np.sqrt(data.quadratic[mine[0]])
-            batches.append(_Batch(*mine, of_lines, of_cones, root, blocks, int(size)))
-            rows.append(touched[chosen[::size]])
+    for groups, touched, size in sets_of_alike(shape_of, columns):
+        mine = taken(unknowns, groups), taken(lines, groups), taken(cones, groups)
+        place = np.zeros(len(group), dtype=np.int64)
+        place[mine[0]] = np.arange(mine[0].shape[1])
+        of_lines, of_cones = _dense(data, mine, place)
+        blocks = columns.blocks(groups, place, mine[0].shape[1])
+        root = np.sqrt(data.quadratic[mine[0]])
+        batches.append(_Batch(*mine, of_lines, of_cones, root, blocks, size))
+        rows.append(touched)
     return batches, rows
 
 

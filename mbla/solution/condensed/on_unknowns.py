@@ -22,7 +22,14 @@ from mbla.arrays import FloatArray, IntArray
 from mbla.solution.condensed.condensation import SHIFT, across, bordered, factorized
 from mbla.solution.condensed.cone_data import ConeData, Units
 from mbla.solution.condensed.groups import backward, by_group, forward, taken, triangular_factor
-from mbla.solution.condensed.products import DenseRows, PlacedProducts, alike, dense_rows, placed_products
+from mbla.solution.condensed.products import (
+    DenseRows,
+    PlacedProducts,
+    alike,
+    dense_rows,
+    placed_products,
+    sets_of_alike,
+)
 from mbla.solution.condensed.scaling import Scaling, boosted
 from mbla.solution.linear_algebra import Factorization, factorization
 
@@ -157,17 +164,10 @@ def _batches(data: ConeData, over_all: sp.csr_array) -> tuple[list[_Batch], list
     touched = dense_rows(over_all, point[units.unit_of_row], n_points)
     shape_of = alike(np.column_stack([*(np.diff(part[1]) for part in (lines, cones, local)), touched.widths]))
     batches, columns = [], []
-    for number in range(int(shape_of.max(initial=-1)) + 1):
-        here = np.flatnonzero(shape_of == number)
-        unknowns = touched.columns_of(here)
-        of_set = alike(unknowns)
-        size_of_set = np.bincount(of_set, minlength=1)
-        for size in np.unique(size_of_set[of_set]):
-            order = np.argsort(of_set, kind="stable")
-            chosen = order[size_of_set[of_set[order]] == size]
-            members = tuple(taken(part, here[chosen]) for part in (lines, cones, local))
-            batches.append(_batch(data, touched, here[chosen], members, over_local, int(size)))
-            columns.append(unknowns[chosen[::size]])
+    for points, unknowns, size in sets_of_alike(shape_of, touched):
+        members = tuple(taken(part, points) for part in (lines, cones, local))
+        batches.append(_batch(data, touched, points, members, over_local, size))
+        columns.append(unknowns)
     return batches, columns
 
 

@@ -6,6 +6,7 @@ is added up where it belongs by one map.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -88,6 +89,23 @@ class DenseRows:
         result = np.zeros((len(groups), n_rows, width))
         result[index[self.group[mine]], place_of_row[self.row[mine]], self.local_column[mine]] = self.values[mine]
         return result
+
+
+def sets_of_alike(shape_of: IntArray, rows: DenseRows) -> Iterator[tuple[IntArray, IntArray, int]]:
+    """Groups of one shape whose sets of equal columns are of one size: groups, columns of each set, size of the sets.
+
+    shape_of : (n_groups,) number of the shape of each, from 0
+    Groups of one set follow each other; columns are (n_sets, C).
+    """
+    for number in range(int(shape_of.max(initial=-1)) + 1):
+        here = np.flatnonzero(shape_of == number)
+        columns = rows.columns_of(here)
+        of_set = alike(columns)
+        size_of_set = np.bincount(of_set, minlength=1)
+        order = np.argsort(of_set, kind="stable")
+        for size in np.unique(size_of_set[of_set]).tolist():
+            chosen = order[size_of_set[of_set[order]] == size]
+            yield here[chosen], columns[chosen[::size]], size
 
 
 def dense_rows(matrix: sp.csr_array, group_of_row: IntArray, n_groups: int) -> DenseRows:
