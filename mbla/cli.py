@@ -60,9 +60,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _run(options: argparse.Namespace) -> int:
-    from mbla.results.json_record import json_line, results_json
-    from mbla.results.listing import listing
-    from mbla.results.summary import summary_lines
+    from mbla.results.records.json_record import json_line, results_json
+    from mbla.results.words.listing import listing
+    from mbla.results.words.summary import summary_lines
     from mbla.run import run
 
     run_options = _run_options(options)
@@ -87,8 +87,8 @@ def _run(options: argparse.Namespace) -> int:
 
 def _check(options: argparse.Namespace) -> int:
     from mbla.check import check
-    from mbla.results.json_record import check_json, json_line
-    from mbla.results.listing import check_listing
+    from mbla.results.records.json_record import check_json, json_line
+    from mbla.results.words.listing import check_listing
 
     run_options = _run_options(options)
 
@@ -105,9 +105,9 @@ def _check(options: argparse.Namespace) -> int:
 
 
 def _show(options: argparse.Namespace) -> int:
-    from mbla.results.hdf5 import read_results_hdf5
-    from mbla.results.json_record import json_line, results_json
-    from mbla.results.listing import listing
+    from mbla.results.hdf5.result_file import read_results_hdf5
+    from mbla.results.records.json_record import json_line, results_json
+    from mbla.results.words.listing import listing
 
     results = read_results_hdf5(options.result)
     print(json_line(results_json(results)) + "\n" if options.json else listing(results), end="")
@@ -115,9 +115,9 @@ def _show(options: argparse.Namespace) -> int:
 
 
 def _verify(options: argparse.Namespace) -> int:
-    from mbla.results.hdf5 import read_results_hdf5
-    from mbla.results.json_record import json_line, verification_json
-    from mbla.results.listing import verification_lines
+    from mbla.results.hdf5.result_file import read_results_hdf5
+    from mbla.results.records.json_record import json_line, verification_json
+    from mbla.results.words.listing import verification_lines
     from mbla.verify_file import verify_results
 
     results, agreed = verify_results(read_results_hdf5(options.result))
@@ -129,8 +129,8 @@ def _verify(options: argparse.Namespace) -> int:
 
 
 def _plot(options: argparse.Namespace) -> int:
-    from mbla.results.hdf5 import read_results_hdf5
-    from mbla.results.pictures import plot_results
+    from mbla.results.hdf5.result_file import read_results_hdf5
+    from mbla.results.pictures.pictures import plot_results
 
     results = read_results_hdf5(options.result)
     target = options.output or options.result.parent

@@ -9,8 +9,8 @@ from mbla.deck.types import Expectation
 from mbla.results.outcome import associative_of, result_of
 from mbla.results.results import CaseResult
 from mbla.results.series import position_of, series_of
-from mbla.results.settlement_words import reaction_of
 from mbla.results.tilt_angle import angle_of
+from mbla.results.words.settlement_words import reaction_of
 from mbla.solution.solution import Mechanics
 
 

@@ -22,9 +22,10 @@ DOORS = {
     "cvxopt": "solution/linear_algebra/cholmod_factors.py",
     "qdldl": "solution/linear_algebra/qdldl_factors.py",
     "highspy": "solution/highs_adapter.py",
-    "h5py": "results/hdf5.py",
-    "pyvista": "results/pictures.py",
-    "vtk": "results/pictures.py",
+    "h5py": "results/hdf5/result_file.py",
+    "pyvista": "results/pictures/pictures.py",
+    "vtk": "results/pictures/pictures.py",
+    "matplotlib": "results/pictures/page.py",
 }
 FILES = sorted(PACKAGE.rglob("*.py"))
 

@@ -7,7 +7,7 @@ import math
 from mbla.model.model import LoadCase, Tilt
 from mbla.results.outcome import result_of
 from mbla.results.results import CaseResult
-from mbla.results.text import number
+from mbla.results.words.text import number
 from mbla.solution.tilt_circle import angle_above, line_of
 
 AT_COLLAPSE = 1e-6

@@ -6,14 +6,14 @@ import time
 from dataclasses import replace
 from pathlib import Path
 
-from mbla.results.cells import block_cells
 from mbla.results.files import OutputFolder
-from mbla.results.hdf5 import write_results_hdf5
-from mbla.results.json_record import json_line, results_json
-from mbla.results.listing import listing
-from mbla.results.pvd import collection_pvd, frame_times, write_frame_vtu
+from mbla.results.hdf5.result_file import write_results_hdf5
+from mbla.results.paraview.cells import block_cells
+from mbla.results.paraview.pvd import collection_pvd, frame_times, write_frame_vtu
+from mbla.results.paraview.vtu import CONTACT_FILES, write_blocks_vtu
+from mbla.results.records.json_record import json_line, results_json
 from mbla.results.results import CaseResult, Results
-from mbla.results.vtu import CONTACT_FILES, write_blocks_vtu
+from mbla.results.words.listing import listing
 
 
 def write_results(results: Results, out: OutputFolder, vtu: bool, frames: int, plots: bool) -> Results:
@@ -86,7 +86,7 @@ def _moves(case: CaseResult) -> bool:
 
 
 def _write_picture(results: Results, case: CaseResult, out: OutputFolder) -> None:
-    from mbla.results.pictures import plot_mechanism
+    from mbla.results.pictures.pictures import plot_mechanism
 
     with out.writing(f"{out.stem}_{case.load_case.name}.png") as path:
         plot_mechanism(results, case, path)

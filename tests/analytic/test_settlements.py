@@ -7,9 +7,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from mbla.results.mechanics import guide_reactions, load_on_structure, support_reactions
+from mbla.results.collapse.mechanics import guide_reactions, load_on_structure, support_reactions
 from mbla.results.results import CaseResult, Results
-from mbla.results.settlement_words import reaction_of
+from mbla.results.words.settlement_words import reaction_of
 from mbla.run import RunOptions, run
 from tests.analytic.cases import BENCHMARKS
 from tests.analytic.thrust_line import springer_thrusts, voussoirs

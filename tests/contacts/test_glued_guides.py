@@ -8,7 +8,7 @@ import pytest
 
 from mbla.errors import DeckError
 from mbla.results.results import Results
-from mbla.results.settlement_words import reaction_of
+from mbla.results.words.settlement_words import reaction_of
 from mbla.run import RunOptions, run
 
 DECK = """

@@ -12,7 +12,7 @@ from mbla.deck import read_deck
 from mbla.errors import DeckError
 from mbla.model import Model, build_model
 from mbla.results.results import Results
-from mbla.results.settlement_words import reaction_of
+from mbla.results.words.settlement_words import reaction_of
 from mbla.run import RunOptions, run
 
 HEAD = """

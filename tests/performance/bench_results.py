@@ -17,13 +17,13 @@ from tempfile import TemporaryDirectory
 import numpy as np
 
 from mbla.model.model import LoadCase
-from mbla.results.cells import BlockCells, block_cells
-from mbla.results.hdf5 import read_results_hdf5, write_results_hdf5
-from mbla.results.json_record import results_json
-from mbla.results.listing import listing
-from mbla.results.pvd import write_frame_vtu
+from mbla.results.hdf5.result_file import read_results_hdf5, write_results_hdf5
+from mbla.results.paraview.cells import BlockCells, block_cells
+from mbla.results.paraview.pvd import write_frame_vtu
+from mbla.results.paraview.vtu import write_blocks_vtu, write_contacts_vtu, write_interfaces_vtu
+from mbla.results.records.json_record import results_json
 from mbla.results.results import CaseResult, Results
-from mbla.results.vtu import write_blocks_vtu, write_contacts_vtu, write_interfaces_vtu
+from mbla.results.words.listing import listing
 from mbla.results.write import write_outputs
 from mbla.solution.solution import Mechanics
 from tests.performance.recording import best_time, record

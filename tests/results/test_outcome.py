@@ -7,8 +7,7 @@ import pytest
 from mbla.results.outcome import case_notices, dimension_of, factor_unique, law_residual, result_of, standing_of
 from mbla.results.results import CaseResult
 from mbla.solution.solution import ModelSize, Standing, StandingResult, Status
-
-from .synthetic import tower_results
+from tests.results.synthetic import tower_results
 
 SOLVED, FALLEN = tower_results().cases
 YES, SELF, NO, DOUBT = Standing.YES, Standing.SELF_STRESS, Standing.NO, Standing.DOUBTFUL

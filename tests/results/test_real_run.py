@@ -6,15 +6,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from mbla.results.collapse import collapse_of
-from mbla.results.hdf5 import read_results_hdf5
-from mbla.results.interface_modes import InterfaceMode
-from mbla.results.listing import listing
+from mbla.results.collapse.collapse import collapse_of
+from mbla.results.collapse.interface_modes import InterfaceMode
+from mbla.results.hdf5.result_file import read_results_hdf5
 from mbla.results.results import Results
+from mbla.results.words.listing import listing
 from mbla.run import RunOptions, run
-
-from .reading import read_vtk, vtk_array, vtk_volumes
-from .synthetic import same
+from tests.results.reading import read_vtk, vtk_array, vtk_volumes
+from tests.results.synthetic import same
 
 ARCH = """\
 mbla: 1

@@ -12,13 +12,13 @@ import pytest
 from mbla.errors import UsageError
 from mbla.exit_status import exit_code
 from mbla.expected import differences
-from mbla.results.hdf5 import read_results_hdf5
-from mbla.results.json_record import json_line, results_json
-from mbla.results.listing import listing
+from mbla.results.hdf5.result_file import read_results_hdf5
+from mbla.results.records.json_record import json_line, results_json
 from mbla.results.results import Results
 from mbla.results.series import factor_of, series_of
-from mbla.results.summary import summary_lines
 from mbla.results.tilt_angle import angle_bounds, angle_of
+from mbla.results.words.listing import listing
+from mbla.results.words.summary import summary_lines
 from mbla.run import RunOptions, run
 from mbla.solution.solution import Status
 from mbla.verify_file import verify_results

@@ -8,13 +8,12 @@ import pytest
 
 from mbla.errors import FileError
 from mbla.results.files import OutputFolder
-from mbla.results.hdf5 import read_results_hdf5
-from mbla.results.listing import listing
+from mbla.results.hdf5.result_file import read_results_hdf5
+from mbla.results.paraview.vtu import write_model_vtu
 from mbla.results.results import Results
-from mbla.results.vtu import write_model_vtu
+from mbla.results.words.listing import listing
 from mbla.results.write import write_outputs, write_results
-
-from .synthetic import same, tower_results
+from tests.results.synthetic import same, tower_results
 
 CASE_FILES = {"blocks.vtu", "contacts.vtu", "interfaces.vtu", "frame_000.vtu", "frame_001.vtu", "frame_002.vtu"}
 

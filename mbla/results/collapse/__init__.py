@@ -1,0 +1,1 @@
+"""What follows from forces and velocities: modes of interfaces, rigid parts, work, motion as drawn, resultants."""

@@ -1,0 +1,152 @@
+"""Rigid parts of a mechanism: blocks that move together, and how each part moves.
+
+Two blocks belong to one part where they are glued, or touch and hardly move against each other, measured by the fastest
+contact (:func:`mbla.results.collapse.interface_modes.moves_together`). Supports and blocks at rest form part 0; the
+others are numbered from the heaviest on. A part moves as one rigid body, v + ω × (x − c): it turns about an axis, or,
+where the rotation over its own size is small against the travel, it moves along a direction.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import scipy.sparse as sp
+from scipy.sparse.csgraph import connected_components
+
+from mbla.arrays import BoolArray, FloatArray, IntArray
+from mbla.contacts.contacts import Contacts
+from mbla.contacts.glue import solids_of
+from mbla.model.model import Model
+from mbla.results.collapse.interface_modes import TOGETHER, stuck_interfaces
+
+TURNS = 0.01
+"""rotation times the radius of a part over its travel from which it is said to turn: below, its axis lies a hundred
+times its size away"""
+GLOBAL, LOCAL = 0.5, 0.1
+"""shares of the weight of the free blocks that move from which, and up to which, a mechanism is global or local"""
+
+
+@dataclass(frozen=True)
+class PartMotion:
+    """A part that moves.
+
+    number      : from 1, the heaviest first
+    blocks      : (n,) in order
+    weight      : under standard gravity, in the deck's unit
+    centroid    : (3,) m, of its volume
+    velocity    : (3,) there, scaled as the mechanism
+    rotation    : (3,) angular velocity
+    turns       : about an axis; else it moves along a direction
+    axis_point  : (3,) m, the point of the axis nearest to the centroid; nan where it does not turn
+    direction   : (3,) unit, of the axis by the right hand, or of the travel
+    """
+
+    number: int
+    blocks: IntArray
+    weight: float
+    centroid: FloatArray
+    velocity: FloatArray
+    rotation: FloatArray
+    turns: bool
+    axis_point: FloatArray
+    direction: FloatArray
+
+
+def rigid_parts(model: Model, contacts: Contacts, motion: FloatArray) -> IntArray:
+    """Number of the part of each block, (n_blocks,), 0 at rest, from a motion, (n_blocks, 6)."""
+    solids = solids_of(model, contacts)
+    parts = _parts_of_solids(solids.model, solids.contacts, solids.solid_motions(motion))
+    return parts if solids.solid_of_block is None else parts[solids.solid_of_block]
+
+
+def _parts_of_solids(model: Model, contacts: Contacts, motion: FloatArray) -> IntArray:
+    n_blocks = len(model.blocks)
+    blocks = np.where(resting_blocks(model, motion), n_blocks, np.arange(n_blocks))  # whatever rests is one node
+    node = np.append(blocks, np.full(len(model.grounds), n_blocks))
+    a, b = node[contacts.bodies[stuck_interfaces(model, contacts, motion)]].T
+    graph = sp.coo_array((np.ones(len(a)), (a, b)), shape=(n_blocks + 1, n_blocks + 1))
+    _, label = connected_components(graph, directed=False)
+    return _numbered(model, np.asarray(label[blocks], dtype=np.int64), int(label[n_blocks]))
+
+
+def _numbered(model: Model, label: IntArray, at_rest: int) -> IntArray:
+    """Parts numbered by falling weight, then by their first block; 0 at rest, whether any block is or not."""
+    labels, first, row = np.unique(label, return_index=True, return_inverse=True)
+    weights = np.bincount(row, weights=model.blocks.masses, minlength=len(labels))
+    rests = labels == at_rest
+    largest = float(weights.max(initial=0.0)) or 1.0
+    order = np.lexsort((first, -np.round(weights / largest, 9), ~rests))  # equal ones differ by rounding
+    number = np.empty(len(labels), dtype=np.int64)
+    number[order] = np.arange(len(labels)) + (0 if rests.any() else 1)
+    return np.asarray(number[row], dtype=np.int64)
+
+
+def block_speeds(model: Model, motion: FloatArray) -> FloatArray:
+    """Speed of each block, rotations with half the block size as arm, (n_blocks,)."""
+    return np.asarray(
+        np.linalg.norm(motion[:, :3], axis=1) + np.linalg.norm(motion[:, 3:], axis=1) * model.blocks.sizes / 2
+    )
+
+
+def resting_blocks(model: Model, motion: FloatArray) -> BoolArray:
+    """Blocks that do not move, measured by the fastest, (n_blocks,)."""
+    speeds = block_speeds(model, motion)
+    return np.asarray(model.fixed | (speeds <= TOGETHER * speeds.max(initial=0.0)))
+
+
+def part_motions(model: Model, parts: IntArray, motion: FloatArray) -> tuple[PartMotion, ...]:
+    """How each part that moves does it, the heaviest first: the mean by volume of the motions of its blocks."""
+    count = int(parts.max(initial=0)) + 1
+    blocks, units = model.blocks, model.units
+    volume = _sums(parts, blocks.volumes, count)
+    centroid = _sums(parts, blocks.volumes[:, None] * blocks.centroids, count) / volume[:, None]
+    rotation = _sums(parts, blocks.volumes[:, None] * motion[:, 3:], count) / volume[:, None]
+    arms = centroid[parts] - blocks.centroids
+    there = motion[:, :3] + np.cross(motion[:, 3:], arms)
+    velocity = _sums(parts, blocks.volumes[:, None] * there, count) / volume[:, None]
+    radius = np.zeros(count)
+    np.maximum.at(radius, parts, np.linalg.norm(arms, axis=1) + blocks.sizes / 2)
+    weight = _sums(parts, blocks.masses, count) * units.standard_gravity * units.force_per_mass_acceleration
+    members = np.split(np.argsort(parts, kind="stable"), np.cumsum(np.bincount(parts, minlength=count))[:-1])
+    return tuple(
+        _part_motion(i, members[i], float(weight[i]), float(radius[i]), centroid[i], velocity[i], rotation[i])
+        for i in range(1, count)
+    )
+
+
+def _sums(parts: IntArray, values: FloatArray, count: int) -> FloatArray:
+    """Sum over the blocks of each part; an empty part counts as one block of volume 1, to divide by."""
+    total = np.zeros((count, *values.shape[1:]))
+    np.add.at(total, parts, values)
+    return np.where((np.bincount(parts, minlength=count) == 0).reshape(-1, *[1] * (values.ndim - 1)), 1.0, total)
+
+
+def _part_motion(
+    number: int,
+    blocks: IntArray,
+    weight: float,
+    radius: float,
+    centroid: FloatArray,
+    velocity: FloatArray,
+    rotation: FloatArray,
+) -> PartMotion:
+    """Axis or direction of a rigid motion, velocity + rotation × (x − centroid)."""
+    spin, travel = float(np.linalg.norm(rotation)), float(np.linalg.norm(velocity))
+    turns = spin * radius > TURNS * travel
+    axis_point = centroid + np.cross(rotation, velocity) / spin**2 if turns else np.full(3, np.nan)
+    direction = rotation / spin if turns else velocity / (travel or 1.0)
+    return PartMotion(number, blocks, weight, centroid, velocity, rotation, turns, axis_point, direction)
+
+
+def moving_share(model: Model, parts: IntArray) -> float:
+    """Share of the weight of the free blocks that moves; of their number where they weigh nothing."""
+    free = ~model.fixed
+    sizes = model.blocks.masses if model.blocks.masses[free].any() else np.ones(len(model.blocks))
+    total = float(sizes[free].sum())
+    return float(sizes[free & (parts > 0)].sum()) / total if total > 0 else 0.0
+
+
+def reach(share: float) -> str:
+    """``local``, ``partial`` or ``global``, by the share of the weight of the free blocks that moves."""
+    return "global" if share >= GLOBAL else "local" if share <= LOCAL else "partial"

@@ -1,0 +1,1 @@
+"""The HDF5 result file: its layout as a table, results as its content and back, writing and reading."""

@@ -1,0 +1,80 @@
+"""The layout of the HDF5 result file as one table: it feeds the writer, the reader's checks and schemas/results.md.
+
+A ``*`` in a path stands for the name of a load case.
+"""
+
+from __future__ import annotations
+
+from mbla.deck.units import Units
+from mbla.results.hdf5.case_fields import CASE_FIELDS
+from mbla.results.hdf5.field import Field, notice_fields, unit_text
+from mbla.results.hdf5.model_fields import MODEL_FIELDS
+
+FILETYPE = "mbla results"
+VERSION = 4
+"""raised by one with every change that an older reader would misread"""
+
+ATTRIBUTES = {
+    "filetype": f'"{FILETYPE}"',
+    "version": f"version of this layout, {VERSION}; a reader checks it first",
+    "mbla_version": "version of the program that ran the analysis",
+    "created": "date of the run, UTC, ISO 8601; the only thing that differs between two runs of one deck and its times",
+    "deck_sha256": "hash of the effective deck: sources and overrides",
+    "complete": "1; an incomplete file is never put in place",
+}
+"""attributes of the root group"""
+
+SHARED_DIMENSIONS = (
+    "block",
+    "block_bound",
+    "vertex",
+    "corner",
+    "face",
+    "face_bound",
+    "interface",
+    "interface_bound",
+    "point",
+    "group",
+    "member",
+    "position",
+    "joint",
+    "ground",
+    "axis",
+    "direction",
+    "component",
+    "pair",
+)
+"""dimensions with their scale in the root group, where every group sees it; that of others is beside their dataset"""
+
+RUN_FIELDS: tuple[Field, ...] = (
+    *notice_fields("notices", "all remarks of the run"),
+    Field("provenance/names", "text", ("entry",), "1", "programs, libraries, platform"),
+    Field("provenance/values", "text", ("entry",), "1", "their versions"),
+    Field("provenance/setting_names", "text", ("setting",), "1", "analysis settings in effect"),
+    Field("provenance/setting_values", "text", ("setting",), "1", "their values"),
+    Field("provenance/stage_names", "text", ("stage",), "1", "stages of the run"),
+    Field("provenance/stage_seconds", "float", ("stage",), "time", "time of each stage"),
+    Field("provenance/files", "text", ("file",), "1", "names of the files of this run"),
+    Field("provenance/exit_code", "int", (), "1", "exit status of the run"),
+)
+"""what the run itself left: remarks, versions, settings, times"""
+
+LAYOUT: tuple[Field, ...] = (*MODEL_FIELDS, *CASE_FIELDS, *RUN_FIELDS)
+
+
+def fields_of_case(name: str) -> tuple[tuple[str, Field], ...]:
+    """Path and field of every dataset of one load case."""
+    return tuple((f.path.replace("*", name), f) for f in LAYOUT if "*" in f.path)
+
+
+COMMON_FIELDS: tuple[Field, ...] = tuple(f for f in LAYOUT if "*" not in f.path)
+
+
+def layout_table() -> str:
+    """The datasets as a Markdown table, as it stands in schemas/results.md; units as in a deck in m, N, kg."""
+    lines = ["| dataset | type | dimensions | units | content |", "|---|---|---|---|---|"]
+    for field in LAYOUT:
+        content = field.long_name + (f" (part: {field.part})" if field.part else "")
+        dims = ", ".join(field.dims) or "–"
+        lines.append(f"| `/{field.path}` | {field.kind} | {dims} | {unit_text(field.unit, Units())} | {content} |")
+    return "\n".join(lines) + "\n"

@@ -1,0 +1,158 @@
+"""Results from the content of a result file: the way back from ``content``.
+
+The content has been checked against the layout already; what is checked here is what no table can say.
+"""
+
+from __future__ import annotations
+
+from dataclasses import fields
+from typing import Any, cast
+
+import numpy as np
+
+from mbla.contacts.contacts import ContactReport, Contacts
+from mbla.deck.selectors import POSITIONS
+from mbla.deck.units import KILOGRAMS, METRES, NEWTONS, Units
+from mbla.errors import Notice
+from mbla.model.blocks import Blocks
+from mbla.model.guides import NO_GUIDES, Guides
+from mbla.model.labels import BlockLabels
+from mbla.model.model import Ground, Joint, LoadCase, Model, Settlement, Tilt, TravelPosition
+from mbla.results.hdf5.case_content import Content
+from mbla.results.hdf5.case_restore import case_from
+from mbla.results.hdf5.content import BLOCK_ARRAYS, CONTACT_ARRAYS, REPORT_FIELDS, SETTLEMENT_FIELDS
+from mbla.results.results import DeckRecord, Results
+
+
+def results_from(content: Content, attributes: dict[str, str | int]) -> Results:
+    """Results from content and root attributes; ValueError where they contradict themselves."""
+    get = cast("dict[str, Any]", content)
+    names = get["model/load_cases"]
+    load_cases = {name: _load_case(name, _part(get, f"cases/{name}/")) for name in names}
+    if len(load_cases) != len(names):
+        raise ValueError("two load cases of one name")
+    solved = [name for name in names if f"cases/{name}/status" in get]
+    return Results(
+        deck=DeckRecord(
+            name=get["deck/name"],
+            sources=tuple(zip(get["deck/source_names"], get["deck/source_texts"], strict=True)),
+            overrides=tuple(get["deck/overrides"]),
+            sha256=str(attributes["deck_sha256"]),
+        ),
+        model=_model(_part(get, "model/"), tuple(load_cases.values())),
+        contacts=_contacts(_part(get, "contacts/")),
+        cases=tuple(case_from(load_cases[name], _part(get, f"cases/{name}/")) for name in solved),
+        notices=_notices(_part(get, "notices/")),
+        provenance=dict(zip(get["provenance/names"], get["provenance/values"], strict=True)),
+        settings=dict(zip(get["provenance/setting_names"], get["provenance/setting_values"], strict=True)),
+        time=dict(zip(get["provenance/stage_names"], get["provenance/stage_seconds"].tolist(), strict=True)),
+        exit_code=get["provenance/exit_code"],
+        created=str(attributes["created"]),
+        files=tuple(get["provenance/files"]),
+    )
+
+
+def _part(content: dict[str, Any], prefix: str) -> dict[str, Any]:
+    return {path[len(prefix) :]: value for path, value in content.items() if path.startswith(prefix)}
+
+
+def _notices(get: dict[str, Any]) -> tuple[Notice, ...]:
+    if not set(get["severity"]) <= {"notice", "warning"}:
+        raise ValueError("severity of a notice")
+    return tuple(Notice(*row) for row in zip(get["severity"], get["identifier"], get["message"], strict=True))
+
+
+def _model(get: dict[str, Any], load_cases: tuple[LoadCase, ...]) -> Model:
+    length, force, mass = get["units"]
+    if length not in METRES or force not in NEWTONS or mass not in KILOGRAMS:
+        raise ValueError("units of the model")
+    names = get["group_names"]
+    groups = tuple(names[group] for group in get["groups"].tolist())
+    return Model(
+        title=get["title"],
+        units=Units(length, force, mass),
+        blocks=Blocks(**{name: get[name] for name in BLOCK_ARRAYS}, groups=groups, labels=_labels(get)),
+        fixed=get["fixed"],
+        grounds=_grounds(get),
+        joints=_joints(get),
+        load_cases=load_cases,
+        notices=_notices(_part(get, "notices/")),
+        guides=_guides(get),
+    )
+
+
+def _guides(get: dict[str, Any]) -> Guides:
+    if "guided_blocks" not in get:
+        return NO_GUIDES
+    blocks, bodies = get["guided_blocks"], get["guided_bodies"]
+    numbers = np.unique(bodies)
+    if len(np.unique(blocks)) < len(blocks) or not np.array_equal(numbers, np.arange(len(numbers))):
+        raise ValueError("guided blocks and bodies")
+    return Guides(blocks, bodies, get["guide_motions"], tuple(get["guide_words"]))
+
+
+def _labels(get: dict[str, Any]) -> BlockLabels:
+    if tuple(get["position_names"]) != POSITIONS:
+        raise ValueError("names of the positions of blocks")
+    names = get["member_names"]
+    return BlockLabels(tuple(names[member] for member in get["members"].tolist()), get["positions"])
+
+
+def _joints(get: dict[str, Any]) -> dict[str, Joint]:
+    columns = [get[field.name].tolist() for field in fields(Joint) if field.name != "name"]
+    return {row[0]: Joint(*row) for row in zip(get["joint_names"], *columns, strict=True)}
+
+
+def _grounds(get: dict[str, Any]) -> tuple[Ground, ...]:
+    selective = get["ground_selective"].tolist()
+    blocks = np.split(get["ground_blocks"], get["ground_start"][1:-1]) if selective else []
+    if not set(get["ground_joints"]) <= set(get["joint_names"]):
+        raise ValueError("joint law of a ground plane")
+    return tuple(
+        Ground(point, normal, joint, carried if chosen else None, label)
+        for point, normal, joint, carried, chosen, label in zip(
+            get["ground_points"],
+            get["ground_normals"],
+            get["ground_joints"],
+            blocks,
+            selective,
+            get["ground_labels"],
+            strict=True,
+        )
+    )
+
+
+def _contacts(get: dict[str, Any]) -> Contacts:
+    parts = len(get["report/unsupported_start"]) - 1
+    unsupported = np.split(get["report/unsupported_blocks"], get["report/unsupported_start"][1:-1]) if parts else []
+    report = ContactReport(
+        **{name: get[f"report/{name}"] for name in REPORT_FIELDS},
+        unsupported=tuple(unsupported),
+        notices=_notices(_part(get, "notices/")),
+    )
+    if np.any((get["outline"] < 0) | (get["outline"] > np.diff(get["point_start"]))):
+        raise ValueError("outline of an interface")
+    arrays = {name: get[name] for name in CONTACT_ARRAYS}
+    label = get.get("solid_of_block")
+    if label is not None and not np.array_equal(np.unique(label), np.arange(label.max(initial=-1) + 1)):
+        raise ValueError("numbers of rigid bodies")
+    return Contacts(**arrays, joint_names=tuple(get["joint_names"]), report=report, solid_of_block=label)
+
+
+def _load_case(name: str, get: dict[str, Any]) -> LoadCase:
+    travel, tilt = _part(get, "travel/"), _part(get, "tilt/")
+    settlement = None
+    if "settlement/blocks" in get:
+        settlement = Settlement(**{field: get[f"settlement/{field}"] for field in SETTLEMENT_FIELDS})
+        if len(np.unique(settlement.blocks)) < len(settlement.blocks) or not settlement.unit > 0:
+            raise ValueError("settlement of a support")
+    return LoadCase(
+        name,
+        get["dead_load"],
+        get["live_load"],
+        tuple(get["dead_words"]),
+        tuple(get["live_words"]),
+        settlement=settlement,
+        travel=TravelPosition(**travel) if travel else None,
+        tilt=Tilt(**tilt) if tilt else None,
+    )

@@ -1,0 +1,295 @@
+"""The HDF5 result file: written as one image in memory, read back in full (only importer of h5py).
+
+The file is built in memory because a process that is killed, or a disk that fills up, while HDF5 writes leaves a file
+that nothing can read. Arrays are chunked with gzip, shuffle and Fletcher-32 checksums; single values are stored inside
+object headers, which carry checksums from HDF5 1.10 on. So a damaged file is found out instead of giving other numbers.
+"""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from mbla.deck.units import Units
+from mbla.errors import FileError
+from mbla.results.hdf5.case_content import Content, Value
+from mbla.results.hdf5.content import content_of, root_attributes
+from mbla.results.hdf5.field import Field, unit_text
+from mbla.results.hdf5.layout import (
+    ATTRIBUTES,
+    COMMON_FIELDS,
+    FILETYPE,
+    SHARED_DIMENSIONS,
+    VERSION,
+    fields_of_case,
+)
+from mbla.results.hdf5.restore import results_from
+from mbla.results.results import Results
+
+if TYPE_CHECKING:
+    import h5py
+
+CHUNK_BYTES = 1 << 20
+COMPACT_BYTES = 60_000
+"""single values up to this size stand in the object header, which holds at most 64 KiB"""
+LARGEST_RATIO = 2000
+"""an array cannot be larger than this many times its file: gzip reaches about 1000"""
+
+DAMAGE = (KeyError, RuntimeError, ValueError, TypeError, IndexError, AttributeError, OverflowError, MemoryError)
+"""what reading a damaged file may end with"""
+
+
+def write_results_hdf5(results: Results) -> bytes:
+    """The result file as bytes; the same results give the same bytes.
+
+    Layout: schemas/results.md. It cannot fail for want of disk space; the caller writes the bytes.
+    """
+    import h5py
+
+    content = content_of(results)
+    with h5py.File("results.h5", "w", driver="core", backing_store=False, libver=("v110", "v110")) as file:
+        for name, value in root_attributes(results).items():
+            _set_attribute(file, name, value)
+        for path, field in _fields([case.name for case in results.model.load_cases]):
+            if path in content:
+                _write_field(file, path, field, content.pop(path), results.model.units)
+        if content:
+            raise AssertionError(f"not in the layout: {sorted(content)}")
+        file.flush()
+        return bytes(file.id.get_file_image())
+
+
+def read_results_hdf5(path: Path) -> Results:
+    """Results from a file, complete: nothing of a run is missing but the live objects of the deck.
+
+    Raises
+    ------
+    FileError
+        The file cannot be read, is not an mbla result, has another layout version, is incomplete or damaged.
+    """
+    import h5py
+
+    _try_opening(path)
+    try:
+        with h5py.File(path, "r", locking=False) as file:
+            attributes = _read_attributes(file, path)
+            content = _read_content(file, path.stat().st_size)
+            return results_from(content, attributes)
+    except FileError:
+        raise
+    except OSError as error:
+        what = "not an HDF5 file" if "signature not found" in str(error) else f"damaged: {_short(error)}"
+        raise FileError(f"{path}: {what}") from error
+    except DAMAGE as error:
+        raise FileError(f"{path}: damaged: {_short(error)}") from error
+
+
+def _try_opening(path: Path) -> None:
+    """What the operating system refuses, in its own words: those of HDF5 are long and name addresses in memory."""
+    try:
+        if path.is_dir():
+            raise FileError(f"{path}: is a folder, not a result file")
+        if path.exists() and not path.is_file():  # opening a pipe would wait for ever
+            raise FileError(f"{path}: is not a regular file")
+        path.open("rb").close()
+    except OSError as error:
+        raise FileError(f"{path}: {error.strerror or error}") from error
+
+
+def _short(error: BaseException) -> str:
+    """The first line of an error in words, of HDF5 the cause alone; a KeyError puts its text in quotes."""
+    text = str(error.args[0]) if isinstance(error, KeyError) and error.args else str(error)
+    line = text.splitlines()[0] if text else type(error).__name__
+    cause = re.fullmatch(r"(?:Unable to|Can't) [a-z ]+\((.+)\)", line)
+    return cause[1] if cause else line
+
+
+def _fields(cases: list[str]) -> list[tuple[str, Field]]:
+    """Every dataset that a file with these cases may hold, in the order of writing."""
+    common = [(field.path, field) for field in COMMON_FIELDS]
+    return common + [pair for name in cases for pair in fields_of_case(name)]
+
+
+# --- writing ------------------------------------------------------------------------------------------------------
+
+
+def _set_attribute(owner: h5py.HLObject, name: str, value: str | int) -> None:
+    """An attribute inside the object header; text at its own length, as text of variable length stands outside."""
+    owner.attrs.create(name, _text_array(value) if isinstance(value, str) else np.int64(value))
+
+
+def _text_array(value: str | list[str] | tuple[str, ...]) -> np.typing.NDArray[Any]:
+    """UTF-8 text of fixed length as h5py wants it."""
+    import h5py
+
+    encoded = [text.encode("utf-8", "backslashreplace") for text in ([value] if isinstance(value, str) else value)]
+    kind = h5py.string_dtype("utf-8", max([1, *map(len, encoded)]))
+    array = np.array(encoded, dtype=kind)
+    return array.reshape(()) if isinstance(value, str) else array
+
+
+def _as_array(value: Value, field: Field) -> np.typing.NDArray[Any]:
+    if field.kind == "text":
+        return _text_array(value)  # type: ignore[arg-type]
+    kinds = {"float": np.float64, "int": np.int64, "bool": np.uint8}
+    array = np.ascontiguousarray(value, dtype=kinds[field.kind]) if field.dims else np.array(value, kinds[field.kind])
+    if array.ndim != len(field.dims):
+        raise AssertionError(f"{field.path}: {array.ndim} dimensions, the layout has {len(field.dims)}")
+    return array
+
+
+def _write_field(file: h5py.File, path: str, field: Field, value: Value, units: Units) -> None:
+    array = _as_array(value, field)
+    dataset = _create(file, path, array)
+    _set_attribute(dataset, "units", unit_text(field.unit, units))
+    _set_attribute(dataset, "long_name", field.long_name)
+    for axis, name in enumerate(field.dims):
+        scale = _scale(file, path, name, array.shape[axis])
+        dataset.dims[axis].label = name
+        dataset.dims[axis].attach_scale(scale)
+
+
+def _create(file: h5py.File, path: str, array: np.typing.NDArray[Any]) -> h5py.Dataset:
+    import h5py
+
+    if array.ndim == 0 and array.nbytes <= COMPACT_BYTES:
+        group = file.require_group(path.rpartition("/")[0] or "/")
+        properties = h5py.h5p.create(h5py.h5p.DATASET_CREATE)
+        properties.set_layout(h5py.h5d.COMPACT)
+        properties.set_obj_track_times(False)
+        kind = h5py.h5t.py_create(array.dtype, logical=True)
+        name = path.rpartition("/")[2].encode()
+        space = h5py.h5s.create(h5py.h5s.SCALAR)
+        dataset = h5py.Dataset(h5py.h5d.create(group.id, name, kind, space, dcpl=properties))
+        dataset[()] = array
+        return dataset
+    if array.size == 0 or array.ndim == 0:
+        return file.create_dataset(path, data=array)
+    row_bytes = max(1, array.nbytes // len(array))
+    chunk = (max(1, min(len(array), CHUNK_BYTES // row_bytes)), *array.shape[1:])
+    return file.create_dataset(
+        path, data=array, chunks=chunk, compression="gzip", compression_opts=4, shuffle=True, fletcher32=True
+    )
+
+
+def _scale(file: h5py.File, path: str, name: str, size: int) -> h5py.Dataset:
+    """The dimension scale of that name: in the root group if the dimension is shared, else beside the dataset."""
+    group = file if name in SHARED_DIMENSIONS else file[path.rpartition("/")[0]]
+    if name not in group:
+        scale = _create(file, f"{group.name}/{name}".lstrip("/"), np.arange(size, dtype=np.int64))
+        _set_attribute(scale, "units", "1")
+        _set_attribute(scale, "long_name", f"dimension: {name.replace('_', ' ')}")
+        scale.make_scale(name)
+    scale = group[name]
+    if len(scale) != size:
+        raise AssertionError(f"{path}: {size} along {name}, which has {len(scale)}")
+    return scale
+
+
+# --- reading ------------------------------------------------------------------------------------------------------
+
+
+def _read_attributes(file: h5py.File, path: Path) -> dict[str, str | int]:
+    """Root attributes; what the file is and its version come first."""
+    if "filetype" not in file.attrs or _text(file.attrs["filetype"]) != FILETYPE:
+        raise FileError(f"{path}: not an mbla result file")
+    version = int(file.attrs["version"])
+    if version != VERSION:
+        wrote = _text(file.attrs.get("mbla_version", "of unknown version"))
+        remedy = "run the deck again; its text is in /deck/source_texts" if version < VERSION else "use a newer mbla"
+        raise FileError(
+            f"{path}: layout version {version}, written by mbla {wrote}; this mbla reads version {VERSION}: {remedy}"
+        )
+    if int(file.attrs["complete"]) != 1:
+        raise FileError(f"{path}: incomplete")
+    return {
+        name: int(file.attrs[name]) if name in ("version", "complete") else _text(file.attrs[name])
+        for name in ATTRIBUTES
+    }
+
+
+def _text(value: Any) -> str:
+    return value.decode("utf-8") if isinstance(value, bytes) else str(value)
+
+
+def _read_content(file: h5py.File, file_bytes: int) -> Content:
+    content: Content = {}
+    sizes: dict[str, int] = {"axis": 3, "direction": 3, "component": 6, "pair": 2, "end": 2, "unit": 3}
+    cases = _strings(_dataset(file, "model/load_cases", file_bytes))
+    parts: dict[str, set[bool]] = {}
+    fields = _fields(cases)
+    for path, field in fields:
+        present = path in file
+        if field.part:
+            parts.setdefault(f"{path.split('/')[1]}: {field.part}", set()).add(present)
+        elif not present:
+            raise ValueError(f"{path} is missing")
+        if present:
+            content[path] = _read_field(_dataset(file, path, file_bytes), path, field, sizes)
+    incomplete = [part for part, presence in parts.items() if len(presence) > 1]
+    if incomplete:
+        raise ValueError(f"incomplete: {', '.join(incomplete)}")
+    for path, field in fields:
+        if path in content:
+            _check_indices(path, field, content[path], sizes)
+    return content
+
+
+def _dataset(file: h5py.File, path: str, file_bytes: int) -> h5py.Dataset:
+    import h5py
+
+    dataset = file[path]
+    if not isinstance(dataset, h5py.Dataset):
+        raise ValueError(f"{path} is not a dataset")
+    if dataset.nbytes > LARGEST_RATIO * file_bytes:
+        raise ValueError(f"{path} claims {dataset.nbytes} bytes")
+    return dataset
+
+
+def _strings(dataset: h5py.Dataset) -> list[str]:
+    return [_text(value) for value in np.atleast_1d(dataset[()])]
+
+
+def _read_field(dataset: h5py.Dataset, path: str, field: Field, sizes: dict[str, int]) -> Value:
+    """One dataset, with the type, the dimensions and the finiteness that the layout asks for."""
+    if dataset.ndim != len(field.dims):
+        raise ValueError(f"{path} has {dataset.ndim} dimensions instead of {len(field.dims)}")
+    for name, size in zip(field.dims, dataset.shape, strict=True):
+        own = name if name in SHARED_DIMENSIONS else f"{path.rpartition('/')[0]}/{name}"
+        expected = sizes.get(name, sizes.setdefault(own, size))
+        if size != expected:
+            raise ValueError(f"{path} has {size} along {name} instead of {expected}")
+    if field.kind == "text":
+        texts = _strings(dataset)
+        return texts if field.dims else texts[0]
+    kinds = {"float": "f", "int": "i", "bool": "u"}
+    if dataset.dtype.kind != kinds[field.kind]:
+        raise ValueError(f"{path} is of type {dataset.dtype}")
+    array = np.asarray(dataset[()])
+    if field.kind == "float" and not field.open and not np.isfinite(array).all():
+        raise ValueError(f"{path} is not finite")
+    if field.kind == "bool" and np.any(array > 1):
+        raise ValueError(f"{path} is neither 0 nor 1")
+    array = array.astype({"float": np.float64, "int": np.int64, "bool": np.bool_}[field.kind])
+    return array if field.dims else array.item()
+
+
+def _check_indices(path: str, field: Field, value: Value, sizes: dict[str, int]) -> None:
+    """Indices within what they count; offsets from zero, never falling, to the end of what they divide."""
+
+    def size(name: str) -> int:
+        if name == "body":
+            return sizes["block"] + sizes["ground"]
+        return sizes[name] if name in SHARED_DIMENSIONS else sizes[f"{path.rpartition('/')[0]}/{name}"]
+
+    if not isinstance(value, np.ndarray):
+        return
+    if field.index_of and value.size and (int(value.min()) < 0 or int(value.max()) >= size(field.index_of)):
+        raise ValueError(f"{path} points outside {field.index_of}")
+    if field.start_of and (
+        not len(value) or value[0] != 0 or value[-1] != size(field.start_of) or np.any(np.diff(value) < 0)
+    ):
+        raise ValueError(f"{path} does not divide {field.start_of}")

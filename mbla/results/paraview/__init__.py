@@ -1,0 +1,1 @@
+"""Files for ParaView: blocks, contact points, interfaces, the animation of the mechanism."""

@@ -1,0 +1,48 @@
+"""The animation of a mechanism: a PVD collection of frames in which every block turns by a finite rotation."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from xml.sax.saxutils import quoteattr
+
+import numpy as np
+
+from mbla.model.model import Model
+from mbla.results.collapse.motion import drawn_motion, moved_vertices
+from mbla.results.paraview.cells import BlockCells, block_cells
+from mbla.results.paraview.vtu import block_data, write_cells
+from mbla.results.results import CaseResult
+
+
+def write_frame_vtu(path: Path, model: Model, case: CaseResult, time: float, cells: BlockCells | None = None) -> None:
+    """Blocks at a time from 0 (as built) to 1 (the motion as drawn).
+
+    Point data: ``displacement``, what they have moved. Cell data: ``block``, ``group``, ``fixed``.
+    """
+    vertices = moved_vertices(model.blocks, time * drawn_motion(model, case))
+    data = block_data(model)
+    del data["weight"]
+    write_cells(path, vertices, vertices - model.blocks.vertices, data, cells or block_cells(model.blocks))
+
+
+def frame_times(frames: int) -> list[float]:
+    """Evenly spaced from 0 to 1."""
+    return [float(time) for time in np.linspace(0.0, 1.0, frames)]
+
+
+def collection_pvd(files: Sequence[str], times: Sequence[float]) -> str:
+    """The text of a PVD file that plays the frames."""
+    lines = [
+        '<?xml version="1.0"?>',
+        '<VTKFile type="Collection" version="0.1" byte_order="LittleEndian">',
+        "  <Collection>",
+        *(
+            f'    <DataSet timestep="{time:.6g}" group="" part="0" file={quoteattr(file)}/>'
+            for file, time in zip(files, times, strict=True)
+        ),
+        "  </Collection>",
+        "</VTKFile>",
+        "",
+    ]
+    return "\n".join(lines)

@@ -1,0 +1,118 @@
+"""The shapes and places of a picture, as arrays: edges, ground slabs, hinge axes, arrow, direction of view."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from mbla.arrays import BoolArray, FloatArray, IntArray, row_of_item
+from mbla.contacts.contacts import Contacts
+from mbla.model.blocks import Blocks
+from mbla.model.model import LoadCase, Model
+from mbla.results.collapse.motion import vertex_displacements
+
+STONE, MOVED, FIXED = (0.93, 0.90, 0.83), (0.10, 0.37, 0.61), (0.62, 0.62, 0.62)
+"""red, green and blue of blocks at rest, of the block that moves most, of fixed blocks"""
+THIN = 0.35
+"""extent over the next larger one below which a structure is seen from the front"""
+
+
+def block_edges(blocks: Blocks) -> IntArray:
+    """Edges as pairs of vertices, (n_edges, 2), each once; those that only divide a plane facet are left out."""
+    following = np.empty_like(blocks.loops)
+    following[:-1] = blocks.loops[1:]
+    following[blocks.loop_start[1:] - 1] = blocks.loops[blocks.loop_start[:-1]]
+    facets = blocks.facet_of_face[row_of_item(blocks.loop_start)]
+    low, high = np.minimum(blocks.loops, following), np.maximum(blocks.loops, following)
+    sides, times = np.unique(np.column_stack([facets, low, high]), axis=0, return_counts=True)
+    return np.unique(sides[times == 1][:, 1:], axis=0)
+
+
+def edges_of_blocks(blocks: Blocks, edges: IntArray, chosen: BoolArray) -> IntArray:
+    """Edges of the chosen blocks only."""
+    return edges[chosen[blocks.block_of_vertex[edges[:, 0]]]]
+
+
+def as_vtk_rows(start: IntArray, items: IntArray) -> IntArray:
+    """Ragged rows in the form that VTK wants: each row preceded by its length."""
+    counts = np.diff(start)
+    return np.insert(items, start[:-1], counts)
+
+
+def box_of(points: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Least and greatest coordinates, (3,) each."""
+    return points.min(axis=0), points.max(axis=0)
+
+
+def block_colours(model: Model, motion: FloatArray) -> FloatArray:
+    """Colour of each block, (n_blocks, 3): stone at rest, bluer the farther it moves, grey if fixed."""
+    blocks = model.blocks
+    distance = np.zeros(len(blocks))
+    np.maximum.at(distance, blocks.block_of_vertex, np.linalg.norm(vertex_displacements(blocks, motion), axis=1))
+    share = np.sqrt(distance / (distance.max(initial=0.0) or 1.0))[:, None]
+    colours = (1 - share) * np.array(STONE) + share * np.array(MOVED)
+    colours[model.fixed] = FIXED
+    return np.asarray(colours)
+
+
+def ground_slab(model: Model, contacts: Contacts, ground: int, size: float) -> FloatArray | None:
+    """Corners of a slab behind a ground plane, as wide as what stands on it and a little more, (8, 3) m.
+
+    Ordered as a box from ``min`` to ``max`` with the first coordinate fastest; None where nothing stands on the plane.
+    """
+    touching = (contacts.bodies == len(model.blocks) + ground).any(axis=1)[contacts.interface_of_point]
+    if not touching.any():
+        return None
+    plane = model.grounds[ground]
+    frame = np.linalg.svd(plane.normal[None])[2]  # rows: normal (either sign), then two directions in the plane
+    low, high = box_of((contacts.points[touching] - plane.point) @ frame.T)
+    low[1:] -= 0.04 * size
+    high[1:] += 0.04 * size
+    low[0], high[0] = sorted((0.0, -float(np.sign(frame[0] @ plane.normal)) * 0.02 * size))
+    corners = np.array([[x, y, z] for z in (low[2], high[2]) for y in (low[1], high[1]) for x in (low[0], high[0])])
+    return np.asarray(corners @ frame + plane.point)
+
+
+def hinge_axes(contacts: Contacts, chosen: BoolArray) -> IntArray:
+    """Chosen points that follow each other on one interface, as pairs of points, (n, 2)."""
+    rows = np.flatnonzero(chosen)
+    owners = contacts.interface_of_point[rows]
+    chained = owners[1:] == owners[:-1]
+    return np.column_stack([rows[:-1][chained], rows[1:][chained]])
+
+
+def interface_sides(contacts: Contacts, chosen: BoolArray) -> IntArray:
+    """Sides of the outer boundaries of chosen interfaces, as pairs of points, (n, 2)."""
+    place = np.arange(len(contacts.points)) - contacts.point_start[contacts.interface_of_point]
+    corners = contacts.outline[contacts.interface_of_point]
+    following = np.where(place + 1 < corners, np.arange(len(place)) + 1, np.arange(len(place)) - place)
+    on_outline = chosen[contacts.interface_of_point] & (place < corners)
+    return np.column_stack([np.flatnonzero(on_outline), following[on_outline]])
+
+
+def live_load_arrow(model: Model, load_case: LoadCase, low: FloatArray, high: FloatArray, length: float) -> FloatArray:
+    """Start and tip of an arrow above a box, in the direction of the live load on free blocks, (2, 3) m.
+
+    Both are the same point where the live load has no resultant to speak of.
+    """
+    forces = load_case.live_load[model.free, :3]
+    sizes = np.linalg.norm(forces, axis=1)
+    resultant = forces.sum(axis=0)
+    anchor = np.array([*((low + high) / 2)[:2], high[2] + 0.35 * length])
+    if sizes.sum() == 0 or np.linalg.norm(resultant) < 0.05 * sizes.sum():
+        return np.array([anchor, anchor])
+    anchor[:2] = np.average(model.blocks.centroids[model.free, :2], axis=0, weights=sizes)
+    step = length * resultant / np.linalg.norm(resultant)
+    start = anchor - step * [0.5, 0.5, 1.0 if step[2] < 0 else 0.0]
+    return np.array([start, start + step])
+
+
+def front_axis(extents: FloatArray, travel: FloatArray) -> int | None:
+    """Horizontal axis along which to look: the thin one, unless the mechanism moves along it; None for a slanted view.
+
+    extents : (3,) of the structure
+    travel  : (3,) largest displacement along each axis
+    """
+    axis = int(np.argmin(extents[:2]))
+    across = float(np.delete(extents, axis).min())
+    hidden = travel[axis] > 0.5 * float(np.max(travel)) > 0
+    return None if hidden or extents[axis] > THIN * across else axis

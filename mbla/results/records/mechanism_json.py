@@ -1,0 +1,76 @@
+"""A mechanism as an object of the JSON record: modes, rigid parts, hinges, where the power goes."""
+
+from __future__ import annotations
+
+from collections import Counter
+from typing import Any
+
+import numpy as np
+
+from mbla.contacts.contacts import Contacts
+from mbla.model.model import LoadCase, Model
+from mbla.results.collapse.collapse import Collapse, collapse_of
+from mbla.results.collapse.interface_modes import InterfaceMode
+from mbla.results.collapse.rigid_parts import PartMotion, moving_share, reach
+from mbla.results.collapse.work import dissipated_by_joint, loads_by_group
+from mbla.results.records.numbers import number, numbers
+from mbla.solution.solution import ContactMode, Mechanics
+
+MOST_PARTS = 100
+"""parts that the record holds, the heaviest; ``moving_parts`` counts them all, the result file holds them all"""
+
+
+def mechanism_json(model: Model, contacts: Contacts, load_case: LoadCase, mechanics: Mechanics) -> dict[str, Any]:
+    """Contact points by mode, interfaces by mode, parts and work."""
+    collapse = collapse_of(model, contacts, load_case, mechanics)
+    share = moving_share(model, collapse.parts)
+    return {
+        **_points(mechanics),
+        "interfaces": {mode.name.lower(): collapse.interfaces.count(mode) for mode in InterfaceMode},
+        "hinges": collapse.interfaces.count(InterfaceMode.HINGE),
+        "reach": reach(share),
+        "moving_blocks": int(np.sum(~model.fixed & (collapse.parts > 0))),
+        "moving_weight_share": number(share),
+        "moving_parts": len(collapse.motions),
+        "parts": [_part(model, motion) for motion in collapse.motions[:MOST_PARTS]],
+        "work": _work(model, contacts, load_case, mechanics, collapse),
+    }
+
+
+def _points(mechanics: Mechanics) -> dict[str, int]:
+    """Contact points by mode."""
+    modes = (ContactMode.OPEN, ContactMode.SLIDE, ContactMode.STICK)
+    return {mode.name.lower(): int((mechanics.modes == mode).sum()) for mode in modes}
+
+
+def _part(model: Model, part: PartMotion) -> dict[str, Any]:
+    """Blocks by group, and how they move: ``turns`` about an axis or ``moves`` along a direction."""
+    groups = Counter(model.blocks.groups[block] for block in part.blocks.tolist())
+    return {
+        "part": part.number,
+        "blocks": len(part.blocks),
+        "groups": dict(sorted(groups.items())),
+        "weight": number(part.weight),
+        "motion": "turns" if part.turns else "moves",
+        "axis_point": numbers(part.axis_point) if part.turns else None,
+        "direction": numbers(part.direction),
+    }
+
+
+def _work(
+    model: Model, contacts: Contacts, load_case: LoadCase, mechanics: Mechanics, collapse: Collapse
+) -> dict[str, Any]:
+    """Powers, with unit power of the live load: ``live`` is the load factor, ``dead`` negative where weights rise."""
+    work = collapse.work
+    return {
+        "live": number(work.live),
+        "dead": number(work.dead),
+        "friction": number(float(work.friction.sum())),
+        "cohesion": number(float(work.cohesion.sum())),
+        "normal": number(float(work.normal.sum())),
+        "joints": {name: number(sum(powers)) for name, powers in dissipated_by_joint(contacts, work).items()},
+        "groups": {
+            name: {"live": number(live), "dead": number(dead)}
+            for name, (live, dead) in loads_by_group(model, load_case, mechanics).items()
+        },
+    }

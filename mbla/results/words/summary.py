@@ -1,0 +1,88 @@
+"""What the terminal shows of a run: the model in a line, status and answer of each case, then words."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+from mbla.model.model import LoadCase, Model
+from mbla.results.collapse.collapse import collapse_of
+from mbla.results.outcome import associative_of, notices_of, result_of
+from mbla.results.results import CaseResult, Results
+from mbla.results.series import series_of
+from mbla.results.tilt_angle import angle_at
+from mbla.results.words.certificate_words import not_held_summary
+from mbla.results.words.mechanism_words import mechanism_summary
+from mbla.results.words.series_words import worst_words
+from mbla.results.words.settlement_words import reaction_figure, reaction_unit
+from mbla.results.words.text import counted, number, sentence, table
+from mbla.results.words.verdict_words import bound_words, range_summary, reasons, verdict
+from mbla.solution.solution import Mechanics, Status
+
+DETAIL = "    "
+
+
+def summary_lines(results: Results) -> list[str]:
+    """The lines, at most ``WIDTH`` columns wide: model, table of cases, each case in words, warnings."""
+    model, contacts = results.model, results.contacts
+    counts = (
+        f"{results.deck.name}: {counted(len(model.blocks), 'block')}, {counted(len(contacts), 'interface')}, "
+        f"{counted(len(contacts.points), 'contact point')}, weight {number(model.total_weight)} {model.units.force}"
+    )
+    lines = [counts, *_table(results)]
+    for case in results.cases:
+        lines += _in_words(results, case)
+    lines += [line for series in series_of(results.cases) for line in sentence(worst_words(results.model, series))]
+    warnings = [notice for notice in notices_of(results) if notice.severity == "warning"]
+    return lines + [line for notice in warnings for line in sentence(str(notice))]
+
+
+def _table(results: Results) -> list[str]:
+    """Status and answer of every case; the associative answer beside it where the deck's flow rule is another."""
+    if not results.cases:
+        return []
+    rules = {case.solution.flow_rule for case in results.cases} - {"associative"}
+    answers = list(dict.fromkeys(_answer(results.model, case) for case in results.cases))
+    head = ["load case", "status", *answers, *(["associative"] if rules else [])]
+    return table(head, [_row(results.model, case, answers)[: len(head)] for case in results.cases], left=2)
+
+
+def _answer(model: Model, case: CaseResult) -> str:
+    """What the load factor of a case stands for: the head of its column."""
+    load_case = case.load_case
+    if load_case.settlement is not None:
+        return f"reaction [{reaction_unit(model, load_case.settlement)}]"
+    return "load factor" if load_case.tilt is None else "angle [degree]"
+
+
+def _row(model: Model, case: CaseResult, answers: Sequence[str]) -> list[str]:
+    """A cell for each kind of answer, filled in that of the case; the associative answer is of the same kind."""
+    status = case.status.value if case.status is Status.SOLVED else case.status.value.replace("_", " ").upper()
+    own = _figure(case.load_case, result_of(case))
+    figures = [own if answer == _answer(model, case) else "" for answer in answers]
+    return [case.load_case.name, status, *figures, _figure(case.load_case, associative_of(case))]
+
+
+def _figure(load_case: LoadCase, mechanics: Mechanics | None) -> str:
+    if mechanics is None:
+        return "-"
+    if load_case.settlement is not None:
+        return reaction_figure(load_case.settlement, mechanics.load_factor)
+    if load_case.tilt is None:
+        return number(mechanics.load_factor)
+    angle = angle_at(load_case.tilt, mechanics.load_factor)
+    return "-" if math.isnan(angle) else number(angle)
+
+
+def _in_words(results: Results, case: CaseResult) -> list[str]:
+    """How it collapses; where it does not, or that is not known, why and what is known all the same."""
+    model, solution, mechanics = results.model.of_case(case.load_case), case.solution, result_of(case)
+    text = f"{case.load_case.name}: {verdict(model, case)}"
+    if mechanics is not None:
+        text += f": {mechanism_summary(model, collapse_of(model, results.contacts, case.load_case, mechanics))}"
+    lines = sentence(text)
+    if solution.mechanics is None and solution.certificate is not None:
+        lines += sentence(not_held_summary(model, solution.certificate), DETAIL)
+    for why in (range_summary(model, case), *reasons(case), bound_words(model, case)):
+        lines += sentence(why, DETAIL)
+    return lines

@@ -1,0 +1,140 @@
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from mbla.results.collapse.interface_modes import InterfaceMode, InterfaceMotion, interface_motion, stuck_interfaces
+from mbla.solution.solution import ContactMode, Mechanics
+from mbla.solution.statics import contact_velocities
+from tests.results.synthetic import tower_contacts, tower_mechanics, tower_model
+
+MODEL, CONTACTS, MECHANICS = tower_model(), tower_contacts(), tower_mechanics()
+STICK, SLIDE, OPEN = ContactMode.STICK, ContactMode.SLIDE, ContactMode.OPEN
+EDGE, CORNER, BED = np.array([1.0, 0.5, 1]), np.array([1.0, 1, 1]), np.array([0.5, 0.5, 1])
+
+
+def turning(axis_point: Any, rotation: Any, velocity: Any = (0, 0, 0)) -> Mechanics:
+    """The tower turns about a point, and moves besides; modes of its bed as the law without dilatancy has them."""
+    mechanism = np.zeros((3, 6))
+    arm = MODEL.blocks.centroids[1] - np.asarray(axis_point, float)
+    mechanism[1, 3:] = rotation
+    mechanism[1, :3] = np.asarray(velocity, float) + np.cross(mechanism[1, 3:], arm)
+    velocities = contact_velocities(MODEL, CONTACTS, mechanism)
+    speed = np.abs(velocities).max()
+    modes = np.full(8, STICK)
+    modes[np.hypot(velocities[:, 1], velocities[:, 2]) > 1e-9 * speed] = SLIDE
+    modes[velocities[:, 0] > 1e-9 * speed] = OPEN
+    return replace(MECHANICS, mechanism=mechanism, contact_velocities=velocities, modes=modes)
+
+
+def motion_of(mechanics: Mechanics) -> InterfaceMotion:
+    motion = interface_motion(MODEL, CONTACTS, mechanics)
+    assert motion.modes[1] == InterfaceMode.STICK  # the brick stays in every case here
+    return motion
+
+
+@pytest.mark.parametrize(
+    ("mechanics", "mode", "slides"),
+    [
+        (turning(EDGE, (0, 1, 0)), InterfaceMode.HINGE, False),
+        (turning(CORNER, (-1, 1, 0)), InterfaceMode.HINGE, False),
+        (turning(EDGE, (0, 1, 0), (0.5, 0, 0)), InterfaceMode.HINGE, True),
+        (turning(EDGE, (0, 1, 0), (2, 0, 0)), InterfaceMode.SLIDE, True),  # slides more than it opens
+        (turning(BED, (0, 0, 0), (1, 0, 0)), InterfaceMode.SLIDE, True),
+        (turning(BED, (0, 0, 1)), InterfaceMode.TWIST, True),
+        (turning((0.5, 1.1, 1), (0, 0, 1)), InterfaceMode.TWIST, True),  # centre within the circle of the corners
+        (turning((0.5, 1.3, 1), (0, 0, 1)), InterfaceMode.SLIDE, True),
+        (turning(BED, (0, 0, 0), (0, 0, 1)), InterfaceMode.OPEN, False),
+        (turning((9, 0.5, 1), (0, 1, 0)), InterfaceMode.OPEN, False),  # its axis lies outside the bed
+    ],
+)
+def test_modes_of_rigid_motions(mechanics: Mechanics, mode: InterfaceMode, slides: bool) -> None:
+    motion = motion_of(mechanics)
+    assert InterfaceMode(int(motion.modes[0])) is mode
+    assert bool(motion.slides[0]) is slides
+    assert motion.count(mode) == 1
+    assert np.isfinite(motion.hinge_points[0]).all() == (mode is InterfaceMode.HINGE)
+    assert np.isnan(motion.hinge_points[1]).all()
+
+
+@pytest.mark.parametrize("scale", [1e-9, 1e9])
+def test_modes_are_free_of_the_size_of_the_mechanism(scale: float) -> None:
+    for mechanics in (turning(EDGE, (0, 1, 0), (0.5, 0, 0)), turning(BED, (0, 0, 1)), turning(CORNER, (-1, 1, 0))):
+        scaled = replace(
+            mechanics,
+            mechanism=scale * mechanics.mechanism,
+            contact_velocities=scale * mechanics.contact_velocities,
+        )
+        first, second = motion_of(mechanics), motion_of(scaled)
+        assert first.modes.tolist() == second.modes.tolist()
+        assert second.hinge_points[0] == pytest.approx(first.hinge_points[0], nan_ok=True)
+
+
+def test_a_hinge_about_an_edge_has_its_axis_there() -> None:
+    motion = motion_of(turning(EDGE, (0, 2, 0)))
+    assert motion.hinge_points[0] == pytest.approx(EDGE)
+    assert motion.hinge_directions[0] == pytest.approx([0, 1, 0])
+    assert motion.rotation[0] == pytest.approx([0, 2, 0])
+    assert motion.translation[0] == pytest.approx([0, 0, 1])  # the middle of the bed rises
+
+
+def test_a_hinge_about_a_corner_runs_through_it() -> None:
+    motion = motion_of(turning(CORNER, (-1, 1, 0)))
+    assert motion.hinge_points[0] == pytest.approx(CORNER)
+    assert motion.hinge_directions[0] == pytest.approx([-(0.5**0.5), 0.5**0.5, 0])
+
+
+def test_the_axis_lies_in_the_interface_though_the_rotation_does_not() -> None:
+    """The tower rocks about its edge and spins a little about the vertical."""
+    motion = motion_of(turning(EDGE, (0, 1, 0.2)))
+    assert InterfaceMode(int(motion.modes[0])) is InterfaceMode.HINGE
+    assert motion.hinge_directions[0] == pytest.approx([0, 1, 0])
+
+
+def test_where_one_side_crushes_the_axis_is_the_line_between() -> None:
+    """Turning about the line x = 0.8 the edge x = 1 is pressed in and the edge x = 0 opens."""
+    motion = motion_of(turning((0.8, 0.5, 1), (0, 1, 0)))
+    assert InterfaceMode(int(motion.modes[0])) is InterfaceMode.HINGE
+    assert motion.hinge_points[0] == pytest.approx([0.8, 0.5, 1])
+
+
+def test_an_associative_hinge_that_slides_keeps_its_axis_at_the_edge() -> None:
+    """With dilatancy the closed edge lifts too; the axis of the forces stays where the faces touch."""
+    mechanics = turning(EDGE, (0, 1, 0), (0.3, 0, 0.3 * 0.65))
+    modes = mechanics.modes.copy()
+    modes[[1, 2]] = SLIDE  # as the associative rule counts them
+    motion = motion_of(replace(mechanics, modes=modes))
+    assert InterfaceMode(int(motion.modes[0])) is InterfaceMode.HINGE
+    assert motion.hinge_points[0] == pytest.approx(EDGE)
+
+
+def test_faces_that_part_in_parallel_are_no_hinge_whatever_their_points_say() -> None:
+    mechanics = turning(BED, (0, 0, 0), (0, 0, 1))
+    modes = mechanics.modes.copy()
+    modes[0] = STICK
+    assert InterfaceMode(int(motion_of(replace(mechanics, modes=modes)).modes[0])) is InterfaceMode.OPEN
+
+
+@pytest.mark.parametrize(("speed", "together"), [(0.9e-4, True), (1.1e-4, False)])
+def test_blocks_move_together_below_a_share_of_the_fastest_contact(speed: float, together: bool) -> None:
+    """The brick creeps on the ground while the tower falls."""
+    motion = np.zeros((3, 6))
+    motion[1, 2] = 1.0
+    motion[2, 0] = speed
+    assert stuck_interfaces(MODEL, CONTACTS, motion).tolist() == [False, together]
+
+
+def test_what_follows_does_not_depend_on_which_body_is_called_a() -> None:
+    """The same bed from the tower's side: bodies and normal swapped."""
+    bodies, frames, normals = CONTACTS.bodies.copy(), CONTACTS.frames.copy(), CONTACTS.normals.copy()
+    bodies[0], normals[0] = [1, 0], [0, 0, -1]
+    frames[:4] = [[0, 0, -1], [1, 0, 0], [0, -1, 0]]
+    swapped = replace(CONTACTS, bodies=bodies, frames=frames, normals=normals)
+    mechanics = turning(EDGE, (0, 1, 0))
+    velocities = contact_velocities(MODEL, swapped, mechanics.mechanism)
+    other = interface_motion(MODEL, swapped, replace(mechanics, contact_velocities=velocities))
+    assert velocities[:, 0] == pytest.approx(mechanics.contact_velocities[:, 0])
+    assert other.hinge_points[0] == pytest.approx(EDGE)
+    assert other.rotation[0] == pytest.approx([0, -1, 0])
+    assert other.hinge_directions[0] == pytest.approx([0, -1, 0])

@@ -1,0 +1,126 @@
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from mbla.contacts.contacts import Contacts
+from mbla.model.model import Model
+from mbla.results.collapse.mechanics import (
+    curvature_sides,
+    interface_resultants,
+    live_load_in_g,
+    load_on_structure,
+    support_reactions,
+)
+from mbla.solution.solution import Mechanics
+from tests.results.synthetic import cuboids, horizontal_contacts, tower_contacts, tower_mechanics, tower_model
+
+
+@pytest.fixture(scope="module")
+def model() -> Model:
+    return tower_model()
+
+
+@pytest.fixture(scope="module")
+def contacts() -> Contacts:
+    return tower_contacts()
+
+
+@pytest.fixture(scope="module")
+def mechanics() -> Mechanics:
+    return tower_mechanics()
+
+
+def test_resultants_carry_weight_and_push(model: Model, contacts: Contacts, mechanics: Mechanics) -> None:
+    resultants = interface_resultants(contacts, mechanics.contact_forces)
+    assert resultants[:, :3] == pytest.approx(np.array([[-5, 0, 10], [-5, 0, 10]]))
+    # tower: 10 N at the edge, 0.5 m from the centroid of the bed; brick: the push at 0.25 m above it
+    assert resultants[:, 3:] == pytest.approx(np.array([[0, -5, 0], [0, -1.25, 0]]))
+
+
+def test_reactions_balance_the_loads(model: Model, contacts: Contacts, mechanics: Mechanics) -> None:
+    reactions = support_reactions(model, contacts, mechanics.contact_forces)
+    assert [reaction.support for reaction in reactions] == ["ground z = 0", "base[0]"]
+    assert reactions[0].wrench[:3] == pytest.approx([-5, 0, 10])
+    total = sum(reaction.wrench for reaction in reactions)
+    load = load_on_structure(model, model.load_cases[0], 0.5)
+    assert load[:3] == pytest.approx([10, 0, -20])
+    assert total + load == pytest.approx(np.zeros(6), abs=1e-12)
+
+
+def test_reaction_does_not_depend_on_the_order_of_bodies(
+    model: Model, contacts: Contacts, mechanics: Mechanics
+) -> None:
+    """The same bed described from the tower's side: bodies and normal swapped, forces unchanged in the turned frame."""
+    turned = contacts.frames.copy()
+    turned[:4] = [[0, 0, -1], [1, 0, 0], [0, -1, 0]]
+    bodies = contacts.bodies.copy()
+    bodies[0] = [1, 0]
+    forces = mechanics.contact_forces.copy()
+    forces[:4, 1] *= -1  # tangent 1 stays, the force on the other body is opposite
+    swapped = replace(contacts, bodies=bodies, frames=turned)
+    before = support_reactions(model, contacts, mechanics.contact_forces)
+    after = support_reactions(model, swapped, forces)
+    for one, other in zip(before, after, strict=True):
+        assert one.support == other.support
+        assert one.wrench == pytest.approx(other.wrench)
+
+
+def test_many_fixed_blocks_are_summed_by_group() -> None:
+    n = 20
+    lower = np.array([[i, 0, 0] for i in range(n)] + [[0, 0, 1]], float)
+    upper = lower + 1
+    upper[-1] = [n, 1, 2]
+    blocks = cuboids(lower, upper, ["plinth"] * n + ["beam"])
+    model = replace(tower_model(), blocks=blocks, fixed=np.array([True] * n + [False]), grounds=())
+    contacts = horizontal_contacts([[i, n] for i in range(n)], [(i, i + 1, 0, 1, 1) for i in range(n)])
+    forces = np.tile([0.25, 0, 0], (4 * n, 1))
+    (reaction,) = support_reactions(model, contacts, forces)
+    assert reaction.support == "plinth (fixed blocks)"
+    assert reaction.wrench[:3] == pytest.approx([0, 0, n])
+    few = replace(model, fixed=np.array([True] * 3 + [False] * (n - 2)))
+    assert [each.support for each in support_reactions(few, contacts, forces)] == [f"plinth[{i}]" for i in range(3)]
+
+
+def test_acceleration_counts_in_g(model: Model) -> None:
+    case = model.load_cases[0]
+    assert live_load_in_g(model, case) == pytest.approx(1.0)
+    assert live_load_in_g(model, replace(case, live_load=2 * case.live_load)) == pytest.approx(2.0)
+    one = case.live_load * np.array([0, 1, 0])[:, None]
+    assert live_load_in_g(model, replace(case, live_load=one)) == pytest.approx(1.0)
+
+
+def test_other_live_loads_do_not_count_in_g(model: Model) -> None:
+    case = model.load_cases[0]
+    assert live_load_in_g(model, replace(case, live_words=("force (1, 0, 0) N on tower[0]",))) is None
+    assert live_load_in_g(model, replace(case, live_words=())) is None
+    uneven = case.live_load * np.array([1, 1, 2])[:, None]
+    assert live_load_in_g(model, replace(case, live_load=uneven)) is None
+    assert live_load_in_g(model, replace(case, live_load=np.zeros((3, 6)))) is None
+
+
+def chain(points: Any) -> tuple[Model, Contacts]:
+    """A model of unit blocks about these centroids, each touching the next, between two fixed ones at the ends."""
+    n = len(points)
+    blocks = cuboids(np.array(points) - 0.1, np.array(points) + 0.1, ["arch"] * n)
+    model = replace(tower_model(), blocks=blocks, fixed=np.array([True] + [False] * (n - 2) + [True]), grounds=())
+    contacts = horizontal_contacts([[i, i + 1] for i in range(n - 1)], [(0, 1, 0, 1, 0)] * (n - 1))
+    return model, contacts
+
+
+def test_outside_of_a_curved_chain() -> None:
+    """Centroids and joints on a half circle: outwards is away from its centre, at the ends too."""
+    angles = np.linspace(np.pi, 0, 13)
+    model, contacts = chain([[np.cos(a), 0, np.sin(a)] for a in angles])
+    joints = (angles[1:] + angles[:-1]) / 2
+    radii = np.column_stack([np.cos(joints), np.zeros(12), np.sin(joints)])
+    sides = curvature_sides(model, replace(contacts, centroids=radii))
+    along = np.einsum("ij,ij->i", sides, radii) / np.linalg.norm(sides, axis=1)
+    assert along[1:-1] == pytest.approx(1)
+    assert (along[[0, -1]] > 0.9).all()
+
+
+def test_straight_chain_has_no_outside() -> None:
+    model, contacts = chain([[i, 0, 0] for i in range(5)])
+    assert not curvature_sides(model, replace(contacts, centroids=np.array([[i + 0.5, 0, 0] for i in range(4)]))).any()

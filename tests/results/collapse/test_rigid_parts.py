@@ -1,0 +1,172 @@
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from mbla.contacts.contacts import Contacts
+from mbla.model.model import Model
+from mbla.results.collapse.rigid_parts import moving_share, part_motions, reach, resting_blocks, rigid_parts
+from mbla.results.words.part_words import direction_words, motion_words, part_lines
+from mbla.results.words.text import WIDTH
+from tests.results.synthetic import cuboids, horizontal_contacts, tower_contacts, tower_mechanics, tower_model
+
+
+def stack(n: int) -> tuple[Model, Contacts]:
+    """Unit cubes one on the other, the lowest fixed, each heavier than the one below."""
+    lower = np.array([[0, 0, i] for i in range(n)], float)
+    model = replace(
+        tower_model(),
+        blocks=cuboids(lower, lower + 1, ["stack"] * n, np.arange(1.0, n + 1)),
+        fixed=np.arange(n) == 0,
+        grounds=(),
+    )
+    contacts = horizontal_contacts([[i, i + 1] for i in range(n - 1)], [(0, 1, 0, 1, i + 1) for i in range(n - 1)])
+    return model, contacts
+
+
+def rigid(model: Model, blocks: Any, point: Any, rotation: Any, velocity: Any = (0, 0, 0)) -> Any:
+    """Motion in which these blocks turn about a point, and move besides."""
+    motion = np.zeros((len(model.blocks), 6))
+    motion[blocks, 3:] = rotation
+    motion[blocks, :3] = velocity + np.cross(rotation, model.blocks.centroids[blocks] - np.asarray(point, float))
+    return motion
+
+
+def test_blocks_that_turn_together_are_one_part() -> None:
+    model, contacts = stack(6)
+    motion = rigid(model, [3, 4, 5], (1, 0.5, 3), (0.0, 1.0, 0.0))
+    parts = rigid_parts(model, contacts, motion)
+    assert parts.tolist() == [0, 0, 0, 1, 1, 1]
+    (part,) = part_motions(model, parts, motion)
+    assert part.blocks.tolist() == [3, 4, 5]
+    assert part.weight == pytest.approx((4 + 5 + 6) * 9.81)
+    assert part.turns
+    assert part.direction == pytest.approx([0, 1, 0])
+    assert part.axis_point == pytest.approx([1, 0.5, 3])
+
+
+def test_two_parts_are_numbered_by_weight() -> None:
+    model, contacts = stack(6)
+    motion = rigid(model, [1, 2], (0, 0, 1), (0, 0, 0), (1.0, 0, 0)) + rigid(model, [3, 4, 5], (1, 0.5, 3), (0, 1, 0))
+    parts = rigid_parts(model, contacts, motion)
+    assert parts.tolist() == [0, 2, 2, 1, 1, 1]
+    first, second = part_motions(model, parts, motion)
+    assert first.turns
+    assert not second.turns
+    assert second.direction == pytest.approx([1, 0, 0])
+
+
+def test_a_part_that_falls_back_to_rest_joins_the_supports() -> None:
+    """Blocks at rest above a moving one form one part with the supports, whatever they touch."""
+    model, contacts = stack(4)
+    assert rigid_parts(model, contacts, rigid(model, [1], (0, 0, 0), (0, 0, 0), (1.0, 0, 0))).tolist() == [0, 1, 0, 0]
+
+
+def test_nothing_moves_nothing_but_rest() -> None:
+    model, contacts = stack(3)
+    still = np.zeros((3, 6))
+    parts = rigid_parts(model, contacts, still)
+    assert parts.tolist() == [0, 0, 0]
+    assert part_motions(model, parts, still) == ()
+    assert part_lines(model, parts, ()) == ["  No block moves."]
+
+
+def test_a_structure_without_anything_at_rest_has_no_part_zero() -> None:
+    model, contacts = stack(3)
+    model = replace(model, fixed=np.zeros(3, dtype=bool))
+    motion = rigid(model, [0, 1, 2], (0, 0, 0), (0, 0, 0), (0, 0, -1.0))
+    assert rigid_parts(model, contacts, motion).tolist() == [1, 1, 1]
+    assert part_motions(model, np.array([1, 1, 1]), motion)[0].direction == pytest.approx([0, 0, -1])
+
+
+def test_blocks_without_contact_move_alone() -> None:
+    model, _ = stack(3)
+    apart = replace(
+        tower_contacts(),
+        bodies=np.zeros((0, 2), dtype=np.int64),
+        normals=np.zeros((0, 3)),
+        areas=np.zeros(0),
+        centroids=np.zeros((0, 3)),
+        point_start=np.zeros(1, dtype=np.int64),
+        points=np.zeros((0, 3)),
+        frames=np.zeros((0, 3, 3)),
+    )
+    motion = rigid(model, [1, 2], (0, 0, 0), (0, 0, 0), (0, 0, -1.0))
+    assert rigid_parts(model, apart, motion).tolist() == [0, 2, 1]
+
+
+@pytest.mark.parametrize("scale", [1e-9, 1.0, 1e9])
+def test_parts_are_free_of_the_size_of_the_mechanism(scale: float) -> None:
+    model, contacts = stack(6)
+    motion = rigid(model, [1, 2], (0, 0, 1), (0, 0, 0), (1.0, 0, 0)) + rigid(model, [3, 4, 5], (1, 0.5, 3), (0, 1, 0))
+    parts = rigid_parts(model, contacts, scale * motion)
+    assert parts.tolist() == [0, 2, 2, 1, 1, 1]
+    assert part_motions(model, parts, scale * motion)[0].axis_point == pytest.approx([1, 0.5, 3])
+
+
+def test_a_turn_too_slight_for_its_size_is_a_travel() -> None:
+    model, contacts = stack(3)
+    for rotation, turns in ((1e-3, False), (0.1, True)):
+        motion = rigid(model, [1, 2], (0.5, 0.5, 2), (0, rotation, 0), (1.0, 0, 0))
+        (part,) = part_motions(model, rigid_parts(model, contacts, motion), motion)
+        assert part.turns is turns
+    assert part.axis_point == pytest.approx([0.5, 0.5, 2 - 1 / 0.1])  # the centre of rotation lies below
+
+
+def test_only_the_tower_moves() -> None:
+    model, mechanics = tower_model(), tower_mechanics()
+    assert rigid_parts(model, tower_contacts(), mechanics.mechanism).tolist() == [0, 1, 0]
+    assert resting_blocks(model, mechanics.mechanism).tolist() == [True, False, True]
+
+
+def test_share_of_the_weight_that_moves_and_its_name() -> None:
+    model = tower_model()
+    assert moving_share(model, np.array([0, 1, 0])) == pytest.approx(0.5)  # the base is fixed and does not count
+    assert moving_share(replace(model, fixed=np.ones(3, dtype=bool)), np.zeros(3, dtype=np.int64)) == 0.0
+    assert [reach(share) for share in (0.0, 0.1, 0.3, 0.5, 1.0)] == ["local", "local", "partial", "global", "global"]
+
+
+def test_parts_in_words() -> None:
+    model, contacts = stack(6)
+    motion = rigid(model, [1, 2], (0, 0, 1), (0, 0, 0), (1.0, 0, 0)) + rigid(model, [3, 4, 5], (1, 0.5, 3), (0, 1, 0))
+    parts = rigid_parts(model, contacts, motion)
+    lines = part_lines(model, parts, part_motions(model, parts, motion))
+    text = " ".join(" ".join(lines).split())
+    assert "The mechanism is global: 5 of 5 free blocks, 100 % of the weight, move in 2 rigid parts." in text
+    assert "1: stack[3..5] turns about +y at (1, 0.5, 3) 3 147.15" in text
+    assert "2: stack[1..2] moves along +x 2 49.05" in text
+
+
+def test_many_parts_are_shortened_and_counted() -> None:
+    n = 40
+    model, contacts = stack(n)
+    motion = np.zeros((n, 6))
+    motion[1:, 0] = np.arange(1.0, n)  # each slides on the one below
+    parts = rigid_parts(model, contacts, motion)
+    lines = part_lines(model, parts, part_motions(model, parts, motion))
+    assert len(part_motions(model, parts, motion)) == n - 1
+    assert "and 19 lighter ones" in lines[-1]
+    assert max(map(len, lines)) <= WIDTH
+
+
+def test_directions_by_name_where_they_follow_an_axis() -> None:
+    assert direction_words(np.array([0.0, -1.0, 0.0])) == "-y"
+    assert direction_words(np.array([0.8, 0.0, 0.6])) == "(0.8, 0, 0.6)"
+
+
+def test_long_lists_of_blocks_give_way_to_the_rest_of_the_row() -> None:
+    model, contacts = stack(3)
+    model = replace(model, blocks=replace(model.blocks, groups=("a" * 150,) * 3))
+    motion = rigid(model, [1, 2], (1, 0.5, 1), (0, 1, 0))
+    lines = part_lines(model, rigid_parts(model, contacts, motion), part_motions(model, np.array([0, 1, 1]), motion))
+    assert max(map(len, lines)) <= WIDTH
+    assert motion_words(model, part_motions(model, np.array([0, 1, 1]), motion)[0]) in lines[-1]
+
+
+def test_equal_parts_are_numbered_by_their_first_block_though_weights_differ_by_rounding() -> None:
+    model, contacts = stack(5)
+    model = replace(model, blocks=replace(model.blocks, densities=1 + 1e-15 * np.array([0, 1, 5, 2, 4])))
+    motion = np.zeros((5, 6))
+    motion[1:, 0] = [1, 2, 3, 4]
+    assert rigid_parts(model, contacts, motion).tolist() == [0, 1, 2, 3, 4]

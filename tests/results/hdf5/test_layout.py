@@ -1,0 +1,85 @@
+import re
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import h5py
+import pytest
+
+from mbla.deck.units import Units
+from mbla.results.hdf5.field import unit_text
+from mbla.results.hdf5.layout import ATTRIBUTES, LAYOUT, SHARED_DIMENSIONS, VERSION, layout_table
+from mbla.results.hdf5.result_file import write_results_hdf5
+from tests.results.synthetic import full_results
+
+PAGE = Path(__file__).parents[3] / "schemas" / "results.md"
+
+
+@pytest.fixture(scope="module")
+def file(tmp_path_factory: pytest.TempPathFactory) -> Iterator[h5py.File]:
+    path = tmp_path_factory.mktemp("layout") / "tower.h5"
+    path.write_bytes(write_results_hdf5(full_results()))
+    with h5py.File(path) as opened:
+        yield opened
+
+
+def datasets(file: Any) -> dict[str, Any]:
+    """Every dataset that is not a dimension scale, by its path."""
+    found = {}
+    file.visititems(lambda name, item: found.update({name: item}) if isinstance(item, h5py.Dataset) else None)
+    return {name: item for name, item in found.items() if not item.is_scale}
+
+
+def pattern(path: str) -> str:
+    return re.sub(r"^cases/[^/]+/", "cases/*/", path)
+
+
+def test_page_holds_the_table_and_every_attribute() -> None:
+    text = PAGE.read_text(encoding="utf-8")
+    assert text.endswith(layout_table())
+    assert f"layout version {VERSION}" in text
+    described = re.findall(r"^\| `(\w+)` \| ", text, flags=re.MULTILINE)
+    assert described == list(ATTRIBUTES)
+    assert all(f"`{name}`" in text for name in SHARED_DIMENSIONS)
+
+
+def test_every_dataset_written_is_in_the_layout_and_the_reverse(file: Any) -> None:
+    assert {pattern(path) for path in datasets(file)} == {field.path for field in LAYOUT}
+
+
+def test_every_attribute_written_is_in_the_layout_and_the_reverse(file: Any) -> None:
+    assert set(file.attrs) == set(ATTRIBUTES)
+    assert file.attrs["filetype"] == b"mbla results"
+    assert file.attrs["version"] == VERSION
+
+
+def test_paths_are_unique() -> None:
+    assert len({field.path for field in LAYOUT}) == len(LAYOUT)
+
+
+def test_every_dataset_carries_units_and_long_name_and_named_dimensions(file: Any) -> None:
+    fields = {field.path: field for field in LAYOUT}
+    for path, dataset in datasets(file).items():
+        field = fields[pattern(path)]
+        assert dataset.attrs["units"].decode() == unit_text(field.unit, Units())
+        assert dataset.attrs["long_name"].decode() == field.long_name
+        assert tuple(dimension.label for dimension in dataset.dims) == field.dims
+        for dimension, name in zip(dataset.dims, field.dims, strict=True):
+            assert [scale.name.rpartition("/")[2] for scale in dimension.values()] == [name]
+            assert len(dimension[0]) == dataset.shape[list(field.dims).index(name)]
+
+
+def test_arrays_are_compressed_and_carry_checksums(file: Any) -> None:
+    for dataset in datasets(file).values():
+        if dataset.ndim and dataset.size:
+            assert dataset.fletcher32
+            assert dataset.shuffle
+            assert dataset.compression == "gzip"
+
+
+@pytest.mark.parametrize(
+    ("kind", "expected"),
+    [("length", "mm"), ("density", "t/mm3"), ("load", "kN; kN mm"), ("stress", "kN/mm2"), ("velocity", "1/kN")],
+)
+def test_units_are_those_of_the_deck(kind: Any, expected: Any) -> None:
+    assert unit_text(kind, Units("mm", "kN", "t")) == expected

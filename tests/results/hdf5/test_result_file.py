@@ -1,0 +1,173 @@
+"""Result files: what is written comes back."""
+
+from __future__ import annotations
+
+from dataclasses import MISSING, fields, replace
+from pathlib import Path
+
+import h5py
+import numpy as np
+import pytest
+
+from mbla.deck.units import Units
+from mbla.results.hdf5.result_file import read_results_hdf5, write_results_hdf5
+from mbla.results.records.json_record import results_json
+from mbla.results.results import Results
+from tests.results.changed_files import change, remove
+from tests.results.synthetic import full_results, same, tower_results
+
+
+@pytest.fixture(scope="module")
+def results() -> Results:
+    return tower_results()
+
+
+@pytest.fixture(scope="module")
+def image(results: Results) -> bytes:
+    return write_results_hdf5(results)
+
+
+@pytest.fixture
+def path(tmp_path: Path, image: bytes) -> Path:
+    path = tmp_path / "tower.h5"
+    path.write_bytes(image)
+    return path
+
+
+@pytest.mark.parametrize("flow_rule", ["non_associative", "associative"])
+def test_everything_comes_back(tmp_path: Path, flow_rule: str) -> None:
+    results = tower_results(flow_rule)
+    path = tmp_path / "tower.h5"
+    path.write_bytes(write_results_hdf5(results))
+    back = read_results_hdf5(path)
+    assert same(back, results)
+    own = back.cases[0].solution.associative is back.cases[0].solution.mechanics
+    assert own == (flow_rule == "associative")
+
+
+def test_every_field_of_every_record_comes_back(tmp_path: Path) -> None:
+    results = full_results()
+    path = tmp_path / "full.h5"
+    path.write_bytes(write_results_hdf5(results))
+    assert same(read_results_hdf5(path), results)
+
+
+def test_the_full_results_leave_no_field_at_its_default() -> None:
+    """So that a field that is added to these records cannot be left out of the file unnoticed."""
+    case = full_results().cases[0]
+    for record in (case.solution, case.solution.mechanics, case.checks):
+        assert record is not None
+        for field in fields(record):
+            if field.default is not MISSING:
+                assert not same(getattr(record, field.name), field.default), field.name
+            else:
+                assert getattr(record, field.name) is not None, field.name
+
+
+def test_a_file_that_does_not_say_who_solved_is_read(path: Path, results: Results) -> None:
+    """The first files of this layout version did not."""
+    for case in results.cases:
+        for name in ("solver", "programs/solver", "programs/factorization"):
+            remove(path, f"cases/{case.load_case.name}/{name}")
+    case = read_results_hdf5(path).cases[0]
+    assert case.solution.solver == ""
+    assert {(program.solver, program.factorization) for program in case.solution.programs} == {("", "")}
+    assert same(case.solution.iterations, results.cases[0].solution.iterations)
+    assert results_json(read_results_hdf5(path))["cases"][0]["solver"] == {
+        "asked": None,
+        "used": [],
+        "factorization": [],
+    }
+
+
+def test_lists_that_are_empty_come_back(tmp_path: Path, results: Results) -> None:
+    bare = replace(
+        results,
+        model=replace(results.model, grounds=(), notices=(), title=""),
+        contacts=replace(
+            results.contacts,
+            bodies=np.zeros((0, 2), dtype=np.int64),
+            normals=np.zeros((0, 3)),
+            areas=np.zeros(0),
+            centroids=np.zeros((0, 3)),
+            gaps=np.zeros(0),
+            joints=np.zeros(0, dtype=np.int64),
+            joint_names=(),
+            point_start=np.zeros(1, dtype=np.int64),
+            outline=np.zeros(0, dtype=np.int64),
+            points=np.zeros((0, 3)),
+            frames=np.zeros((0, 3, 3)),
+            point_areas=np.zeros(0),
+        ),
+        cases=(),
+        notices=(),
+        settings={},
+        time={},
+    )
+    path = tmp_path / "bare.h5"
+    path.write_bytes(write_results_hdf5(bare))
+    assert same(read_results_hdf5(path), bare)
+
+
+def test_ragged_reports_come_back(tmp_path: Path, results: Results) -> None:
+    report = replace(
+        results.contacts.report,
+        unsupported=(np.array([0, 2]), np.array([1])),
+        slivers=np.array([[0, 1]]),
+        sliver_widths=np.array([1e-4]),
+        isolated=np.array([2]),
+    )
+    changed = replace(results, contacts=replace(results.contacts, report=report))
+    path = tmp_path / "ragged.h5"
+    path.write_bytes(write_results_hdf5(changed))
+    assert same(read_results_hdf5(path), changed)
+
+
+def test_units_of_the_deck_come_back_and_label_the_data(tmp_path: Path, results: Results) -> None:
+    changed = replace(results, model=replace(results.model, units=Units("mm", "kN", "t")))
+    path = tmp_path / "units.h5"
+    path.write_bytes(write_results_hdf5(changed))
+    assert read_results_hdf5(path).model.units == Units("mm", "kN", "t")
+    with h5py.File(path) as file:
+        assert file["model/vertices"].attrs["units"] == b"mm"
+        assert file["contacts/areas"].attrs["units"] == b"mm2"
+
+
+def test_same_results_give_same_bytes_but_for_the_date(results: Results, image: bytes) -> None:
+    assert write_results_hdf5(results) == image
+    assert write_results_hdf5(replace(results, created="2026-01-01T00:00:00+00:00")) != image
+
+
+def test_deck_text_is_readable_without_mbla(path: Path, results: Results) -> None:
+    with h5py.File(path) as file:
+        assert file["deck/source_texts"][0].decode() == results.deck.sources[0][1]
+        assert float(file["cases/push_x/load_factor"][()]) == 0.5
+
+
+def test_what_follows_from_the_mechanism_is_there_for_others(path: Path, results: Results) -> None:
+    with h5py.File(path) as file:
+        case = file["cases/push_x"]
+        assert case["parts"][()].tolist() == [0, 1, 0]
+        assert case["interfaces/modes"][()].tolist() == [3, 0]
+        assert case["interfaces/hinge_points"][0].tolist() == [1, 0.5, 1]
+        assert case["interfaces/hinge_directions"][0].tolist() == [0, 1, 0]
+        assert np.isnan(case["interfaces/hinge_points"][1]).all()
+        assert case["interfaces/rotations"].attrs["units"] == b"1/(N m)"
+
+
+def test_what_follows_from_the_mechanism_is_found_anew(path: Path, results: Results) -> None:
+    """So that a file cannot contradict itself there."""
+    change(path, "cases/push_x/parts", 7)
+    change(path, "cases/push_x/interfaces/modes", 2)
+    assert same(read_results_hdf5(path), results)
+
+
+def test_a_changed_value_is_read_as_changed(path: Path) -> None:
+    """Checksums guard against damage, not against someone's own edits: those are for ``verify`` to judge."""
+    with h5py.File(path, "r+") as file:
+        file["cases/push_x/load_factor"][()] = 0.75
+        file["cases/push_x/contact_forces"][0, 0] = 99.0
+    mechanics = read_results_hdf5(path).cases[0].solution.mechanics
+    assert mechanics is not None
+    assert mechanics.load_factor == 0.75
+    assert mechanics.contact_forces[0, 0] == 99.0

@@ -1,0 +1,212 @@
+"""Result files that are refused: not ours, of another version, incomplete, contradictory or damaged."""
+
+from __future__ import annotations
+
+import os
+import random
+from pathlib import Path
+from typing import Any
+
+import h5py
+import numpy as np
+import pytest
+
+from mbla.errors import FileError
+from mbla.results.hdf5.result_file import read_results_hdf5, write_results_hdf5
+from mbla.results.results import Results
+from tests.results.changed_files import change, remove, replace_dataset
+from tests.results.synthetic import full_results, same, tower_results
+
+
+@pytest.fixture(scope="module")
+def results() -> Results:
+    return tower_results()
+
+
+@pytest.fixture(scope="module")
+def image(results: Results) -> bytes:
+    return write_results_hdf5(results)
+
+
+@pytest.fixture
+def path(tmp_path: Path, image: bytes) -> Path:
+    path = tmp_path / "tower.h5"
+    path.write_bytes(image)
+    return path
+
+
+def refused(path: Path) -> str:
+    with pytest.raises(FileError) as caught:
+        read_results_hdf5(path)
+    assert str(path) in str(caught.value)
+    return str(caught.value)
+
+
+def test_missing_file(tmp_path: Path) -> None:
+    assert "No such file" in refused(tmp_path / "none.h5")
+
+
+def test_folder(tmp_path: Path) -> None:
+    refused(tmp_path)
+
+
+def test_not_hdf5(tmp_path: Path) -> None:
+    path = tmp_path / "text.h5"
+    path.write_text("mbla: 1\n")
+    assert "not an HDF5 file" in refused(path)
+
+
+def test_empty_file(tmp_path: Path) -> None:
+    path = tmp_path / "empty.h5"
+    path.touch()
+    refused(path)
+
+
+def test_other_hdf5_file(tmp_path: Path) -> None:
+    path = tmp_path / "other.h5"
+    with h5py.File(path, "w") as file:
+        file["x"] = 1
+    assert "not an mbla result file" in refused(path)
+
+
+def test_other_version_is_named(path: Path) -> None:
+    with h5py.File(path, "r+") as file:
+        file.attrs["version"] = 99
+    assert "layout version 99" in refused(path)
+
+
+def test_an_older_version_says_who_wrote_it_and_what_to_do(path: Path) -> None:
+    with h5py.File(path, "r+") as file:
+        file.attrs["version"] = 1
+    words = refused(path)
+    assert "layout version 1, written by mbla 0.1.0; this mbla reads version 4" in words
+    assert "run the deck again" in words
+
+
+def test_incomplete_file(path: Path) -> None:
+    with h5py.File(path, "r+") as file:
+        file.attrs["complete"] = 0
+    assert "incomplete" in refused(path)
+
+
+@pytest.mark.parametrize(
+    ("spoil", "words"),
+    [
+        (lambda p: remove(p, "model/vertices"), "model/vertices is missing"),
+        (lambda p: remove(p, "cases/push_x/modes"), "incomplete"),
+        (lambda p: remove(p, "cases/fall/status"), "incomplete"),
+        (lambda p: replace_dataset(p, "model/volumes", np.ones(4)), "along block"),
+        (lambda p: replace_dataset(p, "model/vertices", np.zeros((7, 3))), "does not divide vertex"),
+        (lambda p: replace_dataset(p, "model/vertices", np.zeros((24, 2))), "along axis"),
+        (lambda p: replace_dataset(p, "model/vertices", np.zeros(24)), "dimensions"),
+        (lambda p: replace_dataset(p, "model/volumes", np.ones(3, dtype=np.int64)), "type"),
+        (lambda p: replace_dataset(p, "contacts/joints", np.zeros(2)), "type"),
+        (lambda p: change(p, "model/volumes", np.nan), "not finite"),
+        (lambda p: change(p, "cases/push_x/contact_forces", np.inf), "not finite"),
+        (lambda p: change(p, "model/fixed", 2), "neither 0 nor 1"),
+        (lambda p: change(p, "model/loops", 24), "points outside vertex"),
+        (lambda p: change(p, "contacts/bodies", -1), "points outside body"),
+        (lambda p: change(p, "contacts/bodies", 5), "points outside body"),
+        (lambda p: change(p, "model/vertex_start", [0, 16, 8, 24]), "does not divide vertex"),
+        (lambda p: change(p, "contacts/point_start", [0, 4, 7]), "does not divide point"),
+        (lambda p: change(p, "contacts/outline", 5), "outline"),
+        (lambda p: change(p, "cases/push_x/modes", 7), "contact modes"),
+        (lambda p: change(p, "cases/push_x/status", b"fine"), "'fine' is not a valid Status"),
+        (lambda p: remove(p, "cases/push_x/range"), "incomplete"),
+        (lambda p: replace_dataset(p, "cases/push_x/range", np.zeros(3)), "along end"),
+        (lambda p: remove(p, "cases/push_x/programs/solver"), "incomplete: push_x: solvers"),
+        (lambda p: change(p, "cases/push_x/programs/solver", b"x"), "name of a solver"),
+        (lambda p: change(p, "cases/push_x/solver", b"x"), "name of a solver"),
+        (lambda p: change(p, "model/units", b"x"), "units"),
+        (lambda p: change(p, "notices/severity", b"x"), "severity"),
+        (lambda p: change(p, "model/ground_joints", b"x"), "joint law"),
+    ],
+)
+def test_contradictions(path: Path, spoil: Any, words: Any) -> None:
+    spoil(path)
+    assert words in refused(path)
+
+
+@pytest.mark.parametrize(
+    ("spoil", "words"),
+    [
+        (lambda p: remove(p, "cases/push_x/lower/modes"), "incomplete: push_x: lower"),
+        (lambda p: remove(p, "cases/push_x/outer/load_factor"), "incomplete: push_x: outer"),
+        (lambda p: remove(p, "cases/push_x/standing/falls"), "incomplete: push_x: standing"),
+        (lambda p: remove(p, "cases/push_x/size/parts"), "incomplete: push_x: size"),
+        (lambda p: change(p, "cases/push_x/size/dimension", 4), "dimension of the model"),
+        (lambda p: change(p, "cases/push_x/standing/verdict", b"maybe"), "'maybe' is not a valid Standing"),
+        (lambda p: change(p, "cases/push_x/standing/falls", 3), "points outside block"),
+        (lambda p: change(p, "cases/push_x/upper/modes", 7), "contact modes"),
+        (lambda p: change(p, "cases/push_x/lock", np.nan), "not finite"),
+        (lambda p: replace_dataset(p, "cases/push_x/force_ranges", np.zeros((3, 2))), "along interface"),
+        (lambda p: replace_dataset(p, "cases/push_x/path/open", np.zeros(2, dtype=np.int64)), "along path_row"),
+    ],
+)
+def test_contradictions_of_further_answers(tmp_path: Path, spoil: Any, words: Any) -> None:
+    path = tmp_path / "full.h5"
+    path.write_bytes(write_results_hdf5(full_results()))
+    spoil(path)
+    assert words in refused(path)
+
+
+def test_resultants_without_forces_are_refused(tmp_path: Path) -> None:
+    path = tmp_path / "full.h5"
+    path.write_bytes(write_results_hdf5(full_results()))
+    with h5py.File(path, "r+") as file:
+        for name in ("load_factor", "contact_forces", "contact_velocities", "mechanism", "modes"):
+            del file[f"cases/push_x/upper/{name}"]
+    assert "resultants without forces: upper" in refused(path)
+
+
+def test_truncated_files_are_refused(path: Path, image: bytes) -> None:
+    for length in np.linspace(1, len(image) - 1, 40).astype(int):
+        path.write_bytes(image[:length])
+        refused(path)
+
+
+def test_flipped_bits_are_refused_or_without_effect(path: Path, image: bytes, results: Results) -> None:
+    """Seeded; every flip is either found out or lies where nothing is read."""
+    generator = random.Random(1)
+    found = 0
+    for _ in range(200):
+        damaged = bytearray(image)
+        damaged[generator.randrange(len(image))] ^= 1 << generator.randrange(8)
+        path.write_bytes(damaged)
+        try:
+            back = read_results_hdf5(path)
+        except FileError:
+            found += 1
+        else:
+            assert same(back, results)
+    assert found > 25
+
+
+def test_overwritten_stretches_are_refused_or_without_effect(path: Path, image: bytes, results: Results) -> None:
+    generator = random.Random(2)
+    for _ in range(50):
+        damaged = bytearray(image)
+        begin = generator.randrange(len(image) - 64)
+        damaged[begin : begin + 64] = generator.randbytes(64)
+        path.write_bytes(damaged)
+        try:
+            back = read_results_hdf5(path)
+        except FileError:
+            continue
+        assert same(back, results)
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="needs named pipes")
+def test_what_is_no_regular_file_is_told_in_plain_words(tmp_path: Path) -> None:
+    os.mkfifo(tmp_path / "pipe")
+    for name, words in (("missing.h5", "No such file"), (".", "is a folder"), ("pipe", "is not a regular file")):
+        with pytest.raises(FileError, match=words) as caught:
+            read_results_hdf5(tmp_path / name)
+        assert "synchronously" not in str(caught.value)
+
+
+def test_a_file_that_was_cut_off_says_so(tmp_path: Path) -> None:
+    path = tmp_path / "cut.h5"
+    path.write_bytes(write_results_hdf5(tower_results())[:2000])
+    with pytest.raises(FileError, match=r"damaged: truncated file"):
+        read_results_hdf5(path)

@@ -1,0 +1,67 @@
+from pathlib import Path
+from xml.etree import ElementTree
+
+import numpy as np
+import pytest
+
+from mbla.errors import FileError, UsageError
+from mbla.results.pictures.page import COLUMNS, HEIGHT, WIDTH, write_page
+
+WORDS = ["Arch of $5 – 拱 <b>", "load case push_x: collapses at 0.5 g"]
+LEGEND = [["hinge", "#D55E00"], ["live load", "#222222"]]
+IMAGE = np.full((HEIGHT, WIDTH, 3), 255, dtype=np.uint8)
+
+
+def test_png_has_the_pixels_of_the_image(tmp_path: Path) -> None:
+    from PIL import Image
+
+    path = tmp_path / "page.png"
+    image = IMAGE.copy()
+    image[400:600, 700:900] = (10, 20, 30)
+    write_page(path, image, WORDS, LEGEND)
+    with Image.open(path) as page:
+        pixels = np.asarray(page.convert("RGB"))
+    assert pixels.shape == image.shape
+    assert (pixels[400:600, 700:900] == (10, 20, 30)).all()
+    assert (pixels[300:400, 700:900] == 255).all()
+    assert (pixels[:100] < 100).any(), "words above"
+    assert (pixels[900:, 1300:] < 100).any(), "legend below, to the right"
+    assert (pixels[:, -5:] == 255).all(), "no word runs into the edge"
+
+
+def test_words_of_an_svg_are_text(tmp_path: Path) -> None:
+    path = tmp_path / "page.svg"
+    write_page(path, IMAGE, WORDS, LEGEND)
+    tree = ElementTree.parse(path)
+    texts = [" ".join("".join(node.itertext()).split()) for node in tree.iter() if node.tag.endswith("}text")]
+    assert texts == [*WORDS, "hinge", "live load"]
+    assert sum(node.tag.endswith("}image") for node in tree.iter()) == 1
+
+
+def test_pdf(tmp_path: Path) -> None:
+    path = tmp_path / "page.PDF"
+    write_page(path, IMAGE, WORDS, [])
+    assert path.read_bytes().startswith(b"%PDF-")
+
+
+@pytest.mark.parametrize("suffix", ["png", "svg", "pdf"])
+def test_the_same_picture_gives_the_same_file(tmp_path: Path, suffix: str) -> None:
+    paths = [tmp_path / f"{name}.{suffix}" for name in "ab"]
+    for path in paths:
+        write_page(path, IMAGE, WORDS, LEGEND)
+    assert paths[0].read_bytes() == paths[1].read_bytes()
+
+
+def test_long_words_stay_on_the_page(tmp_path: Path) -> None:
+    path = tmp_path / "page.svg"
+    write_page(path, IMAGE, ["W " * 200], [])
+    texts = [node for node in ElementTree.parse(path).iter() if node.tag.endswith("}text")]
+    assert len(texts) > 2
+    assert all(len("".join(text.itertext()).strip()) <= COLUMNS for text in texts)
+
+
+def test_other_formats_and_places_are_refused(tmp_path: Path) -> None:
+    with pytest.raises(UsageError, match="PNG, SVG or PDF"):
+        write_page(tmp_path / "page.jpg", IMAGE, WORDS, LEGEND)
+    with pytest.raises(FileError, match="No such file"):
+        write_page(tmp_path / "missing" / "page.png", IMAGE, WORDS, LEGEND)

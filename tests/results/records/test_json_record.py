@@ -1,0 +1,203 @@
+import json
+from dataclasses import replace
+from typing import Any
+
+import pytest
+
+from mbla.results.records.json_record import check_json, json_line, results_json, verification_json
+from mbla.results.results import Results
+from mbla.solution.solution import Standing, StandingResult, Status
+from tests.results.synthetic import full_results, tower_results
+
+
+@pytest.fixture(scope="module")
+def record() -> dict[str, Any]:
+    record: dict[str, Any] = json.loads(json_line(results_json(replace(tower_results(), files=("tower.h5",)))))
+    return record
+
+
+PROMISED = {
+    "": {"mbla", "deck", "exit_code", "model", "cases", "time"},
+    "model": {
+        "standing",
+        "blocks",
+        "free_blocks",
+        "interfaces",
+        "contact_points",
+        "dimension",
+        "total_weight",
+        "units",
+    },
+    "cases": {
+        "name",
+        "status",
+        "flow_rule",
+        "load_factor",
+        "static_bound",
+        "kinematic_bound",
+        "associative_load_factor",
+        "equilibrium_residual",
+        "yield_violation",
+        "complementarity_residual",
+        "programs",
+        "iterations",
+        "mechanism",
+        "time",
+    },
+}
+
+
+def test_promised_keys_are_there(record: dict[str, Any]) -> None:
+    assert set(record) >= PROMISED[""]
+    assert set(record["model"]) >= PROMISED["model"]
+    for case in record["cases"]:
+        assert set(case) >= PROMISED["cases"]
+        assert set(case["time"]) == {"total", "solver"}
+    assert set(record["time"]) == {"read", "contacts", "solve", "write"}
+
+
+def test_values(record: dict[str, Any]) -> None:
+    model = record["model"]
+    solved, fallen = record["cases"]
+    assert (model["blocks"], model["free_blocks"], model["interfaces"], model["contact_points"]) == (3, 2, 2, 8)
+    assert model["total_weight"] == pytest.approx(65)
+    assert model["standing"] == "no"
+    assert model["extents"] == [[-1, -1, 0], [5, 2, 3]]
+    assert (solved["status"], solved["load_factor"], solved["iterations"]) == ("solved", 0.5, 23)
+    assert {mode: solved["mechanism"][mode] for mode in ("open", "slide", "stick")} == {
+        "open": 2,
+        "slide": 0,
+        "stick": 6,
+    }
+    assert solved["mechanism"]["hinges"] == 1
+    assert fallen["status"] == "no_equilibrium"
+    assert fallen["load_factor"] is None
+    assert fallen["static_bound"] is None
+    assert fallen["mechanism"] is None
+    assert record["files"] == ["tower.h5"]
+    assert solved["solver"] == {"asked": "auto", "used": ["mbla", "clarabel"], "factorization": ["qdldl"]}
+    assert fallen["solver"] == {"asked": "auto", "used": [], "factorization": []}
+
+
+def test_line_is_one_line_without_nan_and_deterministic() -> None:
+    line = json_line(results_json(tower_results()))
+    assert "\n" not in line
+    assert "NaN" not in line
+    assert line == json_line(results_json(tower_results()))
+
+
+def test_a_number_that_is_none_cannot_slip_through() -> None:
+    with pytest.raises(ValueError, match="JSON"):
+        json_line({"x": float("nan")})
+
+
+def test_check_record_has_no_cases() -> None:
+    record = check_json(tower_results(), {"push": {"cones": 8}})
+    assert "cases" not in record
+    assert record["needs"] == {"push": {"cones": 8}}
+    assert record["model"]["joints"] == {"dry": {"interfaces": 2, "area": 2.0}}
+    json_line(record)
+
+
+def test_verification_record_says_whether_the_file_agrees() -> None:
+    assert verification_json(tower_results(), ())["agrees"] is True
+    record = verification_json(tower_results(), ("x differs",))
+    assert record["agrees"] is False
+    assert record["disagreements"] == ["x differs"]
+
+
+def test_a_case_without_a_result_has_its_best_iterate_instead() -> None:
+    case = results_json(with_first(status=Status.NOT_VERIFIED))["cases"][0]
+    assert case["load_factor"] is None
+    assert case["mechanism"] is None
+    assert case["factor_unique"] is None
+    assert case["best_iterate"]["load_factor"] == 0.5
+    assert case["best_iterate"]["residuals"]["complementarity"] == 1e-11
+    assert case["associative_load_factor"] == 0.5  # its bounds meet
+
+
+def test_an_associative_case_without_a_result_has_no_factor_under_another_name() -> None:
+    results = tower_results("associative")
+    case = replace(results.cases[0], status=Status.NOT_VERIFIED)
+    record = results_json(replace(results, cases=(case,)))["cases"][0]
+    assert (record["load_factor"], record["associative_load_factor"], record["factor_unique"]) == (None, None, None)
+
+
+def test_an_associative_factor_whose_bounds_do_not_meet_is_no_result() -> None:
+    case = with_first(status=Status.NOT_VERIFIED, checks={"gap": float("nan")})
+    assert results_json(case)["cases"][0]["associative_load_factor"] is None
+
+
+def with_first(status: Status = Status.SOLVED, **changes: Any) -> Results:
+    """The tower's results whose first case has another status, solution or checks."""
+    results = tower_results()
+    first = results.cases[0]
+    solution = replace(first.solution, **changes.get("solution", {}))
+    checks = replace(first.checks, **changes.get("checks", {}))
+    return replace(results, cases=(replace(first, status=status, solution=solution, checks=checks),))
+
+
+def test_every_answer_is_in_the_record() -> None:
+    results = full_results()
+    solution = replace(results.cases[0].solution, standing=StandingResult(Standing.DOUBTFUL, 1, "no plateau"))
+    full = replace(results, cases=(replace(results.cases[0], solution=solution),))
+    record = json.loads(json_line(results_json(full)))
+    case = record["cases"][0]
+    assert record["model"]["standing"] == "doubtful"
+    assert record["model"]["dimension"] == 2
+    assert case["scheme"] == "proximal"
+    assert case["range"] == [0.45, 0.52]
+    assert case["factor_unique"] is False
+    assert case["spread"] == [0.49, 0.51]
+    assert case["bracket"] == {"inner": 0.55, "outer": 0.56, "sides": 8}
+    assert case["standing"] == {"verdict": "doubtful", "block": "tower[0]", "reason": "no plateau"}
+    assert case["remarks"] == ["the factor is the peak of the path", "one more"]
+    assert (case["tension_violation"], case["slip_residual"]) == (1e-9, 2e-9)
+    assert case["residuals"] == {
+        "equilibrium": 1e-12,
+        "yield": 0.0,
+        "tension": 1e-9,
+        "penetration": 0.0,
+        "complementarity": 1e-11,
+        "slip": 2e-9,
+    }
+    assert case["size"]["dropped_points"] == 4
+    assert case["path"][1] == {"step": 1, "load_factor": 0.6, "open": 2, "slide": 0, "residual": 1e-8}
+    assert case["path"][2]["residual"] is None
+    assert case["best_iterate"] is None
+
+
+def test_a_structure_that_hangs_together_by_self_stress_has_no_load_factor_without_normality() -> None:
+    record = results_json(full_results())
+    case = record["cases"][0]
+    assert case["standing"]["verdict"] == "only by self-stress"
+    assert case["load_factor"] is None
+    assert case["best_iterate"]["load_factor"] == 0.5
+    assert case["associative_load_factor"] == 0.55
+    assert "only-by-self-stress" in [notice["identifier"] for notice in record["notices"]]
+
+
+@pytest.mark.parametrize(
+    ("lower", "upper", "ends", "unique"),
+    [
+        (0.45, 0.52, [0.45, 0.52], False),
+        (0.5, 0.5, [0.5, 0.5], None),
+        (0.45, float("nan"), [0.45, None], None),
+        (float("nan"), float("nan"), None, None),
+    ],
+)
+def test_range_and_uniqueness(lower: float, upper: float, ends: Any, unique: Any) -> None:
+    """Equal ends show one factor for this mechanism, not that no other mechanism has another."""
+    case = results_json(with_first(checks={"lower": lower, "upper": upper}))["cases"][0]
+    assert (case["range"], case["factor_unique"]) == (ends, unique)
+
+
+def test_the_associative_factor_is_unique() -> None:
+    assert results_json(tower_results("associative"))["cases"][0]["factor_unique"] is True
+
+
+def test_a_certificate_is_named() -> None:
+    assert [case["certificate"] for case in results_json(tower_results())["cases"]] == [None, "motion"]
+    lock = full_results().cases[0].solution.lock
+    unbounded = with_first(Status.UNBOUNDED, solution={"mechanics": None, "lock": lock})
+    assert results_json(unbounded)["cases"][0]["certificate"] == "forces"
