@@ -7,7 +7,7 @@ The program on one line; each word is a folder, and its main type carries the fo
              supports,  contact      yield cones,  forces,       listing,
              loads      points       objective     mechanism     pictures
 
-A stage imports only from the stages to its left; ``run.py`` is the table of contents.
+A stage imports only from the stages to its left; ``run_deck.py`` is the table of contents.
 """
 
 __version__ = "0.1.0"

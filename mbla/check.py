@@ -19,7 +19,7 @@ from mbla.results.files import OutputFolder
 from mbla.results.paraview.vtu import write_model_vtu
 from mbla.results.provenance import collect_provenance
 from mbla.results.results import Results
-from mbla.run import RunOptions, contacts_of, deck_record, notices_of, reduced_program, select_cases
+from mbla.run_deck import RunOptions, contacts_of, deck_record, notices_of, reduced_program, select_cases
 from mbla.settings_words import settings_in_words
 from mbla.solution.cone_solver import interior_point_method
 from mbla.solution.settings import solver_settings

@@ -22,7 +22,7 @@ from mbla.failures import failure_record, words_of
 from mbla.threads import limit_threads
 
 if TYPE_CHECKING:
-    from mbla.run import Progress, RunOptions
+    from mbla.run_deck import Progress, RunOptions
 
 WORST_FIRST = (1, 6, 7, 3, 4, 5)
 
@@ -63,7 +63,7 @@ def _run(options: argparse.Namespace) -> int:
     from mbla.results.records.json_record import json_line, results_json
     from mbla.results.words.listing import listing
     from mbla.results.words.summary import summary_lines
-    from mbla.run import run
+    from mbla.run_deck import run
 
     run_options = _run_options(options)
     progress = None if options.quiet else _progress()
@@ -169,7 +169,7 @@ COMMANDS: dict[str, Callable[[argparse.Namespace], int]] = {
 
 
 def _run_options(options: argparse.Namespace) -> RunOptions:
-    from mbla.run import RunOptions
+    from mbla.run_deck import RunOptions
 
     overrides = list(options.set)
     for name in ("accuracy", "flow_rule", "time_limit"):

@@ -9,7 +9,7 @@ from mbla.deck.analysis import ReductionSwitches
 from mbla.model import build_model
 from mbla.program import assemble
 from mbla.program.reductions import reduce_program
-from mbla.run import contacts_of, with_settlements
+from mbla.run_deck import contacts_of, with_settlements
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Standing
 from mbla.solution.standing import assess_standing, worst_standing

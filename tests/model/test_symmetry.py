@@ -13,7 +13,7 @@ from mbla.errors import DeckError
 from mbla.model import Model, build_model
 from mbla.results.results import Results
 from mbla.results.words.settlement_words import reaction_of
-from mbla.run import RunOptions, run
+from mbla.run_deck import RunOptions, run
 
 HEAD = """
 mbla: 1

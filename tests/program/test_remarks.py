@@ -6,7 +6,7 @@ import pytest
 
 from mbla.program.remarks import program_notices
 from mbla.results.series import factor_of
-from mbla.run import RunOptions, run
+from mbla.run_deck import RunOptions, run
 from tests.line import BLOCK, line_of
 
 

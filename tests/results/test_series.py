@@ -19,7 +19,7 @@ from mbla.results.series import factor_of, series_of
 from mbla.results.tilt_angle import angle_bounds, angle_of
 from mbla.results.words.listing import listing
 from mbla.results.words.summary import summary_lines
-from mbla.run import RunOptions, run
+from mbla.run_deck import RunOptions, run
 from mbla.solution.solution import Status
 from mbla.verify_file import verify_results
 

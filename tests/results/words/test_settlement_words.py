@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from mbla.results.words.settlement_words import settlement_lines
-from mbla.run import RunOptions, run
+from mbla.run_deck import RunOptions, run
 
 ARCH = """mbla: 1
 materials: {stone: {density: 2000}}
