@@ -37,6 +37,7 @@ def build_parser() -> argparse.ArgumentParser:
     _add_check(commands)
     _add_result_commands(commands)
     _add_plot(commands)
+    _add_explain(commands)
     _add_schema_and_new(commands)
     return parser
 
@@ -111,6 +112,17 @@ def _add_plot(commands: Any) -> None:
         help="PNG, SVG or PDF file, by its name, of one load case; or a folder (default: that of the result)",
     )
     command.add_argument("--case", metavar="NAME", help="only this load case")
+
+
+def _add_explain(commands: Any) -> None:
+    command = commands.add_parser(
+        "explain",
+        help="what an identifier of a warning, a status or an error means, and what to do",
+        description="Explain an identifier, such as near-misses, approximate or exit-4. A word or a whole message "
+        "finds it too. Without ID: all identifiers, each in a line.",
+    )
+    command.add_argument("identifier", nargs="*", metavar="ID", help="identifier, word or message")
+    command.add_argument("--json", action="store_true", help="one JSON object on standard output")
 
 
 def _add_schema_and_new(commands: Any) -> None:

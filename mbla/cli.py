@@ -139,6 +139,20 @@ def _plot(options: argparse.Namespace) -> int:
     return 0
 
 
+def _explain(options: argparse.Namespace) -> int:
+    from mbla.results.explanations.explanations import EXPLANATIONS, find_explanations
+    from mbla.results.explanations.words import all_text, explanation_json, explanation_text
+    from mbla.results.records.json_record import json_line
+
+    asked = " ".join(options.identifier)
+    found = find_explanations(asked) if asked.strip() else tuple(EXPLANATIONS.values())
+    if options.json:
+        print(json_line({"explanations": [explanation_json(entry) for entry in found]}))
+    else:
+        print(explanation_text(found) if asked.strip() else all_text(), end="")
+    return 0
+
+
 def _schema(options: argparse.Namespace) -> int:
     from mbla.deck.schema import deck_schema
 
@@ -160,6 +174,7 @@ COMMANDS: dict[str, Callable[[argparse.Namespace], int]] = {
     "show": _show,
     "verify": _verify,
     "plot": _plot,
+    "explain": _explain,
     "schema": _schema,
     "new": _new,
 }
