@@ -139,6 +139,23 @@ def _plot(options: argparse.Namespace) -> int:
     return 0
 
 
+def _diff(options: argparse.Namespace) -> int:
+    from mbla.results.comparison.comparison import compare_results
+    from mbla.results.comparison.records import comparison_json
+    from mbla.results.comparison.words import comparison_text
+    from mbla.results.hdf5.result_file import read_results_hdf5
+    from mbla.results.records.json_record import json_line
+
+    names = str(options.first), str(options.second)
+    results = read_results_hdf5(options.first), read_results_hdf5(options.second)
+    comparison = compare_results(*results, options.tolerance)
+    if options.json:
+        print(json_line(comparison_json(comparison, names)))
+    else:
+        print(comparison_text(comparison, names), end="")
+    return 4 if options.fail and comparison.differing else 0
+
+
 def _explain(options: argparse.Namespace) -> int:
     from mbla.results.explanations.explanations import EXPLANATIONS, find_explanations
     from mbla.results.explanations.words import all_text, explanation_json, explanation_text
@@ -174,6 +191,7 @@ COMMANDS: dict[str, Callable[[argparse.Namespace], int]] = {
     "show": _show,
     "verify": _verify,
     "plot": _plot,
+    "diff": _diff,
     "explain": _explain,
     "schema": _schema,
     "new": _new,
