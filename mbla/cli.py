@@ -130,11 +130,12 @@ def _verify(options: argparse.Namespace) -> int:
 
 def _plot(options: argparse.Namespace) -> int:
     from mbla.results.hdf5.result_file import read_results_hdf5
-    from mbla.results.pictures.pictures import plot_results
+    from mbla.results.pictures.options import PictureOptions
+    from mbla.results.pictures.plot import plot_results
 
     results = read_results_hdf5(options.result)
     target = options.output or options.result.parent
-    for path in plot_results(results, target, options.result.stem, options.case):
+    for path in plot_results(results, target, options.result.stem, PictureOptions(case=options.case)):
         print(path)
     return 0
 
