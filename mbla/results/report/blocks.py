@@ -1,4 +1,7 @@
-"""Lines of the words as blocks of a page: a sentence that ends in a colon becomes the caption of the table below it."""
+"""Lines of the words as blocks of a page: a sentence that ends in a colon becomes the caption of the table below it.
+
+A detail below an entry joins its value.
+"""
 
 from __future__ import annotations
 
@@ -6,7 +9,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import TypeAlias
 
-from mbla.results.words.elements import Element, Entry, Heading, Table, elements_of
+from mbla.results.words.elements import Element, Entry, Heading, Sentence, Table, elements_of
 
 
 @dataclass(frozen=True)
@@ -55,6 +58,9 @@ def blocks_of(lines: Iterable[str]) -> list[Block]:
         last = blocks[-1] if blocks else None
         if isinstance(element, Entry) and isinstance(last, Entries):
             blocks[-1] = Entries((*last.rows, _row(element)))
+        elif isinstance(element, Sentence) and element.detail and isinstance(last, Entries):
+            name, value = last.rows[-1]
+            blocks[-1] = Entries((*last.rows[:-1], (name, f"{value}\n{element.text}")))
         elif isinstance(element, Table) and isinstance(last, Paragraph) and last.text.endswith(":"):
             blocks[-1] = DataTable(last.text[:-1], element.head, element.rows, element.left)
         else:

@@ -8,7 +8,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from mbla.errors import UsageError
+from mbla.results.outcome import result_of
 from mbla.results.results import CaseResult, Results
+from mbla.results.words.verdict_words import verdict
 
 
 @dataclass(frozen=True)
@@ -39,8 +41,18 @@ def case_figures(results: Results, case: CaseResult) -> Figures:
             plot_mechanism(results, case, path)
         except UsageError as error:
             return Figures((), str(error))
-        picture = Figure(_data_uri(path), f"Mechanism of load case {name}", f"Picture of load case {name}")
+        words = f"The structure in load case {name}: {verdict(results.model.of_case(case.load_case), case)}"
+        picture = Figure(_data_uri(path), f"{_subject(case)} of load case {name}", words)
     return Figures((picture,))
+
+
+def _subject(case: CaseResult) -> str:
+    """What a picture of a case shows: a mechanism only where it is one of a known load."""
+    if result_of(case) is not None:
+        return "Mechanism"
+    if case.solution.mechanics is not None:
+        return "Best iterate, no result,"
+    return "Motion that shows the lack of equilibrium" if case.solution.certificate is not None else "Structure at rest"
 
 
 def _data_uri(path: Path) -> str:

@@ -41,7 +41,7 @@ def case_sections(model: Model, contacts: Contacts, case: CaseResult) -> list[Se
     collapse = None if mechanics is None else collapse_of(model, contacts, case.load_case, mechanics)
     sections = [
         Section("Verdict", _verdict_lines(model, case, collapse)),
-        Section("Figures", ["", *figures(model, case)]),
+        Section("Load factor and bounds", ["", *figures(model, case)]),
     ]
     if mechanics is not None and collapse is not None:
         load_case = case.load_case
