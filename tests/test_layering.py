@@ -26,6 +26,7 @@ DOORS = {
     "pyvista": "results/pictures/pictures.py",
     "vtk": "results/pictures/pictures.py",
     "matplotlib": "results/pictures/page.py",
+    "plotly": "results/view3d/view.py",
 }
 FILES = sorted(PACKAGE.rglob("*.py"))
 
