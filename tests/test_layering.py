@@ -27,6 +27,7 @@ DOORS = {
     "vtk": "results/pictures/pictures.py",
     "matplotlib": "results/pictures/page.py",
     "jinja2": "results/report/page.py",
+    "plotly": "results/view3d/view.py",
 }
 FILES = sorted(PACKAGE.rglob("*.py"))
 

@@ -16,6 +16,7 @@ from mbla.results.report.blocks import blocks_of
 from mbla.results.report.case_content import CaseContent, case_content
 from mbla.results.report.page import render
 from mbla.results.report.verdict_table import verdict_table
+from mbla.results.report.views import case_view
 from mbla.results.results import CaseResult, Results
 from mbla.results.series import series_of
 from mbla.results.words.contact_words import contact_lines, finding_lines
@@ -69,7 +70,8 @@ def _cases(shown: Results, view: bool) -> list[CaseContent]:
     """The library of the views comes once, with the first of them."""
     contents = []
     for i, case in enumerate(shown.cases):
-        contents.append(case_content(shown, case, i + 1, ""))
+        html = case_view(shown, case, first=i == 0) if view else ""
+        contents.append(case_content(shown, case, i + 1, html))
     return contents
 
 
