@@ -140,6 +140,18 @@ def _plot(options: argparse.Namespace) -> int:
     return 0
 
 
+def _report(options: argparse.Namespace) -> int:
+    from mbla.results.hdf5.result_file import read_results_hdf5
+    from mbla.results.report.report import write_report
+
+    results = read_results_hdf5(options.result)
+    target = options.output or options.result.with_suffix(".html")
+    for remark in write_report(results, target, options.case, view=not options.no_3d):
+        print(f"mbla: {remark}", file=sys.stderr)
+    print(target)
+    return 0
+
+
 def _schema(options: argparse.Namespace) -> int:
     from mbla.deck.schema import deck_schema
 
@@ -161,6 +173,7 @@ COMMANDS: dict[str, Callable[[argparse.Namespace], int]] = {
     "show": _show,
     "verify": _verify,
     "plot": _plot,
+    "report": _report,
     "schema": _schema,
     "new": _new,
 }
