@@ -19,9 +19,11 @@ from mbla.results.pictures.geometry import hinge_axes, interface_sides
 from mbla.results.words.text import number
 from mbla.solution.solution import ContactMode, Mechanics
 
-HINGE, SLIDE, OPEN, THRUST, RESULTANT = "#D55E00", "#009E73", "#CC79A7", "#0072B2", "#56B4E9"
-"""after Okabe and Ito"""
-LONGEST = 0.12
+HINGE, SLIDE, OPEN = "#D55E00", "#009E73", "#CC79A7"
+"""after Okabe and Ito, as in the pictures"""
+THRUST, RESULTANT = "#0A2FD0", "#5B1A8B"
+"""dark, to be seen through pale blocks"""
+LONGEST = 0.2
 """length of the largest resultant over the size of the model"""
 SMALLEST = 1e-3
 """share of the largest resultant below which none is drawn"""
@@ -112,7 +114,7 @@ def force_marks(model: Model, contacts: Contacts, forces: FloatArray, size: floa
     line = Mark(
         "line of thrust",
         THRUST,
-        6,
+        8,
         thrust.points[used],
         contacts.bodies[used],
         row.reshape(pairs.shape),

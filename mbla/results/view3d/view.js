@@ -244,7 +244,7 @@ window.mblaView3d = function (host, data) {
     return Plotly.restyle(plot, { visible }, index);
   }
   function throughBlocks() {
-    return Plotly.restyle(plot, { opacity: seeThrough.checked ? 0.3 : 1 }, [blocks]);
+    return Plotly.restyle(plot, { opacity: seeThrough.checked ? 0.2 : 1 }, [blocks]);
   }
   function colourBy(name) {
     const colouring = data.colourings.find((each) => each.name === name);
@@ -260,6 +260,7 @@ window.mblaView3d = function (host, data) {
   if (motion) {
     const slider = labelled(top, data.motionWords, (label) => {
       const play = element("button", label, { type: "button", textContent: "play" });
+      element("span", label, { textContent: "as built" });
       const range = element("input", label, { type: "range", min: 0, max: 1, step: 0.01, value: 0 }, { width: "12em" });
       range.setAttribute("aria-label", "how far the mechanism has moved");
       let begun = null;
