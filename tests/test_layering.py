@@ -26,6 +26,8 @@ DOORS = {
     "pyvista": "results/pictures/pictures.py",
     "vtk": "results/pictures/pictures.py",
     "matplotlib": "results/pictures/page.py",
+    "pandas": "results/tables/table.py",
+    "pyarrow": "results/tables/parquet_file.py",
 }
 FILES = sorted(PACKAGE.rglob("*.py"))
 
