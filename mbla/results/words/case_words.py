@@ -5,9 +5,11 @@ from __future__ import annotations
 from mbla.contacts.contacts import Contacts
 from mbla.model.model import Model
 from mbla.results.collapse.collapse import collapse_of
+from mbla.results.collapse.failure import failure_of
 from mbla.results.outcome import result_of
 from mbla.results.results import CaseResult
 from mbla.results.words.certificate_words import certificate_lines
+from mbla.results.words.failure_words import failure_sentences
 from mbla.results.words.figure_words import figures
 from mbla.results.words.force_words import force_range_lines, lock_lines, reaction_lines
 from mbla.results.words.mechanism_words import mechanism_lines, mechanism_summary
@@ -27,19 +29,26 @@ def case_lines(model: Model, contacts: Contacts, case: CaseResult) -> list[str]:
     if collapse is not None:
         says += f"{_mechanism_label(case)}: {mechanism_summary(model, collapse)}"
     lines = heading(f"Load case {case.load_case.name}") + sentence(says + ".")
-    texts = (solution.reason, bound_words(model, case), *known_words(model, case))
-    lines += [line for text in texts for line in sentence(text)]
+    lines += sentence(solution.reason)
+    failure = None
+    if mechanics is not None and collapse is not None:
+        failure = failure_of(model, contacts, collapse, mechanics)
+        told = failure_sentences(model, contacts, case.load_case, collapse, failure)
+        lines += ["", *(line for text in told for line in sentence(text))]
+    known = [line for text in (bound_words(model, case), *known_words(model, case)) for line in sentence(text)]
+    lines += ["", *known] if known else []
     if mechanics is None and solution.certificate is not None:
         lines += certificate_lines(model, solution.certificate)
-    lines += ["", *figures(model, case)]
-    if mechanics is not None and collapse is not None:
-        lines += ["", *mechanism_lines(model, contacts, collapse)]
+    if mechanics is not None and collapse is not None and failure is not None:
+        tables = mechanism_lines(model, contacts, failure)
+        lines += ["", *tables, ""] if tables else [""]
         lines += work_lines(model, contacts, case.load_case, mechanics, collapse.work)
         lines += reaction_lines(held, contacts, case.load_case, mechanics)  # a support is one even as it gives way
         if solution.force_ranges is not None:
             lines += force_range_lines(model, contacts, mechanics, solution.force_ranges)
     if mechanics is None and solution.lock is not None:
         lines += lock_lines(model, contacts, solution.lock)
+    lines += ["", *figures(model, case)]
     return lines + path_lines(model, case) + program_lines(solution)
 
 
