@@ -18,7 +18,7 @@ from mbla.exit_status import EXIT_CODES
 from mbla.results.collapse.interface_modes import InterfaceMode
 from mbla.results.explanations.explanations import EXPLANATIONS, SECTIONS, find_explanations
 from mbla.results.findings import FAILURES, REMARKS, UNKNOWN_FAILURE, UNKNOWN_REMARK, UNSETTLED
-from mbla.results.words.figure_words import _residuals
+from mbla.results.words.figure_words import residual_figures
 from mbla.solution.solution import Standing, Status
 from tests.results.synthetic import tower_results
 
@@ -115,7 +115,7 @@ def test_exit_statuses() -> None:
 
 
 def test_residuals_of_the_listing() -> None:
-    for name, _, _ in _residuals(tower_results().cases[0].checks):
+    for name, _, _ in residual_figures(tower_results().cases[0].checks):
         assert len(find_explanations(name)) == 1, name
     for name in ("associative, static bound", "associative, kinematic bound", "relative gap", "range", "peak"):
         assert len(find_explanations(name)) == 1, name
