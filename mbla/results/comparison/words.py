@@ -14,6 +14,9 @@ MOST_NAMED = 8
 MOST_LINES = 60
 """lines of the diff of the decks that are shown; JSON has all"""
 
+ROUNDING = 1e-8
+"""relative difference that is shown as none"""
+
 
 def comparison_text(comparison: Comparison, names: tuple[str, str]) -> str:
     """What differs, at most 100 columns wide; ``names`` are those of the files."""
@@ -75,12 +78,26 @@ def _figures(figures: tuple[Figure, ...]) -> list[str]:
             f"{figure.name}{f' [{figure.unit}]' if figure.unit else ''}",
             number(figure.first),
             number(figure.second),
-            "-" if math.isnan(figure.difference) else f"{100 * figure.difference + 0.0:+.4g} %",
-            "" if figure.same else "differs",
+            _percent(figure),
+            _verdict(figure),
         ]
         for figure in figures
     ]
     return table(["", "A", "B", "difference", ""], rows)
+
+
+def _percent(figure: Figure) -> str:
+    if math.isnan(figure.difference):
+        return "-"
+    return "0" if abs(figure.difference) <= ROUNDING else f"{100 * figure.difference:+.3g} %"
+
+
+def _verdict(figure: Figure) -> str:
+    if figure.same:
+        return ""
+    if math.isnan(figure.difference):
+        return "in A only" if math.isnan(figure.second) else "in B only"
+    return "differs"
 
 
 def _case(case: CaseComparison) -> list[str]:
