@@ -25,7 +25,7 @@ LEAST_TOLERANCE = 1e-6
 """Relative difference of answers that is none: the accuracy to which solved programs agree."""
 
 ZERO = 1e-3
-"""Share of dead over live load, and of the weight of a reaction, below which figures are compared as if they were it."""
+"""Share of dead over live load, and of the unit of a reaction: smaller figures are compared as if they were that."""
 
 NOISE = 1e-9
 """Share of the loads below which a difference of reactions is rounding."""

@@ -88,6 +88,7 @@ def _by_place(centroids: FloatArray, places: FloatArray, sizes: FloatArray) -> I
 
     distance, nearest = cKDTree(places).query(centroids)
     _, back = cKDTree(centroids).query(places)
+    nearest, back = np.asarray(nearest), np.asarray(back)
     mutual = (back[nearest] == np.arange(len(centroids))) & (distance <= NEAR * sizes)
     return np.where(mutual, nearest, -1).astype(np.int64)
 
@@ -157,6 +158,7 @@ def _match(
         return np.full(len(points), -1, dtype=np.int64)
     count = min(CANDIDATES, len(others))
     distance, rows = cKDTree(others).query(points, k=np.arange(1, count + 1))
+    rows = np.asarray(rows)
     same = (other_pairs[rows] == pairs[:, None, :]).all(axis=2) & (distance <= tolerance[:, None])
     found = rows[np.arange(len(points)), same.argmax(axis=1)]
     return np.where(same.any(axis=1), found, -1).astype(np.int64)

@@ -56,11 +56,11 @@ def angle_between(
         of_rotations = np.einsum("bi,bij,bj->", x[:, 3:], inertia, y[:, 3:])
         return float(masses @ (x[:, :3] * y[:, :3]).sum(axis=1) + of_rotations)
 
-    u, v = _of_unit_size(u, product), _of_unit_size(v, product)
-    if u is None or v is None:
+    own, other = _of_unit_size(u, product), _of_unit_size(v, product)
+    if own is None or other is None:
         return None
     # between unit vectors; the arc cosine alone loses small angles to rounding
-    apart, together = product(u - v, u - v), product(u + v, u + v)
+    apart, together = product(own - other, own - other), product(own + other, own + other)
     return math.degrees(2.0 * math.atan2(math.sqrt(max(apart, 0.0)), math.sqrt(max(together, 0.0))))
 
 

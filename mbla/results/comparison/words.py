@@ -152,7 +152,9 @@ def _summary(comparison: Comparison) -> list[str]:
     for case in comparison.cases:
         answer = case.answers[0]
         values = f"{answer.name} {number(answer.first)} in A, {number(answer.second)} in B"
-        statuses = f"{case.statuses[0].value} in A, {case.statuses[1].value} in B"
-        lines += sentence(f"{case.name}: {f'DIFFERS, {statuses}; {values}' if case.differs else f'the same; {values}'}")
+        a, b = (status.value for status in case.statuses)
+        differs = "DIFFERS" if a == b else f"DIFFERS, {a} in A, {b} in B"
+        lines += sentence(f"{case.name}: {differs if case.differs else f'the same, {a}'}; {values}")
     total = len(comparison.cases) + len(comparison.only[0]) + len(comparison.only[1])
-    return lines + sentence(f"{comparison.differing} of {counted(total, 'load case')} differ in status or answer")
+    verb = "differs" if comparison.differing == 1 else "differ"
+    return lines + sentence(f"{comparison.differing} of {counted(total, 'load case')} {verb} in status or answer")
