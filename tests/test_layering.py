@@ -25,6 +25,7 @@ DOORS = {
     "h5py": "results/hdf5/result_file.py",
     "pyvista": "results/pictures/pictures.py",
     "vtk": "results/pictures/pictures.py",
+    "paraview": "results/paraview/standard_views.py",
     "matplotlib": "results/pictures/page.py",
 }
 FILES = sorted(PACKAGE.rglob("*.py"))
