@@ -15,6 +15,7 @@ joint allows), loads (dead, live, reactions), animation (the mechanism with fini
 from __future__ import annotations
 
 import argparse
+import math
 import sys
 import textwrap
 from collections.abc import Callable
@@ -66,7 +67,7 @@ class Picture:
         shown = simple.Show(source, self.view)
         shown.SetRepresentationType(kind)
         shown.ColorArrayName = [None, ""]
-        _set(shown, AmbientColor=colour, DiffuseColor=colour, EdgeColor=INK, **properties)
+        _set(shown, AmbientColor=colour, DiffuseColor=colour, EdgeColor=INK, Ambient=0.3, **properties)
         return shown
 
     def ghost(self, opacity: float = 0.25) -> None:
@@ -111,6 +112,7 @@ class Picture:
         simple.ColorBy(shown, (where, name))
         table = simple.GetColorTransferFunction(name)
         table.ApplyPreset("Viridis (matplotlib)", True)
+        table.InvertTransferFunction()
         table.RescaleTransferFunction(0.0, top)
         table.NanColor = GREY
         self.bar(shown, table, title)
@@ -130,23 +132,36 @@ class Picture:
     def bar(self, shown: Any, table: Any, title: str) -> None:
         """The bar or list of colours."""
         bar = simple.GetScalarBar(table, self.view)
-        _set(bar, Title=title, ComponentTitle="", TitleColor=INK, LabelColor=INK, TitleFontSize=14, LabelFontSize=14)
+        _set(bar, Title=title, ComponentTitle="", TitleColor=INK, LabelColor=INK, TitleFontSize=20, LabelFontSize=20)
         _set(bar, WindowLocation="Lower Right Corner")
         shown.SetScalarBarVisibility(self.view, True)
 
     def finish(self) -> None:
         """Words and camera."""
-        lines = [line for text in (*self.case["words"], *self.legend) for line in textwrap.wrap(text, 110)]
+        lines = [line for text in (*self.case["words"], *self.legend) for line in textwrap.wrap(text, 100)]
         text = self.keep(simple.Text(Text="\n".join(lines)))
         shown = simple.Show(text, self.view)
-        _set(shown, Color=INK, FontSize=14, WindowLocation="Upper Left Corner", Justification="Left")
-        _set(self.view, CameraParallelProjection=1)
-        look = self.case["look_from"]
-        _set(self.view, CameraPosition=look, CameraFocalPoint=[0.0, 0.0, 0.0], CameraViewUp=[0.0, 0.0, 1.0])
+        _set(shown, Color=INK, FontSize=22, WindowLocation="Upper Left Corner", Justification="Left")
+        self.aim(len(lines))
         simple.Render(self.view)
-        self.view.ResetCamera(False)
-        self.view.CameraParallelScale *= 0.85 if len(lines) < 6 else 1.0
-        simple.Render(self.view)
+
+    def aim(self, lines: int) -> None:
+        """Camera on the box around the structure and its mechanism, with room above it for lines of words."""
+        low, high, towards = self.case["low"], self.case["high"], _unit(self.case["look_from"])
+        right = _unit([-towards[1], towards[0], 0.0])
+        up = _cross(towards, right)
+        corners = [[x, y, z] for x in (low[0], high[0]) for y in (low[1], high[1]) for z in (low[2], high[2])]
+        middle = [(a + b) / 2 for a, b in zip(low, high, strict=True)]
+        width = max(abs(_dot(corner, right) - _dot(middle, right)) for corner in corners)
+        height = max(abs(_dot(corner, up) - _dot(middle, up)) for corner in corners)
+        scale = max(height / (0.82 - 0.05 * lines), 1.3 * width * SIZE[1] / SIZE[0])
+        focus = [m + 0.05 * lines * scale * u for m, u in zip(middle, up, strict=True)]
+        self.view.CameraParallelProjection = 1
+        self.view.CameraFocalPoint = focus
+        self.view.CameraPosition = [f + 3.0 * self.length * t for f, t in zip(focus, towards, strict=True)]
+        self.view.CameraViewUp = up
+        self.view.CameraParallelScale = scale
+        self.view.CenterOfRotation = middle
 
     def close(self) -> None:
         """Free what it holds."""
@@ -250,6 +265,18 @@ def _set(target: Any, **properties: Any) -> None:
     for name, value in properties.items():
         if hasattr(target, name):
             setattr(target, name, value)
+
+
+def _dot(a: list[float], b: list[float]) -> float:
+    return sum(x * y for x, y in zip(a, b, strict=True))
+
+
+def _cross(a: list[float], b: list[float]) -> list[float]:
+    return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+
+
+def _unit(a: list[float]) -> list[float]:
+    return [x / math.sqrt(_dot(a, a)) for x in a]
 
 
 def views_of(case: str) -> list[str]:
