@@ -36,6 +36,8 @@ def folder(tmp_path_factory: pytest.TempPathFactory, results: Results) -> Path:
 class Source:
     """A reader or filter; what it asks of its data must be in the file at its beginning."""
 
+    seen: set[str]
+
     def __init__(self, seen: set[str], **properties: Any) -> None:
         self.__dict__["seen"] = seen
         self.__dict__["GlyphTransform"] = SimpleNamespace()
