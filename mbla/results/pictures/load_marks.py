@@ -100,7 +100,7 @@ def _in_words(model: Model, words: Sequence[str]) -> FloatArray:
 
 
 def _acceleration(model: Model, loads: FloatArray, written: FloatArray) -> tuple[FloatArray, BoolArray]:
-    """The force per mass that the words say, else the one that most blocks have, (3,); the blocks that have it, (n_blocks,)."""
+    """The force per mass that the words say, else the one that most blocks have, (3,); who has it, (n_blocks,)."""
     masses = model.blocks.masses
     chosen = (masses > 0) & np.any(loads[:, :3] != 0, axis=1)
     none = np.zeros(3), np.zeros(len(loads), dtype=bool)
