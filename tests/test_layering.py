@@ -26,6 +26,10 @@ DOORS = {
     "pyvista": "results/pictures/space.py",
     "vtk": "results/pictures/space.py",
     "matplotlib": "results/pictures/page.py",
+    "jinja2": "results/report/page.py",
+    "plotly": "results/view3d/view.py",
+    "pandas": "results/tables/table.py",
+    "pyarrow": "results/tables/parquet_file.py",
 }
 FILES = sorted(PACKAGE.rglob("*.py"))
 
