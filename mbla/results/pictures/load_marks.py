@@ -78,7 +78,9 @@ def load_marks(model: Model, loads: FloatArray, words: Sequence[str]) -> LoadMar
     turned = np.flatnonzero(np.linalg.norm(about, axis=1) > WRITTEN * _moment_size(model, loads))
     return LoadMarks(
         blocks=pushed,
-        tips=np.array([_entry(model, b, p, f) for b, p, f in zip(pushed, points, vectors, strict=True)]).reshape(-1, 3),
+        tips=np.array([_entry(model, int(b), p, f) for b, p, f in zip(pushed, points, vectors, strict=True)]).reshape(
+            -1, 3
+        ),
         forces=vectors,
         moment_blocks=turned,
         moments=about[turned],
