@@ -23,8 +23,8 @@ DOORS = {
     "qdldl": "solution/linear_algebra/qdldl_factors.py",
     "highspy": "solution/highs_adapter.py",
     "h5py": "results/hdf5/result_file.py",
-    "pyvista": "results/pictures/space.py",
-    "vtk": "results/pictures/space.py",
+    "pyvista": "results/pictures/space/renderer.py",
+    "vtk": "results/pictures/space/renderer.py",
     "matplotlib": "results/pictures/page.py",
 }
 FILES = sorted(PACKAGE.rglob("*.py"))

@@ -2,18 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from pathlib import Path
 
 from mbla.errors import FileError, UsageError
-from mbla.results.pictures import space
-from mbla.results.pictures.options import PictureOptions, format_of
-from mbla.results.pictures.page import write_page
-from mbla.results.pictures.scene import scene_of
+from mbla.results.pictures.options import PictureOptions
+from mbla.results.pictures.space.picture import write_in_space
 from mbla.results.results import CaseResult, Results
-
-SHARPNESS = {"png": 1, "svg": 2, "pdf": 2}
-"""pixels of an image over those of a PNG page"""
 
 
 def plot_results(results: Results, target: Path, stem: str, options: PictureOptions | None = None) -> list[Path]:
@@ -64,8 +58,4 @@ def plot_mechanism(results: Results, case: CaseResult, path: Path, options: Pict
     FileError
         The file cannot be written.
     """
-    options = options or PictureOptions()
-    sharp = replace(options, dpi=options.dpi * SHARPNESS[format_of(path)])
-    scene = scene_of(results, case, options, "mechanism")
-    image = space.render(scene, "mechanism", sharp)
-    write_page(path, image, scene.words, space.legend(scene, "mechanism"), options)
+    write_in_space(results, case, "mechanism", path, options or PictureOptions())
