@@ -119,11 +119,16 @@ def open_page(path: Path, options: PictureOptions) -> Iterator[Page]:
 def add_words(page: Page, words: Sequence[str], mark: str = "") -> float:
     """Write words at the top, the first line bold, a mark in red after it; the share of the height they take."""
     aspect = page.options.size[0] / USUAL_WIDTH / page.scale
-    lines = [part for line in words for part in textwrap.wrap(line, max(20, int(COLUMNS * aspect)))]
+    columns = max(20, int(COLUMNS * aspect))
+    lines = [part for line in words for part in textwrap.wrap(line, columns)]
     style = {"va": "top", "color": INK, "parse_math": False, "linespacing": 1.4}
     gap = EDGE * page.options.size[0] / page.options.size[1]
-    text = page.figure.text(EDGE, 1 - gap, "\n".join(lines), fontsize=page.letter, **style)
-    used = gap + page.height_of(text)
+    used = gap
+    first = len(textwrap.wrap(words[0], columns)) if words else 0
+    for part, weight in ((lines[:first], "bold"), (lines[first:], "normal")):
+        if part:
+            text = page.figure.text(EDGE, 1 - used, "\n".join(part), fontsize=page.letter, weight=weight, **style)
+            used += page.height_of(text) + gap / 4
     if mark:
         style["color"] = WARNING
         text = page.figure.text(EDGE, 1 - used - gap / 2, mark, fontsize=page.letter, weight="bold", **style)

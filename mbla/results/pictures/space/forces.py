@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
-from mbla.results.collapse.thrust import Thrust, thrust_lines, thrust_of
-from mbla.results.pictures.palette import FIXED_BLOCK, FORCE, REST, THRUST
+from mbla.results.collapse.thrust import Thrust
+from mbla.results.pictures.palette import FIXED_BLOCK, REST, SKY, THRUST
 from mbla.results.pictures.scene import Scene
 from mbla.results.pictures.space.drawing import ColourScale, Drawing
-from mbla.results.pictures.space.loads import dead_load_arrows, live_load_arrows
+from mbla.results.pictures.space.loads import live_load_arrows
 from mbla.results.pictures.space.shapes import Faces, Shape, rgb, rods
 from mbla.results.pictures.space.structure import block_faces, edge_lines, grounds, interface_faces
 from mbla.results.words.text import number
@@ -33,7 +31,7 @@ LEAST = 1e-3
 
 def forces_drawing(scene: Scene) -> Drawing:
     """Forces of the case at its load factor; where no load factor exists, those that lock the structure; else none."""
-    forces = _contact_forces(scene)
+    thrust = scene.thrust
     vertices = scene.model.blocks.vertices
     colours = np.tile(rgb(REST), (len(scene.model.blocks), 1))
     colours[scene.model.fixed] = rgb(FIXED_BLOCK)
@@ -43,34 +41,22 @@ def forces_drawing(scene: Scene) -> Drawing:
     legend: list[tuple[str, str]] = []
     notes: tuple[str, ...] = ()
     scale = None
-    if forces is not None and len(scene.contacts):
-        thrust = thrust_of(scene.model, scene.contacts, forces)
-        if thrust.carried.any():
-            scale = ColourScale(
-                "eccentricity, 0 in the middle, 1 at the edge", 0.0, 1.0, ramp(np.linspace(0, 1, STEPS))
-            )
-            few = int(thrust.carried.sum()) <= MOST_FACES
-            marks += [eccentricity_faces(scene, thrust)] * few + [resultant_rods(scene, thrust, few)]
-            legend += [("resultant", FORCE)] * few
-            notes = (_largest(scene, thrust),)
-            lines = thrust_tubes(scene, thrust)
-            if lines is not None:
-                marks.append(lines)
-                legend.append(("line of thrust", THRUST))
-    loads: list[Shape] = []
-    for shapes, entries in (live_load_arrows(scene), dead_load_arrows(scene)):
-        loads += shapes
-        legend += entries
+    if thrust is not None and thrust.carried.any():
+        scale = ColourScale("eccentricity, 0 in the middle, 1 at the edge", 0.0, 1.0, ramp(np.linspace(0, 1, STEPS)))
+        few = int(thrust.carried.sum()) <= MOST_FACES
+        marks += [eccentricity_faces(scene, thrust)] * few + [resultant_rods(scene, thrust, few)]
+        legend += [("resultant", SKY)] * few
+        notes = (_largest(scene, thrust),)
+        lines = thrust_tubes(scene)
+        if lines is not None:
+            marks.append(lines)
+            legend.append(("line of thrust", THRUST))
+    loads, entries = live_load_arrows(scene)
+    legend += entries
     if scene.model.fixed.any():
         legend.append(("support", FIXED_BLOCK))
     extent = np.vstack([vertices, *scene.slabs, *(shape.points for shape in loads)])
     return Drawing(tuple(solid + loads), tuple(marks), 0.85, extent, tuple(legend), scale, notes)
-
-
-def _contact_forces(scene: Scene) -> FloatArray | None:
-    if scene.mechanics is not None:
-        return scene.mechanics.contact_forces
-    return scene.case.solution.lock
 
 
 def ramp(values: FloatArray) -> FloatArray:
@@ -100,7 +86,7 @@ def resultant_rods(scene: Scene, thrust: Thrust, plain: bool) -> Faces:
     step = thrust.forces[rows] / sizes[rows, None] * half[:, None]
     usual = float(np.quantile(sizes[rows], USUAL))
     radii = np.minimum(THICKEST * scene.size, 0.25 * np.median(half)) * np.sqrt(sizes[rows] / usual)
-    colours = np.tile(rgb(FORCE), (len(rows), 1)) if plain else ramp(thrust.eccentricity[rows])
+    colours = np.tile(rgb(SKY), (len(rows), 1)) if plain else ramp(thrust.eccentricity[rows])
     return rods(thrust.points[rows] - step, thrust.points[rows] + step, radii, colours)
 
 
@@ -110,15 +96,14 @@ def _block_size(scene: Scene, rows: IntArray) -> FloatArray:
     return np.asarray(sizes[scene.contacts.bodies[rows]].min(axis=1))
 
 
-def thrust_tubes(scene: Scene, thrust: Thrust) -> Faces | None:
+def thrust_tubes(scene: Scene) -> Faces | None:
     """Lines of thrust along chains of blocks as thin tubes."""
-    chains = thrust_lines(scene.model, scene.contacts, thrust)
-    if not chains:
+    if not scene.thrust_lines:
         return None
-    starts = thrust.points[np.concatenate([chain[:-1] for chain in chains])]
-    ends = thrust.points[np.concatenate([chain[1:] for chain in chains])]
+    starts = np.vstack([line[:-1] for line in scene.thrust_lines])
+    ends = np.vstack([line[1:] for line in scene.thrust_lines])
     radii = np.full(len(starts), 0.0028 * scene.size)
-    return replace(rods(starts, ends, radii, np.tile(rgb(THRUST), (len(starts), 1))), lit=True)
+    return rods(starts, ends, radii, np.tile(rgb(THRUST), (len(starts), 1)))
 
 
 def _largest(scene: Scene, thrust: Thrust) -> str:

@@ -5,9 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
-from mbla.results.collapse.interface_modes import InterfaceMode, InterfaceMotion, interface_motion
+from mbla.results.collapse.interface_modes import InterfaceMode, InterfaceMotion
 from mbla.results.collapse.motion import moved_points, vertex_displacements
-from mbla.results.collapse.rigid_parts import rigid_parts
 from mbla.results.pictures.palette import FIXED_BLOCK, GHOST, HINGE, OPEN, REST, SLIDE
 from mbla.results.pictures.scene import Scene
 from mbla.results.pictures.space.drawing import Drawing
@@ -79,9 +78,8 @@ def part_colours(scene: Scene, moving: BoolArray) -> FloatArray:
     """Colour of each block, (n_blocks, 3): stone at rest, grey if fixed, else by the part it moves with."""
     colours = np.tile(rgb(REST), (len(moving), 1))
     if moving.any():
-        parts = rigid_parts(scene.model, scene.contacts, scene.motion)
-        tints = np.array([rgb(tint) for tint in PARTS])[tint_of_part(scene, parts)]
-        colours[moving] = tints[parts[moving]]
+        tints = np.array([rgb(tint) for tint in PARTS])[tint_of_part(scene, scene.parts)]
+        colours[moving] = tints[scene.parts[moving]]
     colours[scene.model.fixed & ~moving] = rgb(FIXED_BLOCK)
     return colours
 
@@ -108,11 +106,10 @@ def tint_of_part(scene: Scene, parts: IntArray) -> IntArray:
 
 def joint_marks(scene: Scene) -> tuple[list[Shape], list[Shape], list[tuple[str, str]]]:
     """Coloured faces of gaps and sliding; hinges, outlines and arrows that shine through; entries of the legend."""
-    contacts = scene.contacts
     reach = float(np.linalg.norm(np.ptp(scene.moved, axis=0)))
-    if scene.mechanics is None:
+    if scene.collapse is None:
         return [], [], []
-    joints = interface_motion(scene.model, contacts, scene.mechanics)
+    joints = scene.collapse.interfaces
     slides = (joints.modes == InterfaceMode.SLIDE) | (joints.modes == InterfaceMode.TWIST)
     opens = (joints.modes == InterfaceMode.OPEN) | (joints.modes == InterfaceMode.HINGE)
     faces: list[Shape] = []

@@ -7,7 +7,7 @@ import numpy as np
 from mbla.results.pictures.palette import FIXED_BLOCK, group_colours
 from mbla.results.pictures.scene import Scene
 from mbla.results.pictures.space.drawing import Drawing
-from mbla.results.pictures.space.loads import dead_load_arrows, live_load_arrows
+from mbla.results.pictures.space.loads import all_load_arrows
 from mbla.results.pictures.space.shapes import Shape, rgb
 from mbla.results.pictures.space.structure import SLAB, block_faces, edge_lines, grounds
 
@@ -31,9 +31,7 @@ def model_drawing(scene: Scene) -> Drawing:
         legend.append(("fixed blocks", FIXED_BLOCK))
     if scene.slabs:
         legend.append(("ground", SLAB))
-    marks: list[Shape] = []
-    for shapes, entries in (live_load_arrows(scene), dead_load_arrows(scene)):
-        marks += shapes
-        legend += entries
+    marks, entries = all_load_arrows(scene)
+    legend += entries
     extent = np.vstack([blocks.vertices, *scene.slabs, *(shape.points for shape in marks)])
     return Drawing(tuple(solid), tuple(marks), 0.5, extent, tuple(legend), notes=notes)

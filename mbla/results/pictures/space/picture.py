@@ -9,7 +9,7 @@ from pathlib import Path
 from mbla.results.collapse.motion import drawn_motion
 from mbla.results.pictures.options import PictureOptions, format_of
 from mbla.results.pictures.page import open_page
-from mbla.results.pictures.scene import Scene, scene_of
+from mbla.results.pictures.scene import Scene
 from mbla.results.pictures.space.camera import fitted
 from mbla.results.pictures.space.drawing import Drawing
 from mbla.results.pictures.space.forces import forces_drawing
@@ -18,7 +18,6 @@ from mbla.results.pictures.space.model import model_drawing
 from mbla.results.pictures.space.renderer import Renderer
 from mbla.results.pictures.space.sheet import add_image, fill_sheet
 from mbla.results.pictures.space.views import best_view
-from mbla.results.results import CaseResult, Results
 
 DRAWINGS: dict[str, Callable[[Scene], Drawing]] = {
     "model": model_drawing,
@@ -26,6 +25,7 @@ DRAWINGS: dict[str, Callable[[Scene], Drawing]] = {
     "forces": forces_drawing,
 }
 """what makes the drawing of each kind of picture"""
+KINDS = tuple(DRAWINGS)
 MARGIN = 0.03
 """of the page beside the structure, share of the width"""
 AXES = 0.09
@@ -34,8 +34,8 @@ SHARPNESS = {"png": 1, "svg": 2, "pdf": 2}
 """pixels of the image over those of a PNG page"""
 
 
-def write_in_space(results: Results, case: CaseResult, kind: str, path: Path, options: PictureOptions) -> None:
-    """Draw one kind of picture of one case, of ``DRAWINGS``, to a PNG, SVG or PDF file.
+def draw_in_space(path: Path, scene: Scene, kind: str, options: PictureOptions) -> None:
+    """Draw a picture of one of ``KINDS`` to a PNG, SVG or PDF file.
 
     Raises
     ------
@@ -44,13 +44,11 @@ def write_in_space(results: Results, case: CaseResult, kind: str, path: Path, op
     FileError
         The file cannot be written.
     """
-    sharp = replace(options, dpi=options.dpi * SHARPNESS[format_of(path)])
-    scene = scene_of(results, case, options, kind)
+    width, height = replace(options, dpi=options.dpi * SHARPNESS[format_of(path)]).pixels
     drawing = DRAWINGS[kind](scene)
-    view = options.view or view_of_case(results, case)
-    width, height = sharp.pixels
+    view = options.view or view_of_case(scene)
     with open_page(path, options) as page:
-        bottom, top = fill_sheet(page, scene, drawing)
+        bottom, top = fill_sheet(page, scene, kind, drawing)
         camera = fitted(drawing.extent, *view, width / height, frame_between(bottom, top))
         with Renderer(drawing.solid, drawing.marks) as renderer:
             image = renderer.image(camera, width, height, drawing.shine)
@@ -62,6 +60,6 @@ def frame_between(bottom: float, top: float) -> tuple[tuple[float, float], tuple
     return (MARGIN, 1 - MARGIN), (max(bottom, AXES) + 0.01, max(top - 0.01, bottom + 0.2))
 
 
-def view_of_case(results: Results, case: CaseResult) -> tuple[float, float]:
+def view_of_case(scene: Scene) -> tuple[float, float]:
     """Azimuth and elevation in degrees, the same for every kind of picture of a case: from where it is seen to move."""
-    return best_view(Scene(results, case, drawn_motion(results.model.of_case(case.load_case), case)))
+    return best_view(replace(scene, motion=drawn_motion(scene.model, scene.case)))

@@ -13,15 +13,14 @@ from mbla.results.pictures.scene import Scene
 from mbla.results.pictures.space.camera import Camera
 from mbla.results.pictures.space.drawing import ColourScale, Drawing
 from mbla.results.words.text import number
-from mbla.solution.solution import Status
 
 ROOM = 0.7
 """share of the width that the legend may take beside axes and scale bar"""
 
 
-def fill_sheet(page: Page, scene: Scene, drawing: Drawing) -> tuple[float, float]:
+def fill_sheet(page: Page, scene: Scene, kind: str, drawing: Drawing) -> tuple[float, float]:
     """Words above and legend below; where the room between them ends below and above, as shares of the height."""
-    used = add_words(page, scene.words, warning_of(scene))
+    used = add_words(page, scene.words_of(kind), scene.mark_of(kind))
     return _add_legend(page, drawing), 1 - used
 
 
@@ -36,15 +35,6 @@ def add_image(page: Page, image: Any, camera: Camera, scene: Scene, drawing: Dra
     if drawing.scale is not None:
         _add_colours(page, drawing.scale, bottom)
     return artist
-
-
-def warning_of(scene: Scene) -> str:
-    """What must be said of figures that are no result, or only nearly; nothing of others."""
-    if scene.case.status is Status.APPROXIMATE:
-        return "APPROXIMATE"
-    if scene.is_result or scene.mechanics is None:
-        return "" if scene.case.status is not Status.NOT_VERIFIED else "NOT VERIFIED"
-    return "NOT VERIFIED" if scene.case.status is Status.NOT_VERIFIED else "NOT A RESULT"
 
 
 def _add_triad(axes: Any, camera: Camera, size: float) -> None:
