@@ -3,22 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 
 from mbla.errors import FileError, UsageError
-from mbla.results.pictures import space
 from mbla.results.pictures.history import draw_history, draw_series
-from mbla.results.pictures.options import USUAL_KINDS, PictureOptions, format_of
-from mbla.results.pictures.page import write_page
+from mbla.results.pictures.options import PictureOptions, format_of
 from mbla.results.pictures.plane.draw import draw_plane
 from mbla.results.pictures.plane.flat import flat_of
 from mbla.results.pictures.scene import Scene, scene_of
+from mbla.results.pictures.space.picture import draw_in_space
 from mbla.results.results import CaseResult, Results
 from mbla.results.series import series_of
-
-SHARPNESS = {"png": 1, "svg": 2, "pdf": 2}
-"""pixels of an image over those of a PNG page"""
 
 
 @dataclass(frozen=True)
@@ -80,16 +76,9 @@ def _pictures(results: Results, cases: list[CaseResult], options: PictureOptions
     def of(case: CaseResult, kind: str) -> Callable[[Path], None]:
         return lambda path: draw_picture(path, scene_of(results, case, options, kind), kind, options)
 
-    def drawn(case: CaseResult, kind: str) -> bool:
-        """Of the usual pictures, those that can be drawn."""
-        scene = scene_of(results, case, options, kind)
-        usual = options.kinds == USUAL_KINDS
-        return not usual or kind in space.KINDS or flat_of(scene, options, kind) is not None
-
-    model = "model" in options.kinds and drawn(cases[0], "model")
-    pictures = [Picture("_model", of(cases[0], "model"))] if model else []
+    pictures = [Picture("_model", of(cases[0], "model"))] if "model" in options.kinds else []
     for case in cases:
-        for kind in (kind for kind in options.kinds if kind != "model" and drawn(case, kind)):
+        for kind in (kind for kind in options.kinds if kind != "model"):
             ending = "" if kind == "mechanism" else f"_{kind}"
             pictures.append(Picture(f"_{case.load_case.name}{ending}", of(case, kind)))
     if "history" in options.kinds:
@@ -113,11 +102,7 @@ def draw_picture(path: Path, scene: Scene, kind: str, options: PictureOptions) -
     if flat is not None:
         draw_plane(path, scene, flat, kind, options)
         return
-    if kind not in space.KINDS:
-        kinds = ", ".join(space.KINDS)
-        raise UsageError(f"--kind {kind}: of load case {scene.case.load_case.name}, in space, there are {kinds}")
-    image = space.render(scene, kind, replace(options, dpi=options.dpi * SHARPNESS[format_of(path)]))
-    write_page(path, image, scene.words_of(kind), space.legend(scene, kind), options, scene.mark_of(kind))
+    draw_in_space(path, scene, kind, options)
 
 
 def plot_mechanism(results: Results, case: CaseResult, path: Path, options: PictureOptions | None = None) -> None:

@@ -41,7 +41,7 @@ def test_without_opengl_the_machine_is_told_what_it_lacks(
     tmp_path: Path, results: Results, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """vtk would end the process with a segmentation fault."""
-    monkeypatch.setattr("mbla.results.pictures.space.can_draw", lambda: False)
+    monkeypatch.setattr("mbla.results.pictures.space.renderer.can_draw", lambda: False)
     with pytest.raises(UsageError, match="libegl1"):
         plot_results(results, tmp_path, "tower", IN_SPACE)
     assert not list(tmp_path.glob("*.png"))
