@@ -28,6 +28,8 @@ DOORS = {
     "pyvista": "results/pictures/pictures.py",
     "vtk": "results/pictures/pictures.py",
     "paraview": "results/paraview/standard_views.py",
+    "pyvista": "results/pictures/space/renderer.py",
+    "vtk": "results/pictures/space/renderer.py",
     "matplotlib": "results/pictures/page.py",
     "jinja2": "results/report/page.py",
     "plotly": "results/view3d/view.py",
