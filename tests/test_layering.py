@@ -25,6 +25,8 @@ DOORS = {
     "h5py": "results/hdf5/result_file.py",
     "pyvista": "results/pictures/space/renderer.py",
     "vtk": "results/pictures/space/renderer.py",
+    "imageio": "results/pictures/animation.py",
+    "imageio_ffmpeg": "results/pictures/animation.py",
     "matplotlib": "results/pictures/page.py",
 }
 FILES = sorted(PACKAGE.rglob("*.py"))
