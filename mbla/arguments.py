@@ -122,10 +122,13 @@ def _add_plot(commands: Any) -> None:
     )
     command.add_argument("--case", metavar="NAME", help="only this load case")
     command.add_argument(
+        "--animate", choices=["gif", "mp4"], help="moving pictures of the mechanisms in the place of pictures"
+    )
+    command.add_argument(
         "--view",
         default="auto",
         metavar="VIEW",
-        help="front, back, left, right, top, iso, auto, or AZIMUTH,ELEVATION of the eye in degrees, as --view=-60,25",
+        help="front, back, left, right, top, iso, below, auto, or AZIMUTH,ELEVATION in degrees, as --view=-60,25",
     )
     command.add_argument(
         "--scale", default="auto", metavar="X", help="multiple of the displacements that auto draws (default auto)"
