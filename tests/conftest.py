@@ -9,6 +9,7 @@ import pytest
 
 from tests.browser import CHROMIUM, open_browser
 
+
 @pytest.fixture(scope="module")
 def browser() -> Iterator[Any]:
     """A headless browser; tests that want one are skipped where there is none."""
@@ -29,7 +30,8 @@ def pytest_terminal_summary(terminalreporter: Any) -> None:
     """``tests in a browser: 8 passed (/usr/bin/chromium)``, where any were asked for."""
     counts = {
         outcome: sum(
-            any(name == "browser" for name, _ in report.user_properties) and (report.when == "call" or not report.passed)
+            any(name == "browser" for name, _ in report.user_properties)
+            and (report.when == "call" or not report.passed)
             for report in terminalreporter.stats.get(outcome, [])
         )
         for outcome in ("passed", "failed", "error", "skipped")
