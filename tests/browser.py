@@ -5,8 +5,6 @@ from __future__ import annotations
 import io
 import os
 import shutil
-from collections.abc import Iterator
-from contextlib import contextmanager
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -35,18 +33,6 @@ class Visit:
 
         with Image.open(io.BytesIO(self.page.locator(selector).first.screenshot())) as image:
             return np.asarray(image)[..., :3].astype(int)
-
-
-@contextmanager
-def open_browser() -> Iterator[Any]:
-    """A browser; one at a time."""
-    playwright = pytest.importorskip("playwright.sync_api")
-    with playwright.sync_playwright() as driver:
-        browser = driver.chromium.launch(executable_path=CHROMIUM, args=ARGUMENTS)
-        try:
-            yield browser
-        finally:
-            browser.close()
 
 
 def visited(browser: Any, address: str, width: int = 900, height: int = 800) -> Visit:

@@ -7,16 +7,19 @@ from typing import Any
 
 import pytest
 
-from tests.browser import CHROMIUM, open_browser
+from tests.browser import ARGUMENTS, CHROMIUM
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture(scope="session")
 def browser() -> Iterator[Any]:
     """A headless browser; tests that want one are skipped where there is none."""
+    playwright = pytest.importorskip("playwright.sync_api", reason="playwright is not installed")
     if CHROMIUM is None:
         pytest.skip("this machine has no browser: no chromium, and MBLA_BROWSER names none")
-    with open_browser() as found:
+    with playwright.sync_playwright() as driver:
+        found = driver.chromium.launch(executable_path=CHROMIUM, args=ARGUMENTS)
         yield found
+        found.close()
 
 
 @pytest.hookimpl(tryfirst=True)

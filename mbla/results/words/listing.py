@@ -86,7 +86,7 @@ def _header(results: Results) -> list[str]:
 
 
 def settings_lines(results: Results) -> list[str]:
-    """Units, and every setting of the analysis in effect."""
+    """Units and the settings in effect."""
     units = results.model.units
     lines = heading("Units and analysis settings")
     lines += entry("units", f"{units.length}, {units.force}, {units.mass}, s; angles of joints as tangents")
