@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 from mbla.errors import UsageError
 
@@ -26,6 +27,9 @@ DOTS_PER_INCH = 100
 """at which the size of a picture is given"""
 LEAST_SIDE, MOST_SIDE = 200, 20_000
 """pixels of a side of a picture"""
+
+
+LEAST_DPI, MOST_DPI = 20, 1200
 
 
 @dataclass(frozen=True)
@@ -55,6 +59,28 @@ class PictureOptions:
         """Width and height of a PNG."""
         width, height = self.size
         return round(width * self.dpi / DOTS_PER_INCH), round(height * self.dpi / DOTS_PER_INCH)
+
+
+def picture_options(arguments: Any) -> PictureOptions:
+    """The options of the command line, texts or None by their names; UsageError for what is none of them.
+
+    A single file without a kind is that of the mechanism.
+    """
+    texts = vars(arguments)
+    output = texts.get("output")
+    single = output is not None and output.suffix and not output.is_dir()
+    dpi = texts["dpi"]
+    if not LEAST_DPI <= dpi <= MOST_DPI:
+        raise UsageError(f"--dpi {dpi}: {LEAST_DPI} to {MOST_DPI} dots per inch")
+    return PictureOptions(
+        kinds=parse_kinds(texts["kind"]) if texts["kind"] else ("mechanism",) if single else USUAL_KINDS,
+        case=texts["case"],
+        view=parse_view(texts["view"]),
+        scale=parse_scale(texts["scale"]),
+        size=parse_size(texts["size"]),
+        dpi=dpi,
+        format=texts["format"],
+    )
 
 
 def parse_kinds(text: str) -> tuple[str, ...]:
