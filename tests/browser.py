@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import io
 import shutil
-from collections.abc import Iterator
-from contextlib import contextmanager
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -13,8 +11,6 @@ import numpy as np
 import pytest
 
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
-ARGUMENTS = ("--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader")
-"""without a sandbox, as tests may run as root; WebGL by software"""
 needs_browser = pytest.mark.skipif(CHROMIUM is None, reason="this machine has no browser")
 
 
@@ -32,18 +28,6 @@ class Visit:
 
         with Image.open(io.BytesIO(self.page.locator(selector).first.screenshot())) as image:
             return np.asarray(image)[..., :3].astype(int)
-
-
-@contextmanager
-def open_browser() -> Iterator[Any]:
-    """A browser; one at a time."""
-    playwright = pytest.importorskip("playwright.sync_api")
-    with playwright.sync_playwright() as driver:
-        browser = driver.chromium.launch(executable_path=CHROMIUM, args=ARGUMENTS)
-        try:
-            yield browser
-        finally:
-            browser.close()
 
 
 def visited(browser: Any, address: str, width: int = 900, height: int = 800) -> Visit:

@@ -28,6 +28,8 @@ DOORS = {
     "matplotlib": "results/pictures/page.py",
     "jinja2": "results/report/page.py",
     "plotly": "results/view3d/view.py",
+    "pandas": "results/tables/table.py",
+    "pyarrow": "results/tables/parquet_file.py",
 }
 FILES = sorted(PACKAGE.rglob("*.py"))
 

@@ -32,7 +32,7 @@ class Figures:
 
 def case_figures(results: Results, case: CaseResult) -> Figures:
     """Pictures of a case; where the extra or the machine's OpenGL is missing, the reason instead, to be shown."""
-    from mbla.results.pictures.pictures import plot_mechanism
+    from mbla.results.pictures.plot import plot_mechanism
 
     name = case.load_case.name
     with tempfile.TemporaryDirectory(prefix="mbla-report-") as folder:

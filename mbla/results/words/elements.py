@@ -1,7 +1,7 @@
 """What lines of a listing are made of, kept with them, so that other formats are made from the same source.
 
-A printed line is a :class:`Line`: text that knows the heading, sentence, entry or table it is a line of. The listing joins
-lines; the report asks for their elements. Neither can say what the other does not.
+A printed line is a :class:`Line`: text that knows the heading, sentence, entry or table it is a line of. The listing
+joins lines; the report asks for their elements. Neither can say what the other does not.
 """
 
 from __future__ import annotations

@@ -86,6 +86,7 @@ def _header(results: Results) -> list[str]:
 
 
 def settings_lines(results: Results) -> list[str]:
+    """Units and the settings in effect."""
     units = results.model.units
     lines = heading("Units and analysis settings")
     lines += entry("units", f"{units.length}, {units.force}, {units.mass}, s; angles of joints as tangents")

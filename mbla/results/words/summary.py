@@ -48,7 +48,12 @@ def _row(model: Model, case: CaseResult, answers: Sequence[str]) -> list[str]:
     """A cell for each kind of answer, filled in that of the case; the associative answer is of the same kind."""
     own = answer_figure(case.load_case, result_of(case))
     figures = [own if answer == answer_head(model, case.load_case) else "" for answer in answers]
-    return [case.load_case.name, status_words(case.status), *figures, answer_figure(case.load_case, associative_of(case))]
+    return [
+        case.load_case.name,
+        status_words(case.status),
+        *figures,
+        answer_figure(case.load_case, associative_of(case)),
+    ]
 
 
 def _in_words(results: Results, case: CaseResult) -> list[str]:

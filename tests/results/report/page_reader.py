@@ -59,8 +59,7 @@ class Page(HTMLParser):
         return [
             node
             for node in self.nodes
-            if node.tag == tag
-            and all(value in node.attributes.get(name, "").split() for name, value in wanted.items())
+            if node.tag == tag and all(value in node.attributes.get(name, "").split() for name, value in wanted.items())
         ]
 
     def one(self, tag: str, **attributes: str) -> Node:

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pytest
 
-from mbla.results.pictures.pictures import can_draw
+from mbla.results.pictures.space import can_draw
 from mbla.results.records.json_record import results_json
 from mbla.results.report.report import write_report
 from mbla.results.results import Results

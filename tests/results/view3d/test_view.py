@@ -1,5 +1,4 @@
 import re
-from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -12,7 +11,7 @@ from mbla.results.results import Results
 from mbla.results.view3d import view
 from mbla.results.view3d.view import library_html, page_html, view_html
 from mbla.solution.solution import Status
-from tests.browser import Visit, needs_browser, open_browser, visited
+from tests.browser import Visit, needs_browser, visited
 from tests.results.synthetic import tower_results
 
 PLOT = ".mbla-view3d-plot"
@@ -22,12 +21,6 @@ READY = "[data-mbla-ready]"
 @pytest.fixture(scope="module")
 def results() -> Results:
     return tower_results()
-
-
-@pytest.fixture(scope="module")
-def browser() -> Iterator[Any]:
-    with open_browser() as found:
-        yield found
 
 
 @pytest.fixture(scope="module")
