@@ -1,17 +1,12 @@
-"""A browser of the machine for tests, without a window; a test that needs it is skipped where there is none."""
+"""Pages in the browser of ``conftest.py``, with what they ask for and complain of."""
 
 from __future__ import annotations
 
 import io
-import shutil
 from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
-import pytest
-
-CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
-needs_browser = pytest.mark.skipif(CHROMIUM is None, reason="this machine has no browser")
 
 
 @dataclass

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
 from mbla.contacts.contacts import Contacts
 from mbla.errors import Notice, UsageError
@@ -17,6 +18,9 @@ from mbla.results.results import Results
 from mbla.results.series import series_of
 from mbla.results.words.listing import listing
 from mbla.results.words.summary import summary_lines
+
+if TYPE_CHECKING:
+    import pandas
 
 
 @dataclass(frozen=True)
@@ -111,6 +115,20 @@ class Run:
     def listing(self) -> str:
         """The whole listing, as ``mbla show`` prints it."""
         return listing(self.records)
+
+    def to_frames(self, tables: Sequence[str] | None = None) -> dict[str, pandas.DataFrame]:
+        """Tables as DataFrames by name: cases, blocks, interfaces, points and so on, as ``mbla export`` writes them.
+
+        tables : only these; None for all
+
+        Raises
+        ------
+        UsageError
+            There is no such table, or the extra for tables is not installed.
+        """
+        from mbla.results.tables.tables import tables_of
+
+        return {name: table.to_pandas() for name, table in tables_of(self.records, tables).items()}
 
     @property
     def pictured(self) -> Case | None:

@@ -12,7 +12,6 @@ from mbla.errors import FileError, UsageError
 from mbla.results.notebook.picture import Picture
 from mbla.results.notebook.run import Run
 from mbla.solution.solution import Status
-from tests.browser import needs_browser, open_browser, visited
 from tests.results.synthetic import tower_results
 
 PNG = b"\x89PNG\r\n\x1a\n drawn"
@@ -104,17 +103,3 @@ def test_no_name_is_markup(drawn: list[str]) -> None:
     html = shown(Run(replace(results, model=model, cases=(case,))))["text/html"]
     assert "<script>" not in html
     assert "<b>" not in html
-
-
-@needs_browser
-def test_the_view_in_a_frame_of_a_notebook(tmp_path: Path) -> None:
-    view = Run(tower_results())["push_x"].show()
-    page = tmp_path / "notebook.html"
-    page.write_text(f"<!DOCTYPE html><body>{shown(view)['text/html']}</body>", encoding="utf-8")
-    assert view.save(tmp_path / "view.html").read_text(encoding="utf-8") == view.page
-    with open_browser() as browser:
-        found = visited(browser, page.as_uri())
-        frame = found.page.frame_locator("iframe")
-        frame.locator("[data-mbla-ready] canvas").first.wait_for(state="attached")
-        assert frame.locator(".mbla-view3d-title").inner_text().startswith("Tower and brick")
-        assert (found.errors, [url for url in found.requests if not url.startswith("about:")]) == ([], [])

@@ -122,3 +122,11 @@ def test_settlement_has_its_reaction() -> None:
     run = Run(replace(results, cases=(case,)))
     assert run.cases[0].reaction == pytest.approx(30.0 - 0.5 * 20.0)
     assert run.cases[0].range == (0.45, 0.52)
+
+
+def test_tables_as_frames() -> None:
+    frames = Run(tower_results()).to_frames(["cases", "blocks"])
+    assert list(frames) == ["cases", "blocks"]
+    assert frames["cases"]["load_factor"].tolist()[0] == 0.5
+    with pytest.raises(UsageError, match="stones"):
+        Run(tower_results()).to_frames(["stones"])
