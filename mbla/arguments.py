@@ -37,6 +37,7 @@ def build_parser() -> argparse.ArgumentParser:
     _add_check(commands)
     _add_result_commands(commands)
     _add_plot(commands)
+    _add_report(commands)
     _add_export(commands)
     _add_schema_and_new(commands)
     return parser
@@ -112,6 +113,16 @@ def _add_plot(commands: Any) -> None:
         help="PNG, SVG or PDF file, by its name, of one load case; or a folder (default: that of the result)",
     )
     command.add_argument("--case", metavar="NAME", help="only this load case")
+
+
+def _add_report(commands: Any) -> None:
+    command = commands.add_parser("report", help="one self-contained HTML file of a result (extra mbla[report])")
+    command.add_argument("result", type=Path, metavar="RESULT.h5")
+    command.add_argument(
+        "-o", "--output", type=Path, metavar="FILE", help="HTML file (default: beside the result, STEM.html)"
+    )
+    command.add_argument("--case", metavar="NAME", help="only this load case")
+    command.add_argument("--no-3d", action="store_true", help="leave out the views that can be turned, 5 MB less")
 
 
 def _add_export(commands: Any) -> None:

@@ -130,12 +130,25 @@ def _verify(options: argparse.Namespace) -> int:
 
 def _plot(options: argparse.Namespace) -> int:
     from mbla.results.hdf5.result_file import read_results_hdf5
-    from mbla.results.pictures.pictures import plot_results
+    from mbla.results.pictures.options import PictureOptions
+    from mbla.results.pictures.plot import plot_results
 
     results = read_results_hdf5(options.result)
     target = options.output or options.result.parent
-    for path in plot_results(results, target, options.result.stem, options.case):
+    for path in plot_results(results, target, options.result.stem, PictureOptions(case=options.case)):
         print(path)
+    return 0
+
+
+def _report(options: argparse.Namespace) -> int:
+    from mbla.results.hdf5.result_file import read_results_hdf5
+    from mbla.results.report.report import write_report
+
+    results = read_results_hdf5(options.result)
+    target = options.output or options.result.with_suffix(".html")
+    for remark in write_report(results, target, options.case, view=not options.no_3d):
+        print(f"mbla: {remark}", file=sys.stderr)
+    print(target)
     return 0
 
 
@@ -174,6 +187,7 @@ COMMANDS: dict[str, Callable[[argparse.Namespace], int]] = {
     "show": _show,
     "verify": _verify,
     "plot": _plot,
+    "report": _report,
     "export": _export,
     "schema": _schema,
     "new": _new,

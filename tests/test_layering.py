@@ -23,9 +23,11 @@ DOORS = {
     "qdldl": "solution/linear_algebra/qdldl_factors.py",
     "highspy": "solution/highs_adapter.py",
     "h5py": "results/hdf5/result_file.py",
-    "pyvista": "results/pictures/pictures.py",
-    "vtk": "results/pictures/pictures.py",
+    "pyvista": "results/pictures/space.py",
+    "vtk": "results/pictures/space.py",
     "matplotlib": "results/pictures/page.py",
+    "jinja2": "results/report/page.py",
+    "plotly": "results/view3d/view.py",
     "pandas": "results/tables/table.py",
     "pyarrow": "results/tables/parquet_file.py",
 }

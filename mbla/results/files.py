@@ -28,6 +28,8 @@ from mbla.errors import FileError
 PREFIX = ".mbla-"
 RESULT_SUFFIXES = (".h5", ".lst", ".json", ".sta")
 """files STEM + suffix that make an earlier result"""
+OWN_FILES = r"(\.(h5|lst|json|sta|html|svg|pdf|png|gif|mp4)|_[A-Za-z0-9_.-]+\.(vtu|pvd|py|html|svg|pdf|png|gif|mp4))"
+"""what may follow the stem in the name of a file that a result lists as its own"""
 _TEMPORARY = re.compile(
     re.escape(PREFIX) + r"(?P<host>.+)-(?P<process>\d+)-(?P<kind>new|earlier|open)(?:-(?P<name>.+))?"
 )
@@ -222,7 +224,7 @@ def earlier_files(folder: Path, stem: str) -> tuple[str, ...]:
         listed = json.loads((folder / f"{stem}.json").read_text(encoding="utf-8"))["files"]
     except (OSError, ValueError, KeyError, TypeError):
         return ()
-    own = re.compile(re.escape(stem) + r"(\.(h5|lst|json|sta)|_[A-Za-z0-9_.-]+\.(vtu|pvd|png))")
+    own = re.compile(re.escape(stem) + OWN_FILES)
     names = (
         [name for name in listed if isinstance(name, str) and own.fullmatch(name)] if isinstance(listed, list) else []
     )

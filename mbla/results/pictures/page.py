@@ -13,16 +13,13 @@ from pathlib import Path
 from typing import Any
 
 from mbla.errors import FileError, UsageError
+from mbla.results.pictures.options import DOTS_PER_INCH, PictureOptions, format_of
+from mbla.results.pictures.palette import INK
 
-FORMATS = ("png", "svg", "pdf")
-WIDTH, HEIGHT = 1600, 1000
-"""pixels of a PNG"""
-DPI = 100
-SHARPNESS = {"png": 1, "svg": 2, "pdf": 2}
-"""pixels of the image over pixels of the page"""
+DEFAULT = PictureOptions()
+
 COLUMNS = 120
 """letters in a line of words"""
-INK = "#222222"
 METADATA: dict[str, dict[str, Any]] = {
     "png": {"Software": "mbla"},
     "svg": {"Date": None},
@@ -31,15 +28,9 @@ METADATA: dict[str, dict[str, Any]] = {
 """without dates, so that the same picture gives the same file"""
 
 
-def format_of(path: Path) -> str:
-    """``png``, ``svg`` or ``pdf`` by the name of a file; UsageError for any other."""
-    suffix = path.suffix.lower().removeprefix(".")
-    if suffix not in FORMATS:
-        raise UsageError(f"{path}: pictures are written as PNG, SVG or PDF, by the name of the file")
-    return suffix
-
-
-def write_page(path: Path, image: Any, words: Sequence[str], legend: Sequence[Sequence[str]]) -> None:
+def write_page(
+    path: Path, image: Any, words: Sequence[str], legend: Sequence[Sequence[str]], options: PictureOptions = DEFAULT
+) -> None:
     """Write an image (height, width, 3) with words above it and a legend of names and colours at its lower right.
 
     Raises
@@ -59,7 +50,8 @@ def write_page(path: Path, image: Any, words: Sequence[str], legend: Sequence[Se
         raise UsageError("pictures need an extra that is not installed: pip install 'mbla[pictures]'") from error
     with rc_context({"svg.fonttype": "none", "svg.hashsalt": "mbla", "pdf.fonttype": 42}), warnings.catch_warnings():
         warnings.filterwarnings("ignore", message="Glyph")  # of a script that the font does not have: a box is drawn
-        figure = Figure(figsize=(WIDTH / DPI, HEIGHT / DPI), dpi=DPI)
+        width, height = options.size
+        figure = Figure(figsize=(width / DOTS_PER_INCH, height / DOTS_PER_INCH), dpi=options.dpi)
         axes = figure.add_axes((0.0, 0.0, 1.0, 1.0))
         axes.imshow(image, aspect="auto", interpolation="none")
         axes.set_axis_off()

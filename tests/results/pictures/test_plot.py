@@ -8,7 +8,10 @@ import numpy as np
 import pytest
 
 from mbla.errors import FileError, UsageError
-from mbla.results.pictures.pictures import HINGE, can_draw, plot_mechanism, plot_results
+from mbla.results.pictures.options import PictureOptions
+from mbla.results.pictures.palette import HINGE
+from mbla.results.pictures.plot import plot_mechanism, plot_results
+from mbla.results.pictures.space import can_draw
 from mbla.results.results import Results
 from tests.results.synthetic import tower_results
 
@@ -35,7 +38,7 @@ def test_without_opengl_the_machine_is_told_what_it_lacks(
     tmp_path: Path, results: Results, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """vtk would end the process with a segmentation fault."""
-    monkeypatch.setattr("mbla.results.pictures.pictures.can_draw", lambda: False)
+    monkeypatch.setattr("mbla.results.pictures.space.can_draw", lambda: False)
     with pytest.raises(UsageError, match="libegl1"):
         plot_results(results, tmp_path, "tower")
     assert not list(tmp_path.glob("*.png"))
@@ -56,7 +59,7 @@ def test_pictures_show_the_structure_and_its_hinge(tmp_path: Path, results: Resu
 @pytest.mark.skipif(not can_draw(), reason="this machine has no OpenGL")
 def test_one_file_for_one_case(tmp_path: Path, results: Results) -> None:
     target = tmp_path / "mine.png"
-    assert plot_results(results, target, "tower", "push_x") == [target]
+    assert plot_results(results, target, "tower", PictureOptions(case="push_x")) == [target]
     assert target.stat().st_size > 5000
 
 
@@ -67,12 +70,12 @@ def test_one_file_for_two_cases_is_refused(tmp_path: Path, results: Results) -> 
 
 def test_unknown_case_is_refused(tmp_path: Path, results: Results) -> None:
     with pytest.raises(UsageError, match="push_x, fall"):
-        plot_results(results, tmp_path, "tower", "push_y")
+        plot_results(results, tmp_path, "tower", PictureOptions(case="push_y"))
 
 
 def test_other_formats_are_refused(tmp_path: Path, results: Results) -> None:
     with pytest.raises(UsageError, match="PNG, SVG or PDF"):
-        plot_results(results, tmp_path / "mine.gif", "tower", "push_x")
+        plot_results(results, tmp_path / "mine.gif", "tower", PictureOptions(case="push_x"))
     assert not list(tmp_path.iterdir())
 
 
@@ -97,7 +100,7 @@ def test_missing_extra_is_named(tmp_path: Path, results: Results, monkeypatch: p
 
 def test_module_imports_nothing_heavy() -> None:
     code = (
-        "import sys, mbla.results.pictures.pictures, mbla.results.write; "
+        "import sys, mbla.results.pictures.plot, mbla.results.write; "
         "print([name for name in ('pyvista', 'vtk', 'h5py', 'meshio') if name in sys.modules])"
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
