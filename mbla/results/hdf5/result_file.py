@@ -28,7 +28,7 @@ from mbla.results.hdf5.layout import (
     VERSION,
     fields_of_case,
 )
-from mbla.results.hdf5.reading import check_indices, read_field, strings, text_of
+from mbla.results.hdf5.reading import check_indices, earlier_name, read_field, strings, text_of
 from mbla.results.hdf5.restore import results_from
 from mbla.results.results import Results
 
@@ -155,11 +155,11 @@ def _set_attribute(owner: h5py.HLObject, name: str, value: str | int) -> None:
 
 
 def _text_array(value: str | list[str] | tuple[str, ...]) -> np.typing.NDArray[Any]:
-    """UTF-8 text of fixed length as h5py wants it."""
+    """UTF-8 text of fixed length as h5py wants it; at least 2 bytes, as netCDF joins arrays of single letters."""
     import h5py
 
     encoded = [text.encode("utf-8", "backslashreplace") for text in ([value] if isinstance(value, str) else value)]
-    kind = h5py.string_dtype("utf-8", max([1, *map(len, encoded)]))
+    kind = h5py.string_dtype("utf-8", max([2, *map(len, encoded)]))
     array = np.array(encoded, dtype=kind)
     return array.reshape(()) if isinstance(value, str) else array
 
@@ -179,6 +179,8 @@ def _write_field(file: h5py.File, path: str, field: Field, value: Value, units: 
     dataset = _create(file, path, array)
     _set_attribute(dataset, "units", unit_text(field.unit, units))
     _set_attribute(dataset, "long_name", field.long_name)
+    if field.kind == "text":
+        _set_attribute(dataset, "_Encoding", "utf-8")  # netCDF's word for it: xarray gives text, not bytes
     for axis, name in enumerate(field.dims):
         scale = _scale(file, path, name, array.shape[axis])
         dataset.dims[axis].label = name
@@ -251,13 +253,14 @@ def _read_content(file: h5py.File, file_bytes: int) -> Content:
     parts: dict[str, set[bool]] = {}
     fields = _fields(cases)
     for path, field in fields:
-        present = path in file
+        name = path if path in file else earlier_name(path)
+        present = name in file
         if field.part:
             parts.setdefault(f"{path.split('/')[1]}: {field.part}", set()).add(present)
         elif not present:
             raise ValueError(f"{path} is missing")
         if present:
-            content[path] = read_field(_dataset(file, path, file_bytes), path, field, sizes)
+            content[path] = read_field(_dataset(file, name, file_bytes), path, field, sizes)
     incomplete = [part for part, presence in parts.items() if len(presence) > 1]
     if incomplete:
         raise ValueError(f"incomplete: {', '.join(incomplete)}")
