@@ -1,1 +1,1 @@
-"""The report: one HTML file with everything of a result, that opens in a browser without a network and prints as PDF."""
+"""The report: one HTML file with everything of a result; it opens without a network and prints as PDF."""

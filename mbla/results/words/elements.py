@@ -1,7 +1,7 @@
 """What lines of a listing are made of, kept with them, so that other formats are made from the same source.
 
-A printed line is a :class:`Line`: text that knows the heading, sentence, entry or table it is a line of. The listing joins
-lines; the report asks for their elements. Neither can say what the other does not.
+A printed line is a :class:`Line`: text that knows the heading, sentence, entry or table it is a line of. The listing
+joins lines; the report asks for their elements. Neither can say what the other does not.
 """
 
 from __future__ import annotations
@@ -53,6 +53,7 @@ class Line(str):
     element: Element
 
     def __new__(cls, text: str, element: Element) -> Line:
+        """The text, and what it belongs to."""
         line = super().__new__(cls, text)
         line.element = element
         return line

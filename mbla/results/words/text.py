@@ -76,6 +76,11 @@ def number(value: float) -> str:
     return "-" if np.isnan(value) else f"{value + 0.0:.6g}"
 
 
+def percent(share: float) -> str:
+    """``12.3`` of a share of 0.123; ``-`` where there is none."""
+    return "-" if np.isnan(share) else f"{round(100 * share, 1) + 0.0:.1f}"
+
+
 def small(value: float) -> str:
     """A residual: two digits; ``-`` where there is none."""
     return "-" if np.isnan(value) else f"{value + 0.0:.1e}"
