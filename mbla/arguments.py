@@ -151,10 +151,11 @@ def _add_report(commands: Any) -> None:
 
 
 def _add_export(commands: Any) -> None:
-    command = commands.add_parser("export", help="tables of blocks, interfaces, points and load cases")
+    command = commands.add_parser("export", help="tables of blocks, interfaces, points and load cases; VTKHDF meshes")
     command.add_argument("result", type=Path, metavar="RESULT.h5")
     command.add_argument("--csv", action="store_true", help="CSV, units in the header (what is written by default)")
     command.add_argument("--parquet", action="store_true", help="Parquet (extra mbla[tables])")
+    command.add_argument("--vtkhdf", action="store_true", help="VTKHDF for ParaView, one file per load case")
     command.add_argument(
         "-o", "--output", type=Path, metavar="DIR", help="folder of the files (default: that of the result)"
     )

@@ -159,7 +159,7 @@ def _export(options: argparse.Namespace) -> int:
 
     results = read_results_hdf5(options.result)
     folder = options.output or options.result.parent
-    formats = Formats(options.csv, options.parquet)
+    formats = Formats(options.csv, options.parquet, options.vtkhdf)
     for path in export_results(
         results, folder, options.result.stem, formats, options.case, options.table, options.force
     ):
