@@ -5,13 +5,21 @@ from __future__ import annotations
 from mbla.contacts.contacts import Contacts
 from mbla.model.model import Model
 from mbla.results.collapse.collapse import collapse_of
+from mbla.results.collapse.enough import enough_of
 from mbla.results.collapse.failure import failure_of
+from mbla.results.collapse.force_freedom import force_freedom
 from mbla.results.outcome import result_of
 from mbla.results.results import CaseResult
 from mbla.results.words.certificate_words import certificate_lines
+from mbla.results.words.determined_words import enough_lines, freedom_lines
 from mbla.results.words.failure_words import failure_sentences
 from mbla.results.words.figure_words import figures
-from mbla.results.words.force_words import force_range_lines, lock_lines, reaction_lines
+from mbla.results.words.force_words import (
+    force_range_lines,
+    group_reaction_lines,
+    lock_lines,
+    reaction_lines,
+)
 from mbla.results.words.mechanism_words import mechanism_lines, mechanism_summary
 from mbla.results.words.path_words import path_lines
 from mbla.results.words.program_words import program_lines
@@ -42,8 +50,12 @@ def case_lines(model: Model, contacts: Contacts, case: CaseResult) -> list[str]:
     if mechanics is not None and collapse is not None and failure is not None:
         tables = mechanism_lines(model, contacts, failure)
         lines += ["", *tables, ""] if tables else [""]
+        lines += enough_lines(case, enough_of(model, contacts, collapse.parts))
         lines += work_lines(model, contacts, case.load_case, mechanics, collapse.work)
         lines += reaction_lines(held, contacts, case.load_case, mechanics)  # a support is one even as it gives way
+        lines += group_reaction_lines(held, contacts, mechanics)
+        dimension = 3 if solution.size is None else solution.size.dimension
+        lines += freedom_lines(contacts, case, force_freedom(model, contacts, mechanics, dimension))
         if solution.force_ranges is not None:
             lines += force_range_lines(model, contacts, mechanics, solution.force_ranges)
     if mechanics is None and solution.lock is not None:
