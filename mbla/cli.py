@@ -130,12 +130,13 @@ def _verify(options: argparse.Namespace) -> int:
 
 def _plot(options: argparse.Namespace) -> int:
     from mbla.results.hdf5.result_file import read_results_hdf5
-    from mbla.results.pictures.options import PictureOptions
+    from mbla.results.pictures.options import picture_options
     from mbla.results.pictures.plot import plot_results
 
+    chosen = picture_options(options)
     results = read_results_hdf5(options.result)
     target = options.output or options.result.parent
-    for path in plot_results(results, target, options.result.stem, PictureOptions(case=options.case)):
+    for path in plot_results(results, target, options.result.stem, chosen):
         print(path)
     return 0
 
@@ -158,7 +159,7 @@ def _export(options: argparse.Namespace) -> int:
 
     results = read_results_hdf5(options.result)
     folder = options.output or options.result.parent
-    formats = Formats(options.csv, options.parquet)
+    formats = Formats(options.csv, options.parquet, options.vtkhdf)
     for path in export_results(
         results, folder, options.result.stem, formats, options.case, options.table, options.force
     ):
