@@ -47,6 +47,8 @@ class OutputFolder:
     force
         Replace an earlier result of this deck. Files which that result lists as its own and the new one does not write
         are removed; nothing else ever is.
+    beside
+        The files stand beside a result and are none themselves: only files of their own names are in the way.
 
     Raises
     ------
@@ -55,10 +57,11 @@ class OutputFolder:
         else: what the operating system refused, with the name of the file.
     """
 
-    def __init__(self, folder: Path, stem: str, force: bool = False) -> None:
+    def __init__(self, folder: Path, stem: str, force: bool = False, *, beside: bool = False) -> None:
         self.folder = folder
         self.stem = stem
         self.force = force
+        self.beside = beside
         self._names: list[str] = []
         self._live: dict[str, TextIO] = {}
         self._aside: set[str] = set()
@@ -77,8 +80,9 @@ class OutputFolder:
             self.folder.mkdir(parents=True, exist_ok=True)
             _clear_leftovers(self.folder)
         try:
-            self._refuse_earlier_result()
-            self._stale = earlier_files(self.folder, self.stem)
+            if not self.beside:
+                self._refuse_earlier_result()
+                self._stale = earlier_files(self.folder, self.stem)
             _try_writing(self.folder, self._temporary("new", "trial"))
         except BaseException:
             self._remove_created_folders()

@@ -61,7 +61,7 @@ def write_outputs(
 
 
 def _write_picture(results: Results, case: CaseResult, out: OutputFolder) -> None:
-    from mbla.results.pictures.pictures import plot_mechanism
+    from mbla.results.pictures.plot import plot_mechanism
 
     with out.writing(f"{out.stem}_{case.load_case.name}.png") as path:
         plot_mechanism(results, case, path)
