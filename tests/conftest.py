@@ -33,7 +33,7 @@ def pytest_terminal_summary(terminalreporter: Any) -> None:
     """``tests in a browser: 8 passed (/usr/bin/chromium)``, where any were asked for."""
     counts = {
         outcome: sum(
-            any(name == "browser" for name, _ in report.user_properties)
+            any(name == "browser" for name, _ in getattr(report, "user_properties", ()))
             and (report.when == "call" or not report.passed)
             for report in terminalreporter.stats.get(outcome, [])
         )
