@@ -65,7 +65,7 @@ _BLOCK = (
 )
 _USE = (
     ("eccentricity", 1, "1", "of the resultant: 0 central, 1 at the edge; nan where no force is carried"),
-    ("friction_use", 1, "1", "shear over what friction and cohesion allow; nan where they allow none and none acts"),
+    ("friction_use", 1, "1", "shear over what friction and cohesion allow, without torsion; nan where nothing acts"),
 )
 _THRUST = (
     ("resultant_force", 3, "force", "on body b"),

@@ -218,7 +218,7 @@ def utilisation(picture: Picture) -> None:
     picture.colour(shown, "CELLS", "friction_use", "shear over what the joint allows", 1.0)
     frames = picture.draw(picture.read("interfaces"), "Wireframe", LineWidth=4.0)
     picture.colour(frames, "CELLS", "friction_use", "shear over what the joint allows", 1.0)
-    picture.legend = ["Joints by shear over what friction and cohesion allow; grey: no force."]
+    picture.legend = ["Joints by shear over what friction and cohesion allow, torsion not counted; grey: no force."]
 
 
 def loads(picture: Picture) -> None:
