@@ -39,7 +39,8 @@ def test_no_other_status_has_a_figure(status: Status) -> None:
     run = one(status)
     case = run.cases[0]
     assert np.isnan(run.load_factor)
-    assert case.mechanism is case.contact_forces is case.contact_modes is case.mechanics is case.thrust is None
+    nothing = (case.mechanism, case.contact_forces, case.contact_modes, case.mechanics, case.thrust, case.collapse)
+    assert nothing == (None,) * 6
     assert not case.verified
     assert case.reason
     assert case.record.solution.mechanics is not None
