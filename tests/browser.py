@@ -1,12 +1,20 @@
-"""Pages in the browser of ``conftest.py``, with what they ask for and complain of."""
+"""A browser of the machine for tests, without a window; a test that needs it is skipped where there is none."""
 
 from __future__ import annotations
 
 import io
+import os
+import shutil
 from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
+
+NAMES = (os.environ.get("MBLA_BROWSER", ""), "chromium", "chromium-browser", "google-chrome")
+CHROMIUM = next((path for path in map(shutil.which, filter(None, NAMES)) if path), None)
+"""the browser that MBLA_BROWSER names, else the first of the usual ones"""
+ARGUMENTS = ("--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader")
+"""without a sandbox, as tests may run as root; WebGL by software"""
 
 
 @dataclass
