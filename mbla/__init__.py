@@ -10,11 +10,11 @@ The program on one line; each word is a folder, and its main type carries the fo
 A stage imports only from the stages to its left; ``run_deck.py`` is the table of contents.
 """
 
-from typing import TYPE_CHECKING as _TYPE_CHECKING
+from typing import TYPE_CHECKING
 
 __version__ = "0.1.0"
 
-if _TYPE_CHECKING:
+if TYPE_CHECKING:
     from mbla.api import read_results as read_results
     from mbla.api import run as run
     from mbla.errors import DeckError as DeckError
@@ -43,7 +43,7 @@ _HOMES = {
 __all__ = ["__version__", *_HOMES]
 
 
-if not _TYPE_CHECKING:  # a checker knows the names above, and only these
+if not TYPE_CHECKING:  # a checker knows the names above, and only these
 
     def __getattr__(name: str) -> object:
         if name not in _HOMES:

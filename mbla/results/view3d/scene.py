@@ -200,6 +200,7 @@ def _colouring(colouring: Colouring) -> dict[str, Any]:
 
 
 def _mark(mark: Mark, offset: FloatArray) -> dict[str, Any]:
+    texts = {text: row for row, text in enumerate(dict.fromkeys(mark.texts))}
     return {
         "name": mark.name,
         "colour": mark.colour,
@@ -207,7 +208,8 @@ def _mark(mark: Mark, offset: FloatArray) -> dict[str, Any]:
         "points": packed(mark.points - offset),
         "bodies": packed(mark.bodies),
         "pairs": packed(mark.pairs),
-        "texts": [escape(text) for text in mark.texts],
+        "texts": [escape(text) for text in texts],
+        "textRows": packed(np.array([texts[text] for text in mark.texts], dtype=np.int64)),
         "inside": mark.inside,
         "dots": mark.dots,
     }

@@ -1,6 +1,20 @@
 // Draws one load case (the data of mbla/results/view3d/scene.py) with plotly.js and moves its mechanism.
+// It begins when its place comes into view: a browser has only some sixteen drawings of this kind at a time, and one that
+// is folded away has no size yet.
 window.mblaView3d = function (host, data) {
+  host.style.minHeight = "420px";
+  const watch = new IntersectionObserver((entries) => {
+    if (!entries.some((entry) => entry.isIntersecting)) return;
+    watch.disconnect();
+    host.style.minHeight = "";
+    window.mblaDrawView3d(host, data);
+  }, { rootMargin: "300px" });
+  watch.observe(host);
+};
+
+window.mblaDrawView3d = function (host, data) {
   "use strict";
+  const MOST_MOVING = 3000;  // blocks that move smoothly; of more there are two states
   const kinds = { f4: Float32Array, i4: Int32Array, u1: Uint8Array };
   function unpacked(array) {
     const text = atob(array.bdata);
@@ -17,6 +31,7 @@ window.mblaView3d = function (host, data) {
   for (let b = 0; b < blockCount; b++) blockOfVertex.fill(b, vertexStart[b], vertexStart[b + 1]);
   const marks = data.marks.map((mark) => ({
     ...mark, points: unpacked(mark.points), bodies: unpacked(mark.bodies), pairs: unpacked(mark.pairs),
+    textRows: unpacked(mark.textRows),
   }));
 
   // --- finite motion: the screw of each block, p' = c + V u + R (p - c), see motion.py -----------------------------
@@ -89,9 +104,9 @@ window.mblaView3d = function (host, data) {
     return found;
   }
 
-  function segmentTexts(texts, pairs) {
-    const found = [];
-    for (let k = 0; k < pairs.length; k += 2) found.push(texts[pairs[k]], texts[pairs[k + 1]], "");
+  function segmentTexts(mark) {
+    const found = [], { texts, textRows, pairs } = mark;
+    for (let k = 0; k < pairs.length; k += 2) found.push(texts[textRows[pairs[k]]], texts[textRows[pairs[k + 1]]], "");
     return found;
   }
 
@@ -149,7 +164,7 @@ window.mblaView3d = function (host, data) {
   for (const mark of marks) {
     const dots = mark.dots ? { mode: "lines+markers", marker: { size: 4, color: mark.colour } } : {};
     const at = movedMark(mark, null);
-    const more = { hoverinfo: "text", hovertext: segmentTexts(mark.texts, mark.pairs), visible: !mark.inside, ...dots };
+    const more = { hoverinfo: "text", hovertext: segmentTexts(mark), visible: !mark.inside, ...dots };
     const trace = add(line(at, mark.pairs, mark.colour, mark.width, more), (state) => segments(movedMark(mark, state), mark.pairs));
     layers.push({ name: mark.name, colour: mark.colour, traces: [trace], shown: !mark.inside, inside: mark.inside });
   }
@@ -259,9 +274,11 @@ window.mblaView3d = function (host, data) {
 
   if (motion) {
     const slider = labelled(top, data.motionWords, (label) => {
-      const play = element("button", label, { type: "button", textContent: "play" });
+      const large = blockCount > MOST_MOVING, play = element("button", label, { type: "button", textContent: "play" });
+      if (large) play.remove();
       element("span", label, { textContent: "as built" });
-      const range = element("input", label, { type: "range", min: 0, max: 1, step: 0.01, value: 0 }, { width: "12em" });
+      const size = { width: large ? "3em" : "12em" };
+      const range = element("input", label, { type: "range", min: 0, max: 1, step: large ? 1 : 0.01, value: 0 }, size);
       range.setAttribute("aria-label", "how far the mechanism has moved");
       let begun = null;
       function frame(now) {

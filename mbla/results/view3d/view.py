@@ -47,7 +47,7 @@ def view_html(results: Results, case: CaseResult, *, include_library: bool) -> s
         '{ host.dataset.mblaBegun = "yes"; window.mblaView3d(host, data); }'
     )
     return (
-        f'{library}<div class="mbla-view3d" data-mbla-view="{name}" style="font-family: sans-serif; color: {INK}; '
+        f'{library}<div class="mbla-view3d" data-mbla-view="{name}" style="color: {INK}; '
         f'background: #FFFFFF">{_title(results, case)}</div>\n'
         f"<script>(function () {{ const data = {data};\n{start} }})();</script>\n"
     )
@@ -59,7 +59,7 @@ def page_html(results: Results, case: CaseResult) -> str:
     return (
         f'<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8"><title>{title}</title>\n'
         '<meta name="viewport" content="width=device-width, initial-scale=1"></head>\n'
-        f"<body>{view_html(results, case, include_library=True)}</body></html>\n"
+        f'<body style="font-family: sans-serif">{view_html(results, case, include_library=True)}</body></html>\n'
     )
 
 

@@ -39,8 +39,8 @@ def test_no_other_status_has_a_figure(status: Status) -> None:
     run = one(status)
     case = run.cases[0]
     assert np.isnan(run.load_factor)
-    assert case.mechanism is None
-    assert (case.contact_forces, case.contact_modes, case.mechanics, case.thrust) == (None, None, None, None)
+    nothing = (case.mechanism, case.contact_forces, case.contact_modes, case.mechanics, case.thrust, case.collapse)
+    assert nothing == (None,) * 6
     assert not case.verified
     assert case.reason
     assert case.record.solution.mechanics is not None
@@ -101,7 +101,8 @@ def test_run_of_several_cases() -> None:
     assert run["fall"].status is Status.NO_EQUILIBRIUM
     with pytest.raises(UsageError, match="2 load cases"):
         run.picture()
-    assert [notice.identifier for notice in run.warnings] == ["near-miss"]
+    assert "near-miss" in [notice.identifier for notice in run.warnings]
+    assert all(notice.severity == "warning" for notice in run.warnings)
     assert run.units == {"length": "m", "force": "N", "mass": "kg"}
     assert "push_x" in run.summary
     assert "push_x" in run.listing

@@ -37,6 +37,13 @@ def test_arrays_come_back_as_they_were() -> None:
     assert read(packed(np.array([70000, -1]))).tolist() == [70000, -1]
 
 
+def test_texts_of_marks_stand_once() -> None:
+    """Both ends of a resultant say the same."""
+    mark = marks(scene(tower_results()))["resultants"]
+    assert len(mark["texts"]) == 2
+    assert read(mark["textRows"]).tolist() == [0, 0, 1, 1]
+
+
 def test_blocks_of_the_tower() -> None:
     found = scene(tower_results())
     assert read(found["vertices"], 3).shape == (24, 3)

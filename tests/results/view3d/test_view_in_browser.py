@@ -109,6 +109,8 @@ def test_two_views_share_the_library(browser: Any, results: Results, tmp_path: P
     path = tmp_path / "page.html"
     path.write_text(f'<!DOCTYPE html><meta charset="utf-8">{"".join(parts)}', encoding="utf-8")
     found = visited(browser, path.as_uri(), 390, 900)
+    found.page.wait_for_selector(READY, state="attached")
+    found.page.locator(".mbla-view3d").last.scroll_into_view_if_needed()
     found.page.wait_for_function(f"document.querySelectorAll('{READY}').length === 2")
     assert found.page.evaluate("document.documentElement.scrollWidth") <= 390  # nothing juts out on a phone
     assert (found.errors, found.requests) == ([], [])
