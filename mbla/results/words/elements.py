@@ -53,6 +53,7 @@ class Line(str):
     element: Element
 
     def __new__(cls, text: str, element: Element) -> Line:
+        """Text as printed, and what it is a line of."""
         line = super().__new__(cls, text)
         line.element = element
         return line
