@@ -19,7 +19,7 @@ from mbla.results.pictures.options import (
 
 def arguments(**changes: object) -> Namespace:
     texts = {"kind": None, "case": None, "view": "auto", "scale": "auto", "size": "1600x1000", "dpi": 100}
-    return Namespace(**(texts | {"format": "png", "output": None} | changes))
+    return Namespace(**(texts | {"format": "png", "output": None, "animate": None} | changes))
 
 
 def test_kinds_come_in_their_own_order() -> None:
@@ -47,7 +47,7 @@ def test_more_dots_for_each_inch_are_more_pixels() -> None:
     [
         (parse_kinds, "model,force", "model, mechanism, forces, history, or all"),
         (parse_kinds, "", "model, mechanism"),
-        (parse_view, "below", "front, back"),
+        (parse_view, "bottom", "front, back"),
         (parse_view, "10,100", "AZIMUTH,ELEVATION"),
         (parse_view, "nan,0", "AZIMUTH,ELEVATION"),
         (parse_view, "10", "AZIMUTH,ELEVATION"),

@@ -8,7 +8,9 @@ from typing import Any
 import numpy as np
 import pytest
 
+from mbla.cli import main
 from mbla.errors import FileError, UsageError
+from mbla.results.hdf5.result_file import write_results_hdf5
 from mbla.results.pictures.options import VIEWS, PictureOptions
 from mbla.results.pictures.palette import HINGE
 from mbla.results.pictures.plot import plot_mechanism, plot_results
@@ -132,3 +134,18 @@ def test_module_imports_nothing_heavy() -> None:
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout.strip() == "[]"
+
+
+def test_command_line_makes_what_it_is_asked_for(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    result = tmp_path / "tower.h5"
+    result.write_bytes(write_results_hdf5(tower_results()))
+    target = tmp_path / "one.pdf"
+    command = ["plot", str(result), "--case", "push_x", "-o", str(target)]
+    assert main([*command, "--kind", "forces", "--size", "800x500", "--scale", "0.5", "--view", "back"]) == 0
+    assert capsys.readouterr().out.split() == [str(target)]
+    assert target.read_bytes().startswith(b"%PDF-")
+    for wrong in (["--kind", "forcs"], ["--view", "bottom"], ["--scale", "x"], ["--size", "8"], ["--dpi", "1"]):
+        assert main([*command, *wrong]) == 2
+        told = capsys.readouterr().err
+        assert told.startswith(f"mbla: {wrong[0]} {wrong[1]}")
+        assert told.count("\n") == 1

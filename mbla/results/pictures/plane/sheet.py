@@ -16,7 +16,7 @@ HEAD = 0.3
 """length of an arrow's head over that of the arrow"""
 MARGIN = 0.03
 """free space around what is drawn, share of the sheet"""
-STRIP = 0.075
+STRIP = 0.085
 """height of the strip below it that holds the scale bar, share of the page"""
 
 
@@ -124,7 +124,7 @@ def add_scale_bar(sheet: Sheet, metres_per_inch: float, below: float, unit: str,
     wide, high = page.figure.get_figwidth(), page.figure.get_figheight()
     length = round_length(0.14 * wide * metres_per_inch)
     share = length / metres_per_inch / wide
-    left, level = 0.03, below + 0.3 * STRIP
+    left, level = 0.03, below + 0.42 * STRIP
     line, style = page.parts.Line2D, {"color": INK, "linewidth": sheet.width(2.0)}
     page.figure.add_artist(line([left, left + share], [level, level], **style))
     for x in (left, left + share):

@@ -1,0 +1,100 @@
+"""The pictures in decks/pictures, made by ``mbla run`` and ``mbla plot``.
+
+``python -m tests.decks.make_pictures`` makes them all (some decks take minutes), with names those alone:
+``python -m tests.decks.make_pictures wall_push_x``.
+"""
+
+from __future__ import annotations
+
+import sys
+import tempfile
+from dataclasses import dataclass
+from pathlib import Path
+
+from mbla.cli import main
+from mbla.results.hdf5.result_file import read_results_hdf5
+from mbla.results.series import series_of
+from tests.decks.folder import DECKS
+
+PICTURES = DECKS / "pictures"
+README = "README.md"
+"""in place of a deck: the one that the README prints"""
+
+
+@dataclass(frozen=True)
+class DeckPicture:
+    """One file of decks/pictures.
+
+    name : of the file, without its suffix
+    deck : below decks/, or ``README``
+    case : load case; of a travelling load its name in the deck, the worst position is drawn
+    plot : options of ``mbla plot``
+    """
+
+    name: str
+    deck: str
+    case: str
+    plot: tuple[str, ...] = ()
+
+
+TABLE = (
+    DeckPicture("wall_push_x", README, "push_x"),
+    DeckPicture("wall_push_x_forces", README, "push_x", ("--kind", "forces")),
+    DeckPicture("wall_model", README, "push_x", ("--kind", "model")),
+    DeckPicture("oppenheim_arch_push_x", "benchmarks/oppenheim_arch.yaml", "push_x"),
+    DeckPicture("oppenheim_arch_push_x_forces", "benchmarks/oppenheim_arch.yaml", "push_x", ("--kind", "forces")),
+    DeckPicture("settling_wall_sinks", "tutorials/settling_wall.yaml", "sinks"),
+    DeckPicture("obj_wall_out_of_plane", "tutorials/obj_wall.yaml", "out_of_plane"),
+    DeckPicture("crossvault_along_x", "tutorials/crossvault.yaml", "along_x"),
+    DeckPicture("house_push_x", "structures/house.yaml", "push_x"),
+    DeckPicture("house_push_y", "structures/house.yaml", "push_y"),
+    DeckPicture("room_push_y", "structures/room.yaml", "push_y"),
+    DeckPicture("colonnade_across", "structures/colonnade.yaml", "across"),
+    DeckPicture("arch_bridge", "structures/arch_bridge.yaml", "axle"),
+    DeckPicture("cross_vault_on_piers_spreading", "structures/cross_vault_on_piers.yaml", "spreading"),
+    DeckPicture("dome_on_drum_push_x", "structures/dome_on_drum.yaml", "push_x"),
+    DeckPicture("spiral_stair_one_tread", "structures/spiral_stair.yaml", "one_tread"),
+    DeckPicture("retaining_wall_surcharge", "structures/retaining_wall.yaml", "surcharge"),
+)
+
+
+def deck_path(picture: DeckPicture, folder: Path) -> Path:
+    """The deck of a picture; that of the README is written to the folder."""
+    if picture.deck != README:
+        return DECKS / picture.deck
+    path = folder / "wall.yaml"
+    text = (DECKS.parent / README).read_text(encoding="utf-8")
+    path.write_text(text.split("`wall.yaml`:", 1)[1].split("```", 2)[1].split("\n", 1)[1], encoding="utf-8")
+    return path
+
+
+def make_picture(picture: DeckPicture, folder: Path) -> Path:
+    """Solve the deck, once for all of its pictures in that folder, and draw one; the path written."""
+    deck = deck_path(picture, folder)
+    out = folder / f"{deck.stem}.out"
+    result = out / f"{deck.stem}.h5"
+    if not result.exists():
+        status = main(["run", str(deck), "-o", str(out), "--set", "output.vtu=false", "-q"])
+        assert status in (0, 4, 5), f"{deck}: mbla run ended with {status}"
+    case = picture.case
+    for series in series_of(read_results_hdf5(result).cases):
+        if series.name == case and series.worst is not None:
+            case = series.worst.load_case.name
+    target = PICTURES / f"{picture.name}.png"
+    assert main(["plot", str(result), "--case", case, "-o", str(target), *picture.plot]) == 0
+    return target
+
+
+def make_pictures(names: list[str]) -> None:
+    """The pictures of those names, all without any."""
+    unknown = sorted(set(names) - {picture.name for picture in TABLE})
+    if unknown:
+        raise SystemExit(f"no picture {', '.join(unknown)}; there are {', '.join(each.name for each in TABLE)}")
+    with tempfile.TemporaryDirectory() as folder:
+        for picture in TABLE:
+            if not names or picture.name in names:
+                make_picture(picture, Path(folder))
+
+
+if __name__ == "__main__":
+    make_pictures(sys.argv[1:])
