@@ -37,6 +37,8 @@ def build_parser() -> argparse.ArgumentParser:
     _add_check(commands)
     _add_result_commands(commands)
     _add_plot(commands)
+    _add_report(commands)
+    _add_export(commands)
     _add_schema_and_new(commands)
     return parser
 
@@ -136,12 +138,49 @@ def _add_plot(commands: Any) -> None:
     )
 
 
+def _add_report(commands: Any) -> None:
+    command = commands.add_parser("report", help="one self-contained HTML file of a result (extra mbla[report])")
+    command.add_argument("result", type=Path, metavar="RESULT.h5")
+    command.add_argument(
+        "-o", "--output", type=Path, metavar="FILE", help="HTML file (default: beside the result, STEM.html)"
+    )
+    command.add_argument("--case", metavar="NAME", help="only this load case")
+    command.add_argument("--no-3d", action="store_true", help="leave out the views that can be turned, 5 MB less")
+
+
+def _add_export(commands: Any) -> None:
+    command = commands.add_parser("export", help="tables of blocks, interfaces, points and load cases")
+    command.add_argument("result", type=Path, metavar="RESULT.h5")
+    command.add_argument("--csv", action="store_true", help="CSV, units in the header (what is written by default)")
+    command.add_argument("--parquet", action="store_true", help="Parquet (extra mbla[tables])")
+    command.add_argument(
+        "-o", "--output", type=Path, metavar="DIR", help="folder of the files (default: that of the result)"
+    )
+    command.add_argument("--case", action="append", default=[], metavar="NAME", help="only this load case (repeatable)")
+    command.add_argument(
+        "--table",
+        type=names,
+        default=[],
+        metavar="NAME,...",
+        help="only these tables, such as blocks,interfaces,points",
+    )
+    command.add_argument("--force", action="store_true", help="replace earlier files")
+
+
 def _add_schema_and_new(commands: Any) -> None:
     command = commands.add_parser("schema", help="print the JSON Schema of decks")
     command.add_argument("kind", nargs="?", choices=["deck"], default="deck")
     command = commands.add_parser("new", help="write a commented starter deck")
     command.add_argument("name", metavar="NAME")
     command.add_argument("--force", action="store_true", help="replace an existing file")
+
+
+def names(text: str) -> list[str]:
+    """Names with commas between them."""
+    listed = [name.strip() for name in text.split(",")]
+    if not all(listed):
+        raise argparse.ArgumentTypeError(f"{text!r} is not a list of names with commas between them")
+    return listed
 
 
 def seconds(text: str) -> float:

@@ -141,6 +141,32 @@ def _plot(options: argparse.Namespace) -> int:
     return 0
 
 
+def _report(options: argparse.Namespace) -> int:
+    from mbla.results.hdf5.result_file import read_results_hdf5
+    from mbla.results.report.report import write_report
+
+    results = read_results_hdf5(options.result)
+    target = options.output or options.result.with_suffix(".html")
+    for remark in write_report(results, target, options.case, view=not options.no_3d):
+        print(f"mbla: {remark}", file=sys.stderr)
+    print(target)
+    return 0
+
+
+def _export(options: argparse.Namespace) -> int:
+    from mbla.results.hdf5.result_file import read_results_hdf5
+    from mbla.results.tables.export import Formats, export_results
+
+    results = read_results_hdf5(options.result)
+    folder = options.output or options.result.parent
+    formats = Formats(options.csv, options.parquet)
+    for path in export_results(
+        results, folder, options.result.stem, formats, options.case, options.table, options.force
+    ):
+        print(path)
+    return 0
+
+
 def _schema(options: argparse.Namespace) -> int:
     from mbla.deck.schema import deck_schema
 
@@ -162,6 +188,8 @@ COMMANDS: dict[str, Callable[[argparse.Namespace], int]] = {
     "show": _show,
     "verify": _verify,
     "plot": _plot,
+    "report": _report,
+    "export": _export,
     "schema": _schema,
     "new": _new,
 }

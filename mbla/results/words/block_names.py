@@ -16,6 +16,20 @@ def block_names(model: Model, blocks: IntArray) -> str:
 
     Of many stretches the longest are named and the blocks of the others counted.
     """
+    groups, indices, counts = _stretches(model, blocks)
+    longest = np.argsort(-counts, kind="stable")[:MOST_STRETCHES]
+    words = [_stretch(groups[i], int(indices[i]), int(counts[i])) for i in longest]
+    left_out = len(blocks) - int(counts[longest].sum())
+    return ", ".join(words) + (f" and {left_out} more" if left_out else "")
+
+
+def stretches(model: Model, blocks: IntArray) -> int:
+    """How many stretches of blocks that follow each other in their group."""
+    return len(_stretches(model, blocks)[0])
+
+
+def _stretches(model: Model, blocks: IntArray) -> tuple[list[str], IntArray, IntArray]:
+    """Group, first index and length of every stretch, by group and index."""
     groups, indices = np.array(model.blocks.groups)[blocks], model.blocks.group_indices[blocks]
     order = np.lexsort((indices, groups))
     groups, indices = groups[order], indices[order]
@@ -23,10 +37,7 @@ def block_names(model: Model, blocks: IntArray) -> str:
     new[1:] = (groups[1:] != groups[:-1]) | (np.diff(indices) != 1)
     start = np.flatnonzero(new)
     counts = np.diff(np.append(start, len(order)))
-    longest = np.argsort(-counts, kind="stable")[:MOST_STRETCHES]
-    words = [_stretch(str(groups[start[i]]), int(indices[start[i]]), int(counts[i])) for i in longest]
-    left_out = len(order) - int(counts[longest].sum())
-    return ", ".join(words) + (f" and {left_out} more" if left_out else "")
+    return [str(group) for group in groups[start]], indices[start], counts
 
 
 def _stretch(group: str, first: int, count: int) -> str:

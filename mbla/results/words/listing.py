@@ -26,7 +26,7 @@ def listing(results: Results) -> str:
     """The whole listing, at most 100 columns wide, with a newline at its end."""
     lines = [
         *_header(results),
-        *_settings(results),
+        *settings_lines(results),
         *model_lines(results.model),
         *contact_lines(results.model, results.contacts),
         *notice_lines(results.notices),
@@ -43,7 +43,7 @@ def check_listing(results: Results, needs: Mapping[str, Mapping[str, int | str]]
     """What ``mbla check`` prints: the model and its contacts as in the listing, and what each load case needs."""
     lines = [
         *_header(results),
-        *_settings(results),
+        *settings_lines(results),
         *model_lines(results.model),
         *contact_lines(results.model, results.contacts),
         *finding_lines(results.model, results.contacts.report),
@@ -85,7 +85,8 @@ def _header(results: Results) -> list[str]:
     return lines
 
 
-def _settings(results: Results) -> list[str]:
+def settings_lines(results: Results) -> list[str]:
+    """Units and the settings in effect."""
     units = results.model.units
     lines = heading("Units and analysis settings")
     lines += entry("units", f"{units.length}, {units.force}, {units.mass}, s; angles of joints as tangents")

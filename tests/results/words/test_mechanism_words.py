@@ -2,10 +2,12 @@ from dataclasses import replace
 
 import numpy as np
 
-from mbla.results.collapse.collapse import Collapse, collapse_of
+from mbla.contacts.contacts import Contacts
+from mbla.results.collapse.collapse import collapse_of
+from mbla.results.collapse.failure import failure_of
 from mbla.results.words.mechanism_words import MOST_ROWS, mechanism_lines, mechanism_summary
 from mbla.results.words.text import WIDTH
-from mbla.solution.solution import ContactMode
+from mbla.solution.solution import ContactMode, Mechanics
 from mbla.solution.statics import contact_velocities
 from tests.results.synthetic import cuboids, horizontal_contacts, tower_contacts, tower_mechanics, tower_model
 
@@ -17,7 +19,7 @@ def words(lines: list[str]) -> str:
     return " ".join(" ".join(lines).split())
 
 
-def sliding_brick() -> Collapse:
+def sliding_brick() -> Mechanics:
     mechanism = np.zeros((3, 6))
     mechanism[2, :2] = [0.08, 0.06]
     velocities = contact_velocities(MODEL, CONTACTS, mechanism)
@@ -27,33 +29,42 @@ def sliding_brick() -> Collapse:
     mechanics = replace(
         MECHANICS, mechanism=mechanism, contact_velocities=velocities, modes=modes, contact_forces=forces
     )
-    return collapse_of(MODEL, CONTACTS, CASE, replace(mechanics, load_factor=0.8125))
+    return replace(mechanics, load_factor=0.8125)
+
+
+def tables(contacts: Contacts, mechanics: Mechanics) -> str:
+    collapse = collapse_of(MODEL, contacts, CASE, mechanics)
+    return words(mechanism_lines(MODEL, contacts, failure_of(MODEL, contacts, collapse, mechanics)))
 
 
 def test_a_hinge_is_named_with_its_axis() -> None:
     collapse = collapse_of(MODEL, CONTACTS, CASE, MECHANICS)
     assert mechanism_summary(MODEL, collapse) == "1 hinge; 1 of 2 free blocks moves"
-    assert "base[0]/tower[0] 0/1 (1, 0.5, 1) +y +x side" in words(mechanism_lines(MODEL, CONTACTS, collapse))
+    assert "base[0]/tower[0] 1/0 (1, 0, 1) 1 +y +x side" in tables(CONTACTS, MECHANICS)
 
 
-def test_a_slide_is_named_with_its_direction_and_power() -> None:
-    collapse = sliding_brick()
-    assert mechanism_summary(MODEL, collapse) == "sliding at 1 interface; 1 of 2 free blocks moves"
-    text = words(mechanism_lines(MODEL, CONTACTS, collapse))
-    assert "brick[0] over ground z = 0 0/1 (4.5, 0.5, 0) (0.8, 0.6, 0) 100.0" in text
+def test_a_slide_is_named_with_its_direction_and_work() -> None:
+    mechanics = sliding_brick()
+    assert (
+        mechanism_summary(MODEL, collapse_of(MODEL, CONTACTS, CASE, mechanics))
+        == "sliding at 1 interface; 1 of 2 free blocks moves"
+    )
+    text = tables(CONTACTS, mechanics)
+    assert "ground z = 0/brick[0] 1/0 (4.5, 0.5, 0) (0.8, 0.6, 0) 1 100.0" in text
     assert "1: brick[0] moves along (0.8, 0.6, 0)" in text
 
 
 def test_what_moves_slides_over_what_rests() -> None:
     """Bodies swapped: the ground comes second, and the brick is still what slides."""
-    collapse = sliding_brick()
     bodies, normals = CONTACTS.bodies.copy(), CONTACTS.normals.copy()
+    frames = CONTACTS.frames.copy()
     bodies[1], normals[1] = [2, 3], [0, 0, -1]
-    swapped = replace(CONTACTS, bodies=bodies, normals=normals)
-    turned = replace(collapse, interfaces=replace(collapse.interfaces, translation=-collapse.interfaces.translation))
-    assert "brick[0] over ground z = 0 0/1 (4.5, 0.5, 0) (0.8, 0.6, 0)" in words(
-        mechanism_lines(MODEL, swapped, turned)
-    )
+    frames[4:, 0], frames[4:, 1] = [0, 0, -1], [-1, 0, 0]
+    swapped = replace(CONTACTS, bodies=bodies, normals=normals, frames=frames)
+    mechanics = sliding_brick()
+    velocities = contact_velocities(MODEL, swapped, mechanics.mechanism)
+    text = tables(swapped, replace(mechanics, contact_velocities=velocities))
+    assert "brick[0]/ground z = 0 1/0 (4.5, 0.5, 0) (0.8, 0.6, 0)" in text
 
 
 def test_long_lists_start_with_what_moves_most_and_say_what_they_leave_out() -> None:
@@ -68,15 +79,16 @@ def test_long_lists_start_with_what_moves_most_and_say_what_they_leave_out() -> 
         MECHANICS,
         mechanism=mechanism,
         contact_velocities=velocities,
-        contact_forces=np.ones_like(velocities),
+        contact_forces=np.tile([1.0, -1.0, 0.0], (len(velocities), 1)),
         modes=np.full(4 * (n - 1), ContactMode.SLIDE),
     )
     case = replace(CASE, dead_load=np.zeros((n, 6)), live_load=np.ones((n, 6)))
     collapse = collapse_of(model, contacts, case, mechanics)
-    lines = mechanism_lines(model, contacts, collapse)
+    lines = mechanism_lines(model, contacts, failure_of(model, contacts, collapse, mechanics))
     assert max(map(len, lines)) <= WIDTH
-    table = lines[lines.index("  Sliding (59; those that move most):") + 2 :]
-    assert table[0].split()[:3] == ["stack[59]", "over", "stack[58]"]
-    assert table[MOST_ROWS - 1].split()[0] == f"stack[{n - MOST_ROWS}]"
-    assert f"and {n - 1 - MOST_ROWS} more; the result files hold them all" in table[MOST_ROWS]
+    start = next(i for i, line in enumerate(lines) if line.startswith("  sliding planes"))
+    table = lines[start + 1 :]
+    assert len(table) == MOST_ROWS + 1
+    assert table[0].split()[0] == f"stack[{n - 2}]/stack[{n - 1}]"
+    assert "more that move less; the result files hold them all" in table[MOST_ROWS]
     assert mechanism_summary(model, collapse) == "sliding at 59 interfaces; 59 of 59 free blocks move in 59 parts"

@@ -1,0 +1,170 @@
+"""Clusters: the rigid parts as they are told, those that hardly move against each other taken for one.
+
+Rigid parts (:mod:`mbla.results.collapse.rigid_parts`) are exact to the residual of a solution, and the mechanism of a
+large structure may have hundreds of them that differ by a thousandth. Two that touch are merged where
+
+- their interfaces move by at most a share of the largest contact speed, and
+- their motions as rigid bodies differ by no more than that over the lighter of both (root of the mean square).
+
+The second keeps a chain of parts, each of which moves a little against the next, from becoming one: a cluster has one
+motion, and what joins it must share that. Whatever is at rest has none, and what joins it must hardly move. With the
+sums of a part about a common origin, for blocks of mass m and inertia J about their centroids ::
+
+    A = Σ m [1, −x×]ᵀ[1, −x×] + diag(0, J),   b = Σ m [1, −x×]ᵀ v + (0, J ω),   c = Σ m v² + ω·J ω
+
+its best rigid motion is A⁻¹ b and what that leaves is c − b·A⁻¹ b, so that merging is adding (Ward 1963,
+doi:10.1080/01621459.1963.10500845, merges by the same increase of the sum of squares). The mass is the volume here.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from mbla.arrays import FloatArray, IntArray
+from mbla.contacts.contacts import Contacts
+from mbla.model.model import Model
+from mbla.solution.statics import contact_velocities
+
+SHARES = (0.02, 0.05, 0.1, 0.2)
+"""shares of the largest contact speed, of which the least is taken that leaves few parts: a fiftieth of what moves
+fastest is hard to see in a picture, and what moves a fifth still is no part of its own in a few words"""
+FEW = 4
+"""parts that a reader keeps apart; an arch that fails has three"""
+MOST_ROUNDS = 10
+"""times that all pairs are looked at: motions of clusters change as they grow, and little after the first round"""
+
+
+@dataclass(frozen=True)
+class Clusters:
+    """Rigid parts as they are told.
+
+    of_block : (n_blocks,) cluster of each block, 0 at rest; numbered as parts are, by falling weight
+    merged   : share of the largest contact speed up to which parts were taken for one; 0 where none were
+    """
+
+    of_block: IntArray
+    merged: float
+
+
+def clusters_of(model: Model, contacts: Contacts, parts: IntArray, motion: FloatArray) -> Clusters:
+    """Few clusters, by the least of ``SHARES`` that leaves ``FEW``, from rigid parts and a motion, (n_blocks, 6)."""
+    count = int(parts.max(initial=0)) + 1
+    found = Clusters(parts, 0.0)
+    for share in SHARES if count > 2 else ():
+        owner = _merged(model, contacts, parts, motion, count, share)
+        if len(np.unique(owner)) < count:
+            found = Clusters(_renumbered(parts, owner, model), share)
+        if int(found.of_block.max(initial=0)) <= FEW:
+            break
+    return found
+
+
+def _merged(
+    model: Model, contacts: Contacts, parts: IntArray, motion: FloatArray, count: int, share: float
+) -> IntArray:
+    """Cluster of each part, by its lowest part, (count,)."""
+    speeds, pairs = _pair_speeds(model, contacts, parts, motion)
+    limit = share * speeds.max(initial=0.0)
+    near = np.flatnonzero(speeds <= limit)
+    near = near[np.argsort(speeds[near], kind="stable")]
+    sums = _Sums(model, parts, motion, count)
+    owner = np.arange(count)
+    for _ in range(MOST_ROUNDS):
+        joined = False
+        for a, b in pairs[near].tolist():
+            first, second = sorted((_root(owner, a), _root(owner, b)))
+            if first != second and sums.apart(first, second) <= limit:
+                sums.join(first, second)
+                owner[second] = first
+                joined = True
+        if not joined:
+            break
+    return np.array([_root(owner, part) for part in range(count)])
+
+
+def _root(owner: IntArray, part: int) -> int:
+    while owner[part] != part:
+        owner[part] = owner[owner[part]]
+        part = int(owner[part])
+    return part
+
+
+def _pair_speeds(model: Model, contacts: Contacts, parts: IntArray, motion: FloatArray) -> tuple[FloatArray, IntArray]:
+    """Largest contact speed between each two parts that touch, (n,), and the parts, (n, 2)."""
+    of_body = np.append(parts, np.zeros(len(model.grounds), dtype=np.int64))
+    pairs = np.sort(of_body[contacts.bodies], axis=1)[contacts.interface_of_point]
+    speeds = np.linalg.norm(contact_velocities(model, contacts, motion), axis=1)
+    different = pairs[:, 0] != pairs[:, 1]
+    found, row = np.unique(pairs[different], axis=0, return_inverse=True)
+    largest = np.zeros(len(found))
+    np.maximum.at(largest, row.ravel(), speeds[different])
+    return largest, found
+
+
+class _Sums:
+    """A, b, c and the volume of every cluster; cluster 0 is at rest and takes no sums."""
+
+    def __init__(self, model: Model, parts: IntArray, motion: FloatArray, count: int) -> None:
+        blocks = model.blocks
+        arms = blocks.centroids - np.average(blocks.centroids, axis=0, weights=blocks.volumes)
+        size = float(np.abs(arms).max(initial=0.0)) or 1.0  # lengths in it, so that A is well scaled
+        velocity, rotation = motion[:, :3], motion[:, 3:] * size
+        arms, inertia = arms / size, blocks.volumes * (blocks.sizes / size) ** 2 / 6.0  # of a cube
+        to_block = np.zeros((len(blocks), 3, 6))
+        to_block[:, :, :3] = np.eye(3)
+        to_block[:, :, 3:] = -_crosses(arms)
+        matrices = blocks.volumes[:, None, None] * np.einsum("bij,bik->bjk", to_block, to_block)
+        matrices[:, 3:, 3:] += inertia[:, None, None] * np.eye(3)
+        vectors = blocks.volumes[:, None] * np.einsum("bij,bi->bj", to_block, velocity)
+        vectors[:, 3:] += inertia[:, None] * rotation
+        squares = blocks.volumes * (velocity**2).sum(axis=1) + inertia * (rotation**2).sum(axis=1)
+        self.matrices, self.vectors = _by_part(parts, matrices, count), _by_part(parts, vectors, count)
+        self.squares, self.volumes = _by_part(parts, squares, count), _by_part(parts, blocks.volumes, count)
+        self.left = np.array([self._left(self.matrices[i], self.vectors[i], self.squares[i]) for i in range(count)])
+
+    def apart(self, first: int, second: int) -> float:
+        """Speed by which two clusters differ over the lighter one."""
+        if first == 0:
+            return float(np.sqrt(self.squares[second] / self.volumes[second]))
+        both = self._left(*(values[first] + values[second] for values in (self.matrices, self.vectors, self.squares)))
+        more = max(both - self.left[first] - self.left[second], 0.0)
+        return float(np.sqrt(more / min(self.volumes[first], self.volumes[second])))
+
+    def join(self, first: int, second: int) -> None:
+        """The first takes the second in."""
+        for values in (self.matrices, self.vectors, self.squares, self.volumes):
+            values[first] += values[second]
+        if first:
+            self.left[first] = self._left(self.matrices[first], self.vectors[first], self.squares[first])
+
+    @staticmethod
+    def _left(matrix: FloatArray, vector: FloatArray, square: FloatArray) -> float:
+        if not matrix.any():
+            return 0.0
+        return max(float(square - vector @ np.linalg.solve(matrix, vector)), 0.0)
+
+
+def _crosses(vectors: FloatArray) -> FloatArray:
+    """Matrices of v × …, (n, 3, 3)."""
+    x, y, z = vectors.T
+    zero = np.zeros_like(x)
+    return np.array([[zero, -z, y], [z, zero, -x], [-y, x, zero]]).transpose(2, 0, 1)
+
+
+def _by_part(parts: IntArray, values: FloatArray, count: int) -> FloatArray:
+    total = np.zeros((count, *values.shape[1:]))
+    np.add.at(total, parts, values)
+    return total
+
+
+def _renumbered(parts: IntArray, owner: IntArray, model: Model) -> IntArray:
+    """Clusters by falling weight, then by their first part; 0 stays what is at rest, whether any block is or not."""
+    label = owner[parts]
+    moving = np.unique(label[label > 0])
+    weights = np.bincount(label, weights=model.blocks.masses, minlength=len(owner))[moving]
+    largest = float(weights.max(initial=0.0)) or 1.0
+    number = np.zeros(len(owner), dtype=np.int64)
+    number[moving[np.lexsort((moving, -np.round(weights / largest, 9)))]] = np.arange(1, len(moving) + 1)
+    return np.asarray(number[label], dtype=np.int64)

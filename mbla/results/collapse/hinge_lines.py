@@ -1,0 +1,87 @@
+"""Hinge lines: hinges of interfaces between the same two clusters that lie on one line.
+
+A wall that tilts over has a hinge under each of its stones; they share one axis and are one hinge line.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from mbla.arrays import FloatArray, IntArray
+from mbla.contacts.contacts import Contacts
+from mbla.results.collapse.cluster_joints import ClusterJoints, radii, runs
+from mbla.results.collapse.interface_modes import InterfaceMode, InterfaceMotion
+
+SAME_DIRECTION = float(np.cos(np.radians(2.0)))
+"""cosine from which two axes count as parallel"""
+SAME_LINE = 0.02
+"""distance of two axes, over the radius of the interface, up to which they count as one line"""
+
+
+@dataclass(frozen=True)
+class HingeLine:
+    """An axis about which one cluster turns relative to another.
+
+    clusters   : that which turns, and that which it turns against; 0 is at rest and comes second
+    interfaces : (n,) on it, in their order
+    start, end : (3,) m, of the line, as far as its interfaces reach
+    direction  : (3,) unit from start to end; the first cluster turns about it relative to the second by the right hand
+    rotation   : the largest relative angular velocity of its interfaces
+    share      : the largest contact speed of its interfaces over the largest of all
+    slides     : closed points of it slide too
+    """
+
+    clusters: tuple[int, int]
+    interfaces: IntArray
+    start: FloatArray
+    end: FloatArray
+    direction: FloatArray
+    rotation: float
+    share: float
+    slides: bool
+
+    @property
+    def length(self) -> float:
+        """From end to end, m."""
+        return float(np.linalg.norm(self.end - self.start))
+
+
+def hinge_lines(contacts: Contacts, motion: InterfaceMotion, joints: ClusterJoints) -> tuple[HingeLine, ...]:
+    """Those between different clusters, by falling share of the motion, then by their first interface."""
+    hinges = np.flatnonzero((motion.modes == InterfaceMode.HINGE) & joints.between)
+    directions = joints.signs[:, None] * motion.hinge_directions
+    size = radii(contacts)
+    lines = []
+    for run in runs(joints.pairs, hinges):
+        rest = run
+        while len(rest):
+            seed = rest[0]
+            arms = motion.hinge_points[rest] - motion.hinge_points[seed]
+            off = np.linalg.norm(np.cross(arms, directions[seed]), axis=1)
+            same = (directions[rest] @ directions[seed] >= SAME_DIRECTION) & (
+                off <= SAME_LINE * np.maximum(size[rest], size[seed])
+            )
+            lines.append(_line(contacts, motion, joints, rest[same], directions[seed]))
+            rest = rest[~same]
+    return tuple(sorted(lines, key=lambda line: (-round(line.share, 6), line.interfaces[0])))
+
+
+def _line(
+    contacts: Contacts, motion: InterfaceMotion, joints: ClusterJoints, interfaces: IntArray, direction: FloatArray
+) -> HingeLine:
+    """Through the mean of the axes, as long as the contact points reach along it."""
+    through = motion.hinge_points[interfaces].mean(axis=0)
+    points = contacts.points[np.isin(contacts.interface_of_point, interfaces)]
+    along = (points - through) @ direction
+    return HingeLine(
+        clusters=joints.clusters(interfaces[0]),
+        interfaces=interfaces,
+        start=through + along.min() * direction,
+        end=through + along.max() * direction,
+        direction=direction,
+        rotation=float(np.linalg.norm(motion.rotation[interfaces], axis=1).max()),
+        share=float(joints.shares[interfaces].max()),
+        slides=bool(motion.slides[interfaces].any()),
+    )

@@ -1,0 +1,196 @@
+"""Clusters, hinge lines, sliding planes and cracks of mechanisms that are known in closed form."""
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from mbla.contacts.contacts import Contacts
+from mbla.model.model import Model
+from mbla.results.collapse.clusters import FEW, SHARES, clusters_of
+from mbla.results.collapse.collapse import collapse_of
+from mbla.results.collapse.failure import Failure, failure_of
+from mbla.results.collapse.rigid_parts import rigid_parts
+from mbla.results.words.failure_words import failure_sentences
+from mbla.solution.solution import ContactMode, Mechanics
+from mbla.solution.statics import contact_velocities
+from tests.line import HEAD, case_of, line_of, verified
+from tests.results.synthetic import cuboids, horizontal_contacts, tower_model
+
+WALL = (
+    HEAD
+    + """\
+parameters: {scale: 1, dx: 0}
+joints: {dry: {friction: 0.65}}
+blocks:
+  - wall:
+      {group: wall, material: stone, unit: ["=0.4*scale", "=0.2*scale", "=0.2*scale"], length: "=2*scale", courses: 4,
+       transform: {translate: ["=dx", 0, 0]}}
+supports: [{ground: {z: 0}}]
+load_cases:
+  across: {live: [{acceleration: [0, 1, 0]}]}
+  along: {live: [{acceleration: [1, 0, 0]}]}
+analysis: {flow_rule: associative}
+"""
+)
+SLIDE = (
+    HEAD
+    + """\
+joints: {dry: {friction: 0.2}}
+blocks:
+  - box: {group: table, material: stone, min: [0, 0, 0], max: [3, 1, 1]}
+  - box: {group: slab, material: stone, min: [0, 0, 1], max: [3, 1, 1.2]}
+supports: [{blocks: table}]
+load_cases:
+  push: {live: [{acceleration: [1, 0, 0]}]}
+"""
+)
+
+
+def told(text: str, *overrides: str, case: int = 0) -> tuple[Model, Contacts, Failure, list[str]]:
+    line = line_of(text, *overrides, case=case)
+    solution, _, _ = verified(line)
+    assert solution.mechanics is not None
+    collapse = collapse_of(line.model, line.contacts, line.load_case, solution.mechanics)
+    failure = failure_of(line.model, line.contacts, collapse, solution.mechanics)
+    sentences = failure_sentences(line.model, line.contacts, line.load_case, collapse, failure)
+    return line.model, line.contacts, failure, sentences
+
+
+def stack(n: int) -> tuple[Model, Contacts]:
+    """Unit cubes one on the other, the lowest fixed."""
+    lower = np.array([[0, 0, i] for i in range(n)], float)
+    blocks = cuboids(lower, lower + 1, ["stack"] * n)
+    model = replace(tower_model(), blocks=blocks, fixed=np.arange(n) == 0, grounds=())
+    return model, horizontal_contacts([[i, i + 1] for i in range(n - 1)], [(0, 1, 0, 1, i + 1) for i in range(n - 1)])
+
+
+def clusters(n: int, speeds: Any) -> tuple[Any, float]:
+    model, contacts = stack(n)
+    motion = np.zeros((n, 6))
+    motion[:, 0] = speeds
+    found = clusters_of(model, contacts, rigid_parts(model, contacts, motion), motion)
+    return found.of_block.tolist(), found.merged
+
+
+@pytest.mark.parametrize("overrides", [(), ("parameters.scale=1000", "parameters.dx=1e6"), ("parameters.scale=1e-3",)])
+def test_a_wall_that_tilts_over_has_one_hinge_line_along_its_foot(overrides: Any) -> None:
+    """Five stones stand on the ground: one line of five interfaces as long as the wall, in any unit and place."""
+    model, _, failure, sentences = told(WALL, *overrides)
+    (line,) = failure.hinge_lines
+    size = float(np.ptp(model.blocks.vertices[:, 0]))
+    start = float(model.blocks.vertices[:, 0].min())
+    assert line.clusters == (1, 0)
+    assert len(line.interfaces) == 5
+    assert line.length == pytest.approx(size)
+    assert line.direction == pytest.approx([-1, 0, 0], abs=1e-6)
+    assert line.start == pytest.approx([start + size, size / 10, 0], abs=1e-6 * size)
+    assert line.end == pytest.approx([start, size / 10, 0], abs=1e-6 * size)
+    assert failure.cracks == () == failure.sliding_planes
+    assert "on a hinge line of 5 interfaces" in " ".join(sentences)
+    assert "The whole structure" in sentences[1]
+    assert "moving with the load" in sentences[1]
+    assert sentences[-1] == "Nothing slides."
+
+
+def test_a_stepped_crack_runs_through_a_wall_pushed_in_its_plane() -> None:
+    """What turns over the corner parts from the rest along head and bed joints that touch one another."""
+    _, contacts, failure, sentences = told(WALL, case=1)
+    assert len(failure.motions) >= 1
+    assert failure.motions[0].turns
+    joined = {int(i) for crack in failure.cracks for i in crack.interfaces}
+    first = failure.cracks[0]
+    sides = failure.clusters[contacts.bodies[first.interfaces]]
+    assert {tuple(sorted(pair)) for pair in sides.tolist()} == {tuple(sorted(first.clusters))}
+    assert first.area == pytest.approx(contacts.areas[first.interfaces].sum())
+    assert len(joined) == sum(len(crack.interfaces) for crack in failure.cracks)
+    assert tuple(first.start[[2, 0]]) < tuple(first.end[[2, 0]])
+    assert "turns about +y" in sentences[1]
+    assert "with the load" in sentences[1]
+    assert any("separates part" in text for text in sentences)
+
+
+def test_a_slab_slides_in_one_plane_and_friction_takes_all_the_power() -> None:
+    line = line_of(SLIDE)
+    _, result = case_of(SLIDE)
+    mechanics = result.solution.mechanics
+    assert mechanics is not None
+    collapse = collapse_of(line.model, line.contacts, line.load_case, mechanics)
+    failure = failure_of(line.model, line.contacts, collapse, mechanics)
+    (plane,) = failure.sliding_planes
+    assert plane.clusters == (1, 0)
+    assert plane.area == pytest.approx(3.0)
+    assert plane.direction == pytest.approx([1, 0, 0], abs=1e-6)
+    assert plane.normal == pytest.approx([0, 0, 1])
+    assert plane.centroid == pytest.approx([1.5, 0.5, 1])
+    assert plane.share == pytest.approx(1.0, abs=1e-6) == plane.shear
+    assert not plane.twists
+    assert failure.hinge_lines == () == failure.cracks
+    text = failure_sentences(line.model, line.contacts, line.load_case, collapse, failure)
+    assert (
+        text[-1]
+        == "Part 1 slides over what rests along +x: 1 joint, 3 m2, at (1.5, 0.5, 1), taking 100.0 % of the power."
+    )
+
+
+def test_parts_that_plainly_differ_stay_apart() -> None:
+    assert clusters(4, [0, 1, 2, 3]) == ([0, 1, 2, 3], 0.0)
+
+
+def test_parts_that_hardly_differ_are_told_as_one() -> None:
+    """Blocks 2 and 3 differ by a hundredth of the fastest contact, as the exact parts say they do."""
+    model, contacts = stack(4)
+    motion = np.zeros((4, 6))
+    motion[:, 0] = [0, 0, 1, 1.01]
+    assert rigid_parts(model, contacts, motion).tolist() == [0, 0, 1, 2]
+    assert clusters(4, motion[:, 0]) == ([0, 0, 1, 1], SHARES[0])
+
+
+def test_what_hardly_moves_is_told_as_resting() -> None:
+    assert clusters(4, [0, 0.01, 1, 3]) == ([0, 0, 1, 2], SHARES[0])
+
+
+def test_a_chain_of_small_slips_is_no_rigid_part() -> None:
+    """Each of 60 blocks slides over the one below by up to 0.017, together by 0.5 along a parabola.
+
+    Equal slips would not do: speeds that grow evenly with height are those of a rotation, and are told as one.
+    """
+    height = np.arange(61.0)
+    speeds = np.where(height > 0, 1 + 0.5 * (height / 60) ** 2, 0.0)
+    found, merged = clusters(61, speeds)
+    assert merged == SHARES[0]
+    assert 2 <= max(found) <= FEW
+    for cluster in range(1, max(found) + 1):
+        inside = np.array(found) == cluster
+        line = np.polyfit(height[inside], speeds[inside], 1)
+        assert np.sqrt(np.mean((np.polyval(line, height[inside]) - speeds[inside]) ** 2)) <= 2 * merged
+    evenly, _ = clusters(61, np.where(height > 0, 1 + 0.01 * height, 0.0))
+    assert max(evenly) == 1
+
+
+@pytest.mark.parametrize("size", [1e-9, 1e9])
+def test_clusters_are_free_of_the_size_of_the_mechanism(size: float) -> None:
+    assert clusters(4, size * np.array([0, 0.01, 1, 3]))[0] == [0, 0, 1, 2]
+
+
+def test_two_lines_of_one_axis_between_different_parts_stay_two() -> None:
+    """Two towers that tilt apart over edges on one line: the parts differ, so do the lines."""
+    lower = np.array([[0, 0, 0], [0, 0, 1], [0, 3, 1]], float)
+    upper = np.array([[1, 5, 1], [1, 1, 3], [1, 4, 3]], float)
+    blocks = cuboids(lower, upper, ["base", "left", "right"])
+    model = replace(tower_model(), blocks=blocks, fixed=np.array([True, False, False]), grounds=())
+    contacts = horizontal_contacts([[0, 1], [0, 2]], [(0, 1, 0, 1, 1), (0, 1, 3, 4, 1)])
+
+    motion = np.zeros((3, 6))
+    for block, spin in ((1, 1.0), (2, 0.5)):
+        motion[block, 4] = spin
+        motion[block, :3] = np.cross([0, spin, 0], blocks.centroids[block] - [1, 0, 1])
+    velocities = contact_velocities(model, contacts, motion)
+    modes = np.where(velocities[:, 0] > 1e-9, ContactMode.OPEN, ContactMode.STICK)
+    mechanics = Mechanics(1.0, np.ones((8, 3)), velocities, motion, modes)
+    collapse = collapse_of(model, contacts, model.load_cases[0], mechanics)
+    failure = failure_of(model, contacts, collapse, mechanics)
+    assert [line.clusters for line in failure.hinge_lines] == [(1, 0), (2, 0)]
+    assert [line.share for line in failure.hinge_lines] == pytest.approx([1.0, 0.5])
+    assert [line.rotation for line in failure.hinge_lines] == pytest.approx([1.0, 0.5])
