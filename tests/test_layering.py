@@ -26,7 +26,6 @@ DOORS = {
     "paraview": "results/paraview/standard_views.py",
     "pyvista": "results/pictures/space/renderer.py",
     "vtk": "results/pictures/space/renderer.py",
-    "imageio": "results/pictures/animation.py",
     "imageio_ffmpeg": "results/pictures/animation.py",
     "matplotlib": "results/pictures/page.py",
     "jinja2": "results/report/page.py",

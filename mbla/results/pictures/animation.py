@@ -1,4 +1,4 @@
-"""Moving pictures of a mechanism, GIF or MP4, off and back (only importer of imageio, the extra ``mbla[pictures]``).
+"""Moving pictures of a mechanism, GIF or MP4, off and back (only importer of imageio-ffmpeg, an extra).
 
 Every frame moves the blocks along their screws (:mod:`mbla.results.collapse.motion`), so that they keep their shape.
 The motion swings as a cosine and ends where it began: the film repeats without a jump. The view, the room for words and
@@ -8,6 +8,7 @@ the legend are those of the widest frame.
 from __future__ import annotations
 
 import io
+import tempfile
 from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
@@ -58,6 +59,8 @@ def write_animation(results: Results, case: CaseResult, path: Path, options: Pic
         The file cannot be written.
     """
     kind = format_of_film(path)
+    if not path.parent.is_dir():
+        raise FileError(f"{path.parent}: no such folder")  # said before the frames are drawn
     options = fitted_options(options or PictureOptions(), kind)
     widest = scene_of(results, case, options, "mechanism")
     if not widest.motion.any():
@@ -120,22 +123,19 @@ def _gif(film: list[Any]) -> bytes:
 def _mp4(film: list[Any]) -> bytes:
     """H.264 as browsers and slides play it."""
     try:
-        import imageio.v3 as imageio
-        import imageio_ffmpeg  # noqa: F401
+        import imageio_ffmpeg
     except ImportError as error:
         raise UsageError("MP4 needs an extra that is not installed: pip install 'mbla[pictures]'") from error
-    repeated = np.stack([*film, *film])  # two swings: one is over before it is seen, and players do not repeat
-    return bytes(
-        imageio.imwrite(
-            "<bytes>",
-            repeated,
-            extension=".mp4",
-            plugin="FFMPEG",
-            fps=FRAMES_PER_SECOND,
-            codec="libx264",
-            quality=8,
-            macro_block_size=2,
-            pixelformat="yuv420p",
-            ffmpeg_log_level="error",
+    height, width = film[0].shape[:2]
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "film.mp4"
+        writer = imageio_ffmpeg.write_frames(
+            str(path), (width, height), fps=FRAMES_PER_SECOND, quality=8, macro_block_size=2, ffmpeg_log_level="error"
         )
-    )
+        writer.send(None)
+        try:
+            for frame in (*film, *film):  # two swings: one is over before it is seen, and players do not repeat
+                writer.send(np.ascontiguousarray(frame))
+        finally:
+            writer.close()
+        return path.read_bytes()

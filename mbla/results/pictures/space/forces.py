@@ -56,7 +56,7 @@ def forces_drawing(scene: Scene) -> Drawing:
     if scene.model.fixed.any():
         legend.append(("support", FIXED_BLOCK))
     extent = np.vstack([vertices, *scene.slabs, *(shape.points for shape in loads)])
-    return Drawing(tuple(solid + loads), tuple(marks), 0.85, extent, tuple(legend), scale, notes)
+    return Drawing(tuple(solid), tuple(marks + loads), 0.85, extent, tuple(legend), scale, notes)
 
 
 def ramp(values: FloatArray) -> FloatArray:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from mbla.arrays import FloatArray
 from mbla.model.model import LoadCase
 from mbla.results.collapse.motion import moved_points
 from mbla.results.pictures.load_marks import LoadMarks, load_marks
@@ -18,7 +17,7 @@ FEW = 20
 """forces up to which their arrows are thick"""
 COLUMNS = 60
 """letters of a load in the legend"""
-SHARE_OF_BLOCK = 0.45
+SHARE_OF_BLOCK = 0.6
 """radius of the ring of a moment, over the size of its block"""
 
 Entries = list[tuple[str, str]]
@@ -121,8 +120,3 @@ def _settlement(scene: Scene, load_case: LoadCase) -> list[Shape]:
             turning_arrows(centres[rows], turns[rows] / spins[rows, None], reach, float(0.04 * reach.max()), colour)
         )
     return shapes
-
-
-def points_of(shapes: list[Shape]) -> list[FloatArray]:
-    """Points that must fit into the picture."""
-    return [shape.points for shape in shapes]

@@ -59,7 +59,7 @@ def mechanism_drawing(scene: Scene, widest: Scene | None = None) -> Drawing:
         legend += entries
     extent = np.vstack([scene.moved, scene.model.blocks.vertices, *scene.slabs])
     loads, entries = live_load_arrows(scene)
-    solid += loads
+    marks += loads
     extent = np.vstack([extent, *(shape.points for shape in loads)])
     legend += entries
     if moving.any():

@@ -28,6 +28,8 @@ DRAWINGS: dict[str, Callable[[Scene], Drawing]] = {
 KINDS = tuple(DRAWINGS)
 MARGIN = 0.03
 """of the page beside the structure, share of the width"""
+SCALE = 0.1
+"""share of the height that a scale of colours takes above the legend"""
 AXES = 0.09
 """share of the height that axes and scale bar take at least"""
 SHARPNESS = {"png": 1, "svg": 2, "pdf": 2}
@@ -49,7 +51,9 @@ def draw_in_space(path: Path, scene: Scene, kind: str, options: PictureOptions) 
     view = options.view or view_of_case(scene)
     with open_page(path, options) as page:
         bottom, top = fill_sheet(page, scene, kind, drawing)
-        camera = fitted(drawing.extent, *view, width / height, frame_between(bottom, top))
+        camera = fitted(
+            drawing.extent, *view, width / height, frame_between(bottom + SCALE * (drawing.scale is not None), top)
+        )
         with Renderer(drawing.solid, drawing.marks) as renderer:
             image = renderer.image(camera, width, height, drawing.shine)
         add_image(page, image, camera, scene, drawing, bottom)

@@ -1,0 +1,206 @@
+"""What is on the pictures, found in their pixels."""
+
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from mbla.results.pictures.options import PictureOptions
+from mbla.results.pictures.palette import FIXED_BLOCK, HINGE, OPEN, WARNING, group_colours
+from mbla.results.pictures.scene import Scene, scene_of
+from mbla.results.pictures.space import can_draw
+from mbla.results.pictures.space.camera import fitted
+from mbla.results.pictures.space.forces import forces_drawing, ramp, resultant_rods
+from mbla.results.pictures.space.mechanism import mechanism_drawing, tint_of_part
+from mbla.results.pictures.space.model import model_drawing
+from mbla.results.pictures.space.picture import draw_in_space, view_of_case
+from mbla.results.pictures.space.renderer import Renderer
+from mbla.results.pictures.space.shapes import Faces, painted, rgb
+from mbla.results.pictures.space.sheet import round_length
+from mbla.results.results import Results
+from mbla.solution.solution import Status
+from tests.results.synthetic import tower_results
+
+needs_opengl = pytest.mark.skipif(not can_draw(), reason="this machine has no OpenGL")
+SMALL = PictureOptions(size=(400, 250), view=(-60.0, 25.0))
+
+
+@pytest.fixture(scope="module")
+def results() -> Results:
+    return tower_results()
+
+
+def scene(results: Results, kind: str, case: int = 0) -> Scene:
+    return scene_of(results, results.cases[case], SMALL, kind)
+
+
+def near(image: Any, colour: Any, distance: float = 0.12) -> int:
+    """How many pixels, 0 to 1, are about of this colour."""
+    return int((np.abs(image - colour).max(axis=2) < distance).sum())
+
+
+def picture(path: Path, a_scene: Scene, kind: str) -> Any:
+    from PIL import Image
+
+    draw_in_space(path, a_scene, kind, SMALL)
+    with Image.open(path) as image:
+        return np.asarray(image)[..., :3] / 255
+
+
+def square(x: float, size: float, colour: str) -> Faces:
+    """Across x, unlit."""
+    points = np.array([[x, -size, -size], [x, size, -size], [x, size, size], [x, -size, size]])
+    return painted(points, np.array([0, 4]), np.arange(4), colour, lit=False)
+
+
+@needs_opengl
+@pytest.mark.parametrize(("shine", "share"), [(0.0, 0.0), (0.5, 0.5), (1.0, 1.0)])
+def test_hidden_marks_shine_through_by_the_strength_asked_for(shine: float, share: float) -> None:
+    with Renderer([square(1.0, 1.0, "#0000FF")], [square(0.0, 0.5, "#FF0000")]) as renderer:
+        camera = fitted(np.array([[0.0, -1, -1], [1.0, 1, 1]]), 0.0, 0.0, 1.0)
+        image = renderer.image(camera, 60, 60, shine)
+    middle = image[30, 30]
+    assert middle == pytest.approx([share, 0.0, 1 - share], abs=0.01)
+
+
+@needs_opengl
+def test_marks_in_front_are_what_they_are() -> None:
+    with Renderer([square(0.0, 1.0, "#0000FF")], [square(1.0, 0.5, "#FF0000")]) as renderer:
+        camera = fitted(np.array([[0.0, -1, -1], [1.0, 1, 1]]), 0.0, 0.0, 1.0)
+        image = renderer.image(camera, 60, 60, 0.3)
+    assert image[30, 30] == pytest.approx([1.0, 0.0, 0.0], abs=0.01)
+
+
+def test_the_rod_of_a_hinge_lies_on_its_axis(results: Results) -> None:
+    """The tower turns about the edge x = 1, z = 1, from y = 0 to y = 1, and that edge does not move."""
+    drawing = mechanism_drawing(scene(results, "mechanism"))
+    vermilion = [mark for mark in drawing.marks if isinstance(mark, Faces) and (mark.colours == rgb(HINGE)).all()]
+    assert len(vermilion) == 1
+    points = vermilion[0].points
+    assert points[:, [0, 2]].mean(axis=0) == pytest.approx([1.0, 1.0])
+    assert points[:, 1].min() == pytest.approx(0.0, abs=1e-9)
+    assert points[:, 1].max() == pytest.approx(1.0, abs=1e-9)
+
+
+def test_what_is_told_in_the_legend_is_what_there_is(results: Results) -> None:
+    names = [name for name, _ in mechanism_drawing(scene(results, "mechanism")).legend]
+    assert names[:2] == ["hinge", "opening"]
+    assert "sliding" not in names
+    assert names[-3:] == ["at rest", "before", "support"]
+    falling = [name for name, _ in mechanism_drawing(scene(results, "mechanism", 1)).legend]
+    assert "hinge" not in falling
+    assert "before" in falling
+    still = replace(scene(results, "mechanism"), motion=np.zeros((3, 6)))
+    assert not {"before", "hinge"} & {name for name, _ in mechanism_drawing(still).legend}
+
+
+def test_parts_that_touch_have_different_tints(results: Results) -> None:
+    tower = scene(results, "mechanism")
+    neighbours = replace(tower.contacts, bodies=np.array([[0, 1], [0, 2]]))
+    apart = replace(tower, results=replace(results, contacts=neighbours))
+    tints = tint_of_part(apart, np.array([1, 2, 3]))
+    assert tints[1] != tints[2]
+    assert tints[1] != tints[3]
+    assert tints[2] == tints[3]
+
+
+def test_sections_of_rods_are_in_proportion_to_forces(results: Results) -> None:
+    forces = scene(results, "forces")
+    assert forces.thrust is not None
+    rods = resultant_rods(forces, forces.thrust, plain=True)
+    sizes = np.linalg.norm(forces.thrust.forces, axis=1)
+    per_rod = len(rods.points) // 2
+    radii = []
+    for row in range(2):
+        points = rods.points[row * per_rod : (row + 1) * per_rod]
+        unit = forces.thrust.forces[row] / sizes[row]
+        arms = points - forces.thrust.points[row]
+        radii.append(float(np.linalg.norm(arms - (arms @ unit)[:, None] * unit, axis=1).max()))
+    assert radii[0] ** 2 / radii[1] ** 2 == pytest.approx(sizes[0] / sizes[1], rel=1e-9)
+
+
+def test_eccentricity_grows_darker_and_stays_at_the_end() -> None:
+    luminance = ramp(np.linspace(0, 1.5, 31)) @ [0.2126, 0.7152, 0.0722]
+    assert (np.diff(luminance[:21]) < 0).all()
+    assert (luminance[20:] == luminance[20]).all()
+
+
+def test_without_forces_only_the_structure_is_drawn(results: Results) -> None:
+    drawing = forces_drawing(scene(results, "forces", 1))
+    assert drawing.scale is None
+    assert not drawing.notes
+
+
+def test_groups_and_supports_are_in_the_legend_of_the_model(results: Results) -> None:
+    names = dict(model_drawing(scene(results, "model")).legend)
+    assert names["tower"] == group_colours(results.model.blocks.groups)["tower"]
+    assert names["fixed blocks"] == FIXED_BLOCK
+    assert any(name.startswith("push_x") for name in names)
+
+
+@needs_opengl
+def test_the_view_faces_the_side_towards_which_the_tower_falls(results: Results) -> None:
+    """It falls towards +x: the eye stands there, above it."""
+    azimuth, elevation = view_of_case(scene(results, "model"))
+    assert np.cos(np.deg2rad(azimuth)) > 0
+    assert elevation > 0
+
+
+@needs_opengl
+def test_pictures_show_hinge_gap_and_tinted_part(tmp_path: Path, results: Results) -> None:
+    image = picture(tmp_path / "a.png", scene(results, "mechanism"), "mechanism")
+    assert image.shape == (250, 400, 3)
+    assert near(image, rgb(HINGE)) > 20
+    assert near(image, rgb(OPEN)) > 20
+    assert int((image[..., 2] - image[..., 0] > 0.1).sum()) > 300  # the first tint is blue, in light and in shade
+    still = picture(tmp_path / "b.png", scene(results, "model"), "model")
+    red, _, blue = rgb(group_colours(results.model.blocks.groups)["tower"])
+    of_tower = np.sign(blue - red) * (still[..., 2] - still[..., 0])
+    assert int((of_tower > 0.1).sum()) > 300
+    assert near(still, rgb(OPEN)) < 5
+
+
+@needs_opengl
+def test_figures_that_are_no_result_are_framed_in_red(tmp_path: Path, results: Results) -> None:
+    case = replace(results.cases[0], status=Status.NOT_VERIFIED)
+    doubtful = scene_of(results, case, SMALL, "mechanism")
+    image = picture(tmp_path / "a.png", doubtful, "mechanism")
+    assert near(image[:, :2], rgb(WARNING)) > 300
+    good = picture(tmp_path / "b.png", scene(results, "mechanism"), "mechanism")
+    assert near(good[:, :2], rgb(WARNING)) == 0
+
+
+@needs_opengl
+@pytest.mark.parametrize("kind", ["model", "mechanism", "forces"])
+def test_every_kind_is_drawn_of_a_case_without_equilibrium(tmp_path: Path, results: Results, kind: str) -> None:
+    image = picture(tmp_path / "a.png", scene(results, kind, 1), kind)
+    assert (image < 0.95).any(axis=2).mean() > 0.05
+
+
+@needs_opengl
+def test_the_structure_is_the_same_size_in_every_unit(results: Results, tmp_path: Path) -> None:
+    """The same picture of a tower a thousand times as large and far away, but for the words."""
+    blocks, contacts = results.model.blocks, results.contacts
+    far = np.array([2e6, -1e6, 0.0])
+    large = replace(
+        blocks,
+        vertices=1e3 * blocks.vertices + far,
+        centroids=1e3 * blocks.centroids + far,
+        volumes=1e9 * blocks.volumes,
+    )
+    moved = replace(contacts, points=1e3 * contacts.points + far, centroids=1e3 * contacts.centroids + far)
+    grown = replace(results, model=replace(results.model, blocks=large), contacts=moved)
+    images = []
+    for each in (results, grown):
+        drawing = model_drawing(scene(each, "model"))
+        shapes = [shape for shape in drawing.solid if isinstance(shape, Faces)][-1]
+        with Renderer([shapes], ()) as renderer:
+            images.append(renderer.image(fitted(shapes.points, -60.0, 25.0, 1.6), 160, 100, 0.0))
+    assert np.abs(images[0] - images[1]).mean() < 0.005
+
+
+@pytest.mark.parametrize(("most", "length"), [(0.99, 0.5), (1.0, 1.0), (4.9, 2.0), (5.0, 5.0), (1234.0, 1000.0)])
+def test_scale_bars_have_round_lengths(most: float, length: float) -> None:
+    assert round_length(most) == pytest.approx(length)
