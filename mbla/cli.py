@@ -159,11 +159,42 @@ def _export(options: argparse.Namespace) -> int:
 
     results = read_results_hdf5(options.result)
     folder = options.output or options.result.parent
-    formats = Formats(options.csv, options.parquet)
+    formats = Formats(options.csv, options.parquet, options.vtkhdf)
     for path in export_results(
         results, folder, options.result.stem, formats, options.case, options.table, options.force
     ):
         print(path)
+    return 0
+
+
+def _diff(options: argparse.Namespace) -> int:
+    from mbla.results.comparison.comparison import compare_results
+    from mbla.results.comparison.records import comparison_json
+    from mbla.results.comparison.words import comparison_text
+    from mbla.results.hdf5.result_file import read_results_hdf5
+    from mbla.results.records.json_record import json_line
+
+    names = str(options.first), str(options.second)
+    results = read_results_hdf5(options.first), read_results_hdf5(options.second)
+    comparison = compare_results(*results, options.tolerance)
+    if options.json:
+        print(json_line(comparison_json(comparison, names)))
+    else:
+        print(comparison_text(comparison, names), end="")
+    return 4 if options.fail and comparison.differing else 0
+
+
+def _explain(options: argparse.Namespace) -> int:
+    from mbla.results.explanations.explanations import EXPLANATIONS, find_explanations
+    from mbla.results.explanations.words import all_text, explanation_json, explanation_text
+    from mbla.results.records.json_record import json_line
+
+    asked = " ".join(options.identifier)
+    found = find_explanations(asked) if asked.strip() else tuple(EXPLANATIONS.values())
+    if options.json:
+        print(json_line({"explanations": [explanation_json(entry) for entry in found]}))
+    else:
+        print(explanation_text(found) if asked.strip() else all_text(), end="")
     return 0
 
 
@@ -190,6 +221,8 @@ COMMANDS: dict[str, Callable[[argparse.Namespace], int]] = {
     "plot": _plot,
     "report": _report,
     "export": _export,
+    "diff": _diff,
+    "explain": _explain,
     "schema": _schema,
     "new": _new,
 }

@@ -7,6 +7,7 @@ from typing import Literal
 
 from mbla.deck.units import Units
 
+FieldKind = Literal["float", "int", "bool", "text"]
 UnitKind = Literal[
     "1",
     "time",
@@ -41,7 +42,7 @@ class Field:
     """
 
     path: str
-    kind: Literal["float", "int", "bool", "text"]
+    kind: FieldKind
     dims: tuple[str, ...]
     unit: UnitKind
     long_name: str

@@ -22,9 +22,9 @@ LINES = (
     ("dual_residual", "dual residual", PURPLE, ":", "^"),
 )
 """residuals of an iteration: field, name, colour, line, marker"""
-MOST_NAMED = 12
-"""programs up to which each is named"""
-LEFT, RIGHT, BOTTOM, BETWEEN = 0.09, 0.97, 0.09, 0.07
+MOST_NAMED = 24
+"""names of programs that have room side by side"""
+LEFT, RIGHT, BOTTOM, BETWEEN = 0.09, 0.94, 0.09, 0.07
 """frame of the diagrams, shares of the page"""
 
 
@@ -87,7 +87,7 @@ def _draw_iterations(page: Page, factors: Any, residuals: Any, scene: Scene) -> 
     _keep_to_the_middle(factors, values)
     residuals.set_yscale("log")
     _label(page, residuals, "iteration", "relative residual")
-    residuals.legend(fontsize=0.85 * page.letter, frameon=False, loc="lower left", ncols=3)
+    residuals.legend(fontsize=0.85 * page.letter, framealpha=0.9, loc="upper right", ncols=3)
     _name_programs(page, (factors, residuals), scene, program)
     mechanics = scene.mechanics
     if mechanics is not None:
@@ -121,10 +121,13 @@ def _name_programs(page: Page, frames: tuple[Any, Any], scene: Scene, program: A
         axes.set_xlim(0.5, len(program) + 0.5)
         for start in starts[1:]:
             axes.axvline(start + 0.5, color=GHOST, linewidth=0.8 * page.scale, zorder=0)
-    every = max(1, -(-len(starts) // MOST_NAMED))
-    for start in starts[::every]:
+    named: list[int] = []
+    for start in starts.tolist():
+        if not named or start - named[-1] >= len(program) / MOST_NAMED:
+            named.append(start)
+    for start in named:
         text = f"{program[start]} {kinds.get(int(program[start]), '')}".replace("_", " ").strip()
-        style = {"fontsize": 0.7 * page.letter, "color": INK, "rotation": 90 if len(starts) > 3 else 0}
+        style = {"fontsize": 0.7 * page.letter, "color": INK, "rotation": 90 if len(named) > 3 else 0}
         frames[0].annotate(
             text, (start + 0.5, 1), xycoords=("data", "axes fraction"), xytext=(3, -3), va="top",
             textcoords="offset points", parse_math=False, **style,

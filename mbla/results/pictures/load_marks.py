@@ -8,6 +8,7 @@ one arrow for all blocks.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -21,6 +22,12 @@ SAME = 1e-6
 stored in full, so it is rounding"""
 MASS_LOADS = ("gravity", "acceleration", "tilt")
 """words of loads that are proportional to mass"""
+IN_WORDS = re.compile(r"(?:([-+.\de]+) times )?(gravity|acceleration) \(([^)]*)\) (?:m/s2|g)$")
+"""an acceleration of all blocks in the words of a load case"""
+WRITTEN = 1e-5
+"""relative accuracy of numbers in words"""
+MOST = 0.5
+"""share of the loaded blocks that must have one acceleration, where words do not say it, for it to be one arrow"""
 
 
 @dataclass(frozen=True)
@@ -53,23 +60,27 @@ class LoadMarks:
 def load_marks(model: Model, loads: FloatArray, words: Sequence[str]) -> LoadMarks:
     """Arrows for loads on blocks about their centroids, (n_blocks, 6), with their words from the load case."""
     loads = np.where(model.fixed[:, None], 0.0, loads)
-    of_mass = any(word in text for text in words for word in MASS_LOADS)
-    acceleration, accelerated = _acceleration(model, loads) if of_mass else (np.zeros(3), np.zeros(len(loads), bool))
+    of_mass = all(any(word in text for word in MASS_LOADS) for text in words) or bool(_in_words(model, words).any())
+    acceleration, accelerated = np.zeros(3), np.zeros(len(loads), dtype=bool)
+    if of_mass:
+        acceleration, accelerated = _acceleration(model, loads, _in_words(model, words))
     rest = loads - _mass_loads(model, acceleration, accelerated)
     blocks = model.blocks
     size = np.linalg.norm(loads[:, :3], axis=1).max(initial=0.0)
     force = np.linalg.norm(rest[:, :3], axis=1)
-    pushed = np.flatnonzero(force > SAME * size)
+    pushed = np.flatnonzero(force > WRITTEN * size)
     vectors, moments = rest[pushed, :3], rest[pushed, 3:]
     square = np.einsum("ij,ij->i", vectors, vectors)[:, None]
     points = blocks.centroids[pushed] + np.cross(vectors, moments) / square
     about = np.zeros((len(loads), 3))
     about[:, :] = rest[:, 3:]
     about[pushed] = np.einsum("ij,ij->i", vectors, moments)[:, None] / square * vectors
-    turned = np.flatnonzero(np.linalg.norm(about, axis=1) > SAME * _moment_size(model, loads))
+    turned = np.flatnonzero(np.linalg.norm(about, axis=1) > WRITTEN * _moment_size(model, loads))
     return LoadMarks(
         blocks=pushed,
-        tips=np.array([_entry(model, b, p, f) for b, p, f in zip(pushed, points, vectors, strict=True)]).reshape(-1, 3),
+        tips=np.array([_entry(model, int(b), p, f) for b, p, f in zip(pushed, points, vectors, strict=True)]).reshape(
+            -1, 3
+        ),
         forces=vectors,
         moment_blocks=turned,
         moments=about[turned],
@@ -78,8 +89,20 @@ def load_marks(model: Model, loads: FloatArray, words: Sequence[str]) -> LoadMar
     )
 
 
-def _acceleration(model: Model, loads: FloatArray) -> tuple[FloatArray, BoolArray]:
-    """The commonest force per mass, (3,), and the blocks that have it, (n_blocks,)."""
+def _in_words(model: Model, words: Sequence[str]) -> FloatArray:
+    """Sum of the accelerations of all blocks that the words name, force per mass, (3,)."""
+    total, units = np.zeros(3), model.units
+    for text in words:
+        found = IN_WORDS.match(text)
+        if found:
+            factor, kind, numbers = found.groups()
+            unit = units.standard_gravity if kind == "acceleration" else 1.0
+            total += float(factor or 1) * unit * np.array([float(part) for part in numbers.split(",")])
+    return total * units.force_per_mass_acceleration
+
+
+def _acceleration(model: Model, loads: FloatArray, written: FloatArray) -> tuple[FloatArray, BoolArray]:
+    """The force per mass that the words say, else the one that most blocks have, (3,); who has it, (n_blocks,)."""
     masses = model.blocks.masses
     chosen = (masses > 0) & np.any(loads[:, :3] != 0, axis=1)
     none = np.zeros(3), np.zeros(len(loads), dtype=bool)
@@ -91,7 +114,10 @@ def _acceleration(model: Model, loads: FloatArray) -> tuple[FloatArray, BoolArra
         np.round(per_mass / step), axis=0, return_index=True, return_inverse=True, return_counts=True
     )
     commonest = int(np.argmax(counts))
-    if counts[commonest] == 1 and len(per_mass) > 1:
+    apart = np.abs(per_mass[first[commonest]] - written).max()
+    if written.any() and apart > WRITTEN * np.abs(written).max():  # other loads on most blocks
+        return written, chosen
+    if counts[commonest] <= MOST * len(per_mass):
         return none
     having = none[1].copy()
     having[np.flatnonzero(chosen)[row.ravel() == commonest]] = True

@@ -20,6 +20,7 @@ VIEWS = {
     "left": (180.0, 0.0),
     "right": (0.0, 0.0),
     "top": (-90.0, 90.0),
+    "below": (-60.6, -30.0),
     "iso": (-60.6, 24.8),
 }
 """azimuth and elevation of the eye in degrees: from +x towards +y about the vertical, and above the horizontal"""
@@ -37,6 +38,7 @@ class PictureOptions:
     """How pictures are made.
 
     kinds  : of ``KINDS``
+    animate: ``gif`` or ``mp4``: moving pictures of the mechanisms instead of pictures that stand still
     case   : name of the only load case to draw; None for all
     view   : azimuth and elevation of the eye in degrees as in ``VIEWS``; None: what suits the structure
     scale  : displacements as drawn, as a multiple of the usual ones (the farthest corner moves by a tenth of the
@@ -47,6 +49,7 @@ class PictureOptions:
     """
 
     kinds: tuple[str, ...] = USUAL_KINDS
+    animate: str | None = None
     case: str | None = None
     view: tuple[float, float] | None = None
     scale: float = 1.0
@@ -74,6 +77,7 @@ def picture_options(arguments: Any) -> PictureOptions:
         raise UsageError(f"--dpi {dpi}: {LEAST_DPI} to {MOST_DPI} dots per inch")
     return PictureOptions(
         kinds=parse_kinds(texts["kind"]) if texts["kind"] else ("mechanism",) if single else USUAL_KINDS,
+        animate=texts["animate"],
         case=texts["case"],
         view=parse_view(texts["view"]),
         scale=parse_scale(texts["scale"]),

@@ -102,7 +102,22 @@ def open_page(path: Path, options: PictureOptions) -> Iterator[Page]:
     FileError
         The file cannot be written.
     """
-    kind, parts = format_of(path), matplotlib_parts()
+    kind = format_of(path)
+    with open_frames(options) as page:
+        yield page
+        try:
+            page.figure.savefig(path, format=kind, metadata=METADATA[kind])
+        except OSError as error:
+            raise FileError(f"{path}: {error.strerror or error}") from error
+
+
+@contextmanager
+def open_frames(options: PictureOptions) -> Iterator[Page]:
+    """A page that goes to no file by itself; its figure is drawn as often as wanted.
+
+    Raises UsageError where the extra for pictures is not installed.
+    """
+    parts = matplotlib_parts()
     style = {"svg.fonttype": "none", "svg.hashsalt": "mbla", "pdf.fonttype": 42, "hatch.linewidth": 0.6}
     with parts.rc_context(style), warnings.catch_warnings():
         warnings.filterwarnings("ignore", message="Glyph")  # of a script that the font does not have: a box is drawn
@@ -110,10 +125,6 @@ def open_page(path: Path, options: PictureOptions) -> Iterator[Page]:
         figure = parts.Figure(figsize=(width / DOTS_PER_INCH, height / DOTS_PER_INCH), dpi=options.dpi)
         parts.FigureCanvasAgg(figure)
         yield Page(parts, figure, options, min(max(width / USUAL_WIDTH, 0.55), 2.0))
-        try:
-            figure.savefig(path, format=kind, metadata=METADATA[kind])
-        except OSError as error:
-            raise FileError(f"{path}: {error.strerror or error}") from error
 
 
 def add_words(page: Page, words: Sequence[str], mark: str = "") -> float:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from mbla.errors import FileError, UsageError
+from mbla.results.pictures.animation import format_of_film, write_animation
 from mbla.results.pictures.history import draw_history, draw_series
 from mbla.results.pictures.options import PictureOptions, format_of
 from mbla.results.pictures.plane.draw import draw_plane
@@ -29,7 +30,8 @@ def plot_results(results: Results, target: Path, stem: str, options: PictureOpti
     """Pictures of a result; the paths written.
 
     ``STEM_model.png``, and for each load case ``STEM_CASE.png`` (mechanism), ``STEM_CASE_forces.png`` and
-    ``STEM_CASE_history.png``; ``STEM_SERIES_history.png`` for the positions of a travelling load.
+    ``STEM_CASE_history.png``; ``STEM_SERIES_history.png`` for the positions of a travelling load. With
+    ``options.animate`` ``STEM_CASE.gif`` or ``.mp4`` for each load case that has a motion.
 
     target : a file with the suffix .png, .svg or .pdf, for a single picture; else a folder, created if missing
     options.case : one load case, or all positions of a travelling load by its name in the deck
@@ -42,16 +44,18 @@ def plot_results(results: Results, target: Path, stem: str, options: PictureOpti
         A picture or the folder cannot be written.
     """
     options = options or PictureOptions()
-    pictures = _pictures(results, _chosen_cases(results, options.case), options)
+    cases = _chosen_cases(results, options.case)
+    pictures = _films(results, cases, options) if options.animate else _pictures(results, cases, options)
+    ending = options.animate or options.format
     if target.suffix and not target.is_dir():
-        format_of(target)
+        _check_name(target, options)
         if len(pictures) > 1:
             raise UsageError(
                 f"{target}: one file for {len(pictures)} pictures; name one with --case and --kind, or a folder"
             )
         paths = [target]
     else:
-        paths = [target / f"{stem}{picture.name}.{options.format}" for picture in pictures]
+        paths = [target / f"{stem}{picture.name}.{ending}" for picture in pictures]
     for picture, path in zip(pictures, paths, strict=True):
         try:
             path.parent.mkdir(parents=True, exist_ok=True)
@@ -88,6 +92,27 @@ def _pictures(results: Results, cases: list[CaseResult], options: PictureOptions
                 write = lambda path, scene=scene, series=series: draw_series(path, scene, series, options)  # noqa: E731
                 pictures.append(Picture(f"_{series.name}_history", write))
     return pictures
+
+
+def _films(results: Results, cases: list[CaseResult], options: PictureOptions) -> list[Picture]:
+    """A film of every case that moves; UsageError where none does."""
+
+    def of(case: CaseResult) -> Callable[[Path], None]:
+        return lambda path: write_animation(results, case, path, options)
+
+    moving = [each for each in cases if scene_of(results, each, options, "mechanism").motion.any()]
+    if not moving:
+        names = ", ".join(each.load_case.name for each in cases)
+        raise UsageError(f"--animate {options.animate}: there is no mechanism in {names}, so nothing moves")
+    return [Picture(f"_{each.load_case.name}", of(each)) for each in moving]
+
+
+def _check_name(target: Path, options: PictureOptions) -> None:
+    """The name of a single file asks for what is written to it."""
+    if not options.animate:
+        format_of(target)
+    elif format_of_film(target) != options.animate:
+        raise UsageError(f"{target}: --animate {options.animate} writes a file that ends in .{options.animate}")
 
 
 def draw_picture(path: Path, scene: Scene, kind: str, options: PictureOptions) -> None:

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any, Generic, Literal, TypeAlias, TypeVar
+from typing import Any, Generic, TypeAlias, TypeVar
 
 import numpy as np
 
 from mbla.deck.units import Units
-from mbla.results.hdf5.field import UnitKind, unit_text
+from mbla.results.hdf5.field import FieldKind, UnitKind, unit_text
 
 Values: TypeAlias = "np.typing.NDArray[Any]"
 Source = TypeVar("Source")
@@ -24,7 +24,7 @@ class Column(Generic[Source]):
     """
 
     name: str
-    kind: Literal["float", "int", "bool", "text"]
+    kind: FieldKind
     unit: UnitKind
     words: str
     of: Callable[[Source], Values]

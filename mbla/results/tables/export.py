@@ -14,9 +14,10 @@ from mbla.errors import UsageError
 from mbla.results.files import OutputFolder
 from mbla.results.results import Results
 from mbla.results.tables.csv_file import table_csv
+from mbla.results.tables.meshes import case_vtkhdf
 from mbla.results.tables.parquet_file import table_parquet
 from mbla.results.tables.table import Table
-from mbla.results.tables.tables import tables_of
+from mbla.results.tables.tables import chosen_cases, tables_of
 
 
 @dataclass(frozen=True)
@@ -59,6 +60,9 @@ def export_results(
         if formats.parquet:
             for name, table in chosen.items():
                 out.write_bytes(f"{stem}_{name}.parquet", table_parquet(table, _about(results, table)))
+        if formats.vtkhdf:
+            for case in chosen_cases(results, cases or None):
+                out.write_bytes(f"{stem}_{case.load_case.name}.vtkhdf", case_vtkhdf(results, case))
     return [folder / name for name in out.names]
 
 

@@ -6,12 +6,13 @@ from collections.abc import Sequence
 
 from mbla.model.model import Model
 from mbla.results.collapse.collapse import collapse_of
-from mbla.results.outcome import associative_of, notices_of, result_of
+from mbla.results.outcome import associative_of, result_of
 from mbla.results.results import CaseResult, Results
 from mbla.results.series import series_of
 from mbla.results.words.answer_words import answer_figure, answer_head, status_words
 from mbla.results.words.certificate_words import not_held_summary
 from mbla.results.words.mechanism_words import mechanism_summary
+from mbla.results.words.notice_words import warning_summary
 from mbla.results.words.series_words import worst_words
 from mbla.results.words.text import counted, number, sentence, table
 from mbla.results.words.verdict_words import bound_words, range_summary, reasons, verdict
@@ -30,8 +31,7 @@ def summary_lines(results: Results) -> list[str]:
     for case in results.cases:
         lines += _in_words(results, case)
     lines += [line for series in series_of(results.cases) for line in sentence(worst_words(results.model, series))]
-    warnings = [notice for notice in notices_of(results) if notice.severity == "warning"]
-    return lines + [line for notice in warnings for line in sentence(str(notice))]
+    return lines + warning_summary(results)
 
 
 def _table(results: Results) -> list[str]:

@@ -66,6 +66,30 @@ def test_one_file_for_one_case(tmp_path: Path, results: Results) -> None:
     assert target.stat().st_size > 5000
 
 
+def test_usual_pictures_by_name(tmp_path: Path, results: Results) -> None:
+    paths = plot_results(results, tmp_path, "tower", PictureOptions(format="svg"))
+    assert [path.name for path in paths] == [
+        "tower_model.svg",
+        "tower_push_x.svg",
+        "tower_push_x_forces.svg",
+        "tower_fall.svg",
+        "tower_fall_forces.svg",
+    ]
+    assert sorted(tmp_path.iterdir()) == sorted(paths)
+
+
+def test_plane_figures_need_no_opengl(tmp_path: Path, results: Results, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("mbla.results.pictures.space.can_draw", lambda: False)
+    options = PictureOptions(kinds=("mechanism",), size=(800, 500), dpi=200)
+    (path,) = plot_results(results, tmp_path / "one.png", "tower", replace(options, case="push_x"))
+    assert pixels(path).shape == (1000, 1600, 3)
+
+
+def test_two_kinds_for_one_file_are_refused(tmp_path: Path, results: Results) -> None:
+    with pytest.raises(UsageError, match="--kind"):
+        plot_results(results, tmp_path / "mine.png", "tower", PictureOptions(case="push_x"))
+
+
 def test_one_file_for_two_cases_is_refused(tmp_path: Path, results: Results) -> None:
     with pytest.raises(UsageError, match="--case"):
         plot_results(results, tmp_path / "mine.png", "tower")

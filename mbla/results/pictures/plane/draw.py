@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -74,7 +75,8 @@ def _draw_live_load(sheet: Sheet, flat: Flat, scene: Scene, label: str, colour: 
     """The live load, or the way that a support gives."""
     case, before = scene.case.load_case, set(sheet.handles)
     if case.settlement is None:
-        words = case.live_words if case.travel is None else (f"{case.travel.count} positions", *case.live_words[:-1])
+        together = [each for each in scene.shown_cases if each.load_case.deck_name == case.deck_name]
+        words = (f"{len(together)} positions",) if case.travel is not None and len(together) > 1 else case.live_words
         draw_loads(sheet, flat, scene, case.live_load, words, label, colour)
     else:
         settlement = case.settlement
@@ -92,14 +94,17 @@ def _draw_mechanism(sheet: Sheet, flat: Flat, scene: Scene) -> None:
     draw_blocks(sheet, flat, scene, colours_by_part(sheet, scene), scene.moved)
     draw_ghost(sheet, flat, scene)
     draw_joint_marks(sheet, flat, scene)
-    _draw_live_load(sheet, flat, scene, "live load", LIVE_LOAD)
+    case = scene.case.load_case
+    if scene.mechanics is None and scene.case.solution.certificate is not None:
+        draw_loads(sheet, flat, scene, case.dead_load, case.dead_words, "dead load", DEAD_LOAD)
+    _draw_live_load(sheet, flat, replace(scene, shown_cases=()), "live load", LIVE_LOAD)
 
 
 def _draw_forces(sheet: Sheet, flat: Flat, scene: Scene) -> None:
     colours = [FIXED_BLOCK if fixed else REST for fixed in scene.model.fixed]
     draw_blocks(sheet, flat, scene, colours, scene.model.blocks.vertices)
     draw_forces(sheet, flat, scene)
-    _draw_live_load(sheet, flat, scene, "live load", LIVE_LOAD)
+    _draw_live_load(sheet, flat, replace(scene, shown_cases=()), "live load", LIVE_LOAD)
 
 
 KIND_DRAWN_BY = {"model": _draw_model, "mechanism": _draw_mechanism, "forces": _draw_forces}

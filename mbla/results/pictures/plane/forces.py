@@ -36,14 +36,19 @@ def draw_forces(sheet: Sheet, flat: Flat, scene: Scene) -> None:
     share = sizes / sizes.max()
     order = np.argsort(share)
     lines = np.stack([points - half, points + half], axis=1)[order]
-    widths = np.maximum(WIDEST * share, FINEST)[order]
+    widths = _widths(share)[order]
     sheet.lines(lines, widths, [shade(value) for value in share[order]], zorder=4)
     _draw_thrust_lines(sheet, flat, scene)
     _mark_eccentric(sheet, points, thrust.eccentricity[rows], thrust.friction_use[rows])
     unit = scene.model.units.force
     for value in KEY:
-        width = max(WIDEST * value, FINEST)
+        width = float(_widths(np.array(value)))
         sheet.name(f"{number(float(f'{value * sizes.max():.3g}'))} {unit}", color=shade(value), linewidth=width)
+
+
+def _widths(share: FloatArray) -> FloatArray:
+    """Width of forces by their share of the largest, points: by the root, so that small ones can be seen."""
+    return np.asarray(np.maximum(WIDEST * np.sqrt(share), FINEST))
 
 
 def _depths(scene: Scene, flat: Flat) -> FloatArray:
@@ -67,16 +72,16 @@ def _mark_eccentric(sheet: Sheet, points: FloatArray, eccentricity: FloatArray, 
     outside = (eccentricity > MIDDLE_THIRD) & (eccentricity < EDGE)
     look = {"linestyle": "none", "markersize": 9}
     if outside.any():
-        sheet.dots(points[outside], 8.0 if few else 4.0, facecolors="white", edgecolors=HINGE, **style)
+        sheet.dots(points[outside], 8.0 if few else 3.5, facecolors="white", edgecolors=HINGE, **style)
         label = "outside the middle third"
         sheet.name(label, marker="o", markerfacecolor="white", markeredgecolor=HINGE, **look)
     edge = eccentricity >= EDGE
     if edge.any():
-        sheet.dots(points[edge], 9.0 if few else 5.0, facecolors=HINGE, edgecolors=INK, linewidths=0.8, zorder=6)
+        sheet.dots(points[edge], 9.0 if few else 4.5, facecolors=HINGE, edgecolors=INK, linewidths=0.8, zorder=6)
         sheet.name("at the edge of the joint", marker="o", markerfacecolor=HINGE, markeredgecolor=INK, **look)
     used = friction_use >= USED
     if used.any():
         sheet.dots(
-            points[used], 7.0 if few else 4.0, facecolors=SLIDE, edgecolors=INK, linewidths=0.8, zorder=6, marker="s"
+            points[used], 7.0 if few else 3.5, facecolors=SLIDE, edgecolors=INK, linewidths=0.8, zorder=3.8, marker="s"
         )
         sheet.name("all friction used", marker="s", markerfacecolor=SLIDE, markeredgecolor=INK, **look)

@@ -62,10 +62,10 @@ def _draw_hinges(sheet: Sheet, flat: Flat, scene: Scene, joints: InterfaceMotion
         if which.any():
             shape = "D" if name == "hinge at the extrados" else "o"
             edge = HINGE if face == "white" else INK
-            style = {"linewidths": 2.2 if face == "white" else 0.8, "marker": shape}
-            sheet.dots(centres[which], size, color=face, edgecolors=edge, zorder=6, **style)
+            rim = 2.2 if face == "white" else 0.8
+            sheet.dots(centres[which], size, color=face, edgecolors=edge, zorder=6, linewidths=rim, marker=shape)
             look = {"markerfacecolor": face, "markeredgecolor": edge, "linestyle": "none", "markersize": 9}
-            sheet.name(name, marker=shape, markeredgewidth=sheet.width(style["linewidths"]), **look)
+            sheet.name(name, marker=shape, markeredgewidth=sheet.width(rim), **look)
 
 
 def _moved(scene: Scene, interfaces: IntArray, points: FloatArray) -> FloatArray:
@@ -86,7 +86,7 @@ def _draw_sliding(sheet: Sheet, flat: Flat, scene: Scene, joints: InterfaceMotio
     if not len(chosen):
         return
     ends = flat_joints(scene.contacts, flat).ends[chosen]
-    middle = sum(scene.contact_sides) / 2
+    middle = (scene.contact_sides[0] + scene.contact_sides[1]) / 2
     first, last = flat.project(middle[ends[:, 0]]), flat.project(middle[ends[:, 1]])
     sheet.lines(np.stack([first, last], axis=1), 3.0, SLIDE, zorder=3.5, capstyle="butt")
     along = last - first

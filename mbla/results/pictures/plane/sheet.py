@@ -45,7 +45,9 @@ class Sheet:
             self.axes.add_collection(self.page.parts.PolyCollection(polygons, **style))
             self.drawn.append(np.vstack(polygons))
 
-    def lines(self, paths: Sequence[FloatArray] | FloatArray, width: float, colour: Any, **style: Any) -> None:
+    def lines(
+        self, paths: Sequence[FloatArray] | FloatArray, width: float | FloatArray, colour: Any, **style: Any
+    ) -> None:
         """Polylines, (n, 2) each; ``width`` in points, one or one for each line."""
         if len(paths):
             widths = np.asarray(width) * self.page.scale

@@ -11,7 +11,7 @@ from mbla.results.pictures.plane.flat import Flat, face_polygons, seen_edges
 from mbla.results.pictures.plane.sheet import Sheet
 from mbla.results.pictures.scene import Scene
 
-FIXED_HATCH, GUIDE_HATCH = "////", "...."
+FIXED_HATCH, GUIDE_HATCH = "////", "oo"
 MANY = 300
 """blocks from which outlines are thinner"""
 MOST_GROUPS = 12
@@ -58,7 +58,7 @@ def draw_blocks(sheet: Sheet, flat: Flat, scene: Scene, colours: list[str], vert
         picked = [polygon for polygon, b in zip(polygons, owner, strict=True) if chosen[b]]
         sheet.areas(picked, facecolors="none", edgecolors=GROUND, hatch=hatch, linewidths=0, zorder=1.1)
         if picked:
-            face = FIXED_BLOCK if name == "fixed" else "white"
+            face = FIXED_BLOCK if FIXED_BLOCK in colours and name == "fixed" else "white"
             sheet.name_area(name, facecolor=face, edgecolor=GROUND, hatch=hatch)
     edges = seen_edges(blocks, flat, block_edges(blocks))
     sheet.lines(flat.project(vertices)[edges], 1.0 if len(blocks) < MANY else 0.6, INK, zorder=2)

@@ -38,10 +38,14 @@ LIFT = 2e-4
 """distance of coloured interfaces from the faces of blocks, over the same"""
 
 
-def mechanism_drawing(scene: Scene) -> Drawing:
-    """The structure as moved; at rest where no motion is known."""
-    motion = scene.motion
-    moving = moving_blocks(scene)
+def mechanism_drawing(scene: Scene, widest: Scene | None = None) -> Drawing:
+    """The structure as moved; at rest where no motion is known.
+
+    widest : the same with the greatest displacement, where this is a frame of a film: marks keep its sizes
+    """
+    widest = widest or scene
+    motion = widest.motion
+    moving = moving_blocks(widest)
     legend: list[tuple[str, str]] = []
     solid: list[Shape] = [*grounds(scene), block_faces(scene, scene.moved, part_colours(scene, moving))]
     solid.append(edge_lines(scene, scene.moved))
@@ -49,7 +53,7 @@ def mechanism_drawing(scene: Scene) -> Drawing:
     if motion.any():
         solid.append(ghost_lines(scene, moving))
     if motion.any() and len(scene.contacts):
-        gaps, lines, entries = joint_marks(scene)
+        gaps, lines, entries = joint_marks(scene, widest.moved)
         solid += gaps
         marks += lines
         legend += entries
@@ -104,9 +108,12 @@ def tint_of_part(scene: Scene, parts: IntArray) -> IntArray:
 # --- joints -------------------------------------------------------------------------------------------------------
 
 
-def joint_marks(scene: Scene) -> tuple[list[Shape], list[Shape], list[tuple[str, str]]]:
-    """Coloured faces of gaps and sliding; hinges, outlines and arrows that shine through; entries of the legend."""
-    reach = float(np.linalg.norm(np.ptp(scene.moved, axis=0)))
+def joint_marks(scene: Scene, seen: FloatArray) -> tuple[list[Shape], list[Shape], list[tuple[str, str]]]:
+    """Coloured faces of gaps and sliding; hinges, outlines and arrows that shine through; entries of the legend.
+
+    seen : (n, 3) m, all that is shown, for the size of marks
+    """
+    reach = float(np.linalg.norm(np.ptp(seen, axis=0)))
     if scene.collapse is None:
         return [], [], []
     joints = scene.collapse.interfaces

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from mbla.arrays import BoolArray
+from mbla.arrays import BoolArray, FloatArray
 from mbla.results.pictures.geometry import front_axis
 from mbla.results.pictures.scene import Scene
 from mbla.results.pictures.space.camera import fitted
@@ -15,7 +15,14 @@ from mbla.results.pictures.space.structure import block_faces, grounds
 
 USUAL = (-60.0, 25.0)
 """azimuth and elevation where nothing speaks for another view"""
-AZIMUTHS = (-60.0, -30.0, -120.0, -150.0, 30.0, 60.0, 120.0, 150.0)
+SIDES = (
+    (-60.0, -30.0, -120.0, -150.0, 30.0, 60.0, 120.0, 150.0),
+    (-68.0, -112.0, 68.0, 112.0),
+    (-22.0, 22.0, 158.0, 202.0),
+)
+"""azimuths that are tried: of a structure about as wide as deep, of one long along x, of one long along y"""
+LONG = 2.0
+"""length over width in plan from which a structure is looked at across its length"""
 ELEVATIONS = {25.0: 1.0, -25.0: 0.5}
 """from above, and from below, which takes twice as much to be seen: one does not stand there"""
 BEHIND = 0.9
@@ -47,20 +54,25 @@ def best_view(scene: Scene) -> tuple[float, float]:
     best, most = USUAL, 0.0
     with Renderer(_trial(scene, moving), ()) as renderer:
         for elevation, weight in ELEVATIONS.items():
-            for azimuth in AZIMUTHS:
+            for azimuth in _azimuths(vertices):
                 seen = _seen(renderer, scene, azimuth, elevation)
                 turn = np.deg2rad(azimuth)
                 facing = float(np.cos(turn) * heading[0] + np.sin(turn) * heading[1])
-                seen *= weight * (BEHIND if azimuth > 0 else 1.0) * (1 + LOOKING_ON * facing)
+                seen *= weight * (BEHIND if 0 < azimuth < 180 else 1.0) * (1 + LOOKING_ON * facing)
                 if seen > 1.02 * most:
                     best, most = (azimuth, elevation), seen
     return best
 
 
+def _azimuths(vertices: FloatArray) -> tuple[float, ...]:
+    wide, deep = np.ptp(vertices[:, :2], axis=0)
+    return SIDES[1 if wide > LONG * deep else 2 if deep > LONG * wide else 0]
+
+
 def _trial(scene: Scene, moving: BoolArray) -> list[Shape]:
     colours = np.zeros((len(moving), 3))
     colours[moving, 2] = 1.0
-    faces, marks, _ = joint_marks(scene)
+    faces, marks, _ = joint_marks(scene, scene.moved)
     joints = [shape for shape in (*faces, *marks) if isinstance(shape, Faces)]
     green = [
         Faces(shape.points, shape.start, shape.loops, np.tile([0.0, 1.0, 0.0], (len(shape.colours), 1)), lit=False)
