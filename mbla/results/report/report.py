@@ -15,6 +15,7 @@ from mbla.results.outcome import notices_of
 from mbla.results.report.blocks import blocks_of
 from mbla.results.report.case_content import CaseContent, case_content
 from mbla.results.report.figures import Figures, model_figures, series_figures
+from mbla.results.report.notice_content import notice_kinds
 from mbla.results.report.page import render
 from mbla.results.report.verdict_table import verdict_table
 from mbla.results.report.views import case_view
@@ -102,7 +103,7 @@ def _content(results: Results, shown: Results, cases: list[CaseContent]) -> dict
         "model_figures": model_figures(shown),
         "model": blocks_of(model_lines(model)),
         "contacts": blocks_of([*contact_lines(model, contacts), *finding_lines(model, contacts.report)]),
-        "notices": notices_of(shown),
+        "notices": notice_kinds(notices_of(shown)),
         "settings": blocks_of(settings_lines(results)),
         "provenance": results.provenance,
         "time": {stage: number(round(seconds, 3)) for stage, seconds in results.time.items()},
