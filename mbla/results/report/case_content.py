@@ -29,14 +29,16 @@ class Part:
 class CaseContent:
     """One load case as the templates show it.
 
-    tone : ``good`` for a verified load factor, ``fair`` for an approximate one, ``bad`` for everything else
-    view : trusted HTML of the view to turn; empty without one
+    tone  : how it may look, see ``tone_of``
+    alarm : what a reader must know before any figure; empty for a verified load factor
+    view  : trusted HTML of the view to turn; empty without one
     """
 
     id: str
     name: str
     status: str
     tone: str
+    alarm: str
     verdict: str
     words: list[Block]
     parts: list[Part]
@@ -63,6 +65,7 @@ def case_content(results: Results, case: CaseResult, number: int, view: str) -> 
         name=case.load_case.name,
         status=status_words(case.status),
         tone=tone_of(case),
+        alarm=alarm_of(case),
         verdict=verdict(results.model.of_case(case.load_case), case),
         words=blocks_of(told.lines),
         parts=parts,
@@ -76,10 +79,23 @@ def case_content(results: Results, case: CaseResult, number: int, view: str) -> 
 
 
 def tone_of(case: CaseResult) -> str:
-    """How a case may be shown: what is no verified load factor never looks like one."""
+    """``good``: a verified load factor; ``fair``: approximate; ``open``: any live load is borne; else ``bad``."""
     if result_of(case) is None:
-        return "bad"
+        return "open" if case.status is Status.UNBOUNDED and case.checks.verified else "bad"
     return "good" if case.status is Status.SOLVED else "fair"
+
+
+def alarm_of(case: CaseResult) -> str:
+    """What stands above everything that is said of a case without a verified load factor."""
+    if result_of(case) is not None:
+        return "" if case.status is Status.SOLVED else "the load factor is known to about 1 % only."
+    if case.status is Status.NO_EQUILIBRIUM:
+        return "the structure does not stand under its dead load; there is no load factor."
+    if case.status is Status.UNBOUNDED:
+        return "there is no load factor, the live load may grow without end."
+    if case.solution.mechanics is None:
+        return "there is no load factor."
+    return "no load factor; figures, forces and mechanism below are the best that was reached, and no result."
 
 
 def _slug(title: str) -> str:

@@ -14,6 +14,8 @@ from mbla.errors import FileError, UsageError
 from mbla.results.outcome import notices_of
 from mbla.results.report.blocks import blocks_of
 from mbla.results.report.case_content import CaseContent, case_content
+from mbla.results.report.figures import Figures, model_figures, series_figures
+from mbla.results.report.notice_content import notice_kinds
 from mbla.results.report.page import render
 from mbla.results.report.verdict_table import verdict_table
 from mbla.results.report.views import case_view
@@ -60,10 +62,15 @@ def report_html(results: Results, case: str | None = None, *, view: bool = True)
     if case is not None and case not in names:
         raise UsageError(f"no load case {case} in the result; it has {', '.join(names) or 'none'}")
     shown = replace(results, cases=tuple(each for each in results.cases if case in (None, each.load_case.name)))
-    cases = _cases(shown, view)
-    remarks = dict.fromkeys(f"no pictures: {each.figures.missing}" for each in cases if each.figures.missing)
-    page = render(_content(results, shown, cases), [each.view for each in cases])
-    return page, list(remarks)
+    content = _content(results, shown, _cases(shown, view))
+    page = render(content, [each.view for each in content["cases"]])
+    missing = [figures.missing for figures in _all_figures(content) if figures.missing]
+    return page, [f"pictures are missing: {text}" for text in dict.fromkeys(missing)]
+
+
+def _all_figures(content: dict[str, Any]) -> list[Figures]:
+    series = [figures for _, figures in content["series"]]
+    return [*(each.figures for each in content["cases"]), content["model_figures"], *series]
 
 
 def _cases(shown: Results, view: bool) -> list[CaseContent]:
@@ -85,14 +92,18 @@ def _content(results: Results, shown: Results, cases: list[CaseContent]) -> dict
         "created": results.created,
         "version": results.provenance.get("mbla", __version__),
         "verdicts": verdict_table(shown),
+        "settles": any(case.load_case.settlement is not None for case in shown.cases),
         "warnings_words": _warning_words(shown),
-        "verdict_words": [_in_words(shown, case) for case in shown.cases],
+        "verdict_words": [_in_words(shown, case) for case in shown.cases if case.load_case.travel is None],
         "left_out": f"{counted(left_out, 'load case')} of the deck not shown here" if left_out else "",
         "cases": cases,
-        "series": [blocks_of(series_lines(model, series)) for series in series_of(shown.cases)],
+        "series": [
+            (blocks_of(series_lines(model, series)), series_figures(shown, series)) for series in series_of(shown.cases)
+        ],
+        "model_figures": model_figures(shown),
         "model": blocks_of(model_lines(model)),
         "contacts": blocks_of([*contact_lines(model, contacts), *finding_lines(model, contacts.report)]),
-        "notices": notices_of(shown),
+        "notices": notice_kinds(notices_of(shown)),
         "settings": blocks_of(settings_lines(results)),
         "provenance": results.provenance,
         "time": {stage: number(round(seconds, 3)) for stage, seconds in results.time.items()},

@@ -30,20 +30,21 @@ class VerdictTable:
 
 
 def verdict_table(results: Results) -> VerdictTable:
-    """A column for each kind of answer, and beside them range, associative answer and its bounds."""
+    """A column for each kind of answer, and beside them range where one has any, associative answer and its bounds."""
     model = results.model
     answers = tuple(dict.fromkeys(answer_head(model, case.load_case) for case in results.cases))
-    rows = tuple(_row(results, case, i + 1, answers) for i, case in enumerate(results.cases))
-    heads = (*answers, "range for this mechanism", "associative", "static bound", "kinematic bound")
-    return VerdictTable(heads, rows)
+    ranges = any(range_figures(case) != "-" for case in results.cases)
+    rows = tuple(_row(results, case, i + 1, answers, ranges) for i, case in enumerate(results.cases))
+    beside = ("range for this mechanism",) if ranges else ()
+    return VerdictTable((*answers, *beside, "associative", "static bound", "kinematic bound"), rows)
 
 
-def _row(results: Results, case: CaseResult, number: int, answers: tuple[str, ...]) -> VerdictRow:
+def _row(results: Results, case: CaseResult, number: int, answers: tuple[str, ...], ranges: bool) -> VerdictRow:
     head = answer_head(results.model, case.load_case)
     own = answer_figure(case.load_case, result_of(case))
     figures = (
         *(own if answer == head else "" for answer in answers),
-        range_figures(case),
+        *((range_figures(case),) if ranges else ()),
         answer_figure(case.load_case, associative_of(case)),
         *bound_figures(case),
     )

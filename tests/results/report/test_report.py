@@ -9,9 +9,10 @@ import numpy as np
 import pytest
 
 from mbla.errors import FileError, Notice, UsageError
+from mbla.results.explanations.explanations import EXPLANATIONS
 from mbla.results.outcome import notices_of
 from mbla.results.records.json_record import results_json
-from mbla.results.report import case_content
+from mbla.results.report import case_content, report
 from mbla.results.report.figures import Figure, Figures
 from mbla.results.report.report import report_html, write_report
 from mbla.results.results import CaseResult, Results
@@ -33,6 +34,8 @@ def no_drawing(monkeypatch: pytest.MonkeyPatch) -> None:
     """Pictures take seconds and have tests of their own."""
     figures = Figures((Figure(DOT, "Mechanism", "The structure"),))
     monkeypatch.setattr(case_content, "case_figures", lambda results, case: figures)
+    monkeypatch.setattr(report, "model_figures", lambda results: figures)
+    monkeypatch.setattr(report, "series_figures", lambda results, series: figures)
 
 
 def page_of(results: Results, case: str | None = None) -> Page:
@@ -45,7 +48,7 @@ def with_status(status: Status) -> Results:
     solution = first.solution
     if status in (Status.NO_EQUILIBRIUM, Status.UNBOUNDED):
         solution = replace(solution, mechanics=None, associative=None)
-    checks = replace(first.checks, verified=status is Status.SOLVED)
+    checks = replace(first.checks, verified=status in (Status.SOLVED, Status.UNBOUNDED))
     return replace(results, cases=(CaseResult(first.load_case, replace(solution, status=status), checks, status),))
 
 
@@ -121,12 +124,11 @@ def test_the_table_of_verdicts_has_the_figures_of_the_record() -> None:
     page, record = page_of(results), results_json(results)["cases"]
     rows = page.rows(page.one("table", id="verdicts"))
     assert rows[0] == [
-        *("load case", "status", "load factor", "range for this mechanism"),
-        *("associative", "static bound", "kinematic bound"),
+        *("load case", "status", "load factor", "associative", "static bound", "kinematic bound"),
     ]
     assert [row[0] for row in rows[1:]] == [case["name"] for case in record]
-    assert rows[1] == ["push_x", "solved", number(record[0]["load_factor"]), "-", "0.5", "0.5", "0.5"]
-    assert rows[2] == ["fall", "NO EQUILIBRIUM", *5 * ["-"]]
+    assert rows[1] == ["push_x", "solved", number(record[0]["load_factor"]), "0.5", "0.5", "0.5"]
+    assert rows[2] == ["fall", "NO EQUILIBRIUM", *4 * ["-"]]
 
 
 def test_a_settlement_is_told_by_its_reaction() -> None:
@@ -144,7 +146,7 @@ def test_a_settlement_is_told_by_its_reaction() -> None:
 def test_what_is_no_verified_result_looks_so(status: Status) -> None:
     page = page_of(with_status(status))
     words = status.value.replace("_", " ").upper()
-    tone = "fair" if status is Status.APPROXIMATE else "bad"
+    tone = {Status.APPROXIMATE: "fair", Status.UNBOUNDED: "open"}.get(status, "bad")
     row = page.within(page.one("table", id="verdicts"), "tr")[1]
     assert row.attributes["class"] == tone
     assert words in row.text
@@ -152,8 +154,15 @@ def test_what_is_no_verified_result_looks_so(status: Status) -> None:
     assert f"{words}: " in next(node.text for node in page.within(case, "p") if "alarm" in node.attributes["class"])
     title = page.within(case, "h2")[0]
     assert title.text.endswith(words)
-    if tone == "bad":
+    if tone != "fair":
         assert page.rows(page.one("table", id="verdicts"))[1][2] == "-"
+
+
+def test_an_unbounded_case_that_is_not_proved_looks_bad() -> None:
+    results = with_status(Status.UNBOUNDED)
+    case = results.cases[0]
+    page = page_of(replace(results, cases=(replace(case, checks=replace(case.checks, verified=False)),)))
+    assert page.within(page.one("table", id="verdicts"), "tr")[1].attributes["class"] == "bad"
 
 
 def test_a_solved_case_raises_no_alarm() -> None:
@@ -180,7 +189,7 @@ def test_text_from_elsewhere_stays_text() -> None:
     )
     page = page_of(results)
     assert not page.all("script")
-    assert len(page.all("img")) == len(results.cases)
+    assert len(page.all("img")) == len(results.cases) + 1
     assert not [name for node in page.nodes for name in node.attributes if name.startswith("on")]
     assert page.one("h1").text == EVIL
     assert page.one("pre").text == EVIL + "</pre>"
@@ -202,9 +211,18 @@ def test_every_warning_is_there_with_its_identifier() -> None:
     results = tower_results()
     text = page_of(results).one("section", id="warnings").text
     notices = notices_of(results)
-    assert len(notices) == 2
+    assert len(notices) >= 2
     for notice in notices:
         assert f"{notice.severity} [{notice.identifier}]: {notice.message}" in text
+
+
+def test_a_warning_is_explained_once() -> None:
+    results = tower_results()
+    twice = tuple(Notice("warning", "near-misses", f"pair {i}") for i in range(2))
+    text = page_of(replace(results, notices=twice)).one("section", id="warnings").text
+    assert text.count("warning [near-misses]: pair") == 2
+    for part in (EXPLANATIONS["near-misses"].meaning, EXPLANATIONS["near-misses"].remedy):
+        assert text.count(" ".join(part.split())) == 1
 
 
 def test_one_case_alone() -> None:
@@ -261,6 +279,6 @@ def test_without_the_extra_it_says_what_to_install(monkeypatch: pytest.MonkeyPat
 def test_missing_pictures_are_said_in_the_page_and_beside_it(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(case_content, "case_figures", lambda results, case: Figures((), "pictures need OpenGL"))
     html, remarks = report_html(tower_results(), view=False)
-    assert remarks == ["no pictures: pictures need OpenGL"]
+    assert remarks == ["pictures are missing: pictures need OpenGL"]
     page = Page(html)
     assert len([node for node in page.all("p", class_="alarm") if "pictures need OpenGL" in node.text]) == 2

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from mbla.results.pictures.space import can_draw
+from mbla.results.pictures.space.renderer import can_draw
 from mbla.results.records.json_record import results_json
 from mbla.results.report import case_content
 from mbla.results.report.figures import Figures
@@ -81,7 +81,7 @@ def test_the_sections_have_the_figures_of_the_record(opened: Visit) -> None:
     cells = page.locator("#verdicts tbody tr").nth(0).locator("th, td").all_inner_texts()
     case = record["cases"][0]
     assert cells[:3] == [case["name"], case["status"], number(case["load_factor"])]
-    assert cells[5] == f"{case['static_bound']:.8g}"
+    assert cells[4] == f"{case['static_bound']:.8g}"
     for name in ("results", "case-1", "case-2", "model", "warnings", "deck", "provenance"):
         assert page.locator(f"section#{name}").is_visible()
     assert number(record["model"]["total_weight"]) in page.locator("#model").inner_text()
@@ -146,14 +146,14 @@ def test_pictures_are_painted(browser: Any, report: Path) -> None:
     opened = open_report(browser, report)
     widths = opened.page.evaluate("[...document.images].map(image => image.naturalWidth)")
     opened.page.close()
-    assert len(widths) >= 2
+    assert len(widths) >= 4  # model; mechanism, forces and history of the first case, mechanism of the second
     assert min(widths) >= 800
 
 
 # --- views to turn ------------------------------------------------------------------------------------------------
 
 
-MANY = 8
+MANY = 7
 """load cases: more than there may be views alive"""
 ALIVE = "[data-mbla-ready]"
 
