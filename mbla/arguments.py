@@ -105,16 +105,39 @@ def _add_result_commands(commands: Any) -> None:
 
 
 def _add_plot(commands: Any) -> None:
-    command = commands.add_parser("plot", help="picture of the mechanism of each load case (extra mbla[pictures])")
+    command = commands.add_parser("plot", help="pictures of model, mechanism and forces (extra mbla[pictures])")
     command.add_argument("result", type=Path, metavar="RESULT.h5")
     command.add_argument(
         "-o",
         "--output",
         type=Path,
         metavar="FILE|DIR",
-        help="PNG, SVG or PDF file, by its name, of one load case; or a folder (default: that of the result)",
+        help="PNG, SVG or PDF file, by its name, of one picture; or a folder (default: that of the result)",
+    )
+    command.add_argument(
+        "--kind",
+        metavar="KIND",
+        help="model, mechanism, forces, history, several with commas, or all "
+        "(default: the first three; the mechanism where -o names a file)",
     )
     command.add_argument("--case", metavar="NAME", help="only this load case")
+    command.add_argument(
+        "--animate", choices=["gif", "mp4"], help="moving pictures of the mechanisms in the place of pictures"
+    )
+    command.add_argument(
+        "--view",
+        default="auto",
+        metavar="VIEW",
+        help="front, back, left, right, top, iso, below, auto, or AZIMUTH,ELEVATION in degrees, as --view=-60,25",
+    )
+    command.add_argument(
+        "--scale", default="auto", metavar="X", help="multiple of the displacements that auto draws (default auto)"
+    )
+    command.add_argument("--size", default="1600x1000", metavar="WxH", help="pixels of a PNG at 100 dpi")
+    command.add_argument("--dpi", type=int, default=100, help="dots per inch of a PNG (default 100)")
+    command.add_argument(
+        "--format", choices=["png", "svg", "pdf"], default="png", help="of pictures in a folder (default png)"
+    )
 
 
 def _add_report(commands: Any) -> None:

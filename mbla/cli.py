@@ -130,12 +130,13 @@ def _verify(options: argparse.Namespace) -> int:
 
 def _plot(options: argparse.Namespace) -> int:
     from mbla.results.hdf5.result_file import read_results_hdf5
-    from mbla.results.pictures.options import PictureOptions
+    from mbla.results.pictures.options import picture_options
     from mbla.results.pictures.plot import plot_results
 
+    chosen = picture_options(options)
     results = read_results_hdf5(options.result)
     target = options.output or options.result.parent
-    for path in plot_results(results, target, options.result.stem, PictureOptions(case=options.case)):
+    for path in plot_results(results, target, options.result.stem, chosen):
         print(path)
     return 0
 

@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 import io
+import os
 import shutil
 from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
-import pytest
 
-CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
-needs_browser = pytest.mark.skipif(CHROMIUM is None, reason="this machine has no browser")
+NAMES = (os.environ.get("MBLA_BROWSER", ""), "chromium", "chromium-browser", "google-chrome")
+CHROMIUM = next((path for path in map(shutil.which, filter(None, NAMES)) if path), None)
+"""the browser that MBLA_BROWSER names, else the first of the usual ones"""
+ARGUMENTS = ("--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader")
+"""without a sandbox, as tests may run as root; WebGL by software"""
 
 
 @dataclass

@@ -31,7 +31,7 @@ def names(folder: Path) -> set[str]:
 
 def test_all_files_of_a_run(tmp_path: Path, results: Results) -> None:
     written = write_outputs(results, tmp_path, "tower", False, True, 3, False)
-    expected = {"tower.h5", "tower.lst", "tower.json", "tower_supports.vtu"}
+    expected = {"tower.h5", "tower.lst", "tower.json", "tower_supports.vtu", "tower_paraview.py"}
     for case, files in (("push_x", SOLVED_FILES), ("fall", CASE_FILES)):
         expected |= {f"tower_{case}_{name}" for name in files} | {f"tower_{case}.pvd"}
     assert names(tmp_path) == expected == set(written)

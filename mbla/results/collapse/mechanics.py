@@ -81,17 +81,38 @@ def support_reactions(model: Model, contacts: Contacts, contact_forces: FloatArr
 
     Fixed blocks stand one by one where they are few, else their groups do.
     """
+    supports, _, onto_structure = _onto_structure(model, contacts, contact_forces)
+    touched, row = np.unique(supports, return_inverse=True)
+    total = np.zeros((len(touched), 6))
+    np.add.at(total, row, onto_structure)
+    return _named_reactions(model, touched, total)
+
+
+def group_reactions(model: Model, contacts: Contacts, contact_forces: FloatArray) -> tuple[Reaction, ...]:
+    """The same by the group of the free blocks that the supports act on, in the order in which groups are met.
+
+    Forces of guides are not among them.
+    """
+    _, carried, onto_structure = _onto_structure(model, contacts, contact_forces)
+    sums: dict[str, FloatArray] = {}
+    for block, wrench in zip(carried.tolist(), onto_structure, strict=True):
+        name = model.blocks.groups[block]
+        sums[name] = sums.get(name, np.zeros(6)) + wrench
+    return tuple(Reaction(name, wrench) for name, wrench in sums.items())
+
+
+def _onto_structure(
+    model: Model, contacts: Contacts, contact_forces: FloatArray
+) -> tuple[IntArray, IntArray, FloatArray]:
+    """Supporting body, free block and wrench on it about the origin, (n, 6), of every interface between the two."""
     forces = global_forces(contacts, contact_forces)
     wrenches = sum_by_interface(contacts, np.hstack([forces, np.cross(contacts.points, forces)]))
     fixed = np.concatenate([model.fixed, np.ones(len(model.grounds), dtype=bool)])
     support_a, support_b = fixed[contacts.bodies].T
-    only_one = support_a != support_b
-    bodies = np.where(support_a, contacts.bodies[:, 0], contacts.bodies[:, 1])[only_one]
-    onto_structure = np.where(support_a, 1.0, -1.0)[only_one, None] * wrenches[only_one]
-    touched, row = np.unique(bodies, return_inverse=True)
-    total = np.zeros((len(touched), 6))
-    np.add.at(total, row, onto_structure)
-    return _named_reactions(model, touched, total)
+    one = support_a != support_b
+    supports = np.where(support_a, contacts.bodies[:, 0], contacts.bodies[:, 1])[one]
+    carried = np.where(support_a, contacts.bodies[:, 1], contacts.bodies[:, 0])[one]
+    return supports, carried, np.where(support_a, 1.0, -1.0)[one, None] * wrenches[one]
 
 
 def guide_reactions(

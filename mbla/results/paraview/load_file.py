@@ -155,7 +155,7 @@ def _of_supports(scene: Scene, forces: FloatArray) -> Vectors:
 
 
 def _of_guides(scene: Scene, forces: FloatArray) -> Vectors:
-    """At the centroid of each guided block: what leaves it in balance; locking forces do under the live load alone."""
+    """At the centroid of each guided block: what leaves it in balance. Forces that lock balance the live load alone."""
     model: Model = scene.model
     bodies = model.guides.blocks
     case = scene.case

@@ -14,6 +14,7 @@ from mbla.results.paraview.hinge_file import has_hinges, write_hinges_vtu
 from mbla.results.paraview.load_file import has_loads, write_loads_vtu
 from mbla.results.paraview.pvd import collection_pvd, frame_times, write_frame_vtu
 from mbla.results.paraview.scene import Scene, scene_of
+from mbla.results.paraview.script import case_record, views_script
 from mbla.results.paraview.support_file import has_supports, write_supports_vtu
 from mbla.results.paraview.thrust_file import has_thrust, write_thrust_vtu
 from mbla.results.paraview.vtu import write_blocks_vtu, write_contacts_vtu, write_interfaces_vtu
@@ -44,13 +45,18 @@ MESH_FILES = (
 
 
 def write_mesh_files(results: Results, out: OutputFolder, frames: int) -> None:
-    """The files of every load case, the animations, and ``STEM_supports.vtu``."""
-    _write_supports(results, out)
+    """The files of every load case, the animations, ``STEM_supports.vtu``, and the script that shows them."""
+    supports = _write_supports(results, out)
+    records = {}
     for case in results.cases:
         scene = scene_of(results, case)
         stem = f"{out.stem}_{case.load_case.name}"
-        _write_scene(scene, stem, out)
+        files = _write_scene(scene, stem, out)
         _write_animation(scene, stem, out, frames)
+        if scene.moves:
+            files["animation"] = f"{stem}.pvd"
+        records[case.load_case.name] = case_record(results, scene, files)
+    out.write_text(f"{out.stem}_paraview.py", views_script(results, out.stem, supports, records))
 
 
 def write_model_vtu(results: Results, out: OutputFolder) -> None:
@@ -59,17 +65,24 @@ def write_model_vtu(results: Results, out: OutputFolder) -> None:
     _write_scene(Scene(results.model, results.contacts, None), out.stem, out)
 
 
-def _write_supports(results: Results, out: OutputFolder) -> None:
-    if has_supports(results.model, results.contacts):
-        with out.writing(f"{out.stem}_supports.vtu") as path:
-            write_supports_vtu(path, results.model, results.contacts)
+def _write_supports(results: Results, out: OutputFolder) -> str:
+    """Name of the file of supports; empty if there is none."""
+    if not has_supports(results.model, results.contacts):
+        return ""
+    name = f"{out.stem}_supports.vtu"
+    with out.writing(name) as path:
+        write_supports_vtu(path, results.model, results.contacts)
+    return name
 
 
-def _write_scene(scene: Scene, stem: str, out: OutputFolder) -> None:
+def _write_scene(scene: Scene, stem: str, out: OutputFolder) -> dict[str, str]:
+    """Names of the files by kind."""
+    names = {file.kind: f"{stem}_{file.kind}.vtu" for file in MESH_FILES if file.exists(scene)}
     for file in MESH_FILES:
-        if file.exists(scene):
-            with out.writing(f"{stem}_{file.kind}.vtu") as path:
+        if file.kind in names:
+            with out.writing(names[file.kind]) as path:
                 file.write(path, scene)
+    return names
 
 
 def _write_animation(scene: Scene, stem: str, out: OutputFolder, frames: int) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 from mbla.errors import UsageError
 
@@ -19,6 +20,7 @@ VIEWS = {
     "left": (180.0, 0.0),
     "right": (0.0, 0.0),
     "top": (-90.0, 90.0),
+    "below": (-60.6, -30.0),
     "iso": (-60.6, 24.8),
 }
 """azimuth and elevation of the eye in degrees: from +x towards +y about the vertical, and above the horizontal"""
@@ -28,11 +30,15 @@ LEAST_SIDE, MOST_SIDE = 200, 20_000
 """pixels of a side of a picture"""
 
 
+LEAST_DPI, MOST_DPI = 20, 1200
+
+
 @dataclass(frozen=True)
 class PictureOptions:
     """How pictures are made.
 
     kinds  : of ``KINDS``
+    animate: ``gif`` or ``mp4``: moving pictures of the mechanisms instead of pictures that stand still
     case   : name of the only load case to draw; None for all
     view   : azimuth and elevation of the eye in degrees as in ``VIEWS``; None: what suits the structure
     scale  : displacements as drawn, as a multiple of the usual ones (the farthest corner moves by a tenth of the
@@ -43,6 +49,7 @@ class PictureOptions:
     """
 
     kinds: tuple[str, ...] = USUAL_KINDS
+    animate: str | None = None
     case: str | None = None
     view: tuple[float, float] | None = None
     scale: float = 1.0
@@ -55,6 +62,29 @@ class PictureOptions:
         """Width and height of a PNG."""
         width, height = self.size
         return round(width * self.dpi / DOTS_PER_INCH), round(height * self.dpi / DOTS_PER_INCH)
+
+
+def picture_options(arguments: Any) -> PictureOptions:
+    """The options of the command line, texts or None by their names; UsageError for what is none of them.
+
+    A single file without a kind is that of the mechanism.
+    """
+    texts = vars(arguments)
+    output = texts.get("output")
+    single = output is not None and output.suffix and not output.is_dir()
+    dpi = texts["dpi"]
+    if not LEAST_DPI <= dpi <= MOST_DPI:
+        raise UsageError(f"--dpi {dpi}: {LEAST_DPI} to {MOST_DPI} dots per inch")
+    return PictureOptions(
+        kinds=parse_kinds(texts["kind"]) if texts["kind"] else ("mechanism",) if single else USUAL_KINDS,
+        animate=texts["animate"],
+        case=texts["case"],
+        view=parse_view(texts["view"]),
+        scale=parse_scale(texts["scale"]),
+        size=parse_size(texts["size"]),
+        dpi=dpi,
+        format=texts["format"],
+    )
 
 
 def parse_kinds(text: str) -> tuple[str, ...]:

@@ -18,7 +18,7 @@ REST = "#EDE6D4"
 """blocks that do not move"""
 HINGE, SLIDE, OPEN = VERMILION, GREEN, PURPLE
 DEAD_LOAD, LIVE_LOAD, SETTLEMENT = "#7A7A7A", BLUE, BLUE
-FORCE, THRUST = SKY, BLUE
+THRUST = BLACK
 WARNING = "#B00020"
 """marks figures that are no result"""
 
@@ -35,3 +35,18 @@ def rgb(colour: str) -> tuple[float, float, float]:
 def group_colours(groups: tuple[str, ...]) -> dict[str, str]:
     """Colour of each group, in the order in which they first appear."""
     return {name: GROUPS[i % len(GROUPS)] for i, name in enumerate(dict.fromkeys(groups))}
+
+
+FORCE_SHADES = ("#9ECAE1", "#08306B")
+"""of the least force and of the largest"""
+
+
+def shade(share: float) -> tuple[float, float, float]:
+    """Colour of a force by its share of the largest, 0 to 1."""
+    light, dark = rgb(FORCE_SHADES[0]), rgb(FORCE_SHADES[1])
+    red, green, blue = ((1 - share) * a + share * b for a, b in zip(light, dark, strict=True))
+    return red, green, blue
+
+
+CASES = (BLUE, VERMILION, GREEN, PURPLE, ORANGE, BLACK)
+"""live loads of several load cases"""

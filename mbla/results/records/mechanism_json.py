@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from typing import Any
 
 import numpy as np
@@ -10,10 +9,13 @@ import numpy as np
 from mbla.contacts.contacts import Contacts
 from mbla.model.model import LoadCase, Model
 from mbla.results.collapse.collapse import Collapse, collapse_of
+from mbla.results.collapse.enough import Enough, enough_of
+from mbla.results.collapse.failure import failure_of
 from mbla.results.collapse.interface_modes import InterfaceMode
-from mbla.results.collapse.rigid_parts import PartMotion, moving_share, reach
+from mbla.results.collapse.rigid_parts import moving_share, reach
 from mbla.results.collapse.work import dissipated_by_joint, loads_by_group
-from mbla.results.records.numbers import number, numbers
+from mbla.results.records.failure_json import failure_json, part_json
+from mbla.results.records.numbers import number
 from mbla.solution.solution import ContactMode, Mechanics
 
 MOST_PARTS = 100
@@ -32,7 +34,9 @@ def mechanism_json(model: Model, contacts: Contacts, load_case: LoadCase, mechan
         "moving_blocks": int(np.sum(~model.fixed & (collapse.parts > 0))),
         "moving_weight_share": number(share),
         "moving_parts": len(collapse.motions),
-        "parts": [_part(model, motion) for motion in collapse.motions[:MOST_PARTS]],
+        "parts": [part_json(model, motion) for motion in collapse.motions[:MOST_PARTS]],
+        **failure_json(model, failure_of(model, contacts, collapse, mechanics)),
+        "enough": _enough(enough_of(model, contacts, collapse.parts)),
         "work": _work(model, contacts, load_case, mechanics, collapse),
     }
 
@@ -43,17 +47,13 @@ def _points(mechanics: Mechanics) -> dict[str, int]:
     return {mode.name.lower(): int((mechanics.modes == mode).sum()) for mode in modes}
 
 
-def _part(model: Model, part: PartMotion) -> dict[str, Any]:
-    """Blocks by group, and how they move: ``turns`` about an axis or ``moves`` along a direction."""
-    groups = Counter(model.blocks.groups[block] for block in part.blocks.tolist())
+def _enough(enough: Enough) -> dict[str, int]:
+    """Counts of what is enough for the load factor: see :mod:`mbla.results.collapse.enough`."""
     return {
-        "part": part.number,
-        "blocks": len(part.blocks),
-        "groups": dict(sorted(groups.items())),
-        "weight": number(part.weight),
-        "motion": "turns" if part.turns else "moves",
-        "axis_point": numbers(part.axis_point) if part.turns else None,
-        "direction": numbers(part.direction),
+        "moving_blocks": len(enough.moving),
+        "interfaces": len(enough.interfaces),
+        "bearing_blocks": len(enough.bearing),
+        "left_out_blocks": len(enough.left_out),
     }
 
 

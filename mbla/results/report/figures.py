@@ -32,18 +32,19 @@ class Figures:
 
 def case_figures(results: Results, case: CaseResult) -> Figures:
     """Pictures of a case; where the extra or the machine's OpenGL is missing, the reason instead, to be shown."""
-    from mbla.results.pictures.plot import plot_mechanism
+    from mbla.results.pictures.options import PictureOptions
+    from mbla.results.pictures.plot import plot_results
 
     name = case.load_case.name
+    words = f"The structure in load case {name}: {verdict(results.model.of_case(case.load_case), case)}"
+    pictures: list[Figure] = []
     with tempfile.TemporaryDirectory(prefix="mbla-report-") as folder:
-        path = Path(folder) / "mechanism.png"
         try:
-            plot_mechanism(results, case, path)
+            paths = plot_results(results, Path(folder), "picture", PictureOptions(kinds=("mechanism",), case=name))
         except UsageError as error:
             return Figures((), str(error))
-        words = f"The structure in load case {name}: {verdict(results.model.of_case(case.load_case), case)}"
-        picture = Figure(_data_uri(path), f"{_subject(case)} of load case {name}", words)
-    return Figures((picture,))
+        pictures += [Figure(_data_uri(path), f"{_subject(case)} of load case {name}", words) for path in paths]
+    return Figures(tuple(pictures))
 
 
 def _subject(case: CaseResult) -> str:

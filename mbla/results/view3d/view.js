@@ -181,7 +181,7 @@ window.mblaView3d = function (host, data) {
   }
   const row = { display: "flex", flexWrap: "wrap", gap: "0.3em 1em", alignItems: "center", margin: "0.3em 0" };
   const top = element("div", host, { className: "mbla-view3d-controls" }, row);
-  const plot = element("div", host, { className: "mbla-view3d-plot" }, { width: "100%", height: "min(70vh, 640px)", minHeight: "320px" });
+  const plot = element("div", host, { className: "mbla-view3d-plot" }, { width: "100%", height: "min(70vh, 640px, 95vw)", minHeight: "300px" });
   const legend = element("div", host, { className: "mbla-view3d-legend" }, row);
   const shownLayers = element("div", host, { className: "mbla-view3d-layers" }, row);
 

@@ -8,13 +8,16 @@ from dataclasses import dataclass
 from mbla.contacts.contacts import Contacts
 from mbla.model.model import Model
 from mbla.results.collapse.collapse import Collapse, collapse_of
+from mbla.results.collapse.enough import enough_of
 from mbla.results.collapse.failure import failure_of
+from mbla.results.collapse.force_freedom import force_freedom
 from mbla.results.outcome import result_of
 from mbla.results.results import CaseResult
 from mbla.results.words.certificate_words import certificate_lines
+from mbla.results.words.determined_words import enough_lines, freedom_lines
 from mbla.results.words.failure_words import failure_sentences
 from mbla.results.words.figure_words import figures
-from mbla.results.words.force_words import force_range_lines, lock_lines, reaction_lines
+from mbla.results.words.force_words import force_range_lines, group_reaction_lines, lock_lines, reaction_lines
 from mbla.results.words.mechanism_words import mechanism_lines, mechanism_summary
 from mbla.results.words.path_words import path_lines
 from mbla.results.words.program_words import program_lines
@@ -49,11 +52,16 @@ def case_sections(model: Model, contacts: Contacts, case: CaseResult) -> list[Se
         collapse = collapse_of(model, contacts, load_case, mechanics)
         failure = failure_of(model, contacts, collapse, mechanics)
         told = failure_sentences(model, contacts, load_case, collapse, failure)
+        dimension = 3 if solution.size is None else solution.size.dimension
+        work = enough_lines(case, enough_of(model, contacts, collapse.parts))
+        work += work_lines(model, contacts, load_case, mechanics, collapse.work)
         reactions = reaction_lines(held, contacts, load_case, mechanics)  # a support is one even as it gives way
+        reactions += group_reaction_lines(held, contacts, mechanics)
+        reactions += freedom_lines(contacts, case, force_freedom(model, contacts, mechanics, dimension))
         sections = [
             Section("Verdict", _verdict_lines(model, case, collapse, told)),
             Section("Mechanism", spaced(mechanism_lines(model, contacts, failure))),
-            Section("Work", ["", *work_lines(model, contacts, load_case, mechanics, collapse.work)]),
+            Section("Work", ["", *work]),
             Section("Reactions", reactions),
         ]
         if solution.force_ranges is not None:

@@ -53,7 +53,7 @@ class Line(str):
     element: Element
 
     def __new__(cls, text: str, element: Element) -> Line:
-        """The text, and what it belongs to."""
+        """Text as printed, and what it is a line of."""
         line = super().__new__(cls, text)
         line.element = element
         return line

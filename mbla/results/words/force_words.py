@@ -7,7 +7,13 @@ import numpy as np
 from mbla.arrays import FloatArray
 from mbla.contacts.contacts import Contacts
 from mbla.model.model import LoadCase, Model
-from mbla.results.collapse.mechanics import guide_reactions, interface_resultants, load_on_structure, support_reactions
+from mbla.results.collapse.mechanics import (
+    group_reactions,
+    guide_reactions,
+    interface_resultants,
+    load_on_structure,
+    support_reactions,
+)
 from mbla.results.outcome import UNIQUE
 from mbla.results.words.text import counted, number, sentence, table, vector
 from mbla.solution.solution import Mechanics
@@ -32,8 +38,20 @@ def reaction_lines(model: Model, contacts: Contacts, load_case: LoadCase, mechan
         "",
         *sentence(f"Reactions at collapse, forces in {force}, moments about the origin in {force} {length}:"),
         *table(head, [[name, *_components(wrench, load)] for name, wrench in named]),
-        *sentence("Single forces are not unique where the structure is statically indeterminate."),
     ]
+
+
+def group_reaction_lines(model: Model, contacts: Contacts, mechanics: Mechanics) -> list[str]:
+    """Forces of the supports by the group of the blocks that they carry; nothing where they carry one group alone."""
+    groups = group_reactions(model, contacts, mechanics.contact_forces)
+    if len(groups) < 2:
+        return []
+    largest = max(float(np.abs(reaction.wrench[:3]).max()) for reaction in groups)
+    size = np.full(6, largest or 1.0)
+    shown = sorted(groups, key=lambda reaction: -float(np.linalg.norm(reaction.wrench[:3])))[:MOST_ROWS]
+    head = ["supports carry", *(f"F{axis} [{model.units.force}]" for axis in "xyz")]
+    rows = [[reaction.support, *_components(reaction.wrench, size)[:3]] for reaction in shown]
+    return ["", *table(head, rows), *_more(len(groups), len(rows))]
 
 
 def _components(wrench: FloatArray, load: FloatArray) -> list[str]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import TypeVar
 
 import numpy as np
 
@@ -21,6 +22,8 @@ from mbla.results.words.failure_words import crack_kind, hinge_side
 from mbla.results.words.part_words import part_lines
 from mbla.results.words.place_words import point_words
 from mbla.results.words.text import counted, number, percent, sentence, table
+
+T = TypeVar("T", HingeLine, SlidingPlane, Crack)
 
 MOST_ROWS = 20
 """rows of a table in the listing; the result files hold all of them"""
@@ -63,7 +66,7 @@ def _hinge_table(model: Model, contacts: Contacts, lines: Sequence[HingeLine]) -
             direction_words(line.direction),
             hinge_side(contacts, outward, line) + (", slides" if line.slides else ""),
         ]
-        for line in lines[:MOST_ROWS]
+        for line in _shown(lines)
     ]
     length = model.units.length
     head = ["hinge lines", "parts", f"from [{length}]", f"length [{length}]", "about", "side"]
@@ -81,7 +84,7 @@ def _sliding_table(model: Model, contacts: Contacts, planes: Sequence[SlidingPla
             number(float(f"{plane.area:.4g}")),
             percent(plane.shear),
         ]
-        for plane in planes[:MOST_ROWS]
+        for plane in _shown(planes)
     ]
     length = model.units.length
     head = ["sliding planes", "parts", f"at [{length}]", "along", f"area [{length}2]", "shear work [%]"]
@@ -98,11 +101,18 @@ def _crack_table(model: Model, contacts: Contacts, cracks: Sequence[Crack]) -> l
             crack_kind(contacts, crack).strip() or "one way",
             number(float(f"{crack.area:.4g}")),
         ]
-        for crack in cracks[:MOST_ROWS]
+        for crack in _shown(cracks)
     ]
     length = model.units.length
     head = ["cracks", "parts", f"from [{length}]", f"to [{length}]", "joints", f"area [{length}2]"]
     return _table(head, rows, len(cracks), 5)
+
+
+def _shown(found: Sequence[T]) -> list[T]:
+    """All by their first interfaces, or of too many those that move or work most, these first."""
+    if len(found) > MOST_ROWS:
+        return list(found[:MOST_ROWS])
+    return sorted(found, key=lambda each: int(each.interfaces[0]))
 
 
 def _table(head: list[str], rows: list[list[str]], total: int, left: int) -> list[str]:

@@ -201,3 +201,15 @@ def test_a_certificate_is_named() -> None:
     lock = full_results().cases[0].solution.lock
     unbounded = with_first(Status.UNBOUNDED, solution={"mechanics": None, "lock": lock})
     assert results_json(unbounded)["cases"][0]["certificate"] == "forces"
+
+
+def test_the_failure_as_it_is_told() -> None:
+    mechanism = results_json(tower_results())["cases"][0]["mechanism"]
+    assert mechanism["clusters_merged"] == 0.0
+    assert mechanism["clusters"] == mechanism["parts"]
+    (line,) = mechanism["hinge_lines"]
+    assert line["clusters"] == [1, 0]
+    assert line["interfaces"] == [0]
+    assert (line["start"], line["end"], line["length"]) == ([1.0, 0.0, 1.0], [1.0, 1.0, 1.0], 1.0)
+    assert mechanism["sliding_planes"] == mechanism["cracks"] == []
+    assert mechanism["enough"] == {"moving_blocks": 1, "interfaces": 1, "bearing_blocks": 0, "left_out_blocks": 1}

@@ -1,0 +1,165 @@
+"""How unique the forces are: in how many ways they can vary at the load factor, and which interfaces they leave alone.
+
+The mechanism says what a contact point may carry at its load factor: nothing where it opens, a force of one direction
+(n − μ t, with t the direction of sliding) where it slides, any force where it rests. What one interface carries counts
+by its resultant, as the points of one face are redundant among themselves: the space of its resultants has dimension
+r_i ≤ 6 (3 in a plane). Equilibrium of the free blocks, A x = 0 for a change x of the resultants, leaves::
+
+    degree = Σ r_i − rank A
+
+ways to vary. Strength limits may forbid some of them, so that it is an upper limit; 0 means unique. By associative
+flow that covers all forces at the load factor, whichever mechanism they are taken with (complementary slackness); else
+those that fit this mechanism. A resultant that no null vector of A touches is determined; one random null vector shows
+all of them, but for a set of measure zero.
+
+The rank is counted by Sylvester's law of inertia in the factors of A Aᵀ − εI, with ε on both sides of a gap: where the
+two disagree it is not determined.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import scipy.sparse as sp
+
+from mbla.arrays import BoolArray, FloatArray
+from mbla.contacts.contacts import Contacts
+from mbla.contacts.glue import solids_of
+from mbla.model.model import Model
+from mbla.results.collapse.cluster_joints import radii
+from mbla.solution.linear_algebra.superlu import factors_on_the_diagonal
+from mbla.solution.solution import ContactMode, Mechanics
+
+MOST_EQUATIONS = 12_000
+"""of equilibrium: 2,000 blocks in space, a few seconds"""
+BELOW, ABOVE = 1e-11, 1e-7
+"""eigenvalues of A Aᵀ with rows of unit length: zero up to the first, not zero from the second on"""
+FLAT = 1e-4
+"""share of the largest extent of directions up to which they do not leave a plane"""
+NO_RESULTANT = 1e-9
+"""share of the largest eigenvalue of an interface up to which its points have no such resultant"""
+UNTOUCHED = 1e-6
+"""share of a random null vector up to which an interface has no part in it"""
+
+
+@dataclass(frozen=True)
+class ForceFreedom:
+    """degree : ways in which the forces may vary at the load factor, at most; 0 where they are unique
+    determined : (n_interfaces,) whose resultant is the same in all of them
+    """
+
+    degree: int
+    determined: BoolArray
+
+
+def force_freedom(model: Model, contacts: Contacts, mechanics: Mechanics, dimension: int) -> ForceFreedom | None:
+    """None where it was not determined: guided blocks, symmetry, very large models, or no clear rank.
+
+    dimension : in which the case was solved, 2 or 3
+    """
+    if len(model.guides.blocks) or model.mirrors or not len(contacts):
+        return None
+    solids = solids_of(model, contacts)
+    model, contacts = solids.model, solids.contacts
+    rows = _plane_rows(contacts, mechanics.mechanism) if dimension == 2 else np.eye(6)
+    if rows is None or len(rows) * len(model.free) > MOST_EQUATIONS:
+        return None
+    bases, owner = _resultants(model, contacts, mechanics, rows)
+    matrix = _equilibrium(model, contacts, bases, owner, rows)
+    return _freedom(matrix, owner, len(contacts))
+
+
+def _plane_rows(contacts: Contacts, mechanism: FloatArray) -> FloatArray | None:
+    """Both forces in the plane and the moment about its normal, as rows (3, 6); None where the plane is not clear.
+
+    It holds the normals of the interfaces and the velocities of the blocks.
+    """
+    speeds = np.linalg.norm(mechanism[:, :3], axis=1)
+    velocities = mechanism[:, :3] / (float(speeds.max(initial=0.0)) or 1.0)
+    _, sizes, axes = np.linalg.svd(np.vstack([contacts.normals, velocities, np.zeros((3, 3))]), full_matrices=False)
+    if sizes[2] > FLAT * sizes[0] or sizes[1] <= FLAT * sizes[0]:
+        return None
+    rows = np.zeros((3, 6))
+    rows[:2, :3], rows[2, 3:] = axes[:2], axes[2]
+    return rows
+
+
+def _resultants(model: Model, contacts: Contacts, mechanics: Mechanics, rows: FloatArray) -> tuple[FloatArray, Any]:
+    """Orthonormal resultants that each interface may carry, (n, 6) with moments over its radius, and whose they are."""
+    arms = contacts.points - contacts.centroids[contacts.interface_of_point]
+    size = np.where(radii(contacts) > 0, radii(contacts), 1.0)
+    of_point = contacts.interface_of_point
+    spread = np.zeros((len(contacts), len(rows), len(rows)))
+    for directions, chosen in _directions(model, contacts, mechanics):
+        force = np.einsum("pi,pij->pj", directions, contacts.frames[chosen])
+        moment = np.cross(arms[chosen], force) / size[of_point[chosen], None]
+        wrench = np.hstack([force, moment]) @ rows.T
+        np.add.at(spread, of_point[chosen], wrench[:, :, None] * wrench[:, None, :])
+    values, vectors = np.linalg.eigh(spread)
+    owner, column = np.nonzero(values > NO_RESULTANT * np.maximum(values[:, -1:], 1e-300))
+    return vectors[owner, :, column] @ rows, owner
+
+
+def _directions(model: Model, contacts: Contacts, mechanics: Mechanics) -> list[tuple[FloatArray, Any]]:
+    """Directions of force in the frames of points, (n, 3), and the points that may carry them."""
+    rests = np.flatnonzero(mechanics.modes == ContactMode.STICK)
+    slides = np.flatnonzero(mechanics.modes == ContactMode.SLIDE)
+    friction = np.array([model.joints[name].friction for name in contacts.joint_names], dtype=float)
+    limit = friction[contacts.joints[contacts.interface_of_point[slides]]]
+    velocity = mechanics.contact_velocities[slides]
+    speed = np.hypot(velocity[:, 1], velocity[:, 2])
+    along = np.hstack(
+        [np.ones((len(slides), 1)), -limit[:, None] * velocity[:, 1:] / np.where(speed > 0, speed, 1.0)[:, None]]
+    )
+    return [*((np.tile(axis, (len(rests), 1)), rests) for axis in np.eye(3)), (along, slides)]
+
+
+def _equilibrium(model: Model, contacts: Contacts, bases: FloatArray, owner: Any, rows: FloatArray) -> sp.csr_array:
+    """Forces and moments of the resultants on the free blocks, rows of unit length."""
+    row_of_block = np.full(len(model.blocks) + len(model.grounds), -1)
+    row_of_block[model.free] = np.arange(len(model.free))
+    size = np.where(radii(contacts) > 0, radii(contacts), 1.0)
+    per_block, parts = len(rows), []
+    for side, sign in ((0, -1.0), (1, 1.0)):
+        body = contacts.bodies[owner, side]
+        here = np.flatnonzero(row_of_block[body] >= 0)
+        block, force = body[here], bases[here, :3]
+        arm = contacts.centroids[owner[here]] - model.blocks.centroids[block]
+        moment = bases[here, 3:] * size[owner[here], None] + np.cross(arm, force)
+        wrench = sign * np.hstack([force, moment / model.blocks.sizes[block, None]]) @ rows.T
+        at = per_block * row_of_block[block][:, None] + np.arange(per_block)
+        column = np.repeat(here, per_block)
+        parts.append(sp.coo_array((wrench.ravel(), (at.ravel(), column)), (per_block * len(model.free), len(owner))))
+    matrix = sp.csr_array(parts[0] + parts[1])
+    length = np.sqrt(np.asarray(matrix.power(2).sum(axis=1)).ravel())
+    return sp.csr_array(sp.diags_array(1.0 / np.where(length > 0, length, 1.0)) @ matrix)
+
+
+def _freedom(matrix: sp.csr_array, owner: Any, n_interfaces: int) -> ForceFreedom | None:
+    normal = sp.csc_array(matrix @ matrix.T)
+    below, above = _eigenvalues_below(normal, BELOW), _eigenvalues_below(normal, ABOVE)
+    if below is None or below != above:
+        return None
+    degree = matrix.shape[1] - (matrix.shape[0] - below)
+    determined = np.ones(n_interfaces, dtype=bool)
+    if degree > 0:
+        factors = factors_on_the_diagonal(sp.csc_array(normal + BELOW * sp.eye_array(normal.shape[0])), 0.0)
+        if factors is None:
+            return None
+        null = np.random.default_rng(0).standard_normal(matrix.shape[1])
+        scale = float(np.abs(null).max())
+        for _ in range(3):  # each takes what is left of the range of Aᵀ down by the shift over the gap
+            null = null - matrix.T @ factors.solve(matrix @ null)
+        determined[owner[np.abs(null) > UNTOUCHED * scale]] = False
+    return ForceFreedom(degree, determined)
+
+
+def _eigenvalues_below(normal: sp.csc_array, shift: float) -> int | None:
+    """How many, by the signs of the pivots; None where the factors are not symmetric."""
+    shifted = sp.csc_array(normal - shift * sp.eye_array(normal.shape[0]))
+    factors = factors_on_the_diagonal(shifted, 0.0)
+    if factors is None or not np.array_equal(factors.perm_r, factors.perm_c):
+        return None
+    return int(np.sum(factors.U.diagonal() < 0))

@@ -1,0 +1,88 @@
+"""Fixing what rests leaves the load factor: the smaller model is built and solved."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from mbla.contacts import find_contacts
+from mbla.program import assemble
+from mbla.results.collapse.enough import enough_of
+from mbla.results.collapse.rigid_parts import rigid_parts
+from mbla.solution.solution import Mechanics, Status
+from tests.line import Line, line_of_file, verified
+from tests.results.synthetic import tower_contacts, tower_mechanics, tower_model
+
+DECKS = Path("decks")
+ASSOCIATIVE = "analysis.flow_rule=associative"
+
+
+def solved(line: Line) -> Mechanics:
+    solution, checks, _ = verified(line)
+    assert checks.verified, checks.failures
+    assert solution.mechanics is not None
+    return solution.mechanics
+
+
+def with_rest_fixed(line: Line, mechanics: Mechanics) -> tuple[Line, int]:
+    """The same line with every block at rest fixed, and how many free blocks are left."""
+    parts = rigid_parts(line.model, line.contacts, mechanics.mechanism)
+    model = replace(line.model, fixed=line.model.fixed | (parts == 0))
+    contacts = find_contacts(model, line.deck.contacts)
+    enough = enough_of(line.model, line.contacts, parts)
+    assert len(contacts) == len(enough.interfaces)
+    assert len(model.free) == len(enough.moving)
+    assert len(enough.moving) + len(enough.bearing) + len(enough.left_out) == len(line.model.free)
+    return replace(line, model=model, contacts=contacts, program=assemble(model, contacts, line.load_case)), len(
+        model.free
+    )
+
+
+@pytest.mark.parametrize(
+    ("deck", "overrides"),
+    [
+        ("tutorials/wall.yaml", ()),
+        ("tutorials/arch.yaml", ()),
+        ("tutorials/buttressed_wall.yaml", ()),
+        ("benchmarks/ferris_wall_1.yaml", ()),
+        ("benchmarks/ferris_wall_3.yaml", ()),
+        ("benchmarks/wall_5x5.yaml", ()),
+        ("benchmarks/block_sliding.yaml", ()),
+    ],
+)
+def test_associative_flow_has_the_same_load_factor_with_the_rest_fixed(deck: str, overrides: tuple[str, ...]) -> None:
+    line = line_of_file(DECKS / deck, ASSOCIATIVE, *overrides)
+    mechanics = solved(line)
+    smaller, _ = with_rest_fixed(line, mechanics)
+    assert solved(smaller).load_factor == pytest.approx(mechanics.load_factor, rel=1e-6)
+
+
+def test_some_of_these_have_something_to_leave_out() -> None:
+    line = line_of_file(DECKS / "tutorials/wall.yaml", ASSOCIATIVE)
+    mechanics = solved(line)
+    _, left = with_rest_fixed(line, mechanics)
+    assert left < len(line.model.free) / 2
+
+
+def test_fixing_what_moves_does_change_it() -> None:
+    """Without the heaviest part to move nothing can: the blocks left are locked between fixed ones."""
+    line = line_of_file(DECKS / "benchmarks/ferris_wall_1.yaml", ASSOCIATIVE)
+    mechanics = solved(line)
+    parts = rigid_parts(line.model, line.contacts, mechanics.mechanism)
+    heaviest = np.flatnonzero(parts == 1)
+    model = replace(line.model, fixed=line.model.fixed | np.isin(np.arange(len(parts)), heaviest))
+    contacts = find_contacts(model, line.deck.contacts)
+    other = replace(line, model=model, contacts=contacts, program=assemble(model, contacts, line.load_case))
+    solution, checks, status = verified(other)
+    assert (status, checks.verified, solution.mechanics) == (Status.UNBOUNDED, True, None)
+
+
+def test_blocks_by_what_they_do_for_what_moves() -> None:
+    """The tower turns on its base, which is fixed; the brick rests by itself."""
+    model, contacts = tower_model(), tower_contacts()
+    enough = enough_of(model, contacts, rigid_parts(model, contacts, tower_mechanics().mechanism))
+    assert enough.moving.tolist() == [1]
+    assert enough.interfaces.tolist() == [0]
+    assert enough.bearing.tolist() == []
+    assert enough.left_out.tolist() == [2]
