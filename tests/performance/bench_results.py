@@ -27,6 +27,7 @@ from mbla.results.paraview.support_file import write_supports_vtu
 from mbla.results.paraview.vtu import write_blocks_vtu
 from mbla.results.records.json_record import results_json
 from mbla.results.results import CaseResult, Results
+from mbla.results.tables.export import Formats, export_results
 from mbla.results.words.listing import listing
 from mbla.results.write import write_outputs
 from mbla.solution.solution import Mechanics
@@ -89,6 +90,9 @@ def steps(results: Results, folder: Path) -> dict[str, Callable[[], object]]:
         **{f"{file.kind}.vtu": partial(write_one, file) for file in MESH_FILES},
         "supports.vtu": lambda: write_supports_vtu(folder / "supports.vtu", model, results.contacts),
         "one frame": lambda: write_frame_vtu(folder / "frame.vtu", scene(), 0.5),
+        "csv": lambda: export_results(results, folder, "wall", Formats(csv=True), force=True),
+        "parquet": lambda: export_results(results, folder, "wall", Formats(parquet=True), force=True),
+        "vtkhdf": lambda: export_results(results, folder, "wall", Formats(vtkhdf=True), force=True),
         f"all files, {FRAMES} frames": lambda: write_outputs(
             results, folder / "all", "wall", True, True, FRAMES, False
         ),

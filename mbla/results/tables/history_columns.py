@@ -191,6 +191,7 @@ NOTICES = TableKind(
         texts("severity", "notice or warning", lambda notices: as_text([n.severity for n in notices])),
         texts("identifier", "stable identifier", lambda notices: as_text([n.identifier for n in notices])),
         texts("message", "in words", lambda notices: as_text([n.message for n in notices])),
+        texts("case", "load case that it is about; empty: the whole run", lambda ns: as_text([n.case for n in ns])),
     ),
     _notices,
 )

@@ -63,8 +63,8 @@ def test_csv_reads_back_to_the_same_bits(results: Results, folder: Path, name: s
 
 def test_csv_is_rfc_4180(folder: Path) -> None:
     data = (folder / "tower_notices.csv").read_bytes()
-    assert data.startswith(b"severity,identifier,message\r\n")
-    assert b'"says ""no"",\nsays \xc2\xb5, ends; = 1"\r\n' in data
+    assert data.startswith(b"severity,identifier,message,case\r\n")
+    assert b'"says ""no"",\nsays \xc2\xb5, ends; = 1",\r\n' in data
     with (folder / "tower_blocks.csv").open(encoding="utf-8", newline="") as stream:
         rows = list(csv.reader(stream, strict=True))
     assert {len(row) for row in rows} == {len(TABLES["blocks"].columns)}

@@ -1,0 +1,143 @@
+"""Files of real runs of every kind: nothing in them that schemas/results.md does not describe, and the reverse."""
+
+from __future__ import annotations
+
+import json
+import re
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import h5py
+import numpy as np
+import pytest
+import xarray
+
+from mbla.check import check
+from mbla.results.hdf5.layout import LAYOUT
+from mbla.results.hdf5.result_file import read_results_hdf5
+from mbla.results.outcome import result_of
+from mbla.results.records.description import RECORD, record_page
+from mbla.results.records.json_record import check_json, results_json
+from mbla.results.tables.csv_file import table_csv
+from mbla.results.tables.tables import tables_of
+from mbla.run_deck import RunOptions, run
+from tests.results.synthetic import full_results
+
+ROOT = Path(__file__).parents[2]
+DECKS = {
+    "beam_on_three_supports": "settlement",
+    "beam_under_travelling_load": "travel",
+    "tilting_block": "tilt",
+    "glued_lintel": "glue",
+    "eccentric_compression_convex": "convex contact model",
+    "incline_too_steep": "no equilibrium, certificate",
+    "groove_locked": "unbounded, lock",
+    "ferris_wall_1_slope": "load path",
+    "block_sliding_polyhedral": "polyhedral friction",
+}
+TYPES: dict[str, tuple[type, ...]] = {
+    "integer": (int,),
+    "number": (int, float),
+    "string": (str,),
+    "boolean": (bool,),
+    "object": (dict,),
+    "list": (list,),
+}
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("runs")
+    for name in DECKS:
+        deck = ROOT / "decks" / "benchmarks" / f"{name}.yaml"
+        run(deck, RunOptions(folder=folder, overrides=("output.vtu=false",)))
+    return folder
+
+
+def records(folder: Path) -> list[dict[str, Any]]:
+    """Of the runs, of a check and of results with every field filled."""
+    beam = ROOT / "decks" / "benchmarks" / "beam_under_travelling_load.yaml"
+    own = [json.loads((folder / f"{name}.json").read_text(encoding="utf-8")) for name in DECKS]
+    full = full_results()
+    lonely = replace(full.contacts, report=replace(full.contacts.report, isolated=np.array([2])))
+    checked = [check_json(*check(beam, RunOptions(), vtu=False)), check_json(replace(full, contacts=lonely), {})]
+    return [*own, results_json(full), *checked]
+
+
+def walk(value: Any, path: str, known: dict[str, str], seen: set[str]) -> None:
+    """Every key below a value is known, and its type is the one that is told."""
+    if path:
+        assert path in known, f"{path} is not described"
+        kind = known[path]
+        if value is None:
+            assert kind.endswith("?"), f"{path} is null"
+        else:
+            assert type(value) in TYPES[kind.rstrip("?")], f"{path} is {value!r}"
+        seen.add(path)
+    if isinstance(value, dict):
+        for key, item in value.items():
+            own = f"{path}.{key}" if path else key
+            walk(item, own if own in known else f"{path}.*", known, seen)
+    if isinstance(value, list):
+        for item in value:
+            walk(item, f"{path}[]", known, seen)
+
+
+def test_every_key_of_the_records_is_described_and_the_reverse(folder: Path) -> None:
+    known = {key.path: key.kind for key in RECORD}
+    assert len(known) == len(RECORD)
+    seen: set[str] = set()
+    for record in records(folder):
+        walk(record, "", known, seen)
+    assert set(known) - seen == set()
+
+
+def test_the_page_describes_the_record() -> None:
+    assert record_page() in (ROOT / "schemas" / "results.md").read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize("name", DECKS)
+def test_the_file_holds_the_whole_record(folder: Path, name: str) -> None:
+    """``mbla show --json`` says what the run said."""
+    told = json.loads((folder / f"{name}.json").read_text(encoding="utf-8"))
+    assert json.loads(json.dumps(results_json(read_results_hdf5(folder / f"{name}.h5")))) == told
+
+
+@pytest.mark.parametrize("name", DECKS)
+def test_every_dataset_is_described(folder: Path, name: str) -> None:
+    fields = {field.path: field for field in LAYOUT}
+    with h5py.File(folder / f"{name}.h5") as file:
+        found: list[str] = []
+        file.visititems(lambda path, item: found.append(path) if isinstance(item, h5py.Dataset) else None)
+        for dataset in (file[path] for path in found if not file[path].is_scale):
+            field = fields[re.sub(r"^/cases/[^/]+/", "cases/*/", dataset.name).lstrip("/")]
+            standard = {"units", "long_name", "DIMENSION_LIST", "DIMENSION_LABELS"}
+            assert set(dataset.attrs) - standard == ({"_Encoding"} if field.kind == "text" else set())
+            assert tuple(dimension.label for dimension in dataset.dims) == field.dims
+
+
+def test_real_runs_open_in_xarray(folder: Path) -> None:
+    results = read_results_hdf5(folder / "tilting_block.h5")
+    with xarray.open_datatree(folder / "tilting_block.h5", engine="h5netcdf") as tree:
+        for case in results.cases:
+            mechanics, tilt = case.solution.mechanics, case.load_case.tilt
+            assert mechanics is not None
+            assert tilt is not None
+            group = f"cases/{case.load_case.name}"
+            assert np.array_equal(np.asarray(tree[f"{group}/contact_forces"]), mechanics.contact_forces)
+            assert np.array_equal(np.asarray(tree[f"{group}/tilt/turning_axis"]), tilt.axis)
+
+
+@pytest.mark.parametrize("name", DECKS)
+def test_tables_say_what_the_cases_say(folder: Path, name: str) -> None:
+    results = read_results_hdf5(folder / f"{name}.h5")
+    tables = tables_of(results)
+    cases = tables["cases"]
+    assert cases["case"].tolist() == [case.load_case.name for case in results.cases]
+    assert cases["status"].tolist() == [case.status.value for case in results.cases]
+    assert np.isnan(cases["load_factor"]).tolist() == [result_of(case) is None for case in results.cases]
+    assert len(tables["blocks"]) == len(results.cases) * len(results.model.blocks)
+    assert len(tables["series"]) == sum(case.load_case.travel is not None for case in results.cases)
+    for table in tables.values():
+        assert table_csv(table).count("\r\n") >= len(table) + 1
