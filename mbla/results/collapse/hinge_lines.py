@@ -11,7 +11,7 @@ import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
 from mbla.contacts.contacts import Contacts
-from mbla.results.collapse.cluster_joints import ClusterJoints, radii, runs
+from mbla.results.collapse.cluster_joints import ClusterJoints, points_of, radii, runs
 from mbla.results.collapse.interface_modes import InterfaceMode, InterfaceMotion
 
 SAME_DIRECTION = float(np.cos(np.radians(2.0)))
@@ -73,7 +73,7 @@ def _line(
 ) -> HingeLine:
     """Through the mean of the axes, as long as the contact points reach along it."""
     through = motion.hinge_points[interfaces].mean(axis=0)
-    points = contacts.points[np.isin(contacts.interface_of_point, interfaces)]
+    points = contacts.points[points_of(contacts, interfaces)]
     along = (points - through) @ direction
     return HingeLine(
         clusters=joints.clusters(interfaces[0]),

@@ -27,6 +27,8 @@ MOST_PARTS, MOST_LINES, MOST_CRACKS, MOST_SLIDES = 4, 4, 2, 2
 """what is told of each kind; the tables hold more, the result files all"""
 IN_PLACE = 0.02
 """speed of the middle of a part over that by its rotation, up to which it turns on the spot"""
+SAME_WAY = 0.9
+"""cosine from which planes of the same two parts are told together"""
 UNDER_FORCE = 5e-4
 """share of the power above which sliding is said to take work: what is written as 0.1 % or more"""
 ON_AXIS = 0.02
@@ -202,11 +204,14 @@ def crack_kind(contacts: Contacts, crack: Crack) -> str:
 
 def _slide_sentences(model: Model, failure: Failure) -> list[str]:
     """Planes of the same two parts and direction in one sentence, those that take most work first."""
+    by_clusters: dict[tuple[int, int], list[list[SlidingPlane]]] = {}
     runs: list[list[SlidingPlane]] = []
     for plane in failure.sliding_planes:
-        fit = next((run for run in runs if _same_way(run[0], plane)), None)
+        known = by_clusters.setdefault(plane.clusters, [])
+        fit = next((run for run in known if float(run[0].direction @ plane.direction) > SAME_WAY), None)
         if fit is None:
-            runs.append([plane])
+            known.append([plane])
+            runs.append(known[-1])
         else:
             fit.append(plane)
     working = [run for run in runs if _takes_work(run)]
@@ -226,10 +231,6 @@ def _slide_sentences(model: Model, failure: Failure) -> list[str]:
     if given_back >= UNDER_FORCE:
         texts.append(f"Joints lift as they slide, and their normal forces give {percent(given_back)} % back.")
     return texts
-
-
-def _same_way(first: SlidingPlane, second: SlidingPlane) -> bool:
-    return first.clusters == second.clusters and float(first.direction @ second.direction) > 0.9
 
 
 def _takes_work(planes: Sequence[SlidingPlane]) -> bool:

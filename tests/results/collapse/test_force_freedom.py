@@ -69,7 +69,6 @@ def test_a_beam_on_two_piers_is_indeterminate_in_the_plane_to_the_third_degree()
 
 
 @pytest.mark.parametrize("overrides", [(), ("units.length=mm",)])
-@pytest.mark.parametrize("overrides", [(), ("units.length=mm",)])
 def test_in_space_the_same_beam_has_twelve_resultants_against_six_equations(overrides: tuple[str, ...]) -> None:
     """Four corners of the top block that slide one way carry N and two moments: its own equations fix these."""
     degree, determined = freedom(BEAM, *overrides, dimension=3)
