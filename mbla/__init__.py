@@ -10,4 +10,48 @@ The program on one line; each word is a folder, and its main type carries the fo
 A stage imports only from the stages to its left; ``run_deck.py`` is the table of contents.
 """
 
+from typing import TYPE_CHECKING as _TYPE_CHECKING
+
 __version__ = "0.1.0"
+
+if _TYPE_CHECKING:
+    from mbla.api import read_results as read_results
+    from mbla.api import run as run
+    from mbla.errors import DeckError as DeckError
+    from mbla.errors import FileError as FileError
+    from mbla.errors import LimitError as LimitError
+    from mbla.errors import MblaError as MblaError
+    from mbla.errors import SolverError as SolverError
+    from mbla.errors import UsageError as UsageError
+    from mbla.results.notebook.case import Case as Case
+    from mbla.results.notebook.run import Run as Run
+
+_HOMES = {
+    "run": "mbla.api",
+    "read_results": "mbla.api",
+    "Run": "mbla.results.notebook.run",
+    "Case": "mbla.results.notebook.case",
+    "MblaError": "mbla.errors",
+    "DeckError": "mbla.errors",
+    "FileError": "mbla.errors",
+    "LimitError": "mbla.errors",
+    "SolverError": "mbla.errors",
+    "UsageError": "mbla.errors",
+}
+"""public names and the modules they come from; imported when first asked for, as the command line must start at once"""
+
+__all__ = ["__version__", *_HOMES]
+
+
+if not _TYPE_CHECKING:  # a checker knows the names above, and only these
+
+    def __getattr__(name: str) -> object:
+        if name not in _HOMES:
+            raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+        from importlib import import_module
+
+        return getattr(import_module(_HOMES[name]), name)
+
+
+def __dir__() -> list[str]:
+    return sorted(__all__)

@@ -37,6 +37,10 @@ def build_parser() -> argparse.ArgumentParser:
     _add_check(commands)
     _add_result_commands(commands)
     _add_plot(commands)
+    _add_report(commands)
+    _add_export(commands)
+    _add_diff(commands)
+    _add_explain(commands)
     _add_schema_and_new(commands)
     return parser
 
@@ -101,16 +105,102 @@ def _add_result_commands(commands: Any) -> None:
 
 
 def _add_plot(commands: Any) -> None:
-    command = commands.add_parser("plot", help="picture of the mechanism of each load case (extra mbla[pictures])")
+    command = commands.add_parser("plot", help="pictures of model, mechanism and forces (extra mbla[pictures])")
     command.add_argument("result", type=Path, metavar="RESULT.h5")
     command.add_argument(
         "-o",
         "--output",
         type=Path,
         metavar="FILE|DIR",
-        help="PNG, SVG or PDF file, by its name, of one load case; or a folder (default: that of the result)",
+        help="PNG, SVG or PDF file, by its name, of one picture; or a folder (default: that of the result)",
+    )
+    command.add_argument(
+        "--kind",
+        metavar="KIND",
+        help="model, mechanism, forces, history, several with commas, or all "
+        "(default: the first three; the mechanism where -o names a file)",
     )
     command.add_argument("--case", metavar="NAME", help="only this load case")
+    command.add_argument(
+        "--animate", choices=["gif", "mp4"], help="moving pictures of the mechanisms in the place of pictures"
+    )
+    command.add_argument(
+        "--view",
+        default="auto",
+        metavar="VIEW",
+        help="front, back, left, right, top, iso, below, auto, or AZIMUTH,ELEVATION in degrees, as --view=-60,25",
+    )
+    command.add_argument(
+        "--scale", default="auto", metavar="X", help="multiple of the displacements that auto draws (default auto)"
+    )
+    command.add_argument("--size", default="1600x1000", metavar="WxH", help="pixels of a PNG at 100 dpi")
+    command.add_argument("--dpi", type=int, default=100, help="dots per inch of a PNG (default 100)")
+    command.add_argument(
+        "--format", choices=["png", "svg", "pdf"], default="png", help="of pictures in a folder (default png)"
+    )
+
+
+def _add_report(commands: Any) -> None:
+    command = commands.add_parser("report", help="one self-contained HTML file of a result (extra mbla[report])")
+    command.add_argument("result", type=Path, metavar="RESULT.h5")
+    command.add_argument(
+        "-o", "--output", type=Path, metavar="FILE", help="HTML file (default: beside the result, STEM.html)"
+    )
+    command.add_argument("--case", metavar="NAME", help="only this load case")
+    command.add_argument("--no-3d", action="store_true", help="leave out the views that can be turned, 5 MB less")
+
+
+def _add_export(commands: Any) -> None:
+    command = commands.add_parser("export", help="tables of blocks, interfaces, points and load cases; VTKHDF meshes")
+    command.add_argument("result", type=Path, metavar="RESULT.h5")
+    command.add_argument("--csv", action="store_true", help="CSV, units in the header (what is written by default)")
+    command.add_argument("--parquet", action="store_true", help="Parquet (extra mbla[tables])")
+    command.add_argument("--vtkhdf", action="store_true", help="VTKHDF for ParaView, one file per load case")
+    command.add_argument(
+        "-o", "--output", type=Path, metavar="DIR", help="folder of the files (default: that of the result)"
+    )
+    command.add_argument("--case", action="append", default=[], metavar="NAME", help="only this load case (repeatable)")
+    command.add_argument(
+        "--table",
+        type=names,
+        default=[],
+        metavar="NAME,...",
+        help="only these tables, such as blocks,interfaces,points",
+    )
+    command.add_argument("--force", action="store_true", help="replace earlier files")
+
+
+def _add_diff(commands: Any) -> None:
+    command = commands.add_parser(
+        "diff",
+        help="what differs between two result files",
+        description="Compare decks, settings, models and load cases of two result files; figures of B are brought into "
+        "the units of A.",
+        epilog="Exit status 0 whatever differs; with --fail 4 where a load case differs in its status or its answer "
+        "(load factor, angle or reaction), or is in one file only.",
+    )
+    command.add_argument("first", type=Path, metavar="A.h5")
+    command.add_argument("second", type=Path, metavar="B.h5")
+    command.add_argument(
+        "--tolerance",
+        type=relative,
+        metavar="T",
+        help="relative difference up to which answers are the same (default: the sum of what both are good to, the "
+        "gap of associative factors and the largest residual of others; at least 1e-6)",
+    )
+    command.add_argument("--fail", action="store_true", help="exit status 4 where a status or an answer differs")
+    command.add_argument("--json", action="store_true", help="one JSON object on standard output")
+
+
+def _add_explain(commands: Any) -> None:
+    command = commands.add_parser(
+        "explain",
+        help="what an identifier of a warning, a status or an error means, and what to do",
+        description="Explain an identifier, such as near-misses, approximate or exit-4. A word or a whole message "
+        "finds it too. Without ID: all identifiers, each in a line.",
+    )
+    command.add_argument("identifier", nargs="*", metavar="ID", help="identifier, word or message")
+    command.add_argument("--json", action="store_true", help="one JSON object on standard output")
 
 
 def _add_schema_and_new(commands: Any) -> None:
@@ -121,9 +211,22 @@ def _add_schema_and_new(commands: Any) -> None:
     command.add_argument("--force", action="store_true", help="replace an existing file")
 
 
+def names(text: str) -> list[str]:
+    """Names with commas between them."""
+    listed = [name.strip() for name in text.split(",")]
+    if not all(listed):
+        raise argparse.ArgumentTypeError(f"{text!r} is not a list of names with commas between them")
+    return listed
+
+
 def seconds(text: str) -> float:
     """A positive number of seconds."""
     return _number(text, float, lambda value: 0 < value < float("inf"), "a positive number of seconds")
+
+
+def relative(text: str) -> float:
+    """A relative difference, zero or more."""
+    return _number(text, float, lambda value: 0 <= value < float("inf"), "a relative difference, 0 or more")
 
 
 def threads(text: str) -> int:

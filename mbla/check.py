@@ -16,7 +16,7 @@ from mbla.model.model import LoadCase
 from mbla.program import assemble
 from mbla.program.kinematic import ConeProgram, kinematic_form
 from mbla.results.files import OutputFolder
-from mbla.results.paraview.vtu import write_model_vtu
+from mbla.results.paraview.mesh_files import write_model_vtu
 from mbla.results.provenance import collect_provenance
 from mbla.results.results import Results
 from mbla.run_deck import RunOptions, contacts_of, deck_record, notices_of, reduced_program, select_cases

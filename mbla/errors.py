@@ -87,11 +87,15 @@ class DeckError(MblaError):
 
 @dataclass(frozen=True)
 class Notice:
-    """A remark that does not stop the run; ``identifier`` is stable and in kebab case (``faces-turned-outwards``)."""
+    """A remark that does not stop the run; ``identifier`` is stable and in kebab case (``faces-turned-outwards``).
+
+    case : load case that it is about; empty where it is about the whole run
+    """
 
     severity: Literal["notice", "warning"]
     identifier: str
     message: str
+    case: str = ""
 
     def __str__(self) -> str:
         return f"{self.severity} [{self.identifier}]: {self.message}"

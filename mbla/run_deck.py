@@ -75,35 +75,55 @@ def run(deck_path: Path, options: RunOptions, progress: Progress | None = None) 
         nothing is written then, and an earlier result stays as it was
     """
     started = time.perf_counter()
-    deck = read_deck(deck_path, options.overrides)
-    with OutputFolder(options.folder_for(deck_path), deck_path.stem, options.force) as out:
-        status_file = StatusFile(out.open_live(f"{deck_path.stem}.sta"), deck.content.title or deck_path.name)
-        model = build_model(deck)
-        load_cases = select_cases(model, options.cases)
-        read = time.perf_counter()
-        contacts = contacts_of(deck, model)
-        model = held_model(model, contacts)
-        found = time.perf_counter()
-        settings = solver_settings(deck.analysis, options.threads)
-        model, load_cases = with_settlements(model, contacts, load_cases, settings)
-        cases = [
-            solve_case(deck, model, contacts, load_case, settings, status_file, progress) for load_case in load_cases
-        ]
-        model = with_loads_found(model, cases)
-        unexpected = differences_from_expected(deck, cases) if options.expected else []
-        results = Results(
-            deck=deck_record(deck),
-            model=model,
-            contacts=contacts,
-            cases=tuple(cases),
-            notices=(*notices_of(deck, model, contacts), *unexpected),
-            provenance=collect_provenance(),
-            settings=settings_in_words(deck, settings),
-            time={"read": read - started, "contacts": found - read, "solve": time.perf_counter() - found},
-            exit_code=exit_code(cases, unexpected),
-        )
+    return run_and_write(read_deck(deck_path, options.overrides), options, progress, started)
+
+
+def run_and_write(deck: Deck, options: RunOptions, progress: Progress | None, started: float) -> Results:
+    """Solve the load cases of a deck that was read and write the files; raises as ``run`` does.
+
+    The output folder is there first: a result that would be refused at the end costs no analysis.
+
+    started : when reading began, by ``time.perf_counter``
+    """
+    stem = deck.path.stem
+    with OutputFolder(options.folder_for(deck.path), stem, options.force) as out:
+        status_file = StatusFile(out.open_live(f"{stem}.sta"), title_of(deck))
+        results = solve_deck(deck, options, status_file, progress, started)
         output = deck.content.output
         return write_results(results, out, output.vtu, output.frames, output.plots)
+
+
+def solve_deck(
+    deck: Deck, options: RunOptions, status_file: StatusFile, progress: Progress | None, started: float
+) -> Results:
+    """The stages from model to verification for every load case asked for; writes nothing but the status file."""
+    model = build_model(deck)
+    load_cases = select_cases(model, options.cases)
+    read = time.perf_counter()
+    contacts = contacts_of(deck, model)
+    model = held_model(model, contacts)
+    found = time.perf_counter()
+    settings = solver_settings(deck.analysis, options.threads)
+    model, load_cases = with_settlements(model, contacts, load_cases, settings)
+    cases = [solve_case(deck, model, contacts, load_case, settings, status_file, progress) for load_case in load_cases]
+    model = with_loads_found(model, cases)
+    unexpected = differences_from_expected(deck, cases) if options.expected else []
+    return Results(
+        deck=deck_record(deck),
+        model=model,
+        contacts=contacts,
+        cases=tuple(cases),
+        notices=(*notices_of(deck, model, contacts), *unexpected),
+        provenance=collect_provenance(),
+        settings=settings_in_words(deck, settings),
+        time={"read": read - started, "contacts": found - read, "solve": time.perf_counter() - found},
+        exit_code=exit_code(cases, unexpected),
+    )
+
+
+def title_of(deck: Deck) -> str:
+    """The title of a deck; the name of its file where it has none."""
+    return deck.content.title or deck.path.name
 
 
 def with_settlements(

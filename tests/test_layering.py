@@ -23,9 +23,16 @@ DOORS = {
     "qdldl": "solution/linear_algebra/qdldl_factors.py",
     "highspy": "solution/highs_adapter.py",
     "h5py": "results/hdf5/result_file.py",
-    "pyvista": "results/pictures/pictures.py",
-    "vtk": "results/pictures/pictures.py",
+    "paraview": "results/paraview/standard_views.py",
+    "pyvista": "results/pictures/space/renderer.py",
+    "vtk": "results/pictures/space/renderer.py",
+    "imageio": "results/pictures/animation.py",
+    "imageio_ffmpeg": "results/pictures/animation.py",
     "matplotlib": "results/pictures/page.py",
+    "jinja2": "results/report/page.py",
+    "plotly": "results/view3d/view.py",
+    "pandas": "results/tables/table.py",
+    "pyarrow": "results/tables/parquet_file.py",
 }
 FILES = sorted(PACKAGE.rglob("*.py"))
 

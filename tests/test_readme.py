@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -29,6 +30,22 @@ def test_the_deck_of_the_readme_prints_what_it_says(
     written = {path.name for path in Path("wall.out").iterdir()}
     for name in re.findall(r"`(wall[\w.]+\.(?:lst|h5|json|sta|vtu|pvd))`", README):
         assert name in written
+
+
+def test_python_of_the_readme_runs(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """With the figures that its comments give; without output it leaves no files."""
+    monkeypatch.chdir(tmp_path)
+    Path("wall.yaml").write_text(block("`wall.yaml`:"), encoding="utf-8")
+    names: dict[str, Any] = {}
+    exec(block("<!-- python:begin -->"), names)
+    push = names["push"]
+    assert f"# {push.load_factor:.6g}, {push.verified};" in README
+    assert push.mechanism.shape == (49, 6)
+    assert push.contact_forces.shape == (460, 3)
+    assert capsys.readouterr().out.startswith("push_x: collapses at 0.581056 g, verified: 7 hinges")
+    assert [path.name for path in tmp_path.iterdir()] == ["wall.yaml"]
 
 
 def test_commands_of_the_readme_are_those_of_the_program() -> None:

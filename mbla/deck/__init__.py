@@ -9,6 +9,6 @@
 """
 
 from mbla.deck.deck import Deck, Source
-from mbla.deck.reading import read_deck
+from mbla.deck.reading import read_deck, read_deck_text
 
-__all__ = ["Deck", "Source", "read_deck"]
+__all__ = ["Deck", "Source", "read_deck", "read_deck_text"]

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from mbla.deck.reader import Document, read_yaml
-from mbla.deck.sources import SourceText, read_source
+from mbla.deck.sources import SourceText, read_source, source_of_text
 from mbla.deck.tree import MappingMarks, Marks, SequenceMarks, Tree, key_text, own_mark
 from mbla.errors import DeckError, Fault, FileError
 
@@ -33,8 +33,8 @@ class Reading:
     whole: bool = True
 
 
-def read_files(path: Path) -> tuple[Tree, Reading]:
-    """The deck of a file with everything it includes.
+def read_files(path: Path, text: str | None = None) -> tuple[Tree, Reading]:
+    """The deck of a file with everything it includes; of a text in its place if one is given.
 
     Raises
     ------
@@ -44,7 +44,8 @@ def read_files(path: Path) -> tuple[Tree, Reading]:
         if it is not a text
     """
     reading = Reading()
-    tree = _read_file(reading, read_source(path, str(path)))
+    source = read_source(path, str(path)) if text is None else source_of_text(text, path, str(path))
+    tree = _read_file(reading, source)
     return tree, reading
 
 

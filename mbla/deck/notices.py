@@ -13,7 +13,7 @@ from mbla.deck.types import DeckContent, Load
 from mbla.deck.units import METRES, STANDARD_GRAVITY, Units
 from mbla.errors import Notice
 
-_GRAVITY_TOLERANCE = 0.02
+GRAVITY_TOLERANCE = 0.02
 """Covers 9.8, 9.80665 and the variation over the earth."""
 
 
@@ -28,7 +28,7 @@ def _gravity(tree: Tree, content: DeckContent, units: Units) -> Iterator[Notice]
         if load.gravity is None or not any(load.gravity):
             continue
         size = math.hypot(*load.gravity) * METRES[units.length]
-        if abs(size - STANDARD_GRAVITY) > _GRAVITY_TOLERANCE * STANDARD_GRAVITY:
+        if abs(size - STANDARD_GRAVITY) > GRAVITY_TOLERANCE * STANDARD_GRAVITY:
             fault = tree.fault((*path, "gravity"), f"is {size:.4g} m/s^2, not 9.81")
             yield Notice(
                 "warning",

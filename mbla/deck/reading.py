@@ -40,6 +40,20 @@ def read_deck(path: str | Path, overrides: Sequence[str] = ()) -> Deck:
         return _read(Path(path), overrides)
 
 
+def read_deck_text(text: str, path: Path, overrides: Sequence[str] = ()) -> Deck:
+    """Read and check a deck that is at hand as text.
+
+    path : the file it stands for, in messages and for the files that it names; not opened
+
+    Raises
+    ------
+    DeckError
+        with every fault found
+    """
+    with _no_collection():
+        return _read(path, overrides, text)
+
+
 @contextmanager
 def _no_collection() -> Iterator[None]:
     """Pause the cyclic garbage collector.
@@ -56,8 +70,8 @@ def _no_collection() -> Iterator[None]:
             gc.enable()
 
 
-def _read(path: Path, overrides: Sequence[str]) -> Deck:
-    tree, reading = read_files(path)
+def _read(path: Path, overrides: Sequence[str], text: str | None = None) -> Deck:
+    tree, reading = read_files(path, text)
     for number, text in enumerate(overrides, start=1):
         reading.faults += apply_override(tree, text, number)
     if not reading.whole:  # what could not be read would be reported as missing

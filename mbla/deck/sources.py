@@ -80,6 +80,12 @@ def read_source(path: Path, label: str) -> SourceText:
     return SourceText(label, _decode(content, label), path.resolve())
 
 
+def source_of_text(text: str, path: Path, label: str) -> SourceText:
+    """A text as that of a file; DeckError as ``read_source``."""
+    content = text.encode("utf-8", "surrogatepass")  # a lone surrogate is no text: told like any bad byte
+    return SourceText(label, _decode(content, label), path.resolve())
+
+
 def check_characters(source: SourceText) -> None:
     """DeckError at the first control character."""
     if match := _CONTROL.search(source.text):

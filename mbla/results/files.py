@@ -28,6 +28,8 @@ from mbla.errors import FileError
 PREFIX = ".mbla-"
 RESULT_SUFFIXES = (".h5", ".lst", ".json", ".sta")
 """files STEM + suffix that make an earlier result"""
+OWN_FILES = r"(\.(h5|lst|json|sta|html|svg|pdf|png|gif|mp4)|_[A-Za-z0-9_.-]+\.(vtu|pvd|py|html|svg|pdf|png|gif|mp4))"
+"""what may follow the stem in the name of a file that a result lists as its own"""
 _TEMPORARY = re.compile(
     re.escape(PREFIX) + r"(?P<host>.+)-(?P<process>\d+)-(?P<kind>new|earlier|open)(?:-(?P<name>.+))?"
 )
@@ -45,6 +47,8 @@ class OutputFolder:
     force
         Replace an earlier result of this deck. Files which that result lists as its own and the new one does not write
         are removed; nothing else ever is.
+    beside
+        The files stand beside a result and are none themselves: only files of their own names are in the way.
 
     Raises
     ------
@@ -53,10 +57,11 @@ class OutputFolder:
         else: what the operating system refused, with the name of the file.
     """
 
-    def __init__(self, folder: Path, stem: str, force: bool = False) -> None:
+    def __init__(self, folder: Path, stem: str, force: bool = False, *, beside: bool = False) -> None:
         self.folder = folder
         self.stem = stem
         self.force = force
+        self.beside = beside
         self._names: list[str] = []
         self._live: dict[str, TextIO] = {}
         self._aside: set[str] = set()
@@ -75,8 +80,9 @@ class OutputFolder:
             self.folder.mkdir(parents=True, exist_ok=True)
             _clear_leftovers(self.folder)
         try:
-            self._refuse_earlier_result()
-            self._stale = earlier_files(self.folder, self.stem)
+            if not self.beside:
+                self._refuse_earlier_result()
+                self._stale = earlier_files(self.folder, self.stem)
             _try_writing(self.folder, self._temporary("new", "trial"))
         except BaseException:
             self._remove_created_folders()
@@ -218,7 +224,7 @@ def earlier_files(folder: Path, stem: str) -> tuple[str, ...]:
         listed = json.loads((folder / f"{stem}.json").read_text(encoding="utf-8"))["files"]
     except (OSError, ValueError, KeyError, TypeError):
         return ()
-    own = re.compile(re.escape(stem) + r"(\.(h5|lst|json|sta)|_[A-Za-z0-9_.-]+\.(vtu|pvd|png))")
+    own = re.compile(re.escape(stem) + OWN_FILES)
     names = (
         [name for name in listed if isinstance(name, str) and own.fullmatch(name)] if isinstance(listed, list) else []
     )

@@ -12,6 +12,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from mbla.errors import Notice
+from mbla.results.findings import found_notices
 from mbla.results.results import CaseResult, Results
 from mbla.solution.solution import Checks, Mechanics, Standing, Status
 from mbla.solution.verify import APPROXIMATE_RESIDUAL
@@ -129,17 +130,27 @@ def case_notices(case: CaseResult) -> tuple[Notice, ...]:
         text = (
             f"{name}: the structure stands only by self-stress, that is by forces locked in before it is loaded{what}"
         )
-        notices.append(Notice("warning", "only-by-self-stress", f"{text}: {standing.reason}"))
+        notices.append(Notice("warning", "only-by-self-stress", f"{text}: {standing.reason}", name))
     if standing is not None and standing.verdict is Standing.DOUBTFUL:
         text = f"{name}: whether the structure stands without forces locked in could not be decided"
-        notices.append(Notice("warning", "standing-doubtful", f"{text}: {standing.reason}"))
+        notices.append(Notice("warning", "standing-doubtful", f"{text}: {standing.reason}", name))
     residual = law_residual(case.checks)
     if case.status is Status.SOLVED and case.solution.flow_rule != "associative" and residual > CLEAN_RESIDUAL:
         text = f"{name}: forces and velocities miss the joint law by {residual:.1e}, more than {CLEAN_RESIDUAL:g}"
-        notices.append(Notice("warning", "law-residual", f"{text}; the load factor is good to about that share"))
+        text = f"{text}; the load factor is good to about that share"
+        notices.append(Notice("warning", "law-residual", text, name))
     return tuple(notices)
 
 
 def notices_of(results: Results) -> tuple[Notice, ...]:
-    """Notices of the run, and those of its cases."""
-    return (*results.notices, *(notice for case in results.cases for notice in case_notices(case)))
+    """Notices of the run, then those of each case: of its figures, its status, its verification, its solver."""
+    fallen = {_series(case) for case in results.cases if result_of(case) is not None} - {None}
+    notices = list(results.notices)
+    for case in results.cases:
+        harmless = case.status is Status.UNBOUNDED and _series(case) in fallen
+        notices += (*case_notices(case), *found_notices(case, harmless=harmless))
+    return tuple(notices)
+
+
+def _series(case: CaseResult) -> str | None:
+    return None if case.load_case.travel is None else case.load_case.travel.series

@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
@@ -18,9 +19,12 @@ import numpy as np
 
 from mbla.model.model import LoadCase
 from mbla.results.hdf5.result_file import read_results_hdf5, write_results_hdf5
-from mbla.results.paraview.cells import BlockCells, block_cells
+from mbla.results.paraview.cells import block_cells
+from mbla.results.paraview.mesh_files import MESH_FILES, MeshFile
 from mbla.results.paraview.pvd import write_frame_vtu
-from mbla.results.paraview.vtu import write_blocks_vtu, write_contacts_vtu, write_interfaces_vtu
+from mbla.results.paraview.scene import Scene, scene_of
+from mbla.results.paraview.support_file import write_supports_vtu
+from mbla.results.paraview.vtu import write_blocks_vtu
 from mbla.results.records.json_record import results_json
 from mbla.results.results import CaseResult, Results
 from mbla.results.words.listing import listing
@@ -62,13 +66,18 @@ def grid(n_blocks: int) -> Results:
 
 def steps(results: Results, folder: Path) -> dict[str, Callable[[], object]]:
     """What is timed, by name; every step writes to the folder."""
-    case, model, contacts = results.cases[0], results.model, results.contacts
-    cells = block_cells(model.blocks)
-    polyhedra = as_polyhedra(results)
+    model, case, polyhedra = results.model, results.cases[0], as_polyhedra(results)
+
+    def scene() -> Scene:  # a new one each time, for it keeps what it has derived
+        return scene_of(results, results.cases[0])
+
     image = folder / "image.h5"
 
     def write_image() -> None:
         image.write_bytes(write_results_hdf5(results))
+
+    def write_one(file: MeshFile) -> None:
+        file.write(folder / f"{file.kind}.vtu", scene())
 
     return {
         "hdf5 write": write_image,
@@ -76,21 +85,20 @@ def steps(results: Results, folder: Path) -> dict[str, Callable[[], object]]:
         "listing": lambda: listing(results),
         "json": lambda: results_json(results),
         "cells": lambda: block_cells(model.blocks),
-        "blocks.vtu": lambda: write_blocks_vtu(folder / "blocks.vtu", model, contacts, case, cells),
-        "blocks.vtu, polyhedra": lambda: write_blocks_vtu(folder / "polyhedra.vtu", model, contacts, case, polyhedra),
-        "contacts.vtu": lambda: write_contacts_vtu(folder / "contacts.vtu", model, contacts, case),
-        "interfaces.vtu": lambda: write_interfaces_vtu(folder / "interfaces.vtu", model, contacts, case),
-        "one frame": lambda: write_frame_vtu(folder / "frame.vtu", model, case, 0.5, cells),
+        "blocks.vtu, polyhedra": lambda: write_blocks_vtu(folder / "polyhedra.vtu", scene_of(polyhedra, case)),
+        **{f"{file.kind}.vtu": partial(write_one, file) for file in MESH_FILES},
+        "supports.vtu": lambda: write_supports_vtu(folder / "supports.vtu", model, results.contacts),
+        "one frame": lambda: write_frame_vtu(folder / "frame.vtu", scene(), 0.5),
         f"all files, {FRAMES} frames": lambda: write_outputs(
             results, folder / "all", "wall", True, True, FRAMES, False
         ),
     }
 
 
-def as_polyhedra(results: Results) -> BlockCells:
+def as_polyhedra(results: Results) -> Results:
     """The blocks as polyhedra although they are cuboids."""
     unknown = replace(results.model.blocks, convex=np.zeros(len(results.model.blocks), dtype=bool))
-    return block_cells(unknown)
+    return replace(results, model=replace(results.model, blocks=unknown))
 
 
 def main() -> None:

@@ -115,6 +115,14 @@ def test_list_of_earlier_files_cannot_name_others(tmp_path: Path, listed: Any) -
     assert earlier_files(tmp_path, "arch") == ()
 
 
+@pytest.mark.parametrize("suffix", ["vtu", "pvd", "py", "html", "svg", "pdf", "png", "gif", "mp4"])
+def test_every_kind_of_file_beside_the_result_is_its_own(tmp_path: Path, suffix: str) -> None:
+    name = f"arch_push_x.{suffix}"
+    (tmp_path / name).write_text("written by a run")
+    (tmp_path / "arch.json").write_text(json.dumps({"files": [name]}))
+    assert earlier_files(tmp_path, "arch") == (name,)
+
+
 @pytest.mark.parametrize("text", ["", "{", "[]", "{}", '{"files": null}'])
 def test_damaged_list_of_earlier_files_is_no_list(tmp_path: Path, text: str) -> None:
     (tmp_path / "arch.json").write_text(text)

@@ -9,13 +9,15 @@ import pytest
 from mbla.errors import FileError
 from mbla.results.files import OutputFolder
 from mbla.results.hdf5.result_file import read_results_hdf5
-from mbla.results.paraview.vtu import write_model_vtu
+from mbla.results.paraview.mesh_files import write_model_vtu
 from mbla.results.results import Results
 from mbla.results.words.listing import listing
 from mbla.results.write import write_outputs, write_results
 from tests.results.synthetic import same, tower_results
 
 CASE_FILES = {"blocks.vtu", "contacts.vtu", "interfaces.vtu", "frame_000.vtu", "frame_001.vtu", "frame_002.vtu"}
+CASE_FILES |= {"loads.vtu"}
+SOLVED_FILES = CASE_FILES | {"thrust.vtu", "hinges.vtu"}
 
 
 @pytest.fixture(scope="module")
@@ -29,9 +31,9 @@ def names(folder: Path) -> set[str]:
 
 def test_all_files_of_a_run(tmp_path: Path, results: Results) -> None:
     written = write_outputs(results, tmp_path, "tower", False, True, 3, False)
-    expected = {"tower.h5", "tower.lst", "tower.json"}
-    for case in ("push_x", "fall"):
-        expected |= {f"tower_{case}_{name}" for name in CASE_FILES} | {f"tower_{case}.pvd"}
+    expected = {"tower.h5", "tower.lst", "tower.json", "tower_supports.vtu", "tower_paraview.py"}
+    for case, files in (("push_x", SOLVED_FILES), ("fall", CASE_FILES)):
+        expected |= {f"tower_{case}_{name}" for name in files} | {f"tower_{case}.pvd"}
     assert names(tmp_path) == expected == set(written)
 
 
@@ -83,5 +85,5 @@ def test_result_is_not_overwritten_without_force(tmp_path: Path, results: Result
 def test_model_alone(tmp_path: Path, results: Results) -> None:
     with OutputFolder(tmp_path, "tower_check") as out:
         write_model_vtu(results, out)
-    assert names(tmp_path) == {f"tower_check_{kind}.vtu" for kind in ("blocks", "contacts", "interfaces")}
+    assert names(tmp_path) == {f"tower_check_{kind}.vtu" for kind in ("blocks", "contacts", "interfaces", "supports")}
     assert not meshio.read(tmp_path / "tower_check_blocks.vtu").point_data["displacement"].any()

@@ -109,8 +109,19 @@ def part_motions(model: Model, parts: IntArray, motion: FloatArray) -> tuple[Par
     np.maximum.at(radius, parts, np.linalg.norm(arms, axis=1) + blocks.sizes / 2)
     weight = _sums(parts, blocks.masses, count) * units.standard_gravity * units.force_per_mass_acceleration
     members = np.split(np.argsort(parts, kind="stable"), np.cumsum(np.bincount(parts, minlength=count))[:-1])
+    turns, arms, directions = _axes(radius, velocity, rotation)
     return tuple(
-        _part_motion(i, members[i], float(weight[i]), float(radius[i]), centroid[i], velocity[i], rotation[i])
+        PartMotion(
+            i,
+            members[i],
+            float(weight[i]),
+            centroid[i],
+            velocity[i],
+            rotation[i],
+            bool(turns[i]),
+            centroid[i] + arms[i],
+            directions[i],
+        )
         for i in range(1, count)
     )
 
@@ -122,21 +133,18 @@ def _sums(parts: IntArray, values: FloatArray, count: int) -> FloatArray:
     return np.where((np.bincount(parts, minlength=count) == 0).reshape(-1, *[1] * (values.ndim - 1)), 1.0, total)
 
 
-def _part_motion(
-    number: int,
-    blocks: IntArray,
-    weight: float,
-    radius: float,
-    centroid: FloatArray,
-    velocity: FloatArray,
-    rotation: FloatArray,
-) -> PartMotion:
-    """Axis or direction of a rigid motion, velocity + rotation × (x − centroid)."""
-    spin, travel = float(np.linalg.norm(rotation)), float(np.linalg.norm(velocity))
-    turns = spin * radius > TURNS * travel
-    axis_point = centroid + np.cross(rotation, velocity) / spin**2 if turns else np.full(3, np.nan)
-    direction = rotation / spin if turns else velocity / (travel or 1.0)
-    return PartMotion(number, blocks, weight, centroid, velocity, rotation, turns, axis_point, direction)
+def _axes(radius: FloatArray, velocity: FloatArray, rotation: FloatArray) -> tuple[BoolArray, FloatArray, FloatArray]:
+    """Axes or directions of rigid motions, velocity + rotation × (x − centroid), of parts of a radius.
+
+    Returns whether each turns, (n,), the arm from its centroid to the axis, (n, 3), nan where it does not, and the
+    direction, (n, 3).
+    """
+    spin, travel = np.linalg.norm(rotation, axis=1)[:, None], np.linalg.norm(velocity, axis=1)[:, None]
+    turns = spin * radius[:, None] > TURNS * travel
+    with np.errstate(divide="ignore", invalid="ignore"):
+        arms = np.where(turns, np.cross(rotation, velocity) / spin**2, np.nan)
+        directions = np.where(turns, rotation / spin, velocity / np.where(travel > 0, travel, 1.0))
+    return turns[:, 0], arms, directions
 
 
 def moving_share(model: Model, parts: IntArray) -> float:

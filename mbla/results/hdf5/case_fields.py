@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-from mbla.results.hdf5.field import Field
+from mbla.results.hdf5.field import Field, FieldKind, UnitKind
 from mbla.results.hdf5.load_fields import LOADS, SETTLEMENT, SPECIAL_LOADS
 from mbla.results.hdf5.mechanism_fields import CASE, COLLAPSE, MECHANICS
 
 
-def _columns(group: str, dimension: str, columns: tuple[tuple[str, str, str, str], ...]) -> tuple[Field, ...]:
+def _columns(
+    group: str, dimension: str, columns: tuple[tuple[str, FieldKind, UnitKind, str], ...]
+) -> tuple[Field, ...]:
     """A table of records, one dataset a column: name, type, unit, meaning; numbers may be nan."""
     return tuple(
-        Field(f"{group}/{name}", kind, (dimension,), unit, words, open=kind == "float", part="solution")  # type: ignore[arg-type]
+        Field(f"{group}/{name}", kind, (dimension,), unit, words, open=kind == "float", part="solution")
         for name, kind, unit, words in columns
     )
 

@@ -7,6 +7,7 @@ from typing import Literal
 
 from mbla.deck.units import Units
 
+FieldKind = Literal["float", "int", "bool", "text"]
 UnitKind = Literal[
     "1",
     "time",
@@ -18,7 +19,9 @@ UnitKind = Literal[
     "degree",
     "stress",
     "force",
+    "moment",
     "load",
+    "per_length",
     "velocity",
     "rotation",
     "velocities",
@@ -39,7 +42,7 @@ class Field:
     """
 
     path: str
-    kind: Literal["float", "int", "bool", "text"]
+    kind: FieldKind
     dims: tuple[str, ...]
     unit: UnitKind
     long_name: str
@@ -63,6 +66,8 @@ def unit_text(kind: UnitKind, units: Units) -> str:
         "degree": "degree",
         "stress": f"{force}/{length}2",
         "force": force,
+        "moment": f"{force} {length}",
+        "per_length": f"1/{length}",
         "load": f"{force}; {force} {length}",
         "velocity": f"1/{force}",
         "rotation": f"1/({force} {length})",

@@ -2,8 +2,16 @@
 
 from __future__ import annotations
 
-from mbla.results.hdf5.field import Field
+from mbla.results.hdf5.field import Field, FieldKind, UnitKind
 from mbla.results.hdf5.mechanism_fields import CASE
+
+EARLIER_NAMES = {
+    "travel/load_point": "travel/point",
+    "travel/carrying_block": "travel/block",
+    "tilt/turning_axis": "tilt/axis",
+}
+"""paths below the case, and what they were in the first files of this layout version, as in the records; netCDF takes a
+dataset of the name of a dimension for the coordinate of that"""
 
 LOADS = (
     Field(f"{CASE}/dead_load", "float", ("block", "component"), "load", "dead force and moment about the centroid"),
@@ -12,17 +20,17 @@ LOADS = (
     Field(f"{CASE}/live_words", "text", ("live_item",), "1", "live loads in words"),
 )
 
-_TRAVEL = (
+_TRAVEL: tuple[tuple[str, FieldKind, tuple[str, ...], UnitKind, str], ...] = (
     ("series", "text", (), "1", "name of the load case in the deck, of which this is one position"),
     ("number", "int", (), "1", "number of the position, from 1"),
     ("count", "int", (), "1", "positions on the path"),
-    ("point", "float", ("axis",), "length", "the position"),
+    ("load_point", "float", ("axis",), "length", "the position"),
     ("distance", "float", (), "length", "its distance along the path"),
-    ("block", "int", (), "1", "the block that carries the load"),
+    ("carrying_block", "int", (), "1", "the block that carries the load"),
 )
 
-_TILT = (
-    ("axis", ("axis",), "1", "unit vector about which the table turns, by the right hand"),
+_TILT: tuple[tuple[str, tuple[str, ...], UnitKind, str], ...] = (
+    ("turning_axis", ("axis",), "1", "unit vector about which the table turns, by the right hand"),
     ("fixed", ("block", "component"), "load", "dead load that does not turn"),
     ("turning", ("block", "component"), "load", "dead load that turns, while the table is level"),
     ("across", ("block", "component"), "load", "the same after a turn of 90 degrees"),
@@ -37,11 +45,11 @@ _TILT = (
 
 SPECIAL_LOADS = (
     *(
-        Field(f"{CASE}/travel/{name}", kind, dims, unit, words, part="travel")  # type: ignore[arg-type]
+        Field(f"{CASE}/travel/{name}", kind, dims, unit, words, part="travel")
         for name, kind, dims, unit, words in _TRAVEL
     ),
     *(
-        Field(f"{CASE}/tilt/{name}", "float", dims, unit, words, open=not dims, part="tilt")  # type: ignore[arg-type]
+        Field(f"{CASE}/tilt/{name}", "float", dims, unit, words, open=not dims, part="tilt")
         for name, dims, unit, words in _TILT
     ),
     Field(f"{CASE}/tilt/tangent", "bool", (), "1", "1 where the load factor is the tangent of the angle", part="tilt"),

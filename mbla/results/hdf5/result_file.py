@@ -8,7 +8,9 @@ object headers, which carry checksums from HDF5 1.10 on. So a damaged file is fo
 from __future__ import annotations
 
 import re
-from pathlib import Path
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path, PurePosixPath
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -26,6 +28,7 @@ from mbla.results.hdf5.layout import (
     VERSION,
     fields_of_case,
 )
+from mbla.results.hdf5.reading import check_indices, earlier_name, read_field, strings, text_of
 from mbla.results.hdf5.restore import results_from
 from mbla.results.results import Results
 
@@ -40,6 +43,15 @@ LARGEST_RATIO = 2000
 
 DAMAGE = (KeyError, RuntimeError, ValueError, TypeError, IndexError, AttributeError, OverflowError, MemoryError)
 """what reading a damaged file may end with"""
+
+
+@dataclass(frozen=True)
+class PlainFile:
+    """An HDF5 file of another layout than ours: arrays, attributes of their owners, and links by their paths."""
+
+    arrays: Mapping[str, np.typing.NDArray[Any]]
+    attributes: Mapping[str, Mapping[str, Any]]
+    links: Mapping[str, str]
 
 
 def write_results_hdf5(results: Results) -> bytes:
@@ -113,6 +125,27 @@ def _fields(cases: list[str]) -> list[tuple[str, Field]]:
     return common + [pair for name in cases for pair in fields_of_case(name)]
 
 
+def write_hdf5(content: PlainFile) -> bytes:
+    """Any other HDF5 file as bytes, arrays compressed with checksums; the same content gives the same bytes."""
+    import h5py
+
+    with h5py.File("plain.h5", "w", driver="core", backing_store=False, libver=("v110", "v110")) as file:
+        for path in content.links:  # whoever lists the groups of links finds them in this order
+            for parent in reversed(PurePosixPath(path).parents[:-1]):
+                if str(parent) not in file:
+                    file.create_group(str(parent), track_order=True)
+        for path, array in content.arrays.items():
+            _create(file, path, np.ascontiguousarray(array))
+        for path, attributes in content.attributes.items():
+            owner = file.require_group(path) if path not in file else file[path]
+            for name, value in attributes.items():
+                owner.attrs[name] = np.bytes_(value) if isinstance(value, str) else value
+        for path, target in content.links.items():
+            file[path] = h5py.SoftLink(target)
+        file.flush()
+        return bytes(file.id.get_file_image())
+
+
 # --- writing ------------------------------------------------------------------------------------------------------
 
 
@@ -122,11 +155,11 @@ def _set_attribute(owner: h5py.HLObject, name: str, value: str | int) -> None:
 
 
 def _text_array(value: str | list[str] | tuple[str, ...]) -> np.typing.NDArray[Any]:
-    """UTF-8 text of fixed length as h5py wants it."""
+    """UTF-8 text of fixed length as h5py wants it; at least 2 bytes, as netCDF joins arrays of single letters."""
     import h5py
 
     encoded = [text.encode("utf-8", "backslashreplace") for text in ([value] if isinstance(value, str) else value)]
-    kind = h5py.string_dtype("utf-8", max([1, *map(len, encoded)]))
+    kind = h5py.string_dtype("utf-8", max([2, *map(len, encoded)]))
     array = np.array(encoded, dtype=kind)
     return array.reshape(()) if isinstance(value, str) else array
 
@@ -146,6 +179,8 @@ def _write_field(file: h5py.File, path: str, field: Field, value: Value, units: 
     dataset = _create(file, path, array)
     _set_attribute(dataset, "units", unit_text(field.unit, units))
     _set_attribute(dataset, "long_name", field.long_name)
+    if field.kind == "text":
+        _set_attribute(dataset, "_Encoding", "utf-8")  # netCDF's word for it: xarray gives text, not bytes
     for axis, name in enumerate(field.dims):
         scale = _scale(file, path, name, array.shape[axis])
         dataset.dims[axis].label = name
@@ -194,11 +229,11 @@ def _scale(file: h5py.File, path: str, name: str, size: int) -> h5py.Dataset:
 
 def _read_attributes(file: h5py.File, path: Path) -> dict[str, str | int]:
     """Root attributes; what the file is and its version come first."""
-    if "filetype" not in file.attrs or _text(file.attrs["filetype"]) != FILETYPE:
+    if "filetype" not in file.attrs or text_of(file.attrs["filetype"]) != FILETYPE:
         raise FileError(f"{path}: not an mbla result file")
     version = int(file.attrs["version"])
     if version != VERSION:
-        wrote = _text(file.attrs.get("mbla_version", "of unknown version"))
+        wrote = text_of(file.attrs.get("mbla_version", "of unknown version"))
         remedy = "run the deck again; its text is in /deck/source_texts" if version < VERSION else "use a newer mbla"
         raise FileError(
             f"{path}: layout version {version}, written by mbla {wrote}; this mbla reads version {VERSION}: {remedy}"
@@ -206,35 +241,32 @@ def _read_attributes(file: h5py.File, path: Path) -> dict[str, str | int]:
     if int(file.attrs["complete"]) != 1:
         raise FileError(f"{path}: incomplete")
     return {
-        name: int(file.attrs[name]) if name in ("version", "complete") else _text(file.attrs[name])
+        name: int(file.attrs[name]) if name in ("version", "complete") else text_of(file.attrs[name])
         for name in ATTRIBUTES
     }
-
-
-def _text(value: Any) -> str:
-    return value.decode("utf-8") if isinstance(value, bytes) else str(value)
 
 
 def _read_content(file: h5py.File, file_bytes: int) -> Content:
     content: Content = {}
     sizes: dict[str, int] = {"axis": 3, "direction": 3, "component": 6, "pair": 2, "end": 2, "unit": 3}
-    cases = _strings(_dataset(file, "model/load_cases", file_bytes))
+    cases = strings(_dataset(file, "model/load_cases", file_bytes))
     parts: dict[str, set[bool]] = {}
     fields = _fields(cases)
     for path, field in fields:
-        present = path in file
+        name = path if path in file else earlier_name(path)
+        present = name in file
         if field.part:
             parts.setdefault(f"{path.split('/')[1]}: {field.part}", set()).add(present)
         elif not present:
             raise ValueError(f"{path} is missing")
         if present:
-            content[path] = _read_field(_dataset(file, path, file_bytes), path, field, sizes)
+            content[path] = read_field(_dataset(file, name, file_bytes), path, field, sizes)
     incomplete = [part for part, presence in parts.items() if len(presence) > 1]
     if incomplete:
         raise ValueError(f"incomplete: {', '.join(incomplete)}")
     for path, field in fields:
         if path in content:
-            _check_indices(path, field, content[path], sizes)
+            check_indices(path, field, content[path], sizes)
     return content
 
 
@@ -247,49 +279,3 @@ def _dataset(file: h5py.File, path: str, file_bytes: int) -> h5py.Dataset:
     if dataset.nbytes > LARGEST_RATIO * file_bytes:
         raise ValueError(f"{path} claims {dataset.nbytes} bytes")
     return dataset
-
-
-def _strings(dataset: h5py.Dataset) -> list[str]:
-    return [_text(value) for value in np.atleast_1d(dataset[()])]
-
-
-def _read_field(dataset: h5py.Dataset, path: str, field: Field, sizes: dict[str, int]) -> Value:
-    """One dataset, with the type, the dimensions and the finiteness that the layout asks for."""
-    if dataset.ndim != len(field.dims):
-        raise ValueError(f"{path} has {dataset.ndim} dimensions instead of {len(field.dims)}")
-    for name, size in zip(field.dims, dataset.shape, strict=True):
-        own = name if name in SHARED_DIMENSIONS else f"{path.rpartition('/')[0]}/{name}"
-        expected = sizes.get(name, sizes.setdefault(own, size))
-        if size != expected:
-            raise ValueError(f"{path} has {size} along {name} instead of {expected}")
-    if field.kind == "text":
-        texts = _strings(dataset)
-        return texts if field.dims else texts[0]
-    kinds = {"float": "f", "int": "i", "bool": "u"}
-    if dataset.dtype.kind != kinds[field.kind]:
-        raise ValueError(f"{path} is of type {dataset.dtype}")
-    array = np.asarray(dataset[()])
-    if field.kind == "float" and not field.open and not np.isfinite(array).all():
-        raise ValueError(f"{path} is not finite")
-    if field.kind == "bool" and np.any(array > 1):
-        raise ValueError(f"{path} is neither 0 nor 1")
-    array = array.astype({"float": np.float64, "int": np.int64, "bool": np.bool_}[field.kind])
-    return array if field.dims else array.item()
-
-
-def _check_indices(path: str, field: Field, value: Value, sizes: dict[str, int]) -> None:
-    """Indices within what they count; offsets from zero, never falling, to the end of what they divide."""
-
-    def size(name: str) -> int:
-        if name == "body":
-            return sizes["block"] + sizes["ground"]
-        return sizes[name] if name in SHARED_DIMENSIONS else sizes[f"{path.rpartition('/')[0]}/{name}"]
-
-    if not isinstance(value, np.ndarray):
-        return
-    if field.index_of and value.size and (int(value.min()) < 0 or int(value.max()) >= size(field.index_of)):
-        raise ValueError(f"{path} points outside {field.index_of}")
-    if field.start_of and (
-        not len(value) or value[0] != 0 or value[-1] != size(field.start_of) or np.any(np.diff(value) < 0)
-    ):
-        raise ValueError(f"{path} does not divide {field.start_of}")

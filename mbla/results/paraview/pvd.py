@@ -8,22 +8,21 @@ from xml.sax.saxutils import quoteattr
 
 import numpy as np
 
-from mbla.model.model import Model
-from mbla.results.collapse.motion import drawn_motion, moved_vertices
-from mbla.results.paraview.cells import BlockCells, block_cells
+from mbla.results.collapse.motion import moved_vertices
+from mbla.results.paraview.scene import Scene
 from mbla.results.paraview.vtu import block_data, write_cells
-from mbla.results.results import CaseResult
 
 
-def write_frame_vtu(path: Path, model: Model, case: CaseResult, time: float, cells: BlockCells | None = None) -> None:
+def write_frame_vtu(path: Path, scene: Scene, time: float) -> None:
     """Blocks at a time from 0 (as built) to 1 (the motion as drawn).
 
-    Point data: ``displacement``, what they have moved. Cell data: ``block``, ``group``, ``fixed``.
+    Point data: ``displacement``, what they have moved. Cell data: ``block``, ``group``, ``fixed``, ``part``, labels.
     """
-    vertices = moved_vertices(model.blocks, time * drawn_motion(model, case))
-    data = block_data(model)
+    blocks = scene.model.blocks
+    vertices = moved_vertices(blocks, time * scene.motion)
+    data = block_data(scene.model) | {"part": scene.parts}
     del data["weight"]
-    write_cells(path, vertices, vertices - model.blocks.vertices, data, cells or block_cells(model.blocks))
+    write_cells(path, vertices, vertices - blocks.vertices, data, scene.cells)
 
 
 def frame_times(frames: int) -> list[float]:

@@ -6,7 +6,6 @@ meshio writes neither texts nor truth values: groups are numbered in alphabetica
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -18,37 +17,49 @@ from mbla.deck.selectors import POSITIONS
 from mbla.model.geometry.meshio_files import write_mesh
 from mbla.model.labels import BlockLabels
 from mbla.model.model import Model
-from mbla.results.collapse.interface_modes import interface_motion
 from mbla.results.collapse.mechanics import global_forces, interface_resultants
-from mbla.results.collapse.motion import contact_displacements, drawn_motion, vertex_displacements
-from mbla.results.collapse.rigid_parts import rigid_parts
+from mbla.results.collapse.thrust import point_friction_use
 from mbla.results.collapse.work import work_of
-from mbla.results.files import OutputFolder
-from mbla.results.paraview.cells import BlockCells, block_cells
-from mbla.results.results import CaseResult, Results
+from mbla.results.paraview.cells import BlockCells
+from mbla.results.paraview.scene import Scene
 
 Arrays = dict[str, np.typing.NDArray[Any]]
 
 
-def write_blocks_vtu(
-    path: Path, model: Model, contacts: Contacts, case: CaseResult | None, cells: BlockCells | None = None
-) -> None:
+def write_blocks_vtu(path: Path, scene: Scene) -> None:
     """Blocks as cells.
 
-    Point data: ``displacement``. Cell data: ``block``, ``group``, ``weight``, ``fixed``, ``moves``, ``part`` (blocks
-    that move together; 0 at rest), ``velocity``, ``rotation`` (as drawn, m and rad), and the labels that items give
-    their blocks, such as ``member`` and ``course``.
+    Point data: ``displacement``. Cell data: ``block``, ``group``, ``weight``, ``fixed``, ``guided``, ``moves``,
+    ``part`` (blocks that move together; 0 at rest), ``velocity``, ``rotation`` (as drawn, m and rad), and the labels
+    that items give their blocks, such as ``member`` and ``course``; with forces also ``largest_eccentricity`` and
+    ``largest_friction_use`` over the interfaces of each block (nan where none carries).
     """
-    motion = drawn_motion(model, case)
-    parts = rigid_parts(model, contacts, motion)
-    data = block_data(model) | {
-        "moves": (parts > 0).astype(np.int8),
-        "part": parts,
-        "velocity": motion[:, :3],
-        "rotation": motion[:, 3:],
+    data = block_data(scene.model) | {
+        "guided": _guided(scene.model),
+        "moves": (scene.parts > 0).astype(np.int8),
+        "part": scene.parts,
+        "velocity": scene.motion[:, :3],
+        "rotation": scene.motion[:, 3:],
     }
-    displacement = vertex_displacements(model.blocks, motion)
-    write_cells(path, model.blocks.vertices, displacement, data, cells or block_cells(model.blocks))
+    if scene.thrust is not None:
+        data["largest_eccentricity"] = _largest_at_blocks(scene, scene.thrust.eccentricity)
+        data["largest_friction_use"] = _largest_at_blocks(scene, scene.thrust.friction_use)
+    write_cells(path, scene.model.blocks.vertices, scene.displacements, data, scene.cells)
+
+
+def _guided(model: Model) -> np.typing.NDArray[np.int8]:
+    guided = np.zeros(len(model.blocks), dtype=np.int8)
+    guided[model.guides.blocks] = 1
+    return guided
+
+
+def _largest_at_blocks(scene: Scene, values: FloatArray) -> FloatArray:
+    """Largest value over the interfaces of each block, (n_blocks,); nan where none has one."""
+    largest = np.full(len(scene.model.blocks) + len(scene.model.grounds), -np.inf)
+    known = ~np.isnan(values)
+    for side in (0, 1):
+        np.maximum.at(largest, scene.contacts.bodies[known, side], values[known])
+    return np.where(np.isneginf(largest), np.nan, largest)[: len(scene.model.blocks)]
 
 
 def write_cells(path: Path, points: FloatArray, displacement: FloatArray, data: Arrays, cells: BlockCells) -> None:
@@ -88,57 +99,56 @@ def group_numbers(model: Model) -> np.typing.NDArray[np.int64]:
     return np.array([row[group] for group in model.blocks.groups], dtype=np.int64)
 
 
-def write_contacts_vtu(path: Path, model: Model, contacts: Contacts, case: CaseResult | None) -> None:
+def write_contacts_vtu(path: Path, scene: Scene) -> None:
     """Contact points as vertices; the force is the one on body b, in global directions.
 
     Point data: ``interface``, ``body_a``, ``body_b``, ``displacement``; with a mechanism also ``contact_force``,
     ``normal_force``, ``shear_force``, ``contact_velocity`` (b relative to a), ``opening``, ``sliding``, ``mode``
-    (0 stick, 1 slide, 2 open). Without a load factor because the structure is locked: the forces that balance the live
-    load alone as ``contact_force``, ``normal_force``, ``shear_force``.
+    (0 stick, 1 slide, 2 open), and but for the convex contact model, whose points only share out the resultants,
+    ``friction_use``. Without a load factor because the structure is locked: the forces that balance the live load alone
+    as ``contact_force``, ``normal_force``, ``shear_force``. With forces ``result``: 1 a result, 0 the best iterate.
     """
+    contacts, forces, mechanics = scene.contacts, scene.forces, scene.mechanics
     owners = contacts.interface_of_point
     data: Arrays = {
         "interface": owners,
         "body_a": contacts.bodies[owners, 0],
         "body_b": contacts.bodies[owners, 1],
-        "displacement": contact_displacements(model, contacts, drawn_motion(model, case)),
+        "displacement": scene.contact_displacements,
     }
-    forces = _shown_forces(case)
     if forces is not None:
         data |= {
             "contact_force": global_forces(contacts, forces),
             "normal_force": forces[:, 0],
             "shear_force": np.hypot(forces[:, 1], forces[:, 2]),
+            "result": np.full(len(owners), scene.is_result, dtype=np.int8),
         }
-    mechanics = None if case is None else case.solution.mechanics
     if mechanics is not None:
         velocities = mechanics.contact_velocities
         data |= {
             "contact_velocity": global_forces(contacts, velocities),
             "opening": velocities[:, 0],
             "sliding": np.hypot(velocities[:, 1], velocities[:, 2]),
-            "mode": mechanics.modes,
+            "mode": mechanics.modes.astype(np.int8),
         }
+        if mechanics.resultants is None:
+            data["friction_use"] = point_friction_use(scene.model, contacts, mechanics.contact_forces)
     vertices = np.arange(len(contacts.points))[:, None]
     write_mesh(path, contacts.points, [("vertex", vertices)], point_data=data, cell_data={})
 
 
-def _shown_forces(case: CaseResult | None) -> FloatArray | None:
-    """Contact forces at the load factor; without one those that lock the structure."""
-    if case is None:
-        return None
-    mechanics = case.solution.mechanics
-    return case.solution.lock if mechanics is None else mechanics.contact_forces
-
-
-def write_interfaces_vtu(path: Path, model: Model, contacts: Contacts, case: CaseResult | None) -> None:
+def write_interfaces_vtu(path: Path, scene: Scene) -> None:
     """Interfaces as polygons, by their outer boundary; holes are not drawn, areas and forces count them.
 
     Cell data: ``interface``, ``body_a``, ``body_b``, ``area``, ``gap``, ``joint``, ``normal``; with forces (at the load
     factor, or those that lock the structure) also ``resultant_force``, ``resultant_moment`` (on body b, about the
-    centroid), ``normal_force``, ``shear_force``; with a mechanism also ``mode`` (0 stick, 1 slide, 2 open, 3 hinge,
-    4 twist) and ``work`` (power dissipated, that of the live load being the load factor). Point data: ``displacement``.
+    centroid), ``thrust_point`` (where the resultant acts), ``normal_force``, ``shear_force``, ``torsion``,
+    ``eccentricity`` (0 central, 1 at the edge), ``friction_use`` (shear over what the joint allows) and ``result``
+    (1 a result, 0 the best iterate); with a mechanism also ``mode`` (0 stick, 1 slide, 2 open, 3 hinge, 4 twist),
+    ``slides`` (closed points slide too, whatever the mode) and ``work`` (power dissipated, that of the live load being
+    the load factor). Point data: ``displacement``.
     """
+    contacts = scene.contacts
     data: Arrays = {
         "interface": np.arange(len(contacts)),
         "body_a": contacts.bodies[:, 0],
@@ -147,49 +157,50 @@ def write_interfaces_vtu(path: Path, model: Model, contacts: Contacts, case: Cas
         "gap": contacts.gaps,
         "joint": contacts.joints,
         "normal": contacts.normals,
+        **_interface_forces(scene),
+        **_interface_motion(scene),
     }
-    forces = _shown_forces(case)
-    if forces is not None:
-        resultants = interface_resultants(contacts, forces)
-        normal_force = np.einsum("ij,ij->i", resultants[:, :3], contacts.normals)
-        shear = resultants[:, :3] - normal_force[:, None] * contacts.normals
-        data |= {
-            "resultant_force": resultants[:, :3],
-            "resultant_moment": resultants[:, 3:],
-            "normal_force": normal_force,
-            "shear_force": np.linalg.norm(shear, axis=1),
-        }
-    mechanics = None if case is None else case.solution.mechanics
-    if case is not None and mechanics is not None:
-        data["work"] = work_of(model, contacts, case.load_case, mechanics).dissipated
-        data["mode"] = interface_motion(model, contacts, mechanics).modes
     rows = [np.flatnonzero(contacts.outline == n) for n in np.unique(contacts.outline)]
     cells = [("polygon", _outlines(contacts, each)) for each in rows]
     write_mesh(
         path,
         contacts.points,
         cells,
-        point_data={"displacement": contact_displacements(model, contacts, drawn_motion(model, case))},
+        point_data={"displacement": scene.contact_displacements},
         cell_data={name: [values[each] for each in rows] for name, values in data.items()},
     )
+
+
+def _interface_forces(scene: Scene) -> Arrays:
+    """Cell data of interfaces that follow from contact forces."""
+    thrust = scene.thrust
+    if thrust is None or scene.forces is None:
+        return {}
+    return {
+        "resultant_force": thrust.forces,
+        "resultant_moment": interface_resultants(scene.contacts, scene.forces)[:, 3:],
+        "thrust_point": thrust.points,
+        "normal_force": thrust.normal_forces,
+        "shear_force": thrust.shear_forces,
+        "torsion": thrust.torsions,
+        "eccentricity": thrust.eccentricity,
+        "friction_use": thrust.friction_use,
+        "result": np.full(len(scene.contacts), scene.is_result, dtype=np.int8),
+    }
+
+
+def _interface_motion(scene: Scene) -> Arrays:
+    """Cell data of interfaces that follow from a mechanism."""
+    case, motion, mechanics = scene.case, scene.interfaces, scene.mechanics
+    if case is None or motion is None or mechanics is None:
+        return {}
+    return {
+        "work": work_of(scene.model, scene.contacts, case.load_case, mechanics).dissipated,
+        "mode": motion.modes.astype(np.int8),
+        "slides": motion.slides.astype(np.int8),
+    }
 
 
 def _outlines(contacts: Contacts, rows: np.typing.NDArray[np.int64]) -> np.typing.NDArray[np.int64]:
     """Outer boundaries of interfaces with equally many corners, (n, corners)."""
     return contacts.point_start[rows][:, None] + np.arange(contacts.outline[rows[0]])
-
-
-CONTACT_FILES: tuple[tuple[str, Callable[[Path, Model, Contacts, CaseResult | None], None]], ...] = (
-    ("contacts", write_contacts_vtu),
-    ("interfaces", write_interfaces_vtu),
-)
-"""files that exist only where there are contacts; a mesh file without a single cell is refused by its readers"""
-
-
-def write_model_vtu(results: Results, out: OutputFolder) -> None:
-    """``STEM_blocks.vtu`` and, where there are contacts, ``STEM_contacts.vtu`` and ``STEM_interfaces.vtu``, no case."""
-    with out.writing(f"{out.stem}_blocks.vtu") as path:
-        write_blocks_vtu(path, results.model, results.contacts, None)
-    for kind, write in CONTACT_FILES if len(results.contacts) else ():
-        with out.writing(f"{out.stem}_{kind}.vtu") as path:
-            write(path, results.model, results.contacts, None)

@@ -1,6 +1,6 @@
-"""A picture with its words on a page, as PNG, SVG or PDF (only importer of matplotlib, which pyvista brings along).
+"""Pages of pictures: words above, a legend below, the picture between; PNG, SVG or PDF (only importer of matplotlib).
 
-The structure is an image in all three formats; in SVG and PDF it has twice the pixels, and words stay words.
+Words stay words in SVG and PDF. The same picture gives the same file.
 """
 
 from __future__ import annotations
@@ -8,39 +8,92 @@ from __future__ import annotations
 import logging
 import textwrap
 import warnings
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 from mbla.errors import FileError, UsageError
+from mbla.results.pictures.options import DOTS_PER_INCH, PictureOptions, format_of
+from mbla.results.pictures.palette import INK, WARNING
 
-FORMATS = ("png", "svg", "pdf")
-WIDTH, HEIGHT = 1600, 1000
-"""pixels of a PNG"""
-DPI = 100
-SHARPNESS = {"png": 1, "svg": 2, "pdf": 2}
-"""pixels of the image over pixels of the page"""
+DEFAULT = PictureOptions()
+
 COLUMNS = 120
-"""letters in a line of words"""
-INK = "#222222"
+"""letters in a line of words of the usual size"""
+LETTER = 14.0
+"""points of letters on a page of the usual width"""
+USUAL_WIDTH = 1600
 METADATA: dict[str, dict[str, Any]] = {
     "png": {"Software": "mbla"},
     "svg": {"Date": None},
     "pdf": {"CreationDate": None},
 }
 """without dates, so that the same picture gives the same file"""
+EDGE = 0.015
+"""margin of words, share of the width"""
 
 
-def format_of(path: Path) -> str:
-    """``png``, ``svg`` or ``pdf`` by the name of a file; UsageError for any other."""
-    suffix = path.suffix.lower().removeprefix(".")
-    if suffix not in FORMATS:
-        raise UsageError(f"{path}: pictures are written as PNG, SVG or PDF, by the name of the file")
-    return suffix
+def matplotlib_parts() -> Any:
+    """What is used of matplotlib, by name; UsageError where the extra is not installed."""
+    quiet_matplotlib()
+    try:
+        from matplotlib import rc_context
+        from matplotlib.backends.backend_agg import FigureCanvasAgg
+        from matplotlib.collections import LineCollection, PolyCollection
+        from matplotlib.figure import Figure
+        from matplotlib.lines import Line2D
+        from matplotlib.patches import Patch, Rectangle
+    except ImportError as error:
+        raise UsageError("pictures need an extra that is not installed: pip install 'mbla[pictures]'") from error
+    return SimpleNamespace(
+        rc_context=rc_context,
+        FigureCanvasAgg=FigureCanvasAgg,
+        LineCollection=LineCollection,
+        PolyCollection=PolyCollection,
+        Figure=Figure,
+        Line2D=Line2D,
+        Patch=Patch,
+        Rectangle=Rectangle,
+    )
 
 
-def write_page(path: Path, image: Any, words: Sequence[str], legend: Sequence[Sequence[str]]) -> None:
-    """Write an image (height, width, 3) with words above it and a legend of names and colours at its lower right.
+def quiet_matplotlib() -> None:
+    """Remarks on its cache folder do not belong on a user's screen."""
+    logging.getLogger("matplotlib").setLevel(logging.ERROR)
+
+
+@dataclass(frozen=True)
+class Page:
+    """An open page.
+
+    scale : of letters and lines against those of the usual width
+    """
+
+    parts: Any
+    figure: Any
+    options: PictureOptions
+    scale: float
+
+    @property
+    def letter(self) -> float:
+        """Size of letters, points."""
+        return LETTER * self.scale
+
+    def height_of(self, artist: Any) -> float:
+        """Height of words or a legend, share of the page."""
+        return float(self.extent_of(artist).height / (self.figure.dpi * self.figure.get_figheight()))
+
+    def extent_of(self, artist: Any) -> Any:
+        """Box of words or a legend in pixels."""
+        return artist.get_window_extent(self.figure.canvas.get_renderer())
+
+
+@contextmanager
+def open_page(path: Path, options: PictureOptions) -> Iterator[Page]:
+    """A page that is written when the block ends without an error.
 
     Raises
     ------
@@ -50,32 +103,92 @@ def write_page(path: Path, image: Any, words: Sequence[str], legend: Sequence[Se
         The file cannot be written.
     """
     kind = format_of(path)
-    quiet_matplotlib()
-    try:
-        from matplotlib import rc_context
-        from matplotlib.figure import Figure
-        from matplotlib.patches import Patch
-    except ImportError as error:
-        raise UsageError("pictures need an extra that is not installed: pip install 'mbla[pictures]'") from error
-    with rc_context({"svg.fonttype": "none", "svg.hashsalt": "mbla", "pdf.fonttype": 42}), warnings.catch_warnings():
-        warnings.filterwarnings("ignore", message="Glyph")  # of a script that the font does not have: a box is drawn
-        figure = Figure(figsize=(WIDTH / DPI, HEIGHT / DPI), dpi=DPI)
-        axes = figure.add_axes((0.0, 0.0, 1.0, 1.0))
-        axes.imshow(image, aspect="auto", interpolation="none")
-        axes.set_axis_off()
-        lines = [part for line in words for part in textwrap.wrap(line, COLUMNS)]
-        figure.text(0.015, 0.98, "\n".join(lines), va="top", fontsize=14, color=INK, parse_math=False, linespacing=1.4)
-        if legend:
-            patches = [Patch(color=colour, label=name) for name, colour in legend]
-            figure.legend(
-                handles=patches, loc="lower right", frameon=False, fontsize=14, handlelength=1, labelcolor=INK
-            )
+    with open_frames(options) as page:
+        yield page
         try:
-            figure.savefig(path, format=kind, metadata=METADATA[kind])
+            page.figure.savefig(path, format=kind, metadata=METADATA[kind])
         except OSError as error:
             raise FileError(f"{path}: {error.strerror or error}") from error
 
 
-def quiet_matplotlib() -> None:
-    """Remarks on its cache folder do not belong on a user's screen."""
-    logging.getLogger("matplotlib").setLevel(logging.ERROR)
+@contextmanager
+def open_frames(options: PictureOptions) -> Iterator[Page]:
+    """A page that goes to no file by itself; its figure is drawn as often as wanted.
+
+    Raises UsageError where the extra for pictures is not installed.
+    """
+    parts = matplotlib_parts()
+    style = {"svg.fonttype": "none", "svg.hashsalt": "mbla", "pdf.fonttype": 42, "hatch.linewidth": 0.6}
+    with parts.rc_context(style), warnings.catch_warnings():
+        warnings.filterwarnings("ignore", message="Glyph")  # of a script that the font does not have: a box is drawn
+        width, height = options.size
+        figure = parts.Figure(figsize=(width / DOTS_PER_INCH, height / DOTS_PER_INCH), dpi=options.dpi)
+        parts.FigureCanvasAgg(figure)
+        yield Page(parts, figure, options, min(max(width / USUAL_WIDTH, 0.55), 2.0))
+
+
+def add_words(page: Page, words: Sequence[str], mark: str = "") -> float:
+    """Write words at the top, the first line bold, a mark in red after it; the share of the height they take."""
+    aspect = page.options.size[0] / USUAL_WIDTH / page.scale
+    columns = max(20, int(COLUMNS * aspect))
+    lines = [part for line in words for part in textwrap.wrap(line, columns)]
+    style = {"va": "top", "color": INK, "parse_math": False, "linespacing": 1.4}
+    gap = EDGE * page.options.size[0] / page.options.size[1]
+    used = gap
+    first = len(textwrap.wrap(words[0], columns)) if words else 0
+    for part, weight in ((lines[:first], "bold"), (lines[first:], "normal")):
+        if part:
+            text = page.figure.text(EDGE, 1 - used, "\n".join(part), fontsize=page.letter, weight=weight, **style)
+            used += page.height_of(text) + gap / 4
+    if mark:
+        style["color"] = WARNING
+        text = page.figure.text(EDGE, 1 - used - gap / 2, mark, fontsize=page.letter, weight="bold", **style)
+        used += gap / 2 + page.height_of(text)
+        frame = page.parts.Rectangle((0, 0), 1, 1, fill=False, edgecolor=WARNING, linewidth=8 * page.scale)
+        page.figure.add_artist(frame)
+    return used + gap / 2
+
+
+def add_legend(page: Page, handles: Sequence[Any]) -> float:
+    """A legend along the lower edge, in as many columns as fit; the share of the height that it takes."""
+    if not handles:
+        return 0.0
+    style = {"loc": "lower center", "frameon": False, "fontsize": 0.9 * page.letter, "labelcolor": INK}
+    for columns in range(len(handles), 0, -1):
+        legend = page.figure.legend(handles=handles, ncols=columns, **style)
+        for text in legend.get_texts():
+            text.set_parse_math(False)
+        if columns == 1 or page.extent_of(legend).width <= 0.98 * page.figure.dpi * page.figure.get_figwidth():
+            break
+        legend.remove()
+    return page.height_of(legend)
+
+
+def write_page(
+    path: Path,
+    image: Any,
+    words: Sequence[str],
+    legend: Sequence[Sequence[str]],
+    options: PictureOptions = DEFAULT,
+    mark: str = "",
+) -> None:
+    """Write an image (height, width, 3) with words above it and a legend of names and colours at its lower right.
+
+    mark : said in red, with a red frame, of figures that are no result
+
+    Raises
+    ------
+    UsageError
+        The extra for pictures is not installed, or the name asks for another format.
+    FileError
+        The file cannot be written.
+    """
+    with open_page(path, options) as page:
+        axes = page.figure.add_axes((0.0, 0.0, 1.0, 1.0))
+        axes.imshow(image, aspect="auto", interpolation="none")
+        axes.set_axis_off()
+        add_words(page, words, mark)
+        if legend:
+            patches = [page.parts.Patch(color=colour, label=name) for name, colour in legend]
+            style = {"loc": "lower right", "frameon": False, "handlelength": 1, "labelcolor": INK}
+            page.figure.legend(handles=patches, fontsize=page.letter, **style)

@@ -70,8 +70,9 @@ def json_line(record: dict[str, Any]) -> str:
 
 
 def notice_json(notice: Notice) -> dict[str, str]:
-    """A notice with its keys."""
-    return {"severity": notice.severity, "identifier": notice.identifier, "message": notice.message}
+    """A notice with its keys; ``case`` only where it is about one load case."""
+    record = {"severity": notice.severity, "identifier": notice.identifier, "message": notice.message}
+    return record | ({"case": notice.case} if notice.case else {})
 
 
 def model_json(model: Model) -> dict[str, Any]:

@@ -1,10 +1,13 @@
-"""The section of one load case in the listing: how it collapses, how well that is known, where the forces go."""
+"""The sections of one load case: how it collapses, how well that is known, where the forces go."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from dataclasses import dataclass
+
 from mbla.contacts.contacts import Contacts
 from mbla.model.model import Model
-from mbla.results.collapse.collapse import collapse_of
+from mbla.results.collapse.collapse import Collapse, collapse_of
 from mbla.results.collapse.enough import enough_of
 from mbla.results.collapse.failure import failure_of
 from mbla.results.collapse.force_freedom import force_freedom
@@ -14,12 +17,7 @@ from mbla.results.words.certificate_words import certificate_lines
 from mbla.results.words.determined_words import enough_lines, freedom_lines
 from mbla.results.words.failure_words import failure_sentences
 from mbla.results.words.figure_words import figures
-from mbla.results.words.force_words import (
-    force_range_lines,
-    group_reaction_lines,
-    lock_lines,
-    reaction_lines,
-)
+from mbla.results.words.force_words import force_range_lines, group_reaction_lines, lock_lines, reaction_lines
 from mbla.results.words.mechanism_words import mechanism_lines, mechanism_summary
 from mbla.results.words.path_words import path_lines
 from mbla.results.words.program_words import program_lines
@@ -28,40 +26,72 @@ from mbla.results.words.verdict_words import bound_words, known_words, verdict
 from mbla.results.words.work_words import work_lines
 
 
+@dataclass(frozen=True)
+class Section:
+    """Lines of one subject; the listing has them one below the other, the report under their titles."""
+
+    title: str
+    lines: list[str]
+
+
 def case_lines(model: Model, contacts: Contacts, case: CaseResult) -> list[str]:
-    """The section of one load case."""
+    """All sections of a load case, as the listing has them."""
+    lines = heading(f"Load case {case.load_case.name}")
+    return lines + [line for section in case_sections(model, contacts, case) for line in section.lines]
+
+
+def case_sections(model: Model, contacts: Contacts, case: CaseResult) -> list[Section]:
+    """What there is to say of a load case, the verdict and the failure first; no section is empty."""
     solution, held, model = case.solution, model, model.of_case(case.load_case)
-    mechanics = solution.mechanics
-    collapse = None if mechanics is None else collapse_of(model, contacts, case.load_case, mechanics)
+    mechanics, load_case = solution.mechanics, case.load_case
+    if mechanics is None:
+        sections = [Section("Verdict", _verdict_lines(model, case, None, []))]
+        if solution.lock is not None:
+            sections.append(Section("Locking forces", lock_lines(model, contacts, solution.lock)))
+    else:
+        collapse = collapse_of(model, contacts, load_case, mechanics)
+        failure = failure_of(model, contacts, collapse, mechanics)
+        told = failure_sentences(model, contacts, load_case, collapse, failure)
+        dimension = 3 if solution.size is None else solution.size.dimension
+        work = enough_lines(case, enough_of(model, contacts, collapse.parts))
+        work += work_lines(model, contacts, load_case, mechanics, collapse.work)
+        reactions = reaction_lines(held, contacts, load_case, mechanics)  # a support is one even as it gives way
+        reactions += group_reaction_lines(held, contacts, mechanics)
+        reactions += freedom_lines(contacts, case, force_freedom(model, contacts, mechanics, dimension))
+        sections = [
+            Section("Verdict", _verdict_lines(model, case, collapse, told)),
+            Section("Mechanism", spaced(mechanism_lines(model, contacts, failure))),
+            Section("Work", ["", *work]),
+            Section("Reactions", reactions),
+        ]
+        if solution.force_ranges is not None:
+            ranges = force_range_lines(model, contacts, mechanics, solution.force_ranges)
+            sections.append(Section("Range of normal forces", ranges))
+    sections += [
+        Section("Load factor and bounds", ["", *figures(model, case)]),
+        Section("Load path", path_lines(model, case)),
+        Section("Solver programs", program_lines(solution)),
+    ]
+    return [section for section in sections if any(section.lines)]
+
+
+def _verdict_lines(model: Model, case: CaseResult, collapse: Collapse | None, told: Sequence[str]) -> list[str]:
+    """How it collapses and how well that is known; of a structure that does not stand, how it falls."""
     says = verdict(model, case)
     if collapse is not None:
         says += f"{_mechanism_label(case)}: {mechanism_summary(model, collapse)}"
-    lines = heading(f"Load case {case.load_case.name}") + sentence(says + ".")
-    lines += sentence(solution.reason)
-    failure = None
-    if mechanics is not None and collapse is not None:
-        failure = failure_of(model, contacts, collapse, mechanics)
-        told = failure_sentences(model, contacts, case.load_case, collapse, failure)
-        lines += ["", *(line for text in told for line in sentence(text))]
-    known = [line for text in (bound_words(model, case), *known_words(model, case)) for line in sentence(text)]
-    lines += ["", *known] if known else []
-    if mechanics is None and solution.certificate is not None:
-        lines += certificate_lines(model, solution.certificate)
-    if mechanics is not None and collapse is not None and failure is not None:
-        tables = mechanism_lines(model, contacts, failure)
-        lines += ["", *tables, ""] if tables else [""]
-        lines += enough_lines(case, enough_of(model, contacts, collapse.parts))
-        lines += work_lines(model, contacts, case.load_case, mechanics, collapse.work)
-        lines += reaction_lines(held, contacts, case.load_case, mechanics)  # a support is one even as it gives way
-        lines += group_reaction_lines(held, contacts, mechanics)
-        dimension = 3 if solution.size is None else solution.size.dimension
-        lines += freedom_lines(contacts, case, force_freedom(model, contacts, mechanics, dimension))
-        if solution.force_ranges is not None:
-            lines += force_range_lines(model, contacts, mechanics, solution.force_ranges)
-    if mechanics is None and solution.lock is not None:
-        lines += lock_lines(model, contacts, solution.lock)
-    lines += ["", *figures(model, case)]
-    return lines + path_lines(model, case) + program_lines(solution)
+    lines = sentence(f"{says}.") + sentence(case.solution.reason)
+    lines += spaced([line for text in told for line in sentence(text)])
+    known = (bound_words(model, case), *known_words(model, case))
+    lines += spaced([line for text in known for line in sentence(text)])
+    if collapse is None and case.solution.certificate is not None:
+        lines += certificate_lines(model, case.solution.certificate)
+    return lines
+
+
+def spaced(lines: list[str]) -> list[str]:
+    """Lines with an empty one before them; nothing where there are none."""
+    return ["", *lines] if lines else []
 
 
 def _mechanism_label(case: CaseResult) -> str:

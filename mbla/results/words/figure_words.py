@@ -17,7 +17,7 @@ from mbla.solution.solution import Checks, Mechanics, ModelSize
 def figures(model: Model, case: CaseResult) -> list[str]:
     """Load factors by both flow rules, bounds, residuals, size of the program, verdict of the verification."""
     lines = entry("status", case.status.value) + settlement_lines(model, case) + _factors(case) + _bounds(case)
-    for name, value, measure in _residuals(case.checks):
+    for name, value, measure in residual_figures(case.checks):
         if not np.isnan(value):
             lines += entry(name, f"{small(value)}   {measure}")
     lines += _standing(model, case)
@@ -92,7 +92,7 @@ def _beside(associative: Mechanics, own: Mechanics | None) -> str:
     return f"{text}   (the one above differs by {difference:+.2f} %)" if difference else text
 
 
-def _residuals(checks: Checks) -> tuple[tuple[str, float, str], ...]:
+def residual_figures(checks: Checks) -> tuple[tuple[str, float, str], ...]:
     """Name, value and what each residual is relative to."""
     return (
         ("equilibrium residual", checks.equilibrium_residual, "of the mean load of a block"),

@@ -8,15 +8,14 @@ import numpy as np
 
 from mbla import __version__
 from mbla.arrays import IntArray
-from mbla.errors import Notice
 from mbla.model.model import Model
-from mbla.results.outcome import notices_of
 from mbla.results.results import Results
 from mbla.results.series import series_of
 from mbla.results.words.case_words import case_lines
 from mbla.results.words.contact_words import contact_lines, finding_lines
 from mbla.results.words.figure_words import figures
 from mbla.results.words.label_words import label_words
+from mbla.results.words.notice_words import notice_lines, warning_lines
 from mbla.results.words.series_words import series_lines, worst_words
 from mbla.results.words.text import WIDTH, counted, entry, heading, number, sentence, table
 from mbla.results.words.verdict_words import verdict
@@ -26,7 +25,7 @@ def listing(results: Results) -> str:
     """The whole listing, at most 100 columns wide, with a newline at its end."""
     lines = [
         *_header(results),
-        *_settings(results),
+        *settings_lines(results),
         *model_lines(results.model),
         *contact_lines(results.model, results.contacts),
         *notice_lines(results.notices),
@@ -43,7 +42,7 @@ def check_listing(results: Results, needs: Mapping[str, Mapping[str, int | str]]
     """What ``mbla check`` prints: the model and its contacts as in the listing, and what each load case needs."""
     lines = [
         *_header(results),
-        *_settings(results),
+        *settings_lines(results),
         *model_lines(results.model),
         *contact_lines(results.model, results.contacts),
         *finding_lines(results.model, results.contacts.report),
@@ -85,7 +84,8 @@ def _header(results: Results) -> list[str]:
     return lines
 
 
-def _settings(results: Results) -> list[str]:
+def settings_lines(results: Results) -> list[str]:
+    """Units and the settings in effect."""
     units = results.model.units
     lines = heading("Units and analysis settings")
     lines += entry("units", f"{units.length}, {units.force}, {units.mass}, s; angles of joints as tangents")
@@ -190,15 +190,7 @@ def _supports(model: Model) -> list[str]:
     return lines or sentence("none")
 
 
-def notice_lines(notices: tuple[Notice, ...], title: str = "Remarks") -> list[str]:
-    """Every notice and warning with its identifier; nothing where there is none."""
-    if not notices:
-        return []
-    return heading(title) + [line for notice in notices for line in sentence(str(notice))]
-
-
 def _recap(results: Results) -> list[str]:
-    warnings = tuple(notice for notice in notices_of(results) if notice.severity == "warning")
     lines = heading("Summary")
     for case in results.cases:
         lines += entry(case.load_case.name, verdict(results.model, case))
@@ -206,7 +198,6 @@ def _recap(results: Results) -> list[str]:
     left_out = len(results.model.load_cases) - len(results.cases)
     if left_out:
         lines += sentence(f"{counted(left_out, 'load case')} of the deck not run")
-    lines += sentence(f"{counted(len(warnings), 'warning')}" + (":" if warnings else ""))
-    lines += [line for warning in warnings for line in sentence(str(warning), "    ")]
+    lines += warning_lines(results)
     seconds = ", ".join(f"{stage} {number(round(value, 3))} s" for stage, value in results.time.items())
     return lines + sentence(f"exit status {results.exit_code}" + (f"; {seconds}" if seconds else ""))

@@ -2,22 +2,20 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 
-from mbla.model.model import LoadCase, Model
+from mbla.model.model import Model
 from mbla.results.collapse.collapse import collapse_of
-from mbla.results.outcome import associative_of, notices_of, result_of
+from mbla.results.outcome import associative_of, result_of
 from mbla.results.results import CaseResult, Results
 from mbla.results.series import series_of
-from mbla.results.tilt_angle import angle_at
+from mbla.results.words.answer_words import answer_figure, answer_head, status_words
 from mbla.results.words.certificate_words import not_held_summary
 from mbla.results.words.mechanism_words import mechanism_summary
+from mbla.results.words.notice_words import warning_summary
 from mbla.results.words.series_words import worst_words
-from mbla.results.words.settlement_words import reaction_figure, reaction_unit
 from mbla.results.words.text import counted, number, sentence, table
 from mbla.results.words.verdict_words import bound_words, range_summary, reasons, verdict
-from mbla.solution.solution import Mechanics, Status
 
 DETAIL = "    "
 
@@ -33,8 +31,7 @@ def summary_lines(results: Results) -> list[str]:
     for case in results.cases:
         lines += _in_words(results, case)
     lines += [line for series in series_of(results.cases) for line in sentence(worst_words(results.model, series))]
-    warnings = [notice for notice in notices_of(results) if notice.severity == "warning"]
-    return lines + [line for notice in warnings for line in sentence(str(notice))]
+    return lines + warning_summary(results)
 
 
 def _table(results: Results) -> list[str]:
@@ -42,36 +39,21 @@ def _table(results: Results) -> list[str]:
     if not results.cases:
         return []
     rules = {case.solution.flow_rule for case in results.cases} - {"associative"}
-    answers = list(dict.fromkeys(_answer(results.model, case) for case in results.cases))
+    answers = list(dict.fromkeys(answer_head(results.model, case.load_case) for case in results.cases))
     head = ["load case", "status", *answers, *(["associative"] if rules else [])]
     return table(head, [_row(results.model, case, answers)[: len(head)] for case in results.cases], left=2)
 
 
-def _answer(model: Model, case: CaseResult) -> str:
-    """What the load factor of a case stands for: the head of its column."""
-    load_case = case.load_case
-    if load_case.settlement is not None:
-        return f"reaction [{reaction_unit(model, load_case.settlement)}]"
-    return "load factor" if load_case.tilt is None else "angle [degree]"
-
-
 def _row(model: Model, case: CaseResult, answers: Sequence[str]) -> list[str]:
     """A cell for each kind of answer, filled in that of the case; the associative answer is of the same kind."""
-    status = case.status.value if case.status is Status.SOLVED else case.status.value.replace("_", " ").upper()
-    own = _figure(case.load_case, result_of(case))
-    figures = [own if answer == _answer(model, case) else "" for answer in answers]
-    return [case.load_case.name, status, *figures, _figure(case.load_case, associative_of(case))]
-
-
-def _figure(load_case: LoadCase, mechanics: Mechanics | None) -> str:
-    if mechanics is None:
-        return "-"
-    if load_case.settlement is not None:
-        return reaction_figure(load_case.settlement, mechanics.load_factor)
-    if load_case.tilt is None:
-        return number(mechanics.load_factor)
-    angle = angle_at(load_case.tilt, mechanics.load_factor)
-    return "-" if math.isnan(angle) else number(angle)
+    own = answer_figure(case.load_case, result_of(case))
+    figures = [own if answer == answer_head(model, case.load_case) else "" for answer in answers]
+    return [
+        case.load_case.name,
+        status_words(case.status),
+        *figures,
+        answer_figure(case.load_case, associative_of(case)),
+    ]
 
 
 def _in_words(results: Results, case: CaseResult) -> list[str]:

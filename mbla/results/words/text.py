@@ -1,4 +1,7 @@
-"""Fixed-width text: sections, wrapped sentences, name-value lines and tables, none wider than a listing may be."""
+"""Fixed-width text: sections, wrapped sentences, name-value lines and tables, none wider than a listing may be.
+
+Every line knows what it is a line of (:mod:`mbla.results.words.elements`): the report is made from the same lines.
+"""
 
 from __future__ import annotations
 
@@ -7,18 +10,24 @@ from collections.abc import Iterable, Sequence
 
 import numpy as np
 
+from mbla.results.words.elements import Entry, Heading, Line, Sentence, Table
+
 WIDTH = 100
 INDENT = "  "
 
 
 def heading(text: str) -> list[str]:
     """A section title with a rule under it, and an empty line before it."""
-    return ["", text, "-" * min(len(text), WIDTH)]
+    element = Heading(text)
+    return ["", Line(text, element), Line("-" * min(len(text), WIDTH), element)]
 
 
 def sentence(text: str, indent: str = INDENT) -> list[str]:
     """Text broken at WIDTH; line breaks and runs of spaces in it count as single spaces."""
-    return textwrap.wrap(" ".join(text.split()), WIDTH, initial_indent=indent, subsequent_indent=indent + INDENT) or []
+    words = " ".join(text.split())
+    element = Sentence(words, detail=len(indent) > len(INDENT))
+    lines = textwrap.wrap(words, WIDTH, initial_indent=indent, subsequent_indent=indent + INDENT)
+    return [Line(line, element) for line in lines]
 
 
 def entry(name: str, value: str) -> list[str]:
@@ -26,7 +35,9 @@ def entry(name: str, value: str) -> list[str]:
     column = 34
     label = f"{INDENT}{name}"
     lead = f"{label:<{column}}" if len(label) < column else f"{label}  "
-    return textwrap.wrap(value, WIDTH, initial_indent=lead, subsequent_indent=" " * column) or [lead.rstrip()]
+    lines = textwrap.wrap(value, WIDTH, initial_indent=lead, subsequent_indent=" " * column) or [lead.rstrip()]
+    element = Entry(name, value)
+    return [Line(line, element) for line in lines]
 
 
 def table(head: Sequence[str], rows: Iterable[Sequence[str]], left: int = 1) -> list[str]:
@@ -39,7 +50,8 @@ def table(head: Sequence[str], rows: Iterable[Sequence[str]], left: int = 1) -> 
     excess = len(INDENT) + sum(widths) + 2 * (len(widths) - 1) - WIDTH
     if excess > 0:
         widths[0] = max(8, widths[0] - excess)
-    return [_row(line, widths, left) for line in lines]
+    element = Table(tuple(lines[0]), tuple(tuple(line) for line in lines[1:]), left)
+    return [Line(_row(line, widths, left), element) for line in lines]
 
 
 def _row(cells: Sequence[str], widths: Sequence[int], left: int) -> str:

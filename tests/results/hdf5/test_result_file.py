@@ -14,6 +14,7 @@ from mbla.results.hdf5.result_file import read_results_hdf5, write_results_hdf5
 from mbla.results.records.json_record import results_json
 from mbla.results.results import Results
 from tests.results.changed_files import change, remove
+from tests.results.no_contacts import without_contacts
 from tests.results.synthetic import full_results, same, tower_results
 
 
@@ -84,21 +85,7 @@ def test_lists_that_are_empty_come_back(tmp_path: Path, results: Results) -> Non
     bare = replace(
         results,
         model=replace(results.model, grounds=(), notices=(), title=""),
-        contacts=replace(
-            results.contacts,
-            bodies=np.zeros((0, 2), dtype=np.int64),
-            normals=np.zeros((0, 3)),
-            areas=np.zeros(0),
-            centroids=np.zeros((0, 3)),
-            gaps=np.zeros(0),
-            joints=np.zeros(0, dtype=np.int64),
-            joint_names=(),
-            point_start=np.zeros(1, dtype=np.int64),
-            outline=np.zeros(0, dtype=np.int64),
-            points=np.zeros((0, 3)),
-            frames=np.zeros((0, 3, 3)),
-            point_areas=np.zeros(0),
-        ),
+        contacts=without_contacts(results.contacts),
         cases=(),
         notices=(),
         settings={},

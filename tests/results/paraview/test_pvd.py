@@ -7,6 +7,7 @@ import pytest
 
 from mbla.results.collapse.motion import drawn_motion, moved_vertices
 from mbla.results.paraview.pvd import collection_pvd, frame_times, write_frame_vtu
+from mbla.results.paraview.scene import scene_of
 from mbla.results.results import Results
 from tests.results.reading import vtk_volumes
 from tests.results.synthetic import tower_results
@@ -24,16 +25,16 @@ def test_frames_run_from_zero_to_one() -> None:
 def test_blocks_keep_their_volume_in_every_frame(tmp_path: Path, results: Results) -> None:
     path = tmp_path / "frame.vtu"
     for time in frame_times(4):
-        write_frame_vtu(path, results.model, results.cases[0], time)
+        write_frame_vtu(path, scene_of(results, results.cases[0]), time)
         assert vtk_volumes(path) == pytest.approx(results.model.blocks.volumes, rel=1e-12)
 
 
 def test_first_frame_is_as_built_and_last_as_drawn(tmp_path: Path, results: Results) -> None:
     path = tmp_path / "frame.vtu"
     vertices = results.model.blocks.vertices
-    write_frame_vtu(path, results.model, results.cases[0], 0.0)
+    write_frame_vtu(path, scene_of(results, results.cases[0]), 0.0)
     assert meshio.read(path).points == pytest.approx(vertices)
-    write_frame_vtu(path, results.model, results.cases[0], 1.0)
+    write_frame_vtu(path, scene_of(results, results.cases[0]), 1.0)
     mesh = meshio.read(path)
     moved = moved_vertices(results.model.blocks, drawn_motion(results.model, results.cases[0]))
     assert mesh.points == pytest.approx(moved)

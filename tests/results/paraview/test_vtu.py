@@ -9,6 +9,7 @@ import pytest
 from mbla.model.labels import labels_of
 from mbla.results.collapse.interface_modes import InterfaceMode
 from mbla.results.collapse.motion import SHARE_OF_SIZE, movable_size
+from mbla.results.paraview.scene import Scene
 from mbla.results.paraview.vtu import group_names, write_blocks_vtu, write_contacts_vtu, write_interfaces_vtu
 from mbla.results.results import Results
 from tests.results.reading import read_vtk, vtk_array, vtk_volumes
@@ -26,7 +27,7 @@ def path(tmp_path: Path) -> Path:
 
 
 def test_blocks(path: Path, results: Results) -> None:
-    write_blocks_vtu(path, results.model, results.contacts, results.cases[0])
+    write_blocks_vtu(path, Scene(results.model, results.contacts, results.cases[0]))
     for points, displacement, cells, data in (by_meshio(path), by_vtk(path)):
         assert points == pytest.approx(results.model.blocks.vertices)
         assert cells == 3
@@ -61,7 +62,7 @@ def by_vtk(path: Path) -> Any:
 
 
 def test_contact_forces_carry_the_weights(path: Path, results: Results) -> None:
-    write_contacts_vtu(path, results.model, results.contacts, results.cases[0])
+    write_contacts_vtu(path, Scene(results.model, results.contacts, results.cases[0]))
     mesh, grid = meshio.read(path), read_vtk(path)
     assert [(cells.type, len(cells)) for cells in mesh.cells] == [("vertex", 8)]
     assert grid.GetNumberOfCells() == 8
@@ -78,7 +79,7 @@ def test_contact_forces_carry_the_weights(path: Path, results: Results) -> None:
 
 
 def test_interfaces(path: Path, results: Results) -> None:
-    write_interfaces_vtu(path, results.model, results.contacts, results.cases[0])
+    write_interfaces_vtu(path, Scene(results.model, results.contacts, results.cases[0]))
     mesh, grid = meshio.read(path), read_vtk(path)
     data = {name: np.concatenate(values) for name, values in mesh.cell_data.items()}
     assert grid.GetNumberOfCells() == 2
@@ -96,7 +97,7 @@ def test_interfaces(path: Path, results: Results) -> None:
 def test_interfaces_with_different_numbers_of_corners(path: Path, results: Results) -> None:
     """The second loses a corner; a corner that bounds a hole is not part of the outline."""
     contacts = replace(results.contacts, outline=np.array([4, 3]))
-    write_interfaces_vtu(path, results.model, contacts, results.cases[0])
+    write_interfaces_vtu(path, Scene(results.model, contacts, results.cases[0]))
     grid = read_vtk(path)
     corners = [grid.GetCell(i).GetNumberOfPoints() for i in range(2)]
     assert corners == [3, 4]
@@ -104,11 +105,11 @@ def test_interfaces_with_different_numbers_of_corners(path: Path, results: Resul
 
 
 def test_case_without_mechanism_shows_the_model_and_what_falls(path: Path, results: Results) -> None:
-    write_contacts_vtu(path, results.model, results.contacts, results.cases[1])
+    write_contacts_vtu(path, Scene(results.model, results.contacts, results.cases[1]))
     assert "contact_force" not in meshio.read(path).point_data
-    write_interfaces_vtu(path, results.model, results.contacts, results.cases[1])
+    write_interfaces_vtu(path, Scene(results.model, results.contacts, results.cases[1]))
     assert "mode" not in meshio.read(path).cell_data
-    write_blocks_vtu(path, results.model, results.contacts, results.cases[1])
+    write_blocks_vtu(path, Scene(results.model, results.contacts, results.cases[1]))
     mesh = meshio.read(path)
     assert mesh.point_data["displacement"][8:16, 2].max() < 0
     assert np.concatenate(mesh.cell_data["moves"]).tolist() == [0, 1, 0]
@@ -117,7 +118,7 @@ def test_case_without_mechanism_shows_the_model_and_what_falls(path: Path, resul
 def test_case_without_anything_has_displacement_zero(path: Path, results: Results) -> None:
     case = results.cases[1]
     case = replace(case, solution=replace(case.solution, certificate=None))
-    write_blocks_vtu(path, results.model, results.contacts, case)
+    write_blocks_vtu(path, Scene(results.model, results.contacts, case))
     assert not meshio.read(path).point_data["displacement"].any()
 
 
@@ -126,11 +127,11 @@ def test_forces_that_lock_a_structure_are_shown_where_there_is_no_load_factor(pa
     lock[:4] = [2.0, -1.0, 0.0]
     solution = replace(results.cases[0].solution, mechanics=None, lock=lock)
     case = replace(results.cases[0], solution=solution)
-    write_contacts_vtu(path, results.model, results.contacts, case)
+    write_contacts_vtu(path, Scene(results.model, results.contacts, case))
     data = meshio.read(path).point_data
     assert data["contact_force"][:4].sum(axis=0) == pytest.approx([-4, 0, 8])
     assert "mode" not in data
-    write_interfaces_vtu(path, results.model, results.contacts, case)
+    write_interfaces_vtu(path, Scene(results.model, results.contacts, case))
     cells = {name: np.concatenate(values) for name, values in meshio.read(path).cell_data.items()}
     assert cells["normal_force"] == pytest.approx([8, 0])
     assert "mode" not in cells
@@ -138,7 +139,7 @@ def test_forces_that_lock_a_structure_are_shown_where_there_is_no_load_factor(pa
 
 def test_forces_at_the_load_factor_go_before_those_that_lock(path: Path, results: Results) -> None:
     solution = replace(results.cases[0].solution, lock=np.ones((8, 3)))
-    write_contacts_vtu(path, results.model, results.contacts, replace(results.cases[0], solution=solution))
+    write_contacts_vtu(path, Scene(results.model, results.contacts, replace(results.cases[0], solution=solution)))
     forces = tower_mechanics().contact_forces
     assert meshio.read(path).point_data["normal_force"] == pytest.approx(forces[:, 0])
 
@@ -146,7 +147,7 @@ def test_forces_at_the_load_factor_go_before_those_that_lock(path: Path, results
 def test_labels_of_items_are_cell_data(path: Path, results: Results) -> None:
     labels = labels_of(3, ("", "pier", "lintel"), {"course": np.array([0, 1, -1])}, -1)
     blocks = replace(results.model.blocks, labels=labels)
-    write_blocks_vtu(path, replace(results.model, blocks=blocks), results.contacts, None)
+    write_blocks_vtu(path, Scene(replace(results.model, blocks=blocks), results.contacts, None))
     data = {name: np.concatenate(values).tolist() for name, values in meshio.read(path).cell_data.items()}
     assert data["member"] == [0, 2, 1]
     assert data["course"] == [0, 1, -1]

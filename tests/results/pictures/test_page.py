@@ -5,7 +5,10 @@ import numpy as np
 import pytest
 
 from mbla.errors import FileError, UsageError
-from mbla.results.pictures.page import COLUMNS, HEIGHT, WIDTH, write_page
+from mbla.results.pictures.options import PictureOptions
+from mbla.results.pictures.page import COLUMNS, write_page
+
+WIDTH, HEIGHT = PictureOptions().size
 
 WORDS = ["Arch of $5 – 拱 <b>", "load case push_x: collapses at 0.5 g"]
 LEGEND = [["hinge", "#D55E00"], ["live load", "#222222"]]

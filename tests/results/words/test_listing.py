@@ -64,7 +64,7 @@ def test_listing_is_the_same_from_the_file(tmp_path: Path, results: Results, tex
             ],
         ),
         ("Load case fall", ["no equilibrium", "Not held (1 block):", "tower[0]  moves down"]),
-        ("Summary", ["1 load case of the deck not run", "1 warning:", "exit status 5"]),
+        ("Summary", ["1 load case of the deck not run", "2 warnings:", "exit status 5"]),
     ],
 )
 def test_sections(text: str, title: str, words: Any) -> None:

@@ -1,6 +1,7 @@
 import builtins
 import subprocess
 import sys
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -8,9 +9,14 @@ import numpy as np
 import pytest
 
 from mbla.errors import FileError, UsageError
-from mbla.results.pictures.pictures import HINGE, can_draw, plot_mechanism, plot_results
+from mbla.results.pictures.options import VIEWS, PictureOptions
+from mbla.results.pictures.palette import HINGE
+from mbla.results.pictures.plot import plot_mechanism, plot_results
+from mbla.results.pictures.space import can_draw
 from mbla.results.results import Results
 from tests.results.synthetic import tower_results
+
+IN_SPACE = PictureOptions(kinds=("mechanism",), view=VIEWS["iso"])
 
 
 @pytest.fixture(scope="module")
@@ -35,15 +41,15 @@ def test_without_opengl_the_machine_is_told_what_it_lacks(
     tmp_path: Path, results: Results, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """vtk would end the process with a segmentation fault."""
-    monkeypatch.setattr("mbla.results.pictures.pictures.can_draw", lambda: False)
+    monkeypatch.setattr("mbla.results.pictures.space.renderer.can_draw", lambda: False)
     with pytest.raises(UsageError, match="libegl1"):
-        plot_results(results, tmp_path, "tower")
+        plot_results(results, tmp_path, "tower", IN_SPACE)
     assert not list(tmp_path.glob("*.png"))
 
 
 @pytest.mark.skipif(not can_draw(), reason="this machine has no OpenGL")
 def test_pictures_show_the_structure_and_its_hinge(tmp_path: Path, results: Results) -> None:
-    paths = plot_results(results, tmp_path / "pictures", "tower")
+    paths = plot_results(results, tmp_path / "pictures", "tower", IN_SPACE)
     assert [path.name for path in paths] == ["tower_push_x.png", "tower_fall.png"]
     rocking, falling = map(pixels, paths)
     assert rocking.shape == (1000, 1600, 3)
@@ -56,8 +62,32 @@ def test_pictures_show_the_structure_and_its_hinge(tmp_path: Path, results: Resu
 @pytest.mark.skipif(not can_draw(), reason="this machine has no OpenGL")
 def test_one_file_for_one_case(tmp_path: Path, results: Results) -> None:
     target = tmp_path / "mine.png"
-    assert plot_results(results, target, "tower", "push_x") == [target]
+    assert plot_results(results, target, "tower", replace(IN_SPACE, case="push_x")) == [target]
     assert target.stat().st_size > 5000
+
+
+def test_usual_pictures_by_name(tmp_path: Path, results: Results) -> None:
+    paths = plot_results(results, tmp_path, "tower", PictureOptions(format="svg"))
+    assert [path.name for path in paths] == [
+        "tower_model.svg",
+        "tower_push_x.svg",
+        "tower_push_x_forces.svg",
+        "tower_fall.svg",
+        "tower_fall_forces.svg",
+    ]
+    assert sorted(tmp_path.iterdir()) == sorted(paths)
+
+
+def test_plane_figures_need_no_opengl(tmp_path: Path, results: Results, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("mbla.results.pictures.space.can_draw", lambda: False)
+    options = PictureOptions(kinds=("mechanism",), size=(800, 500), dpi=200)
+    (path,) = plot_results(results, tmp_path / "one.png", "tower", replace(options, case="push_x"))
+    assert pixels(path).shape == (1000, 1600, 3)
+
+
+def test_two_kinds_for_one_file_are_refused(tmp_path: Path, results: Results) -> None:
+    with pytest.raises(UsageError, match="--kind"):
+        plot_results(results, tmp_path / "mine.png", "tower", PictureOptions(case="push_x"))
 
 
 def test_one_file_for_two_cases_is_refused(tmp_path: Path, results: Results) -> None:
@@ -67,12 +97,12 @@ def test_one_file_for_two_cases_is_refused(tmp_path: Path, results: Results) -> 
 
 def test_unknown_case_is_refused(tmp_path: Path, results: Results) -> None:
     with pytest.raises(UsageError, match="push_x, fall"):
-        plot_results(results, tmp_path, "tower", "push_y")
+        plot_results(results, tmp_path, "tower", PictureOptions(case="push_y"))
 
 
 def test_other_formats_are_refused(tmp_path: Path, results: Results) -> None:
     with pytest.raises(UsageError, match="PNG, SVG or PDF"):
-        plot_results(results, tmp_path / "mine.gif", "tower", "push_x")
+        plot_results(results, tmp_path / "mine.gif", "tower", PictureOptions(case="push_x"))
     assert not list(tmp_path.iterdir())
 
 
@@ -92,12 +122,12 @@ def test_missing_extra_is_named(tmp_path: Path, results: Results, monkeypatch: p
 
     monkeypatch.setattr(builtins, "__import__", without)
     with pytest.raises(UsageError, match=r"pip install 'mbla\[pictures\]'"):
-        plot_mechanism(results, results.cases[0], tmp_path / "mine.png")
+        plot_mechanism(results, results.cases[0], tmp_path / "mine.png", IN_SPACE)
 
 
 def test_module_imports_nothing_heavy() -> None:
     code = (
-        "import sys, mbla.results.pictures.pictures, mbla.results.write; "
+        "import sys, mbla.results.pictures.plot, mbla.results.write; "
         "print([name for name in ('pyvista', 'vtk', 'h5py', 'meshio') if name in sys.modules])"
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)

@@ -1,0 +1,1 @@
+"""What differs between two results; ``mbla diff`` shows it."""

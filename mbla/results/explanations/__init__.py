@@ -1,0 +1,1 @@
+"""What every identifier means that the program prints; ``mbla explain`` shows it (a file for each stage)."""

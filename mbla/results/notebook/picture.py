@@ -1,0 +1,66 @@
+"""A picture as bytes that a notebook shows."""
+
+from __future__ import annotations
+
+import base64
+import tempfile
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from mbla.errors import FileError, UsageError
+from mbla.results.results import CaseResult, Results
+
+MIME = {"png": "image/png", "svg": "image/svg+xml", "pdf": "application/pdf"}
+
+
+@dataclass(frozen=True)
+class Picture:
+    """A picture; ``content`` is what its file would hold."""
+
+    format: str
+    content: bytes = field(repr=False)
+
+    def save(self, path: str | Path) -> Path:
+        """Write it; the suffix must be that of its format. FileError if that fails, UsageError for another suffix."""
+        path = Path(path)
+        if path.suffix.lower() != f".{self.format}":
+            raise UsageError(f"{path}: the picture is {self.format}; ask picture() for another format")
+        _write(path, self.content)
+        return path
+
+    def _repr_mimebundle_(self, include: object = None, exclude: object = None) -> dict[str, str | bytes]:
+        if self.format == "svg":
+            return {MIME["svg"]: self.content.decode("utf-8")}
+        return {MIME[self.format]: self.content}
+
+    @property
+    def data_uri(self) -> str:
+        """For the source of an image in a page."""
+        return f"data:{MIME[self.format]};base64,{base64.b64encode(self.content).decode('ascii')}"
+
+
+def case_picture(results: Results, case: CaseResult, path: Path | None, format: str | None) -> Picture:
+    """Draw the mechanism of a case, to a file too if a path is given; raises as :meth:`Case.picture`."""
+    from mbla.results.pictures.options import format_of
+    from mbla.results.pictures.plot import plot_mechanism
+
+    if path is None:
+        kind = format_of(Path(f"picture.{format or 'png'}"))
+    else:
+        kind = format_of(path)
+        if format not in (None, kind):
+            raise UsageError(f"{path}: its suffix says {kind}, the format {format}: give one of them")
+    with tempfile.TemporaryDirectory(prefix="mbla-") as folder:
+        drawn = Path(folder) / f"picture.{kind}"
+        plot_mechanism(results, case, drawn)
+        picture = Picture(kind, drawn.read_bytes())
+    if path is not None:
+        _write(path, picture.content)
+    return picture
+
+
+def _write(path: Path, content: bytes) -> None:
+    try:
+        path.write_bytes(content)
+    except OSError as error:
+        raise FileError(f"{path}: {error.strerror or error}") from error

@@ -1,0 +1,141 @@
+"""Moving pictures of a mechanism, GIF or MP4, off and back (only importer of imageio, the extra ``mbla[pictures]``).
+
+Every frame moves the blocks along their screws (:mod:`mbla.results.collapse.motion`), so that they keep their shape.
+The motion swings as a cosine and ends where it began: the film repeats without a jump. The view, the room for words and
+the legend are those of the widest frame.
+"""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Iterator
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from mbla.errors import FileError, UsageError
+from mbla.results.pictures.options import PictureOptions
+from mbla.results.pictures.page import open_frames
+from mbla.results.pictures.scene import Scene, scene_of
+from mbla.results.pictures.space.camera import fitted
+from mbla.results.pictures.space.mechanism import mechanism_drawing
+from mbla.results.pictures.space.picture import frame_between, view_of_case
+from mbla.results.pictures.space.renderer import Renderer
+from mbla.results.pictures.space.sheet import add_image, fill_sheet
+from mbla.results.results import CaseResult, Results
+
+FORMATS = ("gif", "mp4")
+STEPS = 12
+"""from rest to the greatest displacement"""
+FRAMES_PER_SECOND = 12
+LARGEST = {"gif": (800, 500), "mp4": (1280, 800)}
+"""pixels of a frame; a GIF keeps every one of them in 256 colours, and is for slides and pages"""
+COLOURS = 128
+"""of a GIF, the same in every frame, so that what is at rest does not flicker"""
+
+
+def format_of_film(path: Path) -> str:
+    """``gif`` or ``mp4`` by the name of a file; UsageError for any other."""
+    suffix = path.suffix.lower().removeprefix(".")
+    if suffix not in FORMATS:
+        raise UsageError(f"{path}: animations are written as GIF or MP4, by the name of the file")
+    return suffix
+
+
+def write_animation(results: Results, case: CaseResult, path: Path, options: PictureOptions | None = None) -> None:
+    """The mechanism of one load case as a GIF or MP4 that repeats; the same result gives the same GIF.
+
+    Frames have the shape of ``options.size`` and at most the pixels of ``LARGEST``.
+
+    Raises
+    ------
+    UsageError
+        The case has no motion to show, the extra for pictures is not installed, the machine has no OpenGL, or the name
+        asks for another format.
+    FileError
+        The file cannot be written.
+    """
+    kind = format_of_film(path)
+    options = fitted_options(options or PictureOptions(), kind)
+    widest = scene_of(results, case, options, "mechanism")
+    if not widest.motion.any():
+        raise UsageError(f"load case {case.load_case.name}: there is no mechanism, so there is nothing to animate")
+    forth = list(_frames(widest, options))
+    film = [*forth, *forth[-2:0:-1]]
+    image = _gif(film) if kind == "gif" else _mp4(film)
+    try:
+        path.write_bytes(image)
+    except OSError as error:
+        raise FileError(f"{path}: {error.strerror or error}") from error
+
+
+def fitted_options(options: PictureOptions, kind: str) -> PictureOptions:
+    """The same shape in at most the pixels of a film, both sides even, as MP4 wants them; words keep their share."""
+    width, height = options.pixels
+    most_wide, most_high = LARGEST[kind]
+    share = min(1.0, most_wide / width, most_high / height)
+    return replace(options, size=(2 * round(width * share / 2), 2 * round(height * share / 2)), dpi=100)
+
+
+def displacements(steps: int = STEPS) -> Any:
+    """Shares of the greatest displacement from rest to it, (steps + 1,): slow at both ends."""
+    return (1 - np.cos(np.pi * np.arange(steps + 1) / steps)) / 2
+
+
+def _frames(widest: Scene, options: PictureOptions) -> Iterator[Any]:
+    """Images (height, width, 3) of 0 to 255, from rest to the greatest displacement."""
+    width, height = options.pixels
+    drawing = mechanism_drawing(widest)
+    view = options.view or view_of_case(widest)
+    with open_frames(options) as page:
+        bottom, top = fill_sheet(page, widest, "mechanism", drawing)
+        camera = fitted(drawing.extent, *view, width / height, frame_between(bottom, top))
+        artist = None
+        for share in displacements():
+            frame = mechanism_drawing(replace(widest, motion=share * widest.motion), widest)
+            with Renderer(frame.solid, frame.marks) as renderer:
+                image = renderer.image(camera, width, height, frame.shine)
+            if artist is None:
+                artist = add_image(page, image, camera, widest, drawing, bottom)
+            artist.set_data(image)
+            page.figure.canvas.draw()
+            yield np.asarray(page.figure.canvas.buffer_rgba())[..., :3].copy()
+
+
+def _gif(film: list[Any]) -> bytes:
+    """One palette for the whole film, from its first and its widest frame."""
+    from PIL import Image  # comes with matplotlib
+
+    both = np.concatenate([film[0], film[len(film) // 2]])
+    palette = Image.fromarray(both).quantize(COLOURS, method=Image.Quantize.MEDIANCUT)
+    images = [Image.fromarray(frame).quantize(palette=palette, dither=Image.Dither.NONE) for frame in film]
+    target = io.BytesIO()
+    duration = round(1000 / FRAMES_PER_SECOND)
+    images[0].save(target, "GIF", save_all=True, append_images=images[1:], duration=duration, loop=0, optimize=False)
+    return target.getvalue()
+
+
+def _mp4(film: list[Any]) -> bytes:
+    """H.264 as browsers and slides play it."""
+    try:
+        import imageio.v3 as imageio
+        import imageio_ffmpeg  # noqa: F401
+    except ImportError as error:
+        raise UsageError("MP4 needs an extra that is not installed: pip install 'mbla[pictures]'") from error
+    repeated = np.stack([*film, *film])  # two swings: one is over before it is seen, and players do not repeat
+    return bytes(
+        imageio.imwrite(
+            "<bytes>",
+            repeated,
+            extension=".mp4",
+            plugin="FFMPEG",
+            fps=FRAMES_PER_SECOND,
+            codec="libx264",
+            quality=8,
+            macro_block_size=2,
+            pixelformat="yuv420p",
+            ffmpeg_log_level="error",
+        )
+    )

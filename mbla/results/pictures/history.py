@@ -1,0 +1,204 @@
+"""How a load factor was found: iterations of the cone programs with their residuals, and the load path."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from mbla.arrays import FloatArray
+from mbla.results.pictures.options import PictureOptions
+from mbla.results.pictures.page import Page, add_words, open_page
+from mbla.results.pictures.palette import BLUE, GHOST, GREEN, INK, ORANGE, PURPLE, VERMILION, WARNING
+from mbla.results.pictures.scene import Scene
+from mbla.results.series import Series, factor_of, position_of
+from mbla.results.words.text import number
+from mbla.solution.solution import Status
+
+LINES = (
+    ("gap", "gap", VERMILION, "-", "o"),
+    ("primal_residual", "primal residual", GREEN, "--", "s"),
+    ("dual_residual", "dual residual", PURPLE, ":", "^"),
+)
+"""residuals of an iteration: field, name, colour, line, marker"""
+MOST_NAMED = 24
+"""names of programs that have room side by side"""
+LEFT, RIGHT, BOTTOM, BETWEEN = 0.09, 0.94, 0.09, 0.07
+"""frame of the diagrams, shares of the page"""
+
+
+def draw_history(path: Path, scene: Scene, options: PictureOptions) -> None:
+    """Write the iteration history of a case, and its load path where one was followed.
+
+    Raises
+    ------
+    UsageError
+        The extra for pictures is not installed.
+    FileError
+        The file cannot be written.
+    """
+    solution = scene.case.solution
+    with open_page(path, options) as page:
+        count = 2 * bool(solution.iterations) + bool(solution.path)
+        words = scene.words_of("history")[:2]
+        if not count:
+            words.append("no iterations to draw: the case was decided without a cone program")
+        above = add_words(page, words, scene.mark_of("history"))
+        frames = _diagrams(page, above, max(count, 1))
+        if solution.iterations:
+            _draw_iterations(page, frames[0], frames[1], scene)
+        if solution.path:
+            _draw_path(page, frames[-1], scene)
+        if not count:
+            frames[0].set_axis_off()
+
+
+def _diagrams(page: Page, above: float, count: int) -> list[Any]:
+    """Axes one above the other between words and the lower edge, the first at the top."""
+    height = (1 - above - BOTTOM - 0.02 - BETWEEN * (count - 1)) / count
+    frames = []
+    for row in range(count):
+        bottom = BOTTOM + (count - 1 - row) * (height + BETWEEN)
+        axes = page.figure.add_axes((LEFT, bottom, RIGHT - LEFT, height))
+        axes.tick_params(labelsize=0.85 * page.letter, colors=INK)
+        axes.grid(visible=True, color="#DDDDDD", linewidth=0.6)
+        axes.spines[["top", "right"]].set_visible(False)
+        frames.append(axes)
+    return frames
+
+
+def _draw_iterations(page: Page, factors: Any, residuals: Any, scene: Scene) -> None:
+    """Load factor above, residuals below, over the iterations of all programs in their order."""
+    records = scene.case.solution.iterations
+    place = np.arange(1, len(records) + 1)
+    style = {"linewidth": 1.6 * page.scale, "markersize": 4 * page.scale}
+    program = np.array([record.program for record in records])
+    values = _of_finite([record.load_factor for record in records])
+    for number_of in np.unique(program):
+        own = program == number_of
+        factors.plot(place[own], values[own], color=BLUE, marker=".", **style)
+        for field, name, colour, line, marker in LINES:
+            row = np.array([getattr(record, field) for record in records])[own]
+            label = name if number_of == program[0] else None
+            shown = np.where(np.isfinite(row) & (row > 0), row, np.nan)  # nothing has no logarithm
+            residuals.plot(place[own], shown, line, color=colour, marker=marker, label=label, **style)
+    _label(page, factors, "", "load factor")
+    _keep_to_the_middle(factors, values)
+    residuals.set_yscale("log")
+    _label(page, residuals, "iteration", "relative residual")
+    residuals.legend(fontsize=0.85 * page.letter, framealpha=0.9, loc="upper right", ncols=3)
+    _name_programs(page, (factors, residuals), scene, program)
+    mechanics = scene.mechanics
+    if mechanics is not None:
+        colour = INK if scene.is_result else WARNING
+        label = f"{'load factor' if scene.is_result else 'not a result:'} {number(mechanics.load_factor)}"
+        factors.axhline(mechanics.load_factor, color=colour, linewidth=page.scale, linestyle="--", label=label)
+        factors.legend(fontsize=0.85 * page.letter, frameon=False, loc="best", labelcolor=colour)
+
+
+def _of_finite(values: list[float]) -> FloatArray:
+    array = np.array(values, dtype=float)
+    return np.where(np.isfinite(array), array, np.nan)
+
+
+def _keep_to_the_middle(axes: Any, values: FloatArray) -> None:
+    """First iterates are far off: show what lies around the last half of the values."""
+    known = values[np.isfinite(values)]
+    if not len(known):
+        return
+    late = known[len(known) // 2 :]
+    low, high = late.min(), late.max()
+    room = max(2.0 * (high - low), 0.1 * max(abs(low), abs(high)), 1e-300)
+    axes.set_ylim(max(low - room, known.min() - 0.05 * room), min(high + room, known.max() + 0.05 * room))
+
+
+def _name_programs(page: Page, frames: tuple[Any, Any], scene: Scene, program: Any) -> None:
+    """A line where one program follows another, and above it what the next one is."""
+    kinds = {record.program: record.kind for record in scene.case.solution.programs}
+    starts = np.flatnonzero(np.diff(program, prepend=-1))
+    for axes in frames:
+        axes.set_xlim(0.5, len(program) + 0.5)
+        for start in starts[1:]:
+            axes.axvline(start + 0.5, color=GHOST, linewidth=0.8 * page.scale, zorder=0)
+    named: list[int] = []
+    for start in starts.tolist():
+        if not named or start - named[-1] >= len(program) / MOST_NAMED:
+            named.append(start)
+    for start in named:
+        text = f"{program[start]} {kinds.get(int(program[start]), '')}".replace("_", " ").strip()
+        style = {"fontsize": 0.7 * page.letter, "color": INK, "rotation": 90 if len(named) > 3 else 0}
+        frames[0].annotate(
+            text, (start + 0.5, 1), xycoords=("data", "axes fraction"), xytext=(3, -3), va="top",
+            textcoords="offset points", parse_math=False, **style,
+        )  # fmt: skip
+
+
+def _draw_path(page: Page, axes: Any, scene: Scene) -> None:
+    """Load factor over the steps of the load path, and how many contact points are open and slide."""
+    path = scene.case.solution.path
+    steps = [point.step for point in path]
+    style = {"linewidth": 1.8 * page.scale, "markersize": 5 * page.scale}
+    axes.plot(steps, [point.load_factor for point in path], color=BLUE, marker="o", label="load factor", **style)
+    _label(page, axes, "step of the load path", "load factor")
+    count = axes.twinx()
+    count.plot(steps, [point.open for point in path], color=PURPLE, linestyle="--", label="open", **style)
+    count.plot(steps, [point.slide for point in path], color=ORANGE, linestyle=":", label="sliding", **style)
+    count.spines["top"].set_visible(False)
+    count.tick_params(labelsize=0.85 * page.letter, colors=INK)
+    count.set_ylabel("contact points", fontsize=0.9 * page.letter, color=INK)
+    handles = [*axes.get_lines(), *count.get_lines()]
+    axes.legend(handles=handles, fontsize=0.85 * page.letter, frameon=False, loc="lower right")
+
+
+def _label(page: Page, axes: Any, across: str, up: str) -> None:
+    axes.set_xlabel(across, fontsize=0.9 * page.letter, color=INK)
+    axes.set_ylabel(up, fontsize=0.9 * page.letter, color=INK)
+
+
+def draw_series(path: Path, scene: Scene, series: Series, options: PictureOptions) -> None:
+    """Write the load factor of a travelling load over its position; raises as ``draw_history`` does.
+
+    Positions without a result are crosses at the foot, those that no load brings down arrows at the top.
+    """
+    unit = scene.model.units.length
+    place = np.array([position_of(case).distance for case in series.cases])
+    values = np.array([factor_of(case) for case in series.cases])
+    sure = np.array([case.status is Status.SOLVED for case in series.cases])
+    with open_page(path, options) as page:
+        words = [scene.words_of("model")[0], f"load case {series.name}: load factor over {len(place)} positions"]
+        if series.worst is not None:
+            at, worst = position_of(series.worst), factor_of(series.worst)
+            words.append(f"worst at position {at.number}, {at.distance:.4g} {unit} along the path: {number(worst)}")
+        missing = int(np.isnan(values).sum())
+        mark = f"NOT VERIFIED: {missing} of {len(place)} positions without a result" if missing else ""
+        axes = _diagrams(page, add_words(page, words, mark), 1)[0]
+        _draw_positions(page, axes, place, values, sure)
+        if series.worst is not None:
+            axes.plot(at.distance, worst, "D", color=VERMILION, markersize=11 * page.scale, label="worst", zorder=5)
+        _label(page, axes, f"position along the path [{unit}]", "load factor")
+        axes.legend(fontsize=0.85 * page.letter, frameon=False)
+
+
+def _draw_positions(page: Page, axes: Any, place: FloatArray, values: FloatArray, sure: Any) -> None:
+    known = np.isfinite(values)
+    size = 7 * page.scale
+    axes.plot(place, np.where(known, values, np.nan), color=BLUE, linewidth=1.8 * page.scale)
+    marks = (
+        (known & sure, "o", BLUE, BLUE, "load factor"),
+        (known & ~sure, "o", "white", BLUE, "approximate"),
+    )
+    for chosen, marker, face, edge, name in marks:
+        if chosen.any():
+            look = {"markerfacecolor": face, "markeredgecolor": edge, "linestyle": "none", "markersize": size}
+            axes.plot(place[chosen], values[chosen], marker=marker, label=name, **look)
+    if known.any():
+        axes.set_ylim(bottom=min(0.0, 1.1 * float(values[known].min())))
+    for chosen, level, marker, name in (
+        (np.isnan(values), 0.03, "x", "no result"),
+        (np.isinf(values), 0.97, "^", "any multiple is carried"),
+    ):
+        if chosen.any():
+            ends = axes.get_xaxis_transform()
+            heights = np.full(int(chosen.sum()), level)
+            axes.plot(place[chosen], heights, marker, color=WARNING, transform=ends, markersize=1.3 * size, label=name)

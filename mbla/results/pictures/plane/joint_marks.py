@@ -1,0 +1,103 @@
+"""What joints do in a mechanism, on a plane figure: gaps filled, hinges as dots, sliding as pairs of half arrows."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from mbla.arrays import FloatArray, IntArray
+from mbla.results.collapse.interface_modes import InterfaceMode, InterfaceMotion
+from mbla.results.collapse.mechanics import curvature_sides
+from mbla.results.collapse.motion import moved_points
+from mbla.results.pictures.palette import HINGE, INK, OPEN, SLIDE
+from mbla.results.pictures.plane.flat import Flat, flat_joints
+from mbla.results.pictures.plane.sheet import Sheet
+from mbla.results.pictures.scene import Scene
+
+CURVED = 0.5
+"""cosine to the curve's own direction from which a hinge is one of the intrados or extrados, as in the listing"""
+ARROW = 0.05
+"""longest arrow of a sliding joint over the size of the structure; it is at most half as long as the joint"""
+
+
+def draw_joint_marks(sheet: Sheet, flat: Flat, scene: Scene) -> None:
+    """Marks of all interfaces that open, turn or slide; nothing without a mechanism."""
+    if scene.collapse is None or not scene.motion.any():
+        return
+    joints = scene.collapse.interfaces
+    _draw_gaps(sheet, flat, scene, joints)
+    _draw_sliding(sheet, flat, scene, joints)
+    _draw_hinges(sheet, flat, scene, joints)
+
+
+def _draw_gaps(sheet: Sheet, flat: Flat, scene: Scene, joints: InterfaceMotion) -> None:
+    """The space between both sides of joints that open, as quadrilaterals or triangles, hatched."""
+    chosen = np.flatnonzero(np.isin(joints.modes, (InterfaceMode.OPEN, InterfaceMode.HINGE)))
+    if not len(chosen):
+        return
+    ends = flat_joints(scene.contacts, flat).ends[chosen]
+    a, b = (flat.project(side) for side in scene.contact_sides)
+    gaps = np.stack([a[ends[:, 0]], a[ends[:, 1]], b[ends[:, 1]], b[ends[:, 0]]], axis=1)
+    style = {"facecolors": OPEN, "edgecolors": INK, "hatch": "xxxx", "zorder": 3}
+    sheet.areas(list(gaps), linewidths=sheet.width(0.6), **style)
+    sheet.name_area("opening", facecolor=OPEN, edgecolor=INK, hatch="xxxx")
+
+
+def _draw_hinges(sheet: Sheet, flat: Flat, scene: Scene, joints: InterfaceMotion) -> None:
+    """Dots on the axes: black in the middle at the extrados, white at the intrados, full where there is no curve."""
+    hinges = np.flatnonzero(joints.modes == InterfaceMode.HINGE)
+    if not len(hinges):
+        return
+    centres = flat.project(_moved(scene, hinges, joints.hinge_points[hinges]))
+    outward = curvature_sides(scene.model, scene.contacts)[hinges]
+    offset = joints.hinge_points[hinges] - scene.contacts.centroids[hinges]
+    along = np.einsum("ij,ij->i", offset, outward)
+    limit = CURVED * np.linalg.norm(offset, axis=1) * np.linalg.norm(outward, axis=1)
+    faces = (
+        ("hinge", np.abs(along) <= limit, HINGE),
+        ("hinge at the extrados", along > limit, HINGE),
+        ("hinge at the intrados", along < -limit, "white"),
+    )
+    size = 11.0 if len(hinges) < 60 else 6.0
+    for name, which, face in faces:
+        if which.any():
+            shape = "D" if name == "hinge at the extrados" else "o"
+            edge = HINGE if face == "white" else INK
+            rim = 2.2 if face == "white" else 0.8
+            sheet.dots(centres[which], size, color=face, edgecolors=edge, zorder=6, linewidths=rim, marker=shape)
+            look = {"markerfacecolor": face, "markeredgecolor": edge, "linestyle": "none", "markersize": 9}
+            sheet.name(name, marker=shape, markeredgewidth=sheet.width(rim), **look)
+
+
+def _moved(scene: Scene, interfaces: IntArray, points: FloatArray) -> FloatArray:
+    """Points of interfaces as moved, in the middle between both bodies, (n, 3)."""
+    blocks, total = scene.model.blocks, np.zeros_like(points)
+    for side in (0, 1):
+        owners = scene.contacts.bodies[interfaces, side]
+        own = owners < len(blocks)
+        moved = points.copy()
+        moved[own] = moved_points(blocks, scene.motion, owners[own], points[own])
+        total += moved / 2
+    return total
+
+
+def _draw_sliding(sheet: Sheet, flat: Flat, scene: Scene, joints: InterfaceMotion) -> None:
+    """Two arrows along a sliding joint, each on the side of the body that slips that way; the joint itself thick."""
+    chosen = np.flatnonzero(np.isin(joints.modes, (InterfaceMode.SLIDE, InterfaceMode.TWIST)))
+    if not len(chosen):
+        return
+    ends = flat_joints(scene.contacts, flat).ends[chosen]
+    middle = (scene.contact_sides[0] + scene.contact_sides[1]) / 2
+    first, last = flat.project(middle[ends[:, 0]]), flat.project(middle[ends[:, 1]])
+    sheet.lines(np.stack([first, last], axis=1), 3.0, SLIDE, zorder=3.5, capstyle="butt")
+    along = last - first
+    length = np.linalg.norm(along, axis=1, keepdims=True)
+    along = along / np.where(length > 0, length, 1.0)
+    slip = np.einsum("ij,ij->i", flat.project(joints.translation[chosen]), along)
+    arm = np.minimum(0.5 * length, ARROW * sheet.size)
+    across = np.column_stack([-along[:, 1], along[:, 0]])
+    towards_b = np.sign(np.einsum("ij,ij->i", across, flat.project(scene.contacts.normals[chosen])))[:, None]
+    for sense in (1.0, -1.0):  # body b, then body a
+        step = sense * np.sign(slip)[:, None] * arm * along
+        centre = (first + last) / 2 + sense * towards_b * across * 0.22 * arm
+        sheet.arrows(centre + step / 2, step, 1.6, SLIDE, 5)
+    sheet.name("sliding", color=SLIDE, linewidth=3.0, marker=r"$\rightleftharpoons$", markersize=16)

@@ -1,0 +1,145 @@
+"""Which pictures of a result go to which files, and what draws each of them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+from mbla.errors import FileError, UsageError
+from mbla.results.pictures.animation import format_of_film, write_animation
+from mbla.results.pictures.history import draw_history, draw_series
+from mbla.results.pictures.options import PictureOptions, format_of
+from mbla.results.pictures.plane.draw import draw_plane
+from mbla.results.pictures.plane.flat import flat_of
+from mbla.results.pictures.scene import Scene, scene_of
+from mbla.results.pictures.space.picture import draw_in_space
+from mbla.results.results import CaseResult, Results
+from mbla.results.series import series_of
+
+
+@dataclass(frozen=True)
+class Picture:
+    """One file to make: the end of its name after the stem, and what writes it."""
+
+    name: str
+    write: Callable[[Path], None]
+
+
+def plot_results(results: Results, target: Path, stem: str, options: PictureOptions | None = None) -> list[Path]:
+    """Pictures of a result; the paths written.
+
+    ``STEM_model.png``, and for each load case ``STEM_CASE.png`` (mechanism), ``STEM_CASE_forces.png`` and
+    ``STEM_CASE_history.png``; ``STEM_SERIES_history.png`` for the positions of a travelling load. With
+    ``options.animate`` ``STEM_CASE.gif`` or ``.mp4`` for each load case that has a motion.
+
+    target : a file with the suffix .png, .svg or .pdf, for a single picture; else a folder, created if missing
+    options.case : one load case, or all positions of a travelling load by its name in the deck
+
+    Raises
+    ------
+    UsageError
+        As ``plot_mechanism`` does; no such case; several pictures for one file; another suffix.
+    FileError
+        A picture or the folder cannot be written.
+    """
+    options = options or PictureOptions()
+    cases = _chosen_cases(results, options.case)
+    pictures = _films(results, cases, options) if options.animate else _pictures(results, cases, options)
+    ending = options.animate or options.format
+    if target.suffix and not target.is_dir():
+        _check_name(target, options)
+        if len(pictures) > 1:
+            raise UsageError(
+                f"{target}: one file for {len(pictures)} pictures; name one with --case and --kind, or a folder"
+            )
+        paths = [target]
+    else:
+        paths = [target / f"{stem}{picture.name}.{ending}" for picture in pictures]
+    for picture, path in zip(pictures, paths, strict=True):
+        try:
+            path.parent.mkdir(parents=True, exist_ok=True)
+        except OSError as error:
+            raise FileError(f"{path.parent}: {error.strerror or error}") from error
+        picture.write(path)
+    return paths
+
+
+def _chosen_cases(results: Results, name: str | None) -> list[CaseResult]:
+    chosen = [each for each in results.cases if name in (None, each.load_case.name)]
+    chosen = chosen or [each for each in results.cases if name == each.load_case.deck_name]
+    if not chosen:
+        names = ", ".join(each.load_case.name for each in results.cases) or "none"
+        raise UsageError(f"no load case {name or ''} in the result; it has {names}")
+    return chosen
+
+
+def _pictures(results: Results, cases: list[CaseResult], options: PictureOptions) -> list[Picture]:
+    """Every picture of some cases, kind by kind of each case; the model first."""
+
+    def of(case: CaseResult, kind: str) -> Callable[[Path], None]:
+        return lambda path: draw_picture(path, scene_of(results, case, options, kind), kind, options)
+
+    pictures = [Picture("_model", of(cases[0], "model"))] if "model" in options.kinds else []
+    for case in cases:
+        for kind in (kind for kind in options.kinds if kind != "model"):
+            ending = "" if kind == "mechanism" else f"_{kind}"
+            pictures.append(Picture(f"_{case.load_case.name}{ending}", of(case, kind)))
+    if "history" in options.kinds:
+        for series in series_of(cases):
+            if len(series.cases) > 1:
+                scene = scene_of(results, series.cases[0], options, "history")
+                write = lambda path, scene=scene, series=series: draw_series(path, scene, series, options)  # noqa: E731
+                pictures.append(Picture(f"_{series.name}_history", write))
+    return pictures
+
+
+def _films(results: Results, cases: list[CaseResult], options: PictureOptions) -> list[Picture]:
+    """A film of every case that moves; UsageError where none does."""
+
+    def of(case: CaseResult) -> Callable[[Path], None]:
+        return lambda path: write_animation(results, case, path, options)
+
+    moving = [each for each in cases if scene_of(results, each, options, "mechanism").motion.any()]
+    if not moving:
+        names = ", ".join(each.load_case.name for each in cases)
+        raise UsageError(f"--animate {options.animate}: there is no mechanism in {names}, so nothing moves")
+    return [Picture(f"_{each.load_case.name}", of(each)) for each in moving]
+
+
+def _check_name(target: Path, options: PictureOptions) -> None:
+    """The name of a single file asks for what is written to it."""
+    if not options.animate:
+        format_of(target)
+    elif format_of_film(target) != options.animate:
+        raise UsageError(f"{target}: --animate {options.animate} writes a file that ends in .{options.animate}")
+
+
+def draw_picture(path: Path, scene: Scene, kind: str, options: PictureOptions) -> None:
+    """Write one picture: a diagram of the history, a plane figure where that can tell the case, else an image.
+
+    Raises as ``plot_mechanism`` does.
+    """
+    if kind == "history":
+        draw_history(path, scene, options)
+        return
+    flat = flat_of(scene, options, kind)
+    if flat is not None:
+        draw_plane(path, scene, flat, kind, options)
+        return
+    draw_in_space(path, scene, kind, options)
+
+
+def plot_mechanism(results: Results, case: CaseResult, path: Path, options: PictureOptions | None = None) -> None:
+    """Draw the mechanism of one load case to a PNG, SVG or PDF file; the structure at rest where there is none.
+
+    Raises
+    ------
+    UsageError
+        The extra for pictures is not installed, the name asks for another format, or a picture in space is needed and
+        the machine has no OpenGL.
+    FileError
+        The file cannot be written.
+    """
+    options = options or PictureOptions()
+    draw_picture(path, scene_of(results, case, options, "mechanism"), "mechanism", options)

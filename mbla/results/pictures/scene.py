@@ -1,0 +1,171 @@
+"""What a picture shows, whatever draws it: the structure at rest and as moved, what joints do, loads, words."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+
+from mbla.arrays import FloatArray, IntArray
+from mbla.contacts.contacts import Contacts
+from mbla.model.model import Model
+from mbla.results.collapse.collapse import Collapse, collapse_of
+from mbla.results.collapse.motion import drawn_motion, moved_contact_points, moved_vertices
+from mbla.results.collapse.rigid_parts import rigid_parts
+from mbla.results.collapse.thrust import Thrust, thrust_lines, thrust_of
+from mbla.results.outcome import result_of
+from mbla.results.pictures.geometry import box_of, ground_slab, live_load_arrow
+from mbla.results.pictures.options import PictureOptions
+from mbla.results.results import CaseResult, Results
+from mbla.results.words.mechanism_words import mechanism_summary
+from mbla.results.words.text import counted, number
+from mbla.results.words.verdict_words import verdict
+from mbla.solution.solution import Mechanics, Status
+
+
+@dataclass(frozen=True)
+class Scene:
+    """One load case as it is drawn.
+
+    motion : (n_blocks, 6) displacement and rotation of each block as drawn, m and rad; zero in pictures at rest
+    shown_cases : those whose loads a picture of the model shows
+    """
+
+    results: Results
+    case: CaseResult
+    motion: FloatArray
+    shown_cases: tuple[CaseResult, ...] = ()
+
+    def with_case(self, case: CaseResult) -> Scene:
+        """The same scene with another load case."""
+        return replace(self, case=case)
+
+    @cached_property
+    def model(self) -> Model:
+        """The model as it may move under the load case."""
+        return self.results.model.of_case(self.case.load_case)
+
+    @property
+    def contacts(self) -> Contacts:
+        """Of the model."""
+        return self.results.contacts
+
+    @property
+    def mechanics(self) -> Mechanics | None:
+        """Forces and velocities to draw, whether they are a result or not; ``is_result`` says which."""
+        return self.case.solution.mechanics
+
+    @property
+    def is_result(self) -> bool:
+        """Whether forces and mechanism are a result of the case; else the picture must say that they are not."""
+        return result_of(self.case) is not None
+
+    @cached_property
+    def size(self) -> float:
+        """Diagonal of the box around the model, m."""
+        return float(np.linalg.norm(np.ptp(self.model.blocks.vertices, axis=0)))
+
+    @cached_property
+    def moved(self) -> FloatArray:
+        """Vertices as moved, (n_vertices, 3) m."""
+        return moved_vertices(self.model.blocks, self.motion)
+
+    @cached_property
+    def contact_sides(self) -> tuple[FloatArray, FloatArray]:
+        """Contact points as moved with body a and with body b, (n_points, 3) m each."""
+        sides = [moved_contact_points(self.model, self.contacts, self.motion, side) for side in (0, 1)]
+        return sides[0], sides[1]
+
+    @cached_property
+    def collapse(self) -> Collapse | None:
+        """Modes, parts and work of the mechanism; None without one."""
+        if self.mechanics is None:
+            return None
+        return collapse_of(self.model, self.contacts, self.case.load_case, self.mechanics)
+
+    @cached_property
+    def parts(self) -> IntArray:
+        """Part that each block moves with, 0 at rest, (n_blocks,)."""
+        if self.collapse is not None:
+            return self.collapse.parts
+        motion = self.case.solution.certificate
+        none = np.zeros(len(self.model.blocks), dtype=np.int64)
+        return none if motion is None else rigid_parts(self.model, self.contacts, motion)
+
+    @cached_property
+    def forces(self) -> tuple[FloatArray | None, str]:
+        """Contact forces to draw, (n_points, 3) N, and what they are; None where there are none."""
+        solution = self.case.solution
+        if solution.mechanics is not None:
+            return solution.mechanics.contact_forces, "contact forces under dead load and live load times load factor"
+        if solution.lock is not None:
+            return solution.lock, "contact forces that balance the live load alone: any multiple of it is carried"
+        if solution.standing is not None and solution.standing.forces is not None:
+            return solution.standing.forces, "contact forces under the dead load alone"
+        return None, "no contact forces to draw: none were found that carry the loads"
+
+    @cached_property
+    def thrust(self) -> Thrust | None:
+        """Resultants of the interfaces and where they act; None without forces."""
+        forces = self.forces[0]
+        return None if forces is None else thrust_of(self.model, self.contacts, forces)
+
+    @cached_property
+    def thrust_lines(self) -> list[FloatArray]:
+        """Points of each line of thrust in their order, (n, 3) m each."""
+        if self.thrust is None:
+            return []
+        return [self.thrust.points[row] for row in thrust_lines(self.model, self.contacts, self.thrust)]
+
+    @cached_property
+    def slabs(self) -> list[FloatArray]:
+        """Corners of the slab under each ground plane that something stands on, (8, 3) each."""
+        rows = range(len(self.model.grounds))
+        slabs = [ground_slab(self.model, self.contacts, row, self.size) for row in rows]
+        return [corners for corners in slabs if corners is not None]
+
+    @cached_property
+    def arrow(self) -> FloatArray:
+        """Start and tip of the live load's arrow, (2, 3)."""
+        low, high = box_of(np.vstack([self.moved, self.model.blocks.vertices]))
+        return live_load_arrow(self.model, self.case.load_case, low, high, 0.13 * self.size)
+
+    def words_of(self, kind: str) -> list[str]:
+        """Title, and for all but the model the outcome of the case and what the picture shows, one line each."""
+        case, model = self.case, self.model
+        title = model.title or self.results.deck.name
+        if kind == "model":
+            units, free = model.units, len(model.free)
+            weight = f"weight {number(model.total_weight)} {units.force}"
+            return [title, f"{counted(len(model.blocks), 'block')}, {free} free; {weight}"]
+        lines = [title, f"load case {case.load_case.name}: {verdict(model, case)}"]
+        if kind == "forces":
+            lines.append(self.forces[1])
+        elif self.collapse is not None:
+            lines.append(mechanism_summary(model, self.collapse))
+        elif case.solution.certificate is not None:
+            lines.append("drawn: the motion in which the dead load does more work than the joints take")
+        else:
+            lines.append("drawn at rest: there is no mechanism")
+        return lines
+
+    def mark_of(self, kind: str) -> str:
+        """What a reader must not overlook: that figures are not verified, or no result; empty where they are."""
+        status = self.case.status
+        if kind == "model" or status in (Status.SOLVED, Status.UNBOUNDED, Status.NO_EQUILIBRIUM):
+            return "" if kind == "model" or self.is_result or self.mechanics is None else "NO RESULT: no collapse load"
+        if status is Status.APPROXIMATE and self.is_result:
+            return "APPROXIMATE: residuals are larger than for a solved case"
+        return (
+            "NOT VERIFIED: no result"
+            if self.mechanics is None
+            else "NOT VERIFIED: no result, the best that was reached"
+        )
+
+
+def scene_of(results: Results, case: CaseResult, options: PictureOptions, kind: str) -> Scene:
+    """A case as a picture of that kind shows it: moved in a picture of the mechanism, at rest in others."""
+    motion = options.scale * drawn_motion(results.model.of_case(case.load_case), case)
+    shown = [each for each in results.cases if options.case in (None, each.load_case.name, each.load_case.deck_name)]
+    return Scene(results, case, motion if kind == "mechanism" else np.zeros_like(motion), tuple(shown))

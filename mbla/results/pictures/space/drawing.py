@@ -1,0 +1,40 @@
+"""A spatial picture before it is rendered: shapes, what is to be seen of them, legend, and a scale of colours."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from mbla.arrays import FloatArray
+from mbla.results.pictures.space.shapes import Shape
+
+
+@dataclass(frozen=True)
+class ColourScale:
+    """A bar of colours with what it means, from ``low`` to ``high``; colours (n, 3) from the one to the other."""
+
+    label: str
+    low: float
+    high: float
+    colours: FloatArray
+
+
+@dataclass(frozen=True)
+class Drawing:
+    """Shapes and how they are told.
+
+    solid  : what hides things, the structure
+    marks  : what shines through where the structure hides it
+    shine  : strength of hidden marks, 0 to 1
+    extent : (n, 3) m, what must fit into the picture
+    legend : names and colours
+    scale  : of colours, None without one
+    notes  : further lines below the legend
+    """
+
+    solid: tuple[Shape, ...]
+    marks: tuple[Shape, ...]
+    shine: float
+    extent: FloatArray
+    legend: tuple[tuple[str, str], ...]
+    scale: ColourScale | None = None
+    notes: tuple[str, ...] = ()

@@ -1,0 +1,111 @@
+"""Forces in space: resultants of interfaces where they act, by thickness; their eccentricity; lines of thrust."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from mbla.arrays import FloatArray, IntArray
+from mbla.results.collapse.thrust import Thrust
+from mbla.results.pictures.palette import FIXED_BLOCK, REST, SKY, THRUST
+from mbla.results.pictures.scene import Scene
+from mbla.results.pictures.space.drawing import ColourScale, Drawing
+from mbla.results.pictures.space.loads import live_load_arrows
+from mbla.results.pictures.space.shapes import Faces, Shape, rgb, rods
+from mbla.results.pictures.space.structure import block_faces, edge_lines, grounds, interface_faces
+from mbla.results.words.text import number
+
+ECCENTRICITY = ("#FCE9A8", "#F6B73C", "#C8500F", "#5A1400")
+"""from the middle of an interface to its edge; darker and darker, so that it reads in grey too"""
+STEPS = 64
+THICKEST = 0.011
+"""radius of the rod of a large resultant over the diagonal of the structure"""
+LIFT = 2e-4
+"""distance of coloured interfaces from the faces of blocks, over the same"""
+USUAL = 0.9
+"""share of the rods that are thinner than that; the few largest forces, as in a corner, would make the rest threads"""
+MOST_FACES = 250
+"""interfaces up to which they are coloured themselves; of more the rods are, else there is nothing but faces to see"""
+LEAST = 1e-3
+"""share of the largest resultant below which no rod is drawn: it would be thinner than a pixel"""
+
+
+def forces_drawing(scene: Scene) -> Drawing:
+    """Forces of the case at its load factor; where no load factor exists, those that lock the structure; else none."""
+    thrust = scene.thrust
+    vertices = scene.model.blocks.vertices
+    colours = np.tile(rgb(REST), (len(scene.model.blocks), 1))
+    colours[scene.model.fixed] = rgb(FIXED_BLOCK)
+    solid: list[Shape] = [*grounds(scene), block_faces(scene, vertices, 0.5 + 0.5 * colours)]
+    solid.append(edge_lines(scene, vertices, "#777777"))
+    marks: list[Shape] = []
+    legend: list[tuple[str, str]] = []
+    notes: tuple[str, ...] = ()
+    scale = None
+    if thrust is not None and thrust.carried.any():
+        scale = ColourScale("eccentricity, 0 in the middle, 1 at the edge", 0.0, 1.0, ramp(np.linspace(0, 1, STEPS)))
+        few = int(thrust.carried.sum()) <= MOST_FACES
+        marks += [eccentricity_faces(scene, thrust)] * few + [resultant_rods(scene, thrust, few)]
+        legend += [("resultant", SKY)] * few
+        notes = (_largest(scene, thrust),)
+        lines = thrust_tubes(scene)
+        if lines is not None:
+            marks.append(lines)
+            legend.append(("line of thrust", THRUST))
+    loads, entries = live_load_arrows(scene)
+    legend += entries
+    if scene.model.fixed.any():
+        legend.append(("support", FIXED_BLOCK))
+    extent = np.vstack([vertices, *scene.slabs, *(shape.points for shape in loads)])
+    return Drawing(tuple(solid + loads), tuple(marks), 0.85, extent, tuple(legend), scale, notes)
+
+
+def ramp(values: FloatArray) -> FloatArray:
+    """Colours of eccentricities, (n, 3); beyond 1, which takes tensile strength, that of 1."""
+    stops = np.array([rgb(colour) for colour in ECCENTRICITY])
+    at = np.linspace(0, 1, len(stops))
+    return np.column_stack([np.interp(values, at, stops[:, i]) for i in range(3)])
+
+
+def eccentricity_faces(scene: Scene, thrust: Thrust) -> Faces:
+    """Interfaces that carry a force, coloured by its eccentricity."""
+    rows = np.flatnonzero(thrust.carried)
+    points, start, loops = interface_faces(scene.contacts, scene.contacts.points, rows, np.zeros((len(rows), 3)))
+    return Faces(points, start, loops, ramp(thrust.eccentricity[rows]), lit=False)
+
+
+def resultant_rods(scene: Scene, thrust: Thrust, plain: bool) -> Faces:
+    """Rods along resultants, through their points of application, with sections in proportion to the forces.
+
+    They are as long as the blocks on both sides are large, so that they do not run into each other.
+
+    plain : of one colour; else by the eccentricity of the force
+    """
+    sizes = np.linalg.norm(thrust.forces, axis=1)
+    rows = np.flatnonzero(thrust.carried & (sizes > LEAST * sizes.max()))
+    half = 0.35 * _block_size(scene, rows)
+    step = thrust.forces[rows] / sizes[rows, None] * half[:, None]
+    usual = float(np.quantile(sizes[rows], USUAL))
+    radii = np.minimum(THICKEST * scene.size, 0.25 * np.median(half)) * np.sqrt(sizes[rows] / usual)
+    colours = np.tile(rgb(SKY), (len(rows), 1)) if plain else ramp(thrust.eccentricity[rows])
+    return rods(thrust.points[rows] - step, thrust.points[rows] + step, radii, colours)
+
+
+def _block_size(scene: Scene, rows: IntArray) -> FloatArray:
+    """Of the smaller block of each interface, (n,) m."""
+    sizes = np.append(scene.model.blocks.sizes, np.full(len(scene.model.grounds), np.inf))
+    return np.asarray(sizes[scene.contacts.bodies[rows]].min(axis=1))
+
+
+def thrust_tubes(scene: Scene) -> Faces | None:
+    """Lines of thrust along chains of blocks as thin tubes."""
+    if not scene.thrust_lines:
+        return None
+    starts = np.vstack([line[:-1] for line in scene.thrust_lines])
+    ends = np.vstack([line[1:] for line in scene.thrust_lines])
+    radii = np.full(len(starts), 0.0028 * scene.size)
+    return rods(starts, ends, radii, np.tile(rgb(THRUST), (len(starts), 1)))
+
+
+def _largest(scene: Scene, thrust: Thrust) -> str:
+    size = float(np.linalg.norm(thrust.forces[thrust.carried], axis=1).max())
+    return f"section of rods in proportion to the force, largest {number(size)} {scene.model.units.force}"

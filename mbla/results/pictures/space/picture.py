@@ -1,0 +1,65 @@
+"""A spatial picture of a load case, from the scene to the file."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+
+from mbla.results.collapse.motion import drawn_motion
+from mbla.results.pictures.options import PictureOptions, format_of
+from mbla.results.pictures.page import open_page
+from mbla.results.pictures.scene import Scene
+from mbla.results.pictures.space.camera import fitted
+from mbla.results.pictures.space.drawing import Drawing
+from mbla.results.pictures.space.forces import forces_drawing
+from mbla.results.pictures.space.mechanism import mechanism_drawing
+from mbla.results.pictures.space.model import model_drawing
+from mbla.results.pictures.space.renderer import Renderer
+from mbla.results.pictures.space.sheet import add_image, fill_sheet
+from mbla.results.pictures.space.views import best_view
+
+DRAWINGS: dict[str, Callable[[Scene], Drawing]] = {
+    "model": model_drawing,
+    "mechanism": mechanism_drawing,
+    "forces": forces_drawing,
+}
+"""what makes the drawing of each kind of picture"""
+KINDS = tuple(DRAWINGS)
+MARGIN = 0.03
+"""of the page beside the structure, share of the width"""
+AXES = 0.09
+"""share of the height that axes and scale bar take at least"""
+SHARPNESS = {"png": 1, "svg": 2, "pdf": 2}
+"""pixels of the image over those of a PNG page"""
+
+
+def draw_in_space(path: Path, scene: Scene, kind: str, options: PictureOptions) -> None:
+    """Draw a picture of one of ``KINDS`` to a PNG, SVG or PDF file.
+
+    Raises
+    ------
+    UsageError
+        The extra for pictures is not installed, the machine has no OpenGL, or the name asks for another format.
+    FileError
+        The file cannot be written.
+    """
+    width, height = replace(options, dpi=options.dpi * SHARPNESS[format_of(path)]).pixels
+    drawing = DRAWINGS[kind](scene)
+    view = options.view or view_of_case(scene)
+    with open_page(path, options) as page:
+        bottom, top = fill_sheet(page, scene, kind, drawing)
+        camera = fitted(drawing.extent, *view, width / height, frame_between(bottom, top))
+        with Renderer(drawing.solid, drawing.marks) as renderer:
+            image = renderer.image(camera, width, height, drawing.shine)
+        add_image(page, image, camera, scene, drawing, bottom)
+
+
+def frame_between(bottom: float, top: float) -> tuple[tuple[float, float], tuple[float, float]]:
+    """The part of a page that the structure fills, from left to right and from bottom to top, between words."""
+    return (MARGIN, 1 - MARGIN), (max(bottom, AXES) + 0.01, max(top - 0.01, bottom + 0.2))
+
+
+def view_of_case(scene: Scene) -> tuple[float, float]:
+    """Azimuth and elevation in degrees, the same for every kind of picture of a case: from where it is seen to move."""
+    return best_view(replace(scene, motion=drawn_motion(scene.model, scene.case)))

@@ -1,0 +1,95 @@
+"""What a report says of one load case: the sections of the listing, with pictures, checks and a view to turn."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from mbla.results.outcome import case_notices, result_of
+from mbla.results.report.blocks import Block, Entries, blocks_of
+from mbla.results.report.figures import Figures, case_figures
+from mbla.results.report.verification import Check, checks_of
+from mbla.results.results import CaseResult, Results
+from mbla.results.words.answer_words import status_words
+from mbla.results.words.case_words import case_sections
+from mbla.results.words.figure_words import residual_figures
+from mbla.results.words.verdict_words import verdict
+from mbla.solution.solution import Status
+
+
+@dataclass(frozen=True)
+class Part:
+    """One titled part of a load case."""
+
+    id: str
+    title: str
+    blocks: list[Block]
+
+
+@dataclass(frozen=True)
+class CaseContent:
+    """One load case as the templates show it.
+
+    tone : ``good`` for a verified load factor, ``fair`` for an approximate one, ``bad`` for everything else
+    view : trusted HTML of the view to turn; empty without one
+    """
+
+    id: str
+    name: str
+    status: str
+    tone: str
+    verdict: str
+    words: list[Block]
+    parts: list[Part]
+    figures: Figures
+    checks: list[Check]
+    verified: bool
+    failures: tuple[str, ...]
+    warnings: tuple[str, ...]
+    view: str
+
+
+def case_content(results: Results, case: CaseResult, number: int, view: str) -> CaseContent:
+    """The content of load case ``number``, from 1."""
+    key = f"case-{number}"
+    sections = case_sections(results.model, results.contacts, case)
+    told, others = sections[0], sections[1:]
+    checked = {name for name, _, _ in residual_figures(case.checks)}
+    parts = [
+        Part(f"{key}-{_slug(section.title)}", section.title, _without(blocks_of(section.lines), checked))
+        for section in others
+    ]
+    return CaseContent(
+        id=key,
+        name=case.load_case.name,
+        status=status_words(case.status),
+        tone=tone_of(case),
+        verdict=verdict(results.model.of_case(case.load_case), case),
+        words=blocks_of(told.lines),
+        parts=parts,
+        figures=case_figures(results, case),
+        checks=checks_of(case),
+        verified=case.checks.verified,
+        failures=case.checks.failures,
+        warnings=tuple(str(notice) for notice in case_notices(case)),
+        view=view,
+    )
+
+
+def tone_of(case: CaseResult) -> str:
+    """How a case may be shown: what is no verified load factor never looks like one."""
+    if result_of(case) is None:
+        return "bad"
+    return "good" if case.status is Status.SOLVED else "fair"
+
+
+def _slug(title: str) -> str:
+    return title.lower().replace(" ", "-")
+
+
+def _without(blocks: list[Block], names: set[str]) -> list[Block]:
+    """Entries that the table of checks shows with their tolerances are not said twice."""
+    kept = [
+        Entries(tuple(row for row in block.rows if row[0] not in names)) if isinstance(block, Entries) else block
+        for block in blocks
+    ]
+    return [block for block in kept if not isinstance(block, Entries) or block.rows]

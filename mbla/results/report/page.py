@@ -1,0 +1,58 @@
+"""Templates filled (only importer of jinja2; it comes with the extra ``mbla[report]``).
+
+Everything of a result is untrusted text: titles, names and decks come from anywhere. The templates escape all of it; a
+Content-Security-Policy in the page forbids every request, and every script but those whose hashes it names.
+"""
+
+from __future__ import annotations
+
+import base64
+import hashlib
+import re
+from collections.abc import Iterable, Mapping
+from importlib.resources import files
+from typing import Any
+
+from mbla.errors import UsageError
+
+SCRIPT = re.compile(r"<script\b[^>]*>(.*?)</script\s*>", re.DOTALL | re.IGNORECASE)
+
+
+def render(content: Mapping[str, Any], views: Iterable[str]) -> str:
+    """The page; ``views`` are the pieces of trusted HTML in ``content``, whose scripts may run.
+
+    Raises
+    ------
+    UsageError
+        The extra for reports is not installed.
+    """
+    try:
+        from jinja2 import Environment, PackageLoader, StrictUndefined
+    except ImportError as error:
+        raise UsageError("reports need an extra that is not installed: pip install 'mbla[report]'") from error
+    environment = Environment(
+        loader=PackageLoader("mbla.results.report"),
+        autoescape=True,
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+        keep_trailing_newline=True,
+    )
+    style = files("mbla.results.report").joinpath("templates", "report.css").read_text(encoding="utf-8")
+    return environment.get_template("report.html").render(style=style, policy=_policy(views), **content)
+
+
+def _policy(views: Iterable[str]) -> str:
+    """Nothing from anywhere: styles and pictures of the page itself, and the scripts of its views by their hashes."""
+    hashes = dict.fromkeys(_hash(text) for view in views for text in SCRIPT.findall(view))
+    scripts = " ".join(f"'sha256-{each}'" for each in hashes) or "'none'"
+    return (
+        f"default-src 'none'; script-src {scripts}; style-src 'unsafe-inline'; img-src data: blob:; "
+        "base-uri 'none'; form-action 'none'"
+    )
+
+
+def _hash(text: str) -> str:
+    """As a browser counts it, with line ends as newlines."""
+    whole = text.replace("\r\n", "\n").replace("\r", "\n")
+    return base64.b64encode(hashlib.sha256(whole.encode("utf-8")).digest()).decode("ascii")

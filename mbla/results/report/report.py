@@ -1,0 +1,130 @@
+"""The report of a result: its content collected, the page filled, the file written in one go."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+from mbla import __version__
+from mbla.errors import FileError, UsageError
+from mbla.results.outcome import notices_of
+from mbla.results.report.blocks import blocks_of
+from mbla.results.report.case_content import CaseContent, case_content
+from mbla.results.report.page import render
+from mbla.results.report.verdict_table import verdict_table
+from mbla.results.report.views import case_view
+from mbla.results.results import CaseResult, Results
+from mbla.results.series import series_of
+from mbla.results.words.contact_words import contact_lines, finding_lines
+from mbla.results.words.listing import model_lines, settings_lines
+from mbla.results.words.series_words import series_lines
+from mbla.results.words.text import counted, number
+from mbla.results.words.verdict_words import bound_words, range_summary, reasons, verdict
+
+SUFFIXES = (".html", ".htm")
+
+
+def write_report(results: Results, path: Path, case: str | None = None, *, view: bool = True) -> list[str]:
+    """Write the report of all load cases, or of one; remarks on what could not be shown, each a sentence.
+
+    Parameters
+    ----------
+    path
+        An HTML file; its folder is created if missing, an earlier report replaced.
+    view
+        A view of each load case that can be turned.
+
+    Raises
+    ------
+    UsageError
+        No such load case; a name that is not that of an HTML file; an extra that is not installed.
+    FileError
+        The file cannot be written.
+    """
+    if path.suffix.lower() not in SUFFIXES:
+        raise UsageError(f"{path}: a report is an HTML file, its name ends in .html")
+    if path.is_dir():
+        raise FileError(f"{path}: is a folder")
+    text, remarks = report_html(results, case, view=view)
+    _replace(path, text.encode("utf-8", "backslashreplace"))
+    return remarks
+
+
+def report_html(results: Results, case: str | None = None, *, view: bool = True) -> tuple[str, list[str]]:
+    """The page, the same for the same result, and remarks on what it could not show."""
+    names = [each.load_case.name for each in results.cases]
+    if case is not None and case not in names:
+        raise UsageError(f"no load case {case} in the result; it has {', '.join(names) or 'none'}")
+    shown = replace(results, cases=tuple(each for each in results.cases if case in (None, each.load_case.name)))
+    cases = _cases(shown, view)
+    remarks = dict.fromkeys(f"no pictures: {each.figures.missing}" for each in cases if each.figures.missing)
+    page = render(_content(results, shown, cases), [each.view for each in cases])
+    return page, list(remarks)
+
+
+def _cases(shown: Results, view: bool) -> list[CaseContent]:
+    """The library of the views comes once, with the first of them."""
+    contents = []
+    for i, case in enumerate(shown.cases):
+        html = case_view(shown, case, first=i == 0) if view else ""
+        contents.append(case_content(shown, case, i + 1, html))
+    return contents
+
+
+def _content(results: Results, shown: Results, cases: list[CaseContent]) -> dict[str, Any]:
+    """Everything that the templates show but styles and policy."""
+    model, contacts, deck = results.model, results.contacts, results.deck
+    left_out = len(model.load_cases) - len(shown.cases)
+    return {
+        "title": model.title or deck.name,
+        "deck": deck,
+        "created": results.created,
+        "version": results.provenance.get("mbla", __version__),
+        "verdicts": verdict_table(shown),
+        "warnings_words": _warning_words(shown),
+        "verdict_words": [_in_words(shown, case) for case in shown.cases],
+        "left_out": f"{counted(left_out, 'load case')} of the deck not shown here" if left_out else "",
+        "cases": cases,
+        "series": [blocks_of(series_lines(model, series)) for series in series_of(shown.cases)],
+        "model": blocks_of(model_lines(model)),
+        "contacts": blocks_of([*contact_lines(model, contacts), *finding_lines(model, contacts.report)]),
+        "notices": notices_of(shown),
+        "settings": blocks_of(settings_lines(results)),
+        "provenance": results.provenance,
+        "time": {stage: number(round(seconds, 3)) for stage, seconds in results.time.items()},
+        "exit_code": results.exit_code,
+        "files": results.files,
+    }
+
+
+def _warning_words(shown: Results) -> str:
+    warnings = [notice for notice in notices_of(shown) if notice.severity == "warning"]
+    return f"{counted(len(warnings), 'warning')}{'; see below' if warnings else ''}."
+
+
+def _in_words(results: Results, case: CaseResult) -> tuple[str, str, list[str]]:
+    """Name, verdict and what stands beside it: the words of the terminal."""
+    model = results.model.of_case(case.load_case)
+    beside = (range_summary(model, case), *reasons(case), bound_words(model, case))
+    return case.load_case.name, f"{verdict(model, case)}.", [text for text in beside if text]
+
+
+def _replace(path: Path, data: bytes) -> None:
+    """Written aside and renamed into place: a report is there as a whole, or the earlier one still is."""
+    aside = path.with_name(f".mbla-report-{os.getpid()}-{path.name}")
+
+    def attempt(action: Callable[[], object], place: Path) -> None:
+        try:
+            action()
+        except OSError as error:
+            with contextlib.suppress(OSError):
+                aside.unlink(missing_ok=True)
+            raise FileError(f"{place}: {error.strerror or error}") from error
+
+    attempt(lambda: path.parent.mkdir(parents=True, exist_ok=True), path.parent)
+    attempt(lambda: aside.write_bytes(data), path)
+    attempt(lambda: aside.replace(path), path)

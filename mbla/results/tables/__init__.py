@@ -1,0 +1,1 @@
+"""Results as tables: one description of the columns, written as CSV and Parquet; meshes as VTKHDF."""

@@ -1,0 +1,61 @@
+"""All tables of a result by name, and their description as a page of words."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from mbla.deck.units import Units
+from mbla.errors import UsageError
+from mbla.results.results import CaseResult, Results
+from mbla.results.tables.block_columns import BLOCKS
+from mbla.results.tables.case_columns import CASES
+from mbla.results.tables.history_columns import ITERATIONS, NOTICES, PATH, PROGRAMS, REACTIONS, SERIES
+from mbla.results.tables.interface_columns import INTERFACES
+from mbla.results.tables.point_columns import POINTS
+from mbla.results.tables.table import Table, TableKind, table_of
+
+TABLES: dict[str, TableKind] = {
+    kind.name: kind
+    for kind in (CASES, BLOCKS, INTERFACES, POINTS, REACTIONS, PROGRAMS, ITERATIONS, PATH, SERIES, NOTICES)
+}
+
+
+def tables_of(
+    results: Results, names: Sequence[str] | None = None, cases: Sequence[str] | None = None
+) -> dict[str, Table]:
+    """Tables of a result by name, as ``mbla export`` writes them.
+
+    names : of the tables; None for all, of which those without rows are there too
+    cases : names of load cases; None for all that were run
+
+    Raises
+    ------
+    UsageError
+        There is no such table or load case.
+    """
+    chosen = chosen_cases(results, cases)
+    for name in names or ():
+        if name not in TABLES:
+            raise UsageError(f"no table {name}; there are {', '.join(TABLES)}")
+    return {name: table_of(TABLES[name], results, chosen) for name in (TABLES if names is None else names)}
+
+
+def chosen_cases(results: Results, names: Sequence[str] | None) -> tuple[CaseResult, ...]:
+    """Cases by name in the order of the deck, None for all; UsageError for a name that the result does not have."""
+    known = [case.load_case.name for case in results.cases]
+    for name in names or ():
+        if name not in known:
+            raise UsageError(f"no load case {name} in the result; it has {', '.join(known) or 'none'}")
+    return tuple(case for case in results.cases if names is None or case.load_case.name in names)
+
+
+def tables_page() -> str:
+    """Every table with its columns, as it stands in schemas/results.md; units as in a deck in m, N, kg."""
+    lines: list[str] = []
+    for kind in TABLES.values():
+        lines += [f"### `{kind.name}`", "", f"One row for {kind.words}.", ""]
+        lines += ["| column | type | unit | meaning |", "|---|---|---|---|"]
+        for column in kind.columns:
+            lines.append(f"| `{column.name}` | {column.kind} | {column.unit_in(Units()) or '–'} | {column.words} |")
+        lines.append("")
+    return "\n".join(lines)

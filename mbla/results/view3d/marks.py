@@ -1,0 +1,160 @@
+"""What is drawn on the blocks: hinges, sliding and opening interfaces, resultants and lines of thrust.
+
+Every mark is a set of line segments between points that the two bodies of an interface carry along: the point moves as
+the mean of both. So the browser can move marks together with the blocks.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from mbla.arrays import BoolArray, FloatArray, IntArray
+from mbla.contacts.contacts import Contacts
+from mbla.model.model import Model
+from mbla.results.collapse.interface_modes import InterfaceMode, interface_motion
+from mbla.results.collapse.thrust import Thrust, thrust_lines, thrust_of
+from mbla.results.pictures.geometry import hinge_axes, interface_sides
+from mbla.results.words.text import number
+from mbla.solution.solution import ContactMode, Mechanics
+
+HINGE, SLIDE, OPEN = "#D55E00", "#009E73", "#CC79A7"
+"""after Okabe and Ito, as in the pictures"""
+THRUST, RESULTANT = "#0A2FD0", "#5B1A8B"
+"""dark, to be seen through pale blocks"""
+LONGEST = 0.2
+"""length of the largest resultant over the size of the model"""
+SMALLEST = 1e-3
+"""share of the largest resultant below which none is drawn"""
+
+
+@dataclass(frozen=True)
+class Mark:
+    """Line segments of one kind.
+
+    points  : (n, 3) m
+    bodies  : (n, 2) bodies whose mean motion each point follows
+    pairs   : (k, 2) segments as rows of ``points``; both the same for a dot
+    texts   : (n) what the browser says of each point
+    inside  : it lies within the blocks and is seen only through them
+    """
+
+    name: str
+    colour: str
+    width: int
+    points: FloatArray
+    bodies: IntArray
+    pairs: IntArray
+    texts: tuple[str, ...]
+    inside: bool = False
+    dots: bool = False
+
+
+def mechanism_marks(model: Model, contacts: Contacts, mechanics: Mechanics) -> list[Mark]:
+    """Hinges, outlines of interfaces that slide or twist, and corners that part joined by lines; those there are."""
+    modes = interface_motion(model, contacts, mechanics).modes
+    owners = contacts.interface_of_point
+    opened = mechanics.modes == ContactMode.OPEN
+    hinge = (modes == InterfaceMode.HINGE)[owners] & ~opened
+    axes = hinge_axes(contacts, hinge)
+    alone = np.setdiff1d(np.flatnonzero(hinge), axes)
+    sliding = interface_sides(contacts, (modes == InterfaceMode.SLIDE) | (modes == InterfaceMode.TWIST))
+    names = interface_names(model, contacts)
+    return [
+        mark
+        for mark in (
+            _on_contacts("hinges", HINGE, 9, contacts, np.vstack([axes, np.column_stack([alone, alone])]), names, True),
+            _on_contacts("sliding", SLIDE, 6, contacts, sliding, names, False),
+            _openings(contacts, opened, names),
+        )
+        if len(mark.pairs)
+    ]
+
+
+def interface_names(model: Model, contacts: Contacts) -> list[str]:
+    """``arch[3] | arch[4]`` for every interface."""
+    return [f"{model.body_name(a)} | {model.body_name(b)}" for a, b in contacts.bodies.tolist()]
+
+
+def _on_contacts(
+    name: str, colour: str, width: int, contacts: Contacts, pairs: IntArray, names: list[str], dots: bool
+) -> Mark:
+    """Segments between contact points, given by their rows."""
+    used, row = np.unique(pairs, return_inverse=True)
+    owners = contacts.interface_of_point[used]
+    texts = tuple(f"{name}: {names[i]}" for i in owners.tolist())
+    bodies = contacts.bodies[owners]
+    return Mark(name, colour, width, contacts.points[used], bodies, row.reshape(pairs.shape), texts, dots=dots)
+
+
+def _openings(contacts: Contacts, opened: BoolArray, names: list[str]) -> Mark:
+    """Segments from an open contact point as part of body a to the same point as part of body b."""
+    rows = np.repeat(np.flatnonzero(opened), 2)
+    owners = contacts.interface_of_point[rows]
+    side = np.arange(len(rows)) % 2
+    body = contacts.bodies[owners, side]
+    texts = tuple(f"opening: {names[i]}" for i in owners.tolist())
+    pairs = np.arange(len(rows)).reshape(-1, 2)
+    return Mark("opening", OPEN, 4, contacts.points[rows], np.column_stack([body, body]), pairs, texts)
+
+
+def force_marks(model: Model, contacts: Contacts, forces: FloatArray, size: float) -> list[Mark]:
+    """Lines of thrust where blocks form rows, and the resultant of every interface as a line through its point.
+
+    forces : (n_points, 3) contact forces
+    size   : of the model, m
+    """
+    thrust = thrust_of(model, contacts, forces)
+    texts = _force_texts(model, contacts, thrust)
+    chains = thrust_lines(model, contacts, thrust)
+    none = np.zeros((0, 2), dtype=np.int64)
+    pairs = np.concatenate([none, *(np.column_stack([chain[:-1], chain[1:]]) for chain in chains)])
+    used, row = np.unique(pairs, return_inverse=True)
+    line = Mark(
+        "line of thrust",
+        THRUST,
+        8,
+        thrust.points[used],
+        contacts.bodies[used],
+        row.reshape(pairs.shape),
+        tuple(texts[i] for i in used.tolist()),
+        inside=True,
+    )
+    return [mark for mark in (line, _resultants(contacts, thrust, texts, size)) if len(mark.pairs)]
+
+
+def _resultants(contacts: Contacts, thrust: Thrust, texts: list[str], size: float) -> Mark:
+    strengths = np.linalg.norm(thrust.forces, axis=1)
+    largest = strengths[thrust.carried].max(initial=0.0)
+    rows = np.flatnonzero(thrust.carried & (strengths > SMALLEST * largest))
+    half = LONGEST * size / 2 / (largest or 1.0) * thrust.forces[rows]
+    points = np.stack([thrust.points[rows] - half, thrust.points[rows] + half], axis=1).reshape(-1, 3)
+    return Mark(
+        "resultants",
+        RESULTANT,
+        5,
+        points,
+        np.repeat(contacts.bodies[rows], 2, axis=0),
+        np.arange(len(points)).reshape(-1, 2),
+        tuple(texts[i] for i in np.repeat(rows, 2).tolist()),
+        inside=True,
+    )
+
+
+def _force_texts(model: Model, contacts: Contacts, thrust: Thrust) -> list[str]:
+    unit = model.units.force
+    names = interface_names(model, contacts)
+    columns = (thrust.normal_forces.tolist(), thrust.shear_forces.tolist(), thrust.eccentricity.tolist())
+    return [
+        f"{name}: normal force {number(normal)} {unit}, shear {number(shear)} {unit}, eccentricity {number(off)}"
+        for name, normal, shear, off in zip(names, *columns, strict=True)
+    ]
+
+
+def block_eccentricity(model: Model, contacts: Contacts, forces: FloatArray) -> FloatArray:
+    """Greatest eccentricity among the interfaces of each block, (n_blocks,); nan where none carries a force."""
+    eccentricity = thrust_of(model, contacts, forces).eccentricity
+    greatest = np.full(len(model.blocks) + len(model.grounds), np.nan)
+    np.fmax.at(greatest, contacts.bodies.ravel(), np.repeat(eccentricity, 2))
+    return greatest[: len(model.blocks)]

@@ -1,0 +1,44 @@
+"""What tests of several folders share: a browser, and a line at the end that says whether there was one."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import pytest
+
+from tests.browser import ARGUMENTS, CHROMIUM
+
+
+@pytest.fixture(scope="session")
+def browser() -> Iterator[Any]:
+    """A headless browser; tests that want one are skipped where there is none."""
+    playwright = pytest.importorskip("playwright.sync_api", reason="playwright is not installed")
+    if CHROMIUM is None:
+        pytest.skip("this machine has no browser: no chromium, and MBLA_BROWSER names none")
+    with playwright.sync_playwright() as driver:
+        found = driver.chromium.launch(executable_path=CHROMIUM, args=ARGUMENTS)
+        yield found
+        found.close()
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_runtest_setup(item: pytest.Item) -> None:
+    """Remember which tests want a browser."""
+    if "browser" in getattr(item, "fixturenames", ()):
+        item.user_properties.append(("browser", CHROMIUM or "none"))
+
+
+def pytest_terminal_summary(terminalreporter: Any) -> None:
+    """``tests in a browser: 8 passed (/usr/bin/chromium)``, where any were asked for."""
+    counts = {
+        outcome: sum(
+            any(name == "browser" for name, _ in getattr(report, "user_properties", ()))
+            and (report.when == "call" or not report.passed)
+            for report in terminalreporter.stats.get(outcome, [])
+        )
+        for outcome in ("passed", "failed", "error", "skipped")
+    }
+    if any(counts.values()):
+        shown = ", ".join(f"{count} {outcome}" for outcome, count in counts.items() if count)
+        terminalreporter.write_line(f"tests in a browser: {shown} ({CHROMIUM or 'this machine has none'})")

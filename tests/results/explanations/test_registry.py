@@ -1,0 +1,234 @@
+"""The registry of explanations against the source: nothing unexplained, nothing explained that cannot occur."""
+
+from __future__ import annotations
+
+import ast
+import re
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+import mbla
+from mbla import arguments
+from mbla.cli import main
+from mbla.deck.idle import APPLIES
+from mbla.errors import DeckError, FileError, LimitError, MblaError, SolverError, UsageError
+from mbla.exit_status import EXIT_CODES
+from mbla.results.collapse.interface_modes import InterfaceMode
+from mbla.results.explanations.explanations import EXPLANATIONS, SECTIONS, find_explanations
+from mbla.results.findings import FAILURES, REMARKS, UNKNOWN_FAILURE, UNKNOWN_REMARK, UNSETTLED
+from mbla.results.words.figure_words import residual_figures
+from mbla.solution.solution import Standing, Status
+from tests.results.synthetic import tower_results
+
+PACKAGE = Path(mbla.__file__).parent
+SOURCES = {
+    path: ast.parse(path.read_text(encoding="utf-8"))
+    for path in sorted(PACKAGE.rglob("*.py"))
+    if "explanations" not in path.parts
+}
+WRITTEN_BY = {"Notice": 1, "warn": 0, "tell": 0, "_drop": 2}
+"""Functions that take an identifier, and which argument it is."""
+COMPUTED = {
+    "f'{key}-not-applied'": {"inset-not-applied", "rounding-not-applied"},
+    "identifier": set(),  # passed on; the caller has it
+    "*row": set(),  # read back from a file
+}
+"""Identifiers that are no constants, as the source has them, and what they can be."""
+
+
+def identifiers_in_source() -> Iterator[tuple[str, str]]:
+    """Every identifier of a notice and the file that has it; ``f'...'`` where it is computed."""
+    for path, tree in SOURCES.items():
+        for node in ast.walk(tree):
+            if isinstance(node, ast.Call):
+                name = getattr(node.func, "id", getattr(node.func, "attr", ""))
+                place = WRITTEN_BY.get(name)
+                if place is not None and len(node.args) > place:
+                    argument = node.args[place]
+                    if isinstance(argument, ast.Constant):
+                        yield str(argument.value), path.name
+                    else:
+                        yield ast.unparse(argument), path.name
+
+
+def expanded(found: str, file: str) -> set[str]:
+    if re.fullmatch(r"[a-z][a-z0-9]*(-[a-z0-9]+)+|mirrored", found):
+        return {found}
+    if file == "notices.py" and found == "identifier":  # names of sections in the singular
+        return {"material-unused", "joint-unused", "load-unused"}
+    if file in ("findings.py", "outcome.py") and found == "identifier":
+        return {"tries-disagree", "range-not-verified", "peak-not-verified"}
+    return COMPUTED[found]
+
+
+NOTICES = {name for found, file in identifiers_in_source() for name in expanded(found, file)}
+FINDINGS = {kind.identifier for kind in (*FAILURES, *REMARKS, UNKNOWN_FAILURE, UNKNOWN_REMARK)} | {*UNSETTLED.values()}
+
+
+def test_the_walk_finds_notices_of_every_stage() -> None:
+    assert {"key-idle", "faces-flat", "force-outside-block", "near-misses", "crushing-by-points", "law-residual"} <= (
+        NOTICES
+    )
+    assert APPLIES  # key-idle can occur
+
+
+def test_every_notice_is_explained_and_every_explained_notice_occurs() -> None:
+    assert set(EXPLANATIONS) >= NOTICES | FINDINGS
+    told = {name for name, entry in EXPLANATIONS.items() if entry.kind in ("notice", "warning", "warning or notice")}
+    assert told <= NOTICES | FINDINGS
+
+
+def test_severity_is_that_of_the_source() -> None:
+    severities: dict[str, set[str]] = {}
+    for tree in SOURCES.values():
+        for node in ast.walk(tree):
+            if isinstance(node, ast.Call) and getattr(node.func, "id", "") == "Notice" and len(node.args) > 1:
+                severity, identifier = node.args[:2]
+                if isinstance(severity, ast.Constant) and isinstance(identifier, ast.Constant):
+                    severities.setdefault(str(identifier.value), set()).add(str(severity.value))
+    for name, found in severities.items():
+        kind = EXPLANATIONS[name].kind
+        if kind not in ("standing", "verification"):
+            assert kind == " or ".join(sorted(found, reverse=True)), name
+    for finding in REMARKS:
+        assert EXPLANATIONS[finding.identifier].kind == finding.severity
+
+
+def test_statuses_verdicts_and_modes() -> None:
+    assert {entry.identifier for entry in SECTIONS["Statuses of load cases"]} == {
+        status.value.replace("_", "-") for status in Status
+    }
+    assert {status.value.replace("_", "-") for status in UNSETTLED} == set(UNSETTLED.values())
+    assert {mode.name.lower() for mode in InterfaceMode} == {e.identifier for e in SECTIONS["Modes of joints"]}
+    verdicts = {alias for entry in SECTIONS["Standing under dead load"] for alias in entry.aliases}
+    assert verdicts == {verdict.value for verdict in Standing}
+
+
+def test_exit_statuses() -> None:
+    errors = (MblaError, UsageError, DeckError, SolverError, FileError, LimitError)
+    known = {0, 130, 143, *EXIT_CODES.values(), *(error.exit_status for error in errors)}
+    assert {entry.identifier for entry in SECTIONS["Exit statuses"]} == {f"exit-{number}" for number in known}
+    in_help = {int(number) for number in re.findall(r"\b(\d{1,3})(?=  |, )", arguments.EXIT_STATUS)} | {143}
+    assert known == in_help
+
+
+def test_residuals_of_the_listing() -> None:
+    for name, _, _ in residual_figures(tower_results().cases[0].checks):
+        assert len(find_explanations(name)) == 1, name
+    for name in ("associative, static bound", "associative, kinematic bound", "relative gap", "range", "peak"):
+        assert len(find_explanations(name)) == 1, name
+
+
+def sentences(tree: ast.AST) -> Iterator[str]:
+    """Texts of a module with formatted values left out, docstrings left out."""
+    docs = {id(node.value) for node in ast.walk(tree) if isinstance(node, ast.Expr)}
+    for node in ast.walk(tree):
+        if isinstance(node, ast.JoinedStr):
+            yield "".join(part.value if isinstance(part, ast.Constant) else "X" for part in node.values)  # type: ignore[misc]
+        elif isinstance(node, ast.Constant) and isinstance(node.value, str) and id(node) not in docs:
+            yield node.value
+
+
+def squeezed(text: str) -> str:
+    return " ".join(text.casefold().split())
+
+
+VERIFIERS = [
+    tree
+    for path, tree in SOURCES.items()
+    if path.parent.name == "solution" and path.name.startswith(("verify", "verification", "proofs"))
+]
+SOLVERS = [tree for path, tree in SOURCES.items() if "solution" in path.parts]
+
+
+def test_every_sentence_of_the_verification_has_an_identifier() -> None:
+    texts = {text for tree in VERIFIERS for text in map(squeezed, sentences(tree)) if len(text.split()) >= 6}
+    unknown = {text for text in texts if not any(phrase in text for kind in FAILURES for phrase in kind.phrases)}
+    parts = {text for text in unknown if any(text in whole for whole in texts - {text})}  # of formatted texts
+    assert len(texts) > 20
+    assert unknown - parts == set()
+
+
+@pytest.mark.parametrize(
+    ("trees", "kinds"), [(VERIFIERS, FAILURES), (SOLVERS, REMARKS)], ids=["verification", "solver"]
+)
+def test_every_phrase_occurs_in_the_source(trees: list[ast.AST], kinds: tuple[object, ...]) -> None:
+    texts = [squeezed(text) for tree in trees for text in sentences(tree)]
+    for kind in kinds:
+        for phrase in kind.phrases:  # type: ignore[attr-defined]
+            assert any(phrase in text for text in texts), phrase
+
+
+def test_messages_of_errors_occur_in_the_source() -> None:
+    texts = [text for tree in SOURCES.values() for text in sentences(tree)]
+    for entry in EXPLANATIONS.values():
+        for words in entry.says:
+            kind = words.removeprefix("unknown ")  # "unknown {kind}" is written in one place for all kinds
+            there = any(words in text for text in texts) or (
+                kind != words and any(text in (kind, f"{kind} X") for text in texts)
+            )
+            assert there, (entry.identifier, words)
+
+
+def test_identifiers_are_in_kebab_case_and_unique() -> None:
+    names = [entry.identifier for entries in SECTIONS.values() for entry in entries]
+    assert len(names) == len(set(names)) == len(EXPLANATIONS)
+    assert all(re.fullmatch(r"[a-z]+(-[a-z0-9]+)*", name) for name in names)
+    others = [alias for entry in EXPLANATIONS.values() for alias in entry.aliases]
+    assert len(others) == len(set(others))
+
+
+@pytest.mark.parametrize("entry", EXPLANATIONS.values(), ids=lambda entry: entry.identifier)
+def test_every_entry_is_complete(entry: object) -> None:
+    for part in ("title", "meaning", "cause", "remedy"):
+        text = getattr(entry, part)
+        assert text.strip() == text
+        assert text.endswith(".")
+        assert "  " not in text
+
+
+# --- the command ---------------------------------------------------------------------------------------------------
+
+
+def test_all_and_one(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["explain"]) == 0
+    everything = capsys.readouterr().out
+    assert all(f"  {name} " in everything for name in EXPLANATIONS)
+    assert all(len(line) <= 100 for line in everything.splitlines())
+    for asked in (["4"], ["exit-4"], ["exit", "status", "4"]):
+        assert main(["explain", *asked]) == 0
+        assert capsys.readouterr().out.startswith("exit-4   (exit status)\n")
+
+
+def test_found_by_status_message_and_word(capsys: pytest.CaptureFixture[str]) -> None:
+    found = {
+        "no_equilibrium": "no-equilibrium",
+        "only by self-stress": "only-by-self-stress",
+        "deck.yaml:8:9 joints.dry.fricton = 0.6: unknown key; did you mean friction?": "unknown-key",
+        "a.yaml:7:5 blocks[0].polyhedron: block wedge[0]: is not closed: 4 edges have one face only": "open-polyhedron",
+        "warning [near-misses]: 2 pairs of bodies nearly touch": "near-misses",
+        "supports = []: nothing holds the structure: give ground or fixed blocks": "no-support",
+    }
+    for asked, identifier in found.items():
+        assert [entry.identifier for entry in find_explanations(asked)] == [identifier], asked
+    assert {"blocks-overlap", "overlap-not-checked"} <= {entry.identifier for entry in find_explanations("overlap")}
+
+
+def test_misspelt(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["explain", "near-mises"]) == 2
+    assert "did you mean near-misses?" in capsys.readouterr().err
+    assert main(["explain", "xyzzy"]) == 2
+    assert "lists every identifier" in capsys.readouterr().err
+
+
+def test_json(capsys: pytest.CaptureFixture[str]) -> None:
+    import json
+
+    assert main(["explain", "--json"]) == 0
+    assert [entry["identifier"] for entry in json.loads(capsys.readouterr().out)["explanations"]] == list(EXPLANATIONS)
+    assert main(["explain", "peak", "--json"]) == 0
+    (entry,) = json.loads(capsys.readouterr().out)["explanations"]
+    assert entry["kind"] == "figure"
+    assert entry["example"] is None

@@ -1,0 +1,169 @@
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+from xml.etree import ElementTree
+
+import numpy as np
+import pytest
+
+from mbla.results.pictures.options import PictureOptions
+from mbla.results.pictures.palette import CASES, HINGE, OPEN
+from mbla.results.pictures.plane.sheet import round_length
+from mbla.results.pictures.plot import draw_picture
+from mbla.results.pictures.scene import Scene, scene_of
+from mbla.results.results import CaseResult, Results
+from mbla.solution.solution import Mechanics, Status
+from tests.results.synthetic import full_model, tower_results
+
+NAMED = "{http://www.w3.org/2000/svg}"
+
+
+def mechanics_of(results: Results) -> Mechanics:
+    mechanics = results.cases[0].solution.mechanics
+    assert mechanics is not None
+    return mechanics
+
+
+def scene(results: Results, case: CaseResult, kind: str, **options: Any) -> Scene:
+    return scene_of(results, case, PictureOptions(**options), kind)
+
+
+def drawn(
+    tmp_path: Path, kind: str, results: Results | None = None, case: CaseResult | None = None, **options: Any
+) -> Any:
+    """Texts and the tree of a figure."""
+    results = results or tower_results()
+    path = tmp_path / "figure.svg"
+    draw_picture(path, scene(results, case or results.cases[0], kind, **options), kind, PictureOptions(**options))
+    tree = ElementTree.parse(path)
+    return [" ".join("".join(node.itertext()).split()) for node in tree.iter(f"{NAMED}text")], path.read_text()
+
+
+@pytest.mark.parametrize("kind", ["model", "mechanism", "forces"])
+def test_a_plane_figure_is_made_of_lines_and_words(tmp_path: Path, kind: str) -> None:
+    texts, svg = drawn(tmp_path, kind)
+    assert "<image" not in svg
+    assert texts[0] == "Tower and brick"
+    assert any(text.endswith(" m") for text in texts), "scale bar with its unit"
+
+
+def test_model_names_groups_supports_and_loads(tmp_path: Path) -> None:
+    texts, _ = drawn(tmp_path, "model", case=None)
+    expected = {"ground", "fixed", "base", "tower", "brick", "x", "z", "dead load: gravity (0, 0, -9.81) m/s2"}
+    assert expected <= set(texts)
+    assert "live load push_x: acceleration (1, 0, 0) g on all blocks" in texts
+    assert "live load fall: acceleration (1, 0, 0) g on all blocks" in texts
+
+
+def test_model_of_one_case_shows_its_load_alone(tmp_path: Path) -> None:
+    results = tower_results()
+    path = tmp_path / "one.svg"
+    options = PictureOptions(case="push_x")
+    draw_picture(path, scene_of(results, results.cases[0], options, "model"), "model", options)
+    svg = path.read_text()
+    assert "live load: acceleration" in svg
+    assert CASES[1].lower() not in svg.lower()
+
+
+def test_mechanism_marks_the_hinge_and_what_opens(tmp_path: Path) -> None:
+    texts, svg = drawn(tmp_path, "mechanism")
+    assert {"hinge", "opening", "part 1", "before it moves"} <= set(texts)
+    assert "sliding" not in texts
+    assert "load case push_x: collapses at 0.5 g, verified" in texts
+    assert HINGE.lower() in svg.lower()
+    assert OPEN.lower() in svg.lower()
+
+
+def test_nothing_moves_at_scale_zero(tmp_path: Path) -> None:
+    texts, _ = drawn(tmp_path, "mechanism", scale=0.0)
+    assert "before it moves" not in texts
+    assert "opening" not in texts
+
+
+def test_without_equilibrium_the_motion_is_told_as_such(tmp_path: Path) -> None:
+    results = tower_results()
+    texts, _ = drawn(tmp_path, "mechanism", results, results.cases[1])
+    assert "drawn: the motion in which the dead load does more work than the joints take" in texts
+    assert "before it moves" in texts
+    texts, _ = drawn(tmp_path, "forces", results, results.cases[1])
+    assert "no contact forces to draw: none were found that carry the loads" in texts
+
+
+def test_forces_have_a_key(tmp_path: Path) -> None:
+    """The largest resultant of the tower stands on its edge: weight 10 N and push 5 N, 11.2 N together."""
+    texts, _ = drawn(tmp_path, "forces")
+    assert {"11.2 N", "5.59 N", "1.12 N"} <= set(texts)
+    assert "at the edge of the joint" in texts
+
+
+def test_lock_forces_are_told_as_such(tmp_path: Path) -> None:
+    results = tower_results()
+    forces = mechanics_of(results).contact_forces
+    solution = replace(results.cases[0].solution, mechanics=None, status=Status.UNBOUNDED, lock=forces)
+    case = replace(results.cases[0], solution=solution, status=Status.UNBOUNDED)
+    texts, _ = drawn(tmp_path, "forces", results, case)
+    assert "contact forces that balance the live load alone: any multiple of it is carried" in texts
+
+
+@pytest.mark.parametrize(
+    ("status", "words"),
+    [
+        (Status.NOT_VERIFIED, "NOT VERIFIED: no result, the best that was reached"),
+        (Status.TIME_LIMIT, "NOT VERIFIED: no result, the best that was reached"),
+        (Status.APPROXIMATE, "APPROXIMATE: residuals are larger than for a solved case"),
+        (Status.SOLVED, ""),
+    ],
+)
+@pytest.mark.parametrize("kind", ["mechanism", "forces", "history"])
+def test_what_is_no_result_looks_so(tmp_path: Path, kind: str, status: Status, words: str) -> None:
+    results = tower_results()
+    texts, svg = drawn(tmp_path, kind, results, replace(results.cases[0], status=status))
+    assert (words in texts) if words else not any("VERIFIED" in text or "APPROXIMATE" in text for text in texts)
+    assert ("#b00020" in svg) == bool(words), "red frame"
+
+
+def test_settlement_and_guides(tmp_path: Path) -> None:
+    results = tower_results()
+    model = full_model(results.model)
+    results = replace(results, model=model, cases=(replace(results.cases[0], load_case=model.load_cases[0]),))
+    texts, _ = drawn(tmp_path, "mechanism", results)
+    assert {"guided", "settlement of 1 block"} <= set(texts)
+
+
+def test_far_from_the_origin_and_in_other_units_the_figure_is_the_same(tmp_path: Path) -> None:
+    def moved(factor: float, shift: float) -> Any:
+        results = tower_results()
+        model, contacts, case = results.model, results.contacts, results.cases[0]
+        offset = np.array([shift, 0, shift])
+        blocks = replace(
+            model.blocks,
+            vertices=factor * model.blocks.vertices + offset,
+            centroids=factor * model.blocks.centroids + offset,
+            added_mass_points=factor * model.blocks.added_mass_points + offset,
+            volumes=factor**3 * model.blocks.volumes,
+            densities=model.blocks.densities / factor**3,
+        )
+        grounds = tuple(replace(each, point=factor * each.point + offset) for each in model.grounds)
+        mechanics = mechanics_of(results)
+        mechanism = mechanics.mechanism * np.repeat([factor, 1.0], 3)
+        solution = replace(case.solution, mechanics=replace(mechanics, mechanism=mechanism))
+        contacts = replace(
+            contacts, points=factor * contacts.points + offset, centroids=factor * contacts.centroids + offset
+        )
+        case = replace(case, solution=solution)
+        results = replace(
+            results, model=replace(model, blocks=blocks, grounds=grounds), contacts=contacts, cases=(case,)
+        )
+        return drawn(tmp_path, "mechanism", results)[0]
+
+    plain = moved(1.0, 0.0)
+    assert [text for text in moved(1000.0, 1e6) if not text.endswith(" m")] == [
+        text for text in plain if not text.endswith(" m")
+    ]
+    assert "1000 m" in moved(1000.0, 1e6)
+    assert "1 m" in plain
+
+
+@pytest.mark.parametrize(("length", "bar"), [(1.0, 1.0), (1.99, 1.0), (4.9, 2.0), (7.0, 5.0), (0.03, 0.02), (1e4, 1e4)])
+def test_the_scale_bar_has_a_round_length(length: float, bar: float) -> None:
+    assert round_length(length) == pytest.approx(bar)

@@ -1,0 +1,81 @@
+from dataclasses import replace
+from pathlib import Path
+from xml.etree import ElementTree
+
+import numpy as np
+
+from mbla.model.model import TravelPosition
+from mbla.results.pictures.history import draw_history, draw_series
+from mbla.results.pictures.options import PictureOptions
+from mbla.results.pictures.scene import scene_of
+from mbla.results.results import CaseResult, Results
+from mbla.results.series import series_of
+from mbla.solution.solution import Status
+from tests.results.synthetic import full_results, tower_results
+
+
+def texts(path: Path) -> list[str]:
+    nodes = ElementTree.parse(path).iter("{http://www.w3.org/2000/svg}text")
+    return [" ".join("".join(node.itertext()).split()) for node in nodes]
+
+
+def history(tmp_path: Path, results: Results, case: CaseResult) -> list[str]:
+    path = tmp_path / "history.svg"
+    draw_history(path, scene_of(results, case, PictureOptions(), "history"), PictureOptions())
+    return texts(path)
+
+
+def test_iterations_are_named_by_their_program(tmp_path: Path) -> None:
+    results = tower_results()
+    shown = history(tmp_path, results, results.cases[0])
+    assert {"1 associative", "gap", "primal residual", "dual residual", "iteration", "load factor 0.5"} <= set(shown)
+    assert "step of the load path" not in shown
+
+
+def test_load_path_where_there_is_one(tmp_path: Path) -> None:
+    results = full_results()
+    shown = history(tmp_path, results, results.cases[0])
+    assert {"step of the load path", "open", "sliding", "contact points"} <= set(shown)
+
+
+def test_case_without_iterations_says_so(tmp_path: Path) -> None:
+    results = tower_results()
+    shown = history(tmp_path, results, results.cases[1])
+    assert "no iterations to draw: the case was decided without a cone program" in shown
+
+
+def series_results() -> Results:
+    """Four positions: solved, unbounded, not verified, solved."""
+    results = tower_results()
+    case = results.cases[0]
+    mechanics = case.solution.mechanics
+    assert mechanics is not None
+    cases = []
+    for i, (status, factor) in enumerate(
+        [(Status.SOLVED, 0.5), (Status.UNBOUNDED, 0.0), (Status.NOT_VERIFIED, 9.0), (Status.SOLVED, 0.4)]
+    ):
+        travel = TravelPosition("train", i + 1, 4, np.array([float(i), 0, 0]), 1.5 * i, 1)
+        solution = replace(case.solution, mechanics=replace(mechanics, load_factor=factor), flow_rule="associative")
+        load_case = replace(case.load_case, name=f"train@{i + 1}", travel=travel)
+        cases.append(replace(case, load_case=load_case, solution=solution, status=status))
+    return replace(results, cases=tuple(cases))
+
+
+def test_series_shows_what_is_known_of_every_position(tmp_path: Path) -> None:
+    results = series_results()
+    path = tmp_path / "series.svg"
+    scene = scene_of(results, results.cases[0], PictureOptions(), "history")
+    draw_series(path, scene, series_of(results.cases)[0], PictureOptions())
+    shown = texts(path)
+    assert {"no result", "any multiple is carried", "position along the path [m]"} <= set(shown)
+    assert "NOT VERIFIED: 1 of 4 positions without a result" in shown
+    assert "worst" not in shown, "not known while one position has no result"
+
+
+def test_worst_position(tmp_path: Path) -> None:
+    results = series_results()
+    results = replace(results, cases=tuple(case for case in results.cases if case.status is not Status.NOT_VERIFIED))
+    path = tmp_path / "series.svg"
+    scene = scene_of(results, results.cases[0], PictureOptions(), "history")
+    draw_series(path, scene, series_of(results.cases)[0], PictureOptions())
+    assert "worst at position 4, 4.5 m along the path: 0.4" in texts(path)

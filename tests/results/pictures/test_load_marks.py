@@ -1,0 +1,97 @@
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from mbla.results.pictures.load_marks import load_marks
+from tests.results.synthetic import G, tower_model
+
+GRAVITY = ("gravity (0, 0, -9.81) m/s2",)
+
+
+def wrench(force: list[float], point: list[float], block: int) -> np.ndarray:
+    """A force at a point of one block of the tower model, about its centroid, (3, 6)."""
+    loads = np.zeros((3, 6))
+    loads[block, :3] = force
+    loads[block, 3:] = np.cross(np.array(point) - tower_model().blocks.centroids[block], force)
+    return loads
+
+
+@pytest.mark.parametrize(
+    ("force", "point", "tip"),
+    [
+        ([5, 0, 0], [0.0, 0.5, 2.7], [0.0, 0.5, 2.7]),
+        ([5, 0, 0], [0.8, 0.5, 2.7], [0.0, 0.5, 2.7]),
+        ([0, 0, -3], [0.2, 0.1, 3.0], [0.2, 0.1, 3.0]),
+        ([-1, 0, -1], [1.0, 0.5, 2.0], [1.0, 0.5, 2.0]),
+        ([5, 0, 0], [0.5, 0.5, 7.0], [0.5, 0.5, 7.0]),
+    ],
+    ids=["on its face", "inside", "on top", "slanted", "outside of the block"],
+)
+def test_arrow_ends_where_the_force_enters_the_block(force: list[float], point: list[float], tip: list[float]) -> None:
+    marks = load_marks(tower_model(), wrench(force, point, 1), ("force on tower[0]",))
+    assert marks.blocks.tolist() == [1]
+    assert marks.tips == pytest.approx(np.array([tip]))
+    assert marks.forces == pytest.approx(np.array([force]))
+    assert not len(marks.moments)
+    assert not marks.uniform
+
+
+def test_loads_on_supports_are_not_drawn() -> None:
+    marks = load_marks(tower_model(), wrench([5, 0, 0], [0, 0, 0], 0), ("force on base[0]",))
+    assert not len(marks.blocks)
+
+
+def test_acceleration_is_one_arrow() -> None:
+    model = tower_model()
+    marks = load_marks(model, model.load_cases[0].dead_load, GRAVITY)
+    assert not len(marks.blocks)
+    assert marks.accelerated.tolist() == [False, True, True]
+    assert marks.acceleration == pytest.approx(np.array([0, 0, -G]))
+
+
+def test_forces_beside_gravity_are_drawn_by_themselves() -> None:
+    """Also where every block has one, so that no two blocks have the same force for their mass."""
+    model = tower_model()
+    loads = model.load_cases[0].dead_load + wrench([0, 0, -3], [0.2, 0.5, 3], 1) + wrench([0, 0, -4], [4.5, 0.5, 1], 2)
+    marks = load_marks(model, loads, (*GRAVITY, "line load"))
+    assert marks.acceleration == pytest.approx(np.array([0, 0, -G]))
+    assert marks.blocks.tolist() == [1, 2]
+    assert marks.forces == pytest.approx(np.array([[0, 0, -3], [0, 0, -4.0]]), abs=1e-9)
+    assert marks.tips == pytest.approx(np.array([[0.2, 0.5, 3.0], [4.5, 0.5, 0.5]]))
+
+
+def test_one_block_with_a_force_beside_its_weight() -> None:
+    model = tower_model()
+    loads = model.load_cases[0].dead_load + wrench([0, 0, -3], [0.2, 0.5, 3], 1)
+    loads[2] = 0.0
+    marks = load_marks(model, loads, (*GRAVITY, "force"))
+    assert marks.forces == pytest.approx(np.array([[0, 0, -3.0]]), abs=1e-9)
+
+
+def test_masses_that_blocks_carry_along_make_no_moment() -> None:
+    model = tower_model()
+    blocks = replace(model.blocks, added_masses=np.array([0, 0.5, 0]), added_mass_points=model.blocks.centroids + 0.3)
+    loads = np.zeros((3, 6))
+    loads[:, 2] = -G * blocks.masses
+    loads[:, 3:] = np.cross(np.full((3, 3), 0.3), np.outer(blocks.added_masses, [0, 0, -G]))
+    marks = load_marks(replace(model, blocks=blocks), loads, GRAVITY)
+    assert marks.uniform
+    assert not len(marks.blocks)
+    assert not len(marks.moments)
+
+
+def test_moment_without_a_force() -> None:
+    loads = np.zeros((3, 6))
+    loads[2, 4] = 7.0
+    marks = load_marks(tower_model(), loads, ("moment on brick[0]",))
+    assert marks.moment_blocks.tolist() == [2]
+    assert marks.moments == pytest.approx(np.array([[0, 7.0, 0]]))
+    assert not len(marks.blocks)
+
+
+@pytest.mark.parametrize("factor", [1e-6, 1e9])
+def test_units_do_not_matter(factor: float) -> None:
+    model = tower_model()
+    marks = load_marks(model, factor * wrench([5, 0, 0], [0.0, 0.5, 2.7], 1), ("force",))
+    assert marks.tips == pytest.approx(np.array([[0.0, 0.5, 2.7]]))

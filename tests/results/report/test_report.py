@@ -1,0 +1,266 @@
+"""The report without a browser: what is in it, that it is whole, safe, and says what listing and JSON say."""
+
+import re
+import sys
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from mbla.errors import FileError, Notice, UsageError
+from mbla.results.outcome import notices_of
+from mbla.results.records.json_record import results_json
+from mbla.results.report import case_content
+from mbla.results.report.figures import Figure, Figures
+from mbla.results.report.report import report_html, write_report
+from mbla.results.results import CaseResult, Results
+from mbla.results.words.case_words import case_sections
+from mbla.results.words.contact_words import contact_lines
+from mbla.results.words.elements import Entry, Heading, Table, elements_of
+from mbla.results.words.listing import model_lines, settings_lines
+from mbla.results.words.text import number
+from mbla.solution.solution import Status
+from tests.results.report.page_reader import Node, Page
+from tests.results.synthetic import full_results, tower_results
+
+EVIL = "<script>alert(1)</script>\"'><img src=x onerror=alert(2)>&amp;{{ 7*7 }}"
+DOT = "data:image/png;base64,iVBORw0KGgo="
+
+
+@pytest.fixture(autouse=True)
+def no_drawing(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Pictures take seconds and have tests of their own."""
+    figures = Figures((Figure(DOT, "Mechanism", "The structure"),))
+    monkeypatch.setattr(case_content, "case_figures", lambda results, case: figures)
+
+
+def page_of(results: Results, case: str | None = None) -> Page:
+    return Page(report_html(results, case, view=False)[0])
+
+
+def with_status(status: Status) -> Results:
+    results = tower_results()
+    first = results.cases[0]
+    solution = first.solution
+    if status in (Status.NO_EQUILIBRIUM, Status.UNBOUNDED):
+        solution = replace(solution, mechanics=None, associative=None)
+    checks = replace(first.checks, verified=status is Status.SOLVED)
+    return replace(results, cases=(CaseResult(first.load_case, replace(solution, status=status), checks, status),))
+
+
+@pytest.mark.parametrize("results", [tower_results(), tower_results("associative"), full_results()])
+def test_the_page_is_whole_and_accessible(results: Results) -> None:
+    page = page_of(results)
+    ids = [node.attributes["id"] for node in page.nodes if "id" in node.attributes]
+    assert len(ids) == len(set(ids))
+    for node in page.nodes:
+        for name in ("aria-labelledby", "headers", "for"):
+            if name in node.attributes:
+                assert node.attributes[name] in ids
+    links = [node.attributes["href"] for node in page.all("a")]
+    assert links
+    assert all(link[0] == "#" and link[1:] in ids for link in links)
+    assert page.one("html").attributes["lang"] == "en"
+    assert all(node.attributes["alt"] for node in page.all("img"))
+    assert all("scope" in node.attributes for node in page.all("th"))
+    levels = [int(node.tag[1]) for node in page.nodes if re.fullmatch("h[1-6]", node.tag)]
+    assert levels[0] == 1
+    assert levels.count(1) == 1
+    assert max(np.diff(levels)) <= 1
+
+
+@pytest.mark.parametrize("results", [tower_results(), full_results()])
+def test_no_part_of_it_comes_from_elsewhere(results: Results) -> None:
+    html = report_html(results, view=False)[0]
+    page = Page(html)
+    for node in page.nodes:
+        for name in ("src", "href", "srcset", "action", "data", "poster"):
+            assert re.match("data:|#", node.attributes.get(name, "#")), node
+    assert "url(" not in html
+    assert "@import" not in html
+    policy = page.one("meta", **{"http-equiv": "Content-Security-Policy"}).attributes["content"]
+    assert policy.startswith("default-src 'none'; script-src 'none';")
+
+
+@pytest.mark.parametrize("results", [tower_results(), tower_results("associative"), full_results()])
+def test_the_same_result_gives_the_same_bytes(results: Results) -> None:
+    assert report_html(results, view=False) == report_html(results, view=False)
+
+
+def said(page: Page, owner: Node, lines: list[str]) -> None:
+    """Everything that lines of the listing say stands in a part of the page: entries and rows as rows, cell by cell."""
+    rows = [row for table in page.within(owner, "table") for row in page.rows(table)]
+    for element in elements_of(lines):
+        if isinstance(element, Table):
+            for row in (element.head, *element.rows):
+                assert [" ".join(cell.split()) for cell in row] in rows
+        elif isinstance(element, Entry):
+            name, value = " ".join(element.name.split()), " ".join(element.value.split())
+            assert any(row[0] == name and " ".join(row[1:]).startswith(value) for row in rows), element
+        elif isinstance(element, Heading):
+            assert element.text in owner.text
+        else:
+            assert element.text.removesuffix(":") in owner.text
+
+
+@pytest.mark.parametrize("results", [tower_results(), tower_results("associative"), full_results()])
+def test_listing_and_report_say_the_same(results: Results) -> None:
+    page = page_of(results)
+    for i, case in enumerate(results.cases):
+        owner = page.one("section", id=f"case-{i + 1}")
+        for section in case_sections(results.model, results.contacts, case):
+            said(page, owner, section.lines)
+    model = page.one("section", id="model")
+    said(page, model, [*model_lines(results.model)[3:], *contact_lines(results.model, results.contacts)])
+    said(page, page.one("section", id="provenance"), settings_lines(results))
+
+
+def test_the_table_of_verdicts_has_the_figures_of_the_record() -> None:
+    results = tower_results()
+    page, record = page_of(results), results_json(results)["cases"]
+    rows = page.rows(page.one("table", id="verdicts"))
+    assert rows[0] == [
+        *("load case", "status", "load factor", "range for this mechanism"),
+        *("associative", "static bound", "kinematic bound"),
+    ]
+    assert [row[0] for row in rows[1:]] == [case["name"] for case in record]
+    assert rows[1] == ["push_x", "solved", number(record[0]["load_factor"]), "-", "0.5", "0.5", "0.5"]
+    assert rows[2] == ["fall", "NO EQUILIBRIUM", *5 * ["-"]]
+
+
+def test_a_settlement_is_told_by_its_reaction() -> None:
+    """reaction = 30 - 20 load factor: 20 N at 1/2; its range is 19.6 .. 21 from factors 0.45 .. 0.52."""
+    results = full_results()
+    standing = replace(results.cases[0].solution, standing=None)  # else only by self-stress: no result
+    page = page_of(replace(results, cases=(replace(results.cases[0], solution=standing),)))
+    rows = page.rows(page.one("table", id="verdicts"))
+    assert rows[0][2] == "reaction [N]"
+    assert rows[1][2:4] == ["20", "19.6 .. 21"]
+    assert rows[1][5:] == ["20", "20"]
+
+
+@pytest.mark.parametrize("status", [status for status in Status if status is not Status.SOLVED])
+def test_what_is_no_verified_result_looks_so(status: Status) -> None:
+    page = page_of(with_status(status))
+    words = status.value.replace("_", " ").upper()
+    tone = "fair" if status is Status.APPROXIMATE else "bad"
+    row = page.within(page.one("table", id="verdicts"), "tr")[1]
+    assert row.attributes["class"] == tone
+    assert words in row.text
+    case = page.one("section", id="case-1")
+    assert f"{words}: " in next(node.text for node in page.within(case, "p") if "alarm" in node.attributes["class"])
+    title = page.within(case, "h2")[0]
+    assert title.text.endswith(words)
+    if tone == "bad":
+        assert page.rows(page.one("table", id="verdicts"))[1][2] == "-"
+
+
+def test_a_solved_case_raises_no_alarm() -> None:
+    page = page_of(with_status(Status.SOLVED))
+    assert not page.all("p", class_="alarm")
+    assert page.within(page.one("table", id="verdicts"), "tr")[1].attributes["class"] == "good"
+
+
+def test_text_from_elsewhere_stays_text() -> None:
+    results = tower_results()
+    blocks = replace(results.model.blocks, groups=(EVIL, *results.model.blocks.groups[1:]))
+    model = replace(results.model, title=EVIL, blocks=blocks)
+    first = results.cases[0]
+    solution = replace(first.solution, reason=EVIL, remarks=(EVIL,))
+    results = replace(
+        results,
+        model=model,
+        cases=(replace(first, solution=solution), *results.cases[1:]),
+        deck=replace(results.deck, name=EVIL, sources=((EVIL, EVIL + "</pre>"),), overrides=(EVIL,)),
+        notices=(Notice("warning", "near-miss", EVIL),),
+        provenance={EVIL: EVIL},
+        settings={EVIL: EVIL},
+        files=(EVIL,),
+    )
+    page = page_of(results)
+    assert not page.all("script")
+    assert len(page.all("img")) == len(results.cases)
+    assert not [name for node in page.nodes for name in node.attributes if name.startswith("on")]
+    assert page.one("h1").text == EVIL
+    assert page.one("pre").text == EVIL + "</pre>"
+    for key in ("case-1", "model", "warnings", "deck", "provenance"):
+        assert EVIL in page.one("section", id=key).text
+
+
+def test_the_deck_is_there_as_it_was() -> None:
+    text = "mbla: 1\n\n  title: Tür – µ\n\tx\n"
+    results = tower_results()
+    deck = replace(results.deck, sources=(("a.yaml", text), ("b.yaml", "")), overrides=("analysis.solver=mbla",))
+    page = page_of(replace(results, deck=deck))
+    assert "".join(page.all("pre")[0].pieces).removeprefix("\n") == text
+    assert [node.text for node in page.all("summary")] == ["a.yaml (4 lines)", "b.yaml (0 lines)"]
+    assert "analysis.solver=mbla" in page.one("section", id="deck").text
+
+
+def test_every_warning_is_there_with_its_identifier() -> None:
+    results = tower_results()
+    text = page_of(results).one("section", id="warnings").text
+    notices = notices_of(results)
+    assert len(notices) == 2
+    for notice in notices:
+        assert f"{notice.severity} [{notice.identifier}]: {notice.message}" in text
+
+
+def test_one_case_alone() -> None:
+    page = page_of(tower_results(), "fall")
+    assert [row[0] for row in page.rows(page.one("table", id="verdicts"))[1:]] == ["fall"]
+    assert page.one("section", id="case-1").text.startswith("Load case fall")
+    assert "2 load cases of the deck not shown here" in page.one("section", id="results").text
+
+
+def test_no_such_case() -> None:
+    with pytest.raises(UsageError, match="no load case pull in the result; it has push_x, fall"):
+        report_html(tower_results(), "pull")
+
+
+def test_a_result_without_cases() -> None:
+    page = page_of(replace(tower_results(), cases=()))
+    assert "No load case was solved." in page.one("section", id="results").text
+
+
+@pytest.mark.parametrize("name", ["report.h5", "report", "report.pdf"])
+def test_only_html_is_written(tmp_path: Path, name: str) -> None:
+    with pytest.raises(UsageError, match=r"its name ends in \.html"):
+        write_report(tower_results(), tmp_path / name, view=False)
+    assert not list(tmp_path.iterdir())
+
+
+def test_a_folder_of_that_name(tmp_path: Path) -> None:
+    (tmp_path / "a.html").mkdir()
+    with pytest.raises(FileError, match="is a folder"):
+        write_report(tower_results(), tmp_path / "a.html", view=False)
+
+
+def test_an_earlier_report_is_replaced_as_a_whole(tmp_path: Path) -> None:
+    path = tmp_path / "new" / "a.html"
+    write_report(tower_results(), path, view=False)
+    path.write_text("earlier")
+    assert write_report(tower_results(), path, view=False) == []
+    assert path.read_text(encoding="utf-8") == report_html(tower_results(), view=False)[0]
+    assert list(path.parent.iterdir()) == [path]
+
+
+def test_what_cannot_be_written_is_said(tmp_path: Path) -> None:
+    (tmp_path / "file").write_text("")
+    with pytest.raises(FileError, match="file"):
+        write_report(tower_results(), tmp_path / "file" / "a.html", view=False)
+
+
+def test_without_the_extra_it_says_what_to_install(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "jinja2", None)
+    with pytest.raises(UsageError, match=r"pip install 'mbla\[report\]'"):
+        report_html(tower_results(), view=False)
+
+
+def test_missing_pictures_are_said_in_the_page_and_beside_it(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(case_content, "case_figures", lambda results, case: Figures((), "pictures need OpenGL"))
+    html, remarks = report_html(tower_results(), view=False)
+    assert remarks == ["no pictures: pictures need OpenGL"]
+    page = Page(html)
+    assert len([node for node in page.all("p", class_="alarm") if "pictures need OpenGL" in node.text]) == 2

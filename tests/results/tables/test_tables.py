@@ -1,0 +1,175 @@
+"""What stands in the tables: counts, positions, units, and numbers against what is known of the tower."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pandas
+import pytest
+
+from mbla.deck.units import Units
+from mbla.errors import UsageError
+from mbla.results.results import Results
+from mbla.results.tables.tables import TABLES, tables_of, tables_page
+from mbla.solution.solution import Status
+from tests.results.synthetic import TOWER_WEIGHT, full_results, tower_results
+
+PAGE = Path(__file__).parents[3] / "schemas" / "results.md"
+
+
+@pytest.fixture(scope="module")
+def results() -> Results:
+    return tower_results()
+
+
+def unsolved(results: Results, status: Status) -> Results:
+    """The first case with the same figures and another status."""
+    return replace(results, cases=(replace(results.cases[0], status=status), results.cases[1]))
+
+
+def test_the_page_describes_every_table() -> None:
+    assert tables_page().rstrip("\n") in PAGE.read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize("kind", TABLES.values(), ids=TABLES)
+def test_columns_are_told_apart_and_explained(kind: object) -> None:
+    columns = TABLES[kind.name].columns  # type: ignore[attr-defined]
+    assert len({column.name for column in columns}) == len(columns)
+    assert all(column.words and column.name.replace("_", "").isalnum() for column in columns)
+
+
+def test_rows_are_blocks_interfaces_and_points_for_each_case(results: Results) -> None:
+    tables = tables_of(results)
+    assert list(tables) == list(TABLES)
+    assert {name: len(table) for name, table in tables.items()} == {
+        "cases": 2,
+        "blocks": 2 * 3,
+        "interfaces": 2 * 2,
+        "points": 2 * 8,
+        "reactions": 2,
+        "programs": 2,
+        "iterations": 12,
+        "path": 0,
+        "series": 0,
+        "notices": 2,
+    }
+
+
+def test_numbers_of_the_tower(results: Results) -> None:
+    """The tower turns about its edge x = 1, y = 0.5, z = 1 and presses there."""
+    tables = tables_of(results, cases=["push_x"])
+    hinge, brick = tables["interfaces"].to_pandas().to_dict("records")
+    assert (hinge["mode"], brick["mode"]) == ("hinge", "stick")
+    assert hinge["force_z"] == pytest.approx(TOWER_WEIGHT)
+    assert hinge["normal_force"] == pytest.approx(TOWER_WEIGHT)
+    assert hinge["shear_force"] == pytest.approx(0.5 * TOWER_WEIGHT)
+    assert [hinge[f"application_{axis}"] for axis in "xyz"] == pytest.approx([1, 0.5, 1])
+    assert hinge["eccentricity"] == pytest.approx(1)
+    assert [hinge[f"hinge_point_{axis}"] for axis in "xyz"] == pytest.approx([1, 0.5, 1])
+    assert np.isnan(brick["hinge_point_x"])
+    moving = tables["blocks"].to_pandas().query("part == 1")
+    assert list(moving["name"]) == ["tower[0]"]
+    velocity = moving[["velocity_x", "velocity_y", "velocity_z"]].to_numpy()[0]
+    live = moving[["live_force_x", "live_force_y", "live_force_z"]].to_numpy()[0]
+    assert velocity @ live == pytest.approx(1)
+    reactions = tables["reactions"].to_pandas()
+    assert reactions["force_z"].sum() == pytest.approx(2 * TOWER_WEIGHT)
+
+
+def test_columns_are_the_arrays_of_the_result(results: Results) -> None:
+    tables = tables_of(results, cases=["push_x"])
+    mechanics, contacts = results.cases[0].solution.mechanics, results.contacts
+    assert mechanics is not None
+    points = tables["points"]
+    assert np.array_equal(np.column_stack([points[name] for name in ("N", "T1", "T2")]), mechanics.contact_forces)
+    velocities = np.column_stack([points[name] for name in ("opening", "slip_1", "slip_2")])
+    assert np.array_equal(velocities, mechanics.contact_velocities)
+    assert np.array_equal(points["interface"], contacts.interface_of_point)
+    assert np.array_equal(tables["interfaces"]["area"], contacts.areas)
+    assert points["area"].sum() == pytest.approx(contacts.areas.sum())
+    assert np.array_equal(tables["blocks"]["volume"], results.model.blocks.volumes)
+    assert tables["blocks"]["weight"].sum() == pytest.approx(results.model.total_weight)
+
+
+def test_units_are_those_of_the_deck(results: Results) -> None:
+    changed = replace(results, model=replace(results.model, units=Units("mm", "kN", "t")))
+    header = tables_of(changed)["interfaces"].header
+    for column in ("area [mm2]", "centroid_x [mm]", "moment_z [kN mm]", "rotation_x [1/(kN mm)]", "eccentricity"):
+        assert column in header
+    assert tables_of(changed)["blocks"].unit_of["density"] == "t/mm3"
+
+
+def test_the_best_iterate_is_no_result(results: Results) -> None:
+    tables = tables_of(unsolved(results, Status.NOT_VERIFIED), cases=["push_x"])
+    cases = tables["cases"]
+    assert cases["status"].tolist() == ["not_verified"]
+    assert np.isnan(cases["load_factor"]).all()
+    assert cases["best_iterate_load_factor"].tolist() == [0.5]
+    for name in ("cases", "blocks", "interfaces", "points", "reactions"):
+        assert set(tables[name]["figures"].tolist()) == {"best_iterate"}
+
+
+def test_a_result_is_no_best_iterate(results: Results) -> None:
+    tables = tables_of(results, cases=["push_x"])
+    assert tables["cases"]["load_factor"].tolist() == [0.5]
+    assert np.isnan(tables["cases"]["best_iterate_load_factor"]).all()
+    assert set(tables["points"]["figures"].tolist()) == {"result"}
+
+
+def test_without_equilibrium_there_is_the_motion_that_proves_it_and_nothing_else(results: Results) -> None:
+    tables = tables_of(results, cases=["fall"])
+    blocks, interfaces, points = (tables[name] for name in ("blocks", "interfaces", "points"))
+    assert blocks["certificate_velocity_z"].tolist() == [0, -1, 0]
+    assert interfaces["certificate_translation_z"].tolist() == [-1, 0]  # base under tower; brick stands on the ground
+    for table, column in ((blocks, "velocity_x"), (interfaces, "force_x"), (interfaces, "work"), (points, "N")):
+        assert np.isnan(table[column]).all()
+    assert np.ma.getmaskarray(blocks["part"]).all()
+    assert set(interfaces["mode"].tolist()) == {""}
+    assert tables["cases"]["status"].tolist() == ["no_equilibrium"]
+    assert tables["cases"]["reason"].tolist() == ["the dead load cannot be carried"]
+    assert len(tables["reactions"]) == 0
+
+
+def test_forces_that_lock_it_have_columns_of_their_own() -> None:
+    full = full_results()
+    points = tables_of(unsolved(full, Status.UNBOUNDED), cases=["push_x"])["points"]
+    assert points["lock_N"].tolist() == full.cases[0].solution.lock[:, 0].tolist()  # type: ignore[index]
+    assert np.isnan(points["N"]).all()
+    assert np.isnan(tables_of(full, cases=["push_x"])["points"]["lock_N"]).all()
+
+
+def test_ranges_of_forces_stand_with_the_interfaces() -> None:
+    interfaces = tables_of(full_results(), cases=["push_x"])["interfaces"]
+    assert interfaces["normal_force_min"].tolist() == [0, 5]
+    assert interfaces["normal_force_max"].tolist() == [10, np.inf]
+
+
+def test_blocks_without_a_position_have_none(results: Results) -> None:
+    blocks = tables_of(results)["blocks"]
+    assert np.ma.getmaskarray(blocks["course"]).all()
+    assert blocks.to_pandas()["course"].isna().all()
+
+
+def test_models_without_contacts_or_cases_have_tables_without_rows(results: Results) -> None:
+    none = replace(results, cases=())
+    assert {len(table) for name, table in tables_of(none).items() if name != "notices"} == {0}
+    assert all(len(table.to_pandas().columns) == len(table.columns) for table in tables_of(none).values())
+
+
+def test_frames_carry_units_and_meanings(results: Results) -> None:
+    frame = tables_of(results)["blocks"].to_pandas()
+    assert frame.attrs["units"]["centroid_x"] == "m"
+    assert frame.attrs["units"]["name"] == ""
+    assert frame.attrs["meanings"]["volume"] == "volume"
+    assert pandas.api.types.is_bool_dtype(frame["fixed"])
+    assert pandas.api.types.is_integer_dtype(frame["block"])
+
+
+@pytest.mark.parametrize(
+    ("names", "cases", "words"), [(["beams"], None, "no table beams"), (None, ["x"], "no load case x")]
+)
+def test_unknown_names_are_refused(results: Results, names: list[str], cases: list[str], words: str) -> None:
+    with pytest.raises(UsageError, match=words):
+        tables_of(results, names, cases)

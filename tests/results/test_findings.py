@@ -1,0 +1,124 @@
+"""Identifiers of what solver and verification say in words."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+
+from mbla.errors import Notice
+from mbla.model.model import TravelPosition
+from mbla.results.findings import FAILURES, REMARKS, UNKNOWN_FAILURE, UNKNOWN_REMARK, finding_of, found_notices
+from mbla.results.outcome import notices_of
+from mbla.results.records.json_record import results_json
+from mbla.results.results import CaseResult
+from mbla.results.words.listing import listing
+from mbla.results.words.summary import summary_lines
+from mbla.solution.interior.solve_interior import ONE_OF_MANY
+from mbla.solution.solution import Status
+from tests.results.synthetic import full_results, tower_results
+
+
+def push() -> CaseResult:
+    return tower_results().cases[0]
+
+
+def identifiers(case: CaseResult) -> list[str]:
+    return [notice.identifier for notice in found_notices(case)]
+
+
+def test_a_clean_case_has_none() -> None:
+    assert found_notices(push()) == ()
+
+
+@pytest.mark.parametrize("status", [status for status in Status if status is not Status.SOLVED])
+def test_every_other_status_is_a_warning_with_its_reason(status: Status) -> None:
+    case = replace(push(), status=status)
+    (notice,) = found_notices(case)
+    assert (notice.severity, notice.identifier, notice.case) == ("warning", status.value.replace("_", "-"), "push_x")
+    assert len(notice.message) > len("push_x: ")
+    said = replace(case, solution=replace(case.solution, reason="it rains"))
+    assert found_notices(said)[0].message == "push_x: it rains"
+
+
+def test_failures_and_remarks() -> None:
+    case = push()
+    failures = (
+        "equilibrium residual 0.1 exceeds 0.0001",
+        "static bound 1 and kinematic bound 2 lie further apart than x",
+    )
+    remarks = (ONE_OF_MANY, "HiGHS gives a load factor of 1, clarabel 2: they differ by 1 and should by 1e-06 at most")
+    case = replace(
+        case, checks=replace(case.checks, failures=failures), solution=replace(case.solution, remarks=remarks)
+    )
+    assert identifiers(case) == [
+        "equilibrium-residual",
+        "bounds-apart",
+        "load-factor-not-unique",
+        "second-opinion-differs",
+    ]
+    assert [notice.severity for notice in found_notices(case)] == ["warning", "warning", "notice", "warning"]
+
+
+def test_an_unknown_sentence_is_not_lost() -> None:
+    assert finding_of("something new", FAILURES, UNKNOWN_FAILURE) is UNKNOWN_FAILURE
+    assert finding_of("something new", REMARKS, UNKNOWN_REMARK) is UNKNOWN_REMARK
+
+
+def test_a_failure_that_is_the_reason_is_told_once() -> None:
+    case = replace(push(), status=Status.NOT_VERIFIED)
+    reason = "the correction ended without a solution"
+    case = replace(
+        case, solution=replace(case.solution, reason=reason), checks=replace(case.checks, failures=(reason,))
+    )
+    assert identifiers(case) == ["not-verified"]
+
+
+def test_what_is_claimed_but_not_verified() -> None:
+    case = full_results().cases[0]
+    assert {"range-not-verified", "peak-not-verified"}.isdisjoint(identifiers(case))
+    assert "tries-disagree" in identifiers(case)
+    nan = float("nan")
+    doubtful = replace(case, checks=replace(case.checks, lower=nan, upper=nan, peak_load_factor=nan))
+    found = identifiers(doubtful)
+    assert found.count("range-not-verified") == 2
+    assert found.count("peak-not-verified") == 1
+
+
+def test_harmless_positions_of_a_travelling_load_are_no_warnings() -> None:
+    results = tower_results()
+    position = TravelPosition("train", 1, 2, results.model.blocks.centroids[1], 0.0, 1)
+    cases = tuple(replace(push(), load_case=replace(push().load_case, travel=position)) for _ in range(2))
+    locked = replace(cases[0], status=Status.UNBOUNDED)
+
+    def severities(*chosen: CaseResult) -> list[str]:
+        found = notices_of(replace(results, notices=(), cases=chosen))
+        return [notice.severity for notice in found if notice.identifier == "unbounded"]
+
+    assert severities(locked, cases[1]) == ["notice"]
+    assert severities(locked, locked) == ["warning", "warning"]
+
+
+def test_warnings_end_the_listing_numbered_and_the_summary_names_them() -> None:
+    results = tower_results()
+    case = replace(push(), status=Status.APPROXIMATE)
+    results = replace(results, cases=(case,), notices=(Notice("warning", "near-misses", "two blocks nearly touch"),))
+    end = listing(results).split("Summary\n")[1]
+    assert "2 warnings:" in end
+    assert "1. warning [near-misses]: two blocks nearly touch" in end
+    assert "2. warning [approximate]: push_x: verification confirms" in end
+    assert "`mbla explain ID`" in end
+    lines = summary_lines(results)
+    assert lines[-1] == "  2 warnings: near-misses, approximate; mbla explain ID says more"
+    assert "  warning [near-misses]: two blocks nearly touch" in lines
+    without = replace(results, cases=(push(),), notices=())
+    assert "mbla explain" not in listing(without)
+    assert "0 warnings" in listing(without)
+    assert not any("warning" in line for line in summary_lines(without))
+
+
+def test_json_names_the_case() -> None:
+    results = tower_results()
+    notices = results_json(results)["notices"]
+    assert [set(notice) for notice in notices[:2]] == [{"severity", "identifier", "message"}] * 2
+    assert (notices[-1]["identifier"], notices[-1]["case"]) == ("no-equilibrium", "fall")

@@ -1,0 +1,150 @@
+import base64
+import json
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from mbla.model.blocks import Blocks
+from mbla.results.results import Results
+from mbla.results.view3d.marks import HINGE
+from mbla.results.view3d.scene import packed, scene_of
+from mbla.solution.solution import Status
+from tests.results.synthetic import full_results, tower_results
+
+KINDS = {"f4": "<f4", "i4": "<i4", "u1": "u1"}
+
+
+def read(array: dict[str, str], columns: int = 1) -> Any:
+    values = np.frombuffer(base64.b64decode(array["bdata"]), KINDS[array["dtype"]])
+    return values.reshape(-1, columns) if columns > 1 else values
+
+
+def scene(results: Results, case: int = 0) -> dict[str, Any]:
+    found = scene_of(results, results.cases[case])
+    json.dumps(found, allow_nan=False)
+    return found
+
+
+def marks(found: dict[str, Any]) -> dict[str, Any]:
+    return {mark["name"]: mark for mark in found["marks"]}
+
+
+def test_arrays_come_back_as_they_were() -> None:
+    values = np.arange(6.0).reshape(2, 3)
+    assert read(packed(values), 3).tolist() == values.tolist()
+    assert read(packed(np.array([70000, -1]))).tolist() == [70000, -1]
+
+
+def test_blocks_of_the_tower() -> None:
+    found = scene(tower_results())
+    assert read(found["vertices"], 3).shape == (24, 3)
+    assert read(found["triangles"], 3).shape == (36, 3)
+    assert np.bincount(read(found["blockOfTriangle"])).tolist() == [12, 12, 12]
+    assert read(found["edges"], 2).shape == (36, 2)
+    assert found["texts"][1] == "tower[0]<br>weight 10 N<br>part 1"
+    assert found["texts"][0].endswith("<br>fixed")
+    assert found["texts"][2].endswith("<br>at rest")
+
+
+def test_tower_turns_about_its_hinge() -> None:
+    """About the edge x = 1, z = 1: opens at x = 0; the brick's interface stays shut."""
+    found = marks(scene(tower_results()))
+    assert list(found) == ["hinges", "opening", "resultants"]
+    assert found["hinges"]["colour"] == HINGE
+    assert sorted(read(found["hinges"]["points"], 3).tolist()) == [[1, 0, 1], [1, 1, 1]]
+    assert read(found["hinges"]["pairs"], 2).shape == (1, 2)
+    assert found["hinges"]["texts"][0] == "hinges: base[0] | tower[0]"
+    opened = read(found["opening"]["points"], 3)
+    assert opened[:, 0].tolist() == [0, 0, 0, 0]
+    assert read(found["opening"]["bodies"], 2).tolist() == [[0, 0], [1, 1]] * 2  # as part of the base, of the tower
+
+
+def test_resultants_pass_through_their_points_in_proportion() -> None:
+    """10 N and a push of half of that at both: the tower's through its edge."""
+    results = tower_results()
+    mark = marks(scene(results))["resultants"]
+    ends = read(mark["points"], 3).reshape(2, 2, 3)
+    np.testing.assert_allclose(ends.mean(axis=1)[0], [1, 0.5, 1], atol=1e-6)
+    lines = ends[:, 1] - ends[:, 0]
+    np.testing.assert_allclose(np.linalg.norm(lines, axis=1), np.linalg.norm(lines[0]), rtol=1e-6)
+    np.testing.assert_allclose(lines[:, 0] / lines[:, 2], -0.5, rtol=1e-6)
+    assert "normal force 10 N, shear 5 N, eccentricity 1" in mark["texts"][0]
+
+
+def test_case_without_equilibrium_shows_what_falls() -> None:
+    found = scene(tower_results(), 1)
+    assert found["motionWords"] == "motion in which the dead load falls"
+    assert found["marks"] == []
+    assert found["forceWords"] == ""
+    assert [each["name"] for each in found["colourings"]] == ["displacement", "part", "group"]
+
+
+def test_case_that_was_not_solved_is_at_rest() -> None:
+    results = tower_results()
+    nothing = replace(results.cases[1].solution, certificate=None, status=Status.NUMERICAL_ERROR)
+    case = replace(results.cases[1], solution=nothing, status=Status.NUMERICAL_ERROR)
+    found = scene(replace(results, cases=(case,)))
+    assert found["motion"] is None
+    assert [each["name"] for each in found["colourings"]] == ["group"]
+
+
+@pytest.mark.parametrize(
+    ("status", "words"), [(Status.APPROXIMATE, "APPROXIMATE"), (Status.NOT_VERIFIED, "NO RESULT"), (Status.SOLVED, "")]
+)
+def test_what_is_no_verified_result_says_so(status: Status, words: str) -> None:
+    results = tower_results()
+    found = scene(replace(results, cases=(replace(results.cases[0], status=status),)))
+    for text in (found["motionWords"], found["forceWords"]):
+        assert text.endswith(words)
+        assert words or "," not in text
+
+
+def test_locked_structure_shows_the_forces_that_lock_it() -> None:
+    results = full_results()
+    solution = replace(results.cases[0].solution, mechanics=None, certificate=None, status=Status.UNBOUNDED)
+    case = replace(results.cases[0], solution=solution, status=Status.UNBOUNDED)
+    found = scene(replace(results, cases=(case,)))
+    assert found["forceWords"] == "forces that balance the live load alone"
+    assert list(marks(found)) == ["resultants"]
+
+
+def test_every_field_filled_and_still_json() -> None:
+    assert scene(full_results())["arrow"]["name"] == "settlement"
+
+
+def moved(blocks: Blocks, shift: float) -> Blocks:
+    return replace(
+        blocks,
+        vertices=blocks.vertices + shift,
+        centroids=blocks.centroids + shift,
+        added_mass_points=blocks.added_mass_points + shift,
+    )
+
+
+def test_far_from_the_origin_coordinates_keep_their_digits() -> None:
+    """5,000 km away single precision would leave steps of half a metre."""
+    results, shift = tower_results(), 5e6
+    model = replace(results.model, blocks=moved(results.model.blocks, shift), grounds=())
+    contacts = replace(
+        results.contacts,
+        points=results.contacts.points + shift,
+        centroids=results.contacts.centroids + shift,
+        bodies=np.array([[0, 1], [0, 2]]),
+    )
+    found = scene(replace(results, model=model, contacts=contacts))
+    assert np.abs(np.array(found["offset"]) - shift).max() < 10
+    vertices = read(found["vertices"], 3) + np.array(found["offset"])
+    np.testing.assert_allclose(vertices, model.blocks.vertices, atol=1e-5)
+    hinges = read(marks(found)["hinges"]["points"], 3) + np.array(found["offset"])
+    np.testing.assert_allclose(hinges[:, 0], shift + 1, atol=1e-5)
+    assert scene(results)["offset"] == [0, 0, 0]
+
+
+def test_names_are_no_markup() -> None:
+    results = tower_results()
+    blocks = replace(results.model.blocks, groups=("base", "<b>&", "brick"))
+    found = scene(replace(results, model=replace(results.model, blocks=blocks)))
+    assert found["texts"][1].startswith("&lt;b&gt;&amp;[0]<br>")
+    assert "&lt;b&gt;&amp;[0]" in marks(found)["hinges"]["texts"][0]

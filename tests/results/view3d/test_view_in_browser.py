@@ -1,0 +1,114 @@
+"""The view in a real browser: that it is drawn, turns, moves and names blocks, and asks for nothing from a network."""
+
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from mbla.results.results import Results
+from mbla.results.view3d.view import page_html, view_html
+from mbla.solution.solution import Status
+from tests.browser import Visit, visited
+from tests.results.synthetic import tower_results
+
+PLOT = ".mbla-view3d-plot"
+READY = "[data-mbla-ready]"
+
+
+@pytest.fixture(scope="module")
+def results() -> Results:
+    return tower_results()
+
+
+@pytest.fixture(scope="module")
+def visit(browser: Any, results: Results, tmp_path_factory: pytest.TempPathFactory) -> Visit:
+    path = tmp_path_factory.mktemp("view") / "page.html"
+    path.write_text(page_html(results, results.cases[0]), encoding="utf-8")
+    found = visited(browser, path.as_uri())
+    found.page.wait_for_selector(READY, state="attached")
+    return found
+
+
+def settled(visit: Visit) -> Any:
+    visit.page.wait_for_timeout(400)
+    return visit.pixels(PLOT)
+
+
+def changed(first: Any, second: Any) -> int:
+    return int((np.abs(first - second).max(axis=2) > 30).sum())
+
+
+def test_the_structure_is_drawn_and_nothing_else_is_asked_for(visit: Visit) -> None:
+    picture = settled(visit)
+    assert (picture.min(axis=2) < 250).mean() > 0.05
+    blue = (picture[..., 2] - picture[..., 0] > 60).sum()
+    assert blue > 2000  # the tower, which moves
+    assert visit.requests == []
+    assert visit.errors == []
+
+
+def test_it_turns_with_the_mouse(visit: Visit) -> None:
+    before = settled(visit)
+    box = visit.page.locator(PLOT).bounding_box()
+    x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+    visit.page.mouse.move(x, y)
+    visit.page.mouse.down()
+    visit.page.mouse.move(x + 150, y + 40, steps=5)
+    visit.page.mouse.up()
+    assert changed(before, settled(visit)) > 5000
+    assert visit.errors == []
+
+
+def test_slider_moves_the_tower_as_the_pictures_do(visit: Visit, results: Results) -> None:
+    """The browser's finite rotation against that of motion.py, and as built at the other end."""
+    from mbla.results.collapse.motion import drawn_motion, moved_vertices
+
+    blocks = results.model.blocks
+    for time in ("1", "0.5", "0"):
+        visit.page.locator("input[type=range]").fill(time)
+        settled(visit)
+        drawn = visit.page.evaluate(
+            f"(() => {{ const mesh = document.querySelector('{PLOT}').data[0];"
+            "return [mesh.x, mesh.y, mesh.z].map((values) => Array.from(values)); })()"
+        )
+        expected = moved_vertices(blocks, float(time) * drawn_motion(results.model, results.cases[0]))
+        np.testing.assert_allclose(np.transpose(drawn), expected, atol=1e-6)
+
+
+def test_colours_and_layers_can_be_chosen(visit: Visit) -> None:
+    before = settled(visit)
+    visit.page.select_option("select", "group")
+    coloured = settled(visit)
+    assert changed(before, coloured) > 2000
+    assert visit.page.locator(".mbla-view3d-legend").inner_text().split() == ["base", "brick", "tower"]
+    visit.page.get_by_label("resultants").check()
+    assert visit.page.get_by_label("see through blocks").is_checked()
+    assert changed(coloured, settled(visit)) > 2000
+    assert visit.errors == []
+
+
+def test_hover_names_the_block(visit: Visit) -> None:
+    visit.page.select_option("select", "group")
+    box = visit.page.locator(PLOT).bounding_box()
+    told = set()
+    for across in np.linspace(0.2, 0.8, 7):
+        visit.page.mouse.move(box["x"] + across * box["width"], box["y"] + 0.6 * box["height"], steps=2)
+        visit.page.wait_for_timeout(150)
+        told.update(visit.page.locator(".hoverlayer text, .nums").all_text_contents())
+    assert any("base[0]" in text for text in told), told
+
+
+def test_two_views_share_the_library(browser: Any, results: Results, tmp_path: Path) -> None:
+    falling = replace(results.cases[1], status=Status.NO_EQUILIBRIUM)
+    parts = [
+        view_html(results, results.cases[0], include_library=True),
+        view_html(results, falling, include_library=False),
+    ]
+    path = tmp_path / "page.html"
+    path.write_text(f'<!DOCTYPE html><meta charset="utf-8">{"".join(parts)}', encoding="utf-8")
+    found = visited(browser, path.as_uri(), 390, 900)
+    found.page.wait_for_function(f"document.querySelectorAll('{READY}').length === 2")
+    assert found.page.evaluate("document.documentElement.scrollWidth") <= 390  # nothing juts out on a phone
+    assert (found.errors, found.requests) == ([], [])
