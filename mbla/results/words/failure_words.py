@@ -216,17 +216,22 @@ def _slide_sentences(model: Model, failure: Failure) -> list[str]:
             fit.append(plane)
     working = [run for run in runs if _takes_work(run)]
     idle = sum(len(plane.interfaces) for run in runs if not _takes_work(run) for plane in run)
-    idle += sum(line.slides for line in failure.hinge_lines)
+    hinges = [line for line in failure.hinge_lines if line.slides]
+    in_hinges = sum(np.nan_to_num(line.shear) for line in hinges)
     if not working:
-        return [
-            f"{counted(idle, 'joint')} {'slides' if idle == 1 else 'slide'} without taking work."
-            if idle
-            else "Nothing slides."
-        ]
+        if in_hinges >= UNDER_FORCE:
+            return [
+                f"{counted(len(hinges), 'hinge')} {'slides' if len(hinges) == 1 else 'slide'} as well, taking {percent(in_hinges)} % of the power."
+            ]
+        idle += len(hinges)
+        verb = "slides" if idle == 1 else "slide"
+        return [f"{counted(idle, 'joint')} {verb} without taking work." if idle else "Nothing slides."]
     texts = [_slide_sentence(model, run) for run in working[:MOST_SLIDES]]
     if len(working) > MOST_SLIDES:
         left = sum(plane.shear for run in working[MOST_SLIDES:] for plane in run)
         texts.append(f"Sliding elsewhere takes {percent(left)} % of the power; see the table below.")
+    if in_hinges >= UNDER_FORCE:
+        texts.append(f"Hinges that slide take {percent(in_hinges)} % of it.")
     given_back = sum(plane.shear - plane.share for plane in failure.sliding_planes)
     if given_back >= UNDER_FORCE:
         texts.append(f"Joints lift as they slide, and their normal forces give {percent(given_back)} % back.")

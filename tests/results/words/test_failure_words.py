@@ -18,8 +18,8 @@ MODEL = tower_model()
 CASE = MODEL.load_cases[0]
 
 
-def sentences(case: int) -> list[str]:
-    line = line_of_file(WALL, "analysis.flow_rule=associative", case=case)
+def sentences(case: int, *overrides: str) -> list[str]:
+    line = line_of_file(WALL, *overrides, case=case)
     mechanics = verified(line)[0].mechanics
     assert mechanics is not None
     collapse = collapse_of(line.model, line.contacts, line.load_case, mechanics)
@@ -38,6 +38,12 @@ def test_the_wall_of_the_tutorial_in_its_plane() -> None:
     assert "on a hinge from (3.2, 0, 0.2) to (3.2, 0.25, 0.2)" in text
     assert "A stepped crack of " in text
     assert "to (2.2, 0.125, 1.3) separates part 1 from what rests." in text
+
+
+def test_by_associative_flow_the_corner_of_the_wall_lifts_as_it_slides_and_turns_about_no_hinge() -> None:
+    text = " ".join(sentences(0, "analysis.flow_rule=associative"))
+    assert "round an axis through (3.346, 0.125, -0.02511)." in text
+    assert "2 hinges slide as well, taking " in text
 
 
 def test_the_wall_of_the_tutorial_out_of_its_plane() -> None:
@@ -69,7 +75,7 @@ def test_directions_by_the_load(velocity: tuple[float, ...], words: str) -> None
 def test_outwards_where_the_load_does_not_tell() -> None:
     middle = np.average(MODEL.blocks.centroids, axis=0, weights=MODEL.blocks.volumes)
     for sign, words in ((1.0, "outwards"), (-1.0, "inwards")):
-        assert way_words(MODEL, CASE, np.array([0, sign, 0]), middle + [0, 3, 0]) == words
+        assert way_words(MODEL, CASE, np.array([0, sign, 0]), middle + np.array([0, 3, 0])) == words
 
 
 def test_regions_by_the_extents_of_the_structure() -> None:
