@@ -220,9 +220,9 @@ def _slide_sentences(model: Model, failure: Failure) -> list[str]:
     in_hinges = sum(np.nan_to_num(line.shear) for line in hinges)
     if not working:
         if in_hinges >= UNDER_FORCE:
-            return [
-                f"{counted(len(hinges), 'hinge')} {'slides' if len(hinges) == 1 else 'slide'} as well, taking {percent(in_hinges)} % of the power."
-            ]
+            slide = "slides" if len(hinges) == 1 else "slide"
+            count = counted(len(hinges), "hinge")
+            return [f"{count} {slide} as well, taking {percent(in_hinges)} % of the power."]
         idle += len(hinges)
         verb = "slides" if idle == 1 else "slide"
         return [f"{counted(idle, 'joint')} {verb} without taking work." if idle else "Nothing slides."]
