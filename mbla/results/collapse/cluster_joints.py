@@ -61,6 +61,11 @@ def runs(pairs: IntArray, chosen: IntArray) -> Iterator[IntArray]:
     yield from np.split(ordered, np.flatnonzero(new) + 1)
 
 
+def points_of(contacts: Contacts, interfaces: IntArray) -> IntArray:
+    """Contact points of some interfaces, one after the other."""
+    return np.concatenate([np.arange(contacts.point_start[i], contacts.point_start[i + 1]) for i in interfaces])
+
+
 def radii(contacts: Contacts) -> FloatArray:
     """Distance of the farthest point of each interface from its centroid, (n_interfaces,) m."""
     arms = contacts.points - contacts.centroids[contacts.interface_of_point]

@@ -15,7 +15,7 @@ from scipy.sparse.csgraph import connected_components
 from mbla.arrays import FloatArray, IntArray
 from mbla.contacts.contacts import Contacts
 from mbla.contacts.polygons import box_pairs
-from mbla.results.collapse.cluster_joints import ClusterJoints, radii
+from mbla.results.collapse.cluster_joints import ClusterJoints, points_of, radii
 from mbla.results.collapse.interface_modes import InterfaceMode, InterfaceMotion
 from mbla.solution.solution import Mechanics
 
@@ -59,10 +59,9 @@ def cracks(
     label = _connected(contacts, joints, moving)
     is_open = motion.modes[moving] == InterfaceMode.OPEN
     speed = float(np.linalg.norm(mechanics.contact_velocities, axis=1).max(initial=0.0)) or 1.0
-    found = [
-        _crack(contacts, joints, mechanics, moving[(label == number) & is_open], speed)
-        for number in np.unique(label[is_open])
-    ]
+    opening = moving[is_open][np.argsort(label[is_open], kind="stable")]
+    chains = np.split(opening, np.cumsum(np.unique(label[is_open], return_counts=True)[1])[:-1]) if len(opening) else []
+    found = [_crack(contacts, joints, mechanics, chain, speed) for chain in chains]
     return tuple(sorted(found, key=lambda crack: (-round(crack.share, 6), int(crack.interfaces.min()))))
 
 
@@ -88,7 +87,7 @@ def _crack(
     order = np.argsort(np.round(along / (np.abs(along).max() or 1.0), 6), kind="stable")
     first, last = (np.round(centroids[order[i]], 9)[[2, 0, 1]].tolist() for i in (0, -1))
     order = order[::-1] if last < first else order
-    points = np.flatnonzero(np.isin(contacts.interface_of_point, interfaces))
+    points = points_of(contacts, interfaces)
     opening = mechanics.contact_velocities[points, 0]
     widest = int(np.argmax(np.round(opening / speed, 9)))
     return Crack(

@@ -46,7 +46,7 @@ def failure_of(model: Model, contacts: Contacts, collapse: Collapse, mechanics: 
         clusters=clusters,
         merged=found.merged,
         motions=part_motions(model, clusters, mechanics.mechanism),
-        hinge_lines=hinge_lines(contacts, collapse.interfaces, joints),
+        hinge_lines=hinge_lines(contacts, collapse.interfaces, joints, collapse.work),
         sliding_planes=sliding_planes(contacts, collapse.interfaces, joints, collapse.work),
         cracks=cracks(contacts, collapse.interfaces, joints, mechanics),
     )

@@ -11,8 +11,9 @@ import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
 from mbla.contacts.contacts import Contacts
-from mbla.results.collapse.cluster_joints import ClusterJoints, radii, runs
+from mbla.results.collapse.cluster_joints import ClusterJoints, points_of, radii, runs
 from mbla.results.collapse.interface_modes import InterfaceMode, InterfaceMotion
+from mbla.results.collapse.work import Work
 
 SAME_DIRECTION = float(np.cos(np.radians(2.0)))
 """cosine from which two axes count as parallel"""
@@ -31,6 +32,7 @@ class HingeLine:
     rotation   : the largest relative angular velocity of its interfaces
     share      : the largest contact speed of its interfaces over the largest of all
     slides     : closed points of it slide too
+    shear      : share of the power put in that their shear forces take; nan where none is put in
     """
 
     clusters: tuple[int, int]
@@ -41,6 +43,7 @@ class HingeLine:
     rotation: float
     share: float
     slides: bool
+    shear: float
 
     @property
     def length(self) -> float:
@@ -48,7 +51,9 @@ class HingeLine:
         return float(np.linalg.norm(self.end - self.start))
 
 
-def hinge_lines(contacts: Contacts, motion: InterfaceMotion, joints: ClusterJoints) -> tuple[HingeLine, ...]:
+def hinge_lines(
+    contacts: Contacts, motion: InterfaceMotion, joints: ClusterJoints, work: Work
+) -> tuple[HingeLine, ...]:
     """Those between different clusters, by falling share of the motion, then by their first interface."""
     hinges = np.flatnonzero((motion.modes == InterfaceMode.HINGE) & joints.between)
     directions = joints.signs[:, None] * motion.hinge_directions
@@ -63,17 +68,22 @@ def hinge_lines(contacts: Contacts, motion: InterfaceMotion, joints: ClusterJoin
             same = (directions[rest] @ directions[seed] >= SAME_DIRECTION) & (
                 off <= SAME_LINE * np.maximum(size[rest], size[seed])
             )
-            lines.append(_line(contacts, motion, joints, rest[same], directions[seed]))
+            lines.append(_line(contacts, motion, joints, work, rest[same], directions[seed]))
             rest = rest[~same]
     return tuple(sorted(lines, key=lambda line: (-round(line.share, 6), line.interfaces[0])))
 
 
 def _line(
-    contacts: Contacts, motion: InterfaceMotion, joints: ClusterJoints, interfaces: IntArray, direction: FloatArray
+    contacts: Contacts,
+    motion: InterfaceMotion,
+    joints: ClusterJoints,
+    work: Work,
+    interfaces: IntArray,
+    direction: FloatArray,
 ) -> HingeLine:
     """Through the mean of the axes, as long as the contact points reach along it."""
     through = motion.hinge_points[interfaces].mean(axis=0)
-    points = contacts.points[np.isin(contacts.interface_of_point, interfaces)]
+    points = contacts.points[points_of(contacts, interfaces)]
     along = (points - through) @ direction
     return HingeLine(
         clusters=joints.clusters(interfaces[0]),
@@ -84,4 +94,5 @@ def _line(
         rotation=float(np.linalg.norm(motion.rotation[interfaces], axis=1).max()),
         share=float(joints.shares[interfaces].max()),
         slides=bool(motion.slides[interfaces].any()),
+        shear=float((work.friction + work.cohesion)[interfaces].sum()) / (work.given or float("nan")),
     )

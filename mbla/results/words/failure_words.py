@@ -27,6 +27,8 @@ MOST_PARTS, MOST_LINES, MOST_CRACKS, MOST_SLIDES = 4, 4, 2, 2
 """what is told of each kind; the tables hold more, the result files all"""
 IN_PLACE = 0.02
 """speed of the middle of a part over that by its rotation, up to which it turns on the spot"""
+SAME_WAY = 0.9
+"""cosine from which planes of the same two parts are told together"""
 UNDER_FORCE = 5e-4
 """share of the power above which sliding is said to take work: what is written as 0.1 % or more"""
 ON_AXIS = 0.02
@@ -202,34 +204,38 @@ def crack_kind(contacts: Contacts, crack: Crack) -> str:
 
 def _slide_sentences(model: Model, failure: Failure) -> list[str]:
     """Planes of the same two parts and direction in one sentence, those that take most work first."""
+    by_clusters: dict[tuple[int, int], list[list[SlidingPlane]]] = {}
     runs: list[list[SlidingPlane]] = []
     for plane in failure.sliding_planes:
-        fit = next((run for run in runs if _same_way(run[0], plane)), None)
+        known = by_clusters.setdefault(plane.clusters, [])
+        fit = next((run for run in known if float(run[0].direction @ plane.direction) > SAME_WAY), None)
         if fit is None:
-            runs.append([plane])
+            known.append([plane])
+            runs.append(known[-1])
         else:
             fit.append(plane)
     working = [run for run in runs if _takes_work(run)]
     idle = sum(len(plane.interfaces) for run in runs if not _takes_work(run) for plane in run)
-    idle += sum(line.slides for line in failure.hinge_lines)
+    hinges = [line for line in failure.hinge_lines if line.slides]
+    in_hinges = sum(np.nan_to_num(line.shear) for line in hinges)
     if not working:
-        return [
-            f"{counted(idle, 'joint')} {'slides' if idle == 1 else 'slide'} without taking work."
-            if idle
-            else "Nothing slides."
-        ]
+        if in_hinges >= UNDER_FORCE:
+            slide = "slides" if len(hinges) == 1 else "slide"
+            count = counted(len(hinges), "hinge")
+            return [f"{count} {slide} as well, taking {percent(in_hinges)} % of the power."]
+        idle += len(hinges)
+        verb = "slides" if idle == 1 else "slide"
+        return [f"{counted(idle, 'joint')} {verb} without taking work." if idle else "Nothing slides."]
     texts = [_slide_sentence(model, run) for run in working[:MOST_SLIDES]]
     if len(working) > MOST_SLIDES:
         left = sum(plane.shear for run in working[MOST_SLIDES:] for plane in run)
         texts.append(f"Sliding elsewhere takes {percent(left)} % of the power; see the table below.")
+    if in_hinges >= UNDER_FORCE:
+        texts.append(f"Hinges that slide take {percent(in_hinges)} % of it.")
     given_back = sum(plane.shear - plane.share for plane in failure.sliding_planes)
     if given_back >= UNDER_FORCE:
         texts.append(f"Joints lift as they slide, and their normal forces give {percent(given_back)} % back.")
     return texts
-
-
-def _same_way(first: SlidingPlane, second: SlidingPlane) -> bool:
-    return first.clusters == second.clusters and float(first.direction @ second.direction) > 0.9
 
 
 def _takes_work(planes: Sequence[SlidingPlane]) -> bool:

@@ -79,7 +79,7 @@ def group_words(model: Model, blocks: IntArray) -> str:
         return block_names(model, blocks)
     names = list(dict.fromkeys(model.blocks.groups[block] for block in blocks.tolist()))
     more = len(names) - MOST_GROUPS
-    listed = ", ".join(names[:MOST_GROUPS]) + (f" and {counted(more, 'more group')}" if more > 0 else "")
+    listed = f"{', '.join(names[:MOST_GROUPS])} and {counted(more, 'more group')}" if more > 0 else " and ".join(names)
     return f"{counted(len(blocks), 'block')} of {listed}"
 
 
