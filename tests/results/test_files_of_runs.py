@@ -78,7 +78,7 @@ def walk(value: Any, path: str, known: dict[str, str], seen: set[str]) -> None:
     if isinstance(value, dict):
         for key, item in value.items():
             own = f"{path}.{key}" if path else key
-            walk(item, own if own in known else f"{path}.*", known, seen)
+            walk(item, own if own in known or f"{path}.*" not in known else f"{path}.*", known, seen)
     if isinstance(value, list):
         for item in value:
             walk(item, f"{path}[]", known, seen)

@@ -6,31 +6,9 @@ are those of JSON; a question mark: or null, where there is no such value.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
-from mbla.deck.units import Units
-from mbla.results.hdf5.field import UnitKind, unit_text
-
-
-@dataclass(frozen=True)
-class Key:
-    """One key.
-
-    kind : integer, number, string, boolean, object or list, with ``?`` where it may be null
-    unit : of its number or numbers
-    """
-
-    path: str
-    kind: str
-    words: str
-    unit: UnitKind = "1"
-
-    @property
-    def item(self) -> tuple[str, str, str]:
-        """Path, type with its unit as in a deck in m, N, kg, and meaning."""
-        kind = self.kind if self.unit == "1" else f"{self.kind} [{unit_text(self.unit, Units())}]"
-        return self.path, kind, self.words
-
+from mbla.results.records.failure_description import FAILURE, part_keys
+from mbla.results.records.failure_description import MECHANISM as _MECHANISM
+from mbla.results.records.key import Key
 
 RUN = (
     Key("mbla", "string", "version of the program"),
@@ -172,8 +150,6 @@ EFFORT = (
     Key("cases[].time.solver", "number?", "time of the programs in it", "time"),
 )
 
-_MECHANISM = "cases[].mechanism"
-
 MECHANISM = (
     Key(_MECHANISM, "object?", "how it fails; null where the case has no result"),
     Key(f"{_MECHANISM}.open", "integer", "contact points that open"),
@@ -187,17 +163,8 @@ MECHANISM = (
     Key(f"{_MECHANISM}.moving_weight_share", "number", "their share of the weight of the free blocks"),
     Key(f"{_MECHANISM}.moving_parts", "integer", "rigid parts that move"),
     Key(f"{_MECHANISM}.parts", "list", "the heaviest of them, at most 100"),
-    Key(f"{_MECHANISM}.parts[]", "object", "a part"),
-    Key(f"{_MECHANISM}.parts[].part", "integer", "number, from 1, the heaviest first"),
-    Key(f"{_MECHANISM}.parts[].blocks", "integer", "its blocks"),
-    Key(f"{_MECHANISM}.parts[].groups", "object", "its blocks by group"),
-    Key(f"{_MECHANISM}.parts[].groups.*", "integer", "blocks of a group"),
-    Key(f"{_MECHANISM}.parts[].weight", "number", "weight under standard gravity", "force"),
-    Key(f"{_MECHANISM}.parts[].motion", "string", "turns or moves"),
-    Key(f"{_MECHANISM}.parts[].axis_point", "list?", "where it turns: the point of its axis nearest to its centroid"),
-    Key(f"{_MECHANISM}.parts[].axis_point[]", "number?", "a coordinate", "length"),
-    Key(f"{_MECHANISM}.parts[].direction", "list", "unit vector of the axis by the right hand, or of the travel"),
-    Key(f"{_MECHANISM}.parts[].direction[]", "number", "a component"),
+    *part_keys(f"{_MECHANISM}.parts"),
+    *FAILURE,
     Key(f"{_MECHANISM}.work", "object", "powers, with unit power of the live load"),
     Key(f"{_MECHANISM}.work.live", "number", "load factor times the power of the live load"),
     Key(f"{_MECHANISM}.work.dead", "number", "of the dead load, negative where weights are lifted"),
