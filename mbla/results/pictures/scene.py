@@ -11,6 +11,7 @@ from mbla.arrays import FloatArray, IntArray
 from mbla.contacts.contacts import Contacts
 from mbla.model.model import Model
 from mbla.results.collapse.collapse import Collapse, collapse_of
+from mbla.results.collapse.failure import Failure, failure_of
 from mbla.results.collapse.motion import drawn_motion, moved_contact_points, moved_vertices
 from mbla.results.collapse.rigid_parts import rigid_parts
 from mbla.results.collapse.thrust import Thrust, thrust_lines, thrust_of
@@ -92,6 +93,18 @@ class Scene:
         motion = self.case.solution.certificate
         none = np.zeros(len(self.model.blocks), dtype=np.int64)
         return none if motion is None else rigid_parts(self.model, self.contacts, motion)
+
+    @cached_property
+    def failure(self) -> Failure | None:
+        """Clusters, hinge lines, sliding planes and cracks, numbered as in the listing; None without a mechanism."""
+        if self.mechanics is None or self.collapse is None:
+            return None
+        return failure_of(self.model, self.contacts, self.collapse, self.mechanics)
+
+    @cached_property
+    def clusters(self) -> IntArray:
+        """Part of the listing that each block is in, 0 at rest, (n_blocks,)."""
+        return self.parts if self.failure is None else self.failure.clusters
 
     @cached_property
     def forces(self) -> tuple[FloatArray | None, str]:
