@@ -12,6 +12,7 @@ from mbla.contacts.contacts import Contacts
 from mbla.model.model import Model
 from mbla.results.collapse.collapse import Collapse, collapse_of
 from mbla.results.collapse.failure import Failure, failure_of
+from mbla.results.collapse.force_freedom import ForceFreedom, force_freedom
 from mbla.results.collapse.motion import drawn_motion, moved_contact_points, moved_vertices
 from mbla.results.collapse.rigid_parts import rigid_parts
 from mbla.results.collapse.thrust import Thrust, thrust_lines, thrust_of
@@ -123,6 +124,15 @@ class Scene:
         """Resultants of the interfaces and where they act; None without forces."""
         forces = self.forces[0]
         return None if forces is None else thrust_of(self.model, self.contacts, forces)
+
+    @cached_property
+    def force_freedom(self) -> ForceFreedom | None:
+        """How far the forces are unique; None where there is no result or it was not determined."""
+        solution = self.case.solution
+        if not self.is_result or solution.mechanics is None:
+            return None
+        dimension = 3 if solution.size is None else solution.size.dimension
+        return force_freedom(self.model, self.contacts, solution.mechanics, dimension)
 
     @cached_property
     def thrust_lines(self) -> list[FloatArray]:
