@@ -224,7 +224,7 @@ def select_cases(model: Model, names: Sequence[str]) -> tuple[LoadCase, ...]:
     known = dict.fromkeys(case.deck_name for case in model.load_cases)
     for name in names:
         if name not in known and name not in [case.name for case in model.load_cases]:
-            raise UsageError(f"--case {name}: the deck has no such load case; it has {', '.join(known)}")
+            raise UsageError(f"no load case {name} in the deck; it has {', '.join(known)}")
     return tuple(case for case in model.load_cases if not names or case.name in names or case.deck_name in names)
 
 
@@ -238,5 +238,5 @@ def differences_from_expected(deck: Deck, cases: Sequence[CaseResult]) -> list[N
     """Where the results are not what the deck expects; UsageError if it expects nothing."""
     expected = deck.content.expected
     if not expected:
-        raise UsageError(f"--expected: {deck.path} has no expected section")
+        raise UsageError(f"{deck.path}: has no expected section to compare with")
     return [Notice("warning", "not-as-expected", difference) for difference in differences(cases, expected)]
