@@ -220,6 +220,8 @@ def _say(text: str, status: int) -> int:
 
 def _prepare_streams(*, json_lines: bool) -> None:
     """No name or title may fail to be printed; JSON is UTF-8 whatever the terminal speaks."""
+    if sys.stdout is None:  # closed by who started us, as services do: nobody wants to read
+        _drop_output()
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):
             utf8 = json_lines and stream is sys.stdout
