@@ -105,3 +105,21 @@ def test_help_imports_nothing_heavy() -> None:
     loaded = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout.split()
     heavy = {"numpy", "scipy", "yaml", "pydantic", "pint", "meshio", "h5py", "clarabel", "shapely", "manifold3d", "vtk"}
     assert not heavy & set(loaded)
+
+
+def test_a_faulty_deck_imports_no_numerical_library(tmp_path: Path) -> None:
+    """Its faults are told at once; numpy and what needs it take longer to import than the deck to read."""
+    deck = tmp_path / "faulty.yaml"
+    deck.write_text("mbla: 1\n", encoding="utf-8")
+    code = (
+        "import sys\n"
+        "from mbla.cli import main\n"
+        f"status = main(['run', {str(deck)!r}])\n"
+        "print(status, *sorted({name.split('.')[0] for name in sys.modules}))"
+    )
+    status, *loaded = subprocess.run(
+        [sys.executable, "-c", code], capture_output=True, text=True, check=True
+    ).stdout.split()
+    assert status == "3"
+    heavy = {"numpy", "scipy", "meshio", "h5py", "clarabel", "shapely", "manifold3d", "matplotlib", "vtk"}
+    assert not heavy & set(loaded)
