@@ -11,6 +11,8 @@ from mbla.arrays import FloatArray, IntArray
 from mbla.contacts.contacts import Contacts
 from mbla.model.model import Model
 from mbla.results.collapse.collapse import Collapse, collapse_of
+from mbla.results.collapse.failure import Failure, failure_of
+from mbla.results.collapse.force_freedom import ForceFreedom, force_freedom
 from mbla.results.collapse.motion import drawn_motion, moved_contact_points, moved_vertices
 from mbla.results.collapse.rigid_parts import rigid_parts
 from mbla.results.collapse.thrust import Thrust, thrust_lines, thrust_of
@@ -94,6 +96,18 @@ class Scene:
         return none if motion is None else rigid_parts(self.model, self.contacts, motion)
 
     @cached_property
+    def failure(self) -> Failure | None:
+        """Clusters, hinge lines, sliding planes and cracks, numbered as in the listing; None without a mechanism."""
+        if self.mechanics is None or self.collapse is None:
+            return None
+        return failure_of(self.model, self.contacts, self.collapse, self.mechanics)
+
+    @cached_property
+    def clusters(self) -> IntArray:
+        """Part of the listing that each block is in, 0 at rest, (n_blocks,)."""
+        return self.parts if self.failure is None else self.failure.clusters
+
+    @cached_property
     def forces(self) -> tuple[FloatArray | None, str]:
         """Contact forces to draw, (n_points, 3) N, and what they are; None where there are none."""
         solution = self.case.solution
@@ -110,6 +124,15 @@ class Scene:
         """Resultants of the interfaces and where they act; None without forces."""
         forces = self.forces[0]
         return None if forces is None else thrust_of(self.model, self.contacts, forces)
+
+    @cached_property
+    def force_freedom(self) -> ForceFreedom | None:
+        """How far the forces are unique; None where there is no result or it was not determined."""
+        solution = self.case.solution
+        if not self.is_result or solution.mechanics is None:
+            return None
+        dimension = 3 if solution.size is None else solution.size.dimension
+        return force_freedom(self.model, self.contacts, solution.mechanics, dimension)
 
     @cached_property
     def thrust_lines(self) -> list[FloatArray]:
