@@ -48,7 +48,7 @@ class Work:
     def given(self) -> float:
         """Power put in, by the live load and, where it drives the mechanism, the dead load; 0 where it is rounding."""
         given = max(self.live, 0.0) + max(self.dead, 0.0)
-        return given if given > NO_POWER * self.reference else 0.0
+        return 0.0 if given <= NO_POWER * self.reference else given
 
     @property
     def dissipated(self) -> FloatArray:
