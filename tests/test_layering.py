@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 import subprocess
 import sys
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -36,7 +37,8 @@ DOORS = {
 FILES = sorted(PACKAGE.rglob("*.py"))
 
 
-def imports_of(path: Path, *, at_run_time: bool = True) -> set[str]:
+@cache
+def imports_of(path: Path, *, at_run_time: bool = True) -> frozenset[str]:
     """Full names of what a file imports, wherever in it; those for type checkers alone left out if ``at_run_time``."""
     tree = ast.parse(path.read_text(encoding="utf-8"))
     for_types: set[ast.AST] = set()
@@ -53,7 +55,7 @@ def imports_of(path: Path, *, at_run_time: bool = True) -> set[str]:
         elif isinstance(node, ast.ImportFrom):
             assert node.level == 0, f"{path}: relative import"
             names.add(str(node.module))
-    return names
+    return frozenset(names)
 
 
 STAGE_FILES = [path for path in FILES if path.relative_to(PACKAGE).parts[0] in STAGES]
