@@ -113,7 +113,7 @@ def _notes(failure: Failure, told: Told, thin: int) -> tuple[str, ...]:
     """Which marks stand out, where not all do."""
     planes = len(failure.sliding_planes) - len(told.planes)
     texts = [f"thin: {counted(thin, 'hinge')} within a part or of little motion"] * bool(thin)
-    texts += [f"no arrow: {counted(planes, 'plane')} on which little slides"] * bool(planes)
+    texts += [f"without arrows: {counted(planes, 'sliding plane')} of less motion"] * bool(planes)
     return ("; ".join(texts),) if texts else ()
 
 

@@ -74,6 +74,16 @@ def test_marks_in_front_are_what_they_are() -> None:
     assert image[30, 30] == pytest.approx([1.0, 0.0, 0.0], abs=0.01)
 
 
+@needs_opengl
+def test_each_image_is_of_its_own_camera() -> None:
+    """The second is taken along the square, which is a line from there."""
+    with Renderer([square(0.0, 1.0, "#0000FF")], ()) as renderer:
+        extent = np.array([[-1.0, -1, -1], [1.0, 1, 1]])
+        seen = [near(renderer.image(fitted(extent, azimuth, 0.0, 1.0), 60, 60, 0.0), [0, 0, 1]) for azimuth in (0, 90)]
+    assert seen[0] > 800
+    assert seen[1] < 150
+
+
 def test_the_rod_of_a_hinge_lies_on_its_axis(results: Results) -> None:
     """The tower turns about the edge x = 1, z = 1, from y = 0 to y = 1, and that edge does not move."""
     drawing = mechanism_drawing(scene(results, "mechanism"))
