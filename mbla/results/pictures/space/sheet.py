@@ -46,7 +46,7 @@ def add_images(
             _add_triad(axes, panel.camera, page.letter)
             _add_scale_bar(axes, panel.camera, unit, page.letter, (0.22 / panel.camera.aspect, 0.045))
         else:
-            _frame(page, axes, (0.005, room[0], 0.985, room[1] - room[0]))
+            artists[-1].set_clip_path(_frame(page, axes, (0.005, room[0], 0.985, room[1] - room[0])))
             _add_scale_bar(axes, panel.camera, unit, page.letter, (0.03, room[1] - 0.05))
             style = {"fontsize": 0.85 * page.letter, "color": INK, "ha": "right", "va": "top"}
             axes.text(0.975, room[1] - 0.015, f"what moves, enlarged {panel.gain:.1f} times", **style)
@@ -57,12 +57,11 @@ def add_images(
     return artists
 
 
-def _frame(page: Page, axes: Any, box: tuple[float, float, float, float]) -> None:
+def _frame(page: Page, axes: Any, box: tuple[float, float, float, float]) -> Any:
     """Around what is enlarged, left, bottom, width and height."""
     left, bottom, width, height = box
-    axes.add_patch(
-        page.parts.Rectangle((left, bottom), width, height, fill=False, edgecolor=GHOST, linewidth=0.12 * page.letter)
-    )
+    style = {"fill": False, "edgecolor": GHOST, "linewidth": 0.12 * page.letter}
+    return axes.add_patch(page.parts.Rectangle((left, bottom), width, height, **style))
 
 
 def _add_triad(axes: Any, camera: Camera, size: float) -> None:
