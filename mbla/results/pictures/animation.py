@@ -100,7 +100,7 @@ def _frames(widest: Scene, options: PictureOptions) -> Iterator[Any]:
         for share in displacements():
             moved = replace(widest, motion=share * widest.motion)
             frame = mechanism_drawing(moved, widest, focus if len(panels) > 1 else None)
-            with Renderer(frame.solid, frame.marks) as renderer:
+            with Renderer(frame.solid_from(view[1]), frame.marks) as renderer:
                 images = [
                     renderer.image(each.camera, round(each.share * width), height, frame.shine) for each in panels
                 ]

@@ -60,7 +60,7 @@ def draw_in_space(path: Path, scene: Scene, kind: str, options: PictureOptions) 
         panels = panels_of(drawing.extent, focus, view, width / height, room)
         if len(panels) > 1:
             drawing = mechanism_drawing(scene, seen=focus)
-        with Renderer(drawing.solid, drawing.marks) as renderer:
+        with Renderer(drawing.solid_from(view[1]), drawing.marks) as renderer:
             images = [renderer.image(each.camera, round(each.share * width), height, drawing.shine) for each in panels]
         add_images(page, images, panels, scene, drawing, (bottom, top))
 

@@ -206,6 +206,17 @@ def test_the_view_of_a_case_is_found_once(results: Results, monkeypatch: pytest.
     assert len(found) == 2
 
 
+def test_the_ground_does_not_hide_the_structure_from_below(results: Results) -> None:
+    """Its outline stays."""
+    model, case = case_of(BLOCK)
+    on_ground = replace(results, model=model, contacts=line_of(BLOCK).contacts, cases=(case,))
+    drawing = model_drawing(scene(on_ground, "model"))
+    above, below = drawing.solid_from(25.0), drawing.solid_from(-30.0)
+    assert above == drawing.solid
+    assert len(below) == len(above) - 1
+    assert [shape.ground for shape in below if isinstance(shape, Faces)] == [False]
+
+
 def test_sections_of_rods_are_in_proportion_to_forces(results: Results) -> None:
     at_rest = scene(results, "forces")
     thrust = at_rest.thrust
