@@ -193,10 +193,13 @@ def test_words_of_loads_are_told_in_full(results: Results) -> None:
 
 @needs_opengl
 def test_the_view_of_a_case_is_found_once(results: Results, monkeypatch: pytest.MonkeyPatch) -> None:
-    found = []
-    monkeypatch.setattr(
-        "mbla.results.pictures.space.picture.best_view", lambda scene: found.append(scene) or (1.0, 2.0)
-    )
+    found: list[Scene] = []
+
+    def counted_view(asked: Scene) -> tuple[float, float]:
+        found.append(asked)
+        return 1.0, 2.0
+
+    monkeypatch.setattr("mbla.results.pictures.space.picture.best_view", counted_view)
     case = replace(results.cases[0])
     of_its_own = replace(results, cases=(case,))
     views = [view_of_case(scene(of_its_own, kind)) for kind in ("model", "mechanism", "forces")]
