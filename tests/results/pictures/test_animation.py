@@ -72,9 +72,7 @@ def test_a_gif_swings_there_and_back_and_is_the_same_every_time(tmp_path: Path, 
 
 @needs_opengl
 @pytest.mark.usefixtures("short")
-@pytest.mark.filterwarnings(
-    "ignore:unclosed file:ResourceWarning"
-)  # of imageio-ffmpeg
+@pytest.mark.filterwarnings("ignore:unclosed file:ResourceWarning")  # of imageio-ffmpeg
 def test_an_mp4_plays_with_its_frames_and_size(tmp_path: Path, results: Results) -> None:
     import imageio_ffmpeg
 

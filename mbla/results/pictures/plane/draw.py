@@ -21,6 +21,7 @@ from mbla.results.pictures.plane.structure import (
     draw_blocks,
     draw_ghost,
     draw_grounds,
+    number_parts,
 )
 from mbla.results.pictures.scene import Scene
 
@@ -94,6 +95,7 @@ def _draw_mechanism(sheet: Sheet, flat: Flat, scene: Scene) -> None:
     draw_blocks(sheet, flat, scene, colours_by_part(sheet, scene), scene.moved)
     draw_ghost(sheet, flat, scene)
     draw_joint_marks(sheet, flat, scene)
+    number_parts(sheet, flat, scene)
     case = scene.case.load_case
     if scene.mechanics is None and scene.case.solution.certificate is not None:
         draw_loads(sheet, flat, scene, case.dead_load, case.dead_words, "dead load", DEAD_LOAD)

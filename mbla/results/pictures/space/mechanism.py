@@ -24,6 +24,7 @@ from mbla.results.pictures.space.shapes import (
     turning_arrows,
 )
 from mbla.results.pictures.space.structure import block_faces, edge_lines, ghost_lines, grounds, interface_faces
+from mbla.results.pictures.tints import tint_of_part
 from mbla.solution.solution import ContactMode
 
 PARTS = ("#7FB2D6", "#F2C36B", "#B7DDF2", "#F4EE9B", "#5E97BF", "#E8A87C")
@@ -82,27 +83,10 @@ def part_colours(scene: Scene, moving: BoolArray) -> FloatArray:
     """Colour of each block, (n_blocks, 3): stone at rest, grey if fixed, else by the part it moves with."""
     colours = np.tile(rgb(REST), (len(moving), 1))
     if moving.any():
-        tints = np.array([rgb(tint) for tint in PARTS])[tint_of_part(scene, scene.parts)]
+        tints = np.array([rgb(tint) for tint in PARTS])[tint_of_part(scene, scene.parts, len(PARTS))]
         colours[moving] = tints[scene.parts[moving]]
     colours[scene.model.fixed & ~moving] = rgb(FIXED_BLOCK)
     return colours
-
-
-def tint_of_part(scene: Scene, parts: IntArray) -> IntArray:
-    """Tint of each part, (n_parts,): the first that none of its neighbours has, heaviest parts first."""
-    count = int(parts.max(initial=0)) + 1
-    node = np.append(parts, np.zeros(len(scene.model.grounds), dtype=np.int64))
-    pairs = np.unique(np.sort(node[scene.contacts.bodies], axis=1), axis=0)
-    neighbours: list[list[int]] = [[] for _ in range(count)]
-    for first, second in pairs.tolist():
-        if 0 < first < second:
-            neighbours[second].append(first)
-    tints = np.zeros(count, dtype=np.int64)
-    for part in range(1, count):
-        taken = {int(tints[other]) for other in neighbours[part]}
-        free = [tint for tint in range(len(PARTS)) if tint not in taken]
-        tints[part] = free[0] if free else part % len(PARTS)
-    return tints
 
 
 # --- joints -------------------------------------------------------------------------------------------------------
@@ -114,9 +98,9 @@ def joint_marks(scene: Scene, seen: FloatArray) -> tuple[list[Shape], list[Shape
     seen : (n, 3) m, all that is shown, for the size of marks
     """
     reach = float(np.linalg.norm(np.ptp(seen, axis=0)))
-    if scene.collapse is None:
+    joints = scene.joint_motion
+    if joints is None:
         return [], [], []
-    joints = scene.collapse.interfaces
     slides = (joints.modes == InterfaceMode.SLIDE) | (joints.modes == InterfaceMode.TWIST)
     opens = (joints.modes == InterfaceMode.OPEN) | (joints.modes == InterfaceMode.HINGE)
     faces: list[Shape] = []
