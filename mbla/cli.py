@@ -1,4 +1,7 @@
-"""The command line: parse arguments, print, return the exit status; nothing else."""
+"""The command line: parse arguments, print, return the exit status; nothing else.
+
+Commands on decks stand here, those on results in :mod:`mbla.result_commands`; no other module prints.
+"""
 
 from __future__ import annotations
 
@@ -16,6 +19,7 @@ from pathlib import Path
 from types import FrameType
 from typing import TYPE_CHECKING, Any, NoReturn
 
+from mbla import result_commands
 from mbla.arguments import build_parser
 from mbla.errors import DeckError, FileError, MblaError, UsageError
 from mbla.failures import failure_record, words_of
@@ -56,7 +60,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return _failed(error)
 
 
-# --- commands -----------------------------------------------------------------------------------------------------
+# --- commands on decks --------------------------------------------------------------------------------------------
 
 
 def _run(options: argparse.Namespace) -> int:
@@ -104,100 +108,6 @@ def _check(options: argparse.Namespace) -> int:
     return _each_deck(options, one, None)
 
 
-def _show(options: argparse.Namespace) -> int:
-    from mbla.results.hdf5.result_file import read_results_hdf5
-    from mbla.results.records.json_record import json_line, results_json
-    from mbla.results.words.listing import listing
-
-    results = read_results_hdf5(options.result)
-    print(json_line(results_json(results)) + "\n" if options.json else listing(results), end="")
-    return 0
-
-
-def _verify(options: argparse.Namespace) -> int:
-    from mbla.results.hdf5.result_file import read_results_hdf5
-    from mbla.results.records.json_record import json_line, verification_json
-    from mbla.results.words.listing import verification_lines
-    from mbla.verify_file import verify_results
-
-    results, agreed = verify_results(read_results_hdf5(options.result))
-    if options.json:
-        print(json_line(verification_json(results, agreed)))
-    else:
-        print("\n".join(verification_lines(results, agreed)))
-    return results.exit_code
-
-
-def _plot(options: argparse.Namespace) -> int:
-    from mbla.results.hdf5.result_file import read_results_hdf5
-    from mbla.results.pictures.options import picture_options
-    from mbla.results.pictures.plot import plot_results
-
-    chosen = picture_options(options)
-    results = read_results_hdf5(options.result)
-    target = options.output or options.result.parent
-    for path in plot_results(results, target, options.result.stem, chosen):
-        print(path)
-    return 0
-
-
-def _report(options: argparse.Namespace) -> int:
-    from mbla.results.hdf5.result_file import read_results_hdf5
-    from mbla.results.report.report import write_report
-
-    results = read_results_hdf5(options.result)
-    target = options.output or options.result.with_suffix(".html")
-    for remark in write_report(results, target, options.case, view=not options.no_3d):
-        print(f"mbla: {remark}", file=sys.stderr)
-    print(target)
-    return 0
-
-
-def _export(options: argparse.Namespace) -> int:
-    from mbla.results.hdf5.result_file import read_results_hdf5
-    from mbla.results.tables.export import Formats, export_results
-
-    results = read_results_hdf5(options.result)
-    folder = options.output or options.result.parent
-    formats = Formats(options.csv, options.parquet, options.vtkhdf)
-    for path in export_results(
-        results, folder, options.result.stem, formats, options.case, options.table, options.force
-    ):
-        print(path)
-    return 0
-
-
-def _diff(options: argparse.Namespace) -> int:
-    from mbla.results.comparison.comparison import compare_results
-    from mbla.results.comparison.records import comparison_json
-    from mbla.results.comparison.words import comparison_text
-    from mbla.results.hdf5.result_file import read_results_hdf5
-    from mbla.results.records.json_record import json_line
-
-    names = str(options.first), str(options.second)
-    results = read_results_hdf5(options.first), read_results_hdf5(options.second)
-    comparison = compare_results(*results, options.tolerance)
-    if options.json:
-        print(json_line(comparison_json(comparison, names)))
-    else:
-        print(comparison_text(comparison, names), end="")
-    return 4 if options.fail and comparison.differing else 0
-
-
-def _explain(options: argparse.Namespace) -> int:
-    from mbla.results.explanations.explanations import EXPLANATIONS, find_explanations
-    from mbla.results.explanations.words import all_text, explanation_json, explanation_text
-    from mbla.results.records.json_record import json_line
-
-    asked = " ".join(options.identifier)
-    found = find_explanations(asked) if asked.strip() else tuple(EXPLANATIONS.values())
-    if options.json:
-        print(json_line({"explanations": [explanation_json(entry) for entry in found]}))
-    else:
-        print(explanation_text(found) if asked.strip() else all_text(), end="")
-    return 0
-
-
 def _schema(options: argparse.Namespace) -> int:
     from mbla.deck.schema import deck_schema
 
@@ -216,13 +126,13 @@ def _new(options: argparse.Namespace) -> int:
 COMMANDS: dict[str, Callable[[argparse.Namespace], int]] = {
     "run": _run,
     "check": _check,
-    "show": _show,
-    "verify": _verify,
-    "plot": _plot,
-    "report": _report,
-    "export": _export,
-    "diff": _diff,
-    "explain": _explain,
+    "show": result_commands.show,
+    "verify": result_commands.verify,
+    "plot": result_commands.plot,
+    "report": result_commands.report,
+    "export": result_commands.export,
+    "diff": result_commands.diff,
+    "explain": result_commands.explain,
     "schema": _schema,
     "new": _new,
 }

@@ -50,12 +50,12 @@ class Clusters:
 
 def clusters_of(model: Model, contacts: Contacts, parts: IntArray, motion: FloatArray) -> Clusters:
     """Few clusters, by the least of ``SHARES`` that leaves ``FEW``, from rigid parts and a motion, (n_blocks, 6)."""
-    count = int(parts.max(initial=0)) + 1
     found = Clusters(parts, 0.0)
-    for share in SHARES if count > 2 else ():
-        owner = _merged(model, contacts, parts, motion, count, share)
+    for share in SHARES if int(parts.max(initial=0)) > 1 else ():
+        count = int(found.of_block.max(initial=0)) + 1  # a larger share goes on from what a smaller one left
+        owner = _merged(model, contacts, found.of_block, motion, count, share)
         if len(np.unique(owner)) < count:
-            found = Clusters(_renumbered(parts, owner, model), share)
+            found = Clusters(_renumbered(found.of_block, owner, model), share)
         if int(found.of_block.max(initial=0)) <= FEW:
             break
     return found

@@ -8,6 +8,7 @@ from mbla.arrays import IntArray
 from mbla.contacts.contacts import Contacts
 from mbla.model.model import LoadCase, Model
 from mbla.results.collapse.interface_modes import InterfaceMotion, interface_motion
+from mbla.results.collapse.kept import kept
 from mbla.results.collapse.rigid_parts import PartMotion, part_motions, rigid_parts
 from mbla.results.collapse.work import Work, work_of
 from mbla.solution.solution import Mechanics
@@ -29,6 +30,7 @@ class Collapse:
     work: Work
 
 
+@kept
 def collapse_of(model: Model, contacts: Contacts, load_case: LoadCase, mechanics: Mechanics) -> Collapse:
     """The mechanism of one load case."""
     parts = rigid_parts(model, contacts, mechanics.mechanism)

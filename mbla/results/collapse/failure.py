@@ -12,6 +12,7 @@ from mbla.results.collapse.clusters import clusters_of
 from mbla.results.collapse.collapse import Collapse
 from mbla.results.collapse.cracks import Crack, cracks
 from mbla.results.collapse.hinge_lines import HingeLine, hinge_lines
+from mbla.results.collapse.kept import kept
 from mbla.results.collapse.rigid_parts import PartMotion, part_motions
 from mbla.results.collapse.sliding_planes import SlidingPlane, sliding_planes
 from mbla.solution.solution import Mechanics
@@ -37,6 +38,7 @@ class Failure:
     cracks: tuple[Crack, ...]
 
 
+@kept
 def failure_of(model: Model, contacts: Contacts, collapse: Collapse, mechanics: Mechanics) -> Failure:
     """From the exact rigid parts and interfaces of a mechanism."""
     found = clusters_of(model, contacts, collapse.parts, mechanics.mechanism)
@@ -46,7 +48,7 @@ def failure_of(model: Model, contacts: Contacts, collapse: Collapse, mechanics: 
         clusters=clusters,
         merged=found.merged,
         motions=part_motions(model, clusters, mechanics.mechanism),
-        hinge_lines=hinge_lines(contacts, collapse.interfaces, joints, collapse.work),
-        sliding_planes=sliding_planes(contacts, collapse.interfaces, joints, collapse.work),
+        hinge_lines=hinge_lines(contacts, collapse.interfaces, joints, collapse.work, found.merged),
+        sliding_planes=sliding_planes(contacts, collapse.interfaces, joints, collapse.work, found.merged),
         cracks=cracks(contacts, collapse.interfaces, joints, mechanics),
     )

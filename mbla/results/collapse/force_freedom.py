@@ -29,6 +29,7 @@ from mbla.contacts.contacts import Contacts
 from mbla.contacts.glue import solids_of
 from mbla.model.model import Model
 from mbla.results.collapse.cluster_joints import radii
+from mbla.results.collapse.kept import kept
 from mbla.solution.linear_algebra.superlu import factors_on_the_diagonal
 from mbla.solution.solution import ContactMode, Mechanics
 
@@ -54,6 +55,7 @@ class ForceFreedom:
     determined: BoolArray
 
 
+@kept
 def force_freedom(model: Model, contacts: Contacts, mechanics: Mechanics, dimension: int) -> ForceFreedom | None:
     """None where it was not determined: guided blocks, symmetry, very large models, or no clear rank.
 

@@ -1,6 +1,7 @@
 """Hinge lines: hinges of interfaces between the same two clusters that lie on one line.
 
-A wall that tilts over has a hinge under each of its stones; they share one axis and are one hinge line.
+A wall that tilts over has a hinge under each of its stones; they share one axis and are one hinge line. Where clusters
+were merged up to a share of the motion, their hinges may differ by as much and are still one line.
 """
 
 from __future__ import annotations
@@ -52,12 +53,12 @@ class HingeLine:
 
 
 def hinge_lines(
-    contacts: Contacts, motion: InterfaceMotion, joints: ClusterJoints, work: Work
+    contacts: Contacts, motion: InterfaceMotion, joints: ClusterJoints, work: Work, merged: float = 0.0
 ) -> tuple[HingeLine, ...]:
     """Those between different clusters, by falling share of the motion, then by their first interface."""
     hinges = np.flatnonzero((motion.modes == InterfaceMode.HINGE) & joints.between)
     directions = joints.signs[:, None] * motion.hinge_directions
-    size = radii(contacts)
+    size, parallel = radii(contacts), loosened(SAME_DIRECTION, merged)
     lines = []
     for run in runs(joints.pairs, hinges):
         rest = run
@@ -65,12 +66,17 @@ def hinge_lines(
             seed = rest[0]
             arms = motion.hinge_points[rest] - motion.hinge_points[seed]
             off = np.linalg.norm(np.cross(arms, directions[seed]), axis=1)
-            same = (directions[rest] @ directions[seed] >= SAME_DIRECTION) & (
-                off <= SAME_LINE * np.maximum(size[rest], size[seed])
+            same = (directions[rest] @ directions[seed] >= parallel) & (
+                off <= (SAME_LINE + merged) * np.maximum(size[rest], size[seed])
             )
             lines.append(_line(contacts, motion, joints, work, rest[same], directions[seed]))
             rest = rest[~same]
     return tuple(sorted(lines, key=lambda line: (-round(line.share, 6), line.interfaces[0])))
+
+
+def loosened(cosine: float, merged: float) -> float:
+    """The cosine of an angle that is larger by that whose sine is a share of the motion."""
+    return float(np.cos(np.arccos(cosine) + np.arcsin(merged)))
 
 
 def _line(

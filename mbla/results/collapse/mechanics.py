@@ -43,7 +43,8 @@ def interface_resultants(contacts: Contacts, contact_forces: FloatArray) -> Floa
 def curvature_sides(model: Model, contacts: Contacts) -> FloatArray:
     """Direction out of the curve where blocks form a chain, as in an arch, (n_interfaces, 3); zero elsewhere.
 
-    The joint between two voussoirs lies outside the line between their centroids by the rise of the curve there.
+    Of three joints that follow each other the middle one lies outside the line between the other two by the rise of the
+    curve there. (The centroids of thick voussoirs, which are wedges, lie outside the curve of the joints themselves.)
     A joint at the end of a chain takes the direction of the next one. Blocks that are glued count as one.
     """
     solids = solids_of(model, contacts)
@@ -53,17 +54,21 @@ def curvature_sides(model: Model, contacts: Contacts) -> FloatArray:
     in_chain = np.zeros(n_bodies, dtype=bool)
     in_chain[: len(model.blocks)] = ~model.fixed
     in_chain &= degree == 2
-    inner = np.asarray(in_chain[contacts.bodies].all(axis=1))
+    between = np.asarray(in_chain[contacts.bodies].all(axis=1))
+    inner = np.flatnonzero(between)
+    joints_of_body = np.zeros(n_bodies, dtype=np.int64)  # sum of both: less the one it is the other
+    np.add.at(joints_of_body, contacts.bodies, np.arange(len(contacts))[:, None])
+    before, after = contacts.centroids[(joints_of_body[contacts.bodies[inner]] - inner[:, None]).T]
+    chord, rise = after - before, contacts.centroids[inner] - (before + after) / 2
+    length = np.linalg.norm(chord, axis=1)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        rise -= (np.einsum("ij,ij->i", rise, chord) / length**2)[:, None] * chord
+    curved = np.linalg.norm(rise, axis=1) > 1e-3 * length  # none where two blocks meet in two joints: no chord
     outward = np.zeros((len(contacts), 3))
-    a, b = contacts.bodies[inner].T
-    chord = model.blocks.centroids[b] - model.blocks.centroids[a]
-    rise = contacts.centroids[inner] - (model.blocks.centroids[a] + model.blocks.centroids[b]) / 2
-    rise -= np.einsum("ij,ij->i", rise, chord)[:, None] / np.einsum("ij,ij->i", chord, chord)[:, None] * chord
-    curved = np.linalg.norm(rise, axis=1) > 1e-3 * np.linalg.norm(chord, axis=1)
-    outward[np.flatnonzero(inner)[curved]] = rise[curved]
+    outward[inner[curved]] = rise[curved]
     of_body = np.zeros((n_bodies, 3))
     np.add.at(of_body, contacts.bodies[inner], outward[inner][:, None, :])
-    end, side = np.nonzero(in_chain[contacts.bodies] & ~inner[:, None])
+    end, side = np.nonzero(in_chain[contacts.bodies] & ~between[:, None])
     outward[end] = of_body[contacts.bodies[end, side]]
     return outward
 

@@ -9,6 +9,7 @@ import numpy as np
 from mbla.arrays import FloatArray, IntArray
 from mbla.contacts.contacts import Contacts
 from mbla.results.collapse.cluster_joints import ClusterJoints, radii, runs
+from mbla.results.collapse.hinge_lines import loosened
 from mbla.results.collapse.interface_modes import InterfaceMode, InterfaceMotion
 from mbla.results.collapse.work import Work
 
@@ -50,7 +51,7 @@ class SlidingPlane:
 
 
 def sliding_planes(
-    contacts: Contacts, motion: InterfaceMotion, joints: ClusterJoints, work: Work
+    contacts: Contacts, motion: InterfaceMotion, joints: ClusterJoints, work: Work, merged: float = 0.0
 ) -> tuple[SlidingPlane, ...]:
     """Those between different clusters, by falling work of the shear forces, then by falling motion."""
     kinds = (InterfaceMode.SLIDE, InterfaceMode.TWIST)
@@ -60,7 +61,7 @@ def sliding_planes(
     travel -= np.einsum("ij,ij->i", travel, normals)[:, None] * normals
     speeds = np.linalg.norm(travel, axis=1)
     ways = travel / np.where(speeds > 0, speeds, 1.0)[:, None]
-    size = radii(contacts)
+    size, one_way = radii(contacts), loosened(SAME_WAY, merged)
     planes = []
     for run in runs(joints.pairs, sliding):
         rest = run
@@ -69,7 +70,7 @@ def sliding_planes(
             off = np.abs((contacts.centroids[rest] - contacts.centroids[seed]) @ normals[seed])
             same = normals[rest] @ normals[seed] >= SAME_NORMAL
             same &= off <= SAME_PLANE * np.maximum(size[rest], size[seed])
-            same &= (motion.modes[rest] == motion.modes[seed]) & (ways[rest] @ ways[seed] >= SAME_WAY)
+            same &= (motion.modes[rest] == motion.modes[seed]) & (ways[rest] @ ways[seed] >= one_way)
             same[0] = True  # one that does not travel has no way to compare
             planes.append(_plane(contacts, motion, joints, work, rest[same], normals, travel))
             rest = rest[~same]

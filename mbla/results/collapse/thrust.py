@@ -38,13 +38,14 @@ class Thrust:
     """What the forces of each interface amount to; on body b, in the deck's axes.
 
     forces        : (n_interfaces, 3) N
-    points        : (n_interfaces, 3) m, where they act in the plane of the interface; nan where no force is carried
+    points        : (n_interfaces, 3) m, where they act in the plane of the interface; nan where it is not pressed
     normal_forces : (n_interfaces,) N, compression positive
     shear_forces  : (n_interfaces,) N, the size of the resultant along the interface
     torsions      : (n_interfaces,) N m, moment about the normal through the centroid
-    eccentricity  : (n_interfaces,) 0 central, 1 at the edge; nan where no force is carried
-    friction_use  : (n_interfaces,) shear over what friction and cohesion allow under the normal force; nan where they
-                    allow none and none acts
+    eccentricity  : (n_interfaces,) 0 central, 1 at the edge, more only with tensile strength; nan where it is not
+                    pressed
+    friction_use  : (n_interfaces,) shear over what friction and cohesion allow under the normal force, torsion left
+                    out (:mod:`mbla.results.collapse.torsion_use` has both); nan where they allow none and none acts
     """
 
     forces: FloatArray
@@ -57,7 +58,7 @@ class Thrust:
 
     @property
     def carried(self) -> BoolArray:
-        """Interfaces that carry a force, (n_interfaces,)."""
+        """Interfaces that are pressed on the whole, (n_interfaces,)."""
         return np.asarray(np.isfinite(self.points[:, 0]))
 
 
@@ -80,33 +81,37 @@ def thrust_of(model: Model, contacts: Contacts, contact_forces: FloatArray) -> T
         shear_forces=shear,
         torsions=np.einsum("ij,ij->i", moments, normals),
         eccentricity=_eccentricity(contacts, arms),
-        friction_use=_use(shear, friction_allowed(model, contacts, contact_forces)),
+        friction_use=shear_use(shear, friction_allowed(model, contacts, contact_forces)),
     )
 
 
 def point_friction_use(model: Model, contacts: Contacts, contact_forces: FloatArray) -> FloatArray:
     """Shear over what friction and cohesion allow at each contact point, (n_points,); nan where none is allowed."""
-    allowed = _allowed_at_points(model, contacts, contact_forces)
-    return _use(np.hypot(contact_forces[:, 1], contact_forces[:, 2]), allowed)
+    allowed = allowed_at_points(model, contacts, contact_forces)
+    return shear_use(np.hypot(contact_forces[:, 1], contact_forces[:, 2]), allowed)
 
 
 def friction_allowed(model: Model, contacts: Contacts, contact_forces: FloatArray) -> FloatArray:
     """Shear that friction under the normal forces and cohesion allow each interface, (n_interfaces,) N."""
-    return sum_by_interface(contacts, _allowed_at_points(model, contacts, contact_forces))
+    return sum_by_interface(contacts, allowed_at_points(model, contacts, contact_forces))
 
 
-def _allowed_at_points(model: Model, contacts: Contacts, contact_forces: FloatArray) -> FloatArray:
+def allowed_at_points(model: Model, contacts: Contacts, contact_forces: FloatArray) -> FloatArray:
+    """Shear that friction under the normal forces and cohesion allow each contact point, (n_points,) N; c A + μ N.
+
+    Tension takes from cohesion what pressure adds to it.
+    """
     laws = [model.joints[name] for name in contacts.joint_names]
     joint = contacts.joints[contacts.interface_of_point]
     friction = np.array([law.friction for law in laws], dtype=float)[joint]
     cohesion = np.array([law.cohesion for law in laws], dtype=float)[joint]
-    pressed = np.maximum(contact_forces[:, 0], 0.0)
+    normal = contact_forces[:, 0]
     # unlimited friction allows none where nothing presses
-    by_friction = np.where(pressed > 0, friction, 0.0) * pressed
-    return np.asarray(by_friction + cohesion * contacts.point_areas)
+    by_friction = np.where((normal > 0) | np.isfinite(friction), friction, 0.0) * normal
+    return np.asarray(np.maximum(by_friction + cohesion * contacts.point_areas, 0.0))
 
 
-def _use(shear: FloatArray, allowed: FloatArray) -> FloatArray:
+def shear_use(shear: FloatArray, allowed: FloatArray) -> FloatArray:
     """Ratio; nan where both are nothing, measured by the largest force."""
     finite = allowed[np.isfinite(allowed)]
     nothing = ROUNDING * max(finite.max(initial=0.0), shear.max(initial=0.0))

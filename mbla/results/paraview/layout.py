@@ -64,8 +64,14 @@ _BLOCK = (
     ("part", 1, "1", "blocks with one number move together; 0 at rest"),
 )
 _USE = (
-    ("eccentricity", 1, "1", "of the resultant: 0 central, 1 at the edge; nan where no force is carried"),
+    (
+        "eccentricity",
+        1,
+        "1",
+        "of the resultant: 0 central, 1 at the edge, more only with tension; nan where not pressed",
+    ),
     ("friction_use", 1, "1", "shear over what friction and cohesion allow, without torsion; nan where nothing acts"),
+    ("torsion_use", 1, "1", "shear and torsion together over what the interface carries of both; nan as above"),
 )
 _THRUST = (
     ("resultant_force", 3, "force", "on body b"),
@@ -88,6 +94,7 @@ ARRAYS: tuple[Array, ...] = (
         ("rotation", 3, "rad", "rotation vector as drawn"),
         ("largest_eccentricity", 1, "1", "over the interfaces of the block"),
         ("largest_friction_use", 1, "1", "over the interfaces of the block"),
+        ("largest_torsion_use", 1, "1", "over the interfaces of the block"),
         *_LABELS,
     ),
     *_arrays(ANIMATION, "points", ("displacement", 3, "length", "what the point has moved so far")),
@@ -117,7 +124,7 @@ ARRAYS: tuple[Array, ...] = (
         ("joint", 1, "1", "joint law, row of contacts/joint_names in the HDF5 file"),
         ("normal", 3, "1", "unit, from a to b"),
         ("resultant_moment", 3, "force length", "on body b about the centroid"),
-        ("thrust_point", 3, "length", "where the resultant acts; nan where no force is carried"),
+        ("thrust_point", 3, "length", "where the resultant acts; nan where the interface is not pressed"),
         *_THRUST,
         ("mode", 1, "1", "0 stick, 1 slide, 2 open, 3 hinge, 4 twist"),
         ("slides", 1, "1", "1 closed points slide, whatever the mode"),

@@ -12,6 +12,7 @@ from mbla.results.collapse.interface_modes import InterfaceMotion, interface_mot
 from mbla.results.collapse.motion import contact_displacements, drawn_motion, vertex_displacements
 from mbla.results.collapse.rigid_parts import rigid_parts
 from mbla.results.collapse.thrust import Thrust, thrust_lines, thrust_of
+from mbla.results.collapse.torsion_use import torsion_use
 from mbla.results.outcome import result_of
 from mbla.results.paraview.cells import BlockCells, block_cells
 from mbla.results.results import CaseResult, Results
@@ -81,6 +82,13 @@ class Scene:
     def thrust(self) -> Thrust | None:
         """Of every interface under these forces."""
         return None if self.forces is None else thrust_of(self.model, self.contacts, self.forces)
+
+    @cached_property
+    def torsion_use(self) -> FloatArray | None:
+        """Shear force and torsion over what each interface carries of both, (n_interfaces,)."""
+        if self.forces is None or self.case is None:
+            return None
+        return torsion_use(self.model, self.contacts, self.forces, self.case.solution.contact_model)
 
     @cached_property
     def lines(self) -> tuple[IntArray, ...]:

@@ -8,8 +8,8 @@ does not tell a script its folder, call os.chdir(folder of the results) in the s
     pvbatch --force-offscreen-rendering SCRIPT --case NAME --save .    those of one load case
 
 Views: structure (blocks by group, supports), mechanism (blocks by the part that they move with, hinges, sliding, ghost
-of the structure), thrust (resultant of each interface, thrust lines by eccentricity), utilisation (shear over what the
-joint allows), loads (dead, live, reactions), animation (the mechanism with finite rotations).
+of the structure), thrust (resultant of each interface, thrust lines by eccentricity), utilisation (shear and torsion
+over what the joint carries of both), loads (dead, live, reactions), animation (the mechanism with finite rotations).
 """
 
 from __future__ import annotations
@@ -210,15 +210,15 @@ def thrust(picture: Picture) -> None:
 
 
 def utilisation(picture: Picture) -> None:
-    """Shear over what each joint allows."""
+    """Shear and torsion over what each joint carries of both."""
     picture.ghost()
     picture.supports()
     interfaces = picture.read("interfaces")
     shown = picture.draw(interfaces, "Surface", Opacity=0.8)
-    picture.colour(shown, "CELLS", "friction_use", "shear over what the joint allows", 1.0)
+    picture.colour(shown, "CELLS", "torsion_use", "shear and torsion over what the joint carries", 1.0)
     frames = picture.draw(picture.read("interfaces"), "Wireframe", LineWidth=4.0)
-    picture.colour(frames, "CELLS", "friction_use", "shear over what the joint allows", 1.0)
-    picture.legend = ["Joints by shear over what friction and cohesion allow, torsion not counted; grey: no force."]
+    picture.colour(frames, "CELLS", "torsion_use", "shear and torsion over what the joint carries", 1.0)
+    picture.legend = ["Joints by shear and torsion over what friction and cohesion carry of both; grey: no force."]
 
 
 def loads(picture: Picture) -> None:

@@ -24,11 +24,11 @@ def write_thrust_vtu(path: Path, scene: Scene) -> None:
     """Points of application as vertices, thrust lines as chains of line cells between them.
 
     Point data: ``resultant_force`` (on body b), ``normal_force``, ``shear_force``, ``torsion``, ``eccentricity``,
-    ``friction_use``, ``interface``, ``body_a``, ``body_b``, ``displacement``, ``result``. Cell data: ``kind`` (0 point
-    of application, 1 thrust line) and ``line`` (number of the thrust line from 0, -1 for points).
+    ``friction_use``, ``torsion_use``, ``interface``, ``body_a``, ``body_b``, ``displacement``, ``result``. Cell data:
+    ``kind`` (0 point of application, 1 thrust line) and ``line`` (number of the thrust line from 0, -1 for points).
     """
-    thrust = scene.thrust
-    if thrust is None:
+    thrust, use = scene.thrust, scene.torsion_use
+    if thrust is None or use is None:
         raise ValueError("a case without forces has no thrust")
     shown = np.flatnonzero(thrust.carried)
     row = np.full(len(thrust.carried), -1)
@@ -49,6 +49,7 @@ def write_thrust_vtu(path: Path, scene: Scene) -> None:
             "torsion": thrust.torsions[shown],
             "eccentricity": thrust.eccentricity[shown],
             "friction_use": thrust.friction_use[shown],
+            "torsion_use": use[shown],
             "interface": shown,
             "body_a": scene.contacts.bodies[shown, 0],
             "body_b": scene.contacts.bodies[shown, 1],

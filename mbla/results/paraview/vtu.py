@@ -32,7 +32,7 @@ def write_blocks_vtu(path: Path, scene: Scene) -> None:
     Point data: ``displacement``. Cell data: ``block``, ``group``, ``weight``, ``fixed``, ``guided``, ``moves``,
     ``part`` (blocks that move together; 0 at rest), ``velocity``, ``rotation`` (as drawn, m and rad), and the labels
     that items give their blocks, such as ``member`` and ``course``; with forces also ``largest_eccentricity`` and
-    ``largest_friction_use`` over the interfaces of each block (nan where none carries).
+    ``largest_friction_use`` and ``largest_torsion_use`` over the interfaces of each block (nan where none carries).
     """
     data = block_data(scene.model) | {
         "guided": _guided(scene.model),
@@ -41,9 +41,10 @@ def write_blocks_vtu(path: Path, scene: Scene) -> None:
         "velocity": scene.motion[:, :3],
         "rotation": scene.motion[:, 3:],
     }
-    if scene.thrust is not None:
+    if scene.thrust is not None and scene.torsion_use is not None:
         data["largest_eccentricity"] = _largest_at_blocks(scene, scene.thrust.eccentricity)
         data["largest_friction_use"] = _largest_at_blocks(scene, scene.thrust.friction_use)
+        data["largest_torsion_use"] = _largest_at_blocks(scene, scene.torsion_use)
     write_cells(path, scene.model.blocks.vertices, scene.displacements, data, scene.cells)
 
 
@@ -143,10 +144,10 @@ def write_interfaces_vtu(path: Path, scene: Scene) -> None:
     Cell data: ``interface``, ``body_a``, ``body_b``, ``area``, ``gap``, ``joint``, ``normal``; with forces (at the load
     factor, or those that lock the structure) also ``resultant_force``, ``resultant_moment`` (on body b, about the
     centroid), ``thrust_point`` (where the resultant acts), ``normal_force``, ``shear_force``, ``torsion``,
-    ``eccentricity`` (0 central, 1 at the edge), ``friction_use`` (shear over what the joint allows) and ``result``
-    (1 a result, 0 the best iterate); with a mechanism also ``mode`` (0 stick, 1 slide, 2 open, 3 hinge, 4 twist),
-    ``slides`` (closed points slide too, whatever the mode) and ``work`` (power dissipated, that of the live load being
-    the load factor). Point data: ``displacement``.
+    ``eccentricity`` (0 central, 1 at the edge), ``friction_use`` (shear over what the joint allows), ``torsion_use``
+    (shear and torsion over what it carries of both) and ``result`` (1 a result, 0 the best iterate); with a mechanism
+    also ``mode`` (0 stick, 1 slide, 2 open, 3 hinge, 4 twist), ``slides`` (closed points slide too, whatever the mode)
+    and ``work`` (power dissipated, that of the live load being the load factor). Point data: ``displacement``.
     """
     contacts = scene.contacts
     data: Arrays = {
@@ -174,7 +175,7 @@ def write_interfaces_vtu(path: Path, scene: Scene) -> None:
 def _interface_forces(scene: Scene) -> Arrays:
     """Cell data of interfaces that follow from contact forces."""
     thrust = scene.thrust
-    if thrust is None or scene.forces is None:
+    if thrust is None or scene.forces is None or scene.torsion_use is None:
         return {}
     return {
         "resultant_force": thrust.forces,
@@ -185,6 +186,7 @@ def _interface_forces(scene: Scene) -> Arrays:
         "torsion": thrust.torsions,
         "eccentricity": thrust.eccentricity,
         "friction_use": thrust.friction_use,
+        "torsion_use": scene.torsion_use,
         "result": np.full(len(scene.contacts), scene.is_result, dtype=np.int8),
     }
 

@@ -14,7 +14,7 @@ from mbla.results.collapse.clusters import clusters_of
 from mbla.results.collapse.collapse import Collapse, collapse_of
 from mbla.results.collapse.failure import Failure, failure_of
 from mbla.results.collapse.falling import falling_motion
-from mbla.results.collapse.force_freedom import force_freedom
+from mbla.results.collapse.force_freedom import ForceFreedom, force_freedom
 from mbla.results.collapse.interface_modes import InterfaceMotion
 from mbla.results.collapse.motion import drawn_motion, moved_contact_points, moved_vertices
 from mbla.results.collapse.rigid_parts import rigid_parts
@@ -91,18 +91,18 @@ class Scene:
 
     @cached_property
     def failure(self) -> Failure | None:
-        """The mechanism as the listing tells it; None without one."""
-        if self.collapse is None or self.mechanics is None:
+        """Clusters, hinge lines, sliding planes and cracks, numbered as in the listing; None without a mechanism."""
+        if self.mechanics is None or self.collapse is None:
             return None
         return failure_of(self.model, self.contacts, self.collapse, self.mechanics)
 
     @cached_property
-    def parts(self) -> IntArray:
-        """Part that each block moves with, 0 at rest, (n_blocks,), numbered as in the listing."""
+    def clusters(self) -> IntArray:
+        """Part of the listing that each block is in, 0 at rest, (n_blocks,); found alike without equilibrium."""
         if self.failure is not None:
             return self.failure.clusters
         motion = self.case.solution.certificate
-        if motion is None:
+        if motion is None or self.mechanics is not None:
             return np.zeros(len(self.model.blocks), dtype=np.int64)
         exact = rigid_parts(self.model, self.contacts, motion)
         return clusters_of(self.model, self.contacts, exact, motion).of_block
@@ -116,11 +116,23 @@ class Scene:
         return None if motion is None else falling_motion(self.model, self.contacts, motion)
 
     @cached_property
+    def dead_load(self) -> FloatArray:
+        """Dead load on blocks about their centroids, (n_blocks, 6), without the reaction that holds a support."""
+        load_case = self.case.load_case
+        if load_case.settlement is None:
+            return load_case.dead_load
+        loads = load_case.dead_load.copy()
+        loads[load_case.settlement.blocks] = 0.0
+        return loads
+
+    @cached_property
     def forces(self) -> tuple[FloatArray | None, str]:
         """Contact forces to draw, (n_points, 3) N, and what they are; None where there are none."""
         solution = self.case.solution
         if solution.mechanics is not None:
-            return solution.mechanics.contact_forces, "contact forces under dead load and live load times load factor"
+            gives = self.case.load_case.settlement is not None
+            besides = "as the support gives way" if gives else "and live load times load factor"
+            return solution.mechanics.contact_forces, f"contact forces under dead load {besides}"
         if solution.lock is not None:
             return solution.lock, "contact forces that balance the live load alone: any multiple of it is carried"
         if solution.standing is not None and solution.standing.forces is not None:
@@ -132,6 +144,15 @@ class Scene:
         """Resultants of the interfaces and where they act; None without forces."""
         forces = self.forces[0]
         return None if forces is None else thrust_of(self.model, self.contacts, forces)
+
+    @cached_property
+    def force_freedom(self) -> ForceFreedom | None:
+        """How far the forces are unique; None where there is no result or it was not determined."""
+        solution = self.case.solution
+        if not self.is_result or solution.mechanics is None:
+            return None
+        dimension = 3 if solution.size is None else solution.size.dimension
+        return force_freedom(self.model, self.contacts, solution.mechanics, dimension)
 
     @cached_property
     def thrust_lines(self) -> list[FloatArray]:
@@ -179,13 +200,16 @@ class Scene:
             return "" if self.forces[0] is None else "; others may do so too"
         if not self.is_result:
             return ""
-        dimension = 3 if solution.size is None else solution.size.dimension
-        freedom = force_freedom(self.model, self.contacts, mechanics, dimension)
+        freedom = self.force_freedom
         if freedom is None:
             return "; one possible state: whether there are others was not determined"
         if freedom.degree == 0:
             return "; unique" + ("" if solution.flow_rule == "associative" else " in this mechanism")
-        return f"; one of many possible states, they can vary in up to {counted(freedom.degree, 'way')}"
+        known = int(freedom.determined.sum())
+        return (
+            f"; one possible state: they may vary in up to {counted(freedom.degree, 'way')}, "
+            f"{known} of {counted(len(self.contacts), 'resultant')} are unique"
+        )
 
     def mark_of(self, kind: str) -> str:
         """What a reader must not overlook: that figures are not verified, or no result; empty where they are."""

@@ -9,11 +9,13 @@ from mbla.results.pictures.scene import Scene
 
 
 def tint_of_part(scene: Scene, parts: IntArray, n_tints: int) -> IntArray:
-    """Tint of each part, (n_parts,): the first that none of its neighbours has, heaviest parts first.
+    """Tint of each part, (n_parts,), heaviest first: its own, or of too many parts the first that no neighbour has.
 
     parts : (n_blocks,) part of each block, 0 at rest
     """
     count = int(parts.max(initial=0)) + 1
+    if count - 1 <= n_tints:
+        return np.maximum(np.arange(count) - 1, 0)
     node = np.append(parts, np.zeros(len(scene.model.grounds), dtype=np.int64))
     pairs = np.unique(np.sort(node[scene.contacts.bodies], axis=1), axis=0)
     neighbours: list[list[int]] = [[] for _ in range(count)]

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from mbla.results.outcome import case_notices, result_of
 from mbla.results.report.blocks import Block, Entries, blocks_of
-from mbla.results.report.figures import Figures, case_figures
+from mbla.results.report.figures import Figures
 from mbla.results.report.verification import Check, checks_of
 from mbla.results.results import CaseResult, Results
 from mbla.results.words.answer_words import status_words
@@ -50,7 +50,7 @@ class CaseContent:
     view: str
 
 
-def case_content(results: Results, case: CaseResult, number: int, view: str) -> CaseContent:
+def case_content(results: Results, case: CaseResult, number: int, figures: Figures, view: str) -> CaseContent:
     """The content of load case ``number``, from 1."""
     key = f"case-{number}"
     sections = case_sections(results.model, results.contacts, case)
@@ -69,7 +69,7 @@ def case_content(results: Results, case: CaseResult, number: int, view: str) -> 
         verdict=verdict(results.model.of_case(case.load_case), case),
         words=blocks_of(told.lines),
         parts=parts,
-        figures=case_figures(results, case),
+        figures=figures,
         checks=checks_of(case),
         verified=case.checks.verified,
         failures=case.checks.failures,

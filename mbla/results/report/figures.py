@@ -5,8 +5,9 @@ from __future__ import annotations
 import base64
 import tempfile
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import TYPE_CHECKING, TypeAlias
 
 from mbla.errors import UsageError
 from mbla.results.outcome import result_of
@@ -14,6 +15,12 @@ from mbla.results.results import CaseResult, Results
 from mbla.results.series import Series
 from mbla.results.words.text import counted
 from mbla.results.words.verdict_words import verdict
+
+if TYPE_CHECKING:
+    from mbla.results.pictures.scene import Scene
+
+View: TypeAlias = tuple[float, float]
+"""azimuth and elevation of an eye, degrees"""
 
 
 @dataclass(frozen=True)
@@ -27,32 +34,39 @@ class Figure:
 
 @dataclass(frozen=True)
 class Figures:
-    """Pictures, and why there are not more of them; empty where nothing is missing."""
+    """Pictures, and why there are not more of them; empty where nothing is missing.
+
+    view : azimuth and elevation of the eye of pictures in space, degrees; None where all are plane
+    """
 
     pictures: tuple[Figure, ...]
     missing: str = ""
+    view: View | None = None
 
 
 def case_figures(results: Results, case: CaseResult) -> Figures:
     """Mechanism, forces where there are any, and history of a case; of a travelling load that of all its positions."""
     name, solution = case.load_case.name, case.solution
-    model = results.model.of_case(case.load_case)
-    kinds = {"mechanism": (f"{_subject(case)} of load case {name}", verdict(model, case))}
+    eye = _Eye(results, case)
+    captions = {"mechanism": f"{_subject(case)} of load case {name}"}
     if solution.mechanics is not None or solution.lock is not None:
-        kinds["forces"] = (f"{_forces(case)} of load case {name}", "Contact forces, resultants and lines of thrust")
+        captions["forces"] = f"{_forces(case)} of load case {name}"
     if case.load_case.travel is None and (solution.iterations or solution.path):
-        kinds["history"] = (f"How the solvers came to it, load case {name}", "Load factor and residuals by iteration")
-    return _drawn([_picture(results, case, kind, *words) for kind, words in kinds.items()])
+        captions["history"] = f"Iteration history of load case {name}: load factor and residuals"
+    drawn = _drawn([_picture(results, case, kind, caption, eye) for kind, caption in captions.items()])
+    return replace(drawn, view=eye.found)
 
 
-def model_figures(results: Results) -> Figures:
-    """The model with its groups, supports and the loads of the first load case; nothing where there is none."""
+def model_figures(results: Results, view: View | None = None) -> Figures:
+    """The model with its groups, supports and the loads of the first load case; nothing where there is none.
+
+    view : that of the figures of the first load case, where it is known
+    """
     if not results.cases:
         return Figures(())
     first = results.cases[0]
     caption = f"Groups, supports, and loads of load case {first.load_case.name}"
-    words = f"The model of {counted(len(results.model.blocks), 'block')}"
-    return _drawn([_picture(results, first, "model", caption, words)])
+    return _drawn([_picture(results, first, "model", caption, _Eye(results, first, view))])
 
 
 def series_figures(results: Results, series: Series) -> Figures:
@@ -81,7 +95,24 @@ class _Drawing:
     write: Callable[[Path], Path]
 
 
-def _picture(results: Results, case: CaseResult, kind: str, caption: str, words: str) -> _Drawing:
+@dataclass
+class _Eye:
+    """From where the pictures in space of a case are seen; looked for once, as that takes many trial pictures."""
+
+    results: Results
+    case: CaseResult
+    found: View | None = None
+
+    def of(self, scene: Scene) -> View:
+        """Azimuth and elevation."""
+        if self.found is None:
+            from mbla.results.pictures.space.picture import view_of_case
+
+            self.found = view_of_case(scene)
+        return self.found
+
+
+def _picture(results: Results, case: CaseResult, kind: str, caption: str, eye: _Eye) -> _Drawing:
     """Plane figures and diagrams as SVG; pictures in space, which are images, as PNG."""
 
     def write(folder: Path) -> Path:
@@ -94,10 +125,28 @@ def _picture(results: Results, case: CaseResult, kind: str, caption: str, words:
         scene = scene_of(results, case, options, kind)
         lines = kind == "history" or flat_of(scene, options, kind) is not None
         path = folder / f"{kind}.{'svg' if lines else 'png'}"
-        draw_picture(path, scene, kind, options)
+        draw_picture(path, scene, kind, options if lines else replace(options, view=eye.of(scene)))
         return path
 
-    return _Drawing(caption, words, write)
+    return _Drawing(caption, _in_words(results, case, kind), write)
+
+
+def _in_words(results: Results, case: CaseResult, kind: str) -> str:
+    """What a reader is told who does not see the picture."""
+    model = results.model.of_case(case.load_case)
+    if kind == "model":
+        free = len(results.model.free)
+        return f"The model of {counted(len(model.blocks), 'block')}, {free} of them free, with its supports and loads"
+    shown = {
+        "mechanism": "The structure as it moves" if _moves(case) else "The structure at rest",
+        "forces": "Resultants at the interfaces and lines of thrust",
+        "history": "Load factor and residuals over the iterations of the solvers",
+    }
+    return f"{shown[kind]}; load case {case.load_case.name}: {verdict(model, case)}"
+
+
+def _moves(case: CaseResult) -> bool:
+    return case.solution.mechanics is not None or case.solution.certificate is not None
 
 
 def _drawn(drawings: Sequence[_Drawing]) -> Figures:

@@ -14,7 +14,7 @@ from mbla.errors import FileError, UsageError
 from mbla.results.outcome import notices_of
 from mbla.results.report.blocks import blocks_of
 from mbla.results.report.case_content import CaseContent, case_content
-from mbla.results.report.figures import Figures, model_figures, series_figures
+from mbla.results.report.figures import Figures, case_figures, model_figures, series_figures
 from mbla.results.report.notice_content import notice_kinds
 from mbla.results.report.page import render
 from mbla.results.report.verdict_table import verdict_table
@@ -77,8 +77,9 @@ def _cases(shown: Results, view: bool) -> list[CaseContent]:
     """The library of the views comes once, with the first of them."""
     contents = []
     for i, case in enumerate(shown.cases):
-        html = case_view(shown, case, first=i == 0) if view else ""
-        contents.append(case_content(shown, case, i + 1, html))
+        figures = case_figures(shown, case)
+        html = case_view(shown, case, figures.view, first=i == 0) if view else ""
+        contents.append(case_content(shown, case, i + 1, figures, html))
     return contents
 
 
@@ -100,7 +101,7 @@ def _content(results: Results, shown: Results, cases: list[CaseContent]) -> dict
         "series": [
             (blocks_of(series_lines(model, series)), series_figures(shown, series)) for series in series_of(shown.cases)
         ],
-        "model_figures": model_figures(shown),
+        "model_figures": model_figures(shown, cases[0].figures.view if cases else None),
         "model": blocks_of(model_lines(model)),
         "contacts": blocks_of([*contact_lines(model, contacts), *finding_lines(model, contacts.report)]),
         "notices": notice_kinds(notices_of(shown)),
@@ -114,7 +115,7 @@ def _content(results: Results, shown: Results, cases: list[CaseContent]) -> dict
 
 def _warning_words(shown: Results) -> str:
     warnings = [notice for notice in notices_of(shown) if notice.severity == "warning"]
-    return f"{counted(len(warnings), 'warning')}{'; see below' if warnings else ''}."
+    return f"{counted(len(warnings), 'warning')}; see below." if warnings else "No warnings."
 
 
 def _in_words(results: Results, case: CaseResult) -> tuple[str, str, list[str]]:

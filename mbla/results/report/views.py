@@ -7,8 +7,10 @@ from importlib.resources import files
 from mbla.results.results import CaseResult, Results
 
 
-def case_view(results: Results, case: CaseResult, *, first: bool) -> str:
+def case_view(results: Results, case: CaseResult, view: tuple[float, float] | None, *, first: bool) -> str:
     """Trusted HTML of the view of a case; what all views need comes with the first one of a page.
+
+    view : azimuth and elevation in degrees from which it is seen first, as in its pictures
 
     Raises
     ------
@@ -17,8 +19,8 @@ def case_view(results: Results, case: CaseResult, *, first: bool) -> str:
     """
     from mbla.results.view3d.view import library_html, view_html
 
-    view = view_html(results, case, include_library=False)
-    return f"{library_html()}<script>{_begin_when_seen()}</script>\n{view}" if first else view
+    html = view_html(results, case, include_library=False, view=view)
+    return f"{library_html()}<script>{_begin_when_seen()}</script>\n{html}" if first else html
 
 
 def _begin_when_seen() -> str:

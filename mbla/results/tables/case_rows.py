@@ -14,6 +14,7 @@ from mbla.results.collapse.collapse import Collapse, collapse_of
 from mbla.results.collapse.interface_modes import relative_motion
 from mbla.results.collapse.mechanics import interface_resultants
 from mbla.results.collapse.thrust import Thrust, thrust_of
+from mbla.results.collapse.torsion_use import torsion_use
 from mbla.results.outcome import best_iterate, result_of
 from mbla.results.results import CaseResult, Results
 from mbla.results.tables.column import Values, as_text
@@ -73,6 +74,14 @@ class CaseRows:
     def thrust(self) -> Thrust | None:
         """What follows from the contact forces."""
         return None if self.mechanics is None else thrust_of(self.model, self.contacts, self.mechanics.contact_forces)
+
+    @cached_property
+    def torsion_use(self) -> FloatArray:
+        """Shear force and torsion over what each interface carries of both, (n_interfaces,); nan without forces."""
+        if self.mechanics is None:
+            return self.missing(len(self.contacts))
+        forces, contact_model = self.mechanics.contact_forces, self.case.solution.contact_model
+        return torsion_use(self.model, self.contacts, forces, contact_model)
 
     @cached_property
     def moments(self) -> FloatArray:

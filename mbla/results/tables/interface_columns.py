@@ -93,15 +93,26 @@ FORCES: tuple[Column[CaseRows], ...] = (
     *vector(
         "application",
         "length",
-        "point of application in the plane of the interface; empty where no force is carried",
+        "point of application in the plane of the interface; empty where it is not pressed",
         _thrust(lambda thrust: thrust.points, 3),
     ),
-    floats("eccentricity", "1", "of that point: 0 central, 1 at the edge", _thrust(lambda t: t.eccentricity)),
+    floats(
+        "eccentricity",
+        "1",
+        "of that point: 0 central, 1 at the edge, more only with tension",
+        _thrust(lambda t: t.eccentricity),
+    ),
     floats(
         "friction_use",
         "1",
         "shear force over what friction and cohesion allow; empty where they allow none and none acts",
         _thrust(lambda thrust: thrust.friction_use),
+    ),
+    floats(
+        "torsion_use",
+        "1",
+        "shear force and torsion together over what the interface carries of both; 1 where it can carry no more",
+        lambda rows: rows.torsion_use,
     ),
     floats(
         "normal_force_min", "force", "least normal force at the load factor, where it was asked for", _force_range(0)

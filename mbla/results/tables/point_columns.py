@@ -31,9 +31,10 @@ def _lock(rows: CaseRows) -> FloatArray:
 
 
 def _use(rows: CaseRows) -> FloatArray:
-    if rows.mechanics is None:
+    mechanics = rows.mechanics
+    if mechanics is None or mechanics.resultants is not None:
         return rows.missing(_count(rows))
-    return point_friction_use(rows.model, rows.contacts, rows.mechanics.contact_forces)
+    return point_friction_use(rows.model, rows.contacts, mechanics.contact_forces)
 
 
 def _modes(rows: CaseRows) -> Values:
@@ -64,7 +65,8 @@ CONTACT: tuple[Column[CaseRows], ...] = (
     floats(
         "friction_use",
         "1",
-        "shear over what friction and cohesion allow at the point; empty where they allow none and none acts",
+        "shear over what friction and cohesion allow at the point; empty where they allow none and none acts, and "
+        "with contact_model convex, whose points only share out the resultants",
         _use,
     ),
     texts("mode", "stick, slide or open", _modes),

@@ -6,6 +6,7 @@ the mean of both. So the browser can move marks together with the blocks.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -13,10 +14,12 @@ import numpy as np
 from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.contacts.contacts import Contacts
 from mbla.model.model import Model
-from mbla.results.collapse.interface_modes import InterfaceMode, interface_motion
+from mbla.results.collapse.collapse import Collapse
+from mbla.results.collapse.hinge_lines import HingeLine
+from mbla.results.collapse.interface_modes import InterfaceMode
 from mbla.results.collapse.thrust import Thrust, thrust_lines, thrust_of
 from mbla.results.pictures.geometry import hinge_axes, interface_sides
-from mbla.results.words.text import number
+from mbla.results.words.text import counted, number
 from mbla.solution.solution import ContactMode, Mechanics
 
 HINGE, SLIDE, OPEN = "#D55E00", "#009E73", "#CC79A7"
@@ -27,6 +30,10 @@ LONGEST = 0.2
 """length of the largest resultant over the size of the model"""
 SMALLEST = 1e-3
 """share of the largest resultant below which none is drawn"""
+HEAD, BREADTH = 0.22, 0.08
+"""of an arrow: length and half breadth of its head over its length"""
+BARBS = ((0, 1), (1, 2), (1, 3), (1, 4), (1, 5))
+"""shaft and barbs of an arrow as rows of its start, its tip and the ends of its barbs"""
 
 
 @dataclass(frozen=True)
@@ -51,9 +58,14 @@ class Mark:
     dots: bool = False
 
 
-def mechanism_marks(model: Model, contacts: Contacts, mechanics: Mechanics) -> list[Mark]:
-    """Hinges, outlines of interfaces that slide or twist, and corners that part joined by lines; those there are."""
-    modes = interface_motion(model, contacts, mechanics).modes
+def mechanism_marks(
+    model: Model, contacts: Contacts, mechanics: Mechanics, collapse: Collapse, lines: Sequence[HingeLine]
+) -> list[Mark]:
+    """Hinge lines, hinges of single interfaces, outlines of those that slide or twist, and corners that part.
+
+    Those there are. Corners that part are joined by lines.
+    """
+    modes = collapse.interfaces.modes
     owners = contacts.interface_of_point
     opened = mechanics.modes == ContactMode.OPEN
     hinge = (modes == InterfaceMode.HINGE)[owners] & ~opened
@@ -64,12 +76,30 @@ def mechanism_marks(model: Model, contacts: Contacts, mechanics: Mechanics) -> l
     return [
         mark
         for mark in (
-            _on_contacts("hinges", HINGE, 9, contacts, np.vstack([axes, np.column_stack([alone, alone])]), names, True),
+            _hinge_lines(model, contacts, lines),
+            _on_contacts("hinges", HINGE, 6, contacts, np.vstack([axes, np.column_stack([alone, alone])]), names, True),
             _on_contacts("sliding", SLIDE, 6, contacts, sliding, names, False),
             _openings(contacts, opened, names),
         )
         if len(mark.pairs)
     ]
+
+
+def _hinge_lines(model: Model, contacts: Contacts, lines: Sequence[HingeLine]) -> Mark:
+    """Each from end to end; it moves with the two bodies of its first interface, as its clusters are rigid."""
+    points = np.array([end for line in lines for end in (line.start, line.end)]).reshape(-1, 3)
+    texts = tuple(text for line in lines for text in 2 * (_hinge_words(model, line),))
+    first = np.repeat(np.array([line.interfaces[0] for line in lines], dtype=np.int64), 2)
+    pairs = np.arange(len(points)).reshape(-1, 2)
+    return Mark("hinge lines", HINGE, 14, points, contacts.bodies[first], pairs, texts, dots=True)
+
+
+def _hinge_words(model: Model, line: HingeLine) -> str:
+    """``hinge line of part 1 on what rests: 8 interfaces, 3.2 m``."""
+    one, other = line.clusters
+    beside = f"part {other}" if other else "what rests"
+    count = counted(len(line.interfaces), "interface")
+    return f"hinge line of part {one} on {beside}: {count}, {number(line.length)} {model.units.length}"
 
 
 def interface_names(model: Model, contacts: Contacts) -> list[str]:
@@ -100,7 +130,7 @@ def _openings(contacts: Contacts, opened: BoolArray, names: list[str]) -> Mark:
 
 
 def force_marks(model: Model, contacts: Contacts, forces: FloatArray, size: float) -> list[Mark]:
-    """Lines of thrust where blocks form rows, and the resultant of every interface as a line through its point.
+    """Lines of thrust where blocks form rows, and the resultant of every interface as an arrow through its point.
 
     forces : (n_points, 3) contact forces
     size   : of the model, m
@@ -121,25 +151,48 @@ def force_marks(model: Model, contacts: Contacts, forces: FloatArray, size: floa
         tuple(texts[i] for i in used.tolist()),
         inside=True,
     )
-    return [mark for mark in (line, _resultants(contacts, thrust, texts, size)) if len(mark.pairs)]
+    return [mark for mark in (line, _resultants(model, contacts, thrust, texts, size)) if len(mark.pairs)]
 
 
-def _resultants(contacts: Contacts, thrust: Thrust, texts: list[str], size: float) -> Mark:
+def _resultants(model: Model, contacts: Contacts, thrust: Thrust, texts: list[str], size: float) -> Mark:
+    """Arrows with their middle at the point of application: the force on the lower of both bodies."""
     strengths = np.linalg.norm(thrust.forces, axis=1)
     largest = strengths[thrust.carried].max(initial=0.0)
     rows = np.flatnonzero(thrust.carried & (strengths > SMALLEST * largest))
-    half = LONGEST * size / 2 / (largest or 1.0) * thrust.forces[rows]
-    points = np.stack([thrust.points[rows] - half, thrust.points[rows] + half], axis=1).reshape(-1, 3)
+    lower = lower_side(model, contacts)[rows]
+    steps = LONGEST * size / (largest or 1.0) * np.where(lower == 1, 1.0, -1.0)[:, None] * thrust.forces[rows]
+    points = arrows(thrust.points[rows] - steps / 2, steps)
+    count = points.shape[1]
+    bodies = contacts.bodies[rows, lower].tolist()
+    told = [f"{texts[row]}; force on {model.body_name(body)}" for row, body in zip(rows, bodies, strict=True)]
     return Mark(
         "resultants",
         RESULTANT,
         5,
-        points,
-        np.repeat(contacts.bodies[rows], 2, axis=0),
-        np.arange(len(points)).reshape(-1, 2),
-        tuple(texts[i] for i in np.repeat(rows, 2).tolist()),
+        points.reshape(-1, 3),
+        np.repeat(contacts.bodies[rows], count, axis=0),
+        (count * np.arange(len(rows))[:, None, None] + np.array(BARBS)).reshape(-1, 2),
+        tuple(text for text in told for _ in range(count)),
         inside=True,
     )
+
+
+def lower_side(model: Model, contacts: Contacts) -> IntArray:
+    """Which body of each interface lies lower, 0 or 1, by the heights of centroids; a ground lies under everything."""
+    heights = np.append(model.blocks.centroids[:, 2], np.full(len(model.grounds), -np.inf))[contacts.bodies]
+    return np.asarray(np.where(heights[:, 0] < heights[:, 1], 0, 1))
+
+
+def arrows(starts: FloatArray, steps: FloatArray) -> FloatArray:
+    """Start, tip and the ends of four barbs of each arrow, (n, 6, 3), from (n, 3) each; pairs are ``BARBS``."""
+    lengths = np.linalg.norm(steps, axis=1, keepdims=True)
+    along = steps / lengths
+    side = np.cross(along, np.eye(3)[np.argmin(np.abs(along), axis=1)])
+    side /= np.linalg.norm(side, axis=1, keepdims=True)
+    other = np.cross(along, side)
+    tips = starts + steps
+    barbs = [tips + lengths * (-HEAD * along + BREADTH * across) for across in (side, -side, other, -other)]
+    return np.stack([starts, tips, *barbs], axis=1)
 
 
 def _force_texts(model: Model, contacts: Contacts, thrust: Thrust) -> list[str]:

@@ -8,6 +8,7 @@ origin: graphics cards count with seven digits.
 from __future__ import annotations
 
 import base64
+from dataclasses import dataclass
 from html import escape
 from typing import Any
 
@@ -16,11 +17,15 @@ import numpy as np
 from mbla.arrays import FloatArray, IntArray
 from mbla.deck.selectors import POSITIONS
 from mbla.model.model import Model
+from mbla.results.collapse.collapse import Collapse, collapse_of
+from mbla.results.collapse.failure import failure_of
+from mbla.results.collapse.hinge_lines import HingeLine
 from mbla.results.collapse.motion import drawn_motion, moved_vertices, vertex_displacements
 from mbla.results.collapse.rigid_parts import rigid_parts
 from mbla.results.outcome import result_of
-from mbla.results.pictures.geometry import block_edges, box_of, front_axis, ground_slab, live_load_arrow
+from mbla.results.pictures.geometry import block_edges, box_of, front_axis, ground_slab
 from mbla.results.results import CaseResult, Results
+from mbla.results.view3d.arrow import LoadArrow, load_arrow
 from mbla.results.view3d.colours import Colouring, by_group, by_part, by_value
 from mbla.results.view3d.marks import Mark, block_eccentricity, force_marks, mechanism_marks
 from mbla.results.view3d.triangles import face_triangles, triangle_normals
@@ -40,25 +45,29 @@ SLAB = np.array([[side[0], side[i], side[i + 1]] for side in SIDES for i in (1, 
 SHADES = 32
 
 
-def scene_of(results: Results, case: CaseResult) -> dict[str, Any]:
-    """Everything that the browser needs, ready for JSON."""
+def scene_of(results: Results, case: CaseResult, view: tuple[float, float] | None = None) -> dict[str, Any]:
+    """Everything that the browser needs, ready for JSON.
+
+    view : azimuth and elevation of the eye at first, degrees; None: what suits the structure
+    """
     model, contacts, blocks = results.model.of_case(case.load_case), results.contacts, results.model.blocks
     size = float(np.linalg.norm(np.ptp(blocks.vertices, axis=0)))
     offset = offset_of(blocks.vertices, size)
     motion = drawn_motion(model, case)
     moved = moved_vertices(blocks, motion)
-    parts = rigid_parts(model, contacts, motion) if motion.any() else None
+    told = _told(results, case, model) if motion.any() else None
+    parts = None if told is None else told.parts
     slabs = [ground_slab(model, contacts, row, size) for row in range(len(model.grounds))]
     grounds = [slab for slab in slabs if slab is not None]
     low, high = box_of(np.vstack([moved, blocks.vertices]))
-    arrow = live_load_arrow(model, case.load_case, low, high, 0.13 * size)
-    seen = np.vstack([moved, blocks.vertices, *grounds, arrow])
+    arrow = load_arrow(model, case.load_case, low, high, 0.13 * size)
+    seen = np.vstack([moved, blocks.vertices, *grounds, arrow.points])
     triangles, faces = face_triangles(blocks)
     return {
         "unit": model.units.length,
         "offset": offset.tolist(),
         **_box(seen - offset),
-        "eye": eye_of(blocks.vertices, moved),
+        "eye": eye_of(blocks.vertices, moved, view),
         "vertices": packed(blocks.vertices - offset),
         "vertexStart": packed(blocks.vertex_start),
         "triangles": packed(triangles),
@@ -72,10 +81,10 @@ def scene_of(results: Results, case: CaseResult) -> dict[str, Any]:
         "motionWords": motion_words(case) if motion.any() else "",
         "texts": block_texts(model, parts),
         "colourings": [_colouring(each) for each in colourings(results, case, model, motion, parts)],
-        "marks": [_mark(mark, offset) for mark in marks_of(results, case, model, size)],
+        "marks": [_mark(mark, offset) for mark in marks_of(results, case, model, size, told)],
         "forceWords": force_words(case),
         "ground": _ground(grounds, offset),
-        "arrow": _arrow(case, arrow, offset),
+        "arrow": _arrow(arrow, offset),
     }
 
 
@@ -93,9 +102,13 @@ def shades(normals: FloatArray) -> IntArray:
     return np.asarray(np.rint((normals @ light + 1) / 2 * (SHADES - 1)).astype(np.int64))
 
 
-def eye_of(vertices: FloatArray, moved: FloatArray) -> list[float]:
-    """Direction from which the structure is seen first: nearly the front of what is thin, else slanted."""
+def eye_of(vertices: FloatArray, moved: FloatArray, view: tuple[float, float] | None = None) -> list[float]:
+    """Direction from which the structure is seen first: nearly the front of what is thin, else slanted, or as given."""
     axis = front_axis(np.ptp(vertices, axis=0), np.abs(moved - vertices).max(axis=0))
+    if axis is None and view is not None:
+        azimuth, elevation = np.deg2rad(view)
+        level = np.cos(elevation)
+        return [float(level * np.cos(azimuth)), float(level * np.sin(azimuth)), float(np.sin(elevation))]
     return {0: [1.6, -0.35, 0.4], 1: [0.35, -1.6, 0.4], None: [0.9, -1.6, 0.85]}[axis]
 
 
@@ -151,7 +164,7 @@ def colourings(
         distance = np.linalg.norm(vertex_displacements(model.blocks, motion), axis=1)
         np.maximum.at(farthest, model.blocks.block_of_vertex, distance)
         share = farthest / (farthest.max() or 1.0)
-        found = [by_value(model, "displacement", share, "none", "largest"), by_part(model, parts), *found]
+        found = [by_part(model, parts), by_value(model, "displacement", share, "none", "largest"), *found]
     forces = forces_of(case)
     if forces is not None and len(results.contacts):
         eccentricity = block_eccentricity(model, results.contacts, forces)
@@ -159,13 +172,34 @@ def colourings(
     return found
 
 
-def marks_of(results: Results, case: CaseResult, model: Model, size: float) -> list[Mark]:
+def marks_of(results: Results, case: CaseResult, model: Model, size: float, told: _Told | None) -> list[Mark]:
     """Marks of the mechanism and of the forces; none of what the case does not have."""
-    mechanics, forces = case.solution.mechanics, forces_of(case)
-    if not len(results.contacts):
+    mechanics, forces, contacts = case.solution.mechanics, forces_of(case), results.contacts
+    if not len(contacts):
         return []
-    found = [] if mechanics is None else mechanism_marks(model, results.contacts, mechanics)
-    return found + ([] if forces is None else force_marks(model, results.contacts, forces, size))
+    found: list[Mark] = []
+    if mechanics is not None and told is not None and told.collapse is not None:
+        found = mechanism_marks(model, contacts, mechanics, told.collapse, told.hinge_lines)
+    return found + ([] if forces is None else force_marks(model, contacts, forces, size))
+
+
+@dataclass(frozen=True)
+class _Told:
+    """What the words tell of a motion: parts with their numbers, and hinge lines; no collapse without a mechanism."""
+
+    parts: IntArray
+    collapse: Collapse | None = None
+    hinge_lines: tuple[HingeLine, ...] = ()
+
+
+def _told(results: Results, case: CaseResult, model: Model) -> _Told:
+    """Parts of a mechanism are the clusters of the words; those of a motion that proves no equilibrium are rigid."""
+    mechanics, contacts = case.solution.mechanics, results.contacts
+    if mechanics is None:
+        return _Told(rigid_parts(model, contacts, drawn_motion(model, case)))
+    collapse = collapse_of(model, contacts, case.load_case, mechanics)
+    failure = failure_of(model, contacts, collapse, mechanics)
+    return _Told(failure.clusters, collapse, failure.hinge_lines)
 
 
 def forces_of(case: CaseResult) -> FloatArray | None:
@@ -223,18 +257,9 @@ def _ground(slabs: list[FloatArray], offset: FloatArray) -> dict[str, Any] | Non
     return {"points": packed(points), "triangles": packed(triangles)}
 
 
-def _arrow(case: CaseResult, arrow: FloatArray, offset: FloatArray) -> dict[str, Any] | None:
-    """Shaft and four barbs as segments; None where the live load has no direction."""
-    start, tip = arrow - offset
-    length = float(np.linalg.norm(tip - start))
-    if length == 0.0:
+def _arrow(arrow: LoadArrow, offset: FloatArray) -> dict[str, Any] | None:
+    """None where the live load has no direction."""
+    if not len(arrow.pairs):
         return None
-    along = (tip - start) / length
-    side = np.cross(along, np.eye(3)[np.argmin(np.abs(along))])
-    side /= np.linalg.norm(side)
-    other = np.cross(along, side)
-    barbs = [tip - 0.25 * length * along + 0.09 * length * d for d in (side, -side, other, -other)]
-    points = np.array([start, tip, *barbs])
-    pairs = np.array([[0, 1], *([1, i] for i in range(2, 6)), [2, 4], [4, 3], [3, 5], [5, 2]])
-    name = "live load" if case.load_case.settlement is None else "settlement"
-    return {"name": name, "points": packed(points), "pairs": packed(pairs)}
+    points = packed(arrow.points - offset)
+    return {"name": arrow.name, "points": points, "pairs": packed(arrow.pairs), "block": arrow.block}

@@ -14,6 +14,7 @@ window.mblaView3d = function (host, data) {
 
 window.mblaDrawView3d = function (host, data) {
   "use strict";
+  const LIVE_LOAD = "#0072B2";  // as in the pictures
   const MOST_MOVING = 3000;  // blocks that move smoothly; of more there are two states
   const kinds = { f4: Float32Array, i4: Int32Array, u1: Uint8Array };
   function unpacked(array) {
@@ -173,8 +174,13 @@ window.mblaDrawView3d = function (host, data) {
     layers.push({ name: "ground", colour: "#7A7A7A", traces: [add(slab)], shown: true });
   }
   if (data.arrow) {
-    const arrow = line(unpacked(data.arrow.points), unpacked(data.arrow.pairs), "#222222", 7);
-    layers.push({ name: data.arrow.name, colour: "#222222", traces: [add(arrow)], shown: true });
+    const points = unpacked(data.arrow.points), pairs = unpacked(data.arrow.pairs);
+    const bodies = new Int32Array((2 * points.length) / 3).fill(data.arrow.block);  // -1 stays where it is
+    const arrow = add(
+      line(points, pairs, LIVE_LOAD, 8, { hoverinfo: "name", name: data.arrow.name }),
+      (state) => segments(movedMark({ points, bodies }, state), pairs),
+    );
+    layers.push({ name: data.arrow.name, colour: LIVE_LOAD, traces: [arrow], shown: true });
   }
 
   // --- page --------------------------------------------------------------------------------------------------------
@@ -274,9 +280,10 @@ window.mblaDrawView3d = function (host, data) {
 
   if (motion) {
     const slider = labelled(top, data.motionWords, (label) => {
+      Object.assign(label.style, { flexWrap: "wrap" });
       const large = blockCount > MOST_MOVING, play = element("button", label, { type: "button", textContent: "play" });
       if (large) play.remove();
-      element("span", label, { textContent: "as built" });
+      element("span", label, { textContent: "as built" }, { whiteSpace: "nowrap" });
       const size = { width: large ? "3em" : "12em" };
       const range = element("input", label, { type: "range", min: 0, max: 1, step: large ? 1 : 0.01, value: 0 }, size);
       range.setAttribute("aria-label", "how far the mechanism has moved");

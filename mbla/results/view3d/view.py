@@ -23,7 +23,9 @@ INK, ALARM = "#222222", "#B00020"
 """colour of a title of a verified result, and of any other"""
 
 
-def view_html(results: Results, case: CaseResult, *, include_library: bool) -> str:
+def view_html(
+    results: Results, case: CaseResult, *, include_library: bool, view: tuple[float, float] | None = None
+) -> str:
     """A ``<div>`` that shows the structure of a load case, to be turned, with its mechanism, to be moved.
 
     Parameters
@@ -32,6 +34,8 @@ def view_html(results: Results, case: CaseResult, *, include_library: bool) -> s
         Any outcome; what is no verified result says so in its title.
     include_library
         Put plotly.js (about 5 MB) in front. A page needs it once, before or in its first view.
+    view
+        Azimuth and elevation of the eye at first, degrees; None: what suits the structure.
 
     Raises
     ------
@@ -39,7 +43,7 @@ def view_html(results: Results, case: CaseResult, *, include_library: bool) -> s
         The extra for reports is not installed.
     """
     library = library_html() if include_library else ""
-    data = json.dumps(scene_of(results, case), separators=(",", ":"), allow_nan=False, ensure_ascii=True)
+    data = json.dumps(scene_of(results, case, view), separators=(",", ":"), allow_nan=False, ensure_ascii=True)
     data = data.replace("<", "\\u003c")  # no text of a deck may end the script
     name = hashlib.sha256(data.encode("ascii")).hexdigest()[:12]
     start = (

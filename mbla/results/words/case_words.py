@@ -13,7 +13,7 @@ from mbla.results.collapse.failure import failure_of
 from mbla.results.collapse.force_freedom import force_freedom
 from mbla.results.outcome import result_of
 from mbla.results.results import CaseResult
-from mbla.results.words.certificate_words import certificate_lines
+from mbla.results.words.certificate_words import fall_lines, fall_sentences
 from mbla.results.words.determined_words import enough_lines, freedom_lines
 from mbla.results.words.failure_words import failure_sentences
 from mbla.results.words.figure_words import figures
@@ -21,7 +21,7 @@ from mbla.results.words.force_words import force_range_lines, group_reaction_lin
 from mbla.results.words.mechanism_words import mechanism_lines, mechanism_summary
 from mbla.results.words.path_words import path_lines
 from mbla.results.words.program_words import program_lines
-from mbla.results.words.text import heading, sentence
+from mbla.results.words.text import full_sentence, heading, sentence
 from mbla.results.words.verdict_words import bound_words, known_words, verdict
 from mbla.results.words.work_words import work_lines
 
@@ -45,7 +45,11 @@ def case_sections(model: Model, contacts: Contacts, case: CaseResult) -> list[Se
     solution, held, model = case.solution, model, model.of_case(case.load_case)
     mechanics, load_case = solution.mechanics, case.load_case
     if mechanics is None:
-        sections = [Section("Verdict", _verdict_lines(model, case, None, []))]
+        motion = solution.certificate
+        told = [] if motion is None else fall_sentences(model, contacts, load_case, motion)
+        sections = [Section("Verdict", _verdict_lines(model, case, None, told))]
+        if motion is not None:
+            sections.append(Section("Mechanism", spaced(fall_lines(model, contacts, motion))))
         if solution.lock is not None:
             sections.append(Section("Locking forces", lock_lines(model, contacts, solution.lock)))
     else:
@@ -80,13 +84,10 @@ def _verdict_lines(model: Model, case: CaseResult, collapse: Collapse | None, to
     says = verdict(model, case)
     if collapse is not None:
         says += f"{_mechanism_label(case)}: {mechanism_summary(model, collapse)}"
-    lines = sentence(f"{says}.") + sentence(case.solution.reason)
+    lines = sentence(full_sentence(says)) + sentence(full_sentence(case.solution.reason))
     lines += spaced([line for text in told for line in sentence(text)])
-    known = (bound_words(model, case), *known_words(model, case))
-    lines += spaced([line for text in known for line in sentence(text)])
-    if collapse is None and case.solution.certificate is not None:
-        lines += certificate_lines(model, case.solution.certificate)
-    return lines
+    known = [full_sentence(text) for text in (bound_words(model, case), *known_words(model, case))]
+    return lines + spaced([line for text in known for line in sentence(text)])
 
 
 def spaced(lines: list[str]) -> list[str]:

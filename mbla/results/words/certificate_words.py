@@ -1,59 +1,37 @@
-"""The motion that shows a lack of equilibrium in words: which blocks cannot be held, and what they do."""
+"""How a structure without equilibrium falls, in the words of any other failure."""
 
 from __future__ import annotations
+
+from dataclasses import replace
 
 import numpy as np
 
 from mbla.arrays import FloatArray
-from mbla.model.model import Model
-from mbla.results.collapse.rigid_parts import block_speeds, resting_blocks
-from mbla.results.words.text import counted, sentence, table
-
-MOST_ROWS = 20
-"""rows of a table in the listing; the result files hold all of them"""
-MOST_NAMED = 3
-"""blocks named in a summary"""
-
-
-def certificate_lines(model: Model, certificate: FloatArray) -> list[str]:
-    """Which blocks cannot be held, and what they do, the fastest first."""
-    order = _not_held(model, certificate)
-    rows = [[model.blocks.name(b), _motion_words(certificate[b], model.blocks.sizes[b])] for b in order[:MOST_ROWS]]
-    if not rows:
-        return []
-    more = sentence(f"and {len(order) - len(rows)} more; the result files hold them all")
-    lines = [*sentence(f"Not held ({counted(len(order), 'block')}):"), *table(["block", "motion"], rows, left=2)]
-    return lines + (more if len(order) > len(rows) else [])
+from mbla.contacts.contacts import Contacts
+from mbla.model.model import LoadCase, Model
+from mbla.results.collapse.failure import failure_of
+from mbla.results.collapse.fall import fall_of
+from mbla.results.words.failure_words import failure_sentences
+from mbla.results.words.mechanism_words import mechanism_lines
+from mbla.results.words.text import sentence
 
 
-def not_held_summary(model: Model, certificate: FloatArray) -> str:
-    """``not held: tower[0] (moves down), tower[1] (moves down) and 3 more``."""
-    order = _not_held(model, certificate)
-    words = [
-        f"{model.blocks.name(b)} ({_motion_words(certificate[b], model.blocks.sizes[b])})" for b in order[:MOST_NAMED]
+def fall_sentences(model: Model, contacts: Contacts, load_case: LoadCase, certificate: FloatArray) -> list[str]:
+    """What moves and how, where it turns and parts, what slides; the live load, which does not act yet, says no way."""
+    collapse, mechanics = fall_of(model, contacts, certificate)
+    failure = failure_of(model, contacts, collapse, mechanics)
+    unloaded = replace(load_case, live_load=np.zeros_like(load_case.live_load))
+    return failure_sentences(model, contacts, unloaded, collapse, failure)
+
+
+def fall_lines(model: Model, contacts: Contacts, certificate: FloatArray) -> list[str]:
+    """The tables of the parts, hinge lines, sliding planes and cracks."""
+    collapse, mechanics = fall_of(model, contacts, certificate)
+    return mechanism_lines(model, contacts, failure_of(model, contacts, collapse, mechanics))
+
+
+def fall_summary(model: Model, contacts: Contacts, load_case: LoadCase, certificate: FloatArray) -> list[str]:
+    """For the terminal: the first of these sentences, which say how much moves and what the heaviest part does."""
+    return [
+        line for text in fall_sentences(model, contacts, load_case, certificate)[:2] for line in sentence(text, "    ")
     ]
-    more = f" and {len(order) - MOST_NAMED} more" if len(order) > MOST_NAMED else ""
-    return f"not held: {', '.join(words)}{more}" if words else ""
-
-
-def _not_held(model: Model, certificate: FloatArray) -> list[int]:
-    """Moving blocks, the fastest first."""
-    rest, speeds = resting_blocks(model, certificate), block_speeds(model, certificate)
-    return [int(b) for b in np.argsort(-speeds, kind="stable") if not rest[b]]
-
-
-def _motion_words(motion: FloatArray, size: float) -> str:
-    """``moves down`` or ``moves towards +x and turns about +y``, by what dominates."""
-    travel, turning = np.linalg.norm(motion[:3]), np.linalg.norm(motion[3:]) * size / 2
-    words = []
-    if travel > 0.1 * (travel + turning):
-        axis = _axis(motion[:3])
-        words.append({"-z": "moves down", "+z": "moves up"}.get(axis, f"moves towards {axis}"))
-    if turning > 0.1 * (travel + turning):
-        words.append(f"turns about {_axis(motion[3:])}")
-    return " and ".join(words)
-
-
-def _axis(direction: FloatArray) -> str:
-    axis = int(np.argmax(np.abs(direction)))
-    return ("+" if direction[axis] > 0 else "-") + "xyz"[axis]

@@ -19,9 +19,14 @@ def enough_lines(case: CaseResult, enough: Enough) -> list[str]:
         f"Enough for this result: the {counted(len(enough.moving), 'block')} that move and the "
         f"{counted(len(enough.interfaces), 'interface')} on them."
     ).replace("1 block that move ", "1 block that moves ")
-    fixed = f"With the {counted(resting, 'free block')} at rest fixed"
-    if len(enough.left_out):
-        fixed += f", {len(enough.left_out)} of which touch nothing that moves and can be left out,"
+    out = len(enough.left_out)
+    if out == resting:
+        touches = "touches" if out == 1 else "touch"
+        fixed = f"Without the {counted(resting, 'free block')} at rest, which {touches} nothing that moves,"
+    else:
+        fixed = f"With the {counted(resting, 'free block')} at rest fixed"
+        touch = "touches" if out == 1 else "touch"
+        fixed += f", of which {out} {touch} nothing that moves and can be left out," if out else ","
     if case.solution.flow_rule == "associative":
         return sentence(f"{what} {fixed} the load factor is the same.")
     return sentence(

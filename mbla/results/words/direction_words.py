@@ -14,16 +14,18 @@ VERTICAL = 0.95
 """cosine from which a direction is plainly up or down: within 18 degrees"""
 LEVEL = 0.15
 """sine up to which it is level: within 9 degrees"""
+TABLE_DIGITS = 2
+"""of directions in tables, whose columns are narrow: within half a degree"""
 WITH = 0.8
 """cosine from which a direction in plan is that of the load, or outwards: within 37 degrees"""
 
 
-def direction_words(direction: FloatArray) -> str:
-    """``+y`` for what nearly follows an axis, else the components."""
+def direction_words(direction: FloatArray, digits: int = 3) -> str:
+    """``+y`` for what nearly follows an axis, else the components, with some digits behind the point."""
     axis = int(np.argmax(np.abs(direction)))
     if abs(direction[axis]) >= ALONG_AXIS:
         return ("+" if direction[axis] > 0 else "-") + "xyz"[axis]
-    return vector(np.round(direction, 3))
+    return vector(np.round(direction, digits))
 
 
 def way_words(model: Model, load_case: LoadCase, velocity: FloatArray, at: FloatArray) -> str:

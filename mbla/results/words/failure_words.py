@@ -18,19 +18,20 @@ from mbla.results.collapse.failure import Failure
 from mbla.results.collapse.hinge_lines import HingeLine
 from mbla.results.collapse.mechanics import curvature_sides
 from mbla.results.collapse.rigid_parts import PartMotion, moving_share, reach
-from mbla.results.collapse.sliding_planes import SlidingPlane
 from mbla.results.words.direction_words import direction_words, way_words
 from mbla.results.words.place_words import extents_of, group_words, point_words, range_words, region_words
-from mbla.results.words.text import counted, percent
+from mbla.results.words.slide_words import slide_sentences
+from mbla.results.words.text import counted
+from mbla.results.words.who_words import moves_whole, other_name, part_name
 
-MOST_PARTS, MOST_LINES, MOST_CRACKS, MOST_SLIDES = 4, 4, 2, 2
+MOST_PARTS, MOST_LINES, MOST_CRACKS = 4, 4, 2
 """what is told of each kind; the tables hold more, the result files all"""
 IN_PLACE = 0.02
 """speed of the middle of a part over that by its rotation, up to which it turns on the spot"""
-SAME_WAY = 0.9
-"""cosine from which planes of the same two parts are told together"""
-UNDER_FORCE = 5e-4
-"""share of the power above which sliding is said to take work: what is written as 0.1 % or more"""
+SPREADS = 2 * MOST_PARTS
+"""parts, as told, from which on a mechanism is said to have no few parts"""
+FAR_AXIS = 5.0
+"""speed of the centroid of a part over that by its rotation from which it is said to move rather than to turn"""
 ON_AXIS = 0.02
 """distance of a hinge line from the axis of a part, over the size of the part, up to which it turns about that line"""
 
@@ -43,18 +44,18 @@ def failure_sentences(
         return ["No block moves."]
     told = _told(failure)
     texts = [_scale(model, collapse, failure)]
-    texts += [_part_sentence(model, load_case, failure, part) for part in told]
+    texts += [_part_sentence(model, contacts, load_case, failure, part) for part in told]
     left = len(failure.motions) - len(told)
     if left:
         weight = sum(part.weight for part in failure.motions) or 1.0
         share = 100 * (1 - sum(part.weight for part in told) / weight)
         verb = "moves" if left == 1 else "move"
-        texts.append(f"{counted(left, 'more part')}, {share:.3g} % of the weight that moves, {verb} besides.")
+        texts.append(f"{counted(left, 'more part')} {verb} besides, {share:.3g} % of the weight that moves.")
     texts += _hinge_sentences(model, contacts, failure, told)
-    texts += [_crack_sentence(model, contacts, crack) for crack in failure.cracks[:MOST_CRACKS]]
+    texts += [_crack_sentence(model, contacts, failure, crack) for crack in failure.cracks[:MOST_CRACKS]]
     if len(failure.cracks) > MOST_CRACKS:
         texts[-1] += f" {counted(len(failure.cracks) - MOST_CRACKS, 'more crack')} in the table below."
-    return texts + _slide_sentences(model, failure)
+    return texts + slide_sentences(model, contacts, failure, collapse.work)
 
 
 def _told(failure: Failure) -> Sequence[PartMotion]:
@@ -66,20 +67,24 @@ def _scale(model: Model, collapse: Collapse, failure: Failure) -> str:
     """``The mechanism is partial: 12 of 52 free blocks, 20.8 % of the weight, move in 1 rigid part.``"""
     moving = int(np.sum(~model.fixed & (collapse.parts > 0)))
     share = moving_share(model, collapse.parts)
+    parts = len(collapse.motions)
     text = (
         f"The mechanism is {reach(share)}: {moving} of {counted(len(model.free), 'free block')}, "
         f"{100 * share:.3g} % of the weight, {'moves' if moving == 1 else 'move'} "
-        f"in {counted(len(collapse.motions), 'rigid part')}"
+        f"{'as one rigid part' if parts == 1 else f'in {parts} rigid parts'}"
     )
     if not failure.merged:
         return f"{text}."
-    return (
+    text = (
         f"{text}, told as {len(failure.motions)}: what moves by less than {100 * failure.merged:g} % of the fastest "
         "contact counts as at rest, or as one with its neighbour."
     )
+    if len(failure.motions) < SPREADS:
+        return text
+    return f"{text} It spreads through what moves and has no few parts; the {MOST_PARTS} heaviest:"
 
 
-def _part_sentence(model: Model, load_case: LoadCase, failure: Failure, part: PartMotion) -> str:
+def _part_sentence(model: Model, contacts: Contacts, load_case: LoadCase, failure: Failure, part: PartMotion) -> str:
     """Which part, and how it moves."""
     who = _who(model, load_case, part)
     way = way_words(model, load_case, part.velocity, part.centroid)
@@ -87,12 +92,16 @@ def _part_sentence(model: Model, load_case: LoadCase, failure: Failure, part: Pa
         return f"{who} moves {way}, along {direction_words(part.direction)}, without turning."
     low, high = extents_of(model, part.blocks)
     spin = float(np.linalg.norm(part.rotation)) * float(np.linalg.norm(high - low))
-    goes = f", its middle moving {way}," if way and np.linalg.norm(part.velocity) > IN_PLACE * spin else ""
+    if np.linalg.norm(part.velocity) > FAR_AXIS * spin:
+        along = direction_words(part.velocity / np.linalg.norm(part.velocity))
+        return f"{who} moves {way}, along {along}, turning slightly about {direction_words(part.direction)}."
+    goes = f", its centroid moving {way}," if way and np.linalg.norm(part.velocity) > IN_PLACE * spin else ""
     turns = f"{who} turns about {direction_words(part.direction)}{goes}"
     line = _line_of(model, failure.hinge_lines, part)
     if line is not None:
         other = line.clusters[1] if line.clusters[0] == part.number else line.clusters[0]
-        return f"{turns} over {part_name(other)}, on {_line_words(model, line)}."
+        over = other_name(model, contacts, failure, other, line.interfaces)
+        return f"{turns} over {over}, on {_line_words(model, line)}."
     return f"{turns} round an axis through {point_words(model, part.axis_point)}."
 
 
@@ -101,7 +110,7 @@ def _who(model: Model, load_case: LoadCase, part: PartMotion) -> str:
     free = ~model.fixed
     total = float(model.blocks.masses[free].sum())
     blocks = counted(len(part.blocks), "block")
-    if len(part.blocks) == int(free.sum()):
+    if moves_whole(model, part):
         return f"The whole structure ({blocks})" if free.all() else f"The whole structure on its supports ({blocks})"
     names = group_words(model, part.blocks)
     count = [] if len(part.blocks) == 1 or names.startswith(blocks) else [blocks]
@@ -117,11 +126,6 @@ def _who(model: Model, load_case: LoadCase, part: PartMotion) -> str:
     if len(part.blocks) == 1:
         return f"Part {part.number}, {names} ({', '.join(detail)}),"
     return f"Part {part.number}, the {region_words(model, part.blocks)} ({', '.join([names, *detail])}),"
-
-
-def part_name(number: int) -> str:
-    """``part 2``, or ``what rests`` for 0."""
-    return "what rests" if number == 0 else f"part {number}"
 
 
 def _line_of(model: Model, lines: Sequence[HingeLine], part: PartMotion) -> HingeLine | None:
@@ -152,21 +156,21 @@ def _hinge_sentences(model: Model, contacts: Contacts, failure: Failure, told: S
     if not left:
         return []
     outward = curvature_sides(model, contacts)
-    places = [_place_of_line(model, contacts, outward, line) for line in left[:MOST_LINES]]
+    places = [_place_of_line(model, contacts, failure, outward, line) for line in left[:MOST_LINES]]
     also = "Further hinges" if len(left) < len(lines) else "Hinges"
     most = ", those that move most" if len(left) > MOST_LINES else ""
     more = f"; and {len(left) - MOST_LINES} more" if len(left) > MOST_LINES else ""
     return [f"{also}{most}: {'; '.join(places)}{more}."]
 
 
-def _place_of_line(model: Model, contacts: Contacts, outward: FloatArray, line: HingeLine) -> str:
+def _place_of_line(model: Model, contacts: Contacts, failure: Failure, outward: FloatArray, line: HingeLine) -> str:
     """``at (1, 0.5, 2) on the extrados between part 1 and part 2``."""
     middle = (line.start + line.end) / 2
     side = hinge_side(contacts, outward, line)
     on = f" on the {side}" if side in ("intrados", "extrados") else ""
     count = f", {counted(len(line.interfaces), 'interface')}" if len(line.interfaces) > 1 else ""
     slides = ", sliding" if line.slides else ""
-    return f"at {point_words(model, middle)}{on} between {_pair_words(line.clusters)}{count}{slides}"
+    return f"at {point_words(model, middle)}{on} between {_pair_words(model, contacts, failure, line)}{count}{slides}"
 
 
 def hinge_side(contacts: Contacts, outward: FloatArray, line: HingeLine) -> str:
@@ -181,14 +185,17 @@ def hinge_side(contacts: Contacts, outward: FloatArray, line: HingeLine) -> str:
     return f"{'+' if offset[axis] > 0 else '-'}{'xyz'[axis]} side"
 
 
-def _pair_words(clusters: tuple[int, int]) -> str:
-    first, second = clusters
-    return f"part {first} and what rests" if second == 0 else f"parts {second} and {first}"
+def _pair_words(model: Model, contacts: Contacts, failure: Failure, line: HingeLine) -> str:
+    first, second = line.clusters
+    if second:
+        return f"parts {second} and {first}"
+    return f"{part_name(model, failure, first)} and {other_name(model, contacts, failure, 0, line.interfaces)}"
 
 
-def _crack_sentence(model: Model, contacts: Contacts, crack: Crack) -> str:
+def _crack_sentence(model: Model, contacts: Contacts, failure: Failure, crack: Crack) -> str:
     first, second = crack.clusters
-    apart = f"separates part {first} from {part_name(second)}"
+    other = other_name(model, contacts, failure, second, crack.interfaces)
+    apart = f"separates {part_name(model, failure, first)} from {other}"
     count = len(crack.interfaces)
     if count == 1:
         return f"An open joint at {point_words(model, crack.start)} {apart}."
@@ -200,59 +207,3 @@ def crack_kind(contacts: Contacts, crack: Crack) -> str:
     """``stepped `` where its joints have several directions at right angles or so, else nothing."""
     normals = contacts.normals[crack.interfaces]
     return "stepped " if np.abs(normals @ normals[0]).min() < 0.5 else ""
-
-
-def _slide_sentences(model: Model, failure: Failure) -> list[str]:
-    """Planes of the same two parts and direction in one sentence, those that take most work first."""
-    by_clusters: dict[tuple[int, int], list[list[SlidingPlane]]] = {}
-    runs: list[list[SlidingPlane]] = []
-    for plane in failure.sliding_planes:
-        known = by_clusters.setdefault(plane.clusters, [])
-        fit = next((run for run in known if float(run[0].direction @ plane.direction) > SAME_WAY), None)
-        if fit is None:
-            known.append([plane])
-            runs.append(known[-1])
-        else:
-            fit.append(plane)
-    working = [run for run in runs if _takes_work(run)]
-    idle = sum(len(plane.interfaces) for run in runs if not _takes_work(run) for plane in run)
-    hinges = [line for line in failure.hinge_lines if line.slides]
-    in_hinges = sum(np.nan_to_num(line.shear) for line in hinges)
-    if not working:
-        if in_hinges >= UNDER_FORCE:
-            slide = "slides" if len(hinges) == 1 else "slide"
-            count = counted(len(hinges), "hinge")
-            return [f"{count} {slide} as well, taking {percent(in_hinges)} % of the power."]
-        idle += len(hinges)
-        verb = "slides" if idle == 1 else "slide"
-        return [f"{counted(idle, 'joint')} {verb} without taking work." if idle else "Nothing slides."]
-    texts = [_slide_sentence(model, run) for run in working[:MOST_SLIDES]]
-    if len(working) > MOST_SLIDES:
-        left = sum(plane.shear for run in working[MOST_SLIDES:] for plane in run)
-        texts.append(f"Sliding elsewhere takes {percent(left)} % of the power; see the table below.")
-    if in_hinges >= UNDER_FORCE:
-        texts.append(f"Hinges that slide take {percent(in_hinges)} % of it.")
-    given_back = sum(plane.shear - plane.share for plane in failure.sliding_planes)
-    if given_back >= UNDER_FORCE:
-        texts.append(f"Joints lift as they slide, and their normal forces give {percent(given_back)} % back.")
-    return texts
-
-
-def _takes_work(planes: Sequence[SlidingPlane]) -> bool:
-    """Where no power is put in at all, whatever slides is told."""
-    shear = sum(plane.shear for plane in planes)
-    return bool(np.isnan(shear) or shear >= UNDER_FORCE)
-
-
-def _slide_sentence(model: Model, planes: Sequence[SlidingPlane]) -> str:
-    first = planes[0]
-    number, other = first.clusters
-    joints = sum(len(plane.interfaces) for plane in planes)
-    area = sum(plane.area for plane in planes)
-    where = counted(joints, "joint") + (f" in {len(planes)} planes" if len(planes) > 1 else "")
-    shear = sum(plane.shear for plane in planes)
-    share = "" if np.isnan(shear) else f", taking {percent(shear)} % of the power"
-    does = "twists on" if first.twists else "slides over"
-    way = "" if first.twists else f" along {direction_words(first.direction)}"
-    at = ("at " if len(planes) == 1 else "mostly at ") + point_words(model, first.centroid)
-    return f"Part {number} {does} {part_name(other)}{way}: {where}, {area:.4g} {model.units.length}2, {at}{share}."

@@ -17,7 +17,7 @@ from mbla.results.collapse.hinge_lines import HingeLine
 from mbla.results.collapse.interface_modes import InterfaceMode
 from mbla.results.collapse.mechanics import curvature_sides
 from mbla.results.collapse.sliding_planes import SlidingPlane
-from mbla.results.words.direction_words import direction_words
+from mbla.results.words.direction_words import TABLE_DIGITS, direction_words
 from mbla.results.words.failure_words import crack_kind, hinge_side
 from mbla.results.words.part_words import part_lines
 from mbla.results.words.place_words import point_words
@@ -63,8 +63,8 @@ def _hinge_table(model: Model, contacts: Contacts, lines: Sequence[HingeLine]) -
             _parts(line.clusters),
             point_words(model, line.start),
             number(float(f"{line.length:.4g}")),
-            direction_words(line.direction),
-            hinge_side(contacts, outward, line) + (", slides" if line.slides else ""),
+            direction_words(line.direction, TABLE_DIGITS),
+            hinge_side(contacts, outward, line).removesuffix(" side") + (", slides" if line.slides else ""),
         ]
         for line in _shown(lines)
     ]
@@ -80,7 +80,7 @@ def _sliding_table(model: Model, contacts: Contacts, planes: Sequence[SlidingPla
             _interfaces(model, contacts, plane.interfaces),
             _parts(plane.clusters),
             point_words(model, plane.centroid),
-            "twists" if plane.twists else direction_words(plane.direction),
+            "twists" if plane.twists else direction_words(plane.direction, TABLE_DIGITS),
             number(float(f"{plane.area:.4g}")),
             percent(plane.shear),
         ]
@@ -128,7 +128,10 @@ def _parts(clusters: tuple[int, int]) -> str:
 
 
 def _interfaces(model: Model, contacts: Contacts, interfaces: IntArray) -> str:
-    """``arch[2]/arch[3]``, with ``and 7 more`` behind the first of several."""
+    """``arch[2]/[3]`` in one group, ``arch[2]/pier[0]``, with ``and 7 more`` behind the first of several."""
     a, b = contacts.bodies[int(interfaces[0])].tolist()
     more = f" and {len(interfaces) - 1} more" if len(interfaces) > 1 else ""
-    return f"{model.body_name(a)}/{model.body_name(b)}{more}"
+    first, second = model.body_name(a), model.body_name(b)
+    if max(a, b) < len(model.blocks) and model.blocks.groups[a] == model.blocks.groups[b]:
+        second = f"[{model.blocks.group_indices[b]}]"
+    return f"{first}/{second}{more}"

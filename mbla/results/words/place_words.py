@@ -46,7 +46,7 @@ def region_words(model: Model, blocks: IntArray) -> str:
 def _filled(model: Model) -> bool:
     """Whether the blocks fill the box around them as a wall does, and an arch does not."""
     least, greatest = _extents(model)
-    return float(model.blocks.volumes.sum()) >= FILLED * float(np.prod(greatest - least))
+    return float(model.blocks.volumes[model.free].sum()) >= FILLED * float(np.prod(greatest - least))
 
 
 def _side(low: float, high: float) -> int:
@@ -64,7 +64,8 @@ def _box(model: Model, blocks: IntArray) -> tuple[FloatArray, FloatArray]:
 
 
 def _extents(model: Model) -> tuple[FloatArray, FloatArray]:
-    return model.blocks.vertices.min(axis=0), model.blocks.vertices.max(axis=0)
+    """Of the blocks that can move: supports that are modelled as blocks are no part of what is told."""
+    return extents_of(model, model.free)
 
 
 def extents_of(model: Model, blocks: IntArray) -> tuple[FloatArray, FloatArray]:

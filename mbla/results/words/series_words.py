@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 from mbla.model.model import Model
 from mbla.results.results import CaseResult
 from mbla.results.series import Series, factor_of, position_of
@@ -39,5 +41,5 @@ def _row(model: Model, series: Series, case: CaseResult) -> list[str]:
         number(position.distance),
         vector(position.point),
         model.blocks.name(position.block),
-        number(factor_of(case)),
+        "any multiple" if np.isinf(factor_of(case)) else number(factor_of(case)),
     ]

@@ -5,17 +5,20 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from mbla.model.model import Model
-from mbla.results.collapse.collapse import collapse_of
+from mbla.results.collapse.collapse import Collapse, collapse_of
+from mbla.results.collapse.failure import failure_of
 from mbla.results.outcome import associative_of, result_of
 from mbla.results.results import CaseResult, Results
 from mbla.results.series import series_of
 from mbla.results.words.answer_words import answer_figure, answer_head, status_words
-from mbla.results.words.certificate_words import not_held_summary
+from mbla.results.words.certificate_words import fall_summary
+from mbla.results.words.failure_words import failure_sentences
 from mbla.results.words.mechanism_words import mechanism_summary
 from mbla.results.words.notice_words import warning_summary
 from mbla.results.words.series_words import worst_words
 from mbla.results.words.text import counted, number, sentence, table
 from mbla.results.words.verdict_words import bound_words, range_summary, reasons, verdict
+from mbla.solution.solution import Mechanics
 
 DETAIL = "    "
 
@@ -56,15 +59,25 @@ def _row(model: Model, case: CaseResult, answers: Sequence[str]) -> list[str]:
     ]
 
 
+def _heaviest(results: Results, case: CaseResult, mechanics: Mechanics, collapse: Collapse) -> list[str]:
+    """What the heaviest part does."""
+    model, contacts = results.model.of_case(case.load_case), results.contacts
+    failure = failure_of(model, contacts, collapse, mechanics)
+    return sentence("".join(failure_sentences(model, contacts, case.load_case, collapse, failure)[1:2]), DETAIL)
+
+
 def _in_words(results: Results, case: CaseResult) -> list[str]:
     """How it collapses; where it does not, or that is not known, why and what is known all the same."""
     model, solution, mechanics = results.model.of_case(case.load_case), case.solution, result_of(case)
     text = f"{case.load_case.name}: {verdict(model, case)}"
     if mechanics is not None:
-        text += f": {mechanism_summary(model, collapse_of(model, results.contacts, case.load_case, mechanics))}"
+        collapse = collapse_of(model, results.contacts, case.load_case, mechanics)
+        text += f": {mechanism_summary(model, collapse)}"
     lines = sentence(text)
+    if mechanics is not None and case.load_case.travel is None:  # positions of a load are many, and much alike
+        lines += _heaviest(results, case, mechanics, collapse)
     if solution.mechanics is None and solution.certificate is not None:
-        lines += sentence(not_held_summary(model, solution.certificate), DETAIL)
+        lines += fall_summary(model, results.contacts, case.load_case, solution.certificate)
     for why in (range_summary(model, case), *reasons(case), bound_words(model, case)):
         lines += sentence(why, DETAIL)
     return lines

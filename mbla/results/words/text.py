@@ -30,6 +30,15 @@ def sentence(text: str, indent: str = INDENT) -> list[str]:
     return [Line(line, element) for line in lines]
 
 
+def full_sentence(text: str) -> str:
+    """With a capital and a full stop; a first word that is a name of something keeps its small letter."""
+    if not text:
+        return ""
+    stop = "" if text.endswith((".", ":")) else "."
+    first = text.split()[0].rstrip(",;:")
+    return (text[0].upper() + text[1:] if first.isalpha() else text) + stop
+
+
 def entry(name: str, value: str) -> list[str]:
     """``name   value`` with the values in one column, wrapped inside it."""
     column = 34

@@ -150,19 +150,24 @@ def uniqueness_words(model: Model, case: CaseResult) -> str:
     def value(load_factor: float) -> str:
         return load_factor_words(model, case.load_case, load_factor)
 
-    limit = "an upper limit" if case.load_case.settlement is None else "the greatest loss of reaction, an upper limit"
-    above = f"; the associative factor, {value(associative.load_factor)}, is {limit} to all" if associative else ""
+    settles = case.load_case.settlement is not None  # the greater the factor, the less the reaction
+    what, lower = ("reaction", "higher") if settles else ("load factor", "lower")
+    noun, above = what.split()[-1], ""
+    if associative and settles:
+        above = f"; {value(associative.load_factor)}, that of associative flow, is a lower limit to all"
+    elif associative:
+        above = f"; the associative factor, {value(associative.load_factor)}, is an upper limit to all"
     if ends is None or not np.isfinite(ends).all():
         known = "" if ends is None else f" (of the range for this mechanism only one end is verified: {_ends(ends)})"
-        return f"The load factor without normality need not be unique, and its range is not known{known}{above}."
+        return f"The {what} without normality need not be unique, and its range is not known{known}{above}."
     if range_is_a_point(ends):
         return (
-            "For this mechanism every distribution of forces has the same load factor; without normality another "
+            f"For this mechanism every distribution of forces has the same {what}; without normality another "
             f"mechanism may have another{above}."
         )
     return (
-        f"The load factor is not unique: for this mechanism alone there are forces that fit the law at every factor "
-        f"from {value(ends[0])} to {value(ends[1])}, and other mechanisms may reach lower{above}."
+        f"The {what} is not unique: for this mechanism alone there are forces that fit the law at every {noun} "
+        f"from {value(ends[0])} to {value(ends[1])}, and other mechanisms may reach {lower}{above}."
     )
 
 

@@ -21,7 +21,7 @@ def work_lines(model: Model, contacts: Contacts, load_case: LoadCase, mechanics:
         ("the live load", -work.live, False),
         ("friction", float(work.friction.sum()), True),
         ("cohesion", float(work.cohesion.sum()), False),
-        ("the joints' normal forces", float(work.normal.sum()), False),
+        ("the joints' normal forces", max(float(work.normal.sum()), 0.0), False),
     )
     shares = [
         (name, power_share(power, work), always)
@@ -30,11 +30,13 @@ def work_lines(model: Model, contacts: Contacts, load_case: LoadCase, mechanics:
     ]
     into = ", ".join(f"{share} % into {name}" for name, share, always in shares if always or float(share) != 0.0)
     into = into.replace(" % into", " % goes into", 1)
-    lines = sentence(f"{_source(work)}{into}.")
+    back = power_share(-float(work.normal.sum()), work)
+    back = f"; joints lift as they slide, and their normal forces give {back} % back" if float(back) > 0 else ""
+    lines = sentence(f"{_source(load_case, work)}{into}{back}.")
     return lines + _joint_table(contacts, work) + _group_table(model, load_case, mechanics, work)
 
 
-def _source(work: Work) -> str:
+def _source(load_case: LoadCase, work: Work) -> str:
     """Where the power comes from."""
     if work.dead <= 0:
         return "Of the power of the live load "

@@ -1,10 +1,14 @@
 from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 
+from mbla.contacts import find_contacts
 from mbla.contacts.contacts import Contacts
+from mbla.deck import read_deck
+from mbla.model import build_model
 from mbla.model.model import Model
 from mbla.results.collapse.mechanics import (
     curvature_sides,
@@ -119,6 +123,17 @@ def test_outside_of_a_curved_chain() -> None:
     along = np.einsum("ij,ij->i", sides, radii) / np.linalg.norm(sides, axis=1)
     assert along[1:-1] == pytest.approx(1)
     assert (along[[0, -1]] > 0.9).all()
+
+
+def test_outside_of_an_arch_of_thick_voussoirs() -> None:
+    """Voussoirs are wedges: their centroids may lie farther out than the joints between them."""
+    arch = build_model(read_deck(Path("decks/benchmarks/spreading_arch.yaml")))
+    contacts = find_contacts(arch, read_deck(Path("decks/benchmarks/spreading_arch.yaml")).contacts)
+    sides = curvature_sides(arch, contacts)
+    from_centre = contacts.centroids - [2, 0.5, 0]
+    chain = np.flatnonzero(np.linalg.norm(sides, axis=1) > 0)
+    assert len(chain) == 27
+    assert (np.einsum("ij,ij->i", sides, from_centre)[chain] > 0).all()
 
 
 def test_straight_chain_has_no_outside() -> None:

@@ -211,6 +211,9 @@ def test_use_of_friction_and_modes_agree_between_files(arch: Any) -> None:
     data = {name: np.concatenate(parts) for name, parts in interfaces.cell_data.items()}
     thrust = scene_and_mesh(arch, "push", "thrust")[1].point_data
     assert data["friction_use"] == pytest.approx(thrust["friction_use"])
+    # in a plane nothing twists
+    assert data["torsion_use"] == pytest.approx(data["friction_use"], abs=1e-6)
+    assert thrust["torsion_use"] == pytest.approx(data["torsion_use"])
     assert data["shear_force"] / (2 * data["normal_force"]) == pytest.approx(data["friction_use"])
     blocks = scene_and_mesh(arch, "push", "blocks")[1].cell_data
     largest = np.concatenate(blocks["largest_friction_use"])

@@ -153,7 +153,7 @@ def test_every_file_and_array_that_it_names_exists(
     assert {name for name in seen if name.startswith("tower_fall") and name.endswith(".png")} == {
         f"tower_fall_{view}.png" for view in ("structure", "mechanism", "loads", "animation")
     }
-    assert {"tower_push_x_thrust:resultant_force", "tower_push_x_interfaces:friction_use"} <= seen
+    assert {"tower_push_x_thrust:resultant_force", "tower_push_x_interfaces:torsion_use"} <= seen
     assert {"tower_push_x_hinges:displacement", "tower_push_x_blocks:part", "tower_supports:kind"} <= seen
     assert "tower_push_x_frame_000:part" in seen
 

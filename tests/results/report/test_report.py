@@ -12,7 +12,7 @@ from mbla.errors import FileError, Notice, UsageError
 from mbla.results.explanations.explanations import EXPLANATIONS
 from mbla.results.outcome import notices_of
 from mbla.results.records.json_record import results_json
-from mbla.results.report import case_content, report
+from mbla.results.report import report
 from mbla.results.report.figures import Figure, Figures
 from mbla.results.report.report import report_html, write_report
 from mbla.results.results import CaseResult, Results
@@ -33,8 +33,8 @@ DOT = "data:image/png;base64,iVBORw0KGgo="
 def no_drawing(monkeypatch: pytest.MonkeyPatch) -> None:
     """Pictures take seconds and have tests of their own."""
     figures = Figures((Figure(DOT, "Mechanism", "The structure"),))
-    monkeypatch.setattr(case_content, "case_figures", lambda results, case: figures)
-    monkeypatch.setattr(report, "model_figures", lambda results: figures)
+    monkeypatch.setattr(report, "case_figures", lambda results, case: figures)
+    monkeypatch.setattr(report, "model_figures", lambda results, view: figures)
     monkeypatch.setattr(report, "series_figures", lambda results, series: figures)
 
 
@@ -277,7 +277,7 @@ def test_without_the_extra_it_says_what_to_install(monkeypatch: pytest.MonkeyPat
 
 
 def test_missing_pictures_are_said_in_the_page_and_beside_it(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(case_content, "case_figures", lambda results, case: Figures((), "pictures need OpenGL"))
+    monkeypatch.setattr(report, "case_figures", lambda results, case: Figures((), "pictures need OpenGL"))
     html, remarks = report_html(tower_results(), view=False)
     assert remarks == ["pictures are missing: pictures need OpenGL"]
     page = Page(html)

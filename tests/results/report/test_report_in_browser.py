@@ -15,7 +15,7 @@ import pytest
 
 from mbla.results.pictures.space.renderer import can_draw
 from mbla.results.records.json_record import results_json
-from mbla.results.report import case_content
+from mbla.results.report import report as report_module
 from mbla.results.report.figures import Figures
 from mbla.results.report.report import write_report
 from mbla.results.results import Results
@@ -167,7 +167,7 @@ def with_views(browser: Any, tmp_path_factory: pytest.TempPathFactory) -> Iterat
     results = replace(results, cases=tuple(replace(first, load_case=each) for each in load_cases))
     path = tmp_path_factory.mktemp("views") / "report.html"
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(case_content, "case_figures", lambda results, case: Figures(()))
+        patch.setattr(report_module, "case_figures", lambda results, case: Figures(()))
         write_report(results, path)
     found = open_report(browser, path)
     yield found

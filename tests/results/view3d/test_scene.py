@@ -38,10 +38,10 @@ def test_arrays_come_back_as_they_were() -> None:
 
 
 def test_texts_of_marks_stand_once() -> None:
-    """Both ends of a resultant say the same."""
+    """Start, tip and barbs of a resultant say the same."""
     mark = marks(scene(tower_results()))["resultants"]
     assert len(mark["texts"]) == 2
-    assert read(mark["textRows"]).tolist() == [0, 0, 1, 1]
+    assert read(mark["textRows"]).tolist() == 6 * [0] + 6 * [1]
 
 
 def test_blocks_of_the_tower() -> None:
@@ -58,11 +58,15 @@ def test_blocks_of_the_tower() -> None:
 def test_tower_turns_about_its_hinge() -> None:
     """About the edge x = 1, z = 1: opens at x = 0; the brick's interface stays shut."""
     found = marks(scene(tower_results()))
-    assert list(found) == ["hinges", "opening", "resultants"]
+    assert list(found) == ["hinge lines", "hinges", "opening", "resultants"]
     assert found["hinges"]["colour"] == HINGE
     assert sorted(read(found["hinges"]["points"], 3).tolist()) == [[1, 0, 1], [1, 1, 1]]
     assert read(found["hinges"]["pairs"], 2).shape == (1, 2)
     assert found["hinges"]["texts"][0] == "hinges: base[0] | tower[0]"
+    line = found["hinge lines"]
+    assert read(line["points"], 3).tolist() in ([[1, 0, 1], [1, 1, 1]], [[1, 1, 1], [1, 0, 1]])
+    assert line["width"] > found["hinges"]["width"]
+    assert line["texts"] == ["hinge line of part 1 on what rests: 1 interface, 1 m"]
     opened = read(found["opening"]["points"], 3)
     assert opened[:, 0].tolist() == [0, 0, 0, 0]
     assert read(found["opening"]["bodies"], 2).tolist() == [[0, 0], [1, 1]] * 2  # as part of the base, of the tower
@@ -72,12 +76,13 @@ def test_resultants_pass_through_their_points_in_proportion() -> None:
     """10 N and a push of half of that at both: the tower's through its edge."""
     results = tower_results()
     mark = marks(scene(results))["resultants"]
-    ends = read(mark["points"], 3).reshape(2, 2, 3)
+    ends = read(mark["points"], 3).reshape(2, 6, 3)[:, :2]
     np.testing.assert_allclose(ends.mean(axis=1)[0], [1, 0.5, 1], atol=1e-6)
     lines = ends[:, 1] - ends[:, 0]
     np.testing.assert_allclose(np.linalg.norm(lines, axis=1), np.linalg.norm(lines[0]), rtol=1e-6)
     np.testing.assert_allclose(lines[:, 0] / lines[:, 2], -0.5, rtol=1e-6)
-    assert "normal force 10 N, shear 5 N, eccentricity 1" in mark["texts"][0]
+    assert "normal force 10 N, shear 5 N, eccentricity 1; force on base[0]" in mark["texts"][0]
+    assert (lines[:, 2] < 0).all()  # the tower presses down on its base, the brick on its own
 
 
 def test_case_without_equilibrium_shows_what_falls() -> None:
@@ -85,7 +90,7 @@ def test_case_without_equilibrium_shows_what_falls() -> None:
     assert found["motionWords"] == "motion in which the dead load falls"
     assert found["marks"] == []
     assert found["forceWords"] == ""
-    assert [each["name"] for each in found["colourings"]] == ["displacement", "part", "group"]
+    assert [each["name"] for each in found["colourings"]] == ["part", "displacement", "group"]
 
 
 def test_case_that_was_not_solved_is_at_rest() -> None:

@@ -40,7 +40,7 @@ def tables(contacts: Contacts, mechanics: Mechanics) -> str:
 def test_a_hinge_is_named_with_its_axis() -> None:
     collapse = collapse_of(MODEL, CONTACTS, CASE, MECHANICS)
     assert mechanism_summary(MODEL, collapse) == "1 hinge; 1 of 2 free blocks moves"
-    assert "base[0]/tower[0] 1/0 (1, 0, 1) 1 +y +x side" in tables(CONTACTS, MECHANICS)
+    assert "base[0]/tower[0] 1/0 (1, 0, 1) 1 +y +x" in tables(CONTACTS, MECHANICS)
 
 
 def test_a_slide_is_named_with_its_direction_and_work() -> None:
@@ -89,6 +89,6 @@ def test_long_lists_start_with_what_moves_most_and_say_what_they_leave_out() -> 
     start = next(i for i, line in enumerate(lines) if line.startswith("  sliding planes"))
     table = lines[start + 1 :]
     assert len(table) == MOST_ROWS + 1
-    assert table[0].split()[0] == f"stack[{n - 2}]/stack[{n - 1}]"
+    assert table[0].split()[0] == f"stack[{n - 2}]/[{n - 1}]"
     assert "more that move less; the result files hold them all" in table[MOST_ROWS]
     assert mechanism_summary(model, collapse) == "sliding at 59 interfaces; 59 of 59 free blocks move in 59 parts"

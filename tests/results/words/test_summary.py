@@ -35,7 +35,9 @@ def test_model_and_cases_at_a_glance(results: Results) -> None:
 def test_cases_in_words(results: Results) -> None:
     text = summary(results)
     assert "push_x: collapses at 0.5 g, verified: 1 hinge; 1 of 2 free blocks moves" in text
-    assert "fall: no equilibrium: the structure cannot carry its dead load not held: tower[0] (moves down)" in text
+    assert "fall: no equilibrium: the structure cannot carry its dead load The mechanism is" in text
+    assert "moves downwards, along -z, without turning." in text
+    assert "turns about +y, its centroid moving" in text
 
 
 def test_warnings_but_no_notices(results: Results) -> None:

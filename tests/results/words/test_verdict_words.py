@@ -138,7 +138,7 @@ def test_everything_together_keeps_to_the_width_and_names_everything() -> None:
         "Normal forces that are possible at this load factor",
         "tension violation 1.0e-09",
         "slip residual 2.0e-09",
-        "one more.",
+        "One more.",
     ):
         assert words in text
     assert max(map(len, listing(results).splitlines())) <= WIDTH

@@ -62,7 +62,7 @@ def _axis_names(flat: Flat) -> tuple[str, str]:
 def _draw_model(sheet: Sheet, flat: Flat, scene: Scene) -> None:
     draw_blocks(sheet, flat, scene, colours_by_group(sheet, scene), scene.model.blocks.vertices)
     case = scene.case.load_case
-    draw_loads(sheet, flat, scene, case.dead_load, case.dead_words, "dead load", DEAD_LOAD)
+    draw_loads(sheet, flat, scene, scene.dead_load, case.dead_words, "dead load", DEAD_LOAD)
     cases = {each.load_case.deck_name: each.load_case for each in scene.shown_cases}
     for number, (name, _) in enumerate(cases.items()):
         for each in scene.shown_cases:
@@ -98,7 +98,7 @@ def _draw_mechanism(sheet: Sheet, flat: Flat, scene: Scene) -> None:
     number_parts(sheet, flat, scene)
     case = scene.case.load_case
     if scene.mechanics is None and scene.case.solution.certificate is not None:
-        draw_loads(sheet, flat, scene, case.dead_load, case.dead_words, "dead load", DEAD_LOAD)
+        draw_loads(sheet, flat, scene, scene.dead_load, case.dead_words, "dead load", DEAD_LOAD)
     _draw_live_load(sheet, flat, replace(scene, shown_cases=()), "live load", LIVE_LOAD)
 
 

@@ -92,10 +92,10 @@ def colours_by_group(sheet: Sheet, scene: Scene) -> list[str]:
 
 def colours_by_part(sheet: Sheet, scene: Scene) -> list[str]:
     """Colour of each block by the part that it moves with; fixed ones grey."""
-    fixed, parts = scene.model.fixed, scene.parts
+    fixed, parts = scene.model.fixed, scene.clusters
     count = int(parts.max(initial=0))
     few = count <= len(GROUPS)
-    tints = np.arange(-1, count) if few else tint_of_part(scene, parts, len(GROUPS))
+    tints = tint_of_part(scene, parts, len(GROUPS))
     colours = [
         FIXED_BLOCK if fixed[b] else GROUPS[tints[part]] if part else REST for b, part in enumerate(parts.tolist())
     ]
@@ -108,7 +108,7 @@ def colours_by_part(sheet: Sheet, scene: Scene) -> list[str]:
 
 def number_parts(sheet: Sheet, flat: Flat, scene: Scene) -> None:
     """The number of each part on its block nearest to its middle, as the listing numbers them; of many the heaviest."""
-    parts, blocks = scene.parts, scene.model.blocks
+    parts, blocks = scene.clusters, scene.model.blocks
     count = int(parts.max(initial=0))
     if count < 2 or not scene.motion.any():
         return

@@ -12,7 +12,7 @@ from mbla.results.pictures.space.drawing import ColourScale, Drawing
 from mbla.results.pictures.space.loads import live_load_arrows
 from mbla.results.pictures.space.shapes import Faces, Shape, rgb, rods
 from mbla.results.pictures.space.structure import block_faces, edge_lines, grounds, interface_faces
-from mbla.results.words.text import number
+from mbla.results.words.text import counted, number
 
 ECCENTRICITY = ("#FCE9A8", "#F6B73C", "#C8500F", "#5A1400")
 """from the middle of an interface to its edge; darker and darker, so that it reads in grey too"""
@@ -23,10 +23,10 @@ LIFT = 2e-4
 """distance of coloured interfaces from the faces of blocks, over the same"""
 USUAL = 0.9
 """share of the rods that are thinner than that; the few largest forces, as in a corner, would make the rest threads"""
-MOST_FACES = 250
+MOST_FACES = 60
 """interfaces up to which they are coloured themselves; of more the rods are, else there is nothing but faces to see"""
-LEAST = 1e-3
-"""share of the largest resultant below which no rod is drawn: it would be thinner than a pixel"""
+LEAST = 0.01
+"""share of the largest resultant below which no rod is drawn: a tenth of the thickness, and it hides what matters"""
 
 
 def forces_drawing(scene: Scene) -> Drawing:
@@ -46,7 +46,7 @@ def forces_drawing(scene: Scene) -> Drawing:
         few = int(thrust.carried.sum()) <= MOST_FACES
         marks += [eccentricity_faces(scene, thrust)] * few + [resultant_rods(scene, thrust, few)]
         legend += [("resultant", SKY)] * few
-        notes = (_largest(scene, thrust),)
+        notes = (_sections(scene, thrust),)
         lines = thrust_tubes(scene)
         if lines is not None:
             marks.append(lines)
@@ -106,6 +106,10 @@ def thrust_tubes(scene: Scene) -> Faces | None:
     return rods(starts, ends, radii, np.tile(rgb(THRUST), (len(starts), 1)))
 
 
-def _largest(scene: Scene, thrust: Thrust) -> str:
-    size = float(np.linalg.norm(thrust.forces[thrust.carried], axis=1).max())
-    return f"section of rods in proportion to the force, largest {number(size)} {scene.model.units.force}"
+def _sections(scene: Scene, thrust: Thrust) -> str:
+    """What the thickness of rods means, and which are left out."""
+    sizes = np.linalg.norm(thrust.forces, axis=1)
+    small = int((thrust.carried & (sizes <= LEAST * sizes.max())).sum())
+    left = f"; {counted(small, 'force')} below {100 * LEAST:g} % of it not drawn" if small else ""
+    largest = f"{number(float(sizes.max()))} {scene.model.units.force}"
+    return f"section of rods in proportion to the force, largest {largest}{left}"

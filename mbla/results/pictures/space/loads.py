@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+import textwrap
+from collections import Counter
+from collections.abc import Sequence
+
 import numpy as np
 
 from mbla.model.model import LoadCase
@@ -15,8 +19,8 @@ LONGEST, SHORTEST = 0.12, 0.04
 """of arrows, over the size of the structure"""
 FEW = 20
 """forces up to which their arrows are thick"""
-COLUMNS = 60
-"""letters of a load in the legend"""
+COLUMNS, LINES = 64, 4
+"""letters and lines of a load in the legend"""
 SHARE_OF_BLOCK = 0.6
 """radius of the ring of a moment, over the size of its block"""
 
@@ -51,16 +55,21 @@ def _of_case(scene: Scene, load_case: LoadCase, label: str, colour: str, row: in
     settlement = load_case.settlement
     if settlement is not None:
         shapes = _settlement(scene, load_case)
-        return shapes, [(_shortened(f"settlement: {settlement.words}"), SETTLEMENT)] * bool(shapes)
+        return shapes, [(_wrapped(f"settlement: {settlement.words}"), SETTLEMENT)] * bool(shapes)
     marks = load_marks(scene.model, load_case.live_load, load_case.live_words)
     shapes = _force_arrows(scene, marks, colour) + _moment_rings(scene, marks, colour)
     if marks.uniform and marks.acceleration.any():
         shapes.append(_acceleration_arrow(scene, marks, colour, row))
-    return shapes, [(_shortened(f"{label}: {'; '.join(load_case.live_words)}"), colour)] * bool(shapes)
+    return shapes, [(_wrapped(f"{label}: {_together(load_case.live_words)}"), colour)] * bool(shapes)
 
 
-def _shortened(text: str) -> str:
-    return text if len(text) <= COLUMNS else f"{text[: COLUMNS - 3].rstrip()}..."
+def _together(words: Sequence[str]) -> str:
+    """Loads one after the other, the same words once with how often they apply."""
+    return "; ".join(word if count == 1 else f"{count} times {word}" for word, count in Counter(words).items())
+
+
+def _wrapped(text: str) -> str:
+    return "\n".join(textwrap.wrap(text, COLUMNS, max_lines=LINES, placeholder=" ..."))
 
 
 def _force_arrows(scene: Scene, marks: LoadMarks, colour: str) -> list[Shape]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import weakref
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -18,6 +19,7 @@ from mbla.results.pictures.space.model import model_drawing
 from mbla.results.pictures.space.renderer import Renderer
 from mbla.results.pictures.space.sheet import add_image, fill_sheet
 from mbla.results.pictures.space.views import best_view
+from mbla.results.results import CaseResult
 
 DRAWINGS: dict[str, Callable[[Scene], Drawing]] = {
     "model": model_drawing,
@@ -32,6 +34,8 @@ SCALE = 0.1
 """share of the height that a scale of colours takes above the legend"""
 AXES = 0.09
 """share of the height that axes and scale bar take at least"""
+_VIEWS: dict[tuple[int, int], tuple[weakref.ref[CaseResult], tuple[float, float]]] = {}
+"""of the cases in use, by identity of model and case"""
 SHARPNESS = {"png": 1, "svg": 2, "pdf": 2}
 """pixels of the image over those of a PNG page"""
 
@@ -65,5 +69,13 @@ def frame_between(bottom: float, top: float) -> tuple[tuple[float, float], tuple
 
 
 def view_of_case(scene: Scene) -> tuple[float, float]:
-    """Azimuth and elevation in degrees, the same for every kind of picture of a case: from where it is seen to move."""
-    return best_view(replace(scene, motion=drawn_motion(scene.model, scene.case)))
+    """Azimuth and elevation in degrees, the same for every kind of picture of a case: from where it is seen to move.
+
+    It is found once for a case as long as that is in use, as trial pictures take longer than the picture itself.
+    """
+    key = (id(scene.results.model), id(scene.case))
+    held, view = _VIEWS.get(key, (None, (0.0, 0.0)))
+    if held is None or held() is not scene.case:
+        view = best_view(replace(scene, motion=drawn_motion(scene.model, scene.case)))
+        _VIEWS[key] = weakref.ref(scene.case, lambda _: _VIEWS.pop(key, None)), view
+    return view

@@ -8,7 +8,8 @@ from mbla.arrays import BoolArray, FloatArray
 from mbla.results.pictures.geometry import front_axis
 from mbla.results.pictures.scene import Scene
 from mbla.results.pictures.space.camera import fitted
-from mbla.results.pictures.space.mechanism import joint_marks, moving_blocks
+from mbla.results.pictures.space.joints import joint_marks
+from mbla.results.pictures.space.mechanism import moving_blocks
 from mbla.results.pictures.space.renderer import Renderer
 from mbla.results.pictures.space.shapes import Faces, Shape
 from mbla.results.pictures.space.structure import block_faces, grounds
@@ -72,7 +73,7 @@ def _azimuths(vertices: FloatArray) -> tuple[float, ...]:
 def _trial(scene: Scene, moving: BoolArray) -> list[Shape]:
     colours = np.zeros((len(moving), 3))
     colours[moving, 2] = 1.0
-    faces, marks, _ = joint_marks(scene, scene.moved)
+    faces, marks, *_ = joint_marks(scene, scene, scene.moved)
     joints = [shape for shape in (*faces, *marks) if isinstance(shape, Faces)]
     green = [
         Faces(shape.points, shape.start, shape.loops, np.tile([0.0, 1.0, 0.0], (len(shape.colours), 1)), lit=False)

@@ -13,12 +13,14 @@ from mbla.results.pictures.scene import Scene, scene_of
 from mbla.results.pictures.space import can_draw
 from mbla.results.pictures.space.camera import fitted
 from mbla.results.pictures.space.forces import forces_drawing, ramp, resultant_rods
-from mbla.results.pictures.space.mechanism import mechanism_drawing, tint_of_part
+from mbla.results.pictures.space.joints import joint_marks
+from mbla.results.pictures.space.mechanism import PARTS, mechanism_drawing
 from mbla.results.pictures.space.model import model_drawing
 from mbla.results.pictures.space.picture import draw_in_space, view_of_case
 from mbla.results.pictures.space.renderer import Renderer
-from mbla.results.pictures.space.shapes import Faces, painted, rgb
+from mbla.results.pictures.space.shapes import Faces, Lines, painted, rgb
 from mbla.results.pictures.space.sheet import round_length
+from mbla.results.pictures.tints import tint_of_part
 from mbla.results.results import Results
 from mbla.solution.solution import Status
 from tests.results.synthetic import tower_results
@@ -96,14 +98,35 @@ def test_what_is_told_in_the_legend_is_what_there_is(results: Results) -> None:
     assert not {"before", "hinge"} & {name for name, _ in mechanism_drawing(still).legend}
 
 
-def test_parts_that_touch_have_different_tints(results: Results) -> None:
+def test_few_parts_have_tints_of_their_own(results: Results) -> None:
+    tints = tint_of_part(scene(results, "mechanism"), np.arange(len(PARTS) + 1), len(PARTS))
+    assert sorted(tints[1:]) == list(range(len(PARTS)))
+
+
+def test_of_many_parts_those_that_touch_have_different_tints(results: Results) -> None:
+    """Parts 1, 2 and one beyond the number of tints; the first touches both others, which touch nothing else."""
     tower = scene(results, "mechanism")
     neighbours = replace(tower.contacts, bodies=np.array([[0, 1], [0, 2]]))
     apart = replace(tower, results=replace(results, contacts=neighbours))
-    tints = tint_of_part(apart, np.array([1, 2, 3]))
+    tints = tint_of_part(apart, np.array([1, 2, len(PARTS) + 1]), len(PARTS))
     assert tints[1] != tints[2]
-    assert tints[1] != tints[3]
-    assert tints[2] == tints[3]
+    assert tints[1] != tints[len(PARTS) + 1]
+    assert tints[2] == tints[len(PARTS) + 1]
+
+
+def test_joints_of_the_listing_stand_out_the_others_are_thin(results: Results) -> None:
+    """The hinge of the tower is the only one; where the failure does not tell it, it is a thin line."""
+    tower = scene(results, "mechanism")
+    _, marks, _, notes = joint_marks(tower, tower, tower.moved)
+    assert not any(isinstance(mark, Lines) for mark in marks)
+    assert not notes
+    assert tower.failure is not None
+    untold = replace(tower)
+    vars(untold)["failure"] = replace(tower.failure, hinge_lines=())
+    _, marks, legend, notes = joint_marks(untold, untold, tower.moved)
+    assert [type(mark) for mark in marks] == [Lines]
+    assert ("hinge", HINGE) in legend
+    assert notes == ("thin: 1 hinge within a part or of little motion",)
 
 
 def test_sections_of_rods_are_in_proportion_to_forces(results: Results) -> None:
