@@ -64,6 +64,8 @@ def load_marks(model: Model, loads: FloatArray, words: Sequence[str]) -> LoadMar
     acceleration, accelerated = np.zeros(3), np.zeros(len(loads), dtype=bool)
     if of_mass:
         acceleration, accelerated = _acceleration(model, loads, _in_words(model, words))
+        if _turns(model, loads - _mass_loads(model, acceleration, accelerated), accelerated):
+            acceleration, accelerated = np.zeros(3), np.zeros(len(loads), dtype=bool)
     rest = loads - _mass_loads(model, acceleration, accelerated)
     blocks = model.blocks
     size = np.linalg.norm(loads[:, :3], axis=1).max(initial=0.0)
@@ -131,6 +133,14 @@ def _mass_loads(model: Model, acceleration: FloatArray, accelerated: BoolArray) 
     arms = blocks.added_mass_points - blocks.centroids
     moments = np.cross(arms, blocks.added_masses[:, None] * acceleration)
     return np.where(accelerated[:, None], np.hstack([forces, moments]), 0.0)
+
+
+def _turns(model: Model, rest: FloatArray, accelerated: BoolArray) -> bool:
+    """Accelerated blocks all have a moment besides and no force: what varies over them does not act at centroids."""
+    blocks = model.blocks
+    forces, moments = np.linalg.norm(rest[accelerated, :3], axis=1), np.linalg.norm(rest[accelerated, 3:], axis=1)
+    alone = forces * blocks.sizes[accelerated] <= WRITTEN * moments
+    return bool(accelerated.any() and np.all(alone & (moments > WRITTEN * _moment_size(model, rest))))
 
 
 def _moment_size(model: Model, loads: FloatArray) -> float:

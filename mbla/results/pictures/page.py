@@ -19,8 +19,6 @@ from mbla.errors import FileError, UsageError
 from mbla.results.pictures.options import DOTS_PER_INCH, PictureOptions, format_of
 from mbla.results.pictures.palette import INK, WARNING
 
-DEFAULT = PictureOptions()
-
 COLUMNS = 120
 """letters in a line of words of the usual size"""
 LETTER = 14.0
@@ -162,33 +160,3 @@ def add_legend(page: Page, handles: Sequence[Any]) -> float:
             break
         legend.remove()
     return page.height_of(legend)
-
-
-def write_page(
-    path: Path,
-    image: Any,
-    words: Sequence[str],
-    legend: Sequence[Sequence[str]],
-    options: PictureOptions = DEFAULT,
-    mark: str = "",
-) -> None:
-    """Write an image (height, width, 3) with words above it and a legend of names and colours at its lower right.
-
-    mark : said in red, with a red frame, of figures that are no result
-
-    Raises
-    ------
-    UsageError
-        The extra for pictures is not installed, or the name asks for another format.
-    FileError
-        The file cannot be written.
-    """
-    with open_page(path, options) as page:
-        axes = page.figure.add_axes((0.0, 0.0, 1.0, 1.0))
-        axes.imshow(image, aspect="auto", interpolation="none")
-        axes.set_axis_off()
-        add_words(page, words, mark)
-        if legend:
-            patches = [page.parts.Patch(color=colour, label=name) for name, colour in legend]
-            style = {"loc": "lower right", "frameon": False, "handlelength": 1, "labelcolor": INK}
-            page.figure.legend(handles=patches, fontsize=page.letter, **style)

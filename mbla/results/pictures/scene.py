@@ -10,14 +10,17 @@ import numpy as np
 from mbla.arrays import FloatArray, IntArray
 from mbla.contacts.contacts import Contacts
 from mbla.model.model import Model
+from mbla.results.collapse.clusters import clusters_of
 from mbla.results.collapse.collapse import Collapse, collapse_of
 from mbla.results.collapse.failure import Failure, failure_of
+from mbla.results.collapse.falling import falling_motion
 from mbla.results.collapse.force_freedom import ForceFreedom, force_freedom
+from mbla.results.collapse.interface_modes import InterfaceMotion
 from mbla.results.collapse.motion import drawn_motion, moved_contact_points, moved_vertices
 from mbla.results.collapse.rigid_parts import rigid_parts
 from mbla.results.collapse.thrust import Thrust, thrust_lines, thrust_of
 from mbla.results.outcome import result_of
-from mbla.results.pictures.geometry import box_of, ground_slab, live_load_arrow
+from mbla.results.pictures.geometry import ground_slab
 from mbla.results.pictures.options import PictureOptions
 from mbla.results.results import CaseResult, Results
 from mbla.results.words.mechanism_words import mechanism_summary
@@ -87,15 +90,6 @@ class Scene:
         return collapse_of(self.model, self.contacts, self.case.load_case, self.mechanics)
 
     @cached_property
-    def parts(self) -> IntArray:
-        """Part that each block moves with, 0 at rest, (n_blocks,)."""
-        if self.collapse is not None:
-            return self.collapse.parts
-        motion = self.case.solution.certificate
-        none = np.zeros(len(self.model.blocks), dtype=np.int64)
-        return none if motion is None else rigid_parts(self.model, self.contacts, motion)
-
-    @cached_property
     def failure(self) -> Failure | None:
         """Clusters, hinge lines, sliding planes and cracks, numbered as in the listing; None without a mechanism."""
         if self.mechanics is None or self.collapse is None:
@@ -104,15 +98,41 @@ class Scene:
 
     @cached_property
     def clusters(self) -> IntArray:
-        """Part of the listing that each block is in, 0 at rest, (n_blocks,)."""
-        return self.parts if self.failure is None else self.failure.clusters
+        """Part of the listing that each block is in, 0 at rest, (n_blocks,); found alike without equilibrium."""
+        if self.failure is not None:
+            return self.failure.clusters
+        motion = self.case.solution.certificate
+        if motion is None or self.mechanics is not None:
+            return np.zeros(len(self.model.blocks), dtype=np.int64)
+        exact = rigid_parts(self.model, self.contacts, motion)
+        return clusters_of(self.model, self.contacts, exact, motion).of_block
+
+    @cached_property
+    def joint_motion(self) -> InterfaceMotion | None:
+        """What each interface does in what is drawn, a mechanism or the motion that shows a lack of equilibrium."""
+        if self.collapse is not None:
+            return self.collapse.interfaces
+        motion = self.case.solution.certificate
+        return None if motion is None else falling_motion(self.model, self.contacts, motion)
+
+    @cached_property
+    def dead_load(self) -> FloatArray:
+        """Dead load on blocks about their centroids, (n_blocks, 6), without the reaction that holds a support."""
+        load_case = self.case.load_case
+        if load_case.settlement is None:
+            return load_case.dead_load
+        loads = load_case.dead_load.copy()
+        loads[load_case.settlement.blocks] = 0.0
+        return loads
 
     @cached_property
     def forces(self) -> tuple[FloatArray | None, str]:
         """Contact forces to draw, (n_points, 3) N, and what they are; None where there are none."""
         solution = self.case.solution
         if solution.mechanics is not None:
-            return solution.mechanics.contact_forces, "contact forces under dead load and live load times load factor"
+            gives = self.case.load_case.settlement is not None
+            besides = "as the support gives way" if gives else "and live load times load factor"
+            return solution.mechanics.contact_forces, f"contact forces under dead load {besides}"
         if solution.lock is not None:
             return solution.lock, "contact forces that balance the live load alone: any multiple of it is carried"
         if solution.standing is not None and solution.standing.forces is not None:
@@ -148,12 +168,6 @@ class Scene:
         slabs = [ground_slab(self.model, self.contacts, row, self.size) for row in rows]
         return [corners for corners in slabs if corners is not None]
 
-    @cached_property
-    def arrow(self) -> FloatArray:
-        """Start and tip of the live load's arrow, (2, 3)."""
-        low, high = box_of(np.vstack([self.moved, self.model.blocks.vertices]))
-        return live_load_arrow(self.model, self.case.load_case, low, high, 0.13 * self.size)
-
     def words_of(self, kind: str) -> list[str]:
         """Title, and for all but the model the outcome of the case and what the picture shows, one line each."""
         case, model = self.case, self.model
@@ -164,14 +178,38 @@ class Scene:
             return [title, f"{counted(len(model.blocks), 'block')}, {free} free; {weight}"]
         lines = [title, f"load case {case.load_case.name}: {verdict(model, case)}"]
         if kind == "forces":
-            lines.append(self.forces[1])
+            lines.append(self.forces[1] + self._freedom_words())
         elif self.collapse is not None:
-            lines.append(mechanism_summary(model, self.collapse))
+            lines.append(mechanism_summary(model, self.collapse) + self._merged_words())
         elif case.solution.certificate is not None:
             lines.append("drawn: the motion in which the dead load does more work than the joints take")
         else:
             lines.append("drawn at rest: there is no mechanism")
         return lines
+
+    def _merged_words(self) -> str:
+        """That more rigid parts are drawn as one, as the listing tells them."""
+        if self.failure is None or not self.failure.merged:
+            return ""
+        return f", drawn as {len(self.failure.motions)}"
+
+    def _freedom_words(self) -> str:
+        """Whether forces other than these would do; nothing of forces that are no result."""
+        solution, mechanics = self.case.solution, self.mechanics
+        if mechanics is None:
+            return "" if self.forces[0] is None else "; others may do so too"
+        if not self.is_result:
+            return ""
+        freedom = self.force_freedom
+        if freedom is None:
+            return "; one possible state: whether there are others was not determined"
+        if freedom.degree == 0:
+            return "; unique" + ("" if solution.flow_rule == "associative" else " in this mechanism")
+        known = int(freedom.determined.sum())
+        return (
+            f"; one possible state: they may vary in up to {counted(freedom.degree, 'way')}, "
+            f"{known} of {counted(len(self.contacts), 'resultant')} are unique"
+        )
 
     def mark_of(self, kind: str) -> str:
         """What a reader must not overlook: that figures are not verified, or no result; empty where they are."""

@@ -21,6 +21,7 @@ from mbla.results.pictures.plane.structure import (
     draw_blocks,
     draw_ghost,
     draw_grounds,
+    number_parts,
 )
 from mbla.results.pictures.scene import Scene
 
@@ -61,7 +62,7 @@ def _axis_names(flat: Flat) -> tuple[str, str]:
 def _draw_model(sheet: Sheet, flat: Flat, scene: Scene) -> None:
     draw_blocks(sheet, flat, scene, colours_by_group(sheet, scene), scene.model.blocks.vertices)
     case = scene.case.load_case
-    draw_loads(sheet, flat, scene, case.dead_load, case.dead_words, "dead load", DEAD_LOAD)
+    draw_loads(sheet, flat, scene, scene.dead_load, case.dead_words, "dead load", DEAD_LOAD)
     cases = {each.load_case.deck_name: each.load_case for each in scene.shown_cases}
     for number, (name, _) in enumerate(cases.items()):
         for each in scene.shown_cases:
@@ -94,9 +95,10 @@ def _draw_mechanism(sheet: Sheet, flat: Flat, scene: Scene) -> None:
     draw_blocks(sheet, flat, scene, colours_by_part(sheet, scene), scene.moved)
     draw_ghost(sheet, flat, scene)
     draw_joint_marks(sheet, flat, scene)
+    number_parts(sheet, flat, scene)
     case = scene.case.load_case
     if scene.mechanics is None and scene.case.solution.certificate is not None:
-        draw_loads(sheet, flat, scene, case.dead_load, case.dead_words, "dead load", DEAD_LOAD)
+        draw_loads(sheet, flat, scene, scene.dead_load, case.dead_words, "dead load", DEAD_LOAD)
     _draw_live_load(sheet, flat, replace(scene, shown_cases=()), "live load", LIVE_LOAD)
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from mbla.arrays import FloatArray, IntArray
+from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.results.collapse.interface_modes import InterfaceMode, InterfaceMotion
 from mbla.results.collapse.mechanics import curvature_sides
 from mbla.results.collapse.motion import moved_points
@@ -17,13 +17,15 @@ CURVED = 0.5
 """cosine to the curve's own direction from which a hinge is one of the intrados or extrados, as in the listing"""
 ARROW = 0.05
 """longest arrow of a sliding joint over the size of the structure; it is at most half as long as the joint"""
+LARGE, SMALL, MANY_HINGES = 11.0, 5.0, 60
+"""diameter of hinges, points; small ones where there are many"""
 
 
 def draw_joint_marks(sheet: Sheet, flat: Flat, scene: Scene) -> None:
     """Marks of all interfaces that open, turn or slide; nothing without a mechanism."""
-    if scene.collapse is None or not scene.motion.any():
+    joints = scene.joint_motion
+    if joints is None or not scene.motion.any():
         return
-    joints = scene.collapse.interfaces
     _draw_gaps(sheet, flat, scene, joints)
     _draw_sliding(sheet, flat, scene, joints)
     _draw_hinges(sheet, flat, scene, joints)
@@ -43,7 +45,10 @@ def _draw_gaps(sheet: Sheet, flat: Flat, scene: Scene, joints: InterfaceMotion) 
 
 
 def _draw_hinges(sheet: Sheet, flat: Flat, scene: Scene, joints: InterfaceMotion) -> None:
-    """Dots on the axes: black in the middle at the extrados, white at the intrados, full where there is no curve."""
+    """Dots on the axes: diamonds at the extrados, white at the intrados, full dots where there is no curve.
+
+    Hinges inside a part as the listing tells it turn little: they are small.
+    """
     hinges = np.flatnonzero(joints.modes == InterfaceMode.HINGE)
     if not len(hinges):
         return
@@ -57,15 +62,34 @@ def _draw_hinges(sheet: Sheet, flat: Flat, scene: Scene, joints: InterfaceMotion
         ("hinge at the extrados", along > limit, HINGE),
         ("hinge at the intrados", along < -limit, "white"),
     )
-    size = 11.0 if len(hinges) < 60 else 6.0
+    told = _told(scene, hinges)
+    size = np.where(told, LARGE if told.sum() < MANY_HINGES else SMALL, SMALL)
     for name, which, face in faces:
         if which.any():
             shape = "D" if name == "hinge at the extrados" else "o"
             edge = HINGE if face == "white" else INK
             rim = 2.2 if face == "white" else 0.8
-            sheet.dots(centres[which], size, color=face, edgecolors=edge, zorder=6, linewidths=rim, marker=shape)
+            sheet.dots(centres[which], size[which], color=face, edgecolors=edge, zorder=6, linewidths=rim, marker=shape)
             look = {"markerfacecolor": face, "markeredgecolor": edge, "linestyle": "none", "markersize": 9}
             sheet.name(name, marker=shape, markeredgewidth=sheet.width(rim), **look)
+
+
+def _told(scene: Scene, hinges: IntArray) -> BoolArray:
+    """Hinges on the hinge lines of the listing, (n,)."""
+    if scene.failure is None:
+        return np.ones(len(hinges), dtype=bool)
+    return np.asarray(np.isin(hinges, [row for line in scene.failure.hinge_lines for row in line.interfaces]))
+
+
+def _arrowed(scene: Scene, chosen: IntArray) -> IntArray:
+    """Of sliding interfaces one of each sliding plane of the listing, that nearest to its middle."""
+    if scene.failure is None:
+        return chosen
+    kept = []
+    for plane in scene.failure.sliding_planes:
+        away = np.linalg.norm(scene.contacts.centroids[plane.interfaces] - plane.centroid, axis=1)
+        kept.append(int(plane.interfaces[np.argmin(np.round(away / scene.size, 9))]))
+    return np.array(sorted(kept), dtype=np.int64)
 
 
 def _moved(scene: Scene, interfaces: IntArray, points: FloatArray) -> FloatArray:
@@ -85,10 +109,13 @@ def _draw_sliding(sheet: Sheet, flat: Flat, scene: Scene, joints: InterfaceMotio
     chosen = np.flatnonzero(np.isin(joints.modes, (InterfaceMode.SLIDE, InterfaceMode.TWIST)))
     if not len(chosen):
         return
-    ends = flat_joints(scene.contacts, flat).ends[chosen]
+    ends = flat_joints(scene.contacts, flat).ends
     middle = (scene.contact_sides[0] + scene.contact_sides[1]) / 2
-    first, last = flat.project(middle[ends[:, 0]]), flat.project(middle[ends[:, 1]])
+    first, last = flat.project(middle[ends[chosen, 0]]), flat.project(middle[ends[chosen, 1]])
     sheet.lines(np.stack([first, last], axis=1), 3.0, SLIDE, zorder=3.5, capstyle="butt")
+    sheet.name("sliding", color=SLIDE, linewidth=3.0, marker=r"$\rightleftharpoons$", markersize=16)
+    chosen = _arrowed(scene, chosen)
+    first, last = flat.project(middle[ends[chosen, 0]]), flat.project(middle[ends[chosen, 1]])
     along = last - first
     length = np.linalg.norm(along, axis=1, keepdims=True)
     along = along / np.where(length > 0, length, 1.0)
@@ -100,4 +127,3 @@ def _draw_sliding(sheet: Sheet, flat: Flat, scene: Scene, joints: InterfaceMotio
         step = sense * np.sign(slip)[:, None] * arm * along
         centre = (first + last) / 2 + sense * towards_b * across * 0.22 * arm
         sheet.arrows(centre + step / 2, step, 1.6, SLIDE, 5)
-    sheet.name("sliding", color=SLIDE, linewidth=3.0, marker=r"$\rightleftharpoons$", markersize=16)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import textwrap
+
 import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
@@ -16,7 +18,8 @@ LONGEST, SHORTEST = 0.12, 0.03
 FEW = 4
 """forces up to which arrows are thick"""
 COLUMNS = 90
-"""letters of a load in the legend"""
+"""letters in a line of a load in the legend"""
+MOST_LINES = 3
 
 
 def draw_loads(
@@ -28,7 +31,7 @@ def draw_loads(
     drawn |= _draw_moments(sheet, flat, scene, marks, colour)
     drawn |= _draw_acceleration(sheet, flat, scene, marks, colour)
     text = f"{name}: {'; '.join(words)}" if words else name
-    text = text if len(text) <= COLUMNS else f"{text[: COLUMNS - 3].rstrip()}..."
+    text = textwrap.fill(text, COLUMNS, max_lines=MOST_LINES, placeholder=" ...")
     if drawn:
         sheet.name(text, color=colour, linewidth=3.0, marker=">", markersize=9)
     elif loads[scene.model.free].any():
@@ -91,11 +94,16 @@ def draw_arrow_from(sheet: Sheet, flat: Flat, scene: Scene, blocks: IntArray, wa
 
 
 def _draw_arrow_beside(sheet: Sheet, flat: Flat, scene: Scene, blocks: IntArray, pull: FloatArray, colour: str) -> bool:
-    """One thick arrow before the box around everything drawn so far, towards the middle of some blocks."""
+    """One thick arrow towards the middle of some blocks: before the box around everything drawn so far if these are all
+    that have a mass, else before the box around them.
+    """
     masses = scene.model.blocks.masses[blocks]
     weights = masses if masses.any() else np.ones(len(blocks))
     centre = np.average(flat.project(scene.model.blocks.centroids[blocks]), axis=0, weights=weights)
-    points = np.vstack(sheet.drawn)
+    others = (scene.model.blocks.masses > 0) & ~scene.model.fixed
+    others[blocks] = False
+    mine = np.isin(scene.model.blocks.block_of_vertex, blocks)
+    points = flat.project(scene.moved[mine]) if others.any() else np.vstack(sheet.drawn)
     low, high = points.min(axis=0) - 0.02 * sheet.size, points.max(axis=0) + 0.02 * sheet.size
     unit = pull / np.linalg.norm(pull)
     with np.errstate(divide="ignore", invalid="ignore"):

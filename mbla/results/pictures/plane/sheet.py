@@ -57,12 +57,18 @@ class Sheet:
             self.axes.add_collection(collection)
             self.drawn.append(np.vstack(list(paths)))
 
-    def dots(self, points: FloatArray, size: float, **style: Any) -> None:
-        """Markers of a diameter in points."""
+    def dots(self, points: FloatArray, size: float | FloatArray, **style: Any) -> None:
+        """Markers of a diameter in points, one or one for each."""
         if len(points):
             edge = self.width(style.pop("linewidths", 1.2))
-            self.axes.scatter(*points.T, s=self.width(size) ** 2, linewidths=edge, **style)
+            self.axes.scatter(*points.T, s=(np.asarray(size) * self.page.scale) ** 2, linewidths=edge, **style)
             self.drawn.append(points)
+
+    def write(self, place: FloatArray, text: str) -> None:
+        """A few letters in a white disc."""
+        style = {"ha": "center", "va": "center", "color": INK, "fontsize": 0.75 * self.page.letter, "zorder": 5.5}
+        box = {"boxstyle": "circle,pad=0.2", "facecolor": "white", "edgecolor": INK, "linewidth": self.width(0.6)}
+        self.axes.text(*place, text, bbox=box, parse_math=False, **style)
 
     def arrows(
         self, tips: FloatArray, steps: FloatArray, width: float, colour: str, order: float, thin: bool = False

@@ -5,17 +5,21 @@ from __future__ import annotations
 import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray
+from mbla.results.collapse.motion import moved_points
 from mbla.results.pictures.geometry import block_edges
 from mbla.results.pictures.palette import FIXED_BLOCK, GHOST, GROUND, GROUPS, INK, REST, group_colours
 from mbla.results.pictures.plane.flat import Flat, face_polygons, seen_edges
 from mbla.results.pictures.plane.sheet import Sheet
 from mbla.results.pictures.scene import Scene
+from mbla.results.pictures.tints import tint_of_part
 
 FIXED_HATCH, GUIDE_HATCH = "////", "oo"
 MANY = 300
 """blocks from which outlines are thinner"""
 MOST_GROUPS = 12
 """groups that the legend names"""
+MOST_NUMBERS = 20
+"""parts whose numbers are written on them"""
 
 
 def draw_grounds(sheet: Sheet, flat: Flat, scene: Scene) -> None:
@@ -88,15 +92,33 @@ def colours_by_group(sheet: Sheet, scene: Scene) -> list[str]:
 
 def colours_by_part(sheet: Sheet, scene: Scene) -> list[str]:
     """Colour of each block by the part that it moves with; fixed ones grey."""
-    fixed, parts = scene.model.fixed, scene.parts
+    fixed, parts = scene.model.fixed, scene.clusters
+    count = int(parts.max(initial=0))
+    few = count <= len(GROUPS)
+    tints = tint_of_part(scene, parts, len(GROUPS))
     colours = [
-        FIXED_BLOCK if fixed[b] else GROUPS[(parts[b] - 1) % len(GROUPS)] if parts[b] else REST
-        for b in range(len(parts))
+        FIXED_BLOCK if fixed[b] else GROUPS[tints[part]] if part else REST for b, part in enumerate(parts.tolist())
     ]
-    if parts.any():
-        count = int(parts.max())
-        if np.any((parts == 0) & ~fixed):
-            sheet.name_area("at rest", facecolor=REST, edgecolor=INK, linewidth=0.5)
-        for part in range(1, min(count, len(GROUPS)) + 1 if count <= len(GROUPS) else 1):
-            sheet.name_area(f"part {part}", facecolor=GROUPS[part - 1], edgecolor=INK, linewidth=0.5)
+    if count and np.any((parts == 0) & ~fixed):
+        sheet.name_area("at rest", facecolor=REST, edgecolor=INK, linewidth=0.5)
+    for part in range(1, count + 1 if few else 1):
+        sheet.name_area(f"part {part}", facecolor=GROUPS[tints[part]], edgecolor=INK, linewidth=0.5)
     return colours
+
+
+def number_parts(sheet: Sheet, flat: Flat, scene: Scene) -> None:
+    """The number of each part on its block nearest to its middle, as the listing numbers them; of many the heaviest."""
+    parts, blocks = scene.clusters, scene.model.blocks
+    count = int(parts.max(initial=0))
+    if count < 2 or not scene.motion.any():
+        return
+    centroids = moved_points(blocks, scene.motion, np.arange(len(blocks)), blocks.centroids)
+    for part in range(1, min(count, MOST_NUMBERS) + 1):
+        rows = np.flatnonzero((parts == part) & ~scene.model.fixed)
+        if len(rows):
+            middle = np.average(centroids[rows], axis=0, weights=blocks.volumes[rows])
+            away = np.round(np.linalg.norm(centroids[rows] - middle, axis=1) / scene.size, 9)
+            sheet.write(flat.project(centroids[rows[[np.argmin(away)]]])[0], str(part))
+    more = f", and {count - MOST_NUMBERS} more" if count > MOST_NUMBERS else ""
+    if count > len(GROUPS):
+        sheet.name(f"parts as in the listing{more}", linestyle="none", marker="$1$", color=INK, markersize=8)

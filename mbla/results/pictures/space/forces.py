@@ -48,7 +48,7 @@ def forces_drawing(scene: Scene) -> Drawing:
         few = int(thrust.carried.sum()) <= MOST_FACES
         marks += [eccentricity_faces(scene, thrust)] * few + [resultant_rods(scene, thrust, few)]
         legend += [("resultant", SKY)] * few
-        notes = (_sections(scene, thrust), *_uniqueness(scene))
+        notes = (_sections(scene, thrust),)
         lines = thrust_tubes(scene)
         if lines is not None:
             marks.append(lines)
@@ -126,19 +126,3 @@ def _sections(scene: Scene, thrust: Thrust) -> str:
         left = f"; {counted(small, 'force')} up to {100 * most:.2g} % of it not drawn"
     largest = f"{number(float(sizes.max()))} {scene.model.units.force}"
     return f"section of rods in proportion to the force, largest {largest}{left}"
-
-
-def _uniqueness(scene: Scene) -> tuple[str, ...]:
-    """That other forces are possible at the load factor, where they are; as in the listing."""
-    freedom = scene.force_freedom
-    if not scene.is_result:
-        return ()
-    if freedom is None:
-        return ("one possible state: whether the forces are unique was not determined",)
-    if freedom.degree == 0:
-        return ()
-    known = int(freedom.determined.sum())
-    return (
-        f"one possible state: the forces may vary in up to {counted(freedom.degree, 'way')}; "
-        f"{known} of {counted(len(scene.contacts), 'resultant')} are unique",
-    )

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from mbla.arrays import BoolArray, FloatArray, IntArray
+from mbla.arrays import BoolArray, FloatArray
 from mbla.results.collapse.motion import vertex_displacements
 from mbla.results.pictures.palette import FIXED_BLOCK, GHOST, REST
 from mbla.results.pictures.scene import Scene
@@ -13,6 +13,7 @@ from mbla.results.pictures.space.joints import joint_marks
 from mbla.results.pictures.space.loads import live_load_arrows
 from mbla.results.pictures.space.shapes import Shape, rgb
 from mbla.results.pictures.space.structure import block_faces, edge_lines, ghost_lines, grounds
+from mbla.results.pictures.tints import tint_of_part
 
 PARTS = ("#7FB2D6", "#F2C36B", "#B7DDF2", "#F4EE9B", "#5E97BF", "#E8A87C")
 """tints of parts that move; of more parts neighbours get different ones"""
@@ -65,30 +66,11 @@ def part_colours(scene: Scene, moving: BoolArray) -> FloatArray:
     """Colour of each block, (n_blocks, 3): stone at rest, grey if fixed, else by the part of the listing it is in."""
     colours = np.tile(rgb(REST), (len(moving), 1))
     if moving.any():
-        tints = np.array([rgb(tint) for tint in PARTS])[tint_of_part(scene, scene.clusters)]
+        tints = np.array([rgb(tint) for tint in PARTS])[tint_of_part(scene, scene.clusters, len(PARTS))]
         chosen = moving & (scene.clusters > 0)
         colours[chosen] = tints[scene.clusters[chosen]]
     colours[scene.model.fixed & ~moving] = rgb(FIXED_BLOCK)
     return colours
-
-
-def tint_of_part(scene: Scene, parts: IntArray) -> IntArray:
-    """Tint of each part, (n_parts,), the heaviest first: its own, or of many the first that no neighbour has."""
-    count = int(parts.max(initial=0)) + 1
-    if count - 1 <= len(PARTS):
-        return np.maximum(np.arange(count) - 1, 0)
-    node = np.append(parts, np.zeros(len(scene.model.grounds), dtype=np.int64))
-    pairs = np.unique(np.sort(node[scene.contacts.bodies], axis=1), axis=0)
-    neighbours: list[list[int]] = [[] for _ in range(count)]
-    for first, second in pairs.tolist():
-        if 0 < first < second:
-            neighbours[second].append(first)
-    tints = np.zeros(count, dtype=np.int64)
-    for part in range(1, count):
-        taken = {int(tints[other]) for other in neighbours[part]}
-        free = [tint for tint in range(len(PARTS)) if tint not in taken]
-        tints[part] = free[0] if free else part % len(PARTS)
-    return tints
 
 
 def _parts_note(scene: Scene) -> tuple[str, ...]:

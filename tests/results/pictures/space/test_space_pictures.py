@@ -15,12 +15,13 @@ from mbla.results.pictures.space import can_draw, forces
 from mbla.results.pictures.space.camera import fitted
 from mbla.results.pictures.space.forces import forces_drawing, ramp, resultant_rods
 from mbla.results.pictures.space.joints import joint_marks
-from mbla.results.pictures.space.mechanism import PARTS, mechanism_drawing, tint_of_part
+from mbla.results.pictures.space.mechanism import PARTS, mechanism_drawing
 from mbla.results.pictures.space.model import model_drawing
 from mbla.results.pictures.space.picture import draw_in_space, view_of_case
 from mbla.results.pictures.space.renderer import Renderer
 from mbla.results.pictures.space.shapes import Faces, Lines, painted, rgb
 from mbla.results.pictures.space.sheet import round_length
+from mbla.results.pictures.tints import tint_of_part
 from mbla.results.results import Results
 from mbla.solution.solution import Status
 from tests.line import BLOCK, case_of, line_of
@@ -110,7 +111,7 @@ def test_what_is_told_in_the_legend_is_what_there_is(results: Results) -> None:
 
 
 def test_few_parts_have_tints_of_their_own(results: Results) -> None:
-    tints = tint_of_part(scene(results, "mechanism"), np.arange(len(PARTS) + 1))
+    tints = tint_of_part(scene(results, "mechanism"), np.arange(len(PARTS) + 1), len(PARTS))
     assert sorted(tints[1:]) == list(range(len(PARTS)))
 
 
@@ -119,7 +120,7 @@ def test_of_many_parts_those_that_touch_have_different_tints(results: Results) -
     tower = scene(results, "mechanism")
     neighbours = replace(tower.contacts, bodies=np.array([[0, 1], [0, 2]]))
     apart = replace(tower, results=replace(results, contacts=neighbours))
-    tints = tint_of_part(apart, np.array([1, 2, len(PARTS) + 1]))
+    tints = tint_of_part(apart, np.array([1, 2, len(PARTS) + 1]), len(PARTS))
     assert tints[1] != tints[2]
     assert tints[1] != tints[len(PARTS) + 1]
     assert tints[2] == tints[len(PARTS) + 1]
