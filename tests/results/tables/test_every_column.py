@@ -155,6 +155,13 @@ def interface_rows(results: Results) -> list[dict[str, Any]]:
             put(row, "certificate_translation", v)
             put(row, "certificate_rotation", w)
             rows.append(row)
+        pressed = rows[-len(contacts.areas) :]
+        largest = max(abs(row["normal_force"]) for row in pressed)
+        for row in pressed:
+            if not row["normal_force"] > 1e-7 * largest:  # a residual acts nowhere
+                put(row, "application", NAN3)
+            if row["normal_force"] + row["shear_force"] < 1e-9 * largest:  # and uses nothing
+                row["friction_use"] = np.nan
     return rows
 
 
