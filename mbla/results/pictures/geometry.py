@@ -9,7 +9,6 @@ from mbla.contacts.contacts import Contacts
 from mbla.model.blocks import Blocks
 from mbla.model.model import LoadCase, Model
 
-"""red, green and blue of blocks at rest, of the block that moves most, of fixed blocks"""
 THIN = 0.35
 """extent over the next larger one below which a structure is seen from the front"""
 
