@@ -140,6 +140,8 @@ def _modes(case: CaseComparison) -> list[str]:
     if count:
         kinds = ", ".join(f"{n} {a} in A and {b} in B" for (a, b), n in modes.points.items())
         lines += sentence(f"{count} of {counted(modes.compared[0], 'contact point')} in another mode: {kinds}")
+    elif not modes.compared[0]:
+        lines += sentence("modes of contact points not compared: none lie at the same place in both")
     else:
         lines += sentence(f"modes of {counted(modes.compared[0], 'contact point')} compared: the same")
     for letter, number_only in zip("AB", modes.only, strict=True):

@@ -13,7 +13,9 @@ import pytest
 from mbla.cli import main
 from mbla.results.comparison.cases import CaseComparison
 from mbla.results.comparison.comparison import compare_results
-from mbla.results.comparison.mechanisms import inertia_tensors
+from mbla.results.comparison.matching import match_models
+from mbla.results.comparison.mechanisms import angle_between, inertia_tensors
+from mbla.results.comparison.units import factors_between
 from mbla.results.comparison.words import comparison_text
 from mbla.results.results import Results
 from mbla.run_deck import RunOptions, run
@@ -275,3 +277,64 @@ def test_files_that_cannot_be_compared(tmp_path: Path, capsys: pytest.CaptureFix
     with pytest.raises(SystemExit) as wrong:
         main(["diff", str(good), str(good), "--tolerance", "-1"])
     assert wrong.value.code == 2
+
+
+def test_a_structure_that_was_moved_as_a_whole(tmp_path: Path, two: Results) -> None:
+    """Matched by name, every block elsewhere; factors and mechanisms are the same, contact points have no match."""
+    moved = TWO.replace("[0, 0, 0]", "[9, 0, 0]").replace("max: [1, 1, 1]", "max: [10, 1, 1]")
+    moved = moved.replace("min: [0, 0, 1], max: [1, 1, 2.2]", "min: [9, 0, 1], max: [10, 1, 2.2]")
+    moved = moved.replace("min: [3, 0, 0], max: [4, 1, 1]", "min: [12, 0, 0], max: [13, 1, 1]")
+    moved = moved.replace('"3.5 m"', '"12.5 m"')
+    found = compare_results(two, results_of(tmp_path, moved, name="b"))
+    assert found.differing == 0
+    assert found.model.by == "name"
+    assert found.model.moved == ("pile[0]", "pile[1]", "other[0]")
+    assert all(case.angle == pytest.approx(0.0, abs=1e-3) for case in found.cases)
+    assert "none lie at the same place in both" in comparison_text(found, ("a.h5", "b.h5")).replace("\n   ", "")
+
+
+def test_one_block_more_leaves_the_others_comparable(tmp_path: Path, two: Results) -> None:
+    """A brick of 0.05 m3 beside 3.2 m3; one as large as all others together is too much to compare motions."""
+    for size, comparable in ((0.37, True), (1.5, False)):
+        extra = f"{{group: extra, material: stone, min: [7, 0, 0], max: [{7 + size}, {size}, {size}]}}"
+        text = TWO.replace("contacts:", f"  - box: {extra}\ncontacts:")
+        found = compare_results(two, results_of(tmp_path, text, name=f"b{comparable}"))
+        assert found.model.only == ((), ("extra[0]",))
+        assert found.model.comparable is comparable
+
+
+def test_a_block_of_another_name_far_off_is_not_the_same(tmp_path: Path, two: Results) -> None:
+    """Half a block away: another block, not the same one moved."""
+    other = TWO.replace(
+        "{group: other, material: stone, min: [3, 0, 0], max: [4, 1, 1]}",
+        "{group: new, material: stone, min: [3.5, 0, 0], max: [4.5, 1, 1]}",
+    )
+    other = other.replace("group: other, index: 0", "group: new, index: 0").replace('"3.5 m"', '"4 m"')
+    found = compare_results(two, results_of(tmp_path, other, name="b"))
+    assert found.model.only == (("other[0]",), ("new[0]",))
+
+
+@pytest.mark.parametrize("overrides", [(), ("parameters.mu=0.3",)])
+def test_two_solvers_give_the_same(tmp_path: Path, overrides: tuple[str, ...]) -> None:
+    first, second = (
+        results_of(tmp_path, BLOCK, *overrides, f"analysis.solver={solver}", name=solver)
+        for solver in ("mbla", "clarabel")
+    )
+    assert compare_results(first, second).differing == 0
+
+
+def test_the_angle_is_that_of_velocities_all_over_the_blocks(two: Results) -> None:
+    """Both motions sampled on a grid in every box, as the kinetic energy weighs them."""
+    blocks, rng = two.model.blocks, np.random.default_rng(3)
+    u, v = rng.normal(size=(2, len(blocks), 6))
+    products = np.zeros(3)
+    nodes = (np.arange(40) + 0.5) / 40 - 0.5
+    for b, density in enumerate(blocks.densities):
+        corners = blocks.vertices[blocks.vertex_start[b] : blocks.vertex_start[b + 1]]
+        arms = np.stack(np.meshgrid(*np.outer(np.ptp(corners, axis=0), nodes)), axis=-1).reshape(-1, 3)
+        x, y = (motion[b, :3] + np.cross(motion[b, 3:], arms) for motion in (u, v))
+        mass = density * blocks.volumes[b] / len(arms)
+        products += mass * np.array([(x * y).sum(), (x * x).sum(), (y * y).sum()])
+    matching = match_models(two.model, two.model, factors_between(two.model.units, two.model.units))
+    expected = math.degrees(math.acos(products[0] / math.sqrt(products[1] * products[2])))
+    assert angle_between(blocks, u, v, matching, 1.0) == pytest.approx(expected, abs=0.02)

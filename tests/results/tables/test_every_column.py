@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -9,12 +10,13 @@ import numpy as np
 import pytest
 
 from mbla.deck.selectors import POSITIONS
+from mbla.model.model import TravelPosition
 from mbla.results.collapse.interface_modes import InterfaceMode
 from mbla.results.results import CaseResult, Results
 from mbla.results.tables.tables import tables_of
 from mbla.run_deck import RunOptions, run
 from mbla.solution.solution import Mechanics, Standing, Status
-from tests.results.synthetic import full_results, tower_results
+from tests.results.synthetic import full_results, tower_mechanics, tower_results
 
 NAN3 = [np.nan] * 3
 GRAVITY = 9.81
@@ -178,7 +180,8 @@ def interface_forces(results: Results, mechanics: Mechanics | None, i: int, poin
         own = sum(mechanics.contact_forces[p, k] * contacts.frames[p, k] for k in range(3))
         force, moment = force + own, moment + np.cross(contacts.points[p] - contacts.centroids[i], own)
         allowed += max(law.friction * mechanics.contact_forces[p, 0] + law.cohesion * contacts.point_areas[p], 0.0)
-    normal = force @ normal_at
+    normal = force @ normal_at or 1e-300  # nothing acts nowhere and uses nothing, as told below
+    allowed = allowed or 1e-300
     shear = np.linalg.norm(force - normal * normal_at)
     put(row, "force", force if mechanics else NAN3)
     put(row, "moment", moment if mechanics else NAN3)
@@ -272,3 +275,29 @@ def test_columns_are_what_the_arrays_say(every: dict[str, Results], which: str, 
             assert found == pytest.approx(numbers, rel=1e-9, abs=1e-9 * size, nan_ok=True), column
         else:
             assert found.tolist() == values, column
+
+
+def test_series_and_reactions_of_settlements(every: dict[str, Results]) -> None:
+    """Positions of a travelling load, the first not the worst; a support that gives way, moving and turning."""
+    full = every["full"]
+    case = replace(full.cases[0], solution=replace(full.cases[0].solution, standing=None))
+    positions = [TravelPosition("train", number, 2, np.array([1.0, 2.0, number]), 2.5 * number, 1) for number in (1, 2)]
+    travelling = tuple(
+        replace(
+            case,
+            load_case=replace(case.load_case, name=f"train_{p.number}", travel=p),
+            solution=replace(case.solution, mechanics=replace(tower_mechanics(), load_factor=1.0 / p.number)),
+        )
+        for p in positions
+    )
+    series = tables_of(replace(full, cases=travelling))["series"]
+    assert series["distance"].tolist() == [2.5, 5.0]
+    assert series["load_factor"].tolist() == [1.0, 0.5]
+    assert series["worst"].tolist() == [False, True]
+    settlement = case.load_case.settlement
+    assert settlement is not None
+    for turns, filled, empty in ((False, "force", "moment"), (True, "moment", "force")):
+        own = replace(case, load_case=replace(case.load_case, settlement=replace(settlement, turns=turns)))
+        table = tables_of(replace(full, cases=(own,)))["cases"]
+        assert table[f"reaction_{filled}"].tolist() == [settlement.reaction(0.5)]
+        assert np.isnan(table[f"reaction_{empty}"]).all()
