@@ -169,3 +169,14 @@ def test_far_from_the_origin_and_in_other_units_the_figure_is_the_same(tmp_path:
 @pytest.mark.parametrize(("length", "bar"), [(1.0, 1.0), (1.99, 1.0), (4.9, 2.0), (7.0, 5.0), (0.03, 0.02), (1e4, 1e4)])
 def test_the_scale_bar_has_a_round_length(length: float, bar: float) -> None:
     assert round_length(length) == pytest.approx(bar)
+
+
+def test_forces_of_a_support_that_gives_way_are_not_those_of_a_live_load() -> None:
+    results = tower_results()
+    model = full_model(results.model)
+    settled = next(case for case in model.load_cases if case.settlement is not None)
+    case = replace(results.cases[0], load_case=settled)
+    drawing = scene_of(replace(results, model=model), case, PictureOptions(), "forces")
+    assert drawing.forces[1] == "contact forces under dead load as the support gives way"
+    assert settled.settlement is not None
+    assert not drawing.dead_load[settled.settlement.blocks].any()
