@@ -17,7 +17,8 @@ from mbla.results.hdf5.result_file import read_results_hdf5
 from mbla.results.notebook.run import Run
 from mbla.results.results import Results
 from mbla.results.sta import StatusFile
-from mbla.run_deck import Progress, RunOptions, run_and_write, solve_deck, title_of
+from mbla.run_deck import Progress, run_and_write, solve_deck, title_of
+from mbla.run_options import RunOptions
 
 TEXT_NAME = "deck.yaml"
 """name of a deck that is given as text"""

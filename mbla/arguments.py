@@ -133,6 +133,12 @@ def _add_plot(commands: Any) -> None:
     command.add_argument(
         "--scale", default="auto", metavar="X", help="multiple of the displacements that auto draws (default auto)"
     )
+    command.add_argument(
+        "--zoom",
+        choices=("auto", "off"),
+        default="auto",
+        help="enlarge what moves beside the whole, where that is a small part of it (default auto)",
+    )
     command.add_argument("--size", default="1600x1000", metavar="WxH", help="pixels of a PNG at 100 dpi")
     command.add_argument("--dpi", type=int, default=100, help="dots per inch of a PNG (default 100)")
     command.add_argument(

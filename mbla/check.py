@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import time
 from dataclasses import asdict
-from pathlib import Path
 
 import numpy as np
 
 from mbla.contacts import Contacts
 from mbla.contacts.glue import held_model, solids_of
-from mbla.deck import Deck, read_deck
+from mbla.deck import Deck
 from mbla.model import Model, build_model
 from mbla.model.model import LoadCase
 from mbla.program import assemble
@@ -19,7 +18,8 @@ from mbla.results.files import OutputFolder
 from mbla.results.paraview.mesh_files import write_model_vtu
 from mbla.results.provenance import collect_provenance
 from mbla.results.results import Results
-from mbla.run_deck import RunOptions, contacts_of, deck_record, notices_of, reduced_program, select_cases
+from mbla.run_deck import contacts_of, deck_record, notices_of, reduced_program, select_cases
+from mbla.run_options import RunOptions
 from mbla.settings_words import settings_in_words
 from mbla.solution.cone_solver import interior_point_method
 from mbla.solution.settings import solver_settings
@@ -28,18 +28,17 @@ Needs = dict[str, dict[str, int | str]]
 """Load case by name: what is counted, and how many; ``solver``: which takes its associative programs."""
 
 
-def check(deck_path: Path, options: RunOptions, vtu: bool = False) -> tuple[Results, Needs]:
+def check(deck: Deck, options: RunOptions, vtu: bool, started: float) -> tuple[Results, Needs]:
     """Results without cases, and what solving each load case needs.
 
-    vtu : also write STEM_check_blocks.vtu and STEM_check_interfaces.vtu into the output folder
+    vtu     : also write STEM_check_blocks.vtu and STEM_check_interfaces.vtu into the output folder
+    started : when reading began, by ``time.perf_counter``
 
     Raises
     ------
     DeckError, FileError
         as ``run`` does
     """
-    started = time.perf_counter()
-    deck = read_deck(deck_path, options.overrides)
     model = build_model(deck)
     read = time.perf_counter()
     contacts = contacts_of(deck, model)
@@ -56,7 +55,7 @@ def check(deck_path: Path, options: RunOptions, vtu: bool = False) -> tuple[Resu
         exit_code=0,
     )
     if vtu:
-        with OutputFolder(options.folder_for(deck_path), f"{deck_path.stem}_check", options.force) as out:
+        with OutputFolder(options.folder_for(deck.path), f"{deck.path.stem}_check", options.force) as out:
             write_model_vtu(results, out)
     return results, {case.name: needs_of(deck, model, contacts, case) for case in select_cases(model, options.cases)}
 

@@ -13,6 +13,7 @@ import os
 import shlex
 import signal
 import sys
+import time
 import traceback
 from collections.abc import Callable, Sequence
 from pathlib import Path
@@ -23,10 +24,12 @@ from mbla import result_commands
 from mbla.arguments import build_parser
 from mbla.errors import DeckError, FileError, MblaError, UsageError
 from mbla.failures import failure_record, words_of
+from mbla.run_options import RunOptions
 from mbla.threads import limit_threads
 
 if TYPE_CHECKING:
-    from mbla.run_deck import Progress, RunOptions
+    from mbla.deck import Deck
+    from mbla.run_deck import Progress
 
 WORST_FIRST = (1, 6, 7, 3, 4, 5)
 
@@ -64,16 +67,17 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _run(options: argparse.Namespace) -> int:
-    from mbla.results.records.json_record import json_line, results_json
-    from mbla.results.words.listing import listing
-    from mbla.results.words.summary import summary_lines
-    from mbla.run_deck import run
-
     run_options = _run_options(options)
     progress = None if options.quiet else _progress()
 
     def one(deck: Path) -> int:
-        results = run(deck, run_options, progress)
+        content, seconds = _read(deck, run_options)
+        from mbla.results.records.json_record import json_line, results_json
+        from mbla.results.words.listing import listing
+        from mbla.results.words.summary import summary_lines
+        from mbla.run_deck import run_and_write
+
+        results = run_and_write(content, run_options, progress, time.perf_counter() - seconds)
         _clear_progress(progress)
         if options.json:
             print(json_line(results_json(results)), flush=True)
@@ -90,14 +94,15 @@ def _run(options: argparse.Namespace) -> int:
 
 
 def _check(options: argparse.Namespace) -> int:
-    from mbla.check import check
-    from mbla.results.records.json_record import check_json, json_line
-    from mbla.results.words.listing import check_listing
-
     run_options = _run_options(options)
 
     def one(deck: Path) -> int:
-        results, needs = check(deck, run_options, options.vtu)
+        content, seconds = _read(deck, run_options)
+        from mbla.check import check
+        from mbla.results.records.json_record import check_json, json_line
+        from mbla.results.words.listing import check_listing
+
+        results, needs = check(content, run_options, options.vtu, time.perf_counter() - seconds)
         text = json_line(check_json(results, needs)) + "\n" if options.json else check_listing(results, needs)
         print(text, end="", flush=True)
         if options.vtu:
@@ -141,9 +146,15 @@ COMMANDS: dict[str, Callable[[argparse.Namespace], int]] = {
 # --- what the commands share --------------------------------------------------------------------------------------
 
 
-def _run_options(options: argparse.Namespace) -> RunOptions:
-    from mbla.run_deck import RunOptions
+def _read(path: Path, options: RunOptions) -> tuple[Deck, float]:
+    """The deck, and the seconds it took; a faulty one is told before anything heavy is imported."""
+    from mbla.deck import read_deck
 
+    started = time.perf_counter()
+    return read_deck(path, options.overrides), time.perf_counter() - started
+
+
+def _run_options(options: argparse.Namespace) -> RunOptions:
     overrides = list(options.set)
     for name in ("accuracy", "flow_rule", "time_limit"):
         value = getattr(options, name, None)
@@ -209,6 +220,8 @@ def _say(text: str, status: int) -> int:
 
 def _prepare_streams(*, json_lines: bool) -> None:
     """No name or title may fail to be printed; JSON is UTF-8 whatever the terminal speaks."""
+    if sys.stdout is None:  # closed by who started us, as services do: nobody wants to read
+        _drop_output()
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):
             utf8 = json_lines and stream is sys.stdout

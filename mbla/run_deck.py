@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 
 from mbla.contacts import Contacts, find_contacts
@@ -28,6 +28,7 @@ from mbla.results.provenance import collect_provenance
 from mbla.results.results import CaseResult, DeckRecord, Results
 from mbla.results.sta import StatusFile
 from mbla.results.write import write_results
+from mbla.run_options import RunOptions as RunOptions
 from mbla.settings_words import settings_in_words
 from mbla.solution import solve, verified_status, verify
 from mbla.solution.convex import solve_convex
@@ -38,30 +39,6 @@ from mbla.solution.solution import Checks, IterationRecord, Solution
 from mbla.solution.tilt import solve_tilt
 
 Progress = Callable[[str, IterationRecord], None]
-
-
-@dataclass(frozen=True)
-class RunOptions:
-    """What the command line adds to a deck.
-
-    folder    : for the results; the deck's name with .out beside it if None
-    overrides : key.path=value texts
-    cases     : names of the load cases to solve; all if empty
-    force     : replace an earlier result
-    threads   : of the cone solver
-    expected  : compare with the deck's ``expected`` section
-    """
-
-    folder: Path | None = None
-    overrides: tuple[str, ...] = ()
-    cases: tuple[str, ...] = ()
-    force: bool = False
-    threads: int = 1
-    expected: bool = False
-
-    def folder_for(self, deck_path: Path) -> Path:
-        """Where the results of a deck go."""
-        return deck_path.with_suffix(".out") if self.folder is None else self.folder
 
 
 def run(deck_path: Path, options: RunOptions, progress: Progress | None = None) -> Results:
@@ -224,7 +201,7 @@ def select_cases(model: Model, names: Sequence[str]) -> tuple[LoadCase, ...]:
     known = dict.fromkeys(case.deck_name for case in model.load_cases)
     for name in names:
         if name not in known and name not in [case.name for case in model.load_cases]:
-            raise UsageError(f"--case {name}: the deck has no such load case; it has {', '.join(known)}")
+            raise UsageError(f"no load case {name} in the deck; it has {', '.join(known)}")
     return tuple(case for case in model.load_cases if not names or case.name in names or case.deck_name in names)
 
 
@@ -238,5 +215,5 @@ def differences_from_expected(deck: Deck, cases: Sequence[CaseResult]) -> list[N
     """Where the results are not what the deck expects; UsageError if it expects nothing."""
     expected = deck.content.expected
     if not expected:
-        raise UsageError(f"--expected: {deck.path} has no expected section")
+        raise UsageError(f"{deck.path}: has no expected section to compare with")
     return [Notice("warning", "not-as-expected", difference) for difference in differences(cases, expected)]

@@ -246,7 +246,7 @@ def test_an_internal_error_is_one_line(
     def broken(*_: object) -> None:
         raise ZeroDivisionError("first\nsecond")
 
-    monkeypatch.setattr("mbla.run_deck.run", broken)
+    monkeypatch.setattr("mbla.run_deck.run_and_write", broken)
     for extra in ([], ["-v"], ["-q"]):
         assert main(["run", str(deck), *extra]) == 1
         err = capsys.readouterr().err

@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 import subprocess
 import sys
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -36,7 +37,8 @@ DOORS = {
 FILES = sorted(PACKAGE.rglob("*.py"))
 
 
-def imports_of(path: Path, *, at_run_time: bool = True) -> set[str]:
+@cache
+def imports_of(path: Path, *, at_run_time: bool = True) -> frozenset[str]:
     """Full names of what a file imports, wherever in it; those for type checkers alone left out if ``at_run_time``."""
     tree = ast.parse(path.read_text(encoding="utf-8"))
     for_types: set[ast.AST] = set()
@@ -53,7 +55,7 @@ def imports_of(path: Path, *, at_run_time: bool = True) -> set[str]:
         elif isinstance(node, ast.ImportFrom):
             assert node.level == 0, f"{path}: relative import"
             names.add(str(node.module))
-    return names
+    return frozenset(names)
 
 
 STAGE_FILES = [path for path in FILES if path.relative_to(PACKAGE).parts[0] in STAGES]
@@ -104,4 +106,22 @@ def test_help_imports_nothing_heavy() -> None:
     )
     loaded = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout.split()
     heavy = {"numpy", "scipy", "yaml", "pydantic", "pint", "meshio", "h5py", "clarabel", "shapely", "manifold3d", "vtk"}
+    assert not heavy & set(loaded)
+
+
+def test_a_faulty_deck_imports_no_numerical_library(tmp_path: Path) -> None:
+    """Its faults are told at once; numpy and what needs it take longer to import than the deck to read."""
+    deck = tmp_path / "faulty.yaml"
+    deck.write_text("mbla: 1\n", encoding="utf-8")
+    code = (
+        "import sys\n"
+        "from mbla.cli import main\n"
+        f"status = main(['run', {str(deck)!r}])\n"
+        "print(status, *sorted({name.split('.')[0] for name in sys.modules}))"
+    )
+    status, *loaded = subprocess.run(
+        [sys.executable, "-c", code], capture_output=True, text=True, check=True
+    ).stdout.split()
+    assert status == "3"
+    heavy = {"numpy", "scipy", "meshio", "h5py", "clarabel", "shapely", "manifold3d", "matplotlib", "vtk"}
     assert not heavy & set(loaded)

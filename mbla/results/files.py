@@ -75,8 +75,8 @@ class OutputFolder:
         return tuple(sorted(self._names))
 
     def __enter__(self) -> OutputFolder:
-        with _file_errors(self.folder):
-            self._created = _missing_folders(self.folder)
+        with file_errors(self.folder):
+            self._created = missing_folders(self.folder)
             self.folder.mkdir(parents=True, exist_ok=True)
             _clear_leftovers(self.folder)
         try:
@@ -115,13 +115,8 @@ class OutputFolder:
     def writing(self, name: str) -> Iterator[Path]:
         """``path(name)`` for a ``with`` block whose errors of the operating system name the file."""
         temporary = self.path(name)
-        with _file_errors(self.folder / name):
-            try:
-                yield temporary
-            except FileError as error:  # of another stage, with the temporary name
-                if isinstance(error.__cause__, OSError):
-                    raise error.__cause__ from None
-                raise
+        with file_errors(self.folder / name):
+            yield temporary
 
     def write_bytes(self, name: str, data: bytes) -> None:
         """Write one file."""
@@ -136,7 +131,7 @@ class OutputFolder:
         """Open a text file under its final name, to be watched while it grows; the earlier one waits aside."""
         self.path(name)
         target = self.folder / name
-        with _file_errors(target):
+        with file_errors(target):
             if os.path.lexists(target):
                 self._set_aside(name)
             self._placed.add(name)
@@ -147,7 +142,7 @@ class OutputFolder:
     # --- how it begins and ends ---------------------------------------------------------------------------------
 
     def _temporary(self, kind: str, name: str) -> Path:
-        return self.folder / f"{PREFIX}{_host()}-{os.getpid()}-{kind}-{name}"
+        return temporary_path(self.folder / name, kind)
 
     def _marker(self) -> Path:
         return self.folder / f"{PREFIX}{_host()}-{os.getpid()}-open"
@@ -157,7 +152,7 @@ class OutputFolder:
         if target.is_dir():
             raise FileError(f"{target}: is a folder")
         if not self.force and os.path.lexists(target):
-            raise FileError(f"{target}: exists already; --force replaces an earlier result")
+            raise FileError(f"{target}: exists already; --force (in Python force=True) replaces an earlier result")
 
     def _refuse_earlier_result(self) -> None:
         for suffix in RESULT_SUFFIXES:
@@ -172,23 +167,23 @@ class OutputFolder:
 
     def _commit(self) -> None:
         for name, stream in self._live.items():
-            with _file_errors(self.folder / name):
+            with file_errors(self.folder / name):
                 stream.close()
                 _flush_to_disk(self.folder / name)
         written = [name for name in self._names if name not in self._live]
         for name in written:
             self._refuse(name)
-            with _file_errors(self.folder / name):
+            with file_errors(self.folder / name):
                 _flush_to_disk(self._temporary("new", name))
         replaced = {name for name in (*written, *self._stale) if os.path.lexists(self.folder / name)}
         for name in sorted(replaced - set(self._live)):
-            with _file_errors(self.folder / name):
+            with file_errors(self.folder / name):
                 self._set_aside(name)
         for name in written:
-            with _file_errors(self.folder / name):
+            with file_errors(self.folder / name):
                 self._placed.add(name)
                 self._temporary("new", name).replace(self.folder / name)
-        with _file_errors(self.folder):
+        with file_errors(self.folder):
             _flush_to_disk(self.folder)
             self._marker().unlink(missing_ok=True)  # from here on the new files are the valid ones
             for name in self._aside:
@@ -232,26 +227,35 @@ def earlier_files(folder: Path, stem: str) -> tuple[str, ...]:
 
 
 @contextlib.contextmanager
-def _file_errors(path: Path) -> Iterator[None]:
-    """An error of the operating system becomes a FileError that names the file."""
+def file_errors(path: Path) -> Iterator[None]:
+    """An error of the operating system becomes a FileError that names the file, as one of a temporary name does."""
     try:
         yield
     except OSError as error:
         raise FileError(f"{path}: {error.strerror or error}") from error
+    except FileError as error:  # of what wrote it under a temporary name
+        if isinstance(error.__cause__, OSError):
+            raise FileError(f"{path}: {error.__cause__.strerror or error.__cause__}") from error.__cause__
+        raise
+
+
+def temporary_path(path: Path, kind: str = "new") -> Path:
+    """Where a file is while it is written, or the earlier one while it waits (``kind`` "earlier")."""
+    return path.with_name(f"{PREFIX}{_host()}-{os.getpid()}-{kind}-{path.name}")
 
 
 def _host() -> str:
     return re.sub(r"[^A-Za-z0-9.]", "_", socket.gethostname()) or "host"
 
 
-def _missing_folders(folder: Path) -> list[Path]:
+def missing_folders(folder: Path) -> list[Path]:
     """Folders that ``mkdir`` will create, innermost first."""
     return [path for path in (folder, *folder.parents) if not path.exists()]
 
 
 def _try_writing(folder: Path, trial: Path) -> None:
     """Find out before the analysis, not after it, that the folder is read-only or full."""
-    with _file_errors(folder):
+    with file_errors(folder):
         trial.write_bytes(b"mbla")
         trial.unlink()
 

@@ -21,6 +21,10 @@ README = "README.md"
 """in place of a deck: the one that the README prints"""
 
 
+SMALLER = ("--size", "1200x750")
+"""for pictures in space, whose files are large"""
+
+
 @dataclass(frozen=True)
 class DeckPicture:
     """One file of decks/pictures.
@@ -44,17 +48,17 @@ TABLE = (
     DeckPicture("oppenheim_arch_push_x", "benchmarks/oppenheim_arch.yaml", "push_x"),
     DeckPicture("oppenheim_arch_push_x_forces", "benchmarks/oppenheim_arch.yaml", "push_x", ("--kind", "forces")),
     DeckPicture("settling_wall_sinks", "tutorials/settling_wall.yaml", "sinks"),
-    DeckPicture("obj_wall_out_of_plane", "tutorials/obj_wall.yaml", "out_of_plane"),
-    DeckPicture("crossvault_along_x", "tutorials/crossvault.yaml", "along_x"),
-    DeckPicture("house_push_x", "structures/house.yaml", "push_x"),
-    DeckPicture("house_push_y", "structures/house.yaml", "push_y"),
-    DeckPicture("room_push_y", "structures/room.yaml", "push_y"),
-    DeckPicture("colonnade_across", "structures/colonnade.yaml", "across"),
-    DeckPicture("arch_bridge", "structures/arch_bridge.yaml", "axle"),
-    DeckPicture("cross_vault_on_piers_spreading", "structures/cross_vault_on_piers.yaml", "spreading"),
-    DeckPicture("dome_on_drum_push_x", "structures/dome_on_drum.yaml", "push_x"),
-    DeckPicture("spiral_stair_one_tread", "structures/spiral_stair.yaml", "one_tread"),
-    DeckPicture("retaining_wall_surcharge", "structures/retaining_wall.yaml", "surcharge"),
+    DeckPicture("obj_wall_out_of_plane", "tutorials/obj_wall.yaml", "out_of_plane", SMALLER),
+    DeckPicture("crossvault_along_x", "tutorials/crossvault.yaml", "along_x", SMALLER),
+    DeckPicture("house_push_x", "structures/house.yaml", "push_x", SMALLER),
+    DeckPicture("house_push_y", "structures/house.yaml", "push_y", SMALLER),
+    DeckPicture("room_push_y", "structures/room.yaml", "push_y", SMALLER),
+    DeckPicture("colonnade_across", "structures/colonnade.yaml", "across", SMALLER),
+    DeckPicture("arch_bridge", "structures/arch_bridge.yaml", "axle", SMALLER),
+    DeckPicture("cross_vault_on_piers_spreading", "structures/cross_vault_on_piers.yaml", "spreading", SMALLER),
+    DeckPicture("dome_on_drum_push_x", "structures/dome_on_drum.yaml", "push_x", SMALLER),
+    DeckPicture("spiral_stair_one_tread", "structures/spiral_stair.yaml", "one_tread", SMALLER),
+    DeckPicture("retaining_wall_surcharge", "structures/retaining_wall.yaml", "surcharge", SMALLER),
 )
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import re
+import time
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -14,6 +15,7 @@ import pytest
 import xarray
 
 from mbla.check import check
+from mbla.deck import read_deck
 from mbla.results.hdf5.layout import LAYOUT
 from mbla.results.hdf5.result_file import read_results_hdf5
 from mbla.results.outcome import result_of
@@ -61,7 +63,10 @@ def records(folder: Path) -> list[dict[str, Any]]:
     own = [json.loads((folder / f"{name}.json").read_text(encoding="utf-8")) for name in DECKS]
     full = full_results()
     lonely = replace(full.contacts, report=replace(full.contacts.report, isolated=np.array([2])))
-    checked = [check_json(*check(beam, RunOptions(), vtu=False)), check_json(replace(full, contacts=lonely), {})]
+    checked = [
+        check_json(*check(read_deck(beam), RunOptions(), vtu=False, started=time.perf_counter())),
+        check_json(replace(full, contacts=lonely), {}),
+    ]
     return [*own, results_json(full), *checked]
 
 

@@ -53,7 +53,7 @@ def test_file_holds_the_run_in_full(folder: Path, results: Results) -> None:
 
 def test_four_hinges_alternate_between_intrados_and_extrados(results: Results) -> None:
     text = listing(results)
-    assert re.search(r"collapses at 0\.1493\d* g, verified: 4 hinges", text)
+    assert re.search(r"Collapses at 0\.1493\d* g, verified: 4 hinges", text)
     assert re.findall(r"\b(intrados|extrados)$", text, flags=re.MULTILINE) == ["intrados", "extrados"] * 2
 
 

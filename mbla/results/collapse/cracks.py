@@ -1,6 +1,6 @@
 """Cracks: interfaces between the same two clusters that open, as far as they are connected.
 
-Connected are interfaces whose boxes touch; a chain may lead over joints that only slide or turn between those that
+Connected are interfaces that touch; a chain may lead over joints that only slide or turn between those that
 open, as the bed joints of a stepped crack do.
 """
 
@@ -14,13 +14,10 @@ from scipy.sparse.csgraph import connected_components
 
 from mbla.arrays import FloatArray, IntArray
 from mbla.contacts.contacts import Contacts
-from mbla.contacts.polygons import box_pairs
-from mbla.results.collapse.cluster_joints import ClusterJoints, points_of, radii
+from mbla.results.collapse.cluster_joints import ClusterJoints, points_of
 from mbla.results.collapse.interface_modes import InterfaceMode, InterfaceMotion
+from mbla.results.collapse.touching import touching_pairs
 from mbla.solution.solution import Mechanics
-
-TOUCH = 0.01
-"""gap of the boxes of two interfaces, over the radius of the smaller one, up to which they touch"""
 
 
 @dataclass(frozen=True)
@@ -67,10 +64,7 @@ def cracks(
 
 def _connected(contacts: Contacts, joints: ClusterJoints, moving: IntArray) -> IntArray:
     """Number of the connected chain of each moving interface."""
-    margin = (TOUCH / 2 * radii(contacts)[moving])[:, None]
-    lower = np.minimum.reduceat(contacts.points, contacts.point_start[:-1])[moving] - margin
-    upper = np.maximum.reduceat(contacts.points, contacts.point_start[:-1])[moving] + margin
-    i, j = box_pairs(lower, upper)
+    i, j = touching_pairs(contacts, moving)
     same = np.all(joints.pairs[moving[i]] == joints.pairs[moving[j]], axis=1)
     n = len(moving)
     graph = sp.coo_array((np.ones(int(same.sum())), (i[same], j[same])), shape=(n, n))

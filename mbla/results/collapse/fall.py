@@ -36,5 +36,5 @@ def fall_of(model: Model, contacts: Contacts, certificate: FloatArray) -> tuple[
         interfaces=interface_motion(model, contacts, mechanics),
         parts=parts,
         motions=part_motions(model, parts, certificate),
-        work=Work(np.nan, np.nan, unknown, unknown, unknown),
+        work=Work(np.nan, np.nan, unknown, unknown, unknown, np.nan),
     ), mechanics

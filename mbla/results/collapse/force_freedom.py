@@ -36,7 +36,8 @@ from mbla.solution.solution import ContactMode, Mechanics
 MOST_EQUATIONS = 12_000
 """of equilibrium: 2,000 blocks in space, a few seconds"""
 BELOW, ABOVE = 1e-11, 1e-7
-"""eigenvalues of A Aᵀ with rows of unit length: zero up to the first, not zero from the second on"""
+"""eigenvalues of A Aᵀ with the rows of each block of unit length in the mean: zero up to the first, not zero from the
+second on"""
 FLAT = 1e-4
 """share of the largest extent of directions up to which they do not leave a plane"""
 NO_RESULTANT = 1e-9
@@ -119,7 +120,7 @@ def _directions(model: Model, contacts: Contacts, mechanics: Mechanics) -> list[
 
 
 def _equilibrium(model: Model, contacts: Contacts, bases: FloatArray, owner: Any, rows: FloatArray) -> sp.csr_array:
-    """Forces and moments of the resultants on the free blocks, rows of unit length."""
+    """Forces and moments of the resultants on the free blocks, rows of each block of unit length in the mean."""
     row_of_block = np.full(len(model.blocks) + len(model.grounds), -1)
     row_of_block[model.free] = np.arange(len(model.free))
     size = np.where(radii(contacts) > 0, radii(contacts), 1.0)
@@ -135,7 +136,9 @@ def _equilibrium(model: Model, contacts: Contacts, bases: FloatArray, owner: Any
         column = np.repeat(here, per_block)
         parts.append(sp.coo_array((wrench.ravel(), (at.ravel(), column)), (per_block * len(model.free), len(owner))))
     matrix = sp.csr_array(parts[0] + parts[1])
-    length = np.sqrt(np.asarray(matrix.power(2).sum(axis=1)).ravel())
+    # one factor for all rows of a block: a single row may be nothing but rounding, by the directions of the axes
+    squares = np.asarray(matrix.power(2).sum(axis=1)).reshape(-1, per_block).sum(axis=1)
+    length = np.repeat(np.sqrt(squares / per_block), per_block)
     return sp.csr_array(sp.diags_array(1.0 / np.where(length > 0, length, 1.0)) @ matrix)
 
 

@@ -28,6 +28,9 @@ from mbla.solution.statics import contact_velocities
 TOGETHER = 1e-4
 """Share of the largest contact speed up to which two blocks count as moving together: residuals up to 1e-4 count as
 solved, and motions below that are not known."""
+AT_THE_POINT = 1e-6
+"""Relative distance up to which a centre counts as lying on the farthest point, about which blocks do turn: that is
+sliding, not left to rounding."""
 
 
 class InterfaceMode(IntEnum):
@@ -118,7 +121,7 @@ def _turns_about_normal(contacts: Contacts, translation: FloatArray, rotation: F
     """The centre of the rotation about the normal, ‖v_t‖/|ω_n| from the centroid, lies within the farthest point."""
     along = np.linalg.norm(_in_plane(contacts, translation), axis=1)
     spin = np.abs(np.einsum("ij,ij->i", rotation, contacts.normals))
-    return np.asarray(along < spin * _radii(contacts))
+    return np.asarray(along < (1.0 - AT_THE_POINT) * spin * _radii(contacts))
 
 
 def _tilts(contacts: Contacts, translation: FloatArray, rotation: FloatArray) -> BoolArray:

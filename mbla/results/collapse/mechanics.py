@@ -40,11 +40,16 @@ def interface_resultants(contacts: Contacts, contact_forces: FloatArray) -> Floa
     return sum_by_interface(contacts, np.hstack([forces, np.cross(arms, forces)]))
 
 
+PARALLEL = 0.01
+"""sine of the angle between two joints next but one to each other up to which they are parallel: half a degree"""
+
+
 def curvature_sides(model: Model, contacts: Contacts) -> FloatArray:
     """Direction out of the curve where blocks form a chain, as in an arch, (n_interfaces, 3); zero elsewhere.
 
     Of three joints that follow each other the middle one lies outside the line between the other two by the rise of the
     curve there. (The centroids of thick voussoirs, which are wedges, lie outside the curve of the joints themselves.)
+    A pile that leans over has parallel joints and is no curve.
     A joint at the end of a chain takes the direction of the next one. Blocks that are glued count as one.
     """
     solids = solids_of(model, contacts)
@@ -58,12 +63,15 @@ def curvature_sides(model: Model, contacts: Contacts) -> FloatArray:
     inner = np.flatnonzero(between)
     joints_of_body = np.zeros(n_bodies, dtype=np.int64)  # sum of both: less the one it is the other
     np.add.at(joints_of_body, contacts.bodies, np.arange(len(contacts))[:, None])
-    before, after = contacts.centroids[(joints_of_body[contacts.bodies[inner]] - inner[:, None]).T]
+    first, last = (joints_of_body[contacts.bodies[inner]] - inner[:, None]).T
+    before, after = contacts.centroids[first], contacts.centroids[last]
     chord, rise = after - before, contacts.centroids[inner] - (before + after) / 2
     length = np.linalg.norm(chord, axis=1)
     with np.errstate(divide="ignore", invalid="ignore"):
         rise -= (np.einsum("ij,ij->i", rise, chord) / length**2)[:, None] * chord
+    turned = np.linalg.norm(np.cross(contacts.normals[first], contacts.normals[last]), axis=1)
     curved = np.linalg.norm(rise, axis=1) > 1e-3 * length  # none where two blocks meet in two joints: no chord
+    curved &= turned > PARALLEL
     outward = np.zeros((len(contacts), 3))
     outward[inner[curved]] = rise[curved]
     of_body = np.zeros((n_bodies, 3))

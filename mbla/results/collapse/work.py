@@ -20,6 +20,11 @@ from mbla.model.model import LoadCase, Model
 from mbla.program.assemble import yield_limits
 from mbla.solution.solution import Mechanics
 
+NO_POWER = 1e-9
+"""share of the reference power up to which nothing is put in: a frictionless block that is pushed"""
+PARTS = (slice(0, 3), slice(3, 6))
+"""forces and moments, velocities and rotations"""
+
 
 @dataclass(frozen=True)
 class Work:
@@ -29,6 +34,7 @@ class Work:
     dead     : of the dead load, negative where weights are lifted
     friction, cohesion, normal : (n_interfaces,) dissipated by sliding under friction, against cohesion, and by normal
                                  forces
+    reference : forces times speeds of the dead load, whatever the angle between them: what powers are measured by
     """
 
     live: float
@@ -36,11 +42,13 @@ class Work:
     friction: FloatArray
     cohesion: FloatArray
     normal: FloatArray
+    reference: float
 
     @property
     def given(self) -> float:
-        """Power put in, by the live load and, where it drives the mechanism, the dead load."""
-        return max(self.live, 0.0) + max(self.dead, 0.0)
+        """Power put in, by the live load and, where it drives the mechanism, the dead load; 0 where it is rounding."""
+        given = max(self.live, 0.0) + max(self.dead, 0.0)
+        return 0.0 if given <= NO_POWER * self.reference else given
 
     @property
     def dissipated(self) -> FloatArray:
@@ -69,7 +77,13 @@ def work_of(model: Model, contacts: Contacts, load_case: LoadCase, mechanics: Me
         friction=by_interface(shear * (1.0 - share)),
         cohesion=by_interface(shear * share),
         normal=by_interface(power[:, 0]),
+        reference=_largest_power(load_case.dead_load[free], mechanism),
     )
+
+
+def _largest_power(loads: FloatArray, motions: FloatArray) -> float:
+    """Sum of ‖F‖ ‖v‖ and ‖M‖ ‖ω‖ over blocks."""
+    return float(sum(np.linalg.norm(loads[:, p], axis=1) @ np.linalg.norm(motions[:, p], axis=1) for p in PARTS))
 
 
 def dissipated_by_joint(contacts: Contacts, work: Work) -> dict[str, tuple[float, float, float]]:

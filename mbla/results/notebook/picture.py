@@ -7,8 +7,9 @@ import tempfile
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from mbla.errors import FileError, UsageError
+from mbla.errors import UsageError
 from mbla.results.results import CaseResult, Results
+from mbla.results.whole_file import write_whole
 
 MIME = {"png": "image/png", "svg": "image/svg+xml", "pdf": "application/pdf"}
 
@@ -25,7 +26,7 @@ class Picture:
         path = Path(path)
         if path.suffix.lower() != f".{self.format}":
             raise UsageError(f"{path}: the picture is {self.format}; ask picture() for another format")
-        _write(path, self.content)
+        write_whole(path, self.content)
         return path
 
     def _repr_mimebundle_(self, include: object = None, exclude: object = None) -> dict[str, str | bytes]:
@@ -55,12 +56,5 @@ def case_picture(results: Results, case: CaseResult, kind: str, path: Path | Non
         plot_case(results, case, drawn, kind)
         picture = Picture(ending, drawn.read_bytes())
     if path is not None:
-        _write(path, picture.content)
+        write_whole(path, picture.content)
     return picture
-
-
-def _write(path: Path, content: bytes) -> None:
-    try:
-        path.write_bytes(content)
-    except OSError as error:
-        raise FileError(f"{path}: {error.strerror or error}") from error

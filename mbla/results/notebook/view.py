@@ -6,8 +6,8 @@ from dataclasses import dataclass, field
 from html import escape
 from pathlib import Path
 
-from mbla.errors import FileError
 from mbla.results.results import CaseResult, Results
+from mbla.results.whole_file import write_whole
 
 HEIGHT = 780
 """pixels of the frame in a notebook"""
@@ -30,10 +30,7 @@ class View:
     def save(self, path: str | Path) -> Path:
         """Write the page, to be opened in a browser; FileError if that fails."""
         path = Path(path)
-        try:
-            path.write_text(self.page, encoding="utf-8")
-        except OSError as error:
-            raise FileError(f"{path}: {error.strerror or error}") from error
+        write_whole(path, self.page.encode("utf-8"))
         return path
 
     def _repr_html_(self) -> str:

@@ -20,11 +20,11 @@ from mbla.errors import FileError, UsageError
 from mbla.results.pictures.options import PictureOptions
 from mbla.results.pictures.page import open_frames
 from mbla.results.pictures.scene import Scene, scene_of
-from mbla.results.pictures.space.camera import fitted
 from mbla.results.pictures.space.mechanism import mechanism_drawing
+from mbla.results.pictures.space.panels import focus_of, panels_of
 from mbla.results.pictures.space.picture import frame_between, view_of_case
 from mbla.results.pictures.space.renderer import Renderer
-from mbla.results.pictures.space.sheet import add_image, fill_sheet
+from mbla.results.pictures.space.sheet import add_images, fill_sheet
 from mbla.results.results import CaseResult, Results
 
 FORMATS = ("gif", "mp4")
@@ -92,17 +92,22 @@ def _frames(widest: Scene, options: PictureOptions) -> Iterator[Any]:
     width, height = options.pixels
     drawing = mechanism_drawing(widest)
     view = options.view or view_of_case(widest)
+    focus = focus_of(widest) if options.zoom else None
     with open_frames(options) as page:
         bottom, top = fill_sheet(page, widest, "mechanism", drawing)
-        camera = fitted(drawing.extent, *view, width / height, frame_between(bottom, top))
-        artist = None
+        panels = panels_of(drawing.extent, focus, view, width / height, frame_between(bottom, top))
+        artists: list[Any] = []
         for share in displacements():
-            frame = mechanism_drawing(replace(widest, motion=share * widest.motion), widest)
-            with Renderer(frame.solid, frame.marks) as renderer:
-                image = renderer.image(camera, width, height, frame.shine)
-            if artist is None:
-                artist = add_image(page, image, camera, widest, drawing, bottom)
-            artist.set_data(image)
+            moved = replace(widest, motion=share * widest.motion)
+            frame = mechanism_drawing(moved, widest, focus if len(panels) > 1 else None)
+            with Renderer(frame.solid_from(view[1]), frame.marks) as renderer:
+                images = [
+                    renderer.image(each.camera, round(each.share * width), height, frame.shine) for each in panels
+                ]
+            if not artists:
+                artists = add_images(page, images, panels, widest, drawing, (bottom, top))
+            for artist, image in zip(artists, images, strict=True):
+                artist.set_data(image)
             page.figure.canvas.draw()
             yield np.asarray(page.figure.canvas.buffer_rgba())[..., :3].copy()
 

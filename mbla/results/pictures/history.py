@@ -75,6 +75,7 @@ def _draw_iterations(page: Page, factors: Any, residuals: Any, scene: Scene) -> 
     style = {"linewidth": 1.6 * page.scale, "markersize": 4 * page.scale}
     program = np.array([record.program for record in records])
     values = _of_finite([record.load_factor for record in records])
+    values[np.isin(program, _without_load_factor(scene))] = np.nan
     for number_of in np.unique(program):
         own = program == number_of
         factors.plot(place[own], values[own], color=BLUE, marker=".", **style)
@@ -84,12 +85,12 @@ def _draw_iterations(page: Page, factors: Any, residuals: Any, scene: Scene) -> 
             shown = np.where(np.isfinite(row) & (row > 0), row, np.nan)  # nothing has no logarithm
             residuals.plot(place[own], shown, line, color=colour, marker=marker, label=label, **style)
     _label(page, factors, "", "load factor")
-    _keep_to_the_middle(factors, values)
+    mechanics = scene.mechanics
+    _keep_to_the_middle(factors, values, np.nan if mechanics is None else mechanics.load_factor)
     residuals.set_yscale("log")
     _label(page, residuals, "iteration", "relative residual")
     residuals.legend(fontsize=0.85 * page.letter, framealpha=0.9, loc="upper right", ncols=3)
     _name_programs(page, (factors, residuals), scene, program)
-    mechanics = scene.mechanics
     if mechanics is not None:
         colour = INK if scene.is_result else WARNING
         label = f"{'load factor' if scene.is_result else 'not a result:'} {number(mechanics.load_factor)}"
@@ -102,12 +103,18 @@ def _of_finite(values: list[float]) -> FloatArray:
     return np.where(np.isfinite(array), array, np.nan)
 
 
-def _keep_to_the_middle(axes: Any, values: FloatArray) -> None:
-    """First iterates are far off: show what lies around the last half of the values."""
+def _without_load_factor(scene: Scene) -> list[int]:
+    """Programs that look for something else, as the least forces; what their iterations hold is no load factor."""
+    return [record.program for record in scene.case.solution.programs if not np.isfinite(record.load_factor)]
+
+
+def _keep_to_the_middle(axes: Any, values: FloatArray, answer: float) -> None:
+    """First iterates are far off: show what lies around the last half of the values, and the answer, nan for none."""
     known = values[np.isfinite(values)]
     if not len(known):
         return
-    late = known[len(known) // 2 :]
+    late = np.append(known[len(known) // 2 :], [answer] * bool(np.isfinite(answer)))
+    known = np.append(known, late)
     low, high = late.min(), late.max()
     room = max(2.0 * (high - low), 0.1 * max(abs(low), abs(high)), 1e-300)
     axes.set_ylim(max(low - room, known.min() - 0.05 * room), min(high + room, known.max() + 0.05 * room))

@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from mbla.errors import FileError, UsageError
+from mbla.errors import UsageError
 from mbla.results.pictures.animation import format_of_film, write_animation
 from mbla.results.pictures.history import draw_history, draw_series
 from mbla.results.pictures.options import KINDS, PictureOptions, format_of
@@ -16,6 +16,7 @@ from mbla.results.pictures.scene import Scene, scene_of
 from mbla.results.pictures.space.picture import draw_in_space
 from mbla.results.results import CaseResult, Results
 from mbla.results.series import series_of
+from mbla.results.whole_file import writing_whole
 
 
 @dataclass(frozen=True)
@@ -57,11 +58,8 @@ def plot_results(results: Results, target: Path, stem: str, options: PictureOpti
     else:
         paths = [target / f"{stem}{picture.name}.{ending}" for picture in pictures]
     for picture, path in zip(pictures, paths, strict=True):
-        try:
-            path.parent.mkdir(parents=True, exist_ok=True)
-        except OSError as error:
-            raise FileError(f"{path.parent}: {error.strerror or error}") from error
-        picture.write(path)
+        with writing_whole(path) as temporary:
+            picture.write(temporary)
     return paths
 
 

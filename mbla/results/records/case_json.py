@@ -41,9 +41,14 @@ def case_json(model: Model, contacts: Contacts, case: CaseResult) -> dict[str, A
         "solver": solver_json(solution),
         "size": None if solution.size is None else asdict(solution.size),
         "path": [{name: finite(value) for name, value in asdict(point).items()} for point in solution.path],
-        "mechanism": None if mechanics is None else mechanism_json(model, contacts, case.load_case, mechanics),
+        "mechanism": None if mechanics is None else _mechanism(model, contacts, case, mechanics),
         "time": {"total": number(solution.seconds), "solver": number(solver)},
     }
+
+
+def _mechanism(model: Model, contacts: Contacts, case: CaseResult, mechanics: Mechanics) -> dict[str, Any]:
+    size = case.solution.size
+    return mechanism_json(model, contacts, case.load_case, mechanics, 3 if size is None else size.dimension)
 
 
 def _load_factors(case: CaseResult) -> dict[str, Any]:

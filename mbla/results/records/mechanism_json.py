@@ -11,6 +11,7 @@ from mbla.model.model import LoadCase, Model
 from mbla.results.collapse.collapse import Collapse, collapse_of
 from mbla.results.collapse.enough import Enough, enough_of
 from mbla.results.collapse.failure import failure_of
+from mbla.results.collapse.force_freedom import ForceFreedom, force_freedom
 from mbla.results.collapse.interface_modes import InterfaceMode
 from mbla.results.collapse.rigid_parts import moving_share, reach
 from mbla.results.collapse.work import dissipated_by_joint, loads_by_group
@@ -22,8 +23,10 @@ MOST_PARTS = 100
 """parts that the record holds, the heaviest; ``moving_parts`` counts them all, the result file holds them all"""
 
 
-def mechanism_json(model: Model, contacts: Contacts, load_case: LoadCase, mechanics: Mechanics) -> dict[str, Any]:
-    """Contact points by mode, interfaces by mode, parts and work."""
+def mechanism_json(
+    model: Model, contacts: Contacts, load_case: LoadCase, mechanics: Mechanics, dimension: int
+) -> dict[str, Any]:
+    """Contact points by mode, interfaces by mode, parts and work; ``dimension``: in which the case was solved."""
     collapse = collapse_of(model, contacts, load_case, mechanics)
     share = moving_share(model, collapse.parts)
     return {
@@ -36,6 +39,7 @@ def mechanism_json(model: Model, contacts: Contacts, load_case: LoadCase, mechan
         "moving_parts": len(collapse.motions),
         "parts": [part_json(model, motion) for motion in collapse.motions[:MOST_PARTS]],
         **failure_json(model, failure_of(model, contacts, collapse, mechanics)),
+        "force_freedom": _force_freedom(force_freedom(model, contacts, mechanics, dimension)),
         "enough": _enough(enough_of(model, contacts, collapse.parts)),
         "work": _work(model, contacts, load_case, mechanics, collapse),
     }
@@ -45,6 +49,11 @@ def _points(mechanics: Mechanics) -> dict[str, int]:
     """Contact points by mode."""
     modes = (ContactMode.OPEN, ContactMode.SLIDE, ContactMode.STICK)
     return {mode.name.lower(): int((mechanics.modes == mode).sum()) for mode in modes}
+
+
+def _force_freedom(freedom: ForceFreedom | None) -> dict[str, int] | None:
+    """Counts of how unique the forces are: see :mod:`mbla.results.collapse.force_freedom`."""
+    return None if freedom is None else {"ways": freedom.degree, "determined": int(freedom.determined.sum())}
 
 
 def _enough(enough: Enough) -> dict[str, int]:

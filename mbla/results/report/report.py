@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-import contextlib
-import os
-from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -21,6 +18,7 @@ from mbla.results.report.verdict_table import verdict_table
 from mbla.results.report.views import case_view
 from mbla.results.results import CaseResult, Results
 from mbla.results.series import series_of
+from mbla.results.whole_file import write_whole
 from mbla.results.words.contact_words import contact_lines, finding_lines
 from mbla.results.words.listing import model_lines, settings_lines
 from mbla.results.words.series_words import series_lines
@@ -49,10 +47,10 @@ def write_report(results: Results, path: Path, case: str | None = None, *, view:
     """
     if path.suffix.lower() not in SUFFIXES:
         raise UsageError(f"{path}: a report is an HTML file, its name ends in .html")
-    if path.is_dir():
+    if path.is_dir():  # said before anything is drawn
         raise FileError(f"{path}: is a folder")
     text, remarks = report_html(results, case, view=view)
-    _replace(path, text.encode("utf-8", "backslashreplace"))
+    write_whole(path, text.encode("utf-8", "backslashreplace"))
     return remarks
 
 
@@ -123,20 +121,3 @@ def _in_words(results: Results, case: CaseResult) -> tuple[str, str, list[str]]:
     model = results.model.of_case(case.load_case)
     beside = (range_summary(model, case), *reasons(case), bound_words(model, case))
     return case.load_case.name, f"{verdict(model, case)}.", [text for text in beside if text]
-
-
-def _replace(path: Path, data: bytes) -> None:
-    """Written aside and renamed into place: a report is there as a whole, or the earlier one still is."""
-    aside = path.with_name(f".mbla-report-{os.getpid()}-{path.name}")
-
-    def attempt(action: Callable[[], object], place: Path) -> None:
-        try:
-            action()
-        except OSError as error:
-            with contextlib.suppress(OSError):
-                aside.unlink(missing_ok=True)
-            raise FileError(f"{place}: {error.strerror or error}") from error
-
-    attempt(lambda: path.parent.mkdir(parents=True, exist_ok=True), path.parent)
-    attempt(lambda: aside.write_bytes(data), path)
-    attempt(lambda: aside.replace(path), path)

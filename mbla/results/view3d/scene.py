@@ -36,9 +36,10 @@ FAR = 1e3
 """distance from the origin over the size of the model from which coordinates are drawn less an offset"""
 MARGIN = 0.04
 """of the largest extent, around what is drawn"""
-LIGHT = np.array([0.35, -0.75, 0.95])
-"""direction the light comes from; faces turned away from it keep DARKEST of their colour"""
+LIGHT = np.array([0.83, -0.07, 0.95])
+"""direction the light comes from: towards the eye along its first axis, to the right, up; see ``light_from``"""
 DARKEST = 0.55
+"""share of its colour that a face turned away from the light keeps"""
 SIDES = ((0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5))
 SLAB = np.array([[side[0], side[i], side[i + 1]] for side in SIDES for i in (1, 2)])
 """triangles of a box whose corners have the first coordinate fastest"""
@@ -63,16 +64,17 @@ def scene_of(results: Results, case: CaseResult, view: tuple[float, float] | Non
     arrow = load_arrow(model, case.load_case, low, high, 0.13 * size)
     seen = np.vstack([moved, blocks.vertices, *grounds, arrow.points])
     triangles, faces = face_triangles(blocks)
+    eye = eye_of(blocks.vertices, moved, view)
     return {
         "unit": model.units.length,
         "offset": offset.tolist(),
         **_box(seen - offset),
-        "eye": eye_of(blocks.vertices, moved, view),
+        "eye": eye,
         "vertices": packed(blocks.vertices - offset),
         "vertexStart": packed(blocks.vertex_start),
         "triangles": packed(triangles),
         "blockOfTriangle": packed(blocks.block_of_face[faces]),
-        "shades": packed(shades(triangle_normals(blocks.vertices, triangles)), "u1"),
+        "shades": packed(shades(triangle_normals(blocks.vertices, triangles), light_from(eye)), "u1"),
         "shadeCount": SHADES,
         "darkest": DARKEST,
         "edges": packed(block_edges(blocks)),
@@ -96,9 +98,16 @@ def offset_of(vertices: FloatArray, size: float) -> FloatArray:
     return np.asarray(np.rint(vertices.mean(axis=0) / digit) * digit)
 
 
-def shades(normals: FloatArray) -> IntArray:
+def light_from(eye: list[float]) -> FloatArray:
+    """Unit direction of the light, (3,): from above and behind the viewer, so that the side first seen is bright."""
+    ahead = np.array([eye[0], eye[1], 0.0])
+    ahead /= float(np.linalg.norm(ahead)) or 1.0
+    light = LIGHT[0] * ahead + LIGHT[1] * np.cross([0.0, 0.0, 1.0], ahead) + LIGHT[2] * np.array([0.0, 0.0, 1.0])
+    return np.asarray(light / np.linalg.norm(light))
+
+
+def shades(normals: FloatArray, light: FloatArray) -> IntArray:
     """Brightness of faces in steps from 0 to SHADES - 1, (n,)."""
-    light = LIGHT / np.linalg.norm(LIGHT)
     return np.asarray(np.rint((normals @ light + 1) / 2 * (SHADES - 1)).astype(np.int64))
 
 

@@ -15,13 +15,20 @@ from mbla.results.words.failure_words import failure_sentences
 from mbla.results.words.mechanism_words import mechanism_lines
 from mbla.results.words.text import sentence
 
+LIFTS = (
+    "The motion is one of associative flow, in which joints lift as they slide: it proves that nothing holds the "
+    "structure, and need not be the way in which it falls."
+)
+"""what the motion is worth as a picture of the fall, where anything slides in it"""
+
 
 def fall_sentences(model: Model, contacts: Contacts, load_case: LoadCase, certificate: FloatArray) -> list[str]:
     """What moves and how, where it turns and parts, what slides; the live load, which does not act yet, says no way."""
     collapse, mechanics = fall_of(model, contacts, certificate)
     failure = failure_of(model, contacts, collapse, mechanics)
     unloaded = replace(load_case, live_load=np.zeros_like(load_case.live_load))
-    return failure_sentences(model, contacts, unloaded, collapse, failure)
+    lifts = [LIFTS] if collapse.interfaces.slides.any() else []
+    return failure_sentences(model, contacts, unloaded, collapse, failure) + lifts
 
 
 def fall_lines(model: Model, contacts: Contacts, certificate: FloatArray) -> list[str]:

@@ -89,7 +89,9 @@ def _part_sentence(model: Model, contacts: Contacts, load_case: LoadCase, failur
     who = _who(model, load_case, part)
     way = way_words(model, load_case, part.velocity, part.centroid)
     if not part.turns:
-        return f"{who} moves {way}, along {direction_words(part.direction)}, without turning."
+        along = "" if way.startswith("towards") else f", along {direction_words(part.direction)}"
+        way = way if along else f"along {direction_words(part.direction)}"
+        return f"{who} moves {way}{along}, without turning."
     low, high = extents_of(model, part.blocks)
     spin = float(np.linalg.norm(part.rotation)) * float(np.linalg.norm(high - low))
     if np.linalg.norm(part.velocity) > FAR_AXIS * spin:

@@ -43,7 +43,7 @@ def part_lines(model: Model, motions: Sequence[PartMotion]) -> list[str]:
 def _groups(model: Model, part: PartMotion) -> str:
     """``junction``, ``wall and 2 more``: the groups of a part, that with most blocks first."""
     counts = Counter(model.blocks.groups[block] for block in part.blocks.tolist()).most_common()
-    return counts[0][0] + (f" and {len(counts) - 1} more" if len(counts) > 1 else "")
+    return str(counts[0][0]) + (f" and {len(counts) - 1} more" if len(counts) > 1 else "")
 
 
 def motion_words(model: Model, part: PartMotion) -> str:

@@ -16,8 +16,10 @@ def work_lines(model: Model, contacts: Contacts, load_case: LoadCase, mechanics:
     """Shares of the power that the loads put in; nothing where they put in none."""
     if work.given <= 0:
         return []
+    settles = load_case.settlement is not None  # whose dead load holds the reaction at rest
+    dead = "the reaction at rest, less what the weights give," if settles else "the dead load"
     sinks = (
-        ("the dead load", -work.dead, work.dead <= 0),
+        (dead, -work.dead, work.dead <= 0),
         ("the live load", -work.live, False),
         ("friction", float(work.friction.sum()), True),
         ("cohesion", float(work.cohesion.sum()), False),
@@ -26,18 +28,21 @@ def work_lines(model: Model, contacts: Contacts, load_case: LoadCase, mechanics:
     shares = [
         (name, power_share(power, work), always)
         for name, power, always in sinks
-        if not (name.endswith("load") and power < 0)
+        if not (name in (dead, "the live load") and power < 0)
     ]
     into = ", ".join(f"{share} % into {name}" for name, share, always in shares if always or float(share) != 0.0)
     into = into.replace(" % into", " % goes into", 1)
     back = power_share(-float(work.normal.sum()), work)
     back = f"; joints lift as they slide, and their normal forces give {back} % back" if float(back) > 0 else ""
     lines = sentence(f"{_source(load_case, work)}{into}{back}.")
-    return lines + _joint_table(contacts, work) + _group_table(model, load_case, mechanics, work)
+    groups = [] if settles else _group_table(model, load_case, mechanics, work)
+    return lines + _joint_table(contacts, work) + groups
 
 
 def _source(load_case: LoadCase, work: Work) -> str:
     """Where the power comes from."""
+    if load_case.settlement is not None and work.dead <= 0:
+        return "Of the power of the reaction that the support loses "
     if work.dead <= 0:
         return "Of the power of the live load "
     if work.live <= 0:

@@ -119,7 +119,8 @@ def test_outside_of_a_curved_chain() -> None:
     model, contacts = chain([[np.cos(a), 0, np.sin(a)] for a in angles])
     joints = (angles[1:] + angles[:-1]) / 2
     radii = np.column_stack([np.cos(joints), np.zeros(12), np.sin(joints)])
-    sides = curvature_sides(model, replace(contacts, centroids=radii))
+    normals = np.column_stack([np.sin(joints), np.zeros(12), -np.cos(joints)])
+    sides = curvature_sides(model, replace(contacts, centroids=radii, normals=normals))
     along = np.einsum("ij,ij->i", sides, radii) / np.linalg.norm(sides, axis=1)
     assert along[1:-1] == pytest.approx(1)
     assert (along[[0, -1]] > 0.9).all()
@@ -134,6 +135,13 @@ def test_outside_of_an_arch_of_thick_voussoirs() -> None:
     chain = np.flatnonzero(np.linalg.norm(sides, axis=1) > 0)
     assert len(chain) == 27
     assert (np.einsum("ij,ij->i", sides, from_centre)[chain] > 0).all()
+
+
+def test_a_pile_that_leans_over_has_no_outside() -> None:
+    """Its joints lie on a curve, but are parallel: no voussoirs, no intrados."""
+    model, contacts = chain([[0.1 * i**2, 0, i] for i in range(6)])
+    joints = np.array([[0.1 * (i + 0.5) ** 2, 0, i + 0.5] for i in range(5)])
+    assert not curvature_sides(model, replace(contacts, centroids=joints)).any()
 
 
 def test_straight_chain_has_no_outside() -> None:

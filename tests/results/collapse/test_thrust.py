@@ -59,6 +59,18 @@ def test_cohesion_and_unlimited_friction_count() -> None:
     assert np.isnan(point_friction_use(rough, contacts, forces)[[0, 3]]).all()
 
 
+def test_tension_takes_from_cohesion_what_pressure_adds() -> None:
+    model, contacts = tower_model(), tower_contacts()
+    law = replace(model.joints["dry"], friction=0.5, cohesion=8.0, tensile_strength=4.0)
+    model = replace(model, joints=dict.fromkeys(model.joints, law))
+    forces = np.zeros((8, 3))
+    forces[:, 0], forces[:, 1] = -1.0, 1.0  # each point allows 8/4 - 0.5
+    thrust = thrust_of(model, contacts, forces)
+    assert point_friction_use(model, contacts, forces) == pytest.approx(1 / 1.5)
+    assert thrust.friction_use == pytest.approx(1 / 1.5)
+    assert np.isnan(thrust.points).all()
+
+
 def test_eccentricity_on_an_outline_that_turns_inwards() -> None:
     """An L of three unit squares: its hull has the edge x + y = 3 that is no side of it."""
     corners = np.array([[0, 0], [2, 0], [2, 1], [1, 1], [1, 2], [0, 2]], float)

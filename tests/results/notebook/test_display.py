@@ -95,7 +95,7 @@ def test_pictures_as_notebooks_want_them(drawn: list[str], tmp_path: Path) -> No
     with pytest.raises(UsageError, match="png"):
         Picture("png", PNG).save(tmp_path / "c.svg")
     with pytest.raises(FileError):
-        Picture("png", PNG).save(tmp_path / "none" / "c.png")
+        Picture("png", PNG).save(tmp_path / "a.svg" / "c.png")  # a file is no folder
 
 
 def test_no_name_is_markup(drawn: list[str]) -> None:

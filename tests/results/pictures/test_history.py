@@ -3,9 +3,10 @@ from pathlib import Path
 from xml.etree import ElementTree
 
 import numpy as np
+import pytest
 
 from mbla.model.model import TravelPosition
-from mbla.results.pictures.history import draw_history, draw_series
+from mbla.results.pictures.history import _keep_to_the_middle, draw_history, draw_series
 from mbla.results.pictures.options import PictureOptions
 from mbla.results.pictures.scene import scene_of
 from mbla.results.results import CaseResult, Results
@@ -30,6 +31,17 @@ def test_iterations_are_named_by_their_program(tmp_path: Path) -> None:
     shown = history(tmp_path, results, results.cases[0])
     assert {"1 associative", "gap", "primal residual", "dual residual", "iteration", "load factor 0.5"} <= set(shown)
     assert "step of the load path" not in shown
+
+
+@pytest.mark.parametrize("answer", [0.5, 40.0])
+def test_the_answer_is_in_sight_of_the_diagram(answer: float) -> None:
+    """Iterates of later programs may be far from it: here all end at 0."""
+    from matplotlib.figure import Figure
+
+    axes = Figure().add_subplot()
+    _keep_to_the_middle(axes, np.array([0.4, 0.5, 0.0, 0.0, 0.0]), answer)
+    low, high = axes.get_ylim()
+    assert low <= 0 < answer <= high
 
 
 def test_load_path_where_there_is_one(tmp_path: Path) -> None:

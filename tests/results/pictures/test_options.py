@@ -19,7 +19,7 @@ from mbla.results.pictures.options import (
 
 def arguments(**changes: object) -> Namespace:
     texts = {"kind": None, "case": None, "view": "auto", "scale": "auto", "size": "1600x1000", "dpi": 100}
-    return Namespace(**(texts | {"format": "png", "output": None, "animate": None} | changes))
+    return Namespace(**(texts | {"format": "png", "zoom": "auto", "output": None, "animate": None} | changes))
 
 
 def test_kinds_come_in_their_own_order() -> None:

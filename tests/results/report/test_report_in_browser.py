@@ -136,6 +136,7 @@ def test_it_prints_with_the_deck_opened(browser: Any, report: Path, tmp_path: Pa
         command = ["pdftotext", "-layout", str(tmp_path / "report.pdf"), "-"]
         text = subprocess.run(command, capture_output=True, text=True, check=True).stdout
         assert "collapses at 0.5 g, verified" in text
+        assert "NO EQUILIBRIUM: the structure does not stand under its dead load" in text
         assert "document.title='evil'" in text.split("Deck\n")[-1]
         assert re.search(r"^ *1 ?/ ?\d+$", text, re.MULTILINE)
 
@@ -194,6 +195,7 @@ def test_a_view_begins_when_it_is_seen_and_turns(with_views: Visit) -> None:
     assert np.abs(before - after).max() > 50
 
 
+@pytest.mark.long
 def test_no_more_views_are_alive_than_a_browser_draws(with_views: Visit) -> None:
     page = with_views.page
     for i in range(MANY):

@@ -8,10 +8,11 @@ import pytest
 
 from mbla.model.blocks import Blocks
 from mbla.results.results import Results
+from mbla.results.view3d.arrow import load_arrow
 from mbla.results.view3d.marks import HINGE
-from mbla.results.view3d.scene import packed, scene_of
+from mbla.results.view3d.scene import eye_of, light_from, packed, scene_of, shades
 from mbla.solution.solution import Status
-from tests.results.synthetic import full_results, tower_results
+from tests.results.synthetic import cuboids, full_results, tower_results
 
 KINDS = {"f4": "<f4", "i4": "<i4", "u1": "u1"}
 
@@ -160,3 +161,39 @@ def test_names_are_no_markup() -> None:
     found = scene(replace(results, model=replace(results.model, blocks=blocks)))
     assert found["texts"][1].startswith("&lt;b&gt;&amp;[0]<br>")
     assert "&lt;b&gt;&amp;[0]" in marks(found)["hinges"]["texts"][0]
+
+
+@pytest.mark.parametrize("azimuth", [-60.0, 30.0, 120.0])
+def test_the_first_view_is_the_one_asked_for_and_bright(azimuth: float) -> None:
+    """The face that looks at the eye is brighter than the opposite one, from whatever side it is seen."""
+    cube = cuboids([[0, 0, 0]], [[1, 1, 1]], ("cube",))
+    eye = eye_of(cube.vertices, cube.vertices, (azimuth, 25.0))
+    np.testing.assert_allclose(np.rad2deg([np.arctan2(eye[1], eye[0]), np.arcsin(eye[2])]), [azimuth, 25.0])
+    level = np.array([eye[0], eye[1], 0.0])
+    seen, hidden = shades(np.array([level, -level]), light_from(eye))
+    assert seen > hidden + 10
+
+
+def test_what_is_thin_is_seen_from_its_front_whatever_is_asked_for() -> None:
+    wall = cuboids([[0, 0, 0]], [[5, 0.2, 2]], ("wall",))
+    assert eye_of(wall.vertices, wall.vertices, (120.0, 25.0)) == eye_of(wall.vertices, wall.vertices)
+
+
+@pytest.mark.parametrize("scale", [1e-3, 1.0, 1e3])
+def test_arrow_of_a_settlement_stands_beside_its_support_and_moves_with_it(scale: float) -> None:
+    """Of two blocks side by side the right one sinks: the arrow is to the right of it and points down."""
+    results = full_results()
+    settlement = results.cases[0].load_case.settlement
+    assert settlement is not None
+    blocks = cuboids(scale * np.array([[0, 0, 0], [2, 0, 0]]), scale * np.array([[2, 1, 1], [4, 1, 1]]), ("a", "b"))
+    motions = np.array([[0.0, 0, -1, 0, 0, 0]])
+    load_case = replace(
+        results.cases[0].load_case, settlement=replace(settlement, blocks=np.array([1]), motions=motions, turns=False)
+    )
+    low, high = np.zeros(3), scale * np.array([4.0, 1, 1])
+    arrow = load_arrow(replace(results.model, blocks=blocks), load_case, low, high, 0.5 * scale)
+    assert (arrow.name, arrow.block) == ("settlement", 1)
+    start, tip = arrow.points[:2] / scale
+    np.testing.assert_allclose(tip - start, [0, 0, -0.5], atol=1e-12)
+    assert start[0] > 4
+    np.testing.assert_allclose((start + tip)[1:] / 2, [0.5, 0.5])

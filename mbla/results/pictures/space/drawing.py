@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from mbla.arrays import FloatArray
-from mbla.results.pictures.space.shapes import Shape
+from mbla.results.pictures.space.shapes import Faces, Shape
 
 
 @dataclass(frozen=True)
@@ -38,3 +38,9 @@ class Drawing:
     legend: tuple[tuple[str, str], ...]
     scale: ColourScale | None = None
     notes: tuple[str, ...] = ()
+
+    def solid_from(self, elevation: float) -> tuple[Shape, ...]:
+        """What hides things from an eye at an elevation in degrees: from below all but the ground."""
+        if elevation >= 0:
+            return self.solid
+        return tuple(shape for shape in self.solid if not (isinstance(shape, Faces) and shape.ground))

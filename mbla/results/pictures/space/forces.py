@@ -27,6 +27,8 @@ MOST_FACES = 60
 """interfaces up to which they are coloured themselves; of more the rods are, else there is nothing but faces to see"""
 LEAST = 0.01
 """share of the largest resultant below which no rod is drawn: a tenth of the thickness, and it hides what matters"""
+MOST_RODS = 400
+"""rods of the largest resultants; more are a thicket in which none is seen"""
 
 
 def forces_drawing(scene: Scene) -> Drawing:
@@ -81,7 +83,7 @@ def resultant_rods(scene: Scene, thrust: Thrust, plain: bool) -> Faces:
     plain : of one colour; else by the eccentricity of the force
     """
     sizes = np.linalg.norm(thrust.forces, axis=1)
-    rows = np.flatnonzero(thrust.carried & (sizes > LEAST * sizes.max()))
+    rows = drawn_resultants(thrust)
     half = 0.35 * _block_size(scene, rows)
     step = thrust.forces[rows] / sizes[rows, None] * half[:, None]
     usual = float(np.quantile(sizes[rows], USUAL))
@@ -106,10 +108,21 @@ def thrust_tubes(scene: Scene) -> Faces | None:
     return rods(starts, ends, radii, np.tile(rgb(THRUST), (len(starts), 1)))
 
 
+def drawn_resultants(thrust: Thrust) -> IntArray:
+    """Interfaces whose resultants are drawn, in their order: the largest ones above the least share."""
+    sizes = np.where(thrust.carried, np.linalg.norm(thrust.forces, axis=1), 0.0)
+    order = np.argsort(-sizes, kind="stable")[:MOST_RODS]
+    return np.sort(order[sizes[order] > LEAST * sizes.max()])
+
+
 def _sections(scene: Scene, thrust: Thrust) -> str:
     """What the thickness of rods means, and which are left out."""
     sizes = np.linalg.norm(thrust.forces, axis=1)
-    small = int((thrust.carried & (sizes <= LEAST * sizes.max())).sum())
-    left = f"; {counted(small, 'force')} below {100 * LEAST:g} % of it not drawn" if small else ""
+    rows = drawn_resultants(thrust)
+    small = int(thrust.carried.sum()) - len(rows)
+    left = ""
+    if small:
+        most = float(sizes[np.setdiff1d(np.flatnonzero(thrust.carried), rows)].max() / sizes.max())
+        left = f"; {counted(small, 'force')} up to {100 * most:.2g} % of it not drawn"
     largest = f"{number(float(sizes.max()))} {scene.model.units.force}"
     return f"section of rods in proportion to the force, largest {largest}{left}"

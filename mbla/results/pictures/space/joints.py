@@ -101,7 +101,10 @@ def joint_marks(
     if slides.any():
         faces.append(_both_faces(scene, slides, SLIDE, LIFT * reach))
         if told.planes:
-            marks += [_outlines(scene, np.concatenate(told.planes)), *slide_arrows(scene, joints, told, MARK * reach)]
+            marks += [
+                _outlines(scene, np.concatenate(told.planes)),
+                *slide_arrows(scene, widest.clusters, joints, told, MARK * reach),
+            ]
         legend.append(("sliding", SLIDE))
     if opens.any():
         faces.append(_both_faces(scene, opens, OPEN, LIFT * reach))
@@ -113,7 +116,7 @@ def _notes(failure: Failure, told: Told, thin: int) -> tuple[str, ...]:
     """Which marks stand out, where not all do."""
     planes = len(failure.sliding_planes) - len(told.planes)
     texts = [f"thin: {counted(thin, 'hinge')} within a part or of little motion"] * bool(thin)
-    texts += [f"no arrow: {counted(planes, 'plane')} on which little slides"] * bool(planes)
+    texts += [f"without arrows: {counted(planes, 'sliding plane')} of less motion"] * bool(planes)
     return ("; ".join(texts),) if texts else ()
 
 
@@ -146,7 +149,7 @@ def hinge_rods(scene: Scene, joints: InterfaceMotion, rows: IntArray, radii: Flo
 def hinge_threads(scene: Scene, joints: InterfaceMotion, rows: IntArray) -> Lines:
     """Thin lines along the axes of hinges."""
     first, last = hinge_ends(scene, joints, rows)
-    return Lines(np.vstack([first, last]), np.arange(2 * len(rows)).reshape(2, -1).T, HINGE, 1.6)
+    return Lines(np.vstack([first, last]), np.arange(2 * len(rows)).reshape(2, -1).T, HINGE, 1.1)
 
 
 def weights(sizes: FloatArray) -> FloatArray:
@@ -166,16 +169,19 @@ def moved_at_interface(scene: Scene, rows: IntArray, points: FloatArray) -> Floa
     return total
 
 
-def slide_arrows(scene: Scene, joints: InterfaceMotion, told: Told, radius: float) -> list[Faces]:
-    """Arrows along the travel of body b over body a in the middle of interfaces; about it where they twist.
+def slide_arrows(scene: Scene, clusters: IntArray, joints: InterfaceMotion, told: Told, radius: float) -> list[Faces]:
+    """Arrows along the travel of one part over the other in the middle of interfaces; about it where they twist.
+
+    It is that of the part which moves, of two that do the lighter one, as in the listing.
 
     A plane of many interfaces has ``MOST_ARROWS`` of them, spread over it.
     """
     contacts = scene.contacts
-    spin = np.einsum("ij,ij->i", joints.rotation, contacts.normals)
-    travel = (
-        joints.translation - np.einsum("ij,ij->i", joints.translation, contacts.normals)[:, None] * contacts.normals
-    )
+    a, b = np.append(clusters, np.zeros(len(scene.model.grounds), dtype=np.int64))[contacts.bodies].T
+    sign = np.where(b >= a, 1.0, -1.0)  # motions of joints are those of body b over body a
+    spin = sign * np.einsum("ij,ij->i", joints.rotation, contacts.normals)
+    across = np.einsum("ij,ij->i", joints.translation, contacts.normals)[:, None] * contacts.normals
+    travel = sign[:, None] * (joints.translation - across)
     length = np.linalg.norm(travel, axis=1)
     chosen = [
         plane[np.unique(np.linspace(0, len(plane) - 1, MOST_ARROWS).round().astype(int))] for plane in told.planes

@@ -11,13 +11,13 @@ from mbla.results.collapse.motion import drawn_motion
 from mbla.results.pictures.options import PictureOptions, format_of
 from mbla.results.pictures.page import open_page
 from mbla.results.pictures.scene import Scene
-from mbla.results.pictures.space.camera import fitted
 from mbla.results.pictures.space.drawing import Drawing
 from mbla.results.pictures.space.forces import forces_drawing
 from mbla.results.pictures.space.mechanism import mechanism_drawing
 from mbla.results.pictures.space.model import model_drawing
+from mbla.results.pictures.space.panels import focus_of, panels_of
 from mbla.results.pictures.space.renderer import Renderer
-from mbla.results.pictures.space.sheet import add_image, fill_sheet
+from mbla.results.pictures.space.sheet import add_images, fill_sheet
 from mbla.results.pictures.space.views import best_view
 from mbla.results.results import CaseResult
 
@@ -51,16 +51,18 @@ def draw_in_space(path: Path, scene: Scene, kind: str, options: PictureOptions) 
         The file cannot be written.
     """
     width, height = replace(options, dpi=options.dpi * SHARPNESS[format_of(path)]).pixels
-    drawing = DRAWINGS[kind](scene)
+    focus = focus_of(scene) if kind == "mechanism" and options.zoom else None
     view = options.view or view_of_case(scene)
     with open_page(path, options) as page:
+        drawing = DRAWINGS[kind](scene)
         bottom, top = fill_sheet(page, scene, kind, drawing)
-        camera = fitted(
-            drawing.extent, *view, width / height, frame_between(bottom + SCALE * (drawing.scale is not None), top)
-        )
-        with Renderer(drawing.solid, drawing.marks) as renderer:
-            image = renderer.image(camera, width, height, drawing.shine)
-        add_image(page, image, camera, scene, drawing, bottom)
+        room = frame_between(bottom + SCALE * (drawing.scale is not None), top)
+        panels = panels_of(drawing.extent, focus, view, width / height, room)
+        if len(panels) > 1:
+            drawing = mechanism_drawing(scene, seen=focus)
+        with Renderer(drawing.solid_from(view[1]), drawing.marks) as renderer:
+            images = [renderer.image(each.camera, round(each.share * width), height, drawing.shine) for each in panels]
+        add_images(page, images, panels, scene, drawing, (bottom, top))
 
 
 def frame_between(bottom: float, top: float) -> tuple[tuple[float, float], tuple[float, float]]:

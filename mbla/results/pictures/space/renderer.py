@@ -107,6 +107,7 @@ class Renderer:
         plotter.enable_parallel_projection()
         plotter.camera.parallel_scale = camera.height / 2
         plotter.renderer.ResetCameraClippingRange()
+        plotter.render()  # a screenshot alone may be of the camera before
         pixels = plotter.screenshot(None, return_img=True)
         return np.asarray(pixels, dtype=np.float32) / 255
 

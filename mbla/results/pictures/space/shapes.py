@@ -23,6 +23,7 @@ class Faces:
     colours : (n_faces, 3) red, green and blue from 0 to 1
     opacity : 1 hides what is behind
     lit     : shaded by the light, as solids are; marks that mean something by their colour are not
+    ground  : left out where the eye is below it, as it would hide the rest
     """
 
     points: FloatArray
@@ -31,6 +32,7 @@ class Faces:
     colours: FloatArray
     opacity: float = 1.0
     lit: bool = True
+    ground: bool = False
 
 
 @dataclass(frozen=True)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -12,7 +13,10 @@ from mbla.results.pictures.palette import GHOST, INK
 from mbla.results.pictures.scene import Scene
 from mbla.results.pictures.space.camera import Camera
 from mbla.results.pictures.space.drawing import ColourScale, Drawing
+from mbla.results.pictures.space.panels import Panel
 from mbla.results.words.text import number
+
+Room = tuple[float, float]
 
 ROOM = 0.7
 """share of the width that the legend may take beside axes and scale bar"""
@@ -24,17 +28,40 @@ def fill_sheet(page: Page, scene: Scene, kind: str, drawing: Drawing) -> tuple[f
     return _add_legend(page, drawing), 1 - used
 
 
-def add_image(page: Page, image: Any, camera: Camera, scene: Scene, drawing: Drawing, bottom: float) -> Any:
-    """The image behind the words, with axes, scale bar and colours; the artist of the image."""
-    axes = page.figure.add_axes((0.0, 0.0, 1.0, 1.0), zorder=-1)
-    artist = axes.imshow(image, aspect="auto", interpolation="none", extent=(0.0, 1.0, 0.0, 1.0))
-    axes.set(xlim=(0, 1), ylim=(0, 1))
-    axes.set_axis_off()
-    _add_triad(axes, camera, page.letter)
-    _add_scale_bar(axes, camera, scene.model.units.length, page.letter)
+def add_images(
+    page: Page, images: Sequence[Any], panels: Sequence[Panel], scene: Scene, drawing: Drawing, room: Room
+) -> list[Any]:
+    """The images of panels behind the words, with axes, scale bars and colours; their artists.
+
+    room : where the room for the structure ends below and above, as shares of the height
+    """
+    artists = []
+    for panel, image in zip(panels, images, strict=True):
+        axes = page.figure.add_axes((panel.across[0], 0.0, panel.share, 1.0), zorder=-1)
+        artists.append(axes.imshow(image, aspect="auto", interpolation="none", extent=(0.0, 1.0, 0.0, 1.0)))
+        axes.set(xlim=(0, 1), ylim=(0, 1))
+        axes.set_axis_off()
+        unit = scene.model.units.length
+        if panel.gain == 1.0:
+            _add_triad(axes, panel.camera, page.letter)
+            _add_scale_bar(axes, panel.camera, unit, page.letter, (0.22 / panel.camera.aspect, 0.045))
+        else:
+            artists[-1].set_clip_path(_frame(page, axes, (0.005, room[0], 0.985, room[1] - room[0])))
+            _add_scale_bar(axes, panel.camera, unit, page.letter, (0.03, room[1] - 0.05))
+            style = {"fontsize": 0.85 * page.letter, "color": INK, "ha": "right", "va": "top"}
+            axes.text(0.975, room[1] - 0.015, f"what moves, enlarged {panel.gain:.1f} times", **style)
+        if panel.inside is not None:
+            _frame(page, axes, panel.inside)
     if drawing.scale is not None:
-        _add_colours(page, drawing.scale, bottom)
-    return artist
+        _add_colours(page, drawing.scale, room[0])
+    return artists
+
+
+def _frame(page: Page, axes: Any, box: tuple[float, float, float, float]) -> Any:
+    """Around what is enlarged, left, bottom, width and height."""
+    left, bottom, width, height = box
+    style = {"fill": False, "edgecolor": GHOST, "linewidth": 0.12 * page.letter}
+    return axes.add_patch(page.parts.Rectangle((left, bottom), width, height, **style))
 
 
 def _add_triad(axes: Any, camera: Camera, size: float) -> None:
@@ -58,11 +85,11 @@ def round_length(most: float) -> float:
     return max(step * power for step in (1.0, 2.0, 5.0) if step * power <= most * (1 + 1e-12))
 
 
-def _add_scale_bar(axes: Any, camera: Camera, unit: str, size: float) -> None:
+def _add_scale_bar(axes: Any, camera: Camera, unit: str, size: float, corner: tuple[float, float]) -> None:
     """A length across the line of sight; parallel projection shows it the same everywhere."""
     width = camera.height * camera.aspect
     length = round_length(0.12 * width)
-    left, bottom = 0.22 / camera.aspect, 0.045
+    left, bottom = corner
     right = left + length / width
     axes.plot([left, left, right, right], [bottom + 0.008, bottom, bottom, bottom + 0.008], color=INK, lw=0.12 * size)
     axes.text(

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
@@ -53,7 +55,7 @@ def grounds(scene: Scene) -> tuple[Faces | Lines, ...]:
     faces = [painted(corners, 4 * np.arange(7), SLAB_FACES.ravel(), SLAB) for corners in scene.slabs]
     pairs = np.unique(np.sort(np.stack([SLAB_FACES, np.roll(SLAB_FACES, -1, axis=1)], axis=2).reshape(-1, 2)), axis=0)
     every = np.vstack([pairs + 8 * row for row in range(len(scene.slabs))])
-    return together(faces), Lines(np.vstack(scene.slabs), every, GHOST, 1.0)
+    return replace(together(faces), ground=True), Lines(np.vstack(scene.slabs), every, GHOST, 1.0)
 
 
 def interface_faces(

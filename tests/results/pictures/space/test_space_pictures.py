@@ -7,10 +7,11 @@ from typing import Any
 import numpy as np
 import pytest
 
+from mbla.results.collapse.force_freedom import ForceFreedom
 from mbla.results.pictures.options import PictureOptions
-from mbla.results.pictures.palette import FIXED_BLOCK, HINGE, OPEN, WARNING, group_colours
+from mbla.results.pictures.palette import FIXED_BLOCK, HINGE, OPEN, SLIDE, WARNING, group_colours
 from mbla.results.pictures.scene import Scene, scene_of
-from mbla.results.pictures.space import can_draw
+from mbla.results.pictures.space import can_draw, forces
 from mbla.results.pictures.space.camera import fitted
 from mbla.results.pictures.space.forces import forces_drawing, ramp, resultant_rods
 from mbla.results.pictures.space.joints import joint_marks
@@ -23,6 +24,7 @@ from mbla.results.pictures.space.sheet import round_length
 from mbla.results.pictures.tints import tint_of_part
 from mbla.results.results import Results
 from mbla.solution.solution import Status
+from tests.line import BLOCK, case_of, line_of
 from tests.results.synthetic import tower_results
 
 needs_opengl = pytest.mark.skipif(not can_draw(), reason="this machine has no OpenGL")
@@ -73,6 +75,16 @@ def test_marks_in_front_are_what_they_are() -> None:
         camera = fitted(np.array([[0.0, -1, -1], [1.0, 1, 1]]), 0.0, 0.0, 1.0)
         image = renderer.image(camera, 60, 60, 0.3)
     assert image[30, 30] == pytest.approx([1.0, 0.0, 0.0], abs=0.01)
+
+
+@needs_opengl
+def test_each_image_is_of_its_own_camera() -> None:
+    """The second is taken along the square, which is a line from there."""
+    with Renderer([square(0.0, 1.0, "#0000FF")], ()) as renderer:
+        extent = np.array([[-1.0, -1, -1], [1.0, 1, 1]])
+        seen = [near(renderer.image(fitted(extent, azimuth, 0.0, 1.0), 60, 60, 0.0), [0, 0, 1]) for azimuth in (0, 90)]
+    assert seen[0] > 800
+    assert seen[1] < 150
 
 
 def test_the_rod_of_a_hinge_lies_on_its_axis(results: Results) -> None:
@@ -129,17 +141,98 @@ def test_joints_of_the_listing_stand_out_the_others_are_thin(results: Results) -
     assert notes == ("thin: 1 hinge within a part or of little motion",)
 
 
+@pytest.mark.parametrize("push", [1, -1])
+def test_the_arrow_of_a_block_that_slides_points_where_it_goes(results: Results, push: int) -> None:
+    """The head, which is thicker than the shaft, is at the front; the ground is the second body of the interface."""
+    text = BLOCK.replace("acceleration: [1,", f"acceleration: [{push},").replace("associative", "non_associative")
+    model, case = case_of(text, "parameters.mu=0.2")
+    sliding = replace(results, model=model, contacts=line_of(text).contacts, cases=(case,))
+    shown = scene(sliding, "mechanism")
+    _, marks, legend, _ = joint_marks(shown, shown, shown.moved)
+    assert legend == [("sliding", SLIDE)]
+    (arrow,) = (mark for mark in marks if isinstance(mark, Faces))
+    middle = np.ptp(arrow.points[:, 0]) / 2 + arrow.points[:, 0].min()
+    reach = np.abs(arrow.points[:, 1] - arrow.points[:, 1].mean())
+    widest = arrow.points[reach > 0.9 * reach.max(), 0]
+    assert (push * (widest - middle) > 0).all()
+
+
+def test_only_the_largest_resultants_are_drawn_and_the_rest_is_told(
+    results: Results, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The tower has two; one is let through."""
+    monkeypatch.setattr(forces, "MOST_RODS", 1)
+    at_rest = scene(results, "forces")
+    assert at_rest.thrust is not None
+    sizes = np.linalg.norm(at_rest.thrust.forces, axis=1)
+    assert forces.drawn_resultants(at_rest.thrust).tolist() == [int(np.argmax(sizes))]
+    share = 100 * sizes.min() / sizes.max()
+    assert f"1 force up to {share:.2g} % of it not drawn" in forces.forces_drawing(at_rest).notes[0]
+
+
+def test_forces_that_are_not_unique_are_said_to_be_one_state(results: Results) -> None:
+    at_rest = scene(results, "forces")
+    for degree, told in ((0, False), (3, True)):
+        vars(at_rest)["force_freedom"] = ForceFreedom(degree, np.array([True, False]))
+        notes = " ".join(forces.forces_drawing(at_rest).notes)
+        assert ("one possible state" in notes) is told
+    assert "up to 3 ways; 1 of 2 resultants are unique" in notes
+
+
+def test_words_of_loads_are_told_in_full(results: Results) -> None:
+    """Two forces of a couple, both with their places; what applies twice is told once."""
+    case = results.cases[0]
+    words = (
+        "force (0, 9810, 0) N on block[0] at (1, 0.5, 0.25) m",
+        "force (0, -9810, 0) N on block[0] at (0, 0.5, 0.25) m",
+    )
+    changed = replace(case, load_case=replace(case.load_case, live_words=(*words, words[1])))
+    legend = dict(mechanism_drawing(scene(replace(results, cases=(changed,)), "mechanism")).legend)
+    (name,) = (name.replace("\n", " ") for name in legend if name.startswith("live load"))
+    assert name == f"live load: {words[0]}; 2 times {words[1]}"
+
+
+@needs_opengl
+def test_the_view_of_a_case_is_found_once(results: Results, monkeypatch: pytest.MonkeyPatch) -> None:
+    found: list[Scene] = []
+
+    def counted_view(asked: Scene) -> tuple[float, float]:
+        found.append(asked)
+        return 1.0, 2.0
+
+    monkeypatch.setattr("mbla.results.pictures.space.picture.best_view", counted_view)
+    case = replace(results.cases[0])
+    of_its_own = replace(results, cases=(case,))
+    views = [view_of_case(scene(of_its_own, kind)) for kind in ("model", "mechanism", "forces")]
+    assert views == 3 * [(1.0, 2.0)]
+    assert len(found) == 1
+    view_of_case(scene(replace(results, cases=(replace(case),)), "model"))
+    assert len(found) == 2
+
+
+def test_the_ground_does_not_hide_the_structure_from_below(results: Results) -> None:
+    """Its outline stays."""
+    model, case = case_of(BLOCK)
+    on_ground = replace(results, model=model, contacts=line_of(BLOCK).contacts, cases=(case,))
+    drawing = model_drawing(scene(on_ground, "model"))
+    above, below = drawing.solid_from(25.0), drawing.solid_from(-30.0)
+    assert above == drawing.solid
+    assert len(below) == len(above) - 1
+    assert [shape.ground for shape in below if isinstance(shape, Faces)] == [False]
+
+
 def test_sections_of_rods_are_in_proportion_to_forces(results: Results) -> None:
-    forces = scene(results, "forces")
-    assert forces.thrust is not None
-    rods = resultant_rods(forces, forces.thrust, plain=True)
-    sizes = np.linalg.norm(forces.thrust.forces, axis=1)
+    at_rest = scene(results, "forces")
+    thrust = at_rest.thrust
+    assert thrust is not None
+    rods = resultant_rods(at_rest, thrust, plain=True)
+    sizes = np.linalg.norm(thrust.forces, axis=1)
     per_rod = len(rods.points) // 2
     radii = []
     for row in range(2):
         points = rods.points[row * per_rod : (row + 1) * per_rod]
-        unit = forces.thrust.forces[row] / sizes[row]
-        arms = points - forces.thrust.points[row]
+        unit = thrust.forces[row] / sizes[row]
+        arms = points - thrust.points[row]
         radii.append(float(np.linalg.norm(arms - (arms @ unit)[:, None] * unit, axis=1).max()))
     assert radii[0] ** 2 / radii[1] ** 2 == pytest.approx(sizes[0] / sizes[1], rel=1e-9)
 

@@ -1,0 +1,50 @@
+"""A single file beside results, such as a picture or a report: there as a whole, or the earlier one still is.
+
+It is written under a temporary name of :mod:`mbla.results.files` in the same folder, and renamed into place. What kills
+leave behind, the next run in that folder clears away.
+"""
+
+from __future__ import annotations
+
+import contextlib
+from collections.abc import Iterator
+from pathlib import Path
+
+from mbla.errors import FileError
+from mbla.results.files import file_errors, missing_folders, temporary_path
+
+
+@contextlib.contextmanager
+def writing_whole(path: Path) -> Iterator[Path]:
+    """Where to write what is to be at ``path``: in place when the block ends, gone if it fails or is interrupted.
+
+    Missing folders are made, and removed again if the block fails. An earlier file is replaced. The temporary path has
+    the suffix of ``path``.
+
+    Raises
+    ------
+    FileError
+        The folder cannot be made, the path is a folder, or the file cannot be written; the message names ``path``.
+    """
+    if path.is_dir():
+        raise FileError(f"{path}: is a folder")
+    temporary, created = temporary_path(path), missing_folders(path.parent)
+    try:
+        with file_errors(path.parent):
+            path.parent.mkdir(parents=True, exist_ok=True)
+        with file_errors(path):
+            yield temporary
+            temporary.replace(path)
+    except BaseException:
+        with contextlib.suppress(OSError):
+            temporary.unlink(missing_ok=True)
+        for folder in created:
+            with contextlib.suppress(OSError):
+                folder.rmdir()
+        raise
+
+
+def write_whole(path: Path, data: bytes) -> None:
+    """Write one file; raises as ``writing_whole`` does."""
+    with writing_whole(path) as temporary:
+        temporary.write_bytes(data)

@@ -1,0 +1,30 @@
+"""What a run is asked for beside its deck; imports nothing, so that the command line can read a deck first."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+
+@dataclass(frozen=True)
+class RunOptions:
+    """What the command line adds to a deck.
+
+    folder    : for the results; the deck's name with .out beside it if None
+    overrides : key.path=value texts
+    cases     : names of the load cases to solve; all if empty
+    force     : replace an earlier result
+    threads   : of the cone solver
+    expected  : compare with the deck's ``expected`` section
+    """
+
+    folder: Path | None = None
+    overrides: tuple[str, ...] = ()
+    cases: tuple[str, ...] = ()
+    force: bool = False
+    threads: int = 1
+    expected: bool = False
+
+    def folder_for(self, deck_path: Path) -> Path:
+        """Where the results of a deck go."""
+        return deck_path.with_suffix(".out") if self.folder is None else self.folder
