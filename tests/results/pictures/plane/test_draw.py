@@ -180,3 +180,16 @@ def test_forces_of_a_support_that_gives_way_are_not_those_of_a_live_load() -> No
     assert drawing.forces[1] == "contact forces under dead load as the support gives way"
     assert settled.settlement is not None
     assert not drawing.dead_load[settled.settlement.blocks].any()
+
+
+def test_what_crushes_is_no_opening(tmp_path: Path) -> None:
+    """The tower sinks straight into its base: nothing opens, and the overlap is told."""
+    results = tower_results()
+    mechanism = np.zeros((3, 6))
+    mechanism[1, 2] = -1.0
+    found = replace(mechanics_of(results), mechanism=mechanism)
+    case = replace(results.cases[0], solution=replace(results.cases[0].solution, mechanics=found))
+    texts, _ = drawn(tmp_path, "mechanism", results, case)
+    assert "crushing" in texts
+    whole, _ = drawn(tmp_path, "mechanism")
+    assert "crushing" not in whole
