@@ -15,6 +15,8 @@ from mbla.results.pictures.scene import Scene
 
 LONGEST, SHORTEST = 0.12, 0.03
 """of arrows, over the size of the structure"""
+LONGEST_OF_MANY, MANY = 0.04, 24
+"""the same of more forces than that, which would cover the structure and each other"""
 FEW = 4
 """forces up to which arrows are thick"""
 COLUMNS = 90
@@ -47,7 +49,8 @@ def _draw_forces(sheet: Sheet, flat: Flat, scene: Scene, marks: LoadMarks, colou
     largest = float(sizes.max())
     if largest == 0:
         return False
-    length = np.maximum(LONGEST * sizes / largest, SHORTEST * (sizes > 0)) * sheet.size
+    longest = LONGEST if len(tips) <= MANY else LONGEST_OF_MANY
+    length = np.maximum(longest * sizes / largest, min(SHORTEST, longest / 2) * (sizes > 0)) * sheet.size
     width = 3.0 if len(tips) <= FEW else 1.4
     unit = steps / np.where(sizes > 0, sizes, 1.0)
     sheet.arrows(flat.project(tips), length * unit, width, colour, 7, thin=len(tips) > FEW)
