@@ -65,6 +65,26 @@ def test_model_of_one_case_shows_its_load_alone(tmp_path: Path) -> None:
     assert CASES[1].lower() not in svg.lower()
 
 
+def test_loads_across_the_page_say_which_way(tmp_path: Path) -> None:
+    """Seen against y; forces that cancel push nowhere and have no place of their own."""
+    marks = {}
+    for pushes, told in (
+        ((1, 1), "away from the viewer"),
+        ((-1, -1), "towards the viewer"),
+        ((1, -1), "across the page"),
+    ):
+        results = tower_results()
+        live = np.zeros((3, 6))
+        live[1:, 1] = pushes
+        case = replace(results.model.load_cases[0], live_load=live, live_words=("push",))
+        model = replace(results.model, load_cases=(case,))
+        results = replace(results, model=model, cases=(replace(results.cases[0], load_case=case),))
+        texts, svg = drawn(tmp_path, "model", results)
+        assert f"live load push_x: push ({told})" in texts or f"live load: push ({told})" in texts
+        marks[told] = svg.lower().count(CASES[0].lower())
+    assert marks["towards the viewer"] == marks["away from the viewer"] > marks["across the page"]
+
+
 def test_mechanism_marks_the_hinge_and_what_opens(tmp_path: Path) -> None:
     texts, svg = drawn(tmp_path, "mechanism")
     assert {"hinge", "opening", "part 1", "before it moves"} <= set(texts)
