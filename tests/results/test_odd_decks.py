@@ -19,6 +19,7 @@ from mbla.results.notebook.html import _table
 from mbla.results.outcome import result_of
 from mbla.results.pictures.options import KINDS, PictureOptions
 from mbla.results.pictures.plot import plot_results
+from mbla.results.pictures.scene import scene_of
 from mbla.results.records.json_record import json_line, results_json
 from mbla.results.report.report import report_html
 from mbla.results.tables.csv_file import table_csv
@@ -54,7 +55,11 @@ def check_words(text: str) -> None:
     assert found is None, text[max(0, found.start() - 80) : found.end() + 40]
 
 
-@pytest.mark.parametrize("name", DECKS)
+SLOW = ("crushing", "path", "frictionless", "settlement", "travel_not_verified", "far", "km", "mm")
+"""solved by many programs, or like others"""
+
+
+@pytest.mark.parametrize("name", [pytest.param(each, marks=[pytest.mark.long] * (each in SLOW)) for each in DECKS])
 def test_words_and_records(name: str) -> None:
     """Listing, summary, table of a notebook, JSON, tables, comparison with itself and verification."""
     run = run_of(name)
@@ -92,6 +97,14 @@ def test_blocks_that_only_guides_hold(rule: str, asked: str) -> None:
 def test_a_structure_without_dead_load() -> None:
     """No weight, no friction: any push moves it. Steps without a scale of forces would overflow."""
     assert run_of("weightless_unloaded").load_factor == pytest.approx(0, abs=1e-9)
+
+
+@pytest.mark.parametrize(("name", "count"), [("hangs", 1), ("one_block", 0)])
+def test_a_picture_of_forces_says_what_it_leaves_out(name: str, count: int) -> None:
+    """A joint in tension has no point of application, so that its force is not drawn among the others."""
+    records = run_of(name).records
+    words = scene_of(records, records.cases[0], PictureOptions(), "forces").words_of("forces")[-1]
+    assert ("not drawn: 1 joint in tension" in words) == (count == 1)
 
 
 @pytest.mark.long
