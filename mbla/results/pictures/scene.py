@@ -178,7 +178,7 @@ class Scene:
             return [title, f"{counted(len(model.blocks), 'block')}, {free} free; {weight}"]
         lines = [title, f"load case {case.load_case.name}: {verdict(model, case)}"]
         if kind == "forces":
-            lines.append(self.forces[1] + self._freedom_words())
+            lines.append(self.forces[1] + self._unpressed_words() + self._freedom_words())
         elif self.collapse is not None:
             lines.append(mechanism_summary(model, self.collapse) + self._merged_words())
         elif case.solution.certificate is not None:
@@ -192,6 +192,11 @@ class Scene:
         if self.failure is None or not self.failure.merged:
             return ""
         return f", drawn as {len(self.failure.motions)}"
+
+    def _unpressed_words(self) -> str:
+        """How many forces have no point of application in their joint, and so are not in the picture."""
+        count = 0 if self.thrust is None else int(self.thrust.unpressed.sum())
+        return f"; not drawn: {counted(count, 'joint')} in tension or shear without compression" if count else ""
 
     def _freedom_words(self) -> str:
         """Whether forces other than these would do; nothing of forces that are no result."""
