@@ -10,7 +10,7 @@ from mbla.model.model import Model
 from mbla.results.collapse.collapse import collapse_of
 from mbla.results.collapse.enough import enough_of
 from mbla.results.collapse.failure import failure_of
-from mbla.results.collapse.force_freedom import force_freedom
+from mbla.results.collapse.force_freedom import force_freedom, why_undetermined
 from mbla.results.outcome import result_of
 from mbla.results.results import CaseResult
 from mbla.results.words.certificate_words import fall_lines, fall_sentences
@@ -61,7 +61,9 @@ def case_sections(model: Model, contacts: Contacts, case: CaseResult) -> list[Se
         work += work_lines(model, contacts, load_case, mechanics, collapse.work)
         reactions = reaction_lines(held, contacts, load_case, mechanics)  # a support is one even as it gives way
         reactions += group_reaction_lines(held, contacts, mechanics)
-        reactions += freedom_lines(contacts, case, force_freedom(model, contacts, mechanics, dimension))
+        freedom = force_freedom(model, contacts, mechanics, dimension)
+        why = "" if freedom is not None else why_undetermined(model, contacts, mechanics, dimension)
+        reactions += freedom_lines(contacts, case, freedom, why)
         sections = [
             Section("Verdict", _verdict_lines(model, case, mechanism_summary(model, collapse, failure), told)),
             Section("Mechanism", spaced(mechanism_lines(model, contacts, failure))),
