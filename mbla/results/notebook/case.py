@@ -9,6 +9,7 @@ from pathlib import Path
 from mbla.arrays import FloatArray, IntArray
 from mbla.model.model import Model
 from mbla.results.collapse.collapse import Collapse, collapse_of
+from mbla.results.collapse.failure import failure_of
 from mbla.results.collapse.thrust import Thrust, thrust_of
 from mbla.results.notebook.picture import Picture, case_picture
 from mbla.results.notebook.view import View
@@ -150,8 +151,11 @@ class Case:
     @property
     def summary(self) -> str:
         """Verdict, and how it collapses: hinges, sliding, parts."""
-        collapse = self.collapse
-        how = "" if collapse is None else f": {mechanism_summary(self.model, collapse)}"
+        found, collapse = result_of(self.record), self.collapse
+        how = ""
+        if found is not None and collapse is not None:
+            failure = failure_of(self.model, self.results.contacts, collapse, found)
+            how = f": {mechanism_summary(self.model, collapse, failure)}"
         return f"{self.name}: {self.verdict}{how}"
 
     def picture(self, path: str | Path | None = None, *, kind: str = "mechanism", format: str | None = None) -> Picture:

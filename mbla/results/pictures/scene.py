@@ -179,19 +179,13 @@ class Scene:
         lines = [title, f"load case {case.load_case.name}: {verdict(model, case)}"]
         if kind == "forces":
             lines.append(self.forces[1] + self._unpressed_words() + self._freedom_words())
-        elif self.collapse is not None:
-            lines.append(mechanism_summary(model, self.collapse) + self._merged_words())
+        elif self.collapse is not None and self.failure is not None:
+            lines.append(mechanism_summary(model, self.collapse, self.failure))
         elif case.solution.certificate is not None:
             lines.append("drawn: the motion in which the dead load does more work than the joints take")
         else:
             lines.append("drawn at rest: there is no mechanism")
         return lines
-
-    def _merged_words(self) -> str:
-        """That more rigid parts are drawn as one, as the listing tells them."""
-        if self.failure is None or not self.failure.merged:
-            return ""
-        return f", drawn as {len(self.failure.motions)}"
 
     def _unpressed_words(self) -> str:
         """How many forces have no point of application in their joint, and so are not in the picture."""
