@@ -174,9 +174,9 @@ def test_forces_that_are_not_unique_are_said_to_be_one_state(results: Results) -
     at_rest = scene(results, "forces")
     for degree, told in ((0, False), (3, True)):
         vars(at_rest)["force_freedom"] = ForceFreedom(degree, np.array([True, False]))
-        notes = " ".join(forces.forces_drawing(at_rest).notes)
-        assert ("one possible state" in notes) is told
-    assert "up to 3 ways; 1 of 2 resultants are unique" in notes
+        words = " ".join(at_rest.words_of("forces"))
+        assert ("one possible state" in words) is told
+    assert "up to 3 ways, 1 of 2 resultants are unique" in words
 
 
 def test_words_of_loads_are_told_in_full(results: Results) -> None:
