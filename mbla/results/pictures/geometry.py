@@ -8,10 +8,7 @@ from mbla.arrays import BoolArray, FloatArray, IntArray, row_of_item
 from mbla.contacts.contacts import Contacts
 from mbla.model.blocks import Blocks
 from mbla.model.model import LoadCase, Model
-from mbla.results.collapse.motion import vertex_displacements
 
-STONE, MOVED, FIXED = (0.93, 0.90, 0.83), (0.10, 0.37, 0.61), (0.62, 0.62, 0.62)
-"""red, green and blue of blocks at rest, of the block that moves most, of fixed blocks"""
 THIN = 0.35
 """extent over the next larger one below which a structure is seen from the front"""
 
@@ -32,26 +29,9 @@ def edges_of_blocks(blocks: Blocks, edges: IntArray, chosen: BoolArray) -> IntAr
     return edges[chosen[blocks.block_of_vertex[edges[:, 0]]]]
 
 
-def as_vtk_rows(start: IntArray, items: IntArray) -> IntArray:
-    """Ragged rows in the form that VTK wants: each row preceded by its length."""
-    counts = np.diff(start)
-    return np.insert(items, start[:-1], counts)
-
-
 def box_of(points: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Least and greatest coordinates, (3,) each."""
     return points.min(axis=0), points.max(axis=0)
-
-
-def block_colours(model: Model, motion: FloatArray) -> FloatArray:
-    """Colour of each block, (n_blocks, 3): stone at rest, bluer the farther it moves, grey if fixed."""
-    blocks = model.blocks
-    distance = np.zeros(len(blocks))
-    np.maximum.at(distance, blocks.block_of_vertex, np.linalg.norm(vertex_displacements(blocks, motion), axis=1))
-    share = np.sqrt(distance / (distance.max(initial=0.0) or 1.0))[:, None]
-    colours = (1 - share) * np.array(STONE) + share * np.array(MOVED)
-    colours[model.fixed] = FIXED
-    return np.asarray(colours)
 
 
 def ground_slab(model: Model, contacts: Contacts, ground: int, size: float) -> FloatArray | None:

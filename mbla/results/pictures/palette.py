@@ -5,7 +5,7 @@ Colours never stand alone: hinges are dots, sliding is an arrow pair or a thick 
 
 from __future__ import annotations
 
-ORANGE, SKY, GREEN, YELLOW = "#E69F00", "#56B4E9", "#009E73", "#F0E442"
+ORANGE, SKY, GREEN = "#E69F00", "#56B4E9", "#009E73"
 BLUE, VERMILION, PURPLE, BLACK = "#0072B2", "#D55E00", "#CC79A7", "#000000"
 
 INK = "#222222"

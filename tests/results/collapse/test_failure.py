@@ -191,3 +191,50 @@ def test_two_lines_of_one_axis_between_different_parts_stay_two() -> None:
     assert [line.clusters for line in failure.hinge_lines] == [(1, 0), (2, 0)]
     assert [line.share for line in failure.hinge_lines] == pytest.approx([1.0, 0.5])
     assert [line.rotation for line in failure.hinge_lines] == pytest.approx([1.0, 0.5])
+
+
+@pytest.mark.parametrize(("edge", "lines"), [(1.0, 1), (1.01, 1), (1.2, 2)])
+def test_hinges_of_two_clusters_are_one_line_only_where_their_axes_are_one(edge: float, lines: int) -> None:
+    """A slab with two feet that tilts over the edges of both; the second foot ends farther out by a share of it."""
+    model = replace(
+        tower_model(),
+        blocks=cuboids([[0, 0, 0], [0, 0, 1]], [[2, 5, 1], [1, 5, 2]], ["base", "slab"]),
+        fixed=np.array([True, False]),
+        grounds=(),
+    )
+    contacts = horizontal_contacts([[0, 1], [0, 1]], [(0, 1, 0, 1, 1), (0, edge, 3, 4, 1)])
+    motion = np.zeros((2, 6))
+    motion[1] = [*np.cross([0, 1, 0], model.blocks.centroids[1] - [1, 0, 1]), 0, 1, 0]
+    velocities = contact_velocities(model, contacts, motion)
+    outer = contacts.points[:, 0] >= 1.0  # the feet give at their edges as one joint law has it
+    modes = np.where(outer, ContactMode.STICK, ContactMode.OPEN)
+    collapse = collapse_of(
+        model, contacts, model.load_cases[0], Mechanics(1.0, np.ones((8, 3)), velocities, motion, modes)
+    )
+    moved = replace(
+        collapse.interfaces,
+        hinge_points=np.array([[1, 0.5, 1], [edge, 3.5, 1]]),
+        hinge_ends=np.array([[[1, 0, 1], [1, 1, 1]], [[edge, 3, 1], [edge, 4, 1]]]),
+    )
+    mechanics = Mechanics(1.0, np.ones((8, 3)), velocities, motion, modes)
+    failure = failure_of(model, contacts, replace(collapse, interfaces=moved), mechanics)
+    assert len(failure.hinge_lines) == lines
+    assert failure.hinge_lines[0].length == pytest.approx(4.0 if lines == 1 else 1.0, rel=1e-3)
+    assert failure.hinge_lines[0].direction == pytest.approx([0, 1, 0])  # of the slab against the base
+
+
+@pytest.mark.parametrize(("degrees", "lines"), [(1.0, 1), (4.0, 2)])
+def test_hinges_askew_to_each_other_are_two_lines(degrees: float, lines: int) -> None:
+    model, contacts = tower_model(), horizontal_contacts([[0, 1], [0, 1]], [(0, 1, 0, 0.4, 1), (0, 1, 0.6, 1, 1)])
+    motion = np.zeros((3, 6))
+    motion[1] = [*np.cross([0, 1, 0], model.blocks.centroids[1] - [1, 0, 1]), 0, 1, 0]
+    velocities = contact_velocities(model, contacts, motion)
+    modes = np.where(velocities[:, 0] > 1e-9, ContactMode.OPEN, ContactMode.STICK)
+    mechanics = Mechanics(1.0, np.ones((8, 3)), velocities, motion, modes)
+    collapse = collapse_of(model, contacts, model.load_cases[0], mechanics)
+    directions = collapse.interfaces.hinge_directions.copy()
+    directions[1] = [np.sin(np.radians(degrees)), np.cos(np.radians(degrees)), 0]
+    points = np.tile([1.0, 0.5, 1.0], (2, 1))  # both through one point
+    turned = replace(collapse.interfaces, hinge_directions=directions, hinge_points=points)
+    failure = failure_of(model, contacts, replace(collapse, interfaces=turned), mechanics)
+    assert len(failure.hinge_lines) == lines

@@ -3,11 +3,6 @@ import pytest
 
 from mbla.model.model import Model
 from mbla.results.pictures.geometry import (
-    FIXED,
-    MOVED,
-    STONE,
-    as_vtk_rows,
-    block_colours,
     block_edges,
     edges_of_blocks,
     front_axis,
@@ -17,7 +12,7 @@ from mbla.results.pictures.geometry import (
     live_load_arrow,
 )
 from tests.results.shapes import BRICK, TETRA, WEDGE, blocks_of
-from tests.results.synthetic import tower_contacts, tower_mechanics, tower_model
+from tests.results.synthetic import tower_contacts, tower_model
 
 
 @pytest.fixture(scope="module")
@@ -42,15 +37,6 @@ def test_diagonals_inside_a_plane_are_not_drawn() -> None:
     facets = np.array([int(np.flatnonzero(row)[0]) for row in low])
     object.__setattr__(blocks, "facet_of_face", facets)
     assert len(block_edges(blocks)) == 12
-
-
-def test_rows_for_vtk() -> None:
-    assert as_vtk_rows(np.array([0, 3, 5]), np.array([7, 8, 9, 1, 2])).tolist() == [3, 7, 8, 9, 2, 1, 2]
-
-
-def test_colours(model: Model) -> None:
-    colours = block_colours(model, tower_mechanics().mechanism)
-    assert colours == pytest.approx(np.array([FIXED, MOVED, STONE]))
 
 
 def test_slab_lies_behind_the_ground(model: Model) -> None:

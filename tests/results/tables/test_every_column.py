@@ -43,7 +43,10 @@ blocks:
       {group: wall, material: stone, unit: [0.4, 0.2, 0.2], length: 1.2, courses: 3,
        transform: {rotate: {axis: [0, 0, 1], angle: 25}}}
 supports: [{ground: {z: 0}}]
-load_cases: {across: {live: [{acceleration: [0.3, 1, 0]}]}}
+load_cases:
+  across:
+    dead: [{force: [0, 0, -90], on: {group: wall, index: 0}, at: [0.05, 0.04, 0.2]}]
+    live: [{acceleration: [0.3, 1, 0]}, {force: [0, 40, 0], on: {group: wall, index: 1}, at: [0.4, 0.2, 0.15]}]
 analysis: {flow_rule: associative}
 """
 
