@@ -12,7 +12,7 @@ import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
 from mbla.contacts.contacts import Contacts
-from mbla.results.collapse.cluster_joints import ClusterJoints, points_of, radii, runs
+from mbla.results.collapse.cluster_joints import ClusterJoints, radii, runs
 from mbla.results.collapse.interface_modes import InterfaceMode, InterfaceMotion
 from mbla.results.collapse.work import Work
 
@@ -28,8 +28,9 @@ class HingeLine:
 
     clusters   : that which turns, and that which it turns against; 0 is at rest and comes second
     interfaces : (n,) on it, in their order
-    start, end : (3,) m, of the line, as far as its interfaces reach
-    direction  : (3,) unit from start to end; the first cluster turns about it relative to the second by the right hand
+    start, end : (3,) m, of the line, both in its interfaces; the same for a hinge about a corner
+    direction  : (3,) unit; the first cluster turns about it relative to the second by the right hand. It leads from
+                 start to end, but for hinges that slide too, whose closed points need not lie on their axis
     rotation   : the largest relative angular velocity of its interfaces
     share      : the largest contact speed of its interfaces over the largest of all
     slides     : closed points of it slide too
@@ -69,7 +70,7 @@ def hinge_lines(
             same = (directions[rest] @ directions[seed] >= parallel) & (
                 off <= (SAME_LINE + merged) * np.maximum(size[rest], size[seed])
             )
-            lines.append(_line(contacts, motion, joints, work, rest[same], directions[seed]))
+            lines.append(_line(motion, joints, work, rest[same], directions[seed]))
             rest = rest[~same]
     return tuple(sorted(lines, key=lambda line: (-round(line.share, 6), line.interfaces[0])))
 
@@ -80,22 +81,20 @@ def loosened(cosine: float, merged: float) -> float:
 
 
 def _line(
-    contacts: Contacts,
     motion: InterfaceMotion,
     joints: ClusterJoints,
     work: Work,
     interfaces: IntArray,
     direction: FloatArray,
 ) -> HingeLine:
-    """Through the mean of the axes, as long as the contact points reach along it."""
-    through = motion.hinge_points[interfaces].mean(axis=0)
-    points = contacts.points[points_of(contacts, interfaces)]
-    along = (points - through) @ direction
+    """From the first to the last of the ends of its hinges."""
+    ends = motion.hinge_ends[interfaces].reshape(-1, 3)
+    along = (ends - motion.hinge_points[interfaces[0]]) @ direction
     return HingeLine(
         clusters=joints.clusters(interfaces[0]),
         interfaces=interfaces,
-        start=through + along.min() * direction,
-        end=through + along.max() * direction,
+        start=ends[along.argmin()],
+        end=ends[along.argmax()],
         direction=direction,
         rotation=float(np.linalg.norm(motion.rotation[interfaces], axis=1).max()),
         share=float(joints.shares[interfaces].max()),

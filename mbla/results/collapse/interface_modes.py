@@ -22,6 +22,7 @@ import numpy as np
 from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.contacts.contacts import Contacts
 from mbla.model.model import Model
+from mbla.results.collapse.hinge_ends import CRUSHED, hinge_ends
 from mbla.solution.solution import ContactMode, Mechanics
 from mbla.solution.statics import contact_velocities
 
@@ -56,6 +57,7 @@ class InterfaceMotion:
     hinge_points    : (n_interfaces, 3) m, a point on the axis of a hinge; nan for other modes
     hinge_directions: (n_interfaces, 3) its unit direction, b turns about it relative to a by the right hand; nan for
                       other modes
+    hinge_ends      : (n_interfaces, 2, 3) m, where the hinge begins and ends within the interface; nan for other modes
     """
 
     modes: IntArray
@@ -64,6 +66,7 @@ class InterfaceMotion:
     rotation: FloatArray
     hinge_points: FloatArray
     hinge_directions: FloatArray
+    hinge_ends: FloatArray
 
     def count(self, mode: InterfaceMode) -> int:
         """Interfaces of that mode."""
@@ -90,8 +93,13 @@ def interface_motion(model: Model, contacts: Contacts, mechanics: Mechanics) -> 
     modes[partly & opens_more] = InterfaceMode.HINGE
     apart = (n_open == np.diff(contacts.point_start)) | (opens_more & ~_tilts(contacts, translation, rotation))
     modes[partly & apart] = InterfaceMode.OPEN
-    points, directions = _axes(contacts, modes == InterfaceMode.HINGE, is_open, opening, rotation)
-    return InterfaceMotion(modes, slides, translation, rotation, points, directions)
+    return InterfaceMotion(
+        modes,
+        slides,
+        translation,
+        rotation,
+        *_axes(contacts, modes == InterfaceMode.HINGE, is_open, opening, rotation),
+    )
 
 
 def relative_motion(model: Model, contacts: Contacts, motion: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -144,24 +152,25 @@ def _in_plane(contacts: Contacts, vectors: FloatArray) -> FloatArray:
 
 def _axes(
     contacts: Contacts, hinges: BoolArray, is_open: BoolArray, opening: FloatArray, rotation: FloatArray
-) -> tuple[FloatArray, FloatArray]:
-    """Point and direction of the axis of every hinge.
+) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Point, direction and ends of the axis of every hinge.
 
     The axis lies in the plane of the interface through the mean of its closed points. Where these crush it is the line
     between those that close and those that open, at which the normal velocity w + (n × ω)·(x − mean) vanishes.
     """
     closed = np.where(is_open, 0.0, 1.0)
     weight = np.maximum(_sums(contacts, closed), 1.0)
-    points = _sums(contacts, closed[:, None] * contacts.points) / weight[:, None]
+    mean = _sums(contacts, closed[:, None] * contacts.points) / weight[:, None]
     normal_velocity = np.minimum(_sums(contacts, closed * opening) / weight, 0.0)
     in_plane = _in_plane(contacts, rotation)
     size = np.linalg.norm(in_plane, axis=1)
     gradient = np.cross(contacts.normals, in_plane)
     with np.errstate(divide="ignore", invalid="ignore"):
-        points -= (normal_velocity / size**2)[:, None] * gradient
+        points = mean - (normal_velocity / size**2)[:, None] * gradient
         directions = in_plane / size[:, None]
     points[~hinges], directions[~hinges] = np.nan, np.nan
-    return points, directions
+    crushed = np.linalg.norm(points - mean, axis=1) > CRUSHED * _radii(contacts)
+    return points, directions, hinge_ends(contacts, is_open, points, directions, crushed)
 
 
 def _sums(contacts: Contacts, values: FloatArray | BoolArray) -> FloatArray:

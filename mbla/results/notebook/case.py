@@ -158,24 +158,26 @@ class Case:
             how = f": {mechanism_summary(self.model, collapse, failure)}"
         return f"{self.name}: {self.verdict}{how}"
 
-    def picture(self, path: str | Path | None = None, *, format: str | None = None) -> Picture:
-        """A picture of the mechanism, of the structure at rest where there is none.
+    def picture(self, path: str | Path | None = None, *, kind: str = "mechanism", format: str | None = None) -> Picture:
+        """A picture of the mechanism, of the structure at rest where there is none, or of another kind.
 
         Parameters
         ----------
         path
             Also write it there; its suffix is the format.
+        kind
+            ``model``, ``mechanism``, ``forces`` or ``history``.
         format
             ``png``, ``svg`` or ``pdf``; png unless given.
 
         Raises
         ------
         UsageError
-            The extra for pictures is not installed, the machine cannot draw, or another format.
+            The extra for pictures is not installed, the machine cannot draw, or another kind or format.
         FileError
             It cannot be written.
         """
-        return case_picture(self.results, self.record, None if path is None else Path(path), format)
+        return case_picture(self.results, self.record, kind, None if path is None else Path(path), format)
 
     def show(self) -> View:
         """A view to be turned with the mouse: shown by a notebook, or written with ``save``.

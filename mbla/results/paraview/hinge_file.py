@@ -1,4 +1,4 @@
-"""``STEM_CASE_hinges.vtu``: the axes about which interfaces open, as lines across them."""
+"""``STEM_CASE_hinges.vtu``: the axes about which interfaces open, as lines along them."""
 
 from __future__ import annotations
 
@@ -6,10 +6,8 @@ from pathlib import Path
 
 import numpy as np
 
-from mbla.arrays import FloatArray
-from mbla.contacts.contacts import Contacts
 from mbla.model.geometry.meshio_files import write_mesh
-from mbla.results.collapse.interface_modes import InterfaceMode, InterfaceMotion
+from mbla.results.collapse.interface_modes import InterfaceMode
 from mbla.results.collapse.motion import motion_scale
 from mbla.results.paraview.points import interface_displacements
 from mbla.results.paraview.scene import Scene
@@ -21,7 +19,7 @@ def has_hinges(scene: Scene) -> bool:
 
 
 def write_hinges_vtu(path: Path, scene: Scene) -> None:
-    """Each axis as one line cell, as long as its interface is in that direction.
+    """Each hinge as one line cell, as long as its faces stay closed; about a corner as a vertex cell, after the lines.
 
     Cell data: ``interface``, ``body_a``, ``body_b``, ``rotation`` (of b relative to a about the axis, as drawn),
     ``result``. Point data: ``displacement``.
@@ -31,34 +29,26 @@ def write_hinges_vtu(path: Path, scene: Scene) -> None:
         raise ValueError("a case without a mechanism has no hinges")
     contacts = scene.contacts
     hinges = np.flatnonzero(motion.modes == InterfaceMode.HINGE)
-    middle, direction = motion.hinge_points, motion.hinge_directions
-    first, last = _ends(contacts, motion)
-    ends = np.stack([first[hinges], last[hinges]], axis=1)
-    points = (middle[hinges][:, None, :] + ends[:, :, None] * direction[hinges][:, None, :]).reshape(-1, 3)
+    ends = motion.hinge_ends[hinges]
+    short = (ends[:, 0] == ends[:, 1]).all(axis=1)
+    lines, corners = hinges[~short], hinges[short]
+    points = np.concatenate([ends[~short].reshape(-1, 3), ends[short, 0]])
+    owners = np.concatenate([np.repeat(lines, 2), corners])
     scale = motion_scale(scene.model, scene.mechanics.mechanism)
-    turns = scale * np.einsum("ij,ij->i", motion.rotation[hinges], direction[hinges])
+    turns = scale * np.einsum("ij,ij->i", motion.rotation, np.nan_to_num(motion.hinge_directions))
+    rows = np.arange(len(points))
+    cells = (("line", lines, rows[: 2 * len(lines)].reshape(-1, 2)), ("vertex", corners, rows[2 * len(lines) :, None]))
+    groups = [(kind, which, each) for kind, which, each in cells if len(which)]
     write_mesh(
         path,
         points,
-        [("line", np.arange(2 * len(hinges)).reshape(-1, 2))],
-        point_data={"displacement": interface_displacements(scene, np.repeat(hinges, 2), points)},
+        [(kind, each) for kind, _, each in groups],
+        point_data={"displacement": interface_displacements(scene, owners, points)},
         cell_data={
-            "interface": [hinges],
-            "body_a": [contacts.bodies[hinges, 0]],
-            "body_b": [contacts.bodies[hinges, 1]],
-            "rotation": [turns],
-            "result": [np.full(len(hinges), scene.is_result, dtype=np.int8)],
+            "interface": [which for _, which, _ in groups],
+            "body_a": [contacts.bodies[which, 0] for _, which, _ in groups],
+            "body_b": [contacts.bodies[which, 1] for _, which, _ in groups],
+            "rotation": [turns[which] for _, which, _ in groups],
+            "result": [np.full(len(which), scene.is_result, dtype=np.int8) for _, which, _ in groups],
         },
     )
-
-
-def _ends(contacts: Contacts, motion: InterfaceMotion) -> tuple[FloatArray, FloatArray]:
-    """Where the axis of each hinge leaves its interface, along its direction from its point, (n_interfaces,) m each."""
-    owners = contacts.interface_of_point
-    rows = np.flatnonzero(motion.modes[owners] == InterfaceMode.HINGE)
-    here = owners[rows]
-    along = np.einsum("pi,pi->p", contacts.points[rows] - motion.hinge_points[here], motion.hinge_directions[here])
-    first, last = np.full(len(contacts), np.inf), np.full(len(contacts), -np.inf)
-    np.minimum.at(first, here, along)
-    np.maximum.at(last, here, along)
-    return first, last

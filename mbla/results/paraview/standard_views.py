@@ -187,8 +187,10 @@ def mechanism(picture: Picture) -> None:
     picture.supports()
     picture.legend = ["Displacements to a scale that can be seen; thin grey lines: as built."]
     if "hinges" in picture.case["files"]:
-        picture.draw(picture.rods(picture.warped(picture.read("hinges")), 0.005), "Surface", RED)
-        picture.legend.append("Red rods: hinges.")
+        hinges = picture.warped(picture.read("hinges"))
+        picture.draw(picture.rods(hinges, 0.005), "Surface", RED)
+        picture.draw(hinges, "Points", RED, PointSize=10.0, RenderPointsAsSpheres=1)
+        picture.legend.append("Red rods: hinges; dots: their ends, alone for hinges about a corner.")
     interfaces = picture.case["files"].get("interfaces")
     if interfaces and picture.case["slides"]:
         sliding = picture.warped(picture.cells_with(picture.read("interfaces"), "slides", 1))

@@ -187,7 +187,7 @@ class Scene:
             return [title, f"{counted(len(model.blocks), 'block')}, {free} free; {weight}"]
         lines = [title, f"load case {case.load_case.name}: {verdict(model, case)}"]
         if kind == "forces":
-            lines.append(self.forces[1] + self._freedom_words())
+            lines.append(self.forces[1] + self._unpressed_words() + self._freedom_words())
         elif self.collapse is not None and self.failure is not None:
             lines.append(mechanism_summary(model, self.collapse, self.failure))
         elif case.solution.certificate is not None:
@@ -195,6 +195,11 @@ class Scene:
         else:
             lines.append("drawn at rest: there is no mechanism")
         return lines
+
+    def _unpressed_words(self) -> str:
+        """How many forces have no point of application in their joint, and so are not in the picture."""
+        count = 0 if self.thrust is None else int(self.thrust.unpressed.sum())
+        return f"; not drawn: {counted(count, 'joint')} in tension or shear without compression" if count else ""
 
     def _freedom_words(self) -> str:
         """Whether forces other than these would do; nothing of forces that are no result."""

@@ -143,9 +143,11 @@ def _line_of(model: Model, lines: Sequence[HingeLine], part: PartMotion) -> Hing
 
 
 def _line_words(model: Model, line: HingeLine) -> str:
-    """``a hinge line of 8 interfaces from (0, 0.25, 0) to (3.2, 0.25, 0)``."""
+    """``a hinge line of 8 interfaces from (0, 0.25, 0) to (3.2, 0.25, 0)``, ``a hinge at (1, 1, 0)`` about a corner."""
     count = len(line.interfaces)
     what = "a hinge" if count == 1 else f"a hinge line of {counted(count, 'interface')}"
+    if point_words(model, line.start) == point_words(model, line.end):
+        return f"{what} at {point_words(model, line.start)}"
     return f"{what} from {point_words(model, line.start)} to {point_words(model, line.end)}"
 
 

@@ -138,3 +138,33 @@ def test_what_follows_does_not_depend_on_which_body_is_called_a() -> None:
     assert other.hinge_points[0] == pytest.approx(EDGE)
     assert other.rotation[0] == pytest.approx([0, -1, 0])
     assert other.hinge_directions[0] == pytest.approx([0, -1, 0])
+
+
+def test_a_hinge_reaches_along_the_edge_on_which_it_stays_closed() -> None:
+    ends = motion_of(turning(EDGE, (0, 2, 0))).hinge_ends
+    assert ends[0] == pytest.approx(np.array([[1, 0, 1], [1, 1, 1]]))
+    assert np.isnan(ends[1]).all()
+
+
+def test_a_hinge_about_a_corner_has_no_length() -> None:
+    ends = motion_of(turning(CORNER, (-1, 1, 0))).hinge_ends
+    assert ends[0].tolist() == [CORNER.tolist(), CORNER.tolist()]
+
+
+@pytest.mark.parametrize(("angle", "reach"), [(0.0, 0.5), (20.0, 0.5 / np.cos(np.radians(20.0)))])
+def test_a_hinge_that_crushes_reaches_from_side_to_side(angle: float, reach: float) -> None:
+    """Its axis through (0.75, 0.5) is askew and cuts the sides y = 0 and y = 1 of the bed, not their corners."""
+    direction = np.array([np.sin(np.radians(angle)), np.cos(np.radians(angle)), 0])
+    ends = motion_of(turning((0.75, 0.5, 1), direction)).hinge_ends[0]
+    assert ends[:, 1] == pytest.approx([0, 1])
+    assert ends == pytest.approx(np.array([0.75, 0.5, 1]) + np.array([[-reach], [reach]]) * direction)
+
+
+def test_a_hinge_that_slides_ends_where_its_faces_touch_though_its_axis_runs_off() -> None:
+    """With dilatancy one end of the closed edge lifts more than the other, so that the tilt is askew to the edge."""
+    mechanics = turning(EDGE, (0.1, 1, 0), (0.3, 0, 0.3))
+    modes = mechanics.modes.copy()
+    modes[[1, 2]] = SLIDE
+    motion = motion_of(replace(mechanics, modes=modes))
+    assert motion.hinge_directions[0, 0] == pytest.approx(0.1 / np.hypot(0.1, 1))
+    assert motion.hinge_ends[0].tolist() == [[1, 0, 1], [1, 1, 1]]

@@ -1,5 +1,6 @@
 """All files for ParaView of real runs, read back by meshio and vtk."""
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -8,6 +9,7 @@ import numpy as np
 import pytest
 
 from mbla.deck.selectors import POSITIONS
+from mbla.results.paraview.hinge_file import write_hinges_vtu
 from mbla.results.paraview.layout import ANIMATION, ARRAYS, CELLS, SUPPORTS, arrays_of, arrays_table
 from mbla.results.paraview.load_file import DEAD, GUIDE, LIVE, REACTION, load_vectors
 from mbla.results.paraview.mesh_files import MESH_FILES
@@ -15,7 +17,10 @@ from mbla.results.paraview.scene import Scene, scene_of
 from mbla.results.paraview.thrust_file import LINE, POINT
 from mbla.results.results import Results
 from mbla.run_deck import RunOptions, run
+from mbla.solution.solution import ContactMode
+from mbla.solution.statics import contact_velocities
 from tests.results.reading import read_vtk, vtk_array, vtk_volumes
+from tests.results.synthetic import tower_mechanics, tower_results
 
 PAGE = Path(__file__).parents[3] / "schemas" / "results.md"
 LABELS = {"member", *POSITIONS}
@@ -222,3 +227,22 @@ def test_use_of_friction_and_modes_agree_between_files(arch: Any) -> None:
         assert largest[block] == pytest.approx(data["friction_use"][here].max())
     assert set(data["result"].tolist()) == {1}
     assert sorted(data["mode"].tolist()) == [0] * 12 + [3] * 4
+
+
+def test_a_hinge_about_a_corner_is_a_vertex(tmp_path: Path) -> None:
+    """The tower turns about the corner (1, 1, 1) of its bed."""
+    results = tower_results()
+    mechanism = np.zeros((3, 6))
+    mechanism[1] = [*np.cross([-1, 1, 0], results.model.blocks.centroids[1] - [1, 1, 1]), -1, 1, 0]
+    velocities = contact_velocities(results.model, results.contacts, mechanism)
+    modes = np.where(velocities[:, 0] > 1e-9, ContactMode.OPEN, ContactMode.STICK)
+    case = results.cases[0]
+    mechanics = replace(tower_mechanics(), mechanism=mechanism, contact_velocities=velocities, modes=modes)
+    case = replace(case, solution=replace(case.solution, mechanics=mechanics))
+    path = tmp_path / "hinges.vtu"
+    write_hinges_vtu(path, scene_of(replace(results, cases=(case,)), case))
+    mesh = meshio.read(path)
+    assert [(cells.type, cells.data.tolist()) for cells in mesh.cells] == [("vertex", [[0]])]
+    assert mesh.points.tolist() == [[1, 1, 1]]
+    assert mesh.cell_data["interface"][0].tolist() == [0]
+    assert abs(mesh.cell_data["rotation"][0][0]) > 0

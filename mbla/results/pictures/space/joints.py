@@ -30,7 +30,6 @@ from mbla.results.pictures.space.shapes import (
 )
 from mbla.results.pictures.space.structure import interface_faces
 from mbla.results.words.text import counted
-from mbla.solution.solution import ContactMode
 
 MOST_LINES, MOST_PLANES = 30, 20
 """hinge lines and sliding planes that stand out, those that move most; more hide each other"""
@@ -121,19 +120,8 @@ def _notes(failure: Failure, told: Told, thin: int) -> tuple[str, ...]:
 
 
 def hinge_ends(scene: Scene, joints: InterfaceMotion, rows: IntArray) -> tuple[FloatArray, FloatArray]:
-    """Both ends of hinges as moved, (n, 3) m each: as long as the interface is where it stays closed."""
-    contacts = scene.contacts
-    point, direction = joints.hinge_points, joints.hinge_directions
-    owner = contacts.interface_of_point
-    mechanics = scene.mechanics
-    closed = np.isin(owner, rows) & (mechanics is None or mechanics.modes != ContactMode.OPEN)
-    along = np.einsum("ij,ij->i", contacts.points - point[owner], direction[owner])
-    low, high = np.full(len(contacts), np.inf), np.full(len(contacts), -np.inf)
-    np.minimum.at(low, owner[closed], along[closed])
-    np.maximum.at(high, owner[closed], along[closed])
-    first, last = (
-        moved_at_interface(scene, rows, point[rows] + place[rows, None] * direction[rows]) for place in (low, high)
-    )
+    """Both ends of hinges as moved, (n, 3) m each; one and the same about a corner."""
+    first, last = (moved_at_interface(scene, rows, joints.hinge_ends[rows, end]) for end in (0, 1))
     return first, last
 
 
