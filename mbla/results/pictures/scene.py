@@ -19,6 +19,7 @@ from mbla.results.collapse.interface_modes import InterfaceMotion
 from mbla.results.collapse.motion import drawn_motion, moved_contact_points, moved_vertices
 from mbla.results.collapse.rigid_parts import rigid_parts
 from mbla.results.collapse.thrust import Thrust, thrust_lines, thrust_of
+from mbla.results.collapse.torsion_use import torsion_use
 from mbla.results.outcome import result_of
 from mbla.results.pictures.geometry import ground_slab
 from mbla.results.pictures.options import PictureOptions
@@ -144,6 +145,14 @@ class Scene:
         """Resultants of the interfaces and where they act; None without forces."""
         forces = self.forces[0]
         return None if forces is None else thrust_of(self.model, self.contacts, forces)
+
+    @cached_property
+    def joint_use(self) -> FloatArray | None:
+        """Shear and torsion over what each interface carries of both, (n_interfaces,); None without forces."""
+        forces = self.forces[0]
+        if forces is None:
+            return None
+        return torsion_use(self.model, self.contacts, forces, self.case.solution.contact_model)
 
     @cached_property
     def force_freedom(self) -> ForceFreedom | None:

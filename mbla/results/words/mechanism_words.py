@@ -45,10 +45,10 @@ def mechanism_summary(model: Model, collapse: Collapse, failure: Failure) -> str
 
 
 def _told_parts(failure: Failure) -> str:
-    """How many parts; where small motions within them are left out, that they are told so."""
+    """How many parts; where small motions within them are left out, that the blocks move as so many."""
     count = len(failure.motions)
     if failure.merged:
-        return f", told as {counted(count, 'part')}"
+        return f" as {counted(count, 'part')}"
     return f" in {count} parts" if count > 1 else ""
 
 

@@ -169,7 +169,8 @@ def interface_rows(results: Results) -> list[dict[str, Any]]:
 
 
 def interface_forces(results: Results, mechanics: Mechanics | None, i: int, points: Any) -> dict[str, Any]:
-    contacts, row = results.contacts, {}
+    contacts = results.contacts
+    row: dict[str, Any] = {}
     force, moment = np.zeros(3), np.zeros(3)
     normal_at, allowed = contacts.normals[i], 0.0
     law = results.model.joints[contacts.joint_names[contacts.joints[i]]]
