@@ -183,11 +183,12 @@ def interface_forces(results: Results, mechanics: Mechanics | None, i: int, poin
     shear = np.linalg.norm(force - normal * normal_at)
     put(row, "force", force if mechanics else NAN3)
     put(row, "moment", moment if mechanics else NAN3)
-    put(row, "application", contacts.centroids[i] + np.cross(normal_at, moment) / normal if mechanics else NAN3)
+    pressed = mechanics is not None and normal > 0  # others act at no point
+    put(row, "application", contacts.centroids[i] + np.cross(normal_at, moment) / normal if pressed else NAN3)
     row["normal_force"] = normal if mechanics else np.nan
     row["shear_force"] = shear if mechanics else np.nan
     row["torsion"] = moment @ normal_at if mechanics else np.nan
-    row["friction_use"] = shear / allowed if mechanics else np.nan
+    row["friction_use"] = shear / allowed if mechanics and allowed > 0 else np.nan
     return row
 
 
