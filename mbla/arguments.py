@@ -105,7 +105,11 @@ def _add_result_commands(commands: Any) -> None:
 
 
 def _add_plot(commands: Any) -> None:
-    command = commands.add_parser("plot", help="pictures of model, mechanism and forces (extra mbla[pictures])")
+    command = commands.add_parser(
+        "plot",
+        help="pictures of model, mechanism and forces (extra mbla[pictures])",
+        description="Pictures of model, mechanism and forces. Earlier pictures of the same names are replaced.",
+    )
     command.add_argument("result", type=Path, metavar="RESULT.h5")
     command.add_argument(
         "-o",
@@ -147,10 +151,18 @@ def _add_plot(commands: Any) -> None:
 
 
 def _add_report(commands: Any) -> None:
-    command = commands.add_parser("report", help="one self-contained HTML file of a result (extra mbla[report])")
+    command = commands.add_parser(
+        "report",
+        help="one self-contained HTML file of a result (extra mbla[report])",
+        description="One self-contained HTML file of a result. An earlier report of that name is replaced.",
+    )
     command.add_argument("result", type=Path, metavar="RESULT.h5")
     command.add_argument(
-        "-o", "--output", type=Path, metavar="FILE", help="HTML file (default: beside the result, STEM.html)"
+        "-o",
+        "--output",
+        type=Path,
+        metavar="FILE|DIR",
+        help="HTML file, or a folder for STEM.html (default: that of the result)",
     )
     command.add_argument("--case", metavar="NAME", help="only this load case")
     command.add_argument("--no-3d", action="store_true", help="leave out the views that can be turned, 5 MB less")

@@ -53,10 +53,10 @@ def plot(options: argparse.Namespace) -> int:
 def report(options: argparse.Namespace) -> int:
     """Write the HTML file; its path is printed, remarks on what it lacks go to standard error."""
     from mbla.results.hdf5.result_file import read_results_hdf5
-    from mbla.results.report.report import write_report
+    from mbla.results.report.report import report_path, write_report
 
     results = read_results_hdf5(options.result)
-    target = options.output or options.result.with_suffix(".html")
+    target = report_path(options.output, options.result)
     for remark in write_report(results, target, options.case, view=not options.no_3d):
         print(f"mbla: {remark}", file=sys.stderr)
     print(target)

@@ -114,7 +114,9 @@ class OutputSection(Section):
 
     vtu: Switch = Field(True, description="VTU and PVD files for ParaView")
     frames: Annotated[int, Whole(ge=2, le=1000)] = Field(11, description="frames of the animation of the mechanism")
-    plots: Switch = Field(False, description="pictures of each load case beside the results")
+    plots: Switch = Field(
+        False, description="pictures of model, mechanisms and forces beside the results, as of ``mbla plot``"
+    )
 
 
 class Expectation(Section):

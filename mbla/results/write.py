@@ -10,7 +10,7 @@ from mbla.results.files import OutputFolder
 from mbla.results.hdf5.result_file import write_results_hdf5
 from mbla.results.paraview.mesh_files import write_mesh_files
 from mbla.results.records.json_record import json_line, results_json
-from mbla.results.results import CaseResult, Results
+from mbla.results.results import Results
 from mbla.results.words.listing import listing
 
 
@@ -24,7 +24,7 @@ def write_results(results: Results, out: OutputFolder, vtu: bool, frames: int, p
     vtu, frames
         Files for ParaView, and the frames of each animation.
     plots
-        One picture of each load case beside them.
+        The pictures that ``mbla plot`` makes unless told otherwise: model, and mechanism and forces of each load case.
 
     Returns
     -------
@@ -41,8 +41,8 @@ def write_results(results: Results, out: OutputFolder, vtu: bool, frames: int, p
     begin = time.perf_counter()
     if vtu:
         write_mesh_files(results, out, frames)
-    for case in results.cases if plots else ():
-        _write_picture(results, case, out)
+    if plots:
+        _write_pictures(results, out)
     files = sorted({*out.names, *(f"{out.stem}.{suffix}" for suffix in ("lst", "h5", "json"))})
     results = replace(results, time=results.time | {"write": time.perf_counter() - begin}, files=tuple(files))
     out.write_text(f"{out.stem}.lst", listing(results))
@@ -60,8 +60,10 @@ def write_outputs(
     return out.names
 
 
-def _write_picture(results: Results, case: CaseResult, out: OutputFolder) -> None:
-    from mbla.results.pictures.plot import plot_mechanism
+def _write_pictures(results: Results, out: OutputFolder) -> None:
+    from mbla.results.pictures.options import PictureOptions
+    from mbla.results.pictures.plot import pictures_of
 
-    with out.writing(f"{out.stem}_{case.load_case.name}.png") as path:
-        plot_mechanism(results, case, path)
+    for picture in pictures_of(results, results.cases, PictureOptions()):
+        with out.writing(f"{out.stem}{picture.name}.png") as path:
+            picture.write(path)

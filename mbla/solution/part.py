@@ -101,6 +101,8 @@ def _by_flow_rule(program: Program, analysis: AnalysisSection, settings: SolverS
     associative = result.associative
     if analysis.flow_rule == "associative" or not (associative.state or associative.status is Status.UNBOUNDED):
         return result
+    if program.n_points == 0:  # blocks held by guides alone: no joint that could flow by another rule
+        return result
     if associative.state is None:
         return _locked_by_dilatancy(result, analysis, settings, log)
     return replace(result, sequence=solve_flow(Flow(program, associative, analysis, settings, log)))

@@ -142,7 +142,10 @@ def second_opinion(
     solution = form.read(cone_solver(form.cone_program, settings, log).solve(number, form.sign * live))
     has_value = solution.status in (Status.SOLVED, Status.APPROXIMATE)
     value = solution.objective if has_value else np.nan
-    apart = abs(value - load_factor) / max(abs(load_factor), SMALL_FACTOR * form.program.dead_over_live)
+    size = max(abs(load_factor), SMALL_FACTOR * form.program.dead_over_live)
+    apart = abs(value - load_factor) / (
+        size if size > 0 else 1.0
+    )  # guides may take all dead load: units of the program
     within = AGREE if solution.status is Status.SOLVED else AGREE_SHORT
     agrees = bool(apart <= within) if has_value else None
     record = solution.record(number, "second opinion", value * live, apart)

@@ -70,6 +70,10 @@ SPREAD_STEPS = 10
 """Last steps that give the spread of a load factor that did not come to rest."""
 
 
+NO_FORCE = 1e-15
+"""Forces below this, in mean loads of a block, are none, but rounding: the unit of the program takes their place."""
+
+
 @dataclass
 class ProximalRun:
     """What a sequence has so far; ``states`` in the order in which they were reached."""
@@ -215,4 +219,5 @@ def _broken_off(run: ProximalRun, solution: ConeSolution) -> SequenceResult:
 
 def step_size(program: Program, forces: FloatArray) -> float:
     """ρ of a step from given forces, (n_points, components); the same for a part alone and beside others."""
-    return STEP * program.own_unit / max(float((forces**2).sum()), 1e-300)
+    size = float((forces**2).sum())
+    return STEP * program.own_unit / (size if size > NO_FORCE**2 else 1.0)

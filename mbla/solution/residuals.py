@@ -27,6 +27,9 @@ from mbla.solution.load_scale import LoadScale, load_scale
 from mbla.solution.solution import Mechanics
 from mbla.solution.statics import contact_resultants, contact_velocities, power
 
+AT_REST = 1e-9
+"""contact speed over the speed of blocks up to which a joint does not move: the accuracy of the cone programs"""
+
 
 @dataclass(frozen=True)
 class Residuals:
@@ -36,7 +39,8 @@ class Residuals:
                       the block itself has to balance where that is less
     yielding        : largest excess of a force over its yield conditions, over the same of the lighter block
     tension         : the part of it that is tension beyond the tensile strength
-    penetration     : largest closing velocity over the largest contact speed, where the joint cannot crush; or the
+    penetration     : largest closing velocity over the largest contact speed, where the joint cannot crush, 0 where no
+                      joint moves with the blocks; or the
                       largest velocity of a block against its guide, over the largest of any, if that is more
     complementarity : see the module's text
     slip            : the part of it that is sliding not against friction
@@ -94,7 +98,7 @@ def residuals_of(
         equilibrium=float((unbalanced / scale.block_scale(contacts, x)[model.free]).max(initial=0.0)),
         yielding=float((yield_violation(x, limits) / point_scale).max(initial=0.0)),
         tension=float((tension / point_scale).max(initial=0.0)),
-        penetration=max(share_of(float(closing.max(initial=0.0)), speed), off_guides(model, u, scale.arms)),
+        penetration=max(penetration_of(closing, speed, u, scale.arms), off_guides(model, u, scale.arms)),
         complementarity=share_of(flow.normal + flow.slip, balance),
         slip=share_of(flow.slip, balance),
         live_power=live_power,
@@ -114,6 +118,23 @@ def unbalanced_loads(
     unbalanced = np.abs(left_to_balance(model, acting, scale.arms))
     unbalanced[:, 3:] /= scale.arms[:, None]
     return np.where(model.fixed, 0.0, unbalanced.max(axis=1))
+
+
+def penetration_of(closing: FloatArray, speed: float, mechanism: FloatArray, arms: FloatArray) -> float:
+    """Largest closing velocity over the largest contact speed; 0 where the blocks move and no joint does.
+
+    Blocks that only guides hold have no joint, and blocks on parallel rails may move side by side. Where nothing moves
+    at all it is NaN.
+
+    closing   : (n_points,)
+    speed     : largest contact speed
+    mechanism : (n_blocks, 6)
+    arms      : (n_blocks,)
+    """
+    blocks = float((np.linalg.norm(mechanism[:, :3], axis=1) + arms * np.linalg.norm(mechanism[:, 3:], axis=1)).max())
+    if blocks > 0 and speed <= AT_REST * blocks:
+        return 0.0
+    return share_of(float(closing.max(initial=0.0)), speed)
 
 
 def share_of(part: float, whole: float) -> float:

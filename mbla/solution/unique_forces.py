@@ -171,7 +171,8 @@ def trusted_motion(program: Program, state: LawState) -> PointMotion:
 
 
 def _all_move(motion: PointMotion) -> bool:
-    return float(np.mean(motion.opens | motion.slides | motion.crushes)) >= ALL
+    moves = motion.opens | motion.slides | motion.crushes
+    return len(moves) > 0 and float(np.mean(moves)) >= ALL
 
 
 def _at_rest(program: Program) -> PointMotion:

@@ -30,7 +30,7 @@ from mbla.solution.interface_laws import (
 )
 from mbla.solution.load_scale import LoadScale, load_scale
 from mbla.solution.proofs import LOCKED_IN, PROVED_RESIDUAL, ROUNDING
-from mbla.solution.residuals import Residuals, flow_power, share_of, unbalanced_loads
+from mbla.solution.residuals import Residuals, flow_power, penetration_of, share_of, unbalanced_loads
 from mbla.solution.solution import Checks, Mechanics, Solution, Status
 from mbla.solution.statics import contact_velocities, power
 from mbla.solution.verify import ROUNDING as CROSSING
@@ -256,7 +256,7 @@ def _residuals(case: _Case, mechanics: Mechanics, flow_rule: str) -> Residuals:
         equilibrium=float((unbalanced / scale.block_scale(case.contacts, x)[case.model.free]).max(initial=0.0)),
         yielding=max(excess, float((_interface_excess(case, x) / interface_scale).max(initial=0.0))),
         tension=float((np.maximum(-x[:, 0] - limits.tension, 0.0) / point_scale).max(initial=0.0)),
-        penetration=max(share_of(float(closing.max(initial=0.0)), speed), off_guides(case.model, u, scale.arms)),
+        penetration=max(penetration_of(closing, speed, u, scale.arms), off_guides(case.model, u, scale.arms)),
         complementarity=share_of(flow.normal + flow.slip + float((of_torsion + of_crushing).sum()), balance),
         slip=share_of(flow.slip + float(of_torsion.sum()), balance),
         live_power=live_power,

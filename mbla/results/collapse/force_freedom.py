@@ -62,7 +62,7 @@ def force_freedom(model: Model, contacts: Contacts, mechanics: Mechanics, dimens
 
     dimension : in which the case was solved, 2 or 3
     """
-    if len(model.guides.blocks) or model.mirrors or not len(contacts):
+    if _not_of_these(model) or not len(contacts):
         return None
     solids = solids_of(model, contacts)
     model, contacts = solids.model, solids.contacts
@@ -72,6 +72,29 @@ def force_freedom(model: Model, contacts: Contacts, mechanics: Mechanics, dimens
     bases, owner = _resultants(model, contacts, mechanics, rows)
     matrix = _equilibrium(model, contacts, bases, owner, rows)
     return _freedom(matrix, owner, len(contacts))
+
+
+def why_undetermined(model: Model, contacts: Contacts, mechanics: Mechanics, dimension: int) -> str:
+    """Why ``force_freedom`` gives None, in words that follow ``as``."""
+    if reason := _not_of_these(model):
+        return reason
+    if not len(contacts):
+        return "there are no contacts"
+    solids = solids_of(model, contacts)
+    rows = _plane_rows(solids.contacts, mechanics.mechanism) if dimension == 2 else np.eye(6)
+    if rows is None:
+        return "the plane of the structure is not clear"
+    equations = len(rows) * len(solids.model.free)
+    if equations > MOST_EQUATIONS:
+        return f"it takes more than {MOST_EQUATIONS} equations of equilibrium, {equations}"
+    return "the rank of the equations of equilibrium is not clear"
+
+
+def _not_of_these(model: Model) -> str:
+    """What holds blocks by other than contacts, whose forces are not among those counted."""
+    if len(model.guides.blocks):
+        return "blocks are guided, as those of a support that gives way are"
+    return "planes of symmetry hold blocks" if model.mirrors else ""
 
 
 def _plane_rows(contacts: Contacts, mechanism: FloatArray) -> FloatArray | None:

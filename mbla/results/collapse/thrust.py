@@ -61,6 +61,12 @@ class Thrust:
         """Interfaces that are pressed on the whole, (n_interfaces,)."""
         return np.asarray(np.isfinite(self.points[:, 0]))
 
+    @property
+    def unpressed(self) -> BoolArray:
+        """Interfaces with a force but no compression on the whole: tension, or shear that cohesion takes."""
+        sizes = np.linalg.norm(self.forces, axis=1)
+        return np.asarray(~self.carried & (sizes > NO_FORCE * sizes.max(initial=0.0)))
+
 
 def thrust_of(model: Model, contacts: Contacts, contact_forces: FloatArray) -> Thrust:
     """Resultants, their points of application and how much of the joint they use.

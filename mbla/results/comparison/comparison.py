@@ -49,7 +49,7 @@ class Comparison:
     """What differs between results A and B.
 
     deck       : lines of a unified diff of the deck texts
-    overrides  : of the command line, in A and in B
+    overrides  : changes by the user, in A and in B
     settings, provenance : name, value in A and in B where they differ; ``-`` where there is none
     only       : names of load cases of A alone and of B alone
     gone, new  : warnings of A alone and of B alone

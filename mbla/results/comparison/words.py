@@ -7,6 +7,7 @@ import math
 from mbla.results.comparison.cases import CaseComparison
 from mbla.results.comparison.comparison import Comparison, ModelComparison
 from mbla.results.comparison.figure import Figure
+from mbla.results.words.answer_words import status_name, status_words
 from mbla.results.words.text import counted, heading, number, sentence, small, table, vector
 
 MOST_NAMED = 8
@@ -39,7 +40,7 @@ def _deck(comparison: Comparison) -> list[str]:
         lines += sentence(f"and {len(comparison.deck) - len(shown)} more lines; --json has them all")
     for letter, overrides in zip("AB", comparison.overrides, strict=True):
         if comparison.overrides[0] != comparison.overrides[1]:
-            lines += sentence(f"set on the command line in {letter}: {', '.join(overrides) or 'nothing'}")
+            lines += sentence(f"changed by the user in {letter}: {', '.join(overrides) or 'nothing'}")
     return lines
 
 
@@ -102,7 +103,7 @@ def _verdict(figure: Figure) -> str:
 
 def _case(case: CaseComparison) -> list[str]:
     lines = heading(f"Load case {case.name}")
-    statuses = [status.value if status.value == "solved" else status.value.upper() for status in case.statuses]
+    statuses = [status_words(status) for status in case.statuses]
     if statuses[0] == statuses[1]:
         lines += sentence(f"status {statuses[0]} in both")
     else:
@@ -171,7 +172,7 @@ def _summary(comparison: Comparison) -> list[str]:
     for case in comparison.cases:
         answer = case.answers[0]
         values = f"{answer.name} {number(answer.first)} in A, {number(answer.second)} in B"
-        a, b = (status.value for status in case.statuses)
+        a, b = (status_name(status) for status in case.statuses)
         differs = "DIFFERS" if a == b else f"DIFFERS, {a} in A, {b} in B"
         lines += sentence(f"{case.name}: {differs if case.differs else f'the same, {a}'}; {values}")
     total = len(comparison.cases) + len(comparison.only[0]) + len(comparison.only[1])

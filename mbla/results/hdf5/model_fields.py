@@ -8,7 +8,7 @@ MODEL_FIELDS: tuple[Field, ...] = (
     Field("deck/name", "text", (), "1", "file name of the deck"),
     Field("deck/source_names", "text", ("source",), "1", "files that make the deck, the main one first"),
     Field("deck/source_texts", "text", ("source",), "1", "their text"),
-    Field("deck/overrides", "text", ("override",), "1", "values set on the command line"),
+    Field("deck/overrides", "text", ("override",), "1", "values changed by the user, on the command line or in Python"),
     Field("model/title", "text", (), "1", "title of the deck"),
     Field("model/units", "text", ("unit",), "1", "units of length, force, mass"),
     Field("model/load_cases", "text", ("load_case",), "1", "names of the load cases in the order of the deck"),

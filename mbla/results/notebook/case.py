@@ -9,6 +9,7 @@ from pathlib import Path
 from mbla.arrays import FloatArray, IntArray
 from mbla.model.model import Model
 from mbla.results.collapse.collapse import Collapse, collapse_of
+from mbla.results.collapse.failure import failure_of
 from mbla.results.collapse.thrust import Thrust, thrust_of
 from mbla.results.notebook.picture import Picture, case_picture
 from mbla.results.notebook.view import View
@@ -150,28 +151,33 @@ class Case:
     @property
     def summary(self) -> str:
         """Verdict, and how it collapses: hinges, sliding, parts."""
-        collapse = self.collapse
-        how = "" if collapse is None else f": {mechanism_summary(self.model, collapse)}"
+        found, collapse = result_of(self.record), self.collapse
+        how = ""
+        if found is not None and collapse is not None:
+            failure = failure_of(self.model, self.results.contacts, collapse, found)
+            how = f": {mechanism_summary(self.model, collapse, failure)}"
         return f"{self.name}: {self.verdict}{how}"
 
-    def picture(self, path: str | Path | None = None, *, format: str | None = None) -> Picture:
-        """A picture of the mechanism, of the structure at rest where there is none.
+    def picture(self, path: str | Path | None = None, *, kind: str = "mechanism", format: str | None = None) -> Picture:
+        """A picture of the mechanism, of the structure at rest where there is none, or of another kind.
 
         Parameters
         ----------
         path
             Also write it there; its suffix is the format.
+        kind
+            ``model``, ``mechanism``, ``forces`` or ``history``.
         format
             ``png``, ``svg`` or ``pdf``; png unless given.
 
         Raises
         ------
         UsageError
-            The extra for pictures is not installed, the machine cannot draw, or another format.
+            The extra for pictures is not installed, the machine cannot draw, or another kind or format.
         FileError
             It cannot be written.
         """
-        return case_picture(self.results, self.record, None if path is None else Path(path), format)
+        return case_picture(self.results, self.record, kind, None if path is None else Path(path), format)
 
     def show(self) -> View:
         """A view to be turned with the mouse: shown by a notebook, or written with ``save``.

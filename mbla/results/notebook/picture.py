@@ -40,21 +40,21 @@ class Picture:
         return f"data:{MIME[self.format]};base64,{base64.b64encode(self.content).decode('ascii')}"
 
 
-def case_picture(results: Results, case: CaseResult, path: Path | None, format: str | None) -> Picture:
-    """Draw the mechanism of a case, to a file too if a path is given; raises as :meth:`Case.picture`."""
+def case_picture(results: Results, case: CaseResult, kind: str, path: Path | None, format: str | None) -> Picture:
+    """Draw a case, to a file too if a path is given; raises as :meth:`Case.picture`."""
     from mbla.results.pictures.options import format_of
-    from mbla.results.pictures.plot import plot_mechanism
+    from mbla.results.pictures.plot import plot_case
 
     if path is None:
-        kind = format_of(Path(f"picture.{format or 'png'}"))
+        ending = format_of(Path(f"picture.{format or 'png'}"))
     else:
-        kind = format_of(path)
-        if format not in (None, kind):
-            raise UsageError(f"{path}: its suffix says {kind}, the format {format}: give one of them")
+        ending = format_of(path)
+        if format not in (None, ending):
+            raise UsageError(f"{path}: its suffix says {ending}, the format {format}: give one of them")
     with tempfile.TemporaryDirectory(prefix="mbla-") as folder:
-        drawn = Path(folder) / f"picture.{kind}"
-        plot_mechanism(results, case, drawn)
-        picture = Picture(kind, drawn.read_bytes())
+        drawn = Path(folder) / f"picture.{ending}"
+        plot_case(results, case, drawn, kind)
+        picture = Picture(ending, drawn.read_bytes())
     if path is not None:
         write_whole(path, picture.content)
     return picture

@@ -140,9 +140,9 @@ class Run:
         known = [case for case in plain if case.record.load_case.tilt is None and not math.isnan(case.load_factor)]
         return min(known, key=lambda case: case.load_factor) if known else next(iter(self.cases), None)
 
-    def picture(self, *, format: str | None = None) -> Picture:
+    def picture(self, *, kind: str = "mechanism", format: str | None = None) -> Picture:
         """The picture of the only load case; raises as ``load_factor`` and ``Case.picture`` do."""
-        return self._only().picture(format=format)
+        return self._only().picture(kind=kind, format=format)
 
     def show(self) -> View:
         """The view of the only load case, to be turned; raises as ``load_factor`` and ``Case.show`` do."""

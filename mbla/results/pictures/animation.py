@@ -22,7 +22,7 @@ from mbla.results.pictures.page import open_frames
 from mbla.results.pictures.scene import Scene, scene_of
 from mbla.results.pictures.space.mechanism import mechanism_drawing
 from mbla.results.pictures.space.panels import focus_of, panels_of
-from mbla.results.pictures.space.picture import frame_between, view_of_case
+from mbla.results.pictures.space.picture import frame_between, images_of, view_of_case
 from mbla.results.pictures.space.renderer import Renderer
 from mbla.results.pictures.space.sheet import add_images, fill_sheet
 from mbla.results.results import CaseResult, Results
@@ -100,10 +100,8 @@ def _frames(widest: Scene, options: PictureOptions) -> Iterator[Any]:
         for share in displacements():
             moved = replace(widest, motion=share * widest.motion)
             frame = mechanism_drawing(moved, widest, focus if len(panels) > 1 else None)
-            with Renderer(frame.solid_from(view[1]), frame.marks) as renderer:
-                images = [
-                    renderer.image(each.camera, round(each.share * width), height, frame.shine) for each in panels
-                ]
+            with Renderer(frame.solid_from(view[1]), frame.marks, frame.loads) as renderer:
+                images = images_of(renderer, panels, frame, (width, height))
             if not artists:
                 artists = add_images(page, images, panels, widest, drawing, (bottom, top))
             for artist, image in zip(artists, images, strict=True):

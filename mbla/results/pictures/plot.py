@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from mbla.errors import UsageError
 from mbla.results.pictures.animation import format_of_film, write_animation
 from mbla.results.pictures.history import draw_history, draw_series
-from mbla.results.pictures.options import PictureOptions, format_of
+from mbla.results.pictures.options import KINDS, PictureOptions, format_of
 from mbla.results.pictures.plane.draw import draw_plane
 from mbla.results.pictures.plane.flat import flat_of
 from mbla.results.pictures.scene import Scene, scene_of
@@ -40,13 +40,13 @@ def plot_results(results: Results, target: Path, stem: str, options: PictureOpti
     Raises
     ------
     UsageError
-        As ``plot_mechanism`` does; no such case; several pictures for one file; another suffix.
+        As ``plot_case`` does; no such case; several pictures for one file; another suffix.
     FileError
         A picture or the folder cannot be written.
     """
     options = options or PictureOptions()
     cases = _chosen_cases(results, options.case)
-    pictures = _films(results, cases, options) if options.animate else _pictures(results, cases, options)
+    pictures = _films(results, cases, options) if options.animate else pictures_of(results, cases, options)
     ending = options.animate or options.format
     if target.suffix and not target.is_dir():
         _check_name(target, options)
@@ -72,17 +72,20 @@ def _chosen_cases(results: Results, name: str | None) -> list[CaseResult]:
     return chosen
 
 
-def _pictures(results: Results, cases: list[CaseResult], options: PictureOptions) -> list[Picture]:
+def pictures_of(results: Results, cases: Sequence[CaseResult], options: PictureOptions) -> list[Picture]:
     """Every picture of some cases, kind by kind of each case; the model first."""
 
     def of(case: CaseResult, kind: str) -> Callable[[Path], None]:
         return lambda path: draw_picture(path, scene_of(results, case, options, kind), kind, options)
 
+    if not cases:
+        return []
     pictures = [Picture("_model", of(cases[0], "model"))] if "model" in options.kinds else []
+    names = _mechanism_names([case.load_case.name for case in cases])
     for case in cases:
         for kind in (kind for kind in options.kinds if kind != "model"):
-            ending = "" if kind == "mechanism" else f"_{kind}"
-            pictures.append(Picture(f"_{case.load_case.name}{ending}", of(case, kind)))
+            name = names[case.load_case.name] if kind == "mechanism" else f"_{case.load_case.name}_{kind}"
+            pictures.append(Picture(name, of(case, kind)))
     if "history" in options.kinds:
         for series in series_of(cases):
             if len(series.cases) > 1:
@@ -90,6 +93,19 @@ def _pictures(results: Results, cases: list[CaseResult], options: PictureOptions
                 write = lambda path, scene=scene, series=series: draw_series(path, scene, series, options)  # noqa: E731
                 pictures.append(Picture(f"_{series.name}_history", write))
     return pictures
+
+
+def _mechanism_names(cases: Sequence[str]) -> dict[str, str]:
+    """``_CASE`` for each; ``_CASE_mechanism`` where that is another picture's, as of load cases named model."""
+    taken = {"_model"} | {f"_{case}_{kind}" for case in cases for kind in KINDS if kind != "mechanism"}
+    names = {}
+    for case in cases:
+        name = f"_{case}"
+        while name in taken:
+            name += "_mechanism"
+        taken.add(name)
+        names[case] = name
+    return names
 
 
 def _films(results: Results, cases: list[CaseResult], options: PictureOptions) -> list[Picture]:
@@ -116,7 +132,7 @@ def _check_name(target: Path, options: PictureOptions) -> None:
 def draw_picture(path: Path, scene: Scene, kind: str, options: PictureOptions) -> None:
     """Write one picture: a diagram of the history, a plane figure where that can tell the case, else an image.
 
-    Raises as ``plot_mechanism`` does.
+    Raises as ``plot_case`` does.
     """
     if kind == "history":
         draw_history(path, scene, options)
@@ -128,16 +144,24 @@ def draw_picture(path: Path, scene: Scene, kind: str, options: PictureOptions) -
     draw_in_space(path, scene, kind, options)
 
 
-def plot_mechanism(results: Results, case: CaseResult, path: Path, options: PictureOptions | None = None) -> None:
-    """Draw the mechanism of one load case to a PNG, SVG or PDF file; the structure at rest where there is none.
+def plot_case(
+    results: Results, case: CaseResult, path: Path, kind: str = "mechanism", options: PictureOptions | None = None
+) -> None:
+    """Draw one load case to a PNG, SVG or PDF file, its mechanism unless another kind is asked for.
+
+    kind : of ``KINDS``; a picture of the mechanism is one of the structure at rest where there is none
 
     Raises
     ------
     UsageError
-        The extra for pictures is not installed, the name asks for another format, or a picture in space is needed and
-        the machine has no OpenGL.
+        The extra for pictures is not installed, the name asks for another format, there is no such kind, or a picture
+        in space is needed and the machine has no OpenGL.
     FileError
         The file cannot be written.
     """
+    if kind not in KINDS:
+        raise UsageError(f"kind {kind}: there are {', '.join(KINDS)}")
     options = options or PictureOptions()
-    draw_picture(path, scene_of(results, case, options, "mechanism"), "mechanism", options)
+    if kind == "model":  # the loads of this case alone
+        options = replace(options, case=case.load_case.name)
+    draw_picture(path, scene_of(results, case, options, kind), kind, options)

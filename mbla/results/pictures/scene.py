@@ -19,6 +19,7 @@ from mbla.results.collapse.interface_modes import InterfaceMotion
 from mbla.results.collapse.motion import drawn_motion, moved_contact_points, moved_vertices
 from mbla.results.collapse.rigid_parts import rigid_parts
 from mbla.results.collapse.thrust import Thrust, thrust_lines, thrust_of
+from mbla.results.collapse.torsion_use import torsion_use
 from mbla.results.outcome import result_of
 from mbla.results.pictures.geometry import ground_slab
 from mbla.results.pictures.options import PictureOptions
@@ -146,6 +147,14 @@ class Scene:
         return None if forces is None else thrust_of(self.model, self.contacts, forces)
 
     @cached_property
+    def joint_use(self) -> FloatArray | None:
+        """Shear and torsion over what each interface carries of both, (n_interfaces,); None without forces."""
+        forces = self.forces[0]
+        if forces is None:
+            return None
+        return torsion_use(self.model, self.contacts, forces, self.case.solution.contact_model)
+
+    @cached_property
     def force_freedom(self) -> ForceFreedom | None:
         """How far the forces are unique; None where there is no result or it was not determined."""
         solution = self.case.solution
@@ -178,20 +187,19 @@ class Scene:
             return [title, f"{counted(len(model.blocks), 'block')}, {free} free; {weight}"]
         lines = [title, f"load case {case.load_case.name}: {verdict(model, case)}"]
         if kind == "forces":
-            lines.append(self.forces[1] + self._freedom_words())
-        elif self.collapse is not None:
-            lines.append(mechanism_summary(model, self.collapse) + self._merged_words())
+            lines.append(self.forces[1] + self._unpressed_words() + self._freedom_words())
+        elif self.collapse is not None and self.failure is not None:
+            lines.append(mechanism_summary(model, self.collapse, self.failure))
         elif case.solution.certificate is not None:
             lines.append("drawn: the motion in which the dead load does more work than the joints take")
         else:
             lines.append("drawn at rest: there is no mechanism")
         return lines
 
-    def _merged_words(self) -> str:
-        """That more rigid parts are drawn as one, as the listing tells them."""
-        if self.failure is None or not self.failure.merged:
-            return ""
-        return f", drawn as {len(self.failure.motions)}"
+    def _unpressed_words(self) -> str:
+        """How many forces have no point of application in their joint, and so are not in the picture."""
+        count = 0 if self.thrust is None else int(self.thrust.unpressed.sum())
+        return f"; not drawn: {counted(count, 'joint')} in tension or shear without compression" if count else ""
 
     def _freedom_words(self) -> str:
         """Whether forces other than these would do; nothing of forces that are no result."""

@@ -11,7 +11,7 @@ from mbla.results.report.verification import Check, checks_of
 from mbla.results.results import CaseResult, Results
 from mbla.results.words.answer_words import status_words
 from mbla.results.words.case_words import case_sections
-from mbla.results.words.figure_words import residual_figures
+from mbla.results.words.figure_words import residual_figures, verification_verdict
 from mbla.results.words.verdict_words import verdict
 from mbla.solution.solution import Status
 
@@ -31,6 +31,7 @@ class CaseContent:
 
     tone  : how it may look, see ``tone_of``
     alarm : what a reader must know before any figure; empty for a verified load factor
+    confirmed : what the verification came to, and how that may look, ``confirmed_tone``
     view  : trusted HTML of the view to turn; empty without one
     """
 
@@ -44,7 +45,8 @@ class CaseContent:
     parts: list[Part]
     figures: Figures
     checks: list[Check]
-    verified: bool
+    confirmed: str
+    confirmed_tone: str
     failures: tuple[str, ...]
     warnings: tuple[str, ...]
     view: str
@@ -71,7 +73,8 @@ def case_content(results: Results, case: CaseResult, number: int, figures: Figur
         parts=parts,
         figures=figures,
         checks=checks_of(case),
-        verified=case.checks.verified,
+        confirmed=verification_verdict(case),
+        confirmed_tone=_confirmed_tone(case),
         failures=case.checks.failures,
         warnings=tuple(str(notice) for notice in case_notices(case)),
         view=view,
@@ -83,6 +86,13 @@ def tone_of(case: CaseResult) -> str:
     if result_of(case) is None:
         return "open" if case.status is Status.UNBOUNDED and case.checks.verified else "bad"
     return "good" if case.status is Status.SOLVED else "fair"
+
+
+def _confirmed_tone(case: CaseResult) -> str:
+    """Green for a verified load factor only."""
+    if not case.checks.verified:
+        return "bad"
+    return "open" if result_of(case) is None else "good"
 
 
 def alarm_of(case: CaseResult) -> str:

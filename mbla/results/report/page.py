@@ -26,20 +26,26 @@ def render(content: Mapping[str, Any], views: Iterable[str]) -> str:
     UsageError
         The extra for reports is not installed.
     """
-    try:
-        from jinja2 import Environment, PackageLoader, StrictUndefined
-    except ImportError as error:
-        raise UsageError("reports need an extra that is not installed: pip install 'mbla[report]'") from error
-    environment = Environment(
-        loader=PackageLoader("mbla.results.report"),
+    jinja2 = library()
+    environment = jinja2.Environment(
+        loader=jinja2.PackageLoader("mbla.results.report"),
         autoescape=True,
-        undefined=StrictUndefined,
+        undefined=jinja2.StrictUndefined,
         trim_blocks=True,
         lstrip_blocks=True,
         keep_trailing_newline=True,
     )
     style = files("mbla.results.report").joinpath("templates", "report.css").read_text(encoding="utf-8")
-    return environment.get_template("report.html").render(style=style, policy=_policy(views), **content)
+    return str(environment.get_template("report.html").render(style=style, policy=_policy(views), **content))
+
+
+def library() -> Any:
+    """jinja2, or UsageError that says what to install: asked before anything is drawn."""
+    try:
+        import jinja2
+    except ImportError as error:
+        raise UsageError("reports need an extra that is not installed: pip install 'mbla[report]'") from error
+    return jinja2
 
 
 def _policy(views: Iterable[str]) -> str:

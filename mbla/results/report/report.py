@@ -13,7 +13,7 @@ from mbla.results.report.blocks import blocks_of
 from mbla.results.report.case_content import CaseContent, case_content
 from mbla.results.report.figures import Figures, case_figures, model_figures, series_figures
 from mbla.results.report.notice_content import notice_kinds
-from mbla.results.report.page import render
+from mbla.results.report.page import library, render
 from mbla.results.report.verdict_table import verdict_table
 from mbla.results.report.views import case_view
 from mbla.results.results import CaseResult, Results
@@ -54,8 +54,17 @@ def write_report(results: Results, path: Path, case: str | None = None, *, view:
     return remarks
 
 
+def report_path(output: Path | None, result: Path) -> Path:
+    """The file of a report: beside its result, in a folder under the same name, or as named."""
+    beside = result.with_suffix(".html")
+    if output is None:
+        return beside
+    return output / beside.name if output.is_dir() or not output.suffix else output
+
+
 def report_html(results: Results, case: str | None = None, *, view: bool = True) -> tuple[str, list[str]]:
     """The page, the same for the same result, and remarks on what it could not show."""
+    library()
     names = [each.load_case.name for each in results.cases]
     if case is not None and case not in names:
         raise UsageError(f"no load case {case} in the result; it has {', '.join(names) or 'none'}")

@@ -31,9 +31,14 @@ def answer_figure(load_case: LoadCase, mechanics: Mechanics | None) -> str:
     return number(angle_at(load_case.tilt, mechanics.load_factor))
 
 
+def status_name(status: Status) -> str:
+    """A status in words: ``not verified``; files and decks have its key."""
+    return status.value.replace("_", " ")
+
+
 def status_words(status: Status) -> str:
     """``solved``; everything else stands out, ``NOT VERIFIED``."""
-    return status.value if status is Status.SOLVED else status.value.replace("_", " ").upper()
+    return status_name(status) if status is Status.SOLVED else status_name(status).upper()
 
 
 def bound_figures(case: CaseResult) -> tuple[str, str]:

@@ -7,10 +7,10 @@ from dataclasses import dataclass
 
 from mbla.contacts.contacts import Contacts
 from mbla.model.model import Model
-from mbla.results.collapse.collapse import Collapse, collapse_of
+from mbla.results.collapse.collapse import collapse_of
 from mbla.results.collapse.enough import enough_of
 from mbla.results.collapse.failure import failure_of
-from mbla.results.collapse.force_freedom import force_freedom
+from mbla.results.collapse.force_freedom import force_freedom, why_undetermined
 from mbla.results.outcome import result_of
 from mbla.results.results import CaseResult
 from mbla.results.words.certificate_words import fall_lines, fall_sentences
@@ -47,7 +47,7 @@ def case_sections(model: Model, contacts: Contacts, case: CaseResult) -> list[Se
     if mechanics is None:
         motion = solution.certificate
         told = [] if motion is None else fall_sentences(model, contacts, load_case, motion)
-        sections = [Section("Verdict", _verdict_lines(model, case, None, told))]
+        sections = [Section("Verdict", _verdict_lines(model, case, "", told))]
         if motion is not None:
             sections.append(Section("Mechanism", spaced(fall_lines(model, contacts, motion))))
         if solution.lock is not None:
@@ -61,9 +61,11 @@ def case_sections(model: Model, contacts: Contacts, case: CaseResult) -> list[Se
         work += work_lines(model, contacts, load_case, mechanics, collapse.work)
         reactions = reaction_lines(held, contacts, load_case, mechanics)  # a support is one even as it gives way
         reactions += group_reaction_lines(held, contacts, mechanics)
-        reactions += freedom_lines(contacts, case, force_freedom(model, contacts, mechanics, dimension))
+        freedom = force_freedom(model, contacts, mechanics, dimension)
+        why = "" if freedom is not None else why_undetermined(model, contacts, mechanics, dimension)
+        reactions += freedom_lines(contacts, case, freedom, why)
         sections = [
-            Section("Verdict", _verdict_lines(model, case, collapse, told)),
+            Section("Verdict", _verdict_lines(model, case, mechanism_summary(model, collapse, failure), told)),
             Section("Mechanism", spaced(mechanism_lines(model, contacts, failure))),
             Section("Work", ["", *work]),
             Section("Reactions", reactions),
@@ -79,11 +81,11 @@ def case_sections(model: Model, contacts: Contacts, case: CaseResult) -> list[Se
     return [section for section in sections if any(section.lines)]
 
 
-def _verdict_lines(model: Model, case: CaseResult, collapse: Collapse | None, told: Sequence[str]) -> list[str]:
+def _verdict_lines(model: Model, case: CaseResult, summary: str, told: Sequence[str]) -> list[str]:
     """How it collapses and how well that is known; of a structure that does not stand, how it falls."""
     says = verdict(model, case)
-    if collapse is not None:
-        says += f"{_mechanism_label(case)}: {mechanism_summary(model, collapse)}"
+    if summary:
+        says += f"{_mechanism_label(case)}: {summary}"
     lines = sentence(full_sentence(says)) + sentence(full_sentence(case.solution.reason))
     lines += spaced([line for text in told for line in sentence(text)])
     known = [full_sentence(text) for text in (bound_words(model, case), *known_words(model, case))]

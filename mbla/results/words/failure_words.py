@@ -67,16 +67,15 @@ def _scale(model: Model, collapse: Collapse, failure: Failure) -> str:
     """``The mechanism is partial: 12 of 52 free blocks, 20.8 % of the weight, move in 1 rigid part.``"""
     moving = int(np.sum(~model.fixed & (collapse.parts > 0)))
     share = moving_share(model, collapse.parts)
-    parts = len(collapse.motions)
+    parts = len(failure.motions)
     text = (
         f"The mechanism is {reach(share)}: {moving} of {counted(len(model.free), 'free block')}, "
-        f"{100 * share:.3g} % of the weight, {'moves' if moving == 1 else 'move'} "
-        f"{'as one rigid part' if parts == 1 else f'in {parts} rigid parts'}"
+        f"{100 * share:.3g} % of the weight, {'moves' if moving == 1 else 'move'}"
     )
     if not failure.merged:
-        return f"{text}."
+        return f"{text} {'as one rigid part' if parts == 1 else f'in {parts} rigid parts'}."
     text = (
-        f"{text}, told as {len(failure.motions)}: what moves by less than {100 * failure.merged:g} % of the fastest "
+        f"{text}, told as {counted(parts, 'part')}: what moves by less than {100 * failure.merged:g} % of the fastest "
         "contact counts as at rest, or as one with its neighbour."
     )
     if len(failure.motions) < SPREADS:

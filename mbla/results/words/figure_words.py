@@ -8,15 +8,16 @@ from mbla.model.model import Model
 from mbla.results.outcome import associative_of, best_iterate, locked_in, range_of, result_of
 from mbla.results.results import CaseResult
 from mbla.results.tilt_angle import angle_bounds, angle_of
+from mbla.results.words.answer_words import status_name
 from mbla.results.words.settlement_words import settlement_lines
 from mbla.results.words.solver_words import solver_lines
 from mbla.results.words.text import counted, entry, number, sentence, small
-from mbla.solution.solution import Checks, Mechanics, ModelSize
+from mbla.solution.solution import Checks, Mechanics, ModelSize, Status
 
 
 def figures(model: Model, case: CaseResult) -> list[str]:
     """Load factors by both flow rules, bounds, residuals, size of the program, verdict of the verification."""
-    lines = entry("status", case.status.value) + settlement_lines(model, case) + _factors(case) + _bounds(case)
+    lines = entry("status", status_name(case.status)) + settlement_lines(model, case) + _factors(case) + _bounds(case)
     for name, value, measure in residual_figures(case.checks):
         if not np.isnan(value):
             lines += entry(name, f"{small(value)}   {measure}")
@@ -131,11 +132,29 @@ def size_words(size: ModelSize) -> str:
     return ", ".join(words)
 
 
+def verification_verdict(case: CaseResult) -> str:
+    """``passed`` is said of an answer; of a case that has none only that its status is confirmed."""
+    if not case.checks.verified:
+        return "NOT PASSED"
+    if case.status in (Status.NO_EQUILIBRIUM, Status.UNBOUNDED):
+        return f"confirmed: {status_name(case.status)}"
+    return "passed" if case.solution.mechanics is not None else "nothing contradicts the status"
+
+
+def _verification_words(case: CaseResult) -> str:
+    """The same with what was recomputed."""
+    told = verification_verdict(case)
+    if case.checks.verified and case.status is Status.NO_EQUILIBRIUM:
+        return f"{told}, recomputed from the motion in which the dead load falls"
+    if case.checks.verified and case.solution.lock is not None and case.status is Status.UNBOUNDED:
+        return f"{told}, recomputed from forces that carry any multiple of the live load"
+    recomputed = case.checks.verified and case.solution.mechanics is not None
+    return f"{told}: everything recomputed from model, contacts and solution" * recomputed or told
+
+
 def _verification(case: CaseResult) -> list[str]:
-    if case.checks.verified and case.solution.mechanics is not None:
-        return entry("verification", "passed: everything recomputed from model, contacts and solution")
+    lines = entry("verification", _verification_words(case))
     if case.checks.verified:
-        return entry("verification", "nothing contradicts the status")
-    lines = entry("verification", "NOT PASSED")
+        return lines
     told = (case.solution.reason,)
     return lines + [line for text in case.checks.failures if text not in told for line in sentence(text, "    ")]

@@ -78,7 +78,7 @@ def _header(results: Results) -> list[str]:
     lines += sentence(results.model.title, "") if results.model.title else []
     lines += entry("deck", deck.name)
     lines += [line for name, _ in deck.sources[1:] for line in entry("includes", name)]
-    lines += [line for override in deck.overrides for line in entry("set on the command line", override)]
+    lines += [line for override in deck.overrides for line in entry("changed by the user", override)]
     lines += entry("deck hash (SHA-256)", deck.sha256)
     lines += entry("date", results.created)
     return lines

@@ -29,8 +29,8 @@ MOST_ROWS = 20
 """rows of a table in the listing; the result files hold all of them"""
 
 
-def mechanism_summary(model: Model, collapse: Collapse) -> str:
-    """``4 hinges, sliding at 2 interfaces; 23 of 27 free blocks move in 3 parts``."""
+def mechanism_summary(model: Model, collapse: Collapse, failure: Failure) -> str:
+    """``4 hinges, sliding at 2 interfaces; 23 of 27 free blocks move in 3 parts``; parts as they are told and drawn."""
     count = collapse.interfaces.count
     moving = int(np.sum(~model.fixed & (collapse.parts > 0)))
     words = [
@@ -41,8 +41,15 @@ def mechanism_summary(model: Model, collapse: Collapse) -> str:
     ]
     found = ", ".join(text.format(counted(n, word)) for n, text, word in words if n) or "no interface opens or slides"
     verb = "moves" if moving == 1 else "move"
-    parts = f" in {len(collapse.motions)} parts" if len(collapse.motions) > 1 else ""
-    return f"{found}; {moving} of {counted(len(model.free), 'free block')} {verb}{parts}"
+    return f"{found}; {moving} of {counted(len(model.free), 'free block')} {verb}{_told_parts(failure)}"
+
+
+def _told_parts(failure: Failure) -> str:
+    """How many parts; where small motions within them are left out, that the blocks move as so many."""
+    count = len(failure.motions)
+    if failure.merged:
+        return f" as {counted(count, 'part')}"
+    return f" in {count} parts" if count > 1 else ""
 
 
 def mechanism_lines(model: Model, contacts: Contacts, failure: Failure) -> list[str]:

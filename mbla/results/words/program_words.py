@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from mbla.results.words.answer_words import status_name
 from mbla.results.words.text import counted, number, sentence, small, table
 from mbla.solution.solution import Solution
 
@@ -48,7 +49,7 @@ def program_lines(solution: Solution) -> list[str]:
         [
             str(program.program),
             PURPOSES.get(program.kind, program.kind),
-            program.status.value,
+            status_name(program.status),
             number(program.load_factor),
             small(program.change),
             str(program.iterations),

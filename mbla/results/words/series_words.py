@@ -7,6 +7,7 @@ import numpy as np
 from mbla.model.model import Model
 from mbla.results.results import CaseResult
 from mbla.results.series import Series, factor_of, position_of
+from mbla.results.words.answer_words import status_name
 from mbla.results.words.text import heading, number, sentence, table, vector
 
 
@@ -37,7 +38,7 @@ def _row(model: Model, series: Series, case: CaseResult) -> list[str]:
     mark = "  (worst)" if case is series.worst else ""
     return [
         case.load_case.name + mark,
-        case.status.value,
+        status_name(case.status),
         number(position.distance),
         vector(position.point),
         model.blocks.name(position.block),

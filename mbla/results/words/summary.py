@@ -72,7 +72,8 @@ def _in_words(results: Results, case: CaseResult) -> list[str]:
     text = f"{case.load_case.name}: {verdict(model, case)}"
     if mechanics is not None:
         collapse = collapse_of(model, results.contacts, case.load_case, mechanics)
-        text += f": {mechanism_summary(model, collapse)}"
+        failure = failure_of(model, results.contacts, collapse, mechanics)
+        text += f": {mechanism_summary(model, collapse, failure)}"
     lines = sentence(text)
     if mechanics is not None and case.load_case.travel is None:  # positions of a load are many, and much alike
         lines += _heaviest(results, case, mechanics, collapse)

@@ -17,6 +17,7 @@ from mbla.results.outcome import (
 )
 from mbla.results.results import CaseResult
 from mbla.results.tilt_angle import tilt_words
+from mbla.results.words.answer_words import status_name
 from mbla.results.words.settlement_words import reaction_words
 from mbla.results.words.text import number, small
 from mbla.solution.solution import Status
@@ -119,7 +120,7 @@ def _flow(case: CaseResult) -> str:
 
 
 def _stopped(case: CaseResult) -> str:
-    return STOPPED_BY.get(case.status, case.status.value)
+    return STOPPED_BY.get(case.status, status_name(case.status))
 
 
 def bound_words(model: Model, case: CaseResult) -> str:

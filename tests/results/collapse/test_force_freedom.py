@@ -1,11 +1,12 @@
 """How unique forces are, against structures whose degree of indeterminacy is known and against ranges by programs."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from mbla.results.collapse.force_freedom import force_freedom
+from mbla.results.collapse.force_freedom import force_freedom, why_undetermined
 from tests.line import BLOCK, HEAD, case_of, line_of, line_of_file, verified
 
 WALL = (
@@ -99,3 +100,14 @@ def test_what_is_guided_or_without_contact_is_not_judged() -> None:
     assert solution.mechanics is not None
     assert len(line.model.guides.blocks)
     assert force_freedom(line.model, line.contacts, solution.mechanics, 3) is None
+    assert "guided" in why_undetermined(line.model, line.contacts, solution.mechanics, 3)
+
+
+def test_what_is_too_large_says_so(monkeypatch: pytest.MonkeyPatch) -> None:
+    line = line_of(BEAM)
+    solution, _, _ = verified(line)
+    assert solution.mechanics is not None
+    monkeypatch.setattr("mbla.results.collapse.force_freedom.MOST_EQUATIONS", 2)
+    moved = replace(line.model, title="another")  # what is kept of the model is not asked
+    assert force_freedom(moved, line.contacts, solution.mechanics, 2) is None
+    assert "more than 2 equations" in why_undetermined(moved, line.contacts, solution.mechanics, 2)

@@ -203,7 +203,7 @@ def test_a_case_that_is_not_verified(tmp_path: Path) -> None:
     assert compared.modes is None
     assert [notice.identifier for notice in found.new] == ["not-verified"]
     assert found.gone == ()
-    assert "STATUS DIFFERS: solved in A, NOT_VERIFIED in B" in comparison_text(found, ("a", "b"))
+    assert "STATUS DIFFERS: solved in A, NOT VERIFIED in B" in comparison_text(found, ("a", "b"))
 
 
 def test_motions_without_equilibrium_are_compared() -> None:

@@ -22,11 +22,11 @@ def drawn(monkeypatch: pytest.MonkeyPatch) -> list[str]:
     """Names of the cases that were drawn; the drawing itself has its own tests."""
     names: list[str] = []
 
-    def plot(results: Any, case: Any, path: Path, options: Any = None) -> None:
-        names.append(f"{case.load_case.name}{path.suffix}")
+    def plot(results: Any, case: Any, path: Path, kind: str = "mechanism") -> None:
+        names.append(f"{case.load_case.name}{'' if kind == 'mechanism' else '_' + kind}{path.suffix}")
         path.write_bytes(PNG if path.suffix == ".png" else b"<svg/>")
 
-    monkeypatch.setattr("mbla.results.pictures.plot.plot_mechanism", plot)
+    monkeypatch.setattr("mbla.results.pictures.plot.plot_case", plot)
     return names
 
 
@@ -66,7 +66,7 @@ def test_without_pictures_the_table_is_there_with_the_reason(monkeypatch: pytest
     def refuse(*_: object) -> None:
         raise UsageError("pictures need an extra that is not installed")
 
-    monkeypatch.setattr("mbla.results.pictures.plot.plot_mechanism", refuse)
+    monkeypatch.setattr("mbla.results.pictures.plot.plot_case", refuse)
     html = shown(Run(tower_results()))["text/html"]
     assert "no picture: pictures need an extra" in html
     assert "<td>push_x</td>" in html
@@ -84,6 +84,8 @@ def test_pictures_as_notebooks_want_them(drawn: list[str], tmp_path: Path) -> No
     case = Run(tower_results())["push_x"]
     assert shown(case.picture())["image/png"].strip() in (base64.b64encode(PNG).decode(), PNG)
     assert shown(case.picture(format="svg"))["image/svg+xml"] == "<svg/>"
+    case.picture(kind="forces")
+    assert drawn[-1] == "push_x_forces.png"
     assert case.picture(tmp_path / "a.svg").format == "svg"
     assert (tmp_path / "a.svg").read_bytes() == b"<svg/>"
     assert case.picture().save(tmp_path / "b.png").read_bytes() == PNG

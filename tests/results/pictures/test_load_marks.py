@@ -95,3 +95,16 @@ def test_units_do_not_matter(factor: float) -> None:
     model = tower_model()
     marks = load_marks(model, factor * wrench([5, 0, 0], [0.0, 0.5, 2.7], 1), ("force",))
     assert marks.tips == pytest.approx(np.array([[0.0, 0.5, 2.7]]))
+
+
+def test_one_accelerated_block_whose_force_acts_off_its_centroid_has_an_arrow_there() -> None:
+    """As of an acceleration that grows with height: no arrow beside the structure, no moment, but a force higher up."""
+    model = tower_model()
+    loads = np.zeros((3, 6))
+    up = 0.3
+    loads[1, :3] = model.blocks.masses[1] * np.array([1.0, 0.0, 0.0])
+    loads[1, 3:] = np.cross([0.0, 0.0, up], loads[1, :3])
+    marks = load_marks(model, loads, ("acceleration (1, 0, 0) g on 1 block times 0.5 to 0.5, by height",))
+    assert not marks.uniform
+    assert not len(marks.moments)
+    assert marks.tips[0, 2] == pytest.approx(model.blocks.centroids[1, 2] + up)

@@ -13,9 +13,10 @@ from mbla.errors import FileError, UsageError
 from mbla.results.hdf5.result_file import write_results_hdf5
 from mbla.results.pictures.options import VIEWS, PictureOptions
 from mbla.results.pictures.palette import HINGE
-from mbla.results.pictures.plot import plot_mechanism, plot_results
+from mbla.results.pictures.plot import pictures_of, plot_case, plot_results
 from mbla.results.pictures.space import can_draw
 from mbla.results.results import Results
+from mbla.results.write import write_outputs
 from tests.results.synthetic import tower_results
 
 IN_SPACE = PictureOptions(kinds=("mechanism",), view=VIEWS["iso"])
@@ -124,7 +125,7 @@ def test_missing_extra_is_named(tmp_path: Path, results: Results, monkeypatch: p
 
     monkeypatch.setattr(builtins, "__import__", without)
     with pytest.raises(UsageError, match=r"pip install 'mbla\[pictures\]'"):
-        plot_mechanism(results, results.cases[0], tmp_path / "mine.png", IN_SPACE)
+        plot_case(results, results.cases[0], tmp_path / "mine.png", options=IN_SPACE)
 
 
 def test_module_imports_nothing_heavy() -> None:
@@ -149,3 +150,25 @@ def test_command_line_makes_what_it_is_asked_for(tmp_path: Path, capsys: pytest.
         told = capsys.readouterr().err
         assert told.startswith(f"mbla: {wrong[0]} {wrong[1]}")
         assert told.count("\n") == 1
+
+
+def test_no_two_pictures_have_one_name(results: Results) -> None:
+    names = ("model", "push_forces", "push")
+    cases = [replace(results.cases[0], load_case=replace(results.cases[0].load_case, name=name)) for name in names]
+    made = [picture.name for picture in pictures_of(results, cases, PictureOptions())]
+    assert made[:2] == ["_model", "_model_mechanism"]
+    assert "_push_forces_mechanism" in made
+    assert len(set(made)) == len(made) == 1 + 2 * 3
+
+
+def test_kinds_that_do_not_exist_are_refused(tmp_path: Path, results: Results) -> None:
+    with pytest.raises(UsageError, match="kind cracks: there are model, mechanism"):
+        plot_case(results, results.cases[0], tmp_path / "a.png", "cracks")
+
+
+def test_a_run_with_plots_writes_what_the_command_draws(tmp_path: Path, results: Results) -> None:
+    written = write_outputs(results, tmp_path, "tower", False, False, 2, True)
+    assert {name for name in written if name.endswith(".png")} == {
+        "tower_model.png",
+        *(f"tower_{case.load_case.name}{kind}.png" for case in results.cases for kind in ("", "_forces")),
+    }

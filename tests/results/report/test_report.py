@@ -14,7 +14,7 @@ from mbla.results.outcome import notices_of
 from mbla.results.records.json_record import results_json
 from mbla.results.report import report
 from mbla.results.report.figures import Figure, Figures
-from mbla.results.report.report import report_html, write_report
+from mbla.results.report.report import report_html, report_path, write_report
 from mbla.results.results import CaseResult, Results
 from mbla.results.words.case_words import case_sections
 from mbla.results.words.contact_words import contact_lines
@@ -249,6 +249,23 @@ def test_only_html_is_written(tmp_path: Path, name: str) -> None:
     assert not list(tmp_path.iterdir())
 
 
+def test_a_folder_gets_the_report_under_the_name_of_the_result(tmp_path: Path) -> None:
+    result = tmp_path / "wall.h5"
+    (tmp_path / "old.d").mkdir()
+    assert report_path(None, result) == tmp_path / "wall.html"
+    assert report_path(tmp_path / "new", result) == tmp_path / "new" / "wall.html"
+    assert report_path(tmp_path / "old.d", result) == tmp_path / "old.d" / "wall.html"
+    assert report_path(tmp_path / "a.html", result) == tmp_path / "a.html"
+
+
+def test_what_does_not_stand_is_confirmed_and_not_passed() -> None:
+    page = page_of(tower_results())
+    solved, fallen = (page.one("h3", id=f"case-{i}-verification-title") for i in (1, 2))
+    assert "passed" in solved.text
+    assert "confirmed: no equilibrium" in fallen.text
+    assert "passed" not in fallen.text
+
+
 def test_a_folder_of_that_name(tmp_path: Path) -> None:
     (tmp_path / "a.html").mkdir()
     with pytest.raises(FileError, match="is a folder"):
@@ -272,8 +289,9 @@ def test_what_cannot_be_written_is_said(tmp_path: Path) -> None:
 
 def test_without_the_extra_it_says_what_to_install(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "jinja2", None)
-    with pytest.raises(UsageError, match=r"pip install 'mbla\[report\]'"):
-        report_html(tower_results(), view=False)
+    for view in (False, True):  # before anything is drawn, and whatever it is to hold
+        with pytest.raises(UsageError, match=r"^reports need an extra .*: pip install 'mbla\[report\]'$"):
+            report_html(tower_results(), view=view)
 
 
 def test_missing_pictures_are_said_in_the_page_and_beside_it(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -171,7 +171,8 @@ def interface_rows(results: Results) -> list[dict[str, Any]]:
 
 
 def interface_forces(results: Results, mechanics: Mechanics | None, i: int, points: Any) -> dict[str, Any]:
-    contacts, row = results.contacts, {}
+    contacts = results.contacts
+    row: dict[str, Any] = {}
     force, moment = np.zeros(3), np.zeros(3)
     normal_at, allowed = contacts.normals[i], 0.0
     law = results.model.joints[contacts.joint_names[contacts.joints[i]]]
@@ -185,11 +186,12 @@ def interface_forces(results: Results, mechanics: Mechanics | None, i: int, poin
     shear = np.linalg.norm(force - normal * normal_at)
     put(row, "force", force if mechanics else NAN3)
     put(row, "moment", moment if mechanics else NAN3)
-    put(row, "application", contacts.centroids[i] + np.cross(normal_at, moment) / normal if mechanics else NAN3)
+    pressed = mechanics is not None and normal > 0  # others act at no point
+    put(row, "application", contacts.centroids[i] + np.cross(normal_at, moment) / normal if pressed else NAN3)
     row["normal_force"] = normal if mechanics else np.nan
     row["shear_force"] = shear if mechanics else np.nan
     row["torsion"] = moment @ normal_at if mechanics else np.nan
-    row["friction_use"] = shear / allowed if mechanics else np.nan
+    row["friction_use"] = shear / allowed if mechanics and allowed > 0 else np.nan
     return row
 
 

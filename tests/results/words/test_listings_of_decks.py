@@ -27,7 +27,7 @@ KINDS = {
     "benchmarks/groove_locked": ("No collapse", "Locked: these forces"),
     "tutorials/travelling_load": ("any multiple", "on the extrados"),
     "benchmarks/leaves": ("Part 1, thin[0]",),
-    "benchmarks/guided_blocks": ("was not determined",),
+    "benchmarks/guided_blocks": ("was not determined, as blocks are guided",),
     "benchmarks/glued_lintel": ("turns about",),
     "benchmarks/torque_convex": ("twists",),
     "benchmarks/plank_in_clamp": ("the peak of its load path",),

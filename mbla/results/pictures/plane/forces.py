@@ -25,8 +25,8 @@ KEY = (1.0, 0.5, 0.1)
 
 def draw_forces(sheet: Sheet, flat: Flat, scene: Scene) -> None:
     """Resultants as short lines along the force, the wider and darker the larger; marks on eccentric ones."""
-    thrust = scene.thrust
-    if thrust is None or not thrust.carried.any():
+    thrust, use = scene.thrust, scene.joint_use
+    if thrust is None or use is None or not thrust.carried.any():
         return
     rows = np.flatnonzero(thrust.carried)
     points, vectors = flat.project(thrust.points[rows]), flat.project(thrust.forces[rows])
@@ -39,7 +39,7 @@ def draw_forces(sheet: Sheet, flat: Flat, scene: Scene) -> None:
     widths = _widths(share)[order]
     sheet.lines(lines, widths, [shade(value) for value in share[order]], zorder=4)
     _draw_thrust_lines(sheet, flat, scene)
-    _mark_eccentric(sheet, points, thrust.eccentricity[rows], thrust.friction_use[rows])
+    _mark_eccentric(sheet, points, thrust.eccentricity[rows], use[rows])
     unit = scene.model.units.force
     for value in KEY:
         width = float(_widths(np.array(value)))
@@ -66,7 +66,7 @@ def _draw_thrust_lines(sheet: Sheet, flat: Flat, scene: Scene) -> None:
         sheet.name("line of thrust", color=THRUST, linewidth=1.6)
 
 
-def _mark_eccentric(sheet: Sheet, points: FloatArray, eccentricity: FloatArray, friction_use: FloatArray) -> None:
+def _mark_eccentric(sheet: Sheet, points: FloatArray, eccentricity: FloatArray, use: FloatArray) -> None:
     few = len(points) < 60
     style = {"linewidths": 1.6, "zorder": 6}
     outside = (eccentricity > MIDDLE_THIRD) & (eccentricity < EDGE)
@@ -79,7 +79,7 @@ def _mark_eccentric(sheet: Sheet, points: FloatArray, eccentricity: FloatArray, 
     if edge.any():
         sheet.dots(points[edge], 9.0 if few else 4.5, facecolors=HINGE, edgecolors=INK, linewidths=0.8, zorder=6)
         sheet.name("at the edge of the joint", marker="o", markerfacecolor=HINGE, markeredgecolor=INK, **look)
-    used = friction_use >= USED
+    used = use >= USED
     if used.any():
         sheet.dots(
             points[used], 7.0 if few else 3.5, facecolors=SLIDE, edgecolors=INK, linewidths=0.8, zorder=3.8, marker="s"

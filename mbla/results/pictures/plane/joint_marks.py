@@ -17,6 +17,9 @@ CURVED = 0.5
 """cosine to the curve's own direction from which a hinge is one of the intrados or extrados, as in the listing"""
 ARROW = 0.05
 """longest arrow of a sliding joint over the size of the structure; it is at most half as long as the joint"""
+CRUSHES = 1e-3
+"""speed of closing over the largest speed of the ends of joints from which a joint is said to crush: residuals of a
+solved case are smaller"""
 LARGE, SMALL, MANY_HINGES = 11.0, 5.0, 60
 """diameter of hinges, points; small ones where there are many"""
 
@@ -32,16 +35,43 @@ def draw_joint_marks(sheet: Sheet, flat: Flat, scene: Scene) -> None:
 
 
 def _draw_gaps(sheet: Sheet, flat: Flat, scene: Scene, joints: InterfaceMotion) -> None:
-    """The space between both sides of joints that open, as quadrilaterals or triangles, hatched."""
-    chosen = np.flatnonzero(np.isin(joints.modes, (InterfaceMode.OPEN, InterfaceMode.HINGE)))
-    if not len(chosen):
-        return
-    ends = flat_joints(scene.contacts, flat).ends[chosen]
-    a, b = (flat.project(side) for side in scene.contact_sides)
-    gaps = np.stack([a[ends[:, 0]], a[ends[:, 1]], b[ends[:, 1]], b[ends[:, 0]]], axis=1)
-    style = {"facecolors": OPEN, "edgecolors": INK, "hatch": "xxxx", "zorder": 3}
-    sheet.areas(list(gaps), linewidths=sheet.width(0.6), **style)
-    sheet.name_area("opening", facecolor=OPEN, edgecolor=INK, hatch="xxxx")
+    """The space between both sides of joints that open, hatched; where they crush, what overlaps, dotted."""
+    ends = flat_joints(scene.contacts, flat).ends
+    velocities = _end_velocities(scene, joints, ends)
+    speeds = np.einsum("ijk,ik->ij", velocities, scene.contacts.normals)
+    least = CRUSHES * float(np.linalg.norm(velocities, axis=2).max(initial=0.0))
+    opens = np.isin(joints.modes, (InterfaceMode.OPEN, InterfaceMode.HINGE))
+    a, b = (flat.project(side)[ends] for side in scene.contact_sides)
+    gaps, overlaps = [], []
+    for row in np.flatnonzero(opens | (speeds.min(axis=1) < -least)):
+        for part, sign in _parts(a[row], b[row], speeds[row], least):
+            if sign < 0:
+                overlaps.append(part)
+            elif opens[row]:
+                gaps.append(part)
+    style = {"edgecolors": INK, "linewidths": sheet.width(0.6), "zorder": 3}
+    if gaps:
+        sheet.areas(gaps, facecolors=OPEN, hatch="xxxx", **style)
+        sheet.name_area("opening", facecolor=OPEN, edgecolor=INK, hatch="xxxx")
+    if overlaps:
+        sheet.areas(overlaps, facecolors="white", hatch="....", **style)
+        sheet.name_area("crushing", facecolor="white", edgecolor=INK, hatch="....")
+
+
+def _end_velocities(scene: Scene, joints: InterfaceMotion, ends: IntArray) -> FloatArray:
+    """Velocity of body b relative to a at both ends of each joint, (n_interfaces, 2, 3)."""
+    arms = scene.contacts.points[ends] - scene.contacts.centroids[:, None]
+    return np.asarray(joints.translation[:, None] + np.cross(joints.rotation[:, None], arms))
+
+
+def _parts(a: FloatArray, b: FloatArray, speeds: FloatArray, least: float) -> list[tuple[FloatArray, int]]:
+    """Outlines between both sides, (2, 2) each, with 1 where they part and -1 where they overlap."""
+    signs = np.where(speeds < -least, -1, 1)
+    if signs[0] == signs[1]:
+        return [(np.array([a[0], a[1], b[1], b[0]]), int(signs[0]))]
+    share = speeds[0] / (speeds[0] - speeds[1])
+    middle = ((1 - share) * (a[0] + b[0]) + share * (a[1] + b[1])) / 2
+    return [(np.array([a[end], middle, b[end]]), int(signs[end])) for end in (0, 1)]
 
 
 def _draw_hinges(sheet: Sheet, flat: Flat, scene: Scene, joints: InterfaceMotion) -> None:

@@ -15,8 +15,12 @@ from mbla.results.pictures.scene import Scene
 
 LONGEST, SHORTEST = 0.12, 0.03
 """of arrows, over the size of the structure"""
+LONGEST_OF_MANY, MANY = 0.04, 24
+"""the same of more forces than that, which would cover the structure and each other"""
 FEW = 4
 """forces up to which arrows are thick"""
+ROUNDING = 1e-9
+"""share of the single forces across the page below which their sum is none"""
 COLUMNS = 90
 """letters in a line of a load in the legend"""
 MOST_LINES = 3
@@ -35,7 +39,20 @@ def draw_loads(
     if drawn:
         sheet.name(text, color=colour, linewidth=3.0, marker=">", markersize=9)
     elif loads[scene.model.free].any():
+        _draw_across(sheet, flat, scene, loads, text, colour)
+
+
+def _draw_across(sheet: Sheet, flat: Flat, scene: Scene, loads: FloatArray, text: str, colour: str) -> None:
+    """The sign of a load across the page, in the middle of what it pushes: a dot towards the eye, a cross away."""
+    through = np.where(scene.model.fixed, 0.0, loads[:, :3] @ flat.towards)
+    total = float(through.sum())
+    if abs(total) <= ROUNDING * float(np.abs(through).sum()):  # a couple, which pushes nowhere
         sheet.name(f"{text} (across the page)", color=colour, linestyle="none", marker=r"$\odot$", markersize=14)
+        return
+    sign, way = (r"$\odot$", "towards the viewer") if total > 0 else (r"$\otimes$", "away from the viewer")
+    middle = np.average(flat.project(scene.model.blocks.centroids), axis=0, weights=np.abs(through))
+    sheet.dots(middle[None], 26, color=colour, marker=sign, linewidths=0.6, zorder=7)
+    sheet.name(f"{text} ({way})", color=colour, linestyle="none", marker=sign, markersize=14)
 
 
 def _draw_forces(sheet: Sheet, flat: Flat, scene: Scene, marks: LoadMarks, colour: str) -> bool:
@@ -47,7 +64,8 @@ def _draw_forces(sheet: Sheet, flat: Flat, scene: Scene, marks: LoadMarks, colou
     largest = float(sizes.max())
     if largest == 0:
         return False
-    length = np.maximum(LONGEST * sizes / largest, SHORTEST * (sizes > 0)) * sheet.size
+    longest = LONGEST if len(tips) <= MANY else LONGEST_OF_MANY
+    length = np.maximum(longest * sizes / largest, min(SHORTEST, longest / 2) * (sizes > 0)) * sheet.size
     width = 3.0 if len(tips) <= FEW else 1.4
     unit = steps / np.where(sizes > 0, sizes, 1.0)
     sheet.arrows(flat.project(tips), length * unit, width, colour, 7, thin=len(tips) > FEW)

@@ -24,6 +24,7 @@ class Drawing:
 
     solid  : what hides things, the structure
     marks  : what shines through where the structure hides it
+    loads  : marks of the whole, left out where a part of it is enlarged: their arrows are cut there
     shine  : strength of hidden marks, 0 to 1
     extent : (n, 3) m, what must fit into the picture
     legend : names and colours
@@ -38,6 +39,7 @@ class Drawing:
     legend: tuple[tuple[str, str], ...]
     scale: ColourScale | None = None
     notes: tuple[str, ...] = ()
+    loads: tuple[Shape, ...] = ()
 
     def solid_from(self, elevation: float) -> tuple[Shape, ...]:
         """What hides things from an eye at an elevation in degrees: from below all but the ground."""

@@ -42,7 +42,6 @@ def mechanism_drawing(scene: Scene, widest: Scene | None = None, seen: FloatArra
         marks += lines
     extent = np.vstack([scene.moved, scene.model.blocks.vertices, *scene.slabs])
     loads, entries = live_load_arrows(scene)
-    marks += loads
     extent = np.vstack([extent, *(shape.points for shape in loads)])
     legend += entries
     if moving.any():
@@ -50,7 +49,8 @@ def mechanism_drawing(scene: Scene, widest: Scene | None = None, seen: FloatArra
         legend += [("at rest", REST)] * bool(rests.any()) + [("before", GHOST)]
     if scene.model.fixed.any():
         legend.append(("support", FIXED_BLOCK))
-    return Drawing(tuple(solid), tuple(marks), 0.6, extent, tuple(legend), notes=(*_parts_note(widest), *notes))
+    notes = (*_parts_note(widest), *notes)
+    return Drawing(tuple(solid), tuple(marks), 0.6, extent, tuple(legend), notes=notes, loads=tuple(loads))
 
 
 def moving_blocks(scene: Scene) -> BoolArray:

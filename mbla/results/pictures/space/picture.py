@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import weakref
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
 
+from mbla.arrays import FloatArray
 from mbla.results.collapse.motion import drawn_motion
 from mbla.results.pictures.options import PictureOptions, format_of
 from mbla.results.pictures.page import open_page
@@ -15,7 +16,7 @@ from mbla.results.pictures.space.drawing import Drawing
 from mbla.results.pictures.space.forces import forces_drawing
 from mbla.results.pictures.space.mechanism import mechanism_drawing
 from mbla.results.pictures.space.model import model_drawing
-from mbla.results.pictures.space.panels import focus_of, panels_of
+from mbla.results.pictures.space.panels import Panel, focus_of, panels_of
 from mbla.results.pictures.space.renderer import Renderer
 from mbla.results.pictures.space.sheet import add_images, fill_sheet
 from mbla.results.pictures.space.views import best_view
@@ -60,9 +61,20 @@ def draw_in_space(path: Path, scene: Scene, kind: str, options: PictureOptions) 
         panels = panels_of(drawing.extent, focus, view, width / height, room)
         if len(panels) > 1:
             drawing = mechanism_drawing(scene, seen=focus)
-        with Renderer(drawing.solid_from(view[1]), drawing.marks) as renderer:
-            images = [renderer.image(each.camera, round(each.share * width), height, drawing.shine) for each in panels]
+        with Renderer(drawing.solid_from(view[1]), drawing.marks, drawing.loads) as renderer:
+            images = images_of(renderer, panels, drawing, (width, height))
         add_images(page, images, panels, scene, drawing, (bottom, top))
+
+
+def images_of(
+    renderer: Renderer, panels: Sequence[Panel], drawing: Drawing, pixels: tuple[int, int]
+) -> list[FloatArray]:
+    """What each panel of a page of these pixels shows; loads in that of the whole structure only."""
+    width, height = pixels
+    return [
+        renderer.image(each.camera, round(each.share * width), height, drawing.shine, loads=each.gain == 1.0)
+        for each in panels
+    ]
 
 
 def frame_between(bottom: float, top: float) -> tuple[tuple[float, float], tuple[float, float]]:

@@ -15,6 +15,7 @@ from types import TracebackType
 from typing import Any, Self
 
 import numpy as np
+import numpy.typing as npt
 
 from mbla.arrays import FloatArray
 from mbla.errors import UsageError
@@ -25,6 +26,10 @@ REFERENCE_HEIGHT = 1000
 """pixels of the picture for which line widths are given"""
 FINER = 2
 """rendered pixels over those of the image, in each direction: smooths edges the same way on every machine"""
+
+WHITE = 255
+"""each component of the background"""
+ByteArray = npt.NDArray[np.uint8]
 
 
 def can_draw() -> bool:
@@ -66,14 +71,15 @@ class Renderer:
     Raises UsageError where the extra is not installed or the machine has no OpenGL.
     """
 
-    def __init__(self, solid: Sequence[Shape], marks: Sequence[Shape]) -> None:
+    def __init__(self, solid: Sequence[Shape], marks: Sequence[Shape], loads: Sequence[Shape] = ()) -> None:
         self._vista = pyvista()
         self._plotter = self._vista.Plotter(off_screen=True, window_size=(64, 64), lighting="none")
         self._line_actors: list[tuple[Any, float]] = []
         self._light()
         self._plotter.set_background("white")
         self._solid = [self._add(shape) for shape in solid if _size(shape)]
-        self._marks = [self._add(shape) for shape in marks if _size(shape)]
+        self._loads = [self._add(shape) for shape in loads if _size(shape)]
+        self._marks = [self._add(shape) for shape in marks if _size(shape)] + self._loads
 
     def __enter__(self) -> Self:
         return self
@@ -81,12 +87,15 @@ class Renderer:
     def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, at: TracebackType | None) -> None:
         self._plotter.close()
 
-    def image(self, camera: Camera, width: int, height: int, shine: float) -> FloatArray:
+    def image(self, camera: Camera, width: int, height: int, shine: float, *, loads: bool = True) -> FloatArray:
         """What the camera sees, (height, width, 3) from 0 to 1.
 
         shine : strength of marks that blocks hide, 0 to 1
+        loads : show them too
         """
-        whole = self._render(camera, width, height)[..., :3]
+        for actor in self._loads:
+            actor.SetVisibility(loads)
+        whole = self._render(camera, width, height)
         if not self._marks or shine == 0:
             return _coarser(whole)
         for actor in self._solid:
@@ -94,10 +103,14 @@ class Renderer:
         marks = self._render(camera, width, height)
         for actor in self._solid:
             actor.SetVisibility(True)
-        cover = np.where(np.any(marks[..., :3] < 1, axis=2), shine, 0.0)[..., None]
-        return _coarser(whole * (1 - cover) + marks[..., :3] * cover)
+        white = (marks[..., 0] == WHITE) & (marks[..., 1] == WHITE) & (marks[..., 2] == WHITE)
+        covered = np.flatnonzero(~white)  # a few of millions of pixels
+        flat = whole.reshape(-1, 3)
+        flat[covered] = np.round((1 - shine) * flat[covered] + shine * marks.reshape(-1, 3)[covered]).astype(np.uint8)
+        return _coarser(whole)
 
-    def _render(self, camera: Camera, width: int, height: int) -> FloatArray:
+    def _render(self, camera: Camera, width: int, height: int) -> ByteArray:
+        """Pixels of the finer image, (FINER height, FINER width, 3), to be written to."""
         plotter = self._plotter
         plotter.window_size = (FINER * width, FINER * height)
         for actor, line_width in self._line_actors:
@@ -109,7 +122,7 @@ class Renderer:
         plotter.renderer.ResetCameraClippingRange()
         plotter.render()  # a screenshot alone may be of the camera before
         pixels = plotter.screenshot(None, return_img=True)
-        return np.asarray(pixels, dtype=np.float32) / 255
+        return np.array(pixels[..., :3], dtype=np.uint8, order="C")
 
     def _light(self) -> None:
         """From above the left shoulder of the viewer, with a weak one from the right, whatever the view."""
@@ -143,7 +156,10 @@ def _rows(start: Any, items: Any) -> Any:
     return np.insert(np.ravel(items), start[:-1], np.diff(start))
 
 
-def _coarser(pixels: FloatArray) -> FloatArray:
-    """Mean of each square of FINER x FINER pixels."""
-    height, width = pixels.shape[0] // FINER, pixels.shape[1] // FINER
-    return np.asarray(pixels.reshape(height, FINER, width, FINER, 3).mean(axis=(1, 3)))
+def _coarser(pixels: ByteArray) -> FloatArray:
+    """Mean of each square of FINER x FINER pixels, from 0 to 1."""
+    total = np.zeros((pixels.shape[0] // FINER, pixels.shape[1] // FINER, 3), dtype=np.uint16)
+    for row in range(FINER):
+        for column in range(FINER):
+            total += pixels[row::FINER, column::FINER]
+    return np.asarray(total * np.float32(1 / (WHITE * FINER**2)))

@@ -47,9 +47,11 @@ def add_images(
             _add_scale_bar(axes, panel.camera, unit, page.letter, (0.22 / panel.camera.aspect, 0.045))
         else:
             artists[-1].set_clip_path(_frame(page, axes, (0.005, room[0], 0.985, room[1] - room[0])))
-            _add_scale_bar(axes, panel.camera, unit, page.letter, (0.03, room[1] - 0.05))
+            bar = _add_scale_bar(axes, panel.camera, unit, page.letter, (0.03, room[1] - 0.06))
             style = {"fontsize": 0.85 * page.letter, "color": INK, "ha": "right", "va": "top"}
-            axes.text(0.975, room[1] - 0.015, f"what moves, enlarged {panel.gain:.1f} times", **style)
+            told = axes.text(0.975, room[1] - 0.015, f"what moves, enlarged {panel.gain:.1f} times", **style)
+            for artists_of in (bar, [told]):
+                _ground(page, axes, artists_of)
         if panel.inside is not None:
             _frame(page, axes, panel.inside)
     if drawing.scale is not None:
@@ -85,16 +87,26 @@ def round_length(most: float) -> float:
     return max(step * power for step in (1.0, 2.0, 5.0) if step * power <= most * (1 + 1e-12))
 
 
-def _add_scale_bar(axes: Any, camera: Camera, unit: str, size: float, corner: tuple[float, float]) -> None:
-    """A length across the line of sight; parallel projection shows it the same everywhere."""
+def _add_scale_bar(axes: Any, camera: Camera, unit: str, size: float, corner: tuple[float, float]) -> list[Any]:
+    """A length across the line of sight, which parallel projection shows the same everywhere; its artists."""
     width = camera.height * camera.aspect
     length = round_length(0.12 * width)
     left, bottom = corner
     right = left + length / width
-    axes.plot([left, left, right, right], [bottom + 0.008, bottom, bottom, bottom + 0.008], color=INK, lw=0.12 * size)
-    axes.text(
-        (left + right) / 2, bottom + 0.012, f"{number(length)} {unit}", fontsize=0.85 * size, ha="center", color=INK
+    lines = axes.plot(
+        [left, left, right, right], [bottom + 0.008, bottom, bottom, bottom + 0.008], color=INK, lw=0.12 * size
     )
+    style = {"fontsize": 0.85 * size, "color": INK, "ha": "center"}
+    text = axes.text((left + right) / 2, bottom + 0.012, f"{number(length)} {unit}", **style)
+    return [*lines, text]
+
+
+def _ground(page: Page, axes: Any, artists: Sequence[Any]) -> None:
+    """White behind what is written over a picture."""
+    box = type(page.extent_of(artists[0])).union([page.extent_of(each) for each in artists]).padded(0.3 * page.letter)
+    place = box.transformed(axes.transData.inverted())
+    white = page.parts.Rectangle((place.x0, place.y0), place.width, place.height, facecolor="white", zorder=1.5)
+    axes.add_patch(white)
 
 
 def _add_legend(page: Page, drawing: Drawing) -> float:

@@ -65,6 +65,26 @@ def test_model_of_one_case_shows_its_load_alone(tmp_path: Path) -> None:
     assert CASES[1].lower() not in svg.lower()
 
 
+def test_loads_across_the_page_say_which_way(tmp_path: Path) -> None:
+    """Seen against y; forces that cancel push nowhere and have no place of their own."""
+    marks = {}
+    for pushes, told in (
+        ((1, 1), "away from the viewer"),
+        ((-1, -1), "towards the viewer"),
+        ((1, -1), "across the page"),
+    ):
+        results = tower_results()
+        live = np.zeros((3, 6))
+        live[1:, 1] = pushes
+        case = replace(results.model.load_cases[0], live_load=live, live_words=("push",))
+        model = replace(results.model, load_cases=(case,))
+        results = replace(results, model=model, cases=(replace(results.cases[0], load_case=case),))
+        texts, svg = drawn(tmp_path, "model", results)
+        assert f"live load push_x: push ({told})" in texts or f"live load: push ({told})" in texts
+        marks[told] = svg.lower().count(CASES[0].lower())
+    assert marks["towards the viewer"] == marks["away from the viewer"] > marks["across the page"]
+
+
 def test_mechanism_marks_the_hinge_and_what_opens(tmp_path: Path) -> None:
     texts, svg = drawn(tmp_path, "mechanism")
     assert {"hinge", "opening", "part 1", "before it moves"} <= set(texts)
@@ -169,3 +189,27 @@ def test_far_from_the_origin_and_in_other_units_the_figure_is_the_same(tmp_path:
 @pytest.mark.parametrize(("length", "bar"), [(1.0, 1.0), (1.99, 1.0), (4.9, 2.0), (7.0, 5.0), (0.03, 0.02), (1e4, 1e4)])
 def test_the_scale_bar_has_a_round_length(length: float, bar: float) -> None:
     assert round_length(length) == pytest.approx(bar)
+
+
+def test_forces_of_a_support_that_gives_way_are_not_those_of_a_live_load() -> None:
+    results = tower_results()
+    model = full_model(results.model)
+    settled = next(case for case in model.load_cases if case.settlement is not None)
+    case = replace(results.cases[0], load_case=settled)
+    drawing = scene_of(replace(results, model=model), case, PictureOptions(), "forces")
+    assert drawing.forces[1] == "contact forces under dead load as the support gives way"
+    assert settled.settlement is not None
+    assert not drawing.dead_load[settled.settlement.blocks].any()
+
+
+def test_what_crushes_is_no_opening(tmp_path: Path) -> None:
+    """The tower sinks straight into its base: nothing opens, and the overlap is told."""
+    results = tower_results()
+    mechanism = np.zeros((3, 6))
+    mechanism[1, 2] = -1.0
+    found = replace(mechanics_of(results), mechanism=mechanism)
+    case = replace(results.cases[0], solution=replace(results.cases[0].solution, mechanics=found))
+    texts, _ = drawn(tmp_path, "mechanism", results, case)
+    assert "crushing" in texts
+    whole, _ = drawn(tmp_path, "mechanism")
+    assert "crushing" not in whole

@@ -2,11 +2,12 @@
 
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 import pytest
 
+from mbla.arrays import FloatArray
 from mbla.results.collapse.force_freedom import ForceFreedom
 from mbla.results.pictures.options import PictureOptions
 from mbla.results.pictures.palette import FIXED_BLOCK, HINGE, OPEN, SLIDE, WARNING, group_colours
@@ -17,7 +18,8 @@ from mbla.results.pictures.space.forces import forces_drawing, ramp, resultant_r
 from mbla.results.pictures.space.joints import joint_marks
 from mbla.results.pictures.space.mechanism import PARTS, mechanism_drawing
 from mbla.results.pictures.space.model import model_drawing
-from mbla.results.pictures.space.picture import draw_in_space, view_of_case
+from mbla.results.pictures.space.panels import Panel
+from mbla.results.pictures.space.picture import draw_in_space, images_of, view_of_case
 from mbla.results.pictures.space.renderer import Renderer
 from mbla.results.pictures.space.shapes import Faces, Lines, painted, rgb
 from mbla.results.pictures.space.sheet import round_length
@@ -174,9 +176,27 @@ def test_forces_that_are_not_unique_are_said_to_be_one_state(results: Results) -
     at_rest = scene(results, "forces")
     for degree, told in ((0, False), (3, True)):
         vars(at_rest)["force_freedom"] = ForceFreedom(degree, np.array([True, False]))
-        notes = " ".join(forces.forces_drawing(at_rest).notes)
+        notes = " ".join(at_rest.words_of("forces"))
         assert ("one possible state" in notes) is told
-    assert "up to 3 ways; 1 of 2 resultants are unique" in notes
+    assert "up to 3 ways, 1 of 2 resultants are unique" in notes
+
+
+def test_an_enlarged_panel_has_no_loads(results: Results) -> None:
+    """An arrow over the middle of the whole would be cut by the edge of the part."""
+    drawing = mechanism_drawing(scene(results, "mechanism"))
+    assert drawing.loads
+    assert not set(map(id, drawing.loads)) & set(map(id, drawing.marks))
+    asked: list[bool] = []
+
+    class Asked:
+        def image(self, camera: object, width: int, height: int, shine: float, *, loads: bool) -> FloatArray:
+            asked.append(loads)
+            return np.zeros((height, width, 3))
+
+    camera = fitted(drawing.extent, -60.0, 25.0, 1.6)
+    panels = [Panel(camera, (0.0, 0.4)), Panel(camera, (0.4, 1.0), gain=2.0)]
+    images_of(cast(Renderer, Asked()), panels, drawing, (100, 50))
+    assert asked == [True, False]
 
 
 def test_words_of_loads_are_told_in_full(results: Results) -> None:
