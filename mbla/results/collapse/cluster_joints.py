@@ -10,6 +10,7 @@ import numpy as np
 from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.contacts.contacts import Contacts
 from mbla.model.model import Model
+from mbla.results.collapse.by_interface import largest_by_interface
 from mbla.results.collapse.interface_modes import TOGETHER
 from mbla.solution.solution import Mechanics
 
@@ -40,8 +41,7 @@ def cluster_joints(model: Model, contacts: Contacts, clusters: IntArray, mechani
     """From the cluster of each block, (n_blocks,)."""
     of_body = np.append(clusters, np.zeros(len(model.grounds), dtype=np.int64))
     a, b = of_body[contacts.bodies].T
-    speeds = np.zeros(len(contacts))
-    np.maximum.at(speeds, contacts.interface_of_point, np.linalg.norm(mechanics.contact_velocities, axis=1))
+    speeds = largest_by_interface(contacts, np.linalg.norm(mechanics.contact_velocities, axis=1))
     shares = speeds / (float(speeds.max(initial=0.0)) or 1.0)
     return ClusterJoints(
         pairs=np.stack([np.maximum(a, b), np.minimum(a, b)], axis=1),
@@ -64,11 +64,3 @@ def runs(pairs: IntArray, chosen: IntArray) -> Iterator[IntArray]:
 def points_of(contacts: Contacts, interfaces: IntArray) -> IntArray:
     """Contact points of some interfaces, one after the other."""
     return np.concatenate([np.arange(contacts.point_start[i], contacts.point_start[i + 1]) for i in interfaces])
-
-
-def radii(contacts: Contacts) -> FloatArray:
-    """Distance of the farthest point of each interface from its centroid, (n_interfaces,) m."""
-    arms = contacts.points - contacts.centroids[contacts.interface_of_point]
-    largest = np.zeros(len(contacts))
-    np.maximum.at(largest, contacts.interface_of_point, np.linalg.norm(arms, axis=1))
-    return largest

@@ -28,7 +28,7 @@ from mbla.arrays import BoolArray, FloatArray
 from mbla.contacts.contacts import Contacts
 from mbla.contacts.glue import solids_of
 from mbla.model.model import Model
-from mbla.results.collapse.cluster_joints import radii
+from mbla.results.collapse.by_interface import interface_radii
 from mbla.results.collapse.kept import kept
 from mbla.solution.linear_algebra.superlu import factors_on_the_diagonal
 from mbla.solution.solution import ContactMode, Mechanics
@@ -115,7 +115,7 @@ def _plane_rows(contacts: Contacts, mechanism: FloatArray) -> FloatArray | None:
 def _resultants(model: Model, contacts: Contacts, mechanics: Mechanics, rows: FloatArray) -> tuple[FloatArray, Any]:
     """Orthonormal resultants that each interface may carry, (n, 6) with moments over its radius, and whose they are."""
     arms = contacts.points - contacts.centroids[contacts.interface_of_point]
-    size = np.where(radii(contacts) > 0, radii(contacts), 1.0)
+    size = np.where(interface_radii(contacts) > 0, interface_radii(contacts), 1.0)
     of_point = contacts.interface_of_point
     spread = np.zeros((len(contacts), len(rows), len(rows)))
     for directions, chosen in _directions(model, contacts, mechanics):
@@ -146,7 +146,7 @@ def _equilibrium(model: Model, contacts: Contacts, bases: FloatArray, owner: Any
     """Forces and moments of the resultants on the free blocks, rows of each block of unit length in the mean."""
     row_of_block = np.full(len(model.blocks) + len(model.grounds), -1)
     row_of_block[model.free] = np.arange(len(model.free))
-    size = np.where(radii(contacts) > 0, radii(contacts), 1.0)
+    size = np.where(interface_radii(contacts) > 0, interface_radii(contacts), 1.0)
     per_block, parts = len(rows), []
     for side, sign in ((0, -1.0), (1, 1.0)):
         body = contacts.bodies[owner, side]

@@ -12,7 +12,8 @@ import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
 from mbla.contacts.contacts import Contacts
-from mbla.results.collapse.cluster_joints import ClusterJoints, radii, runs
+from mbla.results.collapse.by_interface import interface_radii
+from mbla.results.collapse.cluster_joints import ClusterJoints, runs
 from mbla.results.collapse.interface_modes import InterfaceMode, InterfaceMotion
 from mbla.results.collapse.work import Work
 
@@ -59,7 +60,7 @@ def hinge_lines(
     """Those between different clusters, by falling share of the motion, then by their first interface."""
     hinges = np.flatnonzero((motion.modes == InterfaceMode.HINGE) & joints.between)
     directions = joints.signs[:, None] * motion.hinge_directions
-    size, parallel = radii(contacts), loosened(SAME_DIRECTION, merged)
+    size, parallel = interface_radii(contacts), loosened(SAME_DIRECTION, merged)
     lines = []
     for run in runs(joints.pairs, hinges):
         rest = run

@@ -22,6 +22,7 @@ import numpy as np
 from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.contacts.contacts import Contacts
 from mbla.model.model import Model
+from mbla.results.collapse.by_interface import interface_radii, largest_by_interface, sum_by_interface
 from mbla.results.collapse.hinge_ends import CRUSHED, hinge_ends
 from mbla.solution.solution import ContactMode, Mechanics
 from mbla.solution.statics import contact_velocities
@@ -79,10 +80,10 @@ def interface_motion(model: Model, contacts: Contacts, mechanics: Mechanics) -> 
     opening = mechanics.contact_velocities[:, 0]
     sliding = np.hypot(mechanics.contact_velocities[:, 1], mechanics.contact_velocities[:, 2])
     is_open = mechanics.modes == ContactMode.OPEN
-    n_open = _sums(contacts, is_open)
+    n_open = sum_by_interface(contacts, is_open)
     moving = ~moves_together(contacts, mechanics.contact_velocities)
-    slides = moving & (_sums(contacts, mechanics.modes == ContactMode.SLIDE) > 0)
-    opens_more = _largest(contacts, np.where(is_open, opening, 0.0)) >= _largest(
+    slides = moving & (sum_by_interface(contacts, mechanics.modes == ContactMode.SLIDE) > 0)
+    opens_more = largest_by_interface(contacts, np.where(is_open, opening, 0.0)) >= largest_by_interface(
         contacts, np.where(is_open, 0.0, sliding)
     )
     modes = np.full(len(contacts), int(InterfaceMode.STICK), dtype=np.int64)
@@ -117,7 +118,7 @@ def relative_motion(model: Model, contacts: Contacts, motion: FloatArray) -> tup
 def moves_together(contacts: Contacts, velocities: FloatArray) -> BoolArray:
     """Interfaces whose bodies move as one, (n_interfaces,), from velocities at the contact points, (n_points, 3)."""
     speeds = np.linalg.norm(velocities, axis=1)
-    return np.asarray(_largest(contacts, speeds) <= TOGETHER * speeds.max(initial=0.0))
+    return np.asarray(largest_by_interface(contacts, speeds) <= TOGETHER * speeds.max(initial=0.0))
 
 
 def stuck_interfaces(model: Model, contacts: Contacts, motion: FloatArray) -> BoolArray:
@@ -129,19 +130,13 @@ def _turns_about_normal(contacts: Contacts, translation: FloatArray, rotation: F
     """The centre of the rotation about the normal, ‖v_t‖/|ω_n| from the centroid, lies within the farthest point."""
     along = np.linalg.norm(_in_plane(contacts, translation), axis=1)
     spin = np.abs(np.einsum("ij,ij->i", rotation, contacts.normals))
-    return np.asarray(along < (1.0 - AT_THE_POINT) * spin * _radii(contacts))
+    return np.asarray(along < (1.0 - AT_THE_POINT) * spin * interface_radii(contacts))
 
 
 def _tilts(contacts: Contacts, translation: FloatArray, rotation: FloatArray) -> BoolArray:
     """The faces do not stay parallel as they part: without a tilt there is no axis."""
-    tilt = np.linalg.norm(_in_plane(contacts, rotation), axis=1) * _radii(contacts)
+    tilt = np.linalg.norm(_in_plane(contacts, rotation), axis=1) * interface_radii(contacts)
     return np.asarray(tilt > TOGETHER * np.abs(np.einsum("ij,ij->i", translation, contacts.normals)))
-
-
-def _radii(contacts: Contacts) -> FloatArray:
-    """Distance of the farthest point of each interface from its centroid."""
-    arms = contacts.points - contacts.centroids[contacts.interface_of_point]
-    return _largest(contacts, np.linalg.norm(arms, axis=1))
 
 
 def _in_plane(contacts: Contacts, vectors: FloatArray) -> FloatArray:
@@ -159,9 +154,9 @@ def _axes(
     between those that close and those that open, at which the normal velocity w + (n × ω)·(x − mean) vanishes.
     """
     closed = np.where(is_open, 0.0, 1.0)
-    weight = np.maximum(_sums(contacts, closed), 1.0)
-    mean = _sums(contacts, closed[:, None] * contacts.points) / weight[:, None]
-    normal_velocity = np.minimum(_sums(contacts, closed * opening) / weight, 0.0)
+    weight = np.maximum(sum_by_interface(contacts, closed), 1.0)
+    mean = sum_by_interface(contacts, closed[:, None] * contacts.points) / weight[:, None]
+    normal_velocity = np.minimum(sum_by_interface(contacts, closed * opening) / weight, 0.0)
     in_plane = _in_plane(contacts, rotation)
     size = np.linalg.norm(in_plane, axis=1)
     gradient = np.cross(contacts.normals, in_plane)
@@ -169,19 +164,5 @@ def _axes(
         points = mean - (normal_velocity / size**2)[:, None] * gradient
         directions = in_plane / size[:, None]
     points[~hinges], directions[~hinges] = np.nan, np.nan
-    crushed = np.linalg.norm(points - mean, axis=1) > CRUSHED * _radii(contacts)
+    crushed = np.linalg.norm(points - mean, axis=1) > CRUSHED * interface_radii(contacts)
     return points, directions, hinge_ends(contacts, is_open, points, directions, crushed)
-
-
-def _sums(contacts: Contacts, values: FloatArray | BoolArray) -> FloatArray:
-    """Sum over the points of each interface."""
-    total = np.zeros((len(contacts), *values.shape[1:]))
-    np.add.at(total, contacts.interface_of_point, values.astype(float))
-    return total
-
-
-def _largest(contacts: Contacts, values: FloatArray) -> FloatArray:
-    """Largest over the points of each interface, 0 or more."""
-    largest = np.zeros(len(contacts))
-    np.maximum.at(largest, contacts.interface_of_point, values)
-    return largest

@@ -14,6 +14,7 @@ from mbla.arrays import FloatArray, IntArray
 from mbla.contacts.contacts import Contacts
 from mbla.contacts.glue import solids_of
 from mbla.model.model import LoadCase, Model
+from mbla.results.collapse.by_interface import sum_by_interface
 from mbla.solution.solution import Mechanics
 from mbla.solution.statics import contact_resultants
 
@@ -24,13 +25,6 @@ MOST_SINGLE_SUPPORTS = 12
 def global_forces(contacts: Contacts, contact_forces: FloatArray) -> FloatArray:
     """Force of each contact point on body b in global directions, (n_points, 3) N."""
     return np.asarray(np.einsum("pi,pij->pj", contact_forces, contacts.frames))
-
-
-def sum_by_interface(contacts: Contacts, values: FloatArray) -> FloatArray:
-    """Sum over the points of each interface, (n_interfaces, ...) from (n_points, ...)."""
-    total = np.zeros((len(contacts), *values.shape[1:]))
-    np.add.at(total, contacts.interface_of_point, values)
-    return total
 
 
 def interface_resultants(contacts: Contacts, contact_forces: FloatArray) -> FloatArray:

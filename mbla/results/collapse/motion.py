@@ -62,6 +62,13 @@ def vertex_displacements(blocks: Blocks, motion: FloatArray) -> FloatArray:
     return displacements_at(blocks, motion, blocks.block_of_vertex, blocks.vertices)
 
 
+def largest_displacements(blocks: Blocks, motion: FloatArray) -> FloatArray:
+    """Linearised displacement of the corner of each block that moves most, (n_blocks,) m."""
+    largest = np.zeros(len(blocks))
+    np.maximum.at(largest, blocks.block_of_vertex, np.linalg.norm(vertex_displacements(blocks, motion), axis=1))
+    return largest
+
+
 def contact_displacements(model: Model, contacts: Contacts, motion: FloatArray) -> FloatArray:
     """Mean displacement of the two bodies at every contact point, (n_points, 3) m; grounds do not move."""
     total = np.zeros_like(contacts.points)

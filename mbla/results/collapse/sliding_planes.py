@@ -8,7 +8,8 @@ import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
 from mbla.contacts.contacts import Contacts
-from mbla.results.collapse.cluster_joints import ClusterJoints, radii, runs
+from mbla.results.collapse.by_interface import interface_radii
+from mbla.results.collapse.cluster_joints import ClusterJoints, runs
 from mbla.results.collapse.hinge_lines import loosened
 from mbla.results.collapse.interface_modes import InterfaceMode, InterfaceMotion
 from mbla.results.collapse.work import Work
@@ -61,7 +62,7 @@ def sliding_planes(
     travel -= np.einsum("ij,ij->i", travel, normals)[:, None] * normals
     speeds = np.linalg.norm(travel, axis=1)
     ways = travel / np.where(speeds > 0, speeds, 1.0)[:, None]
-    size, one_way = radii(contacts), loosened(SAME_WAY, merged)
+    size, one_way = interface_radii(contacts), loosened(SAME_WAY, merged)
     planes = []
     for run in runs(joints.pairs, sliding):
         rest = run

@@ -26,8 +26,8 @@ from mbla.arrays import FloatArray, IntArray, row_of_item, starts
 from mbla.contacts.contacts import Contacts
 from mbla.model.model import Model
 from mbla.program.convex.shapes import local_points
-from mbla.results.collapse.cluster_joints import radii
-from mbla.results.collapse.mechanics import interface_resultants, sum_by_interface
+from mbla.results.collapse.by_interface import interface_radii, sum_by_interface
+from mbla.results.collapse.mechanics import interface_resultants
 from mbla.results.collapse.thrust import NO_FORCE, ROUNDING, allowed_at_points, shear_use
 from mbla.solution.interface_laws import interface_laws, shear_strength, torsion_excess
 
@@ -97,7 +97,7 @@ def _use_of_points(contacts: Contacts, chosen: IntArray, shears: FloatArray, all
     centre = _summed(owner, weights[:, None] * arms, len(chosen)) / total[:, None]
     arms = arms - centre[owner]  # about the centre of friction
     length = _summed(owner, weights * np.linalg.norm(arms, axis=1), len(chosen)) / total
-    spread = length > ROUNDING * radii(contacts)[chosen]
+    spread = length > ROUNDING * interface_radii(contacts)[chosen]
     arms = arms / np.where(spread, length, 1.0)[owner, None]
     force = _summed(owner, forces, len(chosen)) / total[:, None]
     moment = _summed(owner, arms[:, 0] * forces[:, 1] - arms[:, 1] * forces[:, 0], len(chosen)) / total

@@ -7,7 +7,7 @@ import numpy as np
 from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.contacts.contacts import Contacts
 from mbla.contacts.polygons import box_pairs
-from mbla.results.collapse.cluster_joints import radii
+from mbla.results.collapse.by_interface import interface_radii
 
 TOUCH = 0.01
 """gap of two interfaces, over the radius of the smaller one, up to which they touch"""
@@ -21,7 +21,7 @@ def touching_pairs(contacts: Contacts, interfaces: IntArray) -> tuple[IntArray, 
     Two convex bodies are apart where they are along one of these directions: the normals of their faces and edges, and
     those across an edge of both (Gottschalk et al. 1996, doi:10.1145/237170.237244). Boxes along the axes come first.
     """
-    size = radii(contacts)[interfaces]
+    size = interface_radii(contacts)[interfaces]
     margin = TOUCH * size[:, None]
     lower = np.minimum.reduceat(contacts.points, contacts.point_start[:-1])[interfaces] - margin
     upper = np.maximum.reduceat(contacts.points, contacts.point_start[:-1])[interfaces] + margin

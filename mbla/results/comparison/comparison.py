@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Callable
 from dataclasses import dataclass
 from difflib import unified_diff
+from typing import TypeVar
 
 import numpy as np
 
@@ -15,6 +17,8 @@ from mbla.results.comparison.matching import SAME_PLACE, Matching, match_models
 from mbla.results.comparison.units import Factors, factors_between
 from mbla.results.outcome import notices_of
 from mbla.results.results import Results
+
+T = TypeVar("T")
 
 SAME_TOTAL = 1e-9
 """Relative difference of weights, volumes and strengths that is rounding of units."""
@@ -157,10 +161,9 @@ def _models(first: Results, second: Results, factors: Factors, matching: Matchin
     held = first.model.fixed[there] != second.model.fixed[other]
     left = np.setdiff1d(np.arange(len(b)), other)
     matched = np.flatnonzero(there)
-    units = (first.model.units, second.model.units)
     return ModelComparison(
         totals=_totals(first, second, factors),
-        units=tuple(f"{u.length}, {u.force}, {u.mass}" for u in units),  # type: ignore[arg-type]
+        units=(_units(first), _units(second)),
         by=matching.by,
         shares=matching.shares,
         comparable=matching.comparable,
@@ -175,6 +178,12 @@ def _models(first: Results, second: Results, factors: Factors, matching: Matchin
     )
 
 
+def _units(results: Results) -> str:
+    """``m, N, kg``."""
+    units = results.model.units
+    return f"{units.length}, {units.force}, {units.mass}"
+
+
 def _totals(first: Results, second: Results, factors: Factors) -> tuple[Figure, ...]:
     """Counts and totals, in the units of A."""
     length, force = first.model.units.length, first.model.units.force
@@ -184,8 +193,8 @@ def _totals(first: Results, second: Results, factors: Factors) -> tuple[Figure, 
 
     models, contacts = (first.model, second.model), (first.contacts, second.contacts)
 
-    def both(of: object, what: object) -> tuple[float, float]:
-        return tuple(float(what(each)) for each in of)  # type: ignore[operator, attr-defined, return-value]
+    def both(of: tuple[T, T], what: Callable[[T], float]) -> tuple[float, float]:
+        return float(what(of[0])), float(what(of[1]))
 
     return (
         row("blocks", "", both(models, lambda m: len(m.blocks))),

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 from mbla.contacts.contacts import Contacts
 from mbla.errors import Notice, UsageError
 from mbla.model.model import Model
+from mbla.results.chosen_cases import no_such_case
 from mbla.results.notebook.case import Case
 from mbla.results.notebook.picture import Picture
 from mbla.results.notebook.view import View
@@ -42,8 +43,7 @@ class Run:
         for case in self.cases:
             if case.name == name:
                 return case
-        names = ", ".join(case.name for case in self.cases) or "none"
-        raise UsageError(f"no load case {name} in the result; it has {names}")
+        raise no_such_case(self.records, name)
 
     def __getitem__(self, name: str) -> Case:
         return self.case(name)

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
 
 from mbla.errors import UsageError
+from mbla.results.chosen_cases import no_such_case
 from mbla.results.pictures.animation import format_of_film, write_animation
 from mbla.results.pictures.history import draw_history, draw_series
 from mbla.results.pictures.options import KINDS, PictureOptions, format_of
@@ -67,8 +69,7 @@ def _chosen_cases(results: Results, name: str | None) -> list[CaseResult]:
     chosen = [each for each in results.cases if name in (None, each.load_case.name)]
     chosen = chosen or [each for each in results.cases if name == each.load_case.deck_name]
     if not chosen:
-        names = ", ".join(each.load_case.name for each in results.cases) or "none"
-        raise UsageError(f"no load case {name or ''} in the result; it has {names}")
+        raise no_such_case(results, name or "")
     return chosen
 
 
@@ -90,7 +91,7 @@ def pictures_of(results: Results, cases: Sequence[CaseResult], options: PictureO
         for series in series_of(cases):
             if len(series.cases) > 1:
                 scene = scene_of(results, series.cases[0], options, "history")
-                write = lambda path, scene=scene, series=series: draw_series(path, scene, series, options)  # noqa: E731
+                write = partial(draw_series, scene=scene, series=series, options=options)
                 pictures.append(Picture(f"_{series.name}_history", write))
     return pictures
 

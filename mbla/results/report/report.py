@@ -8,6 +8,7 @@ from typing import Any
 
 from mbla import __version__
 from mbla.errors import FileError, UsageError
+from mbla.results.chosen_cases import chosen_cases
 from mbla.results.outcome import notices_of
 from mbla.results.report.blocks import blocks_of
 from mbla.results.report.case_content import CaseContent, case_content
@@ -65,10 +66,7 @@ def report_path(output: Path | None, result: Path) -> Path:
 def report_html(results: Results, case: str | None = None, *, view: bool = True) -> tuple[str, list[str]]:
     """The page, the same for the same result, and remarks on what it could not show."""
     library()
-    names = [each.load_case.name for each in results.cases]
-    if case is not None and case not in names:
-        raise UsageError(f"no load case {case} in the result; it has {', '.join(names) or 'none'}")
-    shown = replace(results, cases=tuple(each for each in results.cases if case in (None, each.load_case.name)))
+    shown = replace(results, cases=chosen_cases(results, None if case is None else [case]))
     content = _content(results, shown, _cases(shown, view))
     page = render(content, [each.view for each in content["cases"]])
     missing = [figures.missing for figures in _all_figures(content) if figures.missing]

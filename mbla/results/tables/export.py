@@ -11,13 +11,14 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from mbla.errors import UsageError
+from mbla.results.chosen_cases import chosen_cases
 from mbla.results.files import OutputFolder
 from mbla.results.results import Results
 from mbla.results.tables.csv_file import table_csv
 from mbla.results.tables.meshes import case_vtkhdf
 from mbla.results.tables.parquet_file import table_parquet
 from mbla.results.tables.table import Table
-from mbla.results.tables.tables import chosen_cases, tables_of
+from mbla.results.tables.tables import tables_of
 
 
 @dataclass(frozen=True)

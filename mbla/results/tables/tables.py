@@ -6,7 +6,8 @@ from collections.abc import Sequence
 
 from mbla.deck.units import Units
 from mbla.errors import UsageError
-from mbla.results.results import CaseResult, Results
+from mbla.results.chosen_cases import chosen_cases
+from mbla.results.results import Results
 from mbla.results.tables.block_columns import BLOCKS
 from mbla.results.tables.case_columns import CASES
 from mbla.results.tables.history_columns import ITERATIONS, NOTICES, PATH, PROGRAMS, REACTIONS, SERIES
@@ -38,15 +39,6 @@ def tables_of(
         if name not in TABLES:
             raise UsageError(f"no table {name}; there are {', '.join(TABLES)}")
     return {name: table_of(TABLES[name], results, chosen) for name in (TABLES if names is None else names)}
-
-
-def chosen_cases(results: Results, names: Sequence[str] | None) -> tuple[CaseResult, ...]:
-    """Cases by name in the order of the deck, None for all; UsageError for a name that the result does not have."""
-    known = [case.load_case.name for case in results.cases]
-    for name in names or ():
-        if name not in known:
-            raise UsageError(f"no load case {name} in the result; it has {', '.join(known) or 'none'}")
-    return tuple(case for case in results.cases if names is None or case.load_case.name in names)
 
 
 def tables_page() -> str:

@@ -20,7 +20,7 @@ from mbla.model.model import Model
 from mbla.results.collapse.collapse import Collapse, collapse_of
 from mbla.results.collapse.failure import failure_of
 from mbla.results.collapse.hinge_lines import HingeLine
-from mbla.results.collapse.motion import drawn_motion, moved_vertices, vertex_displacements
+from mbla.results.collapse.motion import drawn_motion, largest_displacements, moved_vertices
 from mbla.results.collapse.rigid_parts import rigid_parts
 from mbla.results.outcome import result_of
 from mbla.results.pictures.geometry import block_edges, box_of, front_axis, ground_slab
@@ -169,9 +169,7 @@ def colourings(
     """The ways to colour that the case has, the first at first."""
     found = [by_group(model)]
     if parts is not None:
-        farthest = np.zeros(len(model.blocks))
-        distance = np.linalg.norm(vertex_displacements(model.blocks, motion), axis=1)
-        np.maximum.at(farthest, model.blocks.block_of_vertex, distance)
+        farthest = largest_displacements(model.blocks, motion)
         share = farthest / (farthest.max() or 1.0)
         found = [by_part(model, parts), by_value(model, "displacement", share, "none", "largest"), *found]
     forces = forces_of(case)

@@ -7,6 +7,7 @@ import numpy as np
 from mbla.arrays import FloatArray
 from mbla.contacts.contacts import Contacts
 from mbla.model.model import LoadCase, Model
+from mbla.results.collapse.by_interface import sum_by_interface
 from mbla.results.collapse.mechanics import (
     group_reactions,
     guide_reactions,
@@ -80,8 +81,7 @@ def lock_lines(model: Model, contacts: Contacts, lock: FloatArray) -> list[str]:
 
 def force_range_lines(model: Model, contacts: Contacts, mechanics: Mechanics, ranges: FloatArray) -> list[str]:
     """How far normal forces can range at the load factor, the widest ranges first."""
-    found = np.zeros(len(contacts))
-    np.add.at(found, contacts.interface_of_point, mechanics.contact_forces[:, 0])
+    found = sum_by_interface(contacts, mechanics.contact_forces[:, 0])
     widths = ranges[:, 1] - ranges[:, 0]
     order = np.argsort(-widths, kind="stable")[:MOST_ROWS]
     rows = [[*_interface(model, contacts, int(i)), *(_force(float(v)) for v in (*ranges[i], found[i]))] for i in order]

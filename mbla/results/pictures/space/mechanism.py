@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray
-from mbla.results.collapse.motion import vertex_displacements
+from mbla.results.collapse.motion import largest_displacements
 from mbla.results.pictures.palette import FIXED_BLOCK, GHOST, REST
 from mbla.results.pictures.scene import Scene
 from mbla.results.pictures.space.drawing import Drawing
@@ -55,10 +55,7 @@ def mechanism_drawing(scene: Scene, widest: Scene | None = None, seen: FloatArra
 
 def moving_blocks(scene: Scene) -> BoolArray:
     """Blocks that are drawn away from their place, (n_blocks,)."""
-    blocks = scene.model.blocks
-    distance = np.zeros(len(blocks))
-    steps = np.linalg.norm(vertex_displacements(blocks, scene.motion), axis=1)
-    np.maximum.at(distance, blocks.block_of_vertex, steps)
+    distance = largest_displacements(scene.model.blocks, scene.motion)
     return np.asarray(distance > STILL * distance.max(initial=0.0))
 
 

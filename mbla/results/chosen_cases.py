@@ -1,0 +1,23 @@
+"""Load cases of a result by their names."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from mbla.errors import UsageError
+from mbla.results.results import CaseResult, Results
+
+
+def chosen_cases(results: Results, names: Sequence[str] | None) -> tuple[CaseResult, ...]:
+    """Cases by name in the order of the deck, None for all; UsageError for a name that the result does not have."""
+    known = [case.load_case.name for case in results.cases]
+    for name in names or ():
+        if name not in known:
+            raise no_such_case(results, name)
+    return tuple(case for case in results.cases if names is None or case.load_case.name in names)
+
+
+def no_such_case(results: Results, name: str) -> UsageError:
+    """The error for a name that the result does not have."""
+    known = ", ".join(case.load_case.name for case in results.cases) or "none"
+    return UsageError(f"no load case {name} in the result; it has {known}")
