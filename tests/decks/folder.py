@@ -19,7 +19,7 @@ from mbla.deck import Deck, read_deck
 
 ROOT = Path(__file__).parents[2]
 DECKS = ROOT / "decks"
-FOLDERS = ("tutorials", "benchmarks", "structures")
+FOLDERS = ("tutorials", "benchmarks", "structures", "tradeoff")
 PATHS = tuple(sorted(path for folder in FOLDERS for path in DECKS.glob(f"{folder}/*.yaml")))
 LONG = (
     "structures/arch_bridge",
