@@ -16,7 +16,7 @@ from __future__ import annotations
 import itertools
 import time
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -30,6 +30,7 @@ from mbla.solution.cone_solver import interior_point_solver
 from mbla.solution.interior.condensed_matrix import MatrixMap, matrix_map
 from mbla.solution.interior.one_try import SOLVED, Moment, Start, Try, go
 from mbla.solution.law_state import LawState, SequenceResult
+from mbla.solution.proximal import rough_result
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import IterationRecord, ProgramRecord, Status
 from mbla.solution.stiffness import Stiffness, stiffness_of
@@ -112,7 +113,7 @@ def solve_interior(
         state = _try(tries, begin, anchor, scheme.max_factorizations)
         if state is not None:
             tries.states.append(state)
-            if state.residual <= SOLVED:
+            if state.residual <= settings.residual:
                 break
     return _result(tries, scheme)
 
@@ -139,6 +140,7 @@ def _try(tries: _Tries, begin: Start, anchor: FloatArray | None, most: int) -> L
         most,
         lambda moment: _log(tries, attempt, moment),
         tries.late,
+        tries.settings.residual,
     )
     go(attempt, begin, anchor)
     _record(tries, attempt.best, attempt.factorizations, time.perf_counter() - attempt.started)
@@ -195,6 +197,9 @@ def _result(tries: _Tries, scheme: InteriorScheme) -> SequenceResult:
         return SequenceResult(status, None, reason, records)
     if best.residual <= SOLVED:
         return SequenceResult(Status.SOLVED, best, "", records, _spread(tries, WARNED), (ONE_OF_MANY,))
+    if best.residual <= tries.settings.residual:
+        rough = rough_result(best, tries.settings.residual, records)
+        return replace(rough, remarks=(*rough.remarks, ONE_OF_MANY))
     spread = _spread(tries, USABLE)
     reason = f"no interior path ended in a state of the exact law: forces and velocities miss it by {best.residual:.2g}"
     if tries.late():
