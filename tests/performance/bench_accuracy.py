@@ -54,7 +54,6 @@ WITHOUT_NORMALITY = (
     "range=false",
     "peak=false",
     "standing=false",
-    "contact_model=convex",
 )
 
 
