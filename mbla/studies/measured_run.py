@@ -1,27 +1,15 @@
-"""The child's part: run one deck under one setting, load case by load case, and tell what each took.
-
-Started as ``python -P -m mbla.studies.measured_run``. A line of JSON on standard input says what to run
-(:class:`Task`); answers go to standard output, a line of JSON for each load case as soon as it is done, then the last
-one. Standard input stays open as long as the parent lives: its end ends the child, so that none is left behind.
-"""
+"""Run one deck under one setting, load case by load case, and tell what each took: the part of the child process."""
 
 from __future__ import annotations
 
-import importlib
 import io
-import json
-import os
-import pkgutil
-import sys
-import threading
 import time
 from collections.abc import Callable, Iterator
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from mbla.contacts.glue import held_model
-from mbla.failures import words_of
 from mbla.model import build_model
 from mbla.model.model import LoadCase, Model
 from mbla.results.comparison.cases import accuracy_of
@@ -32,16 +20,13 @@ from mbla.run_deck import contacts_of, select_cases, solve_case, with_settlement
 from mbla.solution.settings import solver_settings
 from mbla.studies.answer import answer_of, is_verified, verdict_of
 from mbla.studies.measurement import NAN, Measurement
-from mbla.studies.peak_memory import forget_peak, peak, resident
+from mbla.studies.peak_memory import forget_peak, of_files, peak, resident
 from mbla.studies.setting import Setting, read_setting
 
 REPEATS = 3
 """runs of a load case at most, of which the shortest is told"""
 SHORT = 1.0
 """seconds of all of them after which no further one is begun: what takes as long is measured well enough"""
-STAGES = ("deck", "model", "contacts", "program", "solution", "results.collapse")
-LATE = ("clarabel", "qdldl", "highspy", "cvxopt", "scipy.sparse.linalg", "scipy.sparse.csgraph", "scipy.spatial")
-"""libraries that the stages import when they need them"""
 
 
 @dataclass(frozen=True)
@@ -59,7 +44,7 @@ class Task:
 def measure(task: Task) -> Iterator[Measurement]:
     """Run the load cases of a task one after the other; raises as ``solve_deck`` does."""
     forget_peak()
-    base, started = resident(), time.perf_counter()
+    base, started = resident() - of_files(), time.perf_counter()
     deck = read_setting(Path(task.deck), task.fixed, Setting(task.overrides, task.freed))
     model = build_model(deck)
     load_cases = select_cases(model, task.cases)
@@ -91,7 +76,7 @@ def _measured(
         model, case = solve(load_case, not walls)
         wall, cpu = time.perf_counter() - clock, time.process_time() - processor
         if told is None:
-            memory = max(peak() - base, 0.0)
+            memory = max(peak() - of_files() - base, 0.0)
         if not walls or wall < min(walls):
             told = model, case, cpu
         walls.append(wall)
@@ -129,46 +114,3 @@ def measurement_of(model: Model, case: CaseResult, effort: dict[str, Any]) -> Me
         solver=float(sum(program.seconds for program in solution.programs)),
         **effort,
     )
-
-
-def import_everything() -> None:
-    """Load what the stages may need late, so that neither its time nor its memory is charged to a load case."""
-    for stage in STAGES:
-        package = importlib.import_module(f"mbla.{stage}")
-        for module in pkgutil.walk_packages(package.__path__, f"{package.__name__}."):
-            importlib.import_module(module.name)
-    for library in LATE:
-        try:
-            importlib.import_module(library)
-        except ImportError:  # optional ones
-            continue
-
-
-def main() -> None:
-    """Read the task, answer; whatever libraries print goes to standard error."""
-    answers = os.fdopen(os.dup(1), "w", encoding="utf-8")
-    os.dup2(2, 1)
-    task = Task(**json.loads(sys.stdin.readline()))
-    threading.Thread(target=_end_with_the_parent, daemon=True).start()
-    import_everything()
-
-    def tell(record: dict[str, Any]) -> None:
-        answers.write(json.dumps(record) + "\n")
-        answers.flush()
-
-    try:
-        for measurement in measure(task):
-            tell({"measurement": asdict(measurement)})
-        tell({"end": "done"})
-    except Exception as error:
-        status, words = words_of(error)
-        tell({"end": "failed", "exit_status": status, "words": " ".join(words.split())})
-
-
-def _end_with_the_parent() -> None:
-    sys.stdin.read()
-    os._exit(1)
-
-
-if __name__ == "__main__":
-    main()

@@ -33,7 +33,8 @@ class Measurement:
     wall, cpu   : seconds of assembling, solving and verifying by the clock and by the processor
     solver      : seconds of the programs in it
     preparation : seconds by the clock of reading, building and finding contacts, once for all load cases
-    memory      : largest resident size of the process above what it had after its imports, bytes
+    memory      : largest resident size of the process above what it had after its imports, without pages of files,
+                  bytes
     repeats     : runs of which the shortest is told
     """
 

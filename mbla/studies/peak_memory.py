@@ -1,7 +1,8 @@
 """Resident memory of this process: what it holds now, and the most it has held.
 
 ``getrusage`` remembers the peak of the program that started this one, as its figure outlives ``exec``; the kernel's own
-of the address space does not, and can be set back (proc(5), clear_refs), so that imports are not charged.
+of the address space does not, and can be set back (proc(5), clear_refs), so that imports are not charged. A copy of a
+process maps the pages of libraries anew as it touches them; those of files are told apart for that.
 """
 
 from __future__ import annotations
@@ -21,6 +22,11 @@ def resident() -> float:
 def peak() -> float:
     """Most bytes held since the last ``forget_peak``, or since the start where that cannot be forgotten."""
     return _status("VmHWM") or _of_usage()
+
+
+def of_files() -> float:
+    """Bytes of what is held now that are pages of files, as libraries are; 0 where the system does not tell."""
+    return _status("RssFile") + _status("RssShmem")
 
 
 def forget_peak() -> None:

@@ -7,10 +7,10 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from mbla.errors import UsageError
-from mbla.studies.child import ChildRun, run_child
+from mbla.errors import DeckError, UsageError
 from mbla.studies.measured_run import Task
 from mbla.studies.measurement import Measurement
+from mbla.studies.measuring import ChildRun, MeasuringProcess
 from mbla.studies.tradeoff.rung import Rung
 
 Tell = Callable[[int, int, str, str], None]
@@ -51,37 +51,35 @@ def run_ladder(
     until = None if limits.budget is None else time.monotonic() + limits.budget
     runs: list[RungRun] = []
     planar = False
-    for number, rung in enumerate(rungs, 1):
-        unfit = rung.unfit or (rung.spatial if planar else "")
-        left = None if until is None else until - time.monotonic()
-        if unfit:
-            runs.append(RungRun(rung, (), "unfit", unfit))
-            continue
-        if left is not None and left < LEAST_TIME:
-            runs.append(RungRun(rung, (), "not run", "the time limit was over", expired=True))
-            continue
-        if tell is not None:
-            tell(number, len(rungs), rung.name, "")
-        task = Task(
-            str(deck.resolve()), tuple(fixed), rung.setting.overrides, rung.setting.freed, tuple(cases), limits.threads
-        )
+    with MeasuringProcess() as process:
+        for number, rung in enumerate(rungs, 1):
 
-        def done(measurement: Measurement, number: int = number, name: str = rung.name) -> None:
-            if tell is not None:
-                tell(number, len(rungs), name, measurement.case)
+            def done(case: str, number: int = number, name: str = rung.name) -> None:
+                if tell is not None:
+                    tell(number, len(rungs), name, case)
 
-        seconds = min((limit for limit in (left, limits.each) if limit is not None), default=None)
-        runs.append(_told(rung, run_child(task, seconds, done), seconds, limits))
-        planar = planar or (not rung.model and _is_planar(runs[-1]))
+            unfit = rung.unfit or (rung.spatial if planar else "")
+            if unfit:
+                runs.append(RungRun(rung, (), "unfit", unfit))
+            elif until is not None and until - time.monotonic() < LEAST_TIME:
+                runs.append(RungRun(rung, (), "not run", "the time limit was over", expired=True))
+            else:
+                done("")
+                setting = rung.setting
+                task = Task(
+                    str(deck.resolve()), tuple(fixed), setting.overrides, setting.freed, tuple(cases), limits.threads
+                )
+                run = process.run(task, until, limits.each, lambda measurement, done=done: done(measurement.case))
+                runs.append(_told(rung, run, until is not None and time.monotonic() >= until, limits))
+                planar = planar or (not rung.model and _is_planar(runs[-1]))
     return runs
 
 
-def _told(rung: Rung, run: ChildRun, seconds: float | None, limits: Limits) -> RungRun:
+def _told(rung: Rung, run: ChildRun, expired: bool, limits: Limits) -> RungRun:
     if run.end == "stopped":
-        expired = limits.each is None or (seconds is not None and seconds < limits.each)
-        words = f"stopped after {seconds:.3g} s" + (", at the end of the time limit" if expired else "")
+        words = "stopped at the end of the time limit" if expired else f"stopped after {limits.each:g} s"
         return RungRun(rung, run.measurements, "stopped", words, expired)
-    unfit = run.end == "failed" and run.exit_status in (UsageError.exit_status, 3)
+    unfit = run.end == "failed" and run.exit_status in (UsageError.exit_status, DeckError.exit_status)
     return RungRun(rung, run.measurements, "unfit" if unfit else run.end, run.words)
 
 

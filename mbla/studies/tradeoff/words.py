@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator, Sequence
 
 from mbla.results.words.answer_words import status_name
-from mbla.results.words.text import INDENT, counted, number, small
+from mbla.results.words.text import INDENT, counted, number, sentence, small
 from mbla.solution.solution import Status
 from mbla.studies.measurement import Measurement
 from mbla.studies.tradeoff.advice import duration
@@ -28,7 +28,8 @@ def study_lines(study: Study) -> list[str]:
     for trade in study.trades:
         lines += ["", *trade_lines(study, trade)]
     lines += ["", *_unmeasured(study)]
-    lines += [f"{INDENT}{_of_case(study, row)}{one.sentence}" for row, one in enumerate(study.advices)]
+    for row, one in enumerate(study.advices):
+        lines += sentence(_of_case(study, row) + one.sentence)
     return lines
 
 
@@ -44,7 +45,7 @@ def trade_lines(study: Study, trade: CaseTrade) -> list[str]:
     measured = [row for row in trade.rows if row.measurement is not None]
     own = [row for row in measured if not row.run.rung.model]
     others = [row for row in measured if row.run.rung.model]
-    lines = [f"{INDENT}load case {trade.name}{_positions(trade)}: {reference_words(trade)}"]
+    lines = sentence(f"load case {trade.name}{_positions(trade)}: {reference_words(trade)}")
     if not measured:
         return lines
     body = [_cells(trade, row) for row in own]
@@ -163,7 +164,7 @@ def _unmeasured(study: Study) -> Iterator[str]:
         if run.end != "done":
             reasons.setdefault(_reason(run), []).append(run.rung.name)
     for reason, names in reasons.items():
-        yield f"{INDENT}{', '.join(names)}: {reason}"
+        yield from sentence(f"{', '.join(names)}: {reason}")
     if reasons:
         yield ""
 
