@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 
+from mbla.results.outcome import range_is_a_point
 from mbla.results.words.answer_words import status_name
 from mbla.results.words.text import INDENT, counted, number, sentence, small
 from mbla.solution.solution import Status
@@ -73,7 +74,15 @@ def reference_words(trade: CaseTrade) -> str:
         words += f", the sharpest that is verified ({REFERENCE} is not)"
     if reference.measurement.verdict != "answer":
         return f"{words}: {verdict_words(reference.measurement)}"
-    return f"{words}, good to {small(trade.resolution)}"
+    return f"{words}, good to {small(trade.resolution)}{_range_words(reference.measurement)}"
+
+
+def _range_words(reference: Measurement) -> str:
+    """Where the mechanism of the reference allows of several load factors, a distance may be another of them."""
+    low, high = reference.range_lower, reference.range_upper
+    if math.isnan(low) or math.isnan(high) or range_is_a_point((low, high)):
+        return ""
+    return f"; its mechanism allows of load factors from {number(low)} to {number(high)}, all within the joint law"
 
 
 def verdict_words(measurement: Measurement) -> str:
