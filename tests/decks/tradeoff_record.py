@@ -7,6 +7,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, fields
 from pathlib import Path
+from typing import Any
 
 from mbla.studies.tradeoff.study import Study
 from mbla.studies.tradeoff.trade import Row
@@ -66,7 +67,7 @@ def entries_of(study: Study, structure: Structure, rule: str, date: str, version
     ]
 
 
-def _entry(row: Row, names: tuple[str, str], resolution: float, marks: dict[str, str]) -> Entry:
+def _entry(row: Row, names: tuple[str, str], resolution: float, marks: dict[str, Any]) -> Entry:
     rung, measured = row.run.rung, row.measurement
     start = (*names, rung.name, rung.model, row.run.words or row.run.end)
     if measured is None:
@@ -104,7 +105,7 @@ def read_entries(path: Path = MEASURED) -> list[Entry]:
 
 
 def _parsed(row: dict[str, str]) -> Entry:
-    values: dict[str, object] = {}
+    values: dict[str, Any] = {}
     for field in fields(Entry):
         text = row[field.name]
         if field.type == "float":
@@ -113,7 +114,7 @@ def _parsed(row: dict[str, str]) -> Entry:
             values[field.name] = int(text) if field.type == "int" else text == "True"
         else:
             values[field.name] = text
-    return Entry(**values)  # type: ignore[arg-type]
+    return Entry(**values)
 
 
 def write_entries(entries: Sequence[Entry], path: Path = MEASURED) -> None:

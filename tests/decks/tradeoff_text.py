@@ -96,7 +96,8 @@ def _table(entries: Sequence[Entry]) -> Iterator[str]:
         yield (
             f"| {entry.rung} | {_seconds(entry.time)} | {_seconds(entry.solver_time)} | {entry.iterations} | "
             f"{entry.memory:.1f} | {_digits(entry.load_factor, 6)} | {_error(entry)} | "
-            f"{_digits(entry.static_bound, 8)} | {_digits(entry.kinematic_bound, 8)} | {_small(entry.residual)} | {_mark(entry)} |"
+            f"{_digits(entry.static_bound, 8)} | {_digits(entry.kinematic_bound, 8)} | "
+            f"{_small(entry.residual)} | {_mark(entry)} |"
         )
 
 

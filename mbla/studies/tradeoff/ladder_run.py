@@ -54,9 +54,9 @@ def run_ladder(
     with MeasuringProcess() as process:
         for number, rung in enumerate(rungs, 1):
 
-            def done(case: str, number: int = number, name: str = rung.name) -> None:
+            def done(measurement: Measurement | None, number: int = number, name: str = rung.name) -> None:
                 if tell is not None:
-                    tell(number, len(rungs), name, case)
+                    tell(number, len(rungs), name, measurement.case if measurement else "")
 
             unfit = rung.unfit or (rung.spatial if planar else "")
             if unfit:
@@ -64,12 +64,12 @@ def run_ladder(
             elif until is not None and until - time.monotonic() < LEAST_TIME:
                 runs.append(RungRun(rung, (), "not run", "the time limit was over", expired=True))
             else:
-                done("")
+                done(None)
                 setting = rung.setting
                 task = Task(
                     str(deck.resolve()), tuple(fixed), setting.overrides, setting.freed, tuple(cases), limits.threads
                 )
-                run = process.run(task, until, limits.each, lambda measurement, done=done: done(measurement.case))
+                run = process.run(task, until, limits.each, done)
                 runs.append(_told(rung, run, until is not None and time.monotonic() >= until, limits))
                 planar = planar or (not rung.model and _is_planar(runs[-1]))
     return runs

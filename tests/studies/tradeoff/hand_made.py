@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Any
 
 from mbla.studies.measurement import Measurement
 from mbla.studies.setting import Setting
@@ -12,7 +13,7 @@ from mbla.studies.tradeoff.rung import Rung
 SOLVED = Measurement("push", "solved", "answer", verified=True, answer=0.5, accuracy=1e-9, wall=1.0)
 
 
-def measured(answer: float, wall: float, **changes: object) -> Measurement:
+def measured(answer: float, wall: float, **changes: Any) -> Measurement:
     """A solved and verified load factor that took ``wall`` seconds."""
     return replace(SOLVED, answer=answer, wall=wall, **changes)
 

@@ -6,6 +6,7 @@ import csv
 import json
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -28,7 +29,7 @@ class Written:
 
     deck: Path
     status: int
-    printed: dict
+    printed: dict[str, Any]
     words: str
     rows: list[dict[str, str]]
     folder: Path

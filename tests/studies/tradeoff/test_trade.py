@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import pytest
 
+from mbla.studies.measurement import Measurement
 from mbla.studies.tradeoff.advice import advice
 from mbla.studies.tradeoff.ladder_run import RungRun
 from mbla.studies.tradeoff.rung import Rung
@@ -116,7 +117,7 @@ def test_a_load_factor_of_nothing_is_compared_with_the_least_that_counts() -> No
 
 
 def test_a_travelling_load_counts_as_its_worst_position_and_errs_as_its_farthest() -> None:
-    def positions(factors: tuple[float, ...], wall: float) -> list:
+    def positions(factors: tuple[float, ...], wall: float) -> list[Measurement]:
         return [measured(factor, wall, case=f"axle_{i}", series="axle") for i, factor in enumerate(factors)]
 
     unbounded = measured(math.nan, 1.0, case="axle_2", series="axle", status="unbounded", verdict="unbounded")
