@@ -40,8 +40,8 @@ def build_parser() -> argparse.ArgumentParser:
     _add_report(commands)
     _add_export(commands)
     _add_diff(commands)
-    _add_explain(commands)
     _add_tradeoff(commands)
+    _add_explain(commands)
     _add_schema_and_new(commands)
     return parser
 
