@@ -22,6 +22,7 @@ from mbla.model.settlement import with_reference
 from mbla.program import Program, assemble
 from mbla.program.convex import assemble_convex
 from mbla.program.reductions import Reduced, allowed_reductions, reduce_program
+from mbla.program.reductions.steps import told_apart
 from mbla.program.remarks import program_notices
 from mbla.results.files import OutputFolder
 from mbla.results.provenance import collect_provenance
@@ -167,7 +168,8 @@ def with_loads_found(model: Model, cases: Sequence[CaseResult]) -> Model:
 def reduced_program(deck: Deck, model: Model, contacts: Contacts, program: Program) -> Reduced:
     """What of the program has to be solved."""
     associative = deck.analysis.flow_rule == "associative"
-    return reduce_program(model, contacts, program, allowed_reductions(deck.analysis), associative=associative)
+    reduced = reduce_program(model, contacts, program, allowed_reductions(deck.analysis), associative=associative)
+    return replace(reduced, steps=told_apart(reduced.steps, deck.analysis.reductions.model_dump()))
 
 
 def contacts_of(deck: Deck, model: Model) -> Contacts:

@@ -92,6 +92,7 @@ def solve(reduced: Reduced, analysis: AnalysisSection, settings: SolverSettings,
         iterations=tuple(iterations),
         seconds=time.perf_counter() - started,
         size=reduced.size,
+        reductions=reduced.steps,
         solver=settings.solver,
     )
 
