@@ -66,7 +66,7 @@ def needs_of(deck: Deck, model: Model, contacts: Contacts, load_case: LoadCase) 
     model = model.of_case(load_case)
     solids = solids_of(model, contacts)
     program = assemble(solids.model, solids.contacts, solids.load_case(load_case))
-    reduced = reduced_program(deck, solids.model, solids.contacts, program)
+    reduced = reduced_program(deck, solids, program)
     programs = [kinematic_form(part, part.limits).cone_program for part in reduced.parts if np.any(part.live_load)]
     counts = asdict(reduced.size) | {
         "unknown_velocities": sum(len(part.dead_load) for part in reduced.parts),

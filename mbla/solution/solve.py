@@ -49,17 +49,24 @@ ONLY_BY_SELF_STRESS = (
 
 @dataclass(frozen=True)
 class _Stage:
-    """What every step of one load case needs."""
+    """What every step of one load case needs.
+
+    collapse : flow rule -> of each part its own state at collapse
+    """
 
     parts: tuple[Program, ...]
     interface_of_point: IntArray
     settings: SolverSettings
     log: Log
     more: list[ProgramRecord] = field(default_factory=list)
+    collapse: dict[str, list[LawState | None]] = field(default_factory=dict)
 
     def mechanics(self, part: int, state: LawState | None, flow_rule: str) -> Mechanics | None:
         """A state of one part as mechanics of the whole model; None where the other parts do not carry it."""
-        whole = None if state is None else whole_state(self.parts, part, state, self.settings, self.log)
+        if state is None:
+            return None
+        collapse = self.collapse.get(flow_rule, [])
+        whole = whole_state(self.parts, part, state, self.settings, self.log, collapse)
         return None if whole is None else mechanics_of(*whole, flow_rule)
 
 
@@ -137,6 +144,8 @@ def _with_load_factor(
     stage: _Stage, analysis: AnalysisSection, results: Sequence[PartResult], first: int, first_associative: int
 ) -> Solution:
     result = results[first]
+    stage.collapse[analysis.flow_rule] = [each.state for each in results]
+    stage.collapse["associative"] = [each.least or each.associative.state for each in results]
     remarks = [remark for each in results for remark in each.remarks]
     solution = replace(
         _solution(analysis, *_claim(results, first)),

@@ -44,7 +44,7 @@ class ProgramSize:
 class ReductionStep:
     """One reduction of one load case.
 
-    name  : key of ``analysis.reductions``
+    name  : key of ``analysis.reductions``, or glued
     found : how many contact points, blocks, parts it left out or took apart; 0 unless applied
     """
 

@@ -44,7 +44,7 @@ ANSWER = (
 )
 
 REDUCTIONS: tuple[tuple[str, FieldKind, str], ...] = (
-    ("name", "text", "the reduction, as in analysis.reductions"),
+    ("name", "text", "the reduction, as in analysis.reductions, or glued"),
     ("state", "text", "applied, nothing found, switched off, would change the answer"),
     ("found", "int", "contact points or blocks left out, or parts taken apart or reduced"),
     *(

@@ -8,6 +8,7 @@ from mbla.program.reductions.steps import ProgramSize, ReductionStep, StepState
 from mbla.results.words.text import counted, sentence, table
 
 FOUND = {
+    "glued": ("block", "in larger bodies or held"),
     "points": ("contact point", "left out"),
     "merged": ("contact point", "joined to others"),
     "unloaded": ("block", "apart, without live load"),
@@ -27,7 +28,8 @@ def reduction_lines(steps: Sequence[ReductionStep]) -> list[str]:
     head = ["reduction", "found", "unknowns", "cones", "entries", "largest program"]
     told = (
         "Each row says what is left to solve with the live load after the reduction: velocities, friction cones (in a "
-        "plane pairs of half-lines), entries of the equilibrium matrices, velocities of the largest program."
+        "plane pairs of half-lines), entries of the equilibrium matrices, velocities of the largest program. "
+        "Contact points inside of glued bodies are never set up, and not counted."
     )
     return [*table(head, rows, left=2), *sentence(told)]
 
