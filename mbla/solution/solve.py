@@ -49,23 +49,23 @@ ONLY_BY_SELF_STRESS = (
 
 @dataclass(frozen=True)
 class _Stage:
-    """What every step of one load case needs.
-
-    collapse : flow rule -> of each part its own state at collapse
-    """
+    """What every step of one load case needs."""
 
     parts: tuple[Program, ...]
     interface_of_point: IntArray
     settings: SolverSettings
     log: Log
     more: list[ProgramRecord] = field(default_factory=list)
-    collapse: dict[str, list[LawState | None]] = field(default_factory=dict)
 
-    def mechanics(self, part: int, state: LawState | None, flow_rule: str) -> Mechanics | None:
-        """A state of one part as mechanics of the whole model; None where the other parts do not carry it."""
+    def mechanics(
+        self, part: int, state: LawState | None, flow_rule: str, collapse: Sequence[LawState | None] = ()
+    ) -> Mechanics | None:
+        """A state of one part as mechanics of the whole model; None where the other parts do not carry it.
+
+        collapse : of each part its own state at collapse
+        """
         if state is None:
             return None
-        collapse = self.collapse.get(flow_rule, [])
         whole = whole_state(self.parts, part, state, self.settings, self.log, collapse)
         return None if whole is None else mechanics_of(*whole, flow_rule)
 
@@ -144,12 +144,11 @@ def _with_load_factor(
     stage: _Stage, analysis: AnalysisSection, results: Sequence[PartResult], first: int, first_associative: int
 ) -> Solution:
     result = results[first]
-    stage.collapse[analysis.flow_rule] = [each.state for each in results]
-    stage.collapse["associative"] = [each.least or each.associative.state for each in results]
+    solved = [each.associative.state for each in results]
     remarks = [remark for each in results for remark in each.remarks]
     solution = replace(
         _solution(analysis, *_claim(results, first)),
-        associative=stage.mechanics(first_associative, results[first_associative].associative.state, "associative"),
+        associative=stage.mechanics(first_associative, solved[first_associative], "associative", solved),
         outer=_outer(stage, results),
     )
     state = result.state if result.least is None else result.least
@@ -157,13 +156,16 @@ def _with_load_factor(
         ranges, words = _force_ranges(stage, first, state)
         solution, remarks = replace(solution, force_ranges=ranges), [*remarks, *words]
     if result.sequence is None:
-        mechanics = solution.associative if result.least is None else stage.mechanics(first, state, "associative")
+        least = [each.least or each.associative.state for each in results]
+        mechanics = solution.associative
+        if result.least is not None:
+            mechanics = stage.mechanics(first, state, "associative", least)
         return replace(solution, mechanics=mechanics, remarks=tuple(remarks))
     sequence, ends, rule = result.sequence, result.range, analysis.flow_rule
     words = [ends.reason] if ends is not None and ends.reason else []
     return replace(
         solution,
-        mechanics=stage.mechanics(first, sequence.state, rule),
+        mechanics=stage.mechanics(first, sequence.state, rule, [each.state for each in results]),
         lower=None if ends is None else stage.mechanics(first, ends.lower, rule),
         upper=None if ends is None else stage.mechanics(first, ends.upper, rule),
         peak=stage.mechanics(first, result.peak, rule),
