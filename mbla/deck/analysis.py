@@ -66,7 +66,9 @@ class ReductionSwitches(Section):
     planar: Switch = Field(True, description="planar structures are solved with three unknowns a block")
     mirror: Switch = Field(True, description="associative flow: only one half of a symmetric structure is solved")
     parts: Switch = Field(True, description="parts that cannot interact are solved apart")
+    unloaded: Switch = Field(True, description="parts without live load only have to stand, which is shown apart")
     points: Switch = Field(True, description="associative flow: contact points that cannot matter are left out")
+    merged: Switch = Field(True, description="contact points in one place and of one law are solved as one")
 
 
 class AnalysisSection(Section):
