@@ -90,6 +90,9 @@ RIVALS = {
     ),
     "compas_cra, rbe_solve": Rival(coupled_blocks.rbe, STANDS, coupled_blocks.compas_version, spatial=True),
     "compas_cra, cra_solve": Rival(coupled_blocks.cra, STANDS, coupled_blocks.compas_version, spatial=True),
+    "compas_cra, cra_solve, density in kg": Rival(
+        coupled_blocks.cra_with_density, STANDS, coupled_blocks.compas_version, spatial=True
+    ),
 }
 MEASURE = {LOAD_FACTOR: "mbla", STANDS: "mbla, standing"}
 """What a rival is measured against, by its question."""
