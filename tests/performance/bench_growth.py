@@ -5,21 +5,18 @@
     python -m tests.performance.bench_growth [--most BLOCKS] [--limit SECONDS] [--only FAMILY]
 
 Walls of the standard set from 100 to 10,000 blocks, in their plane and in space, with associative flow and without
-dilatancy, everything else by default. Each run has a process of its own on one thread; one that takes longer than the
-limit is stopped and recorded as such, and larger ones of its family are not begun. ``solver`` is seconds of the
-processor in the solver stage, ``total`` from the deck to the verified answer (result files are
-``bench_results``), ``clock`` the same by the clock, ``cone_programs`` the seconds by the clock in cone programs alone.
-The exponent is the slope of log time over log blocks by least squares, ``deviation`` the root mean square of what
-the line leaves of log time.
+dilatancy, everything else by default. Each run has a process of its own on one thread; one that takes more seconds of
+the processor than the limit is stopped and recorded as such, and larger ones of its family are not begun. ``solver`` is
+seconds of the processor in the solver stage, ``total`` from the deck to the verified answer (result files have a
+benchmark of their own, ``bench_results``), ``clock`` the same by the clock, ``cone_programs`` the seconds by the clock
+in cone programs alone. The exponent is the slope of log time over log blocks by least squares, ``deviation`` the root
+mean square of what the line leaves of log time.
 """
 
 from __future__ import annotations
 
 import argparse
-import json
-import os
 import resource
-import subprocess
 import sys
 import time
 from collections.abc import Mapping, Sequence
@@ -32,6 +29,7 @@ from mbla.program import assemble
 from mbla.run_deck import contacts_of, reduced_program, select_cases
 from mbla.solution import solve, verified_status, verify
 from mbla.solution.settings import solver_settings
+from tests.performance.child import answer_as_child, in_child
 from tests.performance.recording import record
 from tests.performance.standard_set import DECKS, FLOW_RULES, SPATIAL
 
@@ -39,15 +37,18 @@ SIDES = (10, 14, 20, 32, 45, 71, 100)
 """Units in length and courses: 105, 203, 410, 1,040, 2,047, 5,076 and 10,050 blocks."""
 
 LIMIT = 1800.0
-THREADS = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS", "RAYON_NUM_THREADS")
+"""Seconds of the processor for one run."""
+
 FAMILIES = ("wall, planar", "wall, spatial")
 FEWEST = 3
 """Sizes below which there is no slope."""
 
 TIMES = ("solver", "total")
+FIGURES = ("load_factor", "programs", "iterations", "cone_programs", *TIMES, "clock", "memory_mb")
+MODULE = "tests.performance.bench_growth"
 
 
-def measured(family: str, flow_rule: str, side: int) -> dict[str, object]:
+def measured(family: str, flow_rule: str, side: int | str) -> dict[str, object]:
     """One run in this process."""
     started = time.perf_counter(), time.process_time()
     size = (f"parameters.m={side}", f"parameters.n={side}", f"analysis.flow_rule={flow_rule}")
@@ -72,24 +73,6 @@ def measured(family: str, flow_rule: str, side: int) -> dict[str, object]:
         "clock": time.perf_counter() - started[0],
         "memory_mb": resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024,
     }
-
-
-def in_child(family: str, flow_rule: str, side: int, limit: float) -> dict[str, object]:
-    """The same in a process of its own, on one thread; without figures where it is stopped or fails."""
-    command = [sys.executable, "-m", "tests.performance.bench_growth", "--one", family, flow_rule, str(side)]
-    environment = os.environ | dict.fromkeys(THREADS, "1")
-    empty = {"blocks": blocks_of(side)} | dict.fromkeys(
-        ("load_factor", "programs", "iterations", "cone_programs", *TIMES, "clock", "memory_mb"), ""
-    )
-    try:
-        done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=limit, env=environment)
-    except subprocess.TimeoutExpired:
-        return empty | {"status": f"stopped after {limit:g} s"}
-    if done.returncode != 0:
-        reason = (done.stderr.strip().splitlines() or [f"exit status {done.returncode}"])[-1]
-        return empty | {"status": f"failed: {reason}"}
-    figures: dict[str, object] = json.loads(done.stdout.splitlines()[-1])
-    return figures
 
 
 def blocks_of(side: int) -> int:
@@ -121,8 +104,9 @@ def measure(family: str, flow_rule: str, sides: Sequence[int], limit: float) -> 
     """All sizes of one family, the smallest first, up to the first that does not come to its end."""
     rows = []
     for side in sides:
-        row: dict[str, object] = {"family": family, "flow_rule": flow_rule, "blocks": 0, "status": ""}
-        rows.append(row | in_child(family, flow_rule, side, limit))
+        row: dict[str, object] = {"family": family, "flow_rule": flow_rule, "blocks": blocks_of(side), "status": ""}
+        found = in_child(MODULE, [family, flow_rule, str(side)], limit)
+        rows.append(row | dict.fromkeys(FIGURES, "") | found)
         record("growth", rows[-1])
         if rows[-1]["total"] == "":
             break
@@ -131,9 +115,7 @@ def measure(family: str, flow_rule: str, sides: Sequence[int], limit: float) -> 
 
 def main(arguments: list[str]) -> None:
     """All families, or one."""
-    if arguments[:1] == ["--one"]:
-        family, flow_rule, side = arguments[1:]
-        sys.stdout.write(json.dumps(measured(family, flow_rule, int(side))) + "\n")
+    if answer_as_child(arguments, measured):
         return
     parser = argparse.ArgumentParser(prog="python -m tests.performance.bench_growth")
     parser.add_argument("--most", type=int, default=blocks_of(SIDES[-1]), metavar="BLOCKS", help="no larger walls")

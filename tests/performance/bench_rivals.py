@@ -10,9 +10,10 @@ through cvxpy, plain, and with the care that it takes; linear programs through `
 equilibrium check of compas_cra, for structures in space. ``pip install 'mbla[benchmark]'`` brings cvxpy and compas_cra.
 
 Each runs in a process of its own on one thread, from the contacts to its answer, imports and contacts not counted; one
-that takes longer than the limit is stopped and recorded as such. ``processor`` and ``clock`` are the shortest of a few
-runs, ``solver`` the seconds of the processor in the solver alone; ``ratio`` and ``solver_ratio`` are these over those
-of mbla: of ``mbla``, or of ``mbla, standing`` for a check without load factor, so that above 1 mbla is the faster.
+that takes more seconds of the processor than the limit is stopped and recorded as such. ``processor`` and ``clock`` are
+the shortest of a few runs, ``solver`` the seconds of the processor in the solver alone; ``ratio`` and ``solver_ratio``
+are these over those of mbla: of ``mbla``, or of ``mbla, standing`` for a check without load factor, so that above 1
+mbla is the faster.
 
 ``error`` is the relative distance of the load factor from ``reference``, the middle of the bounds that mbla proves with
 ``accuracy: reference``, which are ``bracket`` apart; ``residual`` the largest lack of balance or excess over friction
@@ -22,14 +23,12 @@ of the rival's own forces, over the mean block weight; the two bounds are those 
 from __future__ import annotations
 
 import argparse
-import json
-import os
-import subprocess
 import sys
 import time
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
+from tests.performance.child import answer_as_child, in_child
 from tests.performance.recording import record
 from tests.performance.rivals import coupled_blocks, cvxpy_models, linear_programs, own
 from tests.performance.rivals.answer import Answer
@@ -37,14 +36,15 @@ from tests.performance.rivals.statement import Statement, statement_of
 from tests.performance.rivals.structure import Structure, compared, structure_of
 
 LIMIT = 300.0
-"""Seconds by the clock for all runs of one rival on one structure."""
+"""Seconds of the processor for one rival on one structure, all its runs together."""
 
 ENOUGH = 3.0
-"""Seconds after which a run is not repeated."""
+"""Seconds of the processor after which a run is not repeated."""
 
-RUNS = 3
-THREADS = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS", "RAYON_NUM_THREADS")
+RUNS = 4
 LOAD_FACTOR, STANDS = "load factor", "stands"
+REFERENCE = "reference"
+MODULE = "tests.performance.bench_rivals"
 EXTRA = "pip install 'mbla[benchmark]'"
 
 
@@ -116,19 +116,16 @@ def measured(name: str, rival: str) -> dict[str, object]:
     """One rival on one structure, in this process: figures of its row."""
     standard, planar = compared()[name]
     structure = structure_of(standard, planar=planar)
-    way, clock, processor = RIVALS[rival], [], []
-    answer = way.solve(structure)  # first calls import and prepare; they do not count unless they are long
-    begun = time.perf_counter()
-    for _ in range(RUNS):
+    way = RIVALS[rival]
+    way.versions()  # imports its libraries
+    answers, clock, processor = [], [], []
+    while len(answers) < RUNS and sum(processor) < ENOUGH:
         started = time.perf_counter(), time.process_time()
-        again = way.solve(structure)
+        answers.append(way.solve(structure))
         clock.append(time.perf_counter() - started[0])
         processor.append(time.process_time() - started[1])
-        if again.solver is not None and answer.solver is not None:
-            answer = again if again.solver < answer.solver else answer
-        if time.perf_counter() - begun > ENOUGH:
-            break
-    solver = answer.solver
+    answer = answers[-1]
+    solver = min((found.solver for found in answers if found.solver is not None), default=None)
     if rival.startswith("mbla") and way.question == LOAD_FACTOR:
         solver = min(own.cone_program_seconds(structure) for _ in range(RUNS))
     static, kinematic = answer.bounds or (None, None)
@@ -153,19 +150,9 @@ def reference_of(name: str) -> dict[str, object]:
     return {"static": static, "kinematic": kinematic}
 
 
-def in_child(what: list[str], limit: float) -> dict[str, object] | None:
-    """The figures that a process of its own finds on one thread; None where it had to be stopped."""
-    command = [sys.executable, "-m", "tests.performance.bench_rivals", "--one", *what]
-    environment = os.environ | dict.fromkeys(THREADS, "1")
-    try:
-        done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=limit, env=environment)
-    except subprocess.TimeoutExpired:
-        return None
-    if done.returncode != 0:
-        last = (done.stderr.strip().splitlines() or [f"exit status {done.returncode}"])[-1]
-        return {"status": f"failed: {last}"}
-    figures: dict[str, object] = json.loads(done.stdout.splitlines()[-1])
-    return figures
+def one(what: str, rival: str) -> dict[str, object]:
+    """What a process of its own does: the reference, or a rival on a structure."""
+    return reference_of(what) if rival == REFERENCE else measured(what, rival)
 
 
 EMPTY = dict.fromkeys(
@@ -187,14 +174,13 @@ EMPTY = dict.fromkeys(
 def compare(name: str, rivals: list[str], limit: float) -> None:
     """All rivals on one structure, a row each."""
     planar = compared()[name][1]
-    reference = in_child(["reference", name], limit) or {}
+    reference = in_child(MODULE, [name, REFERENCE], limit)
     taken: dict[str, dict[str, object]] = {}
     for rival in rivals:
         way = RIVALS[rival]
         if way.spatial and planar:
             continue
-        found = in_child([name, rival], limit)
-        taken[rival] = EMPTY | ({"status": f"stopped after {limit:g} s"} if found is None else found)
+        taken[rival] = EMPTY | in_child(MODULE, [name, rival], limit)
         against = taken.get(MEASURE[way.question], {})
         row = row_of(name, rival, taken[rival], against, reference)
         record("rivals", {key: _text(key, value) for key, value in row.items()})
@@ -238,15 +224,14 @@ def _text(name: str, value: object) -> object:
 
 def main(arguments: list[str]) -> None:
     """All structures and rivals, or those named."""
-    if arguments[:1] == ["--one"]:
-        what = arguments[1:]
-        figures = reference_of(what[1]) if what[0] == "reference" else measured(*what)
-        sys.stdout.write(json.dumps(figures) + "\n")
+    if answer_as_child(arguments, one):
         return
     parser = argparse.ArgumentParser(prog="python -m tests.performance.bench_rivals")
     parser.add_argument("structures", nargs="*", metavar="STRUCTURE", help=f"of: {'; '.join(compared())}")
     parser.add_argument("--rival", action="append", choices=tuple(RIVALS), help="only this, and what it is measured by")
-    parser.add_argument("--limit", type=float, default=LIMIT, help="seconds for one rival on one structure")
+    parser.add_argument(
+        "--limit", type=float, default=LIMIT, help="seconds of the processor for one rival on one structure"
+    )
     options = parser.parse_args(arguments)
     unknown = sorted(set(options.structures) - set(compared()))
     if unknown:
