@@ -7,6 +7,7 @@ of 1e-9; ``kinematic`` the dual in velocities, scaled likewise, whose tolerance 
 
 from __future__ import annotations
 
+from importlib import import_module
 from importlib.metadata import version
 from typing import Any
 
@@ -20,9 +21,11 @@ SHARP = {"tol_gap_abs": 1e-9, "tol_gap_rel": 1e-9, "tol_feas": 1e-9}
 
 def cvxpy_version() -> str:
     """Of cvxpy and its solver; ImportError where it is not installed."""
-    import cvxpy
+    return f"cvxpy {_cvxpy().__version__} clarabel {version('clarabel')}"
 
-    return f"cvxpy {cvxpy.__version__} clarabel {version('clarabel')}"
+
+def _cvxpy() -> Any:
+    return import_module("cvxpy")
 
 
 def plain(statement: Statement) -> Answer:
@@ -37,8 +40,7 @@ def scaled(statement: Statement) -> Answer:
 
 def kinematic(statement: Statement) -> Answer:
     """min −f_D·u  subject to  f_L·u = 1,  vn ≥ μ ‖vt‖,  v = Aᵀu; scaled, sharp tolerances."""
-    import cvxpy as cp
-
+    cp = _cvxpy()
     scaled = statement.scaled()
     mechanism = cp.Variable(len(scaled.dead))
     points = len(scaled.friction)
@@ -54,8 +56,7 @@ def kinematic(statement: Statement) -> Answer:
 
 
 def _static(statement: Statement, options: dict[str, float]) -> Answer:
-    import cvxpy as cp
-
+    cp = _cvxpy()
     points = len(statement.friction)
     forces, load_factor = cp.Variable(statement.components * points), cp.Variable()
     normal, shears = forces[:points], [forces[j * points : (j + 1) * points] for j in range(1, statement.components)]
@@ -65,7 +66,7 @@ def _static(statement: Statement, options: dict[str, float]) -> Answer:
     status, seconds = _solved(problem, options)
     if forces.value is None:
         return Answer(status, None, None, None, seconds)
-    factor = float(load_factor.value)  # type: ignore[arg-type]
+    factor = float(load_factor.value)
     return Answer(status, factor, statement.residual(np.asarray(forces.value), factor), None, seconds)
 
 

@@ -55,7 +55,7 @@ def _solved(statement: Statement, method: Literal["highs", "highs-ipm"]) -> Answ
     cost: FloatArray = np.append(np.zeros(unknowns), -1.0)
     limits = [(0, None)] * points + [(None, None)] * (unknowns - points + 1)
     answer, seconds = timed(
-        lambda: linprog(  # type: ignore[call-overload]  # its stubs do not know sparse matrices
+        lambda: linprog(
             cost,
             A_ub=sp.hstack([sides, none], format="csr"),
             b_ub=np.zeros(sides.shape[0]),
@@ -65,7 +65,7 @@ def _solved(statement: Statement, method: Literal["highs", "highs-ipm"]) -> Answ
             method=method,
         )
     )
-    if answer.status != 0:
+    if answer.status != 0 or answer.fun is None or answer.x is None:
         return Answer(str(answer.message), None, None, None, seconds)
     factor = float(-answer.fun)
     return Answer("optimal", factor, statement.residual(answer.x[:-1], factor), None, seconds)
