@@ -100,7 +100,8 @@ MEASURE = {LOAD_FACTOR: "mbla", STANDS: "mbla, standing"}
 
 def installed(names: list[str]) -> list[str]:
     """Rivals whose libraries are there; the others are said, one line each library."""
-    found, missing = [], {}
+    found: list[str] = []
+    missing: dict[str, list[str]] = {}
     for name in names:
         try:
             RIVALS[name].versions()
@@ -118,7 +119,9 @@ def measured(name: str, rival: str) -> dict[str, object]:
     structure = structure_of(standard, planar=planar)
     way = RIVALS[rival]
     way.versions()  # imports its libraries
-    answers, clock, processor = [], [], []
+    answers: list[Answer] = []
+    clock: list[float] = []
+    processor: list[float] = []
     while len(answers) < RUNS and sum(processor) < ENOUGH:
         started = time.perf_counter(), time.process_time()
         answers.append(way.solve(structure))

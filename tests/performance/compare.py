@@ -40,12 +40,15 @@ class Columns:
 
 
 COLUMNS = {
+    "accuracy": Columns(("structure", "flow_rule", "setting"), ("processor_seconds",)),
     "all": Columns(("benchmark",), ("processor", "clock")),
     "cone_solvers": Columns(("model", "solver", "library"), ("seconds",)),
     "deck": Columns(("case", "blocks"), ("seconds", "processor_seconds", "events_processor_seconds")),
     "factorization": Columns(("case", "library"), ("analysis", "factorization", "solution")),
     "growth": Columns(("family", "flow_rule", "blocks"), ("solver", "total", "clock")),
+    "line": Columns(("structure", "flow_rule"), ("processor", "clock", "outside")),
     "proximal": Columns(("case", "what", "solver", "tolerance", "installed"), ("seconds",)),
+    "reductions": Columns(("structure", "flow_rule", "without"), ("processor_seconds", "processor_seconds_without")),
     "rivals": Columns(("structure", "rival"), ("processor", "clock", "solver")),
     "solver": Columns(("case", "dimension"), ("reducing", "associative", "first_program", "non_associative")),
     "warm_start": Columns(("model", "sequence"), ("cold", "warm")),
@@ -179,7 +182,12 @@ def main(arguments: list[str], folder: Path = RESULTS) -> int:
         rows = read_rows(known[name])
         if not rows:
             continue
-        comparison = compared(rows, columns_of(name, list(rows[0])), options.against)
+        try:
+            columns = columns_of(name, list(rows[0]))
+        except ValueError as unknown:
+            sys.stdout.write(f"not compared: {unknown}\n")
+            continue
+        comparison = compared(rows, columns, options.against)
         sys.stdout.write("".join(f"{line}\n" for line in lines_of(name, comparison)))
         slower += sum(value > options.fail for value in comparison.values()) if options.fail is not None else 0
     if slower:

@@ -131,3 +131,14 @@ def test_a_row_with_other_columns_is_refused(tmp_path: Path, monkeypatch: pytest
         recording.record("x", {"case": "a", "clock": 1.0})
     assert [row["case"] for row in read_rows(tmp_path / "x.csv")] == ["a", "b"]
     assert compare.read_rows(tmp_path / "x.csv")[0]["versions"] == recording.versions()
+
+
+def test_a_benchmark_that_cannot_be_compared_does_not_keep_the_others_from_it(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    write(tmp_path, [row("a", "1"), row("a", "2", date="2")])
+    (tmp_path / "other.csv").write_text("date,case,ratio,versions,machine\n1,a,2,mbla,here\n")
+    assert main([], tmp_path) == 0
+    out = capsys.readouterr().out
+    assert "not compared: other: no column of seconds" in out
+    assert "x: worst 2.00" in out

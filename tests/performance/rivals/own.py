@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 from mbla.deck.analysis import AnalysisSection
 from mbla.program import assemble
 from mbla.program.reductions import Reduced, allowed_reductions, reduce_program
@@ -70,5 +72,5 @@ def cone_program_seconds(structure: Structure) -> float:
     for program in _reduced(structure, structure.deck.analysis).parts:
         form = in_velocities(program)
         solver = cone_solver(form.cone_program, settings, silent)
-        seconds += timed(lambda solver=solver: solver.solve_once(1, 1.0))[1]
+        seconds += timed(partial(solver.solve_once, 1, 1.0))[1]
     return seconds
