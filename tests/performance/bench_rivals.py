@@ -109,7 +109,7 @@ def installed(names: list[str]) -> list[str]:
         except ImportError as absent:
             missing[str(absent)] = [*missing.get(str(absent), []), name]
     for reason, without in missing.items():
-        sys.stdout.write(f"left out: {', '.join(without)}: {reason}; {EXTRA}\n")
+        sys.stdout.write(f"left out: {'; '.join(without)} ({reason}; {EXTRA})\n")
     return found
 
 
