@@ -159,6 +159,8 @@ class Solution:
     path        : steps of the load path that was followed
     size        : what reached the solver
     solver      : that was asked for, as in ``analysis.solver``; ``programs`` say which took each
+    asked       : approximate: gap of the bounds (associative flow) or residual (other flow) that the analysis asks for,
+                  where the answer is no sharper only because no more was asked for; None otherwise
     """
 
     flow_rule: str
@@ -186,6 +188,7 @@ class Solution:
     certificate_motions: FloatArray | None = None
     contact_model: str = "concave"
     solver: str = "auto"
+    asked: float | None = None
 
 
 @dataclass(frozen=True)

@@ -139,6 +139,7 @@ def _with_load_factor(
     remarks = [remark for each in results for remark in each.remarks]
     solution = replace(
         _solution(analysis, *_claim(results, first)),
+        asked=_asked(results),
         associative=stage.mechanics(first_associative, results[first_associative].associative.state, "associative"),
         outer=_outer(stage, results),
     )
@@ -169,6 +170,14 @@ def _claim(results: Sequence[PartResult], first: int) -> tuple[Status, str]:
     open_parts = [result for result in results if result.loaded and result.status not in DECIDED]
     result = results[first] if results[first].status not in DECIDED or not open_parts else open_parts[0]
     return result.status, result.reason
+
+
+def _asked(results: Sequence[PartResult]) -> float | None:
+    """Gap or residual asked for where every part that is not solved is approximate because of it; else None."""
+    open_parts = [result for result in results if result.loaded and result.status not in DECIDED]
+    asked = [result.asked for result in open_parts if result.status is Status.APPROXIMATE]
+    known = [value for value in asked if value is not None]
+    return max(known) if known and len(known) == len(open_parts) else None
 
 
 def _in_load_factors(program: Program, spread: tuple[float, float] | None) -> tuple[float, float] | None:

@@ -18,8 +18,8 @@ from tests.decks.folder import PATHS, deck_of
 MODEL = Path(__file__).parents[1] / "model"
 
 UNUSED: dict[str, str] = {
-    "AnalysisSection": "force_ranges forces interior max_iterations path proximal range reductions second_opinion "
-    "standing time_limit tolerance",
+    "AnalysisSection": "force_ranges forces gap interior max_iterations path peak proximal range reductions residual "
+    "second_opinion standing time_limit tolerance",
     "InteriorScheme": "max_factorizations tries",
     "LowestScheme": "seed",
     "MeshItem": "weld",

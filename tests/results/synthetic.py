@@ -252,6 +252,7 @@ def full_solution(solution: Solution) -> Solution:
         peak=replace(mechanics, load_factor=0.6),
         outer=replace(mechanics, load_factor=0.56),
         spread=(0.49, 0.51),
+        asked=5e-3,
         standing=StandingResult(
             Standing.SELF_STRESS, 1, "the tower hangs between two walls", mechanics.contact_forces, mechanics.mechanism
         ),

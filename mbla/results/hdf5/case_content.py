@@ -129,6 +129,8 @@ def _further(solution: Solution) -> Content:
         content["certificate_crushing_motions"] = solution.certificate_motions[:, 1]
     if solution.spread is not None:
         content["spread"] = np.array(solution.spread, dtype=float)
+    if solution.asked is not None:
+        content["asked"] = solution.asked
     if solution.size is not None:
         content |= {f"size/{name}": getattr(solution.size, name) for name in SIZE_FIELDS}
     return content if solution.standing is None else content | _standing(solution.standing)

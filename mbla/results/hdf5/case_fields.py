@@ -80,6 +80,14 @@ FURTHER_ANSWERS = (
         part="spread",
     ),
     Field(
+        f"{CASE}/asked",
+        "float",
+        (),
+        "1",
+        "gap of the bounds or residual that the analysis asks for, of a case that is approximate for no other reason",
+        part="asked",
+    ),
+    Field(
         f"{CASE}/force_ranges",
         "float",
         ("interface", "end"),

@@ -70,6 +70,7 @@ def case_from(load_case: LoadCase, get: dict[str, Any]) -> CaseResult:
         size=_size(get),
         sides=get["sides"],
         solver=_solver(get),
+        asked=get.get("asked"),
     )
     checks = Checks(
         **{name: get[name] for name in CHECKED},

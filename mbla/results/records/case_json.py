@@ -68,6 +68,7 @@ def _load_factors(case: CaseResult) -> dict[str, Any]:
         "static_bound": number(checks.static_bound),
         "kinematic_bound": number(checks.kinematic_bound),
         "gap": number(checks.gap),
+        "asked": None if solution.asked is None else number(solution.asked),
         "associative_load_factor": None if associative is None else number(associative.load_factor),
         "bracket": _bracket(solution, associative),
     }

@@ -94,6 +94,11 @@ CASE = (
     Key("cases[].static_bound", "number?", "verified lower bound of the associative load factor"),
     Key("cases[].kinematic_bound", "number?", "verified upper bound of it"),
     Key("cases[].gap", "number?", "relative distance of the two"),
+    Key(
+        "cases[].asked",
+        "number?",
+        "gap or residual that the deck asks for, of a case that is approximate for no other reason",
+    ),
     Key("cases[].associative_load_factor", "number?", "by associative flow"),
     Key("cases[].bracket", "object?", "polyhedral friction: associative load factors with two polyhedra"),
     Key("cases[].bracket.inner", "number?", "with the inscribed one"),
