@@ -39,8 +39,9 @@ def _cell(row: Row | None, rival: str) -> str:
     if row is None:
         return "–"
     ratio = f"{float(row['ratio']):.2g}" if row["ratio"] else "–"
-    if row["error"] and row["status"] in ("optimal", "solved"):
-        return f"{ratio} ({float(row['error']):.0e})"
+    if row["error"]:
+        doubt = "" if row["status"] in ("optimal", "solved") else f", {row['status']}"
+        return f"{ratio} ({float(row['error']):.0e}{doubt})"
     if RIVALS[rival].question == LOAD_FACTOR or not row["ratio"]:
         return row["status"]
     return f"{ratio} ({row['status']})"

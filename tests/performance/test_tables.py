@@ -16,6 +16,7 @@ def test_ratios_errors_and_answers() -> None:
         row("mbla", status="solved", processor="9", ratio="1", error="1e-10"),
         row("mbla", status="solved", processor="0.25", ratio="1", error="1e-10"),
         row("cvxpy", status="optimal", processor="0.5", ratio="2", error="-0.0009"),
+        row("cvxpy, kinematic", status="optimal_inaccurate", processor="1", ratio="4", error="-0.03"),
         row("linprog", status="stopped after 300 s"),
         row("compas_cra, rbe_solve", status="stands", processor="3", ratio="12"),
         row("compas_cra, cra_solve", status="solve failed: infeasible", processor="3", ratio="13.2"),
@@ -25,6 +26,7 @@ def test_ratios_errors_and_answers() -> None:
     assert cells["mbla, s"] == "0.25"
     assert cells["standing, s"] == "–"
     assert cells["cvxpy"] == "2 (-9e-04)"
+    assert cells["cvxpy, kinematic"] == "4 (-3e-02, optimal_inaccurate)"
     assert cells["linprog"] == "stopped after 300 s"
     assert cells["compas_cra, rbe_solve"] == "12 (stands)"
     assert cells["compas_cra, cra_solve"] == "13 (solve failed: infeasible)"
