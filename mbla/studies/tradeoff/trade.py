@@ -95,13 +95,17 @@ def _trade(name: str, positions: int, runs: Sequence[RungRun]) -> CaseTrade:
     placed = [
         Row(row.run, row.measurement, row.positions, _distance(row, chosen), False, row is chosen) for row in rows
     ]
-    front = on_front([(row.measurement.wall, max(row.distance, resolution)) if sharp and row.sound and row.measurement else None
-                      for row in placed])  # fmt: skip
+    front = on_front([_point(row, resolution) if sharp and row.sound else None for row in placed])
     rows = [
         Row(row.run, row.measurement, row.positions, row.distance, best, row.reference)
         for row, best in zip(placed, front, strict=True)
     ]
     return CaseTrade(name, tuple(rows), resolution, sharp)
+
+
+def _point(row: Row, resolution: float) -> tuple[float, float] | None:
+    """Time and error of a row."""
+    return None if row.measurement is None else (row.measurement.wall, max(row.distance, resolution))
 
 
 def _row(run: RungRun, name: str, positions: int) -> Row:
