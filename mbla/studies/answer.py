@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+from mbla.exit_status import as_asked
 from mbla.model.model import Model
 from mbla.results.comparison.cases import ZERO, least_factor
 from mbla.results.outcome import locked_in, result_of
@@ -51,5 +52,5 @@ def verdict_of(case: CaseResult) -> str:
 
 
 def is_verified(case: CaseResult) -> bool:
-    """Whether what the case says is confirmed: a solved figure, or that there is none."""
-    return case.checks.verified and case.status in (Status.SOLVED, *VERDICTS)
+    """Whether what the case says is confirmed: a figure as sharp as the setting asks for, or that there is none."""
+    return as_asked(case) or (case.checks.verified and case.status in (Status.SOLVED, *VERDICTS))

@@ -18,7 +18,7 @@ class Measurement:
     status      : after verification, as the JSON of a run has it
     verdict     : ``answer`` where there is a figure; else why there is none: the status, or ``locked_in`` where the
                   structure stands only by self-stress
-    verified    : solved and verified, or verified that there is no load factor
+    verified    : verified as sharply as the setting asks for (a draft may be approximate), or that there is no factor
     kind, unit  : of the answer: load factor, angle (degree) or reaction (deck's unit)
     answer      : what the user asks of the case
     least       : size below which differences of answers are relative to this

@@ -12,6 +12,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from mbla.solution.solution import Status
 from mbla.studies.measurement import NAN, Measurement
 from mbla.studies.tradeoff.ladder_run import RungRun
 from mbla.studies.tradeoff.rung import REFERENCE
@@ -89,17 +90,22 @@ def _trade(name: str, positions: int, runs: Sequence[RungRun]) -> CaseTrade:
     if chosen is None or chosen.measurement is None:
         return CaseTrade(name, tuple(rows), NAN, verified=False)
     accuracy = chosen.measurement.accuracy
+    sharp = _is_sharp(chosen.measurement)
     resolution = max(ROUNDING, 0.0 if math.isnan(accuracy) else accuracy)
     placed = [
         Row(row.run, row.measurement, row.positions, _distance(row, chosen), False, row is chosen) for row in rows
     ]
-    front = on_front([(row.measurement.wall, max(row.distance, resolution)) if row.sound and row.measurement else None
-                      for row in placed])  # fmt: skip
+    front = on_front([_point(row, resolution) if sharp and row.sound else None for row in placed])
     rows = [
         Row(row.run, row.measurement, row.positions, row.distance, best, row.reference)
         for row, best in zip(placed, front, strict=True)
     ]
-    return CaseTrade(name, tuple(rows), resolution, chosen.measurement.verified)
+    return CaseTrade(name, tuple(rows), resolution, sharp)
+
+
+def _point(row: Row, resolution: float) -> tuple[float, float] | None:
+    """Time and error of a row."""
+    return None if row.measurement is None else (row.measurement.wall, max(row.distance, resolution))
 
 
 def _row(run: RungRun, name: str, positions: int) -> Row:
@@ -114,12 +120,17 @@ def _row(run: RungRun, name: str, positions: int) -> Row:
 def _reference(rows: Sequence[Row]) -> Row | None:
     """The preset if it is verified, else the sharpest that is, else the sharpest that has an answer at all."""
     own = [row for row in rows if row.measurement is not None and not row.run.rung.model]
-    verified = [row for row in own if row.measurement is not None and row.measurement.verified]
+    verified = [row for row in own if row.measurement is not None and _is_sharp(row.measurement)]
     for row in verified:
         if row.name == REFERENCE:
             return row
     answers = [row for row in own if row.measurement is not None and row.measurement.verdict == "answer"]
     return min(verified or answers, key=_sharpness, default=None)
+
+
+def _is_sharp(measurement: Measurement) -> bool:
+    """Verified and not only as sharply as a draft asks for: others may be held against it."""
+    return measurement.verified and measurement.status != Status.APPROXIMATE
 
 
 def _sharpness(row: Row) -> float:

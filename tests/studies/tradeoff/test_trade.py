@@ -95,6 +95,17 @@ def test_without_a_verified_run_there_is_no_front_and_no_advice() -> None:
     assert "no setting is verified for push" in advice([trade], 0.1).sentence
 
 
+def test_a_draft_as_sharp_as_it_asks_for_is_advised_but_is_no_reference() -> None:
+    draft = run_of("accuracy: draft", measured(0.5005, 0.2, status="approximate", accuracy=1e-3))
+    runs = [run_of("accuracy: reference", measured(0.5, 2.0)), draft]
+    assert names_on_front(trade_of(runs)) == {"accuracy: reference", "accuracy: draft"}
+    assert advice([trade_of(runs)], 1e-2).rung == "accuracy: draft"
+    alone = trade_of([draft])
+    assert not alone.verified
+    assert not names_on_front(alone)
+    assert advice([alone], 1e-2).rung == ""
+
+
 def test_nothing_to_compare_with() -> None:
     runs = [RungRun(Rung("accuracy: reference"), (), "stopped", "stopped after 1 s")]
     trade = trade_of(runs)
