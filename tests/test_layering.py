@@ -12,7 +12,7 @@ import pytest
 
 PACKAGE = Path(__file__).parents[1] / "mbla"
 STAGES = ("deck", "model", "contacts", "program", "solution", "results")
-SHARED = ("arrays", "errors")
+SHARED = ("arrays", "errors", "stopwatch")
 DOORS = {
     "yaml": "deck/reader.py",
     "pint": "deck/units.py",
