@@ -20,7 +20,6 @@ from mbla.model import Model, build_model
 from mbla.model.model import LoadCase
 from mbla.model.settlement import with_reference
 from mbla.program import Program, assemble
-from mbla.program.convex import assemble_convex
 from mbla.program.reductions import Reduced, allowed_reductions, reduce_program
 from mbla.program.remarks import program_notices
 from mbla.results.files import OutputFolder
@@ -31,7 +30,6 @@ from mbla.results.write import write_results
 from mbla.run_options import RunOptions as RunOptions
 from mbla.settings_words import settings_in_words
 from mbla.solution import solve, verified_status, verify
-from mbla.solution.convex import solve_convex
 from mbla.solution.glued import solution_on_blocks
 from mbla.solution.settings import SolverSettings, solver_settings
 from mbla.solution.settlement import posed
@@ -155,6 +153,9 @@ def solve_case(
     def ask(case: LoadCase) -> tuple[Solution, Checks]:
         on_solids = (solids.model, solids.contacts, solids.load_case(case))
         if deck.analysis.contact_model == "convex":
+            from mbla.program.convex import assemble_convex
+            from mbla.solution.convex import solve_convex
+
             with stage("assemble"):
                 convex = assemble_convex(*on_solids)
             solution = solve_convex(convex, deck.analysis, settings, log)

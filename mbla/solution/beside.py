@@ -13,7 +13,6 @@ from mbla.arrays import FloatArray
 from mbla.deck.analysis import AnalysisSection
 from mbla.solution.cone_solution import Log
 from mbla.solution.factor_range import FactorRange, factor_range
-from mbla.solution.limit_point import limit_point
 from mbla.solution.mechanics import forces_of
 from mbla.solution.part import PartResult
 from mbla.solution.settings import SolverSettings
@@ -82,6 +81,8 @@ def _with_peak(result: PartResult, analysis: AnalysisSection, settings: SolverSe
     most = np.inf if above is None else above.load_factor
     if state.load_factor > SUSPECT * most:
         return result
+    from mbla.solution.limit_point import limit_point  # late: the load path is followed rarely
+
     found = limit_point(result.program, state, settings, log, len(result.programs) + 1, most)
     return replace(result.with_remark(found.remark, found.programs), peak=found.peak)
 
