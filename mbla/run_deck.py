@@ -20,7 +20,6 @@ from mbla.model import Model, build_model
 from mbla.model.model import LoadCase
 from mbla.model.settlement import with_reference
 from mbla.program import Program, assemble
-from mbla.program.convex import assemble_convex
 from mbla.program.reductions import Reduced, allowed_reductions, reduce_program, unreduced
 from mbla.program.reductions.glued import glued_step
 from mbla.program.reductions.steps import size_of, told_apart
@@ -33,14 +32,18 @@ from mbla.results.write import write_results
 from mbla.run_options import RunOptions as RunOptions
 from mbla.settings_words import settings_in_words
 from mbla.solution import solve, verified_status, verify
-from mbla.solution.convex import solve_convex
 from mbla.solution.glued import solution_on_blocks
 from mbla.solution.settings import SolverSettings, solver_settings
 from mbla.solution.settlement import posed
 from mbla.solution.solution import Checks, IterationRecord, Solution
 from mbla.solution.tilt import solve_tilt
+from mbla.stopwatch import Stopwatch, stage, timing
 
 Progress = Callable[[str, IterationRecord], None]
+
+PARTS_OF_SOLVE = ("assemble", "programs", "repair", "standing", "verify")
+"""What is timed inside ``solve``: equilibrium, yield conditions and reductions; programs and steps of the law;
+forces and velocities repaired, which prove the bounds; standing under dead load; verification."""
 
 
 def run(deck_path: Path, options: RunOptions, progress: Progress | None = None) -> Results:
@@ -83,8 +86,10 @@ def solve_deck(
     model = held_model(model, contacts)
     found = time.perf_counter()
     settings = solver_settings(deck.analysis, options.threads)
-    model, load_cases = with_settlements(model, contacts, load_cases, settings)
-    cases = [solve_case(deck, model, contacts, load_case, settings, status_file, progress) for load_case in load_cases]
+    with timing() as stopwatch:
+        model, load_cases = with_settlements(model, contacts, load_cases, settings)
+        cases = [solve_case(deck, model, contacts, case, settings, status_file, progress) for case in load_cases]
+    solved = time.perf_counter()
     model = with_loads_found(model, cases)
     unexpected = differences_from_expected(deck, cases) if options.expected else []
     return Results(
@@ -95,9 +100,17 @@ def solve_deck(
         notices=(*notices_of(deck, model, contacts), *unexpected),
         provenance=collect_provenance(),
         settings=settings_in_words(deck, settings),
-        time={"read": read - started, "contacts": found - read, "solve": time.perf_counter() - found},
+        time={"read": read - started, "contacts": found - read, "solve": solved - found}
+        | parts_of_solve(cases, stopwatch),
         exit_code=exit_code(cases, unexpected),
     )
+
+
+def parts_of_solve(cases: Sequence[CaseResult], stopwatch: Stopwatch) -> dict[str, float]:
+    """Seconds of the programs, as they were recorded, and of what is done before, between and after them."""
+    programs = float(sum(program.seconds for case in cases for program in case.solution.programs))
+    parts = {"programs": programs, **stopwatch.seconds}
+    return {f"solve/{part}": parts[part] for part in PARTS_OF_SOLVE if part in parts}
 
 
 def title_of(deck: Deck) -> str:
@@ -142,9 +155,15 @@ def solve_case(
     def ask(case: LoadCase) -> tuple[Solution, Checks]:
         on_solids = (solids.model, solids.contacts, solids.load_case(case))
         if deck.analysis.contact_model == "convex":
-            solution = solve_convex(assemble_convex(*on_solids), deck.analysis, settings, log)
+            from mbla.program.convex import assemble_convex
+            from mbla.solution.convex import solve_convex
+
+            with stage("assemble"):
+                convex = assemble_convex(*on_solids)
+            solution = solve_convex(convex, deck.analysis, settings, log)
         else:
-            reduced = reduced_program(deck, solids, assemble(*on_solids))
+            with stage("assemble"):
+                reduced = reduced_program(deck, solids, assemble(*on_solids))
             solution = solve(reduced, deck.analysis, settings, log)
         solution = solution_on_blocks(solution, solids)
         return solution, verify(model, contacts, case, solution)

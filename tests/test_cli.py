@@ -45,7 +45,14 @@ def test_run_writes_its_files_and_prints_one_object(deck: Path, capsys: pytest.C
     assert case["load_factor"] == pytest.approx(0.5, rel=1e-7)
     assert case["static_bound"] <= 0.5 + 1e-7
     assert case["kinematic_bound"] >= 0.5 - 1e-7
-    assert set(record["time"]) == {"read", "contacts", "solve", "write"}
+    stages = {stage for stage in record["time"] if "/" not in stage}
+    assert stages == {"read", "contacts", "solve", "write"}
+    parts = ("assemble", "programs", "repair", "standing", "verify")
+    assert {stage for stage in record["time"] if "/" in stage} == {
+        "write/failure",
+        *(f"solve/{part}" for part in parts),
+    }
+    assert sum(record["time"][f"solve/{part}"] for part in parts) < record["time"]["solve"]
     folder = deck.with_suffix(".out")
     expected = {"block.h5", "block.lst", "block.sta", "block.json", "block_push.pvd", "block_push_blocks.vtu"}
     assert expected <= {path.name for path in folder.iterdir()}

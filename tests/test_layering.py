@@ -15,6 +15,8 @@ STAGES = ("deck", "model", "contacts", "program", "solution", "results", "studie
 SHARED = ("arrays", "errors")
 WHOLE_LINE = ("run_deck", "run_options", "exit_status", "failures")
 """modules beside the stages that call all of them: only what runs decks again and again stands to their right"""
+STAGES = ("deck", "model", "contacts", "program", "solution", "results")
+SHARED = ("arrays", "errors", "stopwatch")
 DOORS = {
     "yaml": "deck/reader.py",
     "pint": "deck/units.py",

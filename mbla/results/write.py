@@ -11,6 +11,7 @@ from mbla.results.hdf5.result_file import write_results_hdf5
 from mbla.results.paraview.mesh_files import write_mesh_files
 from mbla.results.records.json_record import json_line, results_json
 from mbla.results.results import Results
+from mbla.results.words.case_words import find_failure
 from mbla.results.words.listing import listing
 
 
@@ -20,7 +21,8 @@ def write_results(results: Results, out: OutputFolder, vtu: bool, frames: int, p
     Parameters
     ----------
     results
-        ``time["write"]`` is set here, to the seconds spent on the VTU files and pictures, and so is ``files``.
+        ``time["write"]`` is set here, to the seconds spent on finding how the cases fail (``write/failure``), VTU files
+        and pictures, and so is ``files``.
     vtu, frames
         Files for ParaView, and the frames of each animation.
     plots
@@ -39,12 +41,16 @@ def write_results(results: Results, out: OutputFolder, vtu: bool, frames: int, p
         Pictures are asked for and the extra that draws them is not installed.
     """
     begin = time.perf_counter()
+    for case in results.cases:
+        find_failure(results.model, results.contacts, case)
+    told = time.perf_counter()
     if vtu:
         write_mesh_files(results, out, frames)
     if plots:
         _write_pictures(results, out)
     files = sorted({*out.names, *(f"{out.stem}.{suffix}" for suffix in ("lst", "h5", "json"))})
-    results = replace(results, time=results.time | {"write": time.perf_counter() - begin}, files=tuple(files))
+    seconds = {"write": time.perf_counter() - begin, "write/failure": told - begin}
+    results = replace(results, time=results.time | seconds, files=tuple(files))
     out.write_text(f"{out.stem}.lst", listing(results))
     out.write_bytes(f"{out.stem}.h5", write_results_hdf5(results))
     out.write_text(f"{out.stem}.json", json_line(results_json(results)) + "\n")

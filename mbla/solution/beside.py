@@ -14,7 +14,6 @@ from mbla.deck.accuracy import knobs_of
 from mbla.deck.analysis import AnalysisSection
 from mbla.solution.cone_solution import Log
 from mbla.solution.factor_range import factor_range
-from mbla.solution.limit_point import limit_point
 from mbla.solution.mechanics import forces_of
 from mbla.solution.part import PartResult
 from mbla.solution.settings import SolverSettings
@@ -98,6 +97,8 @@ def _with_peak(result: PartResult, analysis: AnalysisSection, settings: SolverSe
         return result
     if not knobs_of(analysis).peak or state.residual > RANGE_RESIDUAL:
         return result.with_remark(NO_PEAK, ())
+    from mbla.solution.limit_point import limit_point  # late: the load path is followed rarely
+
     found = limit_point(result.program, state, settings, log, len(result.programs) + 1, most)
     return replace(result.with_remark(found.remark, found.programs), peak=found.peak)
 

@@ -16,6 +16,7 @@ from mbla.program.program import Program
 from mbla.solution.force_repair import repaired_forces
 from mbla.solution.law_state import LawState
 from mbla.solution.mechanism_repair import repaired_mechanisms
+from mbla.stopwatch import timed
 
 CHARGED = 2.0
 """Normal force, over the largest of the solution, with which rounding in a mechanism's compatibility is charged."""
@@ -49,6 +50,7 @@ class CertifiedGap:
     velocities: FloatArray
 
 
+@timed("repair")
 def certified_gap(program: Program, state: LawState) -> CertifiedGap:
     """Bounds of the associative load factor that a state proves; no solver is asked."""
     repaired = repaired_forces(program, state.forces, state.load_factor)

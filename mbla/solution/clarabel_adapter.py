@@ -98,9 +98,9 @@ class ClarabelProgram:
         self._enough, self._had_enough = enough, False
 
         self._check_finite()
+        started, self._logged = time.perf_counter(), -1
         if self._solver is None:
             self._solver = self._new_solver(clarabel)
-        started, self._logged = time.perf_counter(), -1
         with signals_held() as signalled:
             callback = self._callback(program_number, to_load_factor, started, signalled)
             self._solver.set_termination_callback(callback)

@@ -63,6 +63,12 @@ def interior_point_solver(
     return own if settings.solver == "mbla" else _OneThenOther(own, settings, log)
 
 
+def sharpen(solver: InteriorPointSolver | HighsProgram, tolerance: float) -> bool:
+    """Let the next run of a program go on from its solution to a smaller tolerance; False where it cannot."""
+    own = solver.first if isinstance(solver, _OneThenOther) else solver
+    return isinstance(own, CondensedProgram) and own.sharpen(tolerance)
+
+
 def interior_point_method(cone_program: ConeProgram, solver: str) -> str:
     """Whether mbla or clarabel takes a program, by what was asked for, by its shape and by its size."""
     if solver == "clarabel" or not fits(cone_program):

@@ -22,6 +22,7 @@ from mbla.solution.bordered_system import bordered_solver
 from mbla.solution.cone_vectors import ConeVectors
 from mbla.solution.convex_slacks import slacks_of
 from mbla.solution.mechanism_repair import repaired_mechanisms
+from mbla.stopwatch import timed
 
 ROUNDS = 6
 EQUILIBRIUM_TOLERANCE, GOOD_EQUILIBRIUM = 1e-11, 3e-10
@@ -36,6 +37,7 @@ THRESHOLDS = (0.0, 1e-6, np.inf)
 """Share of the largest contact speed below which the motion of an interface is taken for rounding and left out."""
 
 
+@timed("repair")
 def repaired_convex_forces(
     convex: ConvexProgram, forces: FloatArray, load_factor: float
 ) -> tuple[FloatArray, float] | None:
@@ -67,6 +69,7 @@ def repaired_convex_forces(
     return None if best is None else (form.contact_forces(best), -float(best[0]))
 
 
+@timed("repair")
 def repaired_convex_motions(
     convex: ConvexProgram, velocities: FloatArray, motions: FloatArray
 ) -> list[tuple[FloatArray, FloatArray]]:

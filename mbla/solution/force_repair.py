@@ -21,6 +21,7 @@ from mbla.program.program import Program
 from mbla.program.yield_conditions import yield_violation
 from mbla.solution.barriers import force_metric
 from mbla.solution.bordered_system import PROGRESS, ROUNDS, bordered_solver
+from mbla.stopwatch import timed
 
 EQUILIBRIUM_TOLERANCE = 1e-9
 """Residual, relative to the mean load of a block, that counts as equilibrium: where all joints of a sliding plane are
@@ -47,6 +48,7 @@ STEEP = 10.0
 that nothing is left of the latter in double precision."""
 
 
+@timed("repair")
 def repaired_forces(
     program: Program, forces: FloatArray, load_factor: float, inside: float = INSIDE
 ) -> tuple[FloatArray, float] | None:

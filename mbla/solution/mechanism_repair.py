@@ -13,12 +13,14 @@ from mbla.arrays import FloatArray
 from mbla.program.program import Program
 from mbla.solution.barriers import block_diagonal, velocity_hessian
 from mbla.solution.bordered_system import PROGRESS, ROUNDS, bordered_solver
+from mbla.stopwatch import timed
 
 OPENINGS = (1e-13, 1e-11, 1e-9)
 """Opening velocities, relative to the largest contact speed, that the mechanism is moved towards in turn until it is
 compatible; the best one counts. Confined joints cannot open at all: there the smallest leaves least to be charged."""
 
 
+@timed("repair")
 def repaired_mechanisms(program: Program, velocities: FloatArray) -> list[FloatArray]:
     """The given velocities, (n_rows,) non-dimensional, and versions of them moved towards compatibility."""
     found = [velocities]

@@ -14,7 +14,6 @@ from mbla.solution.boundedness import Boundedness, non_associative_bounded
 from mbla.solution.certificate import cleaned_certificate
 from mbla.solution.cone_solution import Log
 from mbla.solution.factor_range import FactorRange
-from mbla.solution.flow import Flow, solve_flow
 from mbla.solution.law_state import LawState, SequenceResult
 from mbla.solution.polyhedral import solve_polyhedral, solve_with_opinion
 from mbla.solution.settings import SolverSettings
@@ -113,7 +112,16 @@ def _by_flow_rule(program: Program, analysis: AnalysisSection, settings: SolverS
         return result
     if associative.state is None:
         return _locked_by_dilatancy(result, analysis, settings, log)
-    return replace(result, sequence=solve_flow(Flow(program, associative, analysis, settings, log)))
+    return replace(result, sequence=_by_law(program, associative, analysis, settings, log))
+
+
+def _by_law(
+    program: Program, associative: AssociativeResult, analysis: AnalysisSection, settings: SolverSettings, log: Log
+) -> SequenceResult:
+    """The sequence by the flow rule of the analysis; its schemes are imported where one is asked for."""
+    from mbla.solution.flow import Flow, solve_flow
+
+    return solve_flow(Flow(program, associative, analysis, settings, log))
 
 
 def _associative(program: Program, analysis: AnalysisSection, settings: SolverSettings, log: Log) -> PartResult:
@@ -138,14 +146,14 @@ def _locked_by_dilatancy(
     if analysis.flow_rule == "livesley":
         return result
     if analysis.flow_rule == "dilatancy":
-        sequence = solve_flow(Flow(program, associative, analysis, settings, log))
+        sequence = _by_law(program, associative, analysis, settings, log)
         return replace(result, sequence=sequence) if sequence.status is Status.SOLVED else result
     decision = non_associative_bounded(program, settings)
     if decision.verdict is Boundedness.UNBOUNDED:
         return replace(result, associative=replace(associative, reason=decision.reason))
     if decision.verdict is Boundedness.DOUBTFUL:
         return replace(result, associative=replace(associative, status=Status.NOT_VERIFIED, reason=decision.reason))
-    sequence = solve_flow(Flow(program, associative, analysis, settings, log))
+    sequence = _by_law(program, associative, analysis, settings, log)
     sequence = replace(sequence, remarks=(decision.reason, *sequence.remarks))
     return replace(result, associative=replace(associative, reason=""), sequence=sequence)
 

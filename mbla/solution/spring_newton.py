@@ -9,7 +9,7 @@ import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.solution.linear_algebra.superlu import factors_on_the_diagonal
-from mbla.solution.spring_problem import Joints, SpringProblem, balanced, joints_at, stiffness_at
+from mbla.solution.spring_problem import Joints, SpringProblem, balanced, joint_stiffness, joints_at, stiffness_at
 
 NEWTON_STEPS = 40
 
@@ -61,6 +61,14 @@ def _backtracked(
 
 def newton_step(problem: SpringProblem, kappa: float, joints: Joints, *, lagged: bool) -> FloatArray | None:
     """Newton's step, None where the tangent is singular."""
+    stiffness = None if problem.pattern is None else problem.pattern.next()
+    if stiffness is not None:
+        tangents, shift = joint_stiffness(problem, joints, lagged), kappa * problem.springs.diagonal()
+        solve = stiffness.factorized(tangents, shift, fixed_load=True)
+        if solve is None:
+            return None
+        step = -solve(np.append(joints.unbalanced, 0.0))[:-1]
+        return step if np.isfinite(step).all() else None
     matrix = stiffness_at(problem, kappa, joints, lagged)
     factors = factors_on_the_diagonal(matrix, 0.01)
     if factors is None:

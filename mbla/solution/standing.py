@@ -20,6 +20,7 @@ from mbla.solution.mechanics import motion_of
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Standing, StandingResult
 from mbla.solution.weakening import Outcome, weaken_springs
+from mbla.stopwatch import timed
 
 YES = "the dead load is carried from the stress-free assembly"
 NO_DEAD_LOAD = "there is no dead load to carry"
@@ -52,6 +53,7 @@ def assess_standing(program: Program, settings: SolverSettings, carried: bool | 
     return assess_dead_load(program, settings, carried).standing
 
 
+@timed("standing")
 def assess_dead_load(program: Program, settings: SolverSettings, carried: bool | None = True) -> DeadLoadState:
     """Assess the dead load of a program, reduced or not.
 

@@ -55,6 +55,10 @@ TOLERANCE, REGULARIZATION = 1e-10, 1e-8
 MOST_ITERATIONS = 60
 """Of one program: they take 10 to 40, and those for which the mechanism leaves no forces run away."""
 
+MOST_POINTS = 40_000
+"""Contact points up to which they are sought. On a planar wall of 10,050 blocks, 59,700 points, all three programs took
+three times as long as the load factor, 142 iterations, and found nothing."""
+
 SHARE = 1e-3
 """ε, relative: with 1e-2 the load factor of a wall of 410 blocks fell by 1e-4, with 1e-4 the solver ended short."""
 
@@ -92,6 +96,8 @@ def least_forces(
     weights : (n_points,) from ``point_weights``
     first   : number of the first program in the sequence of the load case
     """
+    if program.n_points > MOST_POINTS:
+        return LeastForces(state, (), NOT_SOUGHT)
     iterations = min(settings.max_iterations, MOST_ITERATIONS)
     settings = replace(settings, tolerance=TOLERANCE, regularization=REGULARIZATION, max_iterations=iterations)
     search = _Search(program, state, weights, settings, log, first)
@@ -109,6 +115,8 @@ def least_forces(
 
 
 NOT_FOUND = "contact forces are as the solver left them, not the least ones, which were not found"
+
+NOT_SOUGHT = f"{NOT_FOUND}: of more than {MOST_POINTS:,} points they are not sought"
 
 
 @dataclass

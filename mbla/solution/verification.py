@@ -27,11 +27,13 @@ from mbla.solution.verify_polyhedral import verify_polyhedral
 from mbla.solution.verify_range import range_checks
 from mbla.solution.verify_standing import standing_failures
 from mbla.solution.verify_tilt import never_failures, tilt_failures
+from mbla.stopwatch import timed
 
 APART = 1e-9
 """Motion of glued blocks against each other, over the largest motion: rounding of the map from solids to blocks."""
 
 
+@timed("verify")
 def verify(model: Model, contacts: Contacts, load_case: LoadCase, solution: Solution) -> Checks:
     """Recompute everything that a solution claims, from model and contacts alone; NaN where there is nothing to check.
 

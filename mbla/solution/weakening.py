@@ -22,7 +22,7 @@ from mbla.arrays import FloatArray, IntArray
 from mbla.program.program import Program
 from mbla.program.yield_conditions.limits import YieldLimits
 from mbla.solution.settings import SolverSettings
-from mbla.solution.spring_problem import SpringProblem, joint_forces, spring_problem
+from mbla.solution.spring_problem import LatePattern, SpringProblem, joint_forces, spring_problem
 from mbla.solution.spring_state import spring_state
 
 SHEAR_STIFFNESSES = (1.0, 0.4)
@@ -106,6 +106,8 @@ def weaken_springs(program: Program, load: Load, limits: YieldLimits, settings: 
     whole = spring_problem(
         program.equilibrium_matrix, getattr(program, load), limits, blocks.springs, settings.deadline
     )
+    if program.n_points and is_diagonal(blocks.springs):
+        whole = replace(whole, pattern=LatePattern(program))
     found: list[Weakening] = []
     kappa, u = 1.0, np.zeros(len(program.dead_load))
     for ratio in SHEAR_STIFFNESSES:
@@ -118,6 +120,11 @@ def weaken_springs(program: Program, load: Load, limits: YieldLimits, settings: 
         if outcome.outcome is Outcome.UNDECIDED:
             return found[-1]
     return agreed(*found)
+
+
+def is_diagonal(matrix: sp.csr_array) -> bool:
+    """Whether nothing is stored beside the diagonal but zeros."""
+    return matrix.count_nonzero() == np.count_nonzero(matrix.diagonal())
 
 
 def agreed(first: Weakening, second: Weakening) -> Weakening:

@@ -10,9 +10,17 @@ import scipy.sparse as sp
 
 from mbla.solution.lagged_limits import convex_minimum
 from mbla.solution.settings import SolverSettings
-from mbla.solution.spring_problem import SpringProblem, joints_at, spring_problem, stiffness_at
+from mbla.solution.spring_newton import newton_step
+from mbla.solution.spring_problem import (
+    PATTERN_FROM,
+    LatePattern,
+    SpringProblem,
+    joints_at,
+    spring_problem,
+    stiffness_at,
+)
 from mbla.solution.spring_state import spring_state
-from mbla.solution.weakening import weaken_springs
+from mbla.solution.weakening import is_diagonal, springs_of, weaken_springs
 from tests.line import BLOCK, WALL, line_of
 from tests.solution.standing_structures import rafters
 
@@ -37,6 +45,27 @@ def test_the_tangent_is_that_of_the_law(lagged: bool) -> None:
     assert 0 < open_.sum() < len(open_)
     tangent = stiffness_at(problem, 0.2, here, lagged)
     assert (here.unbalanced - there.unbalanced) / 1e-7 == pytest.approx(tangent @ du, abs=1e-5)
+
+
+@pytest.mark.parametrize("lagged", [False, True])
+@pytest.mark.parametrize("reductions", ["true", "false"])
+def test_a_step_on_the_pattern_is_newtons_step(reductions: str, lagged: bool) -> None:
+    """The same as by products of sparse matrices, planar and in space, with joints open, sticking and sliding."""
+    program = line_of(WALL, "parameters.n=3", f"analysis.reductions.planar={reductions}").program
+    springs = springs_of(program, "dead_load")[0]
+    problem = spring_problem(program.equilibrium_matrix, program.dead_load, program.limits, springs, None)
+    here = joints_at(problem, 0.2, np.random.default_rng(3).normal(size=len(problem.load)), None)
+    assert is_diagonal(springs)
+    late = replace(problem, pattern=LatePattern(program))
+    steps = [newton_step(late, 0.2, here, lagged=lagged) for _ in range(PATTERN_FROM + 1)]
+    plain = newton_step(problem, 0.2, here, lagged=lagged)
+    assert np.array_equal(steps[0], plain)
+    assert not np.array_equal(steps[-1], plain)  # by another order of elimination
+    assert steps[-1] == pytest.approx(plain, rel=1e-9, abs=1e-12)
+
+
+def test_springs_that_join_rows_are_no_diagonal() -> None:
+    assert not is_diagonal(sp.csr_array(np.array([[1.0, 0.1], [0.1, 1.0]])))
 
 
 @pytest.mark.parametrize("kappa", [1.0, 1e-3])

@@ -12,7 +12,6 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.spatial import cKDTree
 
 from mbla.arrays import FloatArray, IntArray
 from mbla.program.reductions.restrict import block_matrix
@@ -86,6 +85,8 @@ def mirror_about(scene: Scene, normal: FloatArray) -> Mirror | None:
 
 def _matched(there: FloatArray, image: FloatArray, length: float, sizes: FloatArray) -> IntArray | None:
     """Row of ``there`` at each row of ``image``, each used once; None where one has no partner."""
+    from scipy.spatial import cKDTree
+
     distance, nearest = cKDTree(there).query(image)
     row = np.asarray(nearest, dtype=np.int64)
     if np.any(distance > SYMMETRIC * np.maximum(sizes, length)) or len(np.unique(row)) < len(row):

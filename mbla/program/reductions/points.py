@@ -9,7 +9,6 @@ inside share the load.
 from __future__ import annotations
 
 import numpy as np
-from scipy.spatial import ConvexHull, QhullError
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.program.reductions.restrict import chosen_limits, restricted, selection
@@ -66,6 +65,8 @@ def several_of_a_pair(scene: Scene) -> IntArray:
 
 
 def _on_hull(scene: Scene, group: IntArray) -> BoolArray:
+    from scipy.spatial import ConvexHull, QhullError
+
     flat = (scene.points[group] - scene.points[group[0]]) @ scene.frames[group[0], 1:].T / scene.length
     kept = np.zeros(len(group), dtype=bool)
     try:

@@ -30,7 +30,7 @@ RUN = (
     Key("notices[].message", "string", "in words"),
     Key("notices[].case", "string", "load case that it is about; missing where it is about the whole run"),
     Key("time", "object", "by stage"),
-    Key("time.*", "number", "time of a stage: read, contacts, solve, write", "time"),
+    Key("time.*", "number", "time of a stage: read, contacts, solve, write; a part of one after a slash", "time"),
     Key("files", "list", "names of the files of the run"),
     Key("files[]", "string", "a file"),
 )

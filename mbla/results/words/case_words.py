@@ -83,6 +83,15 @@ def case_sections(model: Model, contacts: Contacts, case: CaseResult) -> list[Se
     return [section for section in sections if any(section.lines)]
 
 
+def find_failure(model: Model, contacts: Contacts, case: CaseResult) -> None:
+    """Find how a case fails, which is kept for listing, files and pictures: takes longest on large models."""
+    model, mechanics, size = model.of_case(case.load_case), case.solution.mechanics, case.solution.size
+    if mechanics is not None:
+        collapse = collapse_of(model, contacts, case.load_case, mechanics)
+        failure_of(model, contacts, collapse, mechanics)
+        force_freedom(model, contacts, mechanics, 3 if size is None else size.dimension)
+
+
 def _verdict_lines(model: Model, case: CaseResult, summary: str, told: Sequence[str]) -> list[str]:
     """How it collapses and how well that is known; of a structure that does not stand, how it falls."""
     says = verdict(model, case)

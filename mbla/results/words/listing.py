@@ -202,5 +202,13 @@ def _recap(results: Results) -> list[str]:
     if left_out:
         lines += sentence(f"{counted(left_out, 'load case')} of the deck not run")
     lines += warning_lines(results)
-    seconds = ", ".join(f"{stage} {number(round(value, 3))} s" for stage, value in results.time.items())
+    seconds = _seconds(results.time)
     return lines + sentence(f"exit status {results.exit_code}" + (f"; {seconds}" if seconds else ""))
+
+
+def _seconds(time: Mapping[str, float]) -> str:
+    """Of every stage, and in brackets of its parts."""
+    said = {stage: f"{stage.split('/')[-1]} {number(round(value, 3))} s" for stage, value in time.items()}
+    parts = {stage: [said[part] for part in said if part.startswith(f"{stage}/")] for stage in said}
+    whole = [stage for stage in said if "/" not in stage]
+    return ", ".join(said[stage] + (f" ({', '.join(parts[stage])})" if parts[stage] else "") for stage in whole)

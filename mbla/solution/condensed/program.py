@@ -64,6 +64,7 @@ class CondensedProgram:
     _condensation: Condensation | None = field(init=False, default=None)
     _near: tuple[FloatArray, FloatArray] | None = field(init=False, default=None)
     _paused: Point | None = field(init=False, default=None)
+    _solved: Point | None = field(init=False, default=None)
 
     def solve(self, program_number: int, to_load_factor: float) -> ConeSolution:
         """Solve what is loaded; see ``ConeSolver``."""
@@ -88,10 +89,23 @@ class CondensedProgram:
             again = solve_embedded(data, condensation, run)
             ended, iterations = _better(ended, again), iterations + again.iterations
         self._paused = ended.point if ended.outcome is Outcome.ENOUGH else None
+        self._solved = ended.point if ended.outcome is Outcome.SOLVED else None
         solution = self._solution(data, ended, iterations, time.perf_counter() - started)
         if ended.outcome is Outcome.SOLVED:
             self.start_near(solution)
         return solution
+
+    def sharpen(self, tolerance: float) -> bool:
+        """Let the next run of the same program go on from where this one was solved, to a smaller tolerance.
+
+        That is the run which the smaller tolerance would have made from the beginning, without its first part. False
+        where there is nothing to go on from.
+        """
+        if self._solved is None:
+            return False
+        self.settings = replace(self.settings, tolerance=tolerance)
+        self._paused, self._near = self._solved, None
+        return True
 
     def start_near(self, solution: ConeSolution) -> None:
         """Start the next time from the solution of a neighbouring program with the same unknowns and rows.
@@ -106,7 +120,7 @@ class CondensedProgram:
         """Change cost or right-hand side; the matrix stays."""
         old = self.cone_program
         self.cone_program = replace(old, cost=old.cost if cost is None else cost, rhs=old.rhs if rhs is None else rhs)
-        self._paused = None
+        self._paused = self._solved = None
         if self._data is not None:
             self._data = self._data.changed(self.cone_program)
 

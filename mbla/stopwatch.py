@@ -1,0 +1,76 @@
+"""Where the time of a run goes: seconds by stage, each without what the stages inside it take.
+
+A run opens a stopwatch (``timing``); whatever does a stage's work names it (``stage`` around a block, ``timed`` on a
+function). Without a stopwatch open both do nothing.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import time
+from collections.abc import Callable, Iterator
+from contextvars import ContextVar
+from dataclasses import dataclass, field
+from functools import wraps
+from typing import ParamSpec, TypeVar
+
+P = ParamSpec("P")
+T = TypeVar("T")
+
+
+@dataclass
+class Stopwatch:
+    """Seconds by stage, in the order in which stages first ended.
+
+    inside : seconds that the stages inside each open one have taken so far, outermost first
+    """
+
+    seconds: dict[str, float] = field(default_factory=dict)
+    inside: list[float] = field(default_factory=list)
+
+
+_running: ContextVar[Stopwatch | None] = ContextVar("stopwatch", default=None)
+
+
+@contextlib.contextmanager
+def timing() -> Iterator[Stopwatch]:
+    """A stopwatch for the stages of a ``with`` block; one that was open waits meanwhile."""
+    stopwatch = Stopwatch()
+    token = _running.set(stopwatch)
+    try:
+        yield stopwatch
+    finally:
+        _running.reset(token)
+
+
+@contextlib.contextmanager
+def stage(name: str) -> Iterator[None]:
+    """Add the seconds of a ``with`` block to a stage of the open stopwatch."""
+    stopwatch = _running.get()
+    if stopwatch is None:
+        yield
+        return
+    started = time.perf_counter()
+    stopwatch.inside.append(0.0)
+    try:
+        yield
+    finally:
+        whole = time.perf_counter() - started
+        own = whole - stopwatch.inside.pop()
+        stopwatch.seconds[name] = stopwatch.seconds.get(name, 0.0) + own
+        if stopwatch.inside:
+            stopwatch.inside[-1] += whole
+
+
+def timed(name: str) -> Callable[[Callable[P, T]], Callable[P, T]]:
+    """The same function, its seconds added to a stage of the open stopwatch."""
+
+    def decorate(function: Callable[P, T]) -> Callable[P, T]:
+        @wraps(function)
+        def measured(*args: P.args, **kwargs: P.kwargs) -> T:
+            with stage(name):
+                return function(*args, **kwargs)
+
+        return measured
+
+    return decorate
