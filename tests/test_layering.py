@@ -12,10 +12,8 @@ import pytest
 
 PACKAGE = Path(__file__).parents[1] / "mbla"
 STAGES = ("deck", "model", "contacts", "program", "solution", "results", "studies")
-SHARED = ("arrays", "errors")
 WHOLE_LINE = ("run_deck", "run_options", "exit_status", "failures")
 """modules beside the stages that call all of them: only what runs decks again and again stands to their right"""
-STAGES = ("deck", "model", "contacts", "program", "solution", "results")
 SHARED = ("arrays", "errors", "stopwatch")
 DOORS = {
     "yaml": "deck/reader.py",

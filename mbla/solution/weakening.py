@@ -124,7 +124,7 @@ def weaken_springs(program: Program, load: Load, limits: YieldLimits, settings: 
 
 def is_diagonal(matrix: sp.csr_array) -> bool:
     """Whether nothing is stored beside the diagonal but zeros."""
-    return matrix.count_nonzero() == np.count_nonzero(matrix.diagonal())
+    return bool(matrix.count_nonzero() == np.count_nonzero(matrix.diagonal()))
 
 
 def agreed(first: Weakening, second: Weakening) -> Weakening:

@@ -23,6 +23,7 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
+from mbla.contacts.glue import solids_of
 from mbla.deck import read_deck
 from mbla.model import build_model
 from mbla.program import assemble
@@ -56,7 +57,7 @@ def measured(family: str, flow_rule: str, side: int | str) -> dict[str, object]:
     model = build_model(deck)
     contacts = contacts_of(deck, model)
     (load_case,) = select_cases(model, ["in_plane"])
-    reduced = reduced_program(deck, model, contacts, assemble(model, contacts, load_case))
+    reduced = reduced_program(deck, solids_of(model, contacts), assemble(model, contacts, load_case))
     before = time.process_time()
     solution = solve(reduced, deck.analysis, solver_settings(deck.analysis))
     solver = time.process_time() - before

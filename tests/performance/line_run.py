@@ -91,19 +91,20 @@ class Line:
 
 def measured(arguments: list[str]) -> dict[str, Any]:
     """Run the command and say where its time went."""
-    builtins.__import__ = CLOCK.importing  # type: ignore[assignment]
-    time.perf_counter = CLOCK  # type: ignore[assignment]
+    builtins.__import__ = CLOCK.importing
+    time.perf_counter = CLOCK
     clock = time.monotonic()
     line = Line()
 
     import mbla.results.write as written
     import mbla.run_deck as run_deck
     from mbla.cli import main
+    from mbla.results.files import OutputFolder
 
     line.around(written, "listing", "listing")
     line.around(written, "write_results_hdf5", "hdf5")
     line.around(written, "results_json", "json")
-    line.around(run_deck.OutputFolder, "__exit__", "place")
+    line.around(OutputFolder, "__exit__", "place")
     line.keep(run_deck, "write_results")
     code = main(["run", *arguments, "-q"])
     usage = resource.getrusage(resource.RUSAGE_SELF)

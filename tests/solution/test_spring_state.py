@@ -58,10 +58,14 @@ def test_a_step_on_the_pattern_is_newtons_step(reductions: str, lagged: bool) ->
     assert is_diagonal(springs)
     late = replace(problem, pattern=LatePattern(program))
     steps = [newton_step(late, 0.2, here, lagged=lagged) for _ in range(PATTERN_FROM + 1)]
+    first, last = steps[0], steps[-1]
     plain = newton_step(problem, 0.2, here, lagged=lagged)
-    assert np.array_equal(steps[0], plain)
-    assert not np.array_equal(steps[-1], plain)  # by another order of elimination
-    assert steps[-1] == pytest.approx(plain, rel=1e-9, abs=1e-12)
+    assert first is not None
+    assert last is not None
+    assert plain is not None
+    assert np.array_equal(first, plain)
+    assert not np.array_equal(last, plain)  # by another order of elimination
+    assert last == pytest.approx(plain, rel=1e-9, abs=1e-12)
 
 
 def test_springs_that_join_rows_are_no_diagonal() -> None:
