@@ -72,7 +72,9 @@ def split_in_two(scene: Scene, askew: float) -> Scene | None:
     points = np.vstack([blocks.added_mass_points, built.blocks.centroids[-1:]])
     larger = _with_blocks(model, replace(built.blocks, added_masses=added, added_mass_points=points), 1)
     grounds = tuple(
-        ground if ground.blocks is None or block not in ground.blocks else replace(ground, blocks=np.append(ground.blocks, n))
+        ground
+        if ground.blocks is None or block not in ground.blocks
+        else replace(ground, blocks=np.append(ground.blocks, n))
         for ground in larger.grounds
     )
     cases = tuple(_with_loads_moved(case, block, arm) for case in larger.load_cases)
@@ -202,5 +204,3 @@ def with_far_part(scene: Scene, factors: tuple[float, ...] | None) -> Scene | No
         ground if ground.blocks is not None else replace(ground, blocks=np.arange(n)) for ground in model.grounds
     )
     return replace(scene, model=replace(larger, load_cases=tuple(cases), joints=joints, grounds=grounds))
-
-

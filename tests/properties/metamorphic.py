@@ -7,10 +7,12 @@ ones. An exception that theory explains stands in ``EXPLAINED``; any other ends 
 from __future__ import annotations
 
 import argparse
+import json
 import multiprocessing
 import sys
 import time
 from collections.abc import Iterable, Sequence
+from dataclasses import asdict
 from pathlib import Path
 
 from tests.decks.folder import LONG, PATHS, name_of
@@ -25,6 +27,9 @@ MOST_POINTS_WITHOUT_NORMALITY = 260
 SEEDS = range(300, 330)
 FLOWS = ("associative", "non_associative")
 
+ALIKE = ("benchmarks/arch_from_", "benchmarks/cocchetti_rizzi_mu_3")
+"""beginnings of names of decks that are one structure many times: the last of each stands for all"""
+
 EXPLAINED: dict[tuple[str, str], str] = {}
 """Exceptions by (scene, transformation) and why theory admits them."""
 
@@ -32,7 +37,10 @@ EXPLAINED: dict[tuple[str, str], str] = {}
 def names() -> list[str]:
     """Every scene that could be tried: decks by name, random ones as ``random/SEED``."""
     decks = [name_of(path) for path in PATHS if name_of(path) not in LONG]
-    return [*decks, *(f"random/{seed}" for seed in SEEDS)]
+    for beginning in ALIKE:
+        same = [name for name in decks if name.startswith(beginning)]
+        decks = [name for name in decks if name not in same[:-1]]
+    return [*(f"random/{seed}" for seed in SEEDS), *decks]
 
 
 def scene_named(name: str) -> Scene:
@@ -87,9 +95,7 @@ def table(found: Sequence[tuple[str, Comparison]], flow: str) -> list[str]:
 def unexplained(found: Iterable[tuple[str, Comparison]]) -> list[Comparison]:
     """Exceptions without a reason."""
     return [
-        one
-        for _, one in found
-        if one.verdict is Verdict.EXCEPTION and (one.scene, one.transformation) not in EXPLAINED
+        one for _, one in found if one.verdict is Verdict.EXCEPTION and (one.scene, one.transformation) not in EXPLAINED
     ]
 
 
@@ -132,17 +138,37 @@ def page(found: Sequence[tuple[str, Comparison]]) -> str:
     return "\n".join(lines) + "\n"
 
 
+def _read(journal: Path | None) -> dict[str, list[tuple[str, Comparison]]]:
+    """Comparisons by scene."""
+    if journal is None or not journal.exists():
+        return {}
+    rows = [json.loads(line) for line in journal.read_text(encoding="utf-8").splitlines()]
+    return {
+        name: [(flow, Comparison(**one | {"verdict": Verdict(one["verdict"])})) for flow, one in some]
+        for name, some in rows
+    }
+
+
+def _keep(journal: Path | None, name: str, some: Sequence[tuple[str, Comparison]]) -> None:
+    if journal is not None:
+        with journal.open("a", encoding="utf-8") as file:
+            file.write(json.dumps([name, [(flow, asdict(one)) for flow, one in some]]) + "\n")
+
+
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run, print, write; 1 where an exception has no reason."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--only", nargs="*", help="scenes, else all; the page is then not written")
+    parser.add_argument("--journal", type=Path, help="file of what is done: scenes in it are not tried again")
     options = parser.parse_args(arguments)
     chosen = options.only or names()
-    found: list[tuple[str, Comparison]] = []
+    done = _read(options.journal)
+    found = [pair for name in chosen for pair in done.get(name, [])]
     with multiprocessing.get_context("spawn").Pool(options.jobs) as pool:
-        for name, some, seconds in pool.imap(checked, chosen):
+        for name, some, seconds in pool.imap(checked, [name for name in chosen if name not in done]):
             found += some
+            _keep(options.journal, name, some)
             odd = [one for _, one in some if one.verdict in (Verdict.EXCEPTION, Verdict.OTHER)]
             print(f"{name}: {len(some)} comparisons, {seconds:.1f} s", *odd, sep="\n    ", flush=True)  # noqa: T201
     for flow in FLOWS:

@@ -44,9 +44,7 @@ def moved_scene(scene: Scene, matrix: FloatArray, shift: FloatArray) -> Scene:
         mirrors.append((*turned.tolist(), offset + float(turned @ shift)))
     guides = replace(model.guides, motions=_wrenches(model.guides.motions, matrix, side))
     cases = tuple(_moved_case(case, matrix, side) for case in model.load_cases)
-    model = replace(
-        model, blocks=blocks, grounds=grounds, mirrors=tuple(mirrors), guides=guides, load_cases=cases
-    )
+    model = replace(model, blocks=blocks, grounds=grounds, mirrors=tuple(mirrors), guides=guides, load_cases=cases)
     if model.interfaces is not None:
         model = _moved_table(model, matrix, shift, side)
     return replace(_moved_overrides(scene, matrix, shift), model=model)
@@ -98,9 +96,7 @@ def _moved_overrides(scene: Scene, matrix: FloatArray, shift: FloatArray) -> Sce
 def taken_blocks(blocks: Blocks, order: IntArray, tolerance: float) -> Blocks:
     """Blocks in another order."""
     labels = BlockLabels(tuple(blocks.labels.members[b] for b in order), blocks.labels.positions[order])
-    named = Labels(
-        tuple(blocks.groups[b] for b in order), blocks.group_indices[order], blocks.densities[order], labels
-    )
+    named = Labels(tuple(blocks.groups[b] for b in order), blocks.group_indices[order], blocks.densities[order], labels)
     built = build_blocks(take_polyhedra(polyhedra_of(blocks), order), named, tolerance)
     assert not built.defects, built.defects
     return replace(
@@ -124,9 +120,7 @@ def renumbered(scene: Scene, order: IntArray) -> Scene:
         if travel is not None:
             travel = replace(travel, block=int(new[travel.block]))
         dead, live = case.dead_load[order], case.live_load[order]
-        cases.append(
-            replace(case, dead_load=dead, live_load=live, settlement=settlement, tilt=tilt, travel=travel)
-        )
+        cases.append(replace(case, dead_load=dead, live_load=live, settlement=settlement, tilt=tilt, travel=travel))
     grounds = tuple(
         ground if ground.blocks is None else replace(ground, blocks=np.sort(new[ground.blocks]))
         for ground in model.grounds

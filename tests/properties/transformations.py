@@ -291,26 +291,37 @@ E_, R_, F_ = Relation.EQUAL, Relation.RISES, Relation.FALLS
 TABLE = (
     Transformation("translate", E_, "statics knows no origin", translate),
     Transformation("rotate with gravity", E_, "statics knows no axes", rotate, any_flow=True, turn=turn_of),
-    Transformation("mirror", E_, "forces mirror as vectors, moments as axial vectors", mirror, any_flow=True, turn=reflection),
+    Transformation(
+        "mirror", E_, "forces mirror as vectors, moments as axial vectors", mirror, any_flow=True, turn=reflection
+    ),
     Transformation("renumber blocks", E_, "names carry nothing", renumber, any_flow=True),
     Transformation("units mm, kN, t", E_, "a load factor has no unit", millimetres, any_flow=True),
     Transformation("units ft, lbf, lb", E_, "a load factor has no unit", feet),
     Transformation("reverse the order of interfaces", E_, "sums do not know their order", reverse_interfaces),
     Transformation("live load times 8", E_, "the factor is inversely proportional", live_load_times(8.0), 0.125, True),
-    Transformation("densities, forces, strengths times 37", E_, "equilibrium and yield are homogeneous", heavier, any_flow=True),
     Transformation(
-        "split a block into two glued", E_,
+        "densities, forces, strengths times 37", E_, "equilibrium and yield are homogeneous", heavier, any_flow=True
+    ),
+    Transformation(
+        "split a block into two glued",
+        E_,
         "a rigid body is its parts; the corners of a divided interface have the same hull as before, "
-        "and without strengths only the hull of the contact points counts", split(0.0), any_flow=True,
+        "and without strengths only the hull of the contact points counts",
+        split(0.0),
+        any_flow=True,
     ),
     Transformation("split it askew", E_, "the same", split(0.35)),
     Transformation(
-        "refine contact points, no strengths", E_,
+        "refine contact points, no strengths",
+        E_,
         "a force at a point within the hull is a sum of forces of the same direction at its corners: the cone of all "
-        "is the same. In torsion too: it may still gather at the corners", refine, any_flow=True,
+        "is the same. In torsion too: it may still gather at the corners",
+        refine,
+        any_flow=True,
     ),
     Transformation(
-        "refine contact points, strengths", F_,
+        "refine contact points, strengths",
+        F_,
         "each share of area of a point comes from the corners around it, so that the corners bear what the refined "
         "points bear; a theorem for triangles and parallelograms, whose corner shares the moments alone decide",
         refine_with_strength,
@@ -321,15 +332,24 @@ TABLE = (
     Transformation("static form", E_, "strong duality", static_form),
     Transformation("another cone solver", E_, "the optimum is one", other_solver),
     Transformation("friction times 1.2", R_, "a wider cone", with_joints(lambda j, _: {"friction": 1.2 * j.friction})),
-    Transformation("cohesion added", R_, "more shear is borne", with_joints(lambda j, s: {"cohesion": j.cohesion + 0.1 * s})),
     Transformation(
-        "tensile strength added, with the cohesion it asks for", R_, "tension is borne",
+        "cohesion added", R_, "more shear is borne", with_joints(lambda j, s: {"cohesion": j.cohesion + 0.1 * s})
+    ),
+    Transformation(
+        "tensile strength added, with the cohesion it asks for",
+        R_,
+        "tension is borne",
         with_joints(
-            lambda j, s: {"tensile_strength": j.tensile_strength + 0.1 * s, "cohesion": j.cohesion + 0.1 * s * j.friction}
+            lambda j, s: {
+                "tensile_strength": j.tensile_strength + 0.1 * s,
+                "cohesion": j.cohesion + 0.1 * s * j.friction,
+            }
         ),
     ),
     Transformation(
-        "compressive strength lowered", F_, "less compression is borne",
+        "compressive strength lowered",
+        F_,
+        "less compression is borne",
         with_joints(lambda j, s: {"compressive_strength": 0.8 * min(j.compressive_strength, 50.0 * s)}),
     ),
     Transformation("fix a block", R_, "fewer motions", fix_a_block),
@@ -339,5 +359,3 @@ TABLE = (
         "friction octagons", Relation.ENCLOSED, "inscribed polyhedron, cone, circumscribed polyhedron", polyhedra
     ),
 )
-
-
