@@ -172,7 +172,7 @@ def with_far_part(scene: Scene, factors: tuple[float, ...] | None) -> Scene | No
     size = float(np.median(blocks.sizes))
     corner = np.array([high[0] + 20.0 * (high - low).max(), high[1], (low[2] + high[2]) / 2 + 0.37 * size])
     edges = size * np.array([1.0, 1.0, 0.5])
-    least = np.array([corner, corner + [0.0, 0.0, 0.5 * size]])
+    least = np.array([corner, corner + np.array([0.0, 0.0, 0.5 * size])])
     more = cuboids(least, least + edges)
     n, law = len(blocks), Joint(FAR_LAW, 0.7)
     group = "part_far_away"

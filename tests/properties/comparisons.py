@@ -31,6 +31,7 @@ class Verdict(StrEnum):
     MOVED = "moved as admitted"
     WITHIN = "within the range of states"
     OTHER = "another state"
+    NOTHING = "no result"
     EXCEPTION = "exception"
 
 
@@ -69,7 +70,8 @@ def compare(scene: Scene, solved: Solved, transformation: Transformation) -> lis
         if scene.deck.analysis.flow_rule == "associative":
             one = _judged(scene, case, other.cases[number], transformation)
             words = one.words or _vectors(scene, solved, other, number, transformation)
-            found.append(one if not words else Comparison(*_names(one), Verdict.EXCEPTION, one.difference, words))
+            wrong = words and one.verdict is not Verdict.NOTHING
+            found.append(Comparison(*_names(one), Verdict.EXCEPTION, one.difference, words) if wrong else one)
         else:
             found.append(_judged_without_normality(scene, case, other.cases[number], transformation))
     return found
@@ -86,7 +88,8 @@ def _judged(scene: Scene, case: CaseResult, other: CaseResult, how: Transformati
         return _enclosed(names, before, other)
     if math.isnan(after):
         words = f"{other.status}: {other.solution.reason or '; '.join(other.checks.failures)}"
-        return Comparison(*names, Verdict.EXCEPTION, math.nan, words)
+        verdict = Verdict.EXCEPTION if how.relation is Relation.EQUAL else Verdict.NOTHING
+        return Comparison(*names, verdict, math.nan, words)
     difference = relative(before, after)
     if abs(difference) <= SAME:
         words = "" if how.relation is not Relation.EQUAL else _bounds_apart(case, other, how.ratio)

@@ -3,7 +3,7 @@
 Under associative flow the load factor is the value of a convex program, unique, and
 
 - whatever states the same mechanics in another way leaves it (EQUAL);
-- whatever admits more forces, or fewer motions, never lowers it (RISES): static and kinematic theorem of limit analysis;
+- whatever admits more forces, or fewer motions, never lowers it (RISES): static and kinematic theorem;
 - whatever admits fewer forces, or more motions, never raises it (FALLS).
 
 Without normality the factor is not unique and none of the monotonic statements is a theorem: more friction, glue or
