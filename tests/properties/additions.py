@@ -11,7 +11,7 @@ from mbla.deck.joints import GLUED
 from mbla.deck.selectors import SelectorTerm
 from mbla.deck.types import ContactOverride
 from mbla.model.build_blocks import Labels, build_blocks
-from mbla.model.labels import join_labels, no_labels
+from mbla.model.labels import BlockLabels, join_labels, no_labels
 from mbla.model.mirrored_blocks import polyhedra_of
 from mbla.model.model import Joint, LoadCase, Model
 from mbla.model.polyhedra import Polyhedra, cuboids, join_polyhedra, polyhedra_from_lists, take_polyhedra
@@ -57,7 +57,8 @@ def split_in_two(scene: Scene, askew: float) -> Scene | None:
     everything = join_polyhedra([polyhedra, *halves])
     everything = take_polyhedra(everything, np.append(order, n + 1))
     group = blocks.groups[block]
-    labels = join_labels([blocks.labels, no_labels(1)])
+    own_labels = BlockLabels((blocks.labels.members[block],), blocks.labels.positions[[block]])
+    labels = join_labels([blocks.labels, own_labels])
     index = sum(name == group for name in blocks.groups)
     named = Labels(
         (*blocks.groups, group),

@@ -97,7 +97,17 @@ def _judged(scene: Scene, case: CaseResult, other: CaseResult, how: Transformati
     admitted = {Relation.RISES: difference > 0, Relation.FALLS: difference < 0}.get(how.relation, False)
     if admitted:
         return Comparison(*names, Verdict.MOVED, difference)
+    if how.relation is not Relation.EQUAL and not _contradicted(case, other, how.relation):
+        return Comparison(*names, Verdict.EQUAL, difference)  # beyond 1e-6, within what both have proved
     return Comparison(*names, Verdict.EXCEPTION, difference, f"{before:.9g} became {after:.9g} ({other.status})")
+
+
+def _contradicted(case: CaseResult, other: CaseResult, relation: Relation) -> bool:
+    """Whether proved bounds say that the factor moved against its relation; true where one has no bounds."""
+    before, after = bounds_of(case), bounds_of(other)
+    if relation is Relation.FALLS:
+        return not after[0] <= before[1] * (1 + MET) + NOTHING
+    return not after[1] >= before[0] * (1 - MET) - NOTHING
 
 
 def relative(before: float, after: float) -> float:

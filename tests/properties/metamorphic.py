@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import argparse
 import json
+import math
 import multiprocessing
 import sys
 import time
@@ -105,8 +106,8 @@ def unexplained(found: Iterable[tuple[str, Comparison]]) -> list[Comparison]:
     ]
 
 
-def page(found: Sequence[tuple[str, Comparison]]) -> str:
-    """The page."""
+def page(found: Sequence[tuple[str, Comparison]], untried: Sequence[str] = ()) -> str:
+    """The page; ``untried`` are scenes that time was too short for."""
     scenes = {one.scene for _, one in found}
     random = sum(name.startswith("random/") for name in scenes)
     lines = [
@@ -114,9 +115,10 @@ def page(found: Sequence[tuple[str, Comparison]]) -> str:
         "",
         "Written by `python -m tests.properties.metamorphic`: every transformation on every small deck and on random",
         f"ones, {len(scenes)} in all, {random} of them random. Equal means to 1e-6, relatively, with bounds that",
-        "overlap; where the structure is turned or mirrored the sum of the reactions turns as a vector does, and the weight",
-        "stays. No result: the other scene came out not verified, and says so.",
+        "overlap; where the structure is turned or mirrored the sum of the reactions turns as a vector does, and the",
+        "weight stays. No result: the other scene came out not verified, and says so.",
         "",
+        *((f"Not tried, for want of time: {', '.join(untried)}.", "") if untried else ()),
         "## Associative flow",
         "",
         *table(found, "associative"),
@@ -169,20 +171,25 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--only", nargs="*", help="scenes, else all; the page is then not written")
     parser.add_argument("--journal", type=Path, help="file of what is done: scenes in it are not tried again")
+    parser.add_argument("--seconds", type=float, default=math.inf, help="no new scene after so long; default: all")
     options = parser.parse_args(arguments)
     chosen = options.only or names()
-    done = _read(options.journal)
+    done, started = _read(options.journal), time.monotonic()
     found = [pair for name in chosen for pair in done.get(name, [])]
+    ahead = [name for name in chosen if name not in done]
     with multiprocessing.get_context("spawn").Pool(options.jobs) as pool:
-        for name, some, seconds in pool.imap(checked, [name for name in chosen if name not in done]):
+        for name, some, seconds in pool.imap_unordered(checked, ahead) if options.seconds > 0 else ():
             found += some
+            done[name] = some
             _keep(options.journal, name, some)
             odd = [one for _, one in some if one.verdict in ODD]
             print(f"{name}: {len(some)} comparisons, {seconds:.1f} s", *odd, sep="\n    ", flush=True)  # noqa: T201
+            if time.monotonic() - started > options.seconds:
+                break
     for flow in FLOWS:
         print("", flow, *table(found, flow), sep="\n")  # noqa: T201
     if not options.only:
-        README.write_text(page(found), encoding="utf-8")
+        README.write_text(page(found, [name for name in chosen if name not in done]), encoding="utf-8")
     missing = unexplained(found)
     print(f"{len(missing)} exceptions without a reason")  # noqa: T201
     return 1 if missing else 0

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from tests.properties.additions import split_in_two
-from tests.properties.comparisons import SAME, Verdict, compare, relative
+from tests.properties.comparisons import Verdict, compare, relative
 from tests.properties.metamorphic import README, checked, names, page, scene_named, unexplained
 from tests.properties.rigid_motions import moved_scene
 from tests.properties.scenes import Solved, solve_scene, value_of

@@ -237,9 +237,11 @@ def part_at_rest(scene: Scene, solved: Solved) -> Scene | None:
     return with_far_part(scene, factors)
 
 
-def fix_a_block(scene: Scene, _: Solved) -> Scene | None:
-    """One free block more that does not move, a random one."""
+def fix_a_block(scene: Scene, solved: Solved) -> Scene | None:
+    """One free block more that does not move, a random one; not where glue would hold others with it."""
     model = scene.model
+    if solved.contacts.solid_of_block is not None:
+        return None
     free = np.sort(movable(model))
     if len(free) < 2 or model.mirrors:
         return None
