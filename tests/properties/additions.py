@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from mbla.arrays import FloatArray
+from mbla.arrays import FloatArray, IntArray
 from mbla.deck.joints import GLUED
 from mbla.deck.selectors import SelectorTerm
 from mbla.deck.types import ContactOverride
@@ -22,7 +22,7 @@ ON_PLANE = 1e-9
 """distance from a cut, over block size, at which a corner lies on it"""
 
 
-def movable(model: Model) -> FloatArray:
+def movable(model: Model) -> IntArray:
     """Blocks that are free and neither guided nor part of a support that gives way, largest first."""
     bound = model.fixed.copy()
     bound[model.guides.blocks] = True
@@ -30,7 +30,7 @@ def movable(model: Model) -> FloatArray:
         if case.settlement is not None:
             bound[case.settlement.blocks] = True
     free = np.flatnonzero(~bound)
-    order: FloatArray = free[np.argsort(-model.blocks.volumes[free], kind="stable")]
+    order: IntArray = free[np.argsort(-model.blocks.volumes[free], kind="stable")]
     return order
 
 

@@ -82,7 +82,7 @@ def _moved_case(case: LoadCase, matrix: FloatArray, side: float) -> LoadCase:
 def _moved_overrides(scene: Scene, matrix: FloatArray, shift: FloatArray) -> Scene:
     overrides = []
     for override in scene.deck.contacts.overrides:
-        changes = {}
+        changes: dict[str, object] = {}
         if override.orientation is not None and not isinstance(override.orientation, str):
             normal = tuple((matrix @ np.array(override.orientation.normal)).tolist())
             changes["orientation"] = override.orientation.model_copy(update={"normal": normal})

@@ -16,6 +16,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from enum import StrEnum
+from typing import Any
 
 import numpy as np
 
@@ -210,7 +211,7 @@ def split(askew: float) -> Callable[[Scene, Solved], Scene | None]:
     return make
 
 
-def with_joints(change: Callable[..., dict[str, float]]) -> Callable[[Scene, Solved], Scene | None]:
+def with_joints(change: Callable[..., dict[str, Any]]) -> Callable[[Scene, Solved], Scene | None]:
     """Other joint laws; ``change`` gets the law and the mean stress in the joints."""
 
     def make(scene: Scene, solved: Solved) -> Scene | None:
