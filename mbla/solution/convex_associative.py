@@ -105,14 +105,18 @@ def solve_convex_associative(convex: ConvexProgram, settings: SolverSettings, lo
 
 
 def _solved(run: _Run, sense: float) -> tuple[KinematicForm, ConeSolution]:
-    """The stabilised program, or the plain one where that decides more."""
+    """The stabilised program, or the plain one where that decides more.
+
+    Both have the same constraints: a proof that there is no mechanism is one for both, and stays one where the solver
+    breaks down on the plain program.
+    """
     form = convex_form(run.convex, stabilised=True)
     solution = run.solve(form, sense)
     if solution.status is Status.SOLVED and not _negative(run.convex, solution.objective):
         return form, solution
     plain_form = convex_form(run.convex)
     plain = run.solve(plain_form, sense)
-    if plain.status in DECIDED or solution.status not in WITH_VALUE:
+    if plain.status in DECIDED or solution.status not in (*WITH_VALUE, Status.UNBOUNDED):
         return plain_form, plain
     return form, solution
 

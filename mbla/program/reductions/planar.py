@@ -3,7 +3,8 @@
 A structure is planar if a mirror plane maps every block onto itself and all joints have their normals in that plane.
 Then symmetric motions are motions in the plane, contact points one behind the other move alike, and one of them with
 the strength of all stands for them. Forces go back to the points in proportion to their areas, which keeps each within
-its own limits and leaves no moment out of the plane.
+its own limits, and alike to a point and its image, which leaves no moment out of the plane. An interface that comes in
+pieces may have its image in another one: where two blocks meet one in two halves that are glued, say.
 """
 
 from __future__ import annotations
@@ -34,9 +35,10 @@ def planar_program(scene: Scene, mirror: Mirror) -> Program:
     motions = np.broadcast_to(in_plane_motions(mirror.normal), (n, 6, 3))
     velocities = block_matrix(motions, np.arange(n), np.arange(n), (n, n))
     shear = np.cross(mirror.normal, scene.frames[:, 0])
-    group = _one_behind_the_other(scene, shear)
+    group = _one_behind_the_other(scene, mirror, shear)
     n_groups = int(group.max(initial=-1)) + 1
-    share = scene.areas / np.bincount(group, scene.areas, n_groups)[group]
+    areas = (scene.areas + scene.areas[mirror.point_of]) / 2  # cuts and points left out may make them unlike
+    share = areas / np.bincount(group, areas, n_groups)[group]
     maps = np.zeros((len(group), 3, 2))
     maps[:, 0, 0] = share
     maps[:, 1:, 1] = share[:, None] * np.einsum("ptx,px->pt", scene.frames[:, 1:], shear)
@@ -44,11 +46,12 @@ def planar_program(scene: Scene, mirror: Mirror) -> Program:
     return restricted(scene.program, velocities, forces, _added(scene.program.limits, group, n_groups), components=2)
 
 
-def _one_behind_the_other(scene: Scene, shear: FloatArray) -> IntArray:
-    """Group of each point, numbered in the order of the first points: same interface, same place in the plane."""
+def _one_behind_the_other(scene: Scene, mirror: Mirror, shear: FloatArray) -> IntArray:
+    """Group of each point, by interfaces: same interface or that of the image, same place in the plane."""
+    interface = np.minimum(scene.interfaces, scene.interfaces[mirror.point_of])
     place = ((scene.points - scene.centroids.mean(axis=0)) * shear).sum(axis=1) / scene.length
-    order = np.lexsort((place, scene.interfaces))
-    new = np.diff(scene.interfaces[order], prepend=-1) != 0
+    order = np.lexsort((place, interface))
+    new = np.diff(interface[order], prepend=-1) != 0
     new |= np.diff(place[order], prepend=-np.inf) > BEHIND
     group = np.empty(len(order), dtype=np.int64)
     group[order] = np.cumsum(new) - 1

@@ -1,0 +1,43 @@
+"""Planar structures whose interfaces come in pieces: forces of a piece and of its image go back alike."""
+
+from __future__ import annotations
+
+import pytest
+
+from mbla.solution.solution import Status
+from tests.line import HEAD, case_of
+
+HALVES = """\
+parameters: {cut: 0.2}
+joints: {dry: {friction: 0.9}}
+blocks:
+  - box: {group: foot, material: stone, min: [0, 0, 0], max: [1, 1, 1]}
+  - polyhedron:
+      group: top
+      material: stone
+      vertices: [[0, 0, 1], [1, 0, 1], [1, "=0.5-cut", 1], [0, "=0.5+cut", 1],
+                 [0, 0, 2], [1, 0, 2], [1, "=0.5-cut", 2], [0, "=0.5+cut", 2]]
+      faces: [[0, 1, 2, 3], [4, 5, 6, 7], [0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7]]
+  - polyhedron:
+      group: top
+      material: stone
+      vertices: [[0, 1, 1], [1, 1, 1], [1, "=0.5-cut", 1], [0, "=0.5+cut", 1],
+                 [0, 1, 2], [1, 1, 2], [1, "=0.5-cut", 2], [0, "=0.5+cut", 2]]
+      faces: [[0, 1, 2, 3], [4, 5, 6, 7], [0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7]]
+supports: [{ground: {z: 0}}]
+load_cases: {push: {live: [{acceleration: [1, 0, 0]}]}}
+analysis: {flow_rule: associative}
+"""
+"""A cube on a cube, the upper one in two glued halves that an upright cut askew to the push divides."""
+
+
+@pytest.mark.parametrize("form", ["kinematic", "static"])
+def test_halves_cut_askew_balance_out_of_the_plane(form: str) -> None:
+    deck = (HEAD + HALVES).replace("joint: dry}", "joint: dry, overrides: [{between: [top, top], joint: glued}]}")
+    _, result = case_of(deck, f"analysis.form={form}")
+    assert result.solution.size is not None
+    assert result.solution.size.dimension == 2
+    assert result.status is Status.SOLVED, result.checks.failures
+    assert result.checks.equilibrium_residual < 1e-9
+    assert result.solution.mechanics is not None
+    assert result.solution.mechanics.load_factor == pytest.approx(0.5, rel=1e-6)  # about the edge of the ground

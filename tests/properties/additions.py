@@ -1,0 +1,207 @@
+"""Models with more blocks that say the same: a block in two glued halves, a part far away, a block at rest beside."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from mbla.arrays import FloatArray, IntArray
+from mbla.deck.joints import GLUED
+from mbla.deck.selectors import SelectorTerm
+from mbla.deck.types import ContactOverride
+from mbla.model.build_blocks import Labels, build_blocks
+from mbla.model.labels import BlockLabels, join_labels, no_labels
+from mbla.model.mirrored_blocks import polyhedra_of
+from mbla.model.model import Joint, LoadCase, Model
+from mbla.model.polyhedra import Polyhedra, cuboids, join_polyhedra, polyhedra_from_lists, take_polyhedra
+from tests.properties.scenes import Scene, with_section
+
+FAR_LAW = "law_of_the_far_part"
+ON_PLANE = 1e-9
+"""distance from a cut, over block size, at which a corner lies on it"""
+
+
+def movable(model: Model) -> IntArray:
+    """Blocks that are free and neither guided nor part of a support that gives way, largest first."""
+    bound = model.fixed.copy()
+    bound[model.guides.blocks] = True
+    for case in model.load_cases:
+        if case.settlement is not None:
+            bound[case.settlement.blocks] = True
+    free = np.flatnonzero(~bound)
+    order: IntArray = free[np.argsort(-model.blocks.volumes[free], kind="stable")]
+    return order
+
+
+def split_in_two(scene: Scene, askew: float) -> Scene | None:
+    """The largest convex block as two halves glued to each other; all loads on it stay where they are.
+
+    askew : angle in radians of the cut from a right angle to the longest extent of the block
+    """
+    model = scene.model
+    chosen = [int(block) for block in movable(model) if model.blocks.convex[block]]
+    if not chosen or model.interfaces is not None or model.mirrors:
+        return None
+    block = chosen[0]
+    blocks = model.blocks
+    polyhedra = polyhedra_of(blocks)
+    rows = slice(blocks.vertex_start[block], blocks.vertex_start[block + 1])
+    own = blocks.vertices[rows] - blocks.centroids[block]
+    axes = np.linalg.svd(own - own.mean(axis=0))[2]
+    normal = np.cos(askew) * axes[0] + np.sin(askew) * axes[1]
+    halves = [_half(blocks.vertices, polyhedra, block, blocks.centroids[block], side * normal) for side in (1.0, -1.0)]
+    n = len(blocks)
+    order = np.arange(n)
+    order[block] = n
+    everything = join_polyhedra([polyhedra, *halves])
+    everything = take_polyhedra(everything, np.append(order, n + 1))
+    group = blocks.groups[block]
+    own_labels = BlockLabels((blocks.labels.members[block],), blocks.labels.positions[[block]])
+    labels = join_labels([blocks.labels, own_labels])
+    index = sum(name == group for name in blocks.groups)
+    named = Labels(
+        (*blocks.groups, group),
+        np.append(blocks.group_indices, index),
+        np.append(blocks.densities, blocks.densities[block]),
+        labels,
+    )
+    built = build_blocks(everything, named, scene.deck.contacts.tolerance)
+    assert not built.defects, built.defects
+    arm = blocks.centroids[block] - built.blocks.centroids[block]
+    added = np.append(blocks.added_masses, 0.0)
+    points = np.vstack([blocks.added_mass_points, built.blocks.centroids[-1:]])
+    larger = _with_blocks(model, replace(built.blocks, added_masses=added, added_mass_points=points), 1)
+    grounds = tuple(
+        ground
+        if ground.blocks is None or block not in ground.blocks
+        else replace(ground, blocks=np.append(ground.blocks, n))
+        for ground in larger.grounds
+    )
+    cases = tuple(_with_loads_moved(case, block, arm) for case in larger.load_cases)
+    position = int(np.sum([name == group for name in blocks.groups[:block]]))
+    first, second = (SelectorTerm.model_construct(group=group, index=number) for number in (position, index))
+    glue = ContactOverride(joint=GLUED, between=(first, second))
+    scene = with_section(scene, overrides=[*scene.deck.contacts.overrides, glue])
+    return replace(scene, model=replace(larger, grounds=grounds, load_cases=cases))
+
+
+def _half(vertices: FloatArray, polyhedra: Polyhedra, block: int, point: FloatArray, normal: FloatArray) -> Polyhedra:
+    """What of a convex polyhedron lies on the side of a plane that its normal points to."""
+    rows = np.arange(polyhedra.vertex_start[block], polyhedra.vertex_start[block + 1])
+    heights = {int(row): float((vertices[row] - point) @ normal) for row in rows}
+    size = max(abs(height) for height in heights.values())
+    heights = {row: 0.0 if abs(height) < ON_PLANE * size else height for row, height in heights.items()}
+    points: list[FloatArray] = []
+    number: dict[tuple[int, int], int] = {}
+
+    def corner(key: tuple[int, int], place: FloatArray) -> int:
+        if key not in number:
+            number[key] = len(points)
+            points.append(place)
+        return number[key]
+
+    faces, rim = [], set()
+    for face in range(polyhedra.face_start[block], polyhedra.face_start[block + 1]):
+        loop = polyhedra.loops[polyhedra.loop_start[face] : polyhedra.loop_start[face + 1]].tolist()
+        kept: list[int] = []
+        for a, b in zip(loop, [*loop[1:], loop[0]], strict=True):
+            if heights[a] >= 0.0:
+                kept.append(corner((a, a), vertices[a]))
+                if heights[a] == 0.0:
+                    rim.add(kept[-1])
+            if heights[a] * heights[b] < 0.0:
+                low, high = min(a, b), max(a, b)
+                share = heights[low] / (heights[low] - heights[high])
+                kept.append(corner((low, high), vertices[low] + share * (vertices[high] - vertices[low])))
+                rim.add(kept[-1])
+        if len(kept) >= 3:
+            faces.append(kept)
+    ring = np.array(sorted(rim))
+    places = np.array(points)
+    about = places[ring] - places[ring].mean(axis=0)
+    across = np.linalg.svd(np.array([normal]))[2][1:]
+    ring = ring[np.argsort(np.arctan2(about @ across[1], about @ across[0]))]
+    faces = [face for face in faces if not set(face) <= rim]
+    return polyhedra_from_lists([places], [[*faces, ring.tolist()]])
+
+
+def _with_blocks(model: Model, blocks: object, count: int, fixed: tuple[bool, ...] = (False,)) -> Model:
+    """The model with some more blocks at the end, on which nothing acts."""
+
+    def longer(loads: FloatArray) -> FloatArray:
+        return np.vstack([loads, np.zeros((count, 6))])
+
+    cases = []
+    for case in model.load_cases:
+        tilt = case.tilt
+        if tilt is not None:
+            tilt = replace(tilt, fixed=longer(tilt.fixed), turning=longer(tilt.turning), across=longer(tilt.across))
+        cases.append(replace(case, dead_load=longer(case.dead_load), live_load=longer(case.live_load), tilt=tilt))
+    return replace(model, blocks=blocks, fixed=np.append(model.fixed, fixed), load_cases=tuple(cases))  # type: ignore[arg-type]
+
+
+def _with_loads_moved(case: LoadCase, block: int, arm: FloatArray) -> LoadCase:
+    """Loads on a block about another point, which lies at -arm from the one before."""
+
+    def moved(loads: FloatArray) -> FloatArray:
+        loads = loads.copy()
+        loads[block, 3:] += np.cross(arm, loads[block, :3])
+        return loads
+
+    tilt = case.tilt
+    if tilt is not None:
+        tilt = replace(tilt, fixed=moved(tilt.fixed), turning=moved(tilt.turning), across=moved(tilt.across))
+    return replace(case, dead_load=moved(case.dead_load), live_load=moved(case.live_load), tilt=tilt)
+
+
+def with_far_part(scene: Scene, factors: tuple[float, ...] | None) -> Scene | None:
+    """A fixed base and a squat block on it, far from everything.
+
+    factors : load factor at which the live load of each load case is to move that block; None for no live load on it
+    """
+    model, blocks = scene.model, scene.model.blocks
+    weight = model.load_cases[0].dead_load[:, :3].sum(axis=0)
+    if model.mirrors or model.interfaces is not None or not np.linalg.norm(weight) > 0.0:
+        return None
+    if any(case.tilt is not None for case in model.load_cases):
+        return None
+    up = -weight / np.linalg.norm(weight)
+    if abs(up[2]) < 1.0 - 1e-12:
+        return None
+    low, high = blocks.vertices.min(axis=0), blocks.vertices.max(axis=0)
+    size = float(np.median(blocks.sizes))
+    corner = np.array([high[0] + 20.0 * (high - low).max(), high[1], (low[2] + high[2]) / 2 + 0.37 * size])
+    edges = size * np.array([1.0, 1.0, 0.5])
+    least = np.array([corner, corner + np.array([0.0, 0.0, 0.5 * size])])
+    more = cuboids(least, least + edges)
+    n, law = len(blocks), Joint(FAR_LAW, 0.7)
+    group = "part_far_away"
+    labels = Labels(
+        (*blocks.groups, group, group),
+        np.append(blocks.group_indices, [0, 1]),
+        np.append(blocks.densities, [1.0, 1.0]),
+        join_labels([blocks.labels, no_labels(2)]),
+    )
+    built = build_blocks(join_polyhedra([polyhedra_of(blocks), more]), labels, scene.deck.contacts.tolerance)
+    assert not built.defects
+    added = np.append(blocks.added_masses, [0.0, 0.0])
+    points = np.vstack([blocks.added_mass_points, built.blocks.centroids[-2:]])
+    joined = replace(built.blocks, added_masses=added, added_mass_points=points)
+    larger = _with_blocks(model, joined, 2, (True, False))
+    load = float(np.linalg.norm(weight)) / n
+    cases = []
+    for number, case in enumerate(larger.load_cases):
+        dead, live = case.dead_load.copy(), case.live_load.copy()
+        dead[n + 1, 2] = -load * up[2]
+        if factors is not None:
+            live[n + 1, 0] = 0.7 * load / factors[number]
+        cases.append(replace(case, dead_load=dead, live_load=live))
+    ends = (SelectorTerm.model_construct(group=group, index=0), SelectorTerm.model_construct(group=group, index=1))
+    override = ContactOverride(joint=FAR_LAW, between=ends)
+    scene = with_section(scene, overrides=[*scene.deck.contacts.overrides, override])
+    joints = {**model.joints, FAR_LAW: law}
+    grounds = tuple(
+        ground if ground.blocks is not None else replace(ground, blocks=np.arange(n)) for ground in model.grounds
+    )
+    return replace(scene, model=replace(larger, load_cases=tuple(cases), joints=joints, grounds=grounds))

@@ -1,0 +1,199 @@
+"""Models moved, turned, mirrored, renumbered and in other units: every array and vector of them in its own way."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from mbla.arrays import FloatArray, IntArray
+from mbla.deck.units import KILOGRAMS, METRES, NEWTONS, Units
+from mbla.model.blocks import Blocks
+from mbla.model.build_blocks import Labels, build_blocks
+from mbla.model.labels import BlockLabels
+from mbla.model.mirrored_blocks import polyhedra_of
+from mbla.model.model import LoadCase, Model
+from mbla.model.polyhedra import Polyhedra, take_polyhedra, turn_faces
+from tests.properties.scenes import Scene, with_section
+
+
+def rebuilt(blocks: Blocks, polyhedra: Polyhedra, tolerance: float) -> Blocks:
+    """Blocks measured anew from other polyhedra of the same number, names and densities."""
+    labels = Labels(blocks.groups, blocks.group_indices, blocks.densities, blocks.labels)
+    built = build_blocks(polyhedra, labels, tolerance)
+    assert not built.defects, built.defects
+    return built.blocks
+
+
+def moved_scene(scene: Scene, matrix: FloatArray, shift: FloatArray) -> Scene:
+    """The whole, x -> matrix x + shift; ``matrix`` orthogonal, of determinant 1 or -1 (the mirror image)."""
+    model, side = scene.model, float(np.sign(np.linalg.det(matrix)))
+    polyhedra = polyhedra_of(model.blocks)
+    polyhedra = replace(polyhedra, vertices=polyhedra.vertices @ matrix.T + shift)
+    if side < 0:
+        polyhedra = turn_faces(polyhedra, np.ones(len(polyhedra.block_of_face), dtype=bool))
+    blocks = rebuilt(model.blocks, polyhedra, scene.deck.contacts.tolerance)
+    points = model.blocks.added_mass_points @ matrix.T + shift
+    blocks = replace(blocks, added_masses=model.blocks.added_masses, added_mass_points=points)
+    grounds = tuple(
+        replace(ground, point=matrix @ ground.point + shift, normal=matrix @ ground.normal) for ground in model.grounds
+    )
+    mirrors = []
+    for *normal, offset in model.mirrors:
+        turned = matrix @ np.array(normal)
+        mirrors.append((*turned.tolist(), offset + float(turned @ shift)))
+    guides = replace(model.guides, motions=_wrenches(model.guides.motions, matrix, side))
+    cases = tuple(_moved_case(case, matrix, side) for case in model.load_cases)
+    model = replace(model, blocks=blocks, grounds=grounds, mirrors=tuple(mirrors), guides=guides, load_cases=cases)
+    if model.interfaces is not None:
+        model = _moved_table(model, matrix, shift, side)
+    return replace(_moved_overrides(scene, matrix, shift), model=model)
+
+
+def _moved_table(model: Model, matrix: FloatArray, shift: FloatArray, side: float) -> Model:
+    given = model.interfaces
+    assert given is not None
+    corners = given.corners @ matrix.T + shift
+    if side < 0:  # counter-clockwise about the normal again
+        parts = [corners[a:b][::-1] for a, b in zip(given.corner_start[:-1], given.corner_start[1:], strict=True)]
+        corners = np.vstack(parts)
+    return replace(model, interfaces=replace(given, normals=given.normals @ matrix.T, corners=corners))
+
+
+def _wrenches(values: FloatArray, matrix: FloatArray, side: float) -> FloatArray:
+    """Forces and moments, or velocities and angular velocities, in the second axis of (n, 6, ...)."""
+    turned = np.empty_like(values)
+    turned[:, :3] = np.einsum("ij,nj...->ni...", matrix, values[:, :3])
+    turned[:, 3:] = side * np.einsum("ij,nj...->ni...", matrix, values[:, 3:])
+    return turned
+
+
+def _moved_case(case: LoadCase, matrix: FloatArray, side: float) -> LoadCase:
+    dead, live = (_wrenches(loads, matrix, side) for loads in (case.dead_load, case.live_load))
+    settlement, tilt = case.settlement, case.tilt
+    if settlement is not None:
+        settlement = replace(settlement, motions=_wrenches(settlement.motions, matrix, side))
+    if tilt is not None:
+        fixed, turning, across = (_wrenches(loads, matrix, side) for loads in (tilt.fixed, tilt.turning, tilt.across))
+        tilt = replace(tilt, axis=side * (matrix @ tilt.axis), fixed=fixed, turning=turning, across=across)
+    return replace(case, dead_load=dead, live_load=live, settlement=settlement, tilt=tilt)
+
+
+def _moved_overrides(scene: Scene, matrix: FloatArray, shift: FloatArray) -> Scene:
+    overrides = []
+    for override in scene.deck.contacts.overrides:
+        changes: dict[str, object] = {}
+        if override.orientation is not None and not isinstance(override.orientation, str):
+            normal = tuple((matrix @ np.array(override.orientation.normal)).tolist())
+            changes["orientation"] = override.orientation.model_copy(update={"normal": normal})
+        if override.box is not None:
+            ends = np.array(override.box) @ matrix.T + shift
+            changes["box"] = (tuple(ends.min(axis=0).tolist()), tuple(ends.max(axis=0).tolist()))
+        overrides.append(override.model_copy(update=changes))
+    return with_section(scene, overrides=overrides)
+
+
+def taken_blocks(blocks: Blocks, order: IntArray, tolerance: float) -> Blocks:
+    """Blocks in another order."""
+    labels = BlockLabels(tuple(blocks.labels.members[b] for b in order), blocks.labels.positions[order])
+    named = Labels(tuple(blocks.groups[b] for b in order), blocks.group_indices[order], blocks.densities[order], labels)
+    built = build_blocks(take_polyhedra(polyhedra_of(blocks), order), named, tolerance)
+    assert not built.defects, built.defects
+    return replace(
+        built.blocks, added_masses=blocks.added_masses[order], added_mass_points=blocks.added_mass_points[order]
+    )
+
+
+def renumbered(scene: Scene, order: IntArray) -> Scene:
+    """Blocks in another order; block ``order[k]`` becomes block k."""
+    model = scene.model
+    new = np.empty(len(order), dtype=np.int64)
+    new[order] = np.arange(len(order))
+    cases = []
+    for case in model.load_cases:
+        settlement, tilt, travel = case.settlement, case.tilt, case.travel
+        if settlement is not None:
+            settlement = replace(settlement, blocks=new[settlement.blocks])
+        if tilt is not None:
+            fixed, turning, across = tilt.fixed[order], tilt.turning[order], tilt.across[order]
+            tilt = replace(tilt, fixed=fixed, turning=turning, across=across)
+        if travel is not None:
+            travel = replace(travel, block=int(new[travel.block]))
+        dead, live = case.dead_load[order], case.live_load[order]
+        cases.append(replace(case, dead_load=dead, live_load=live, settlement=settlement, tilt=tilt, travel=travel))
+    grounds = tuple(
+        ground if ground.blocks is None else replace(ground, blocks=np.sort(new[ground.blocks]))
+        for ground in model.grounds
+    )
+    model = replace(
+        model,
+        blocks=taken_blocks(model.blocks, order, scene.deck.contacts.tolerance),
+        fixed=model.fixed[order],
+        grounds=grounds,
+        guides=replace(model.guides, blocks=new[model.guides.blocks]),
+        load_cases=tuple(cases),
+    )
+    return replace(scene, model=model)
+
+
+def in_other_units(scene: Scene, units: Units) -> Scene:
+    """The same numbers of things in other units."""
+    old, model = scene.model.units, scene.model
+    length = METRES[old.length] / METRES[units.length]
+    force = NEWTONS[old.force] / NEWTONS[units.force]
+    mass = KILOGRAMS[old.mass] / KILOGRAMS[units.mass]
+    polyhedra = polyhedra_of(model.blocks)
+    polyhedra = replace(polyhedra, vertices=polyhedra.vertices * length)
+    blocks = rebuilt(model.blocks, polyhedra, scene.deck.contacts.tolerance)
+    blocks = replace(
+        blocks,
+        densities=model.blocks.densities * mass / length**3,
+        added_masses=model.blocks.added_masses * mass,
+        added_mass_points=model.blocks.added_mass_points * length,
+    )
+    motions = model.guides.motions.copy()
+    motions[:, :3] *= length
+    interfaces = model.interfaces
+    model = replace(
+        model,
+        units=units,
+        blocks=blocks,
+        grounds=tuple(replace(ground, point=ground.point * length) for ground in model.grounds),
+        mirrors=tuple((*normal, offset * length) for *normal, offset in model.mirrors),  # type: ignore[misc]
+        guides=replace(model.guides, motions=motions),
+        interfaces=None if interfaces is None else replace(interfaces, corners=interfaces.corners * length),
+    )
+    model = with_forces(model, force, force * length, force / length**2, length)
+    points = scene.deck.contacts.points
+    spacing = None if points.spacing is None else points.spacing * length
+    points = points.model_copy(update={"spacing": spacing, "rounding": points.rounding * length})
+    scene = _moved_overrides(scene, length * np.eye(3), np.zeros(3))
+    return replace(with_section(scene, points=points), model=model)
+
+
+def with_forces(model: Model, force: float, moment: float, stress: float, length: float) -> Model:
+    """Loads and strengths times these factors; ``length`` only for the velocities of supports that turn."""
+    row = np.array([force] * 3 + [moment] * 3)
+    cases = []
+    for case in model.load_cases:
+        settlement, tilt = case.settlement, case.tilt
+        if settlement is not None:
+            motions, size = settlement.motions.copy(), moment if settlement.turns else force
+            motions[:, :3] *= length if settlement.turns else 1.0
+            settlement = replace(
+                settlement, motions=motions, unit=settlement.unit * size, reference=settlement.reference * size
+            )
+        if tilt is not None:
+            tilt = replace(tilt, fixed=tilt.fixed * row, turning=tilt.turning * row, across=tilt.across * row)
+        dead, live = case.dead_load * row, case.live_load * row
+        cases.append(replace(case, dead_load=dead, live_load=live, settlement=settlement, tilt=tilt))
+    joints = {
+        name: replace(
+            joint,
+            cohesion=joint.cohesion * stress,
+            tensile_strength=joint.tensile_strength * stress,
+            compressive_strength=joint.compressive_strength * stress,
+        )
+        for name, joint in model.joints.items()
+    }
+    return replace(model, load_cases=tuple(cases), joints=joints)

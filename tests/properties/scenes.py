@@ -1,0 +1,137 @@
+"""Scenes of metamorphic checks: a deck as model and sections, and its load cases solved as ``mbla run`` solves them."""
+
+from __future__ import annotations
+
+import io
+import json
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any
+
+import numpy as np
+
+from mbla.contacts import Contacts
+from mbla.contacts.glue import held_model
+from mbla.deck import Deck, read_deck
+from mbla.model import Model, build_model
+from mbla.results.results import CaseResult
+from mbla.results.sta import StatusFile
+from mbla.run_deck import contacts_of, solve_case, with_settlements
+from mbla.solution.settings import solver_settings
+from mbla.solution.solution import Status
+from tests.properties.random_decks import random_deck
+
+MOST_CASES = 2
+"""load cases of a deck that are solved, the first and the last: positions of a travelling load are many and alike"""
+
+
+@dataclass(frozen=True)
+class Scene:
+    """A model with the sections of its deck that say how contacts are found and how it is solved.
+
+    change : what is made of the contacts after they were found; None for nothing
+    """
+
+    name: str
+    deck: Deck
+    model: Model
+    change: Callable[[Contacts], Contacts] | None = None
+
+    def contacts(self) -> tuple[Model, Contacts]:
+        """Contacts, and the model with the blocks held that glue holds."""
+        contacts = contacts_of(self.deck, self.model)
+        model = held_model(self.model, contacts)
+        return model, contacts if self.change is None else self.change(contacts)
+
+    @property
+    def section_text(self) -> str:
+        """The section `contacts` as JSON."""
+        return json.dumps(self.deck.contacts.model_dump(mode="json", by_alias=True, exclude_none=True))
+
+
+@dataclass(frozen=True)
+class Solved:
+    """What came out of a scene."""
+
+    model: Model
+    contacts: Contacts
+    cases: tuple[CaseResult, ...]
+
+
+def scene_of(path: Path, *overrides: str) -> Scene:
+    """A deck on the disk under associative flow with round friction, to the last digits."""
+    deck = read_deck(path, overrides)
+    model = build_model(deck)
+    cases = model.load_cases
+    if len(cases) > MOST_CASES:
+        model = replace(model, load_cases=(cases[0], cases[-1]))
+    scene = Scene(f"{path.parent.name}/{path.stem}", deck, model)
+    keep = {"contact_model": deck.analysis.contact_model}
+    return with_analysis(scene, whole=True, flow_rule="associative", accuracy="reference", standing=False, **keep)
+
+
+def random_scene(seed: int) -> Scene:
+    """A random deck, by the seed of :mod:`tests.properties.random_decks`."""
+    with TemporaryDirectory() as folder:
+        path = Path(folder) / "deck.yaml"
+        path.write_text(json.dumps(random_deck(seed)), encoding="utf-8")
+        return replace(scene_of(path), name=f"random/{seed}")
+
+
+def with_analysis(scene: Scene, whole: bool = False, **changes: Any) -> Scene:
+    """The same solved otherwise; ``whole``: nothing of the deck's own analysis is left."""
+    content = scene.deck.content
+    analysis = type(content.analysis)() if whole else content.analysis
+    analysis = analysis.model_copy(update=changes)
+    return replace(scene, deck=replace(scene.deck, content=content.model_copy(update={"analysis": analysis})))
+
+
+def with_section(scene: Scene, **changes: Any) -> Scene:
+    """The same with other contacts."""
+    content = scene.deck.content
+    contacts = content.contacts.model_copy(update=changes)
+    return replace(scene, deck=replace(scene.deck, content=content.model_copy(update={"contacts": contacts})))
+
+
+def solve_scene(scene: Scene) -> Solved:
+    """Every load case, assembled, solved and verified."""
+    deck = scene.deck
+    model, contacts = scene.contacts()
+    settings, status_file = solver_settings(deck.analysis), StatusFile(io.StringIO(), "metamorphic")
+    model, load_cases = with_settlements(model, contacts, model.load_cases, settings)
+    cases = tuple(solve_case(deck, model, contacts, case, settings, status_file, None) for case in load_cases)
+    return Solved(model, contacts, cases)
+
+
+def value_of(case: CaseResult) -> float:
+    """What is compared: the load factor; tangent of the angle of a tilting table; reaction of a support that gives way
+    over its unit, negative, which the load factor adds to. inf where it has no bound, -inf where nothing stands.
+    """
+    if case.status is Status.UNBOUNDED:
+        return math.inf
+    if case.status is Status.NO_EQUILIBRIUM:
+        return -math.inf
+    mechanics = case.solution.mechanics
+    if case.status is not Status.SOLVED or mechanics is None:
+        return math.nan
+    return _shown(case, mechanics.load_factor)
+
+
+def _shown(case: CaseResult, factor: float) -> float:
+    load_case = case.load_case
+    if load_case.settlement is not None:
+        return -load_case.settlement.reaction(factor) / load_case.settlement.unit
+    if load_case.tilt is not None:
+        return float(np.tan(np.deg2rad(load_case.tilt.angle)))
+    return factor
+
+
+def bounds_of(case: CaseResult) -> tuple[float, float]:
+    """Proved bounds of the associative figure as ``value_of`` has it; of a tilting table its own."""
+    if case.load_case.tilt is not None and not case.load_case.tilt.tangent:
+        return value_of(case), value_of(case)
+    lower, upper = (_shown(case, bound) for bound in (case.checks.static_bound, case.checks.kinematic_bound))
+    return lower, upper
