@@ -2,8 +2,8 @@
 
 Verdicts::
 
-    right      solved and verified, and within the stated tolerance of the expected load factor; or, where there is none,
-               one of the statuses or notices that the scene names
+    right      solved and verified, and within the stated tolerance of the expected load factor; or, where there is
+               none, one of the statuses or notices that the scene names
     diagnosed  not that, but a status, notice or error that the scene allows says so, in words
     wrong      a load factor that is given out as a result is not the right one
     silent     no result, and nothing that names the cause
