@@ -52,16 +52,17 @@ blocks:
   - box: {group: base, material: stone, min: [0, 0, 0], max: ["=1/n", "=1/n", 0.1],
           repeat: [{count: "=n", translate: ["=1/n", 0, 0]}, {count: "=n", translate: [0, "=1/n", 0]}]}
   - box: {group: block, material: stone, min: [0, 0, 0.1], max: [1, 1, "=0.1 + h"]}
-supports: [{ground: {z: 0}}, {blocks: base}]
+supports: [{blocks: base}]
 """
     + PUSH
 )
 """A block on a floor of n x n fixed blocks: min(mu, 1/h)."""
 
-ON_LOOSE = ON_MANY.replace("supports: [{ground: {z: 0}}, {blocks: base}]", "supports: [{ground: {z: 0}}]").replace(
+ON_LOOSE = ON_MANY.replace("supports: [{blocks: base}]", "supports: [{ground: {z: 0}}]").replace(
     "push: {live: [{acceleration: [1, 0, 0]}]}", "push: {live: [{acceleration: [1, 0, 0], on: block}]}"
 )
-"""The same floor, loose on the ground; only the block above is pushed."""
+"""The same floor, loose on the ground; only the block above is pushed. Its factor is that of ``tests.analytic.planar``:
+the tile under the toe tips with the block, and without dilatancy the block slides off it by a thousandth sooner."""
 
 POINTS = (
     HEAD.replace("contacts: {joint: dry}", 'contacts: {joint: dry, points: {per_edge: "=k"}}')
