@@ -26,7 +26,9 @@ load_cases: {push: {live: [{acceleration: [1, 0, 0]}]}}
 )
 """Blocks in a row, each against the next, every one pushed along it: mu."""
 
-SHOVED = ROW.replace("acceleration: [1, 0, 0]", 'force: ["=2000*9.81", 0, 0], on: {group: row, index: 0}, at: [0, 0.5, 0.4]')
+SHOVED = ROW.replace(
+    "acceleration: [1, 0, 0]", 'force: ["=2000*9.81", 0, 0], on: {group: row, index: 0}, at: [0, 0.5, 0.4]'
+)
 """Only the first is pushed, by its weight times the load factor, and shoves all others: n mu."""
 
 STACK = (
@@ -42,7 +44,7 @@ load_cases: {push: {live: [{acceleration: [1, 0, 0]}]}}
 )
 """It rocks about its toe: min(mu, 1/(n h))."""
 
-TOP = STACK.replace("acceleration: [1, 0, 0]", 'acceleration: [1, 0, 0], on: {group: stack, drum: -1}')
+TOP = STACK.replace("acceleration: [1, 0, 0]", "acceleration: [1, 0, 0], on: {group: stack, drum: -1}")
 """Only the top block is pushed: it slides at mu or the stack rocks, b/2 n = factor (n - 1/2) h."""
 
 HANGING = (
@@ -51,7 +53,8 @@ HANGING = (
 parameters: {n: 200, w: "=2000*9.81*0.1*0.1*0.1"}
 joints: {dry: {friction: 0.5, cohesion: "=10*n*w/0.01", tensile_strength: "=2*n*w/0.01"}}
 blocks:
-  - box: {group: chain, material: stone, min: [0, 0, -0.1], max: [0.1, 0.1, 0], repeat: {count: "=n", translate: [0, 0, -0.1]}}
+  - box: {group: chain, material: stone, min: [0, 0, -0.1], max: [0.1, 0.1, 0],
+          repeat: {count: "=n", translate: [0, 0, -0.1]}}
   - box: {group: ceiling, material: stone, min: [0, 0, 0], max: [0.1, 0.1, 0.1]}
 supports: [{blocks: ceiling}]
 load_cases: {pull: {live: [{acceleration: [0, 0, -1], on: chain}]}}
@@ -116,4 +119,10 @@ def _scenes() -> list[Scene]:
     return scenes
 
 
-SCENES = (*_scenes(),)
+def _walls() -> list[Scene]:
+    """Planar walls whose factor the program itself proves from both sides; 0.42304615 is the middle of those bounds."""
+    size = ("parameters.n=141", "analysis.flow_rule=associative")
+    return [Scene("wall of 19,951 blocks, associative", "large walls", WALL, size, 0.42304615, 1e-5, long=True)]
+
+
+SCENES = (*_scenes(), *_walls())
