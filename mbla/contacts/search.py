@@ -15,6 +15,7 @@ from mbla.contacts.interface_points import interface_points
 from mbla.contacts.joints import Sites, joints_of_interfaces
 from mbla.contacts.narrow_phase import Patches, Verdicts, find_patches, judge
 from mbla.contacts.near_misses import without_covered
+from mbla.contacts.outline_notices import outline_notices
 from mbla.contacts.overlaps import find_overlaps
 from mbla.contacts.polygons import centroids
 from mbla.contacts.refine import InterfacePoints, point_starts
@@ -48,6 +49,7 @@ def find_contacts(model: Model, section: ContactsSection) -> Contacts:
     kept = movable.take(rows)
     corners = needed_corners(kept.polygons, section.tolerance)
     _, centroid = areas = areas_and_centroids(corners, len(kept))
+    simpler = outline_notices(model, section, kept, corners, areas[0])
     found, left_alone = interface_points(corners, centroid, kept.overlays.sizes, section.points)
     findings = Findings(
         contacts=verdicts.contacts,
@@ -58,7 +60,7 @@ def find_contacts(model: Model, section: ContactsSection) -> Contacts:
         glued_bodies=bodies[inside & ~laws.open],
         glue=glue,
     )
-    report = build_report(model, section, findings, [*notices, *left_alone])
+    report = build_report(model, section, findings, [*notices, *simpler, *left_alone])
     return _contacts(kept, areas, found, laws.in_use(rows), report, glue.solid_of_block)
 
 

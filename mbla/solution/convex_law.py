@@ -177,7 +177,7 @@ class _Points:
         limit = np.maximum(limits.friction * normal + limits.cohesion, 0.0)
         size = np.hypot(trial[:, 1], trial[:, 2])
         slips = size > limit
-        share = np.where(slips, limit / np.maximum(size, 1e-300), 1.0)
+        share = np.divide(limit, size, out=np.ones_like(size), where=slips)
         direction = trial[:, 1:] / np.maximum(size, 1e-300)[:, None]
         forces = np.column_stack([normal, trial[:, 1:] * share[:, None]])
         return cls(forces, direction, share, slips, normal == trial[:, 0])

@@ -145,7 +145,7 @@ def joint_tangents(program: Program, slope: FloatArray, rho: float, state: Joint
     dilates = np.where(slips, slope, 0.0)
     tangents[:, 0, 0] = np.where(state.in_contact, 1.0 / (1.0 + dilates * friction), 0.0)
     tangents[:, 0, 1:] = (tangents[:, 0, 0] * dilates)[:, None] * theta
-    share = np.where(slips, state.limit / np.maximum(state.size, 1e-300), 1.0)
+    share = np.divide(state.limit, state.size, out=np.ones_like(state.size), where=slips)
     across = np.eye(size - 1) - np.where(slips, 1.0, 0.0)[:, None, None] * theta[:, :, None] * theta[:, None, :]
     tangents[:, 1:, 1:] = share[:, None, None] * across
     follows = np.where(slips & (state.limit > 0.0), friction, 0.0)

@@ -87,7 +87,7 @@ def carried_loads(program: Program, x: FloatArray) -> FloatArray:
     return np.asarray(abs(program.equilibrium_matrix) @ sizes + np.abs(program.dead_load))
 
 
-def _least_carried(program: Program, x: FloatArray) -> FloatArray:
+def least_carried(program: Program, x: FloatArray) -> FloatArray:
     """What the lighter of the blocks at each contact point has to balance, as a force there, (n_points,)."""
     matrix = program.equilibrium_matrix.tocoo()
     share = carried_loads(program, x)[matrix.row] / np.maximum(np.abs(matrix.data), 1e-300)
@@ -102,7 +102,7 @@ def _pulled_inside(program: Program, x: FloatArray) -> FloatArray:
     By little beside what the lighter block there has to balance: much of its load may be little beside the others'.
     """
     inside, limits = x.copy(), program.limits
-    largest = np.minimum(max(float(np.abs(x[:, 0]).max(initial=0.0)), 1e-288), _least_carried(program, x))
+    largest = np.minimum(max(float(np.abs(x[:, 0]).max(initial=0.0)), 1e-288), least_carried(program, x))
     apex = np.where(limits.friction > 0, limits.cohesion / np.maximum(limits.friction, 1e-300), np.inf)
     lower, upper = -np.minimum(limits.tension, apex), limits.compression
     room = np.minimum(MARGIN * largest, 0.25 * (upper - lower))

@@ -55,6 +55,13 @@ SHARPEST = 1e-12
 ACCEPTED_GAP = 1e-5
 """Distance of the bounds, relative, up to which a load factor counts as solved."""
 
+LARGE = 30_000
+"""Rows of equilibrium, 10,000 planar blocks, beyond which solving again takes minutes: bounds within ACCEPTED_GAP are
+enough there, unless bounds closer than CLOSE are asked for. The results say how far apart they are."""
+
+CLOSE = 1e-7
+"""A wanted distance of the bounds below this is worth every try, at any size."""
+
 WITH_VALUE = (Status.SOLVED, Status.APPROXIMATE)
 
 
@@ -169,10 +176,17 @@ def is_decided(run: AssociativeRun, answer: ProvedAnswer) -> bool:
     """Whether solving again could bring nothing: proved as sharply as asked for, a small factor relatively too."""
     if answer.certificate is not None or answer.solution.status is Status.UNBOUNDED:
         return True
-    if answer.gap is None or not answer.gap.gap <= run.settings.gap:
+    if answer.gap is None or not answer.gap.gap <= wanted_gap(run):
         return False
     share = max(ACCEPTED_GAP, run.settings.gap)
     return abs(answer.gap.kinematic - answer.gap.static) <= share * abs(answer.gap.kinematic)
+
+
+def wanted_gap(run: AssociativeRun) -> float:
+    """Distance of the bounds, relative, at which no other try is made."""
+    wanted = run.settings.gap
+    large = len(run.program.dead_load) > LARGE and wanted >= CLOSE
+    return max(wanted, ACCEPTED_GAP) if large else wanted
 
 
 def better(first: ProvedAnswer, second: ProvedAnswer) -> ProvedAnswer:

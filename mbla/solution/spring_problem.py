@@ -135,9 +135,14 @@ def joints_at(problem: SpringProblem, kappa: float, u: FloatArray, limit: FloatA
     size = np.linalg.norm(shear, axis=1)
     if limit is None:
         limit = np.maximum(limits.friction * normal + limits.cohesion, 0.0)
-    forces = np.column_stack([normal, shear * np.minimum(1.0, limit / np.maximum(size, 1e-300))[:, None]])
+    forces = np.column_stack([normal, shear * _share(size, limit)[:, None]])
     unbalanced = problem.equilibrium_matrix @ forces.ravel() + problem.load - kappa * (problem.springs @ u)
     return Joints(shear, size, limit, normal == trial[:, 0], forces, unbalanced)
+
+
+def _share(size: FloatArray, limit: FloatArray) -> FloatArray:
+    """Part of the trial shear that its limit allows, (n_points,); unlimited friction and no shear at all make it 1."""
+    return np.divide(limit, size, out=np.ones_like(size), where=size > limit)
 
 
 def stiffness_at(problem: SpringProblem, kappa: float, joints: Joints, lagged: bool) -> sp.csc_matrix:
@@ -153,7 +158,7 @@ def joint_stiffness(problem: SpringProblem, joints: Joints, lagged: bool) -> Flo
     n, tangents = joints.shear.shape
     slips = joints.size > joints.limit
     direction = joints.shear / np.maximum(joints.size, 1e-300)[:, None]
-    share = np.where(slips, joints.limit / np.maximum(joints.size, 1e-300), 1.0)
+    share = _share(joints.size, joints.limit)
     across = np.eye(tangents) - np.where(slips, 1.0, 0.0)[:, None, None] * direction[:, :, None] * direction[:, None, :]
     stiffness = np.zeros((n, 1 + tangents, 1 + tangents))
     stiffness[:, 0, 0] = joints.follows

@@ -35,9 +35,12 @@ from mbla.arrays import FloatArray
 from mbla.program.fixed_mechanism import FixedMechanismForm, PointMotion, fixed_mechanism_form
 from mbla.program.kinematic import ConeProgram
 from mbla.program.program import Program
+from mbla.program.yield_conditions import yield_violation
+from mbla.solution.associative_form import LIGHT, LIGHTEST
 from mbla.solution.bounds import factor_size
 from mbla.solution.cone_solution import Log
 from mbla.solution.cone_solver import interior_point_solver
+from mbla.solution.force_repair import carried_loads, least_carried
 from mbla.solution.law_state import LawState, law_state
 from mbla.solution.point_motion import point_motion
 from mbla.solution.settings import SolverSettings
@@ -77,6 +80,10 @@ SMALL_FACTOR = 1e-3
 
 BALANCED = 1e-9
 """Unbalanced force, in mean block loads, at which they are accepted."""
+
+BALANCED_LIGHT = 1e-7
+"""The same over what the row of equilibrium carries where that is less: a hundredth of what verification allows. A
+light block may fall with a force that is nothing beside the load of its neighbours."""
 
 
 @dataclass(frozen=True)
@@ -133,7 +140,7 @@ class _Search:
 
     def solve(self, motion: PointMotion, share: float) -> LawState | None:
         """Least forces among those that fit a motion, with the load factor in the cost if share > 0; None if none."""
-        form = fixed_mechanism_form(self.program, motion)
+        form = _in_own_units(fixed_mechanism_form(self.program, motion), self.state.forces)
         number = self.first + len(self.records)
         cone_program = self._with_cost(form, share)
         solution = interior_point_solver(cone_program, self.settings, self.log, has_inside=False).solve_once(
@@ -166,10 +173,13 @@ class _Search:
         """Residual, unbalanced force and change of load factor within what is allowed."""
         program = self.program
         loads = program.dead_load + least.load_factor * program.live_load
-        unbalanced = np.abs(program.equilibrium_matrix @ least.forces.ravel() + loads).max(initial=0.0)
+        unbalanced = np.abs(program.equilibrium_matrix @ least.forces.ravel() + loads)
+        balanced = np.all(unbalanced <= np.minimum(BALANCED, BALANCED_LIGHT * carried_loads(program, least.forces)))
+        excess = yield_violation(least.forces, program.limits)
+        admissible = np.all(excess <= max(FITS, self.state.residual) * least_carried(program, least.forces))
         rise = (least.load_factor - self.state.load_factor) / self._factor_size()
         fits = least.residual <= max(FITS, self.state.residual)
-        return bool(fits and unbalanced <= BALANCED and -FALL <= rise <= RISE)
+        return bool(fits and balanced and admissible and -FALL <= rise <= RISE)
 
 
 def trusted_motion(program: Program, state: LawState) -> PointMotion:
@@ -207,6 +217,21 @@ def point_weights(program: Program, areas: FloatArray | None) -> FloatArray:
         by_component = sp.csr_array(forces.power(2)).T @ np.repeat(weights, components)
         weights, components = np.asarray(by_component)[::smaller], smaller
     return weights / max(float(weights.mean()) if len(weights) else 1.0, 1e-300)
+
+
+def _in_own_units(form: FixedMechanismForm, forces: FloatArray) -> FixedMechanismForm:
+    """The same with the equilibrium of lightly loaded blocks in units of what they carry, where there are such.
+
+    forces : (n_points, components) of the state at hand
+    """
+    unit = np.clip(carried_loads(form.program, forces), LIGHTEST, 1.0)
+    if not np.any(unit < LIGHT):
+        return form
+    data = form.cone_program
+    rows = np.ones(data.matrix.shape[0])
+    rows[: data.n_equations] = 1.0 / unit
+    scaled = replace(data, matrix=sp.csc_array(sp.diags_array(rows) @ data.matrix), rhs=rows * data.rhs)
+    return replace(form, cone_program=scaled)
 
 
 def _balanced(form: FixedMechanismForm, y: FloatArray, state: LawState) -> LawState:

@@ -44,6 +44,16 @@ OF_CONTACTS = (
         "Lower contacts.tolerance if the widest one is a real bearing.",
     ),
     Explanation(
+        "outlines-simplified",
+        "notice",
+        "Corners of common surfaces that lie within the tolerance of the outline are left out, and the area shows it.",
+        "Blocks turn about edges that lie a little inside of the true ones: a load factor by rocking is too low by "
+        "about the share of the area.",
+        f"Round faces of very many corners. {_TOLERANCE}",
+        "Lower contacts.tolerance where that matters, for instance to a tenth; each corner kept is one contact point.",
+        says=("are left out, which changes the area",),
+    ),
+    Explanation(
         "isolated-blocks",
         "warning",
         "Blocks touch nothing at all.",

@@ -1,0 +1,330 @@
+"""Many of the same: indeterminate to the thousands, hundreds of contact points, symmetric mechanisms, equal parts."""
+
+from __future__ import annotations
+
+import math
+
+from tests.extremes.outcome import Scene
+
+HEAD = """\
+mbla: 1
+materials: {stone: {density: 2000}}
+contacts: {joint: dry}
+"""
+PUSH = "load_cases: {push: {live: [{acceleration: [1, 0, 0]}]}}\n"
+OUTLINES = "outlines-simplified"
+RULES = ("associative", "non_associative")
+SPATIAL = ("analysis.reductions.planar=false", "analysis.reductions.mirror=false")
+
+
+def _both(
+    name: str,
+    family: str,
+    deck: str,
+    expected: float | None,
+    tolerance: float = 1e-6,
+    diagnosis: tuple[str, ...] = (),
+    overrides: tuple[str, ...] = (),
+    *,
+    long: bool = False,
+) -> list[Scene]:
+    """With associative flow and without dilatancy."""
+    return [
+        Scene(
+            f"{name}, {rule}",
+            family,
+            deck,
+            (*overrides, f"analysis.flow_rule={rule}"),
+            expected,
+            tolerance,
+            diagnosis,
+            long,
+        )
+        for rule in RULES
+    ]
+
+
+ON_MANY = (
+    HEAD
+    + """\
+parameters: {n: 30, h: 1, mu: 0.5}
+joints: {dry: {friction: "=mu"}}
+blocks:
+  - box: {group: base, material: stone, min: [0, 0, 0], max: ["=1/n", "=1/n", 0.1],
+          repeat: [{count: "=n", translate: ["=1/n", 0, 0]}, {count: "=n", translate: [0, "=1/n", 0]}]}
+  - box: {group: block, material: stone, min: [0, 0, 0.1], max: [1, 1, "=0.1 + h"]}
+supports: [{blocks: base}]
+"""
+    + PUSH
+)
+"""A block on a floor of n x n fixed blocks: min(mu, 1/h)."""
+
+ON_LOOSE = ON_MANY.replace("supports: [{blocks: base}]", "supports: [{ground: {z: 0}}]").replace(
+    "push: {live: [{acceleration: [1, 0, 0]}]}", "push: {live: [{acceleration: [1, 0, 0], on: block}]}"
+)
+"""The same floor, loose on the ground; only the block above is pushed. Its factor is that of ``tests.analytic.planar``:
+the tile under the toe tips with the block, and without dilatancy the block slides off it by a thousandth sooner."""
+
+POINTS = (
+    HEAD.replace("contacts: {joint: dry}", 'contacts: {joint: dry, points: {per_edge: "=k"}}')
+    + """\
+parameters: {k: 50, h: 1, mu: 0.5}
+joints: {dry: {friction: "=mu"}}
+blocks:
+  - box: {group: block, material: stone, min: [0, 0, 0], max: [1, 1, "=h"]}
+supports: [{ground: {z: 0}}]
+"""
+    + PUSH
+)
+
+CORNERS = (
+    HEAD
+    + """\
+parameters: {n: 360, h: 1, mu: 0.5}
+joints: {dry: {friction: "=mu"}}
+blocks:
+  - column: {group: column, material: stone, radius: 0.5, height: "=h", drums: 2, sides: "=n", polygon: inscribed}
+supports: [{ground: {z: 0}}]
+"""
+    + PUSH
+)
+"""Two drums with faces of n corners: it slides at mu, or rocks about the edge at +x, at the distance r cos(pi/n)."""
+
+COLUMNS = (
+    HEAD
+    + """\
+parameters: {n: 100, h: 2, mu: 0.5}
+joints: {dry: {friction: "=mu"}}
+blocks:
+  - box: {group: column, material: stone, min: [0, 0, 0], max: [0.5, 0.5, "=h"],
+          repeat: {count: "=n", translate: [1, 0, 0]}}
+supports: [{ground: {z: 0}}]
+"""
+    + PUSH
+)
+"""n columns side by side that do not touch, all with the load factor min(mu, 0.5/h)."""
+
+BEAM = (
+    HEAD
+    + """\
+parameters: {n: 1000, h: 2, mu: 0.5}
+joints: {dry: {friction: "=mu"}}
+blocks:
+  - box: {group: column, material: stone, min: [0, 0, 0], max: [0.5, 0.5, "=h"],
+          repeat: {count: "=n", translate: [1, 0, 0]}}
+  - box: {group: beam, material: stone, min: [0, 0, "=h"], max: ["=n - 0.5", 0.5, "=h + 0.5"]}
+supports: [{ground: {z: 0}}]
+"""
+    + PUSH
+)
+"""n columns of weight w under one beam of weight W: all rock together, the beam riding on their edges."""
+
+FOUR = (
+    HEAD
+    + """\
+parameters: {h: 2, mu: 0.5}
+joints: {dry: {friction: "=mu"}}
+blocks:
+  - box: {group: column, material: stone, min: [0, 0, 0], max: [0.5, 0.5, "=h"],
+          repeat: [{count: 2, translate: [2, 0, 0]}, {count: 2, translate: [0, 2, 0]}]}
+  - box: {group: slab, material: stone, min: [0, 0, "=h"], max: [2.5, 2.5, "=h + 0.25"]}
+supports: [{ground: {z: 0}}]
+"""
+    + PUSH
+)
+"""Four equal columns under one slab."""
+
+SLIDERS = (
+    HEAD
+    + """\
+parameters: {n: 200, mu: 0.25}
+joints: {dry: {friction: "=mu"}}
+blocks:
+  - box: {group: slider, material: stone, min: [0, 0, 0], max: [1, 1, 0.2],
+          repeat: {count: "=n", translate: [0, 0, 0.2]}}
+supports: [{ground: {z: 0}}]
+"""
+    + PUSH
+)
+"""A stack so low that every joint slides at the same factor mu where it does not rock."""
+
+ROW = (
+    HEAD
+    + """\
+parameters: {n: 200, mu: 0.5}
+joints: {dry: {friction: "=mu"}}
+blocks:
+  - box: {group: row, material: stone, min: [0, 0, 0], max: [1, 1, 1], repeat: {count: "=n", translate: [1, 0, 0]}}
+supports: [{ground: {z: 0}}]
+"""
+    + PUSH
+)
+"""Blocks in a row, each against the next, pushed along it: all slide, mu."""
+
+ROW_LAST = ROW.replace("acceleration: [1, 0, 0]", "force: [1, 0, 0], on: {group: row, index: 0}, at: [0, 0.5, 0.05]")
+"""Only the first is pushed, near its foot, and pushes all others: the factor is mu times all weights."""
+
+PYRAMIDS = (
+    HEAD
+    + """\
+joints: {dry: {friction: 0.5}}
+blocks:
+  - box: {group: base, material: stone, min: [0, 0, 0], max: [1, 1, 1]}
+  - polyhedron: {group: tip, material: stone, vertices: [[0.5, 0.5, 1], [0, 0, 2], [1, 0, 2], [1, 1, 2], [0, 1, 2]],
+                 faces: [[1, 2, 3, 4], [0, 2, 1], [0, 3, 2], [0, 4, 3], [0, 1, 4]]}
+supports: [{ground: {z: 0}}]
+"""
+    + PUSH
+)
+"""A pyramid that stands on its apex: no surface in common, no contact."""
+
+EDGE = (
+    HEAD
+    + """\
+joints: {dry: {friction: 0.5}}
+blocks:
+  - box: {group: base, material: stone, min: [0, 0, 0], max: [1, 1, 1]}
+  - polyhedron: {group: roof, material: stone, vertices: [[0, 0.5, 1], [1, 0.5, 1], [0, 0, 2], [1, 0, 2], [1, 1, 2],
+                 [0, 1, 2]], faces: [[2, 3, 4, 5], [0, 1, 3, 2], [0, 5, 4, 1], [0, 2, 5], [1, 4, 3]]}
+supports: [{ground: {z: 0}}]
+"""
+    + PUSH
+)
+"""A prism that stands on its edge."""
+
+CORNER = (
+    HEAD
+    + """\
+joints: {dry: {friction: 0.5}}
+blocks:
+  - box: {group: one, material: stone, min: [0, 0, 0], max: [1, 1, 1]}
+  - box: {group: two, material: stone, min: [1, 1, 0], max: [2, 2, 1]}
+  - box: {group: three, material: stone, min: [2, 2, 1], max: [3, 3, 2]}
+  - box: {group: floor, material: stone, min: [2, 2, 0], max: [3, 3, 1]}
+supports: [{ground: {z: 0}}]
+"""
+    + PUSH
+)
+"""Blocks that meet along an edge or at a corner only: they do not touch, every one slides by itself."""
+
+DOME = (
+    HEAD
+    + """\
+parameters: {segments: 12, rings: 4}
+joints: {dry: {friction: 0.65}}
+blocks:
+  - dome: {group: dome, material: stone, span: 4, thickness: 0.6, rings: "=rings", segments: "=segments", oculus: 0.6,
+           bond: stack, springers: ground}
+"""
+    + PUSH
+)
+
+
+def _statics() -> list[Scene]:
+    family = "statically indeterminate to the thousands"
+    scenes = []
+    for n, long in ((16, False), (32, True)):
+        for h, word in ((1.0, "slides"), (4.0, "rocks")):
+            scenes += _both(
+                f"block on {n * n} fixed blocks, {word}",
+                family,
+                ON_MANY,
+                min(0.5, 1 / h),
+                overrides=(f"parameters.n={n}", f"parameters.h={h!r}"),
+                long=long,
+            )
+    for h, word in ((1.0, "slides"), (4.0, "rocks")):
+        scenes += _both(
+            f"block on 100 loose blocks, {word}",
+            family,
+            ON_LOOSE,
+            0.5 if word == "slides" else 0.238369047619,
+            1e-6 if word == "slides" else 1e-3,
+            overrides=("parameters.n=10", f"parameters.h={h!r}"),
+        )
+    for n, long in ((100, False), (2000, True)):
+        scenes += _both(
+            f"beam on {n} columns",
+            family,
+            BEAM,
+            beam_factor(n),
+            overrides=(f"parameters.n={n}",),
+            long=long,
+        )
+    return scenes
+
+
+def beam_factor(n: int) -> float:
+    """Columns 0.5 by 2 turn about their feet, the beam moves along with their upper edges; forces by moments.
+
+    One column of weight w, the share q of the beam on its upper left corner and lambda q along its head: moments about
+    its right foot w b/2 + q b = lambda (w h/2 + q h), with friction 0.5 at head and foot enough.
+    """
+    b, h, depth = 0.5, 2.0, 0.5
+    w, q = b * h, (n - 0.5) * depth / n
+    return (w * b / 2 + q * b) / (w * h / 2 + q * h)
+
+
+def _points() -> list[Scene]:
+    family = "hundreds of contact points in one interface"
+    scenes = []
+    for k in (10, 50):
+        for h, word in ((1.0, "slides"), (4.0, "rocks")):
+            scenes += _both(
+                f"{k} points on every edge, {word}",
+                family,
+                POINTS,
+                min(0.5, 1 / h),
+                overrides=(f"parameters.k={k}", f"parameters.h={h!r}"),
+                long=k > 10,
+            )
+    for n in (100, 360):
+        for h, word in ((1.0, "slides"), (4.0, "rocks")):
+            scenes += _both(
+                f"faces of {n} corners, {word}",
+                family,
+                CORNERS,
+                0.5 if h == 1.0 else 0.25 * math.cos(math.pi / n),
+                diagnosis=(OUTLINES,),
+                overrides=(f"parameters.n={n}", f"parameters.h={h!r}"),
+            )
+    return scenes
+
+
+def _symmetric() -> list[Scene]:
+    family = "symmetric, several mechanisms at once"
+    scenes = []
+    for n, long in ((2, False), (10, False), (100, True), (1000, True)):
+        for h, word in ((0.5, "slide"), (2.0, "rock")):
+            scenes += _both(
+                f"{n} equal columns, {word}",
+                family,
+                COLUMNS,
+                min(0.5, 0.5 / h),
+                overrides=(f"parameters.n={n}", f"parameters.h={h!r}"),
+                long=long,
+            )
+    scenes += _both("four columns under a slab", family, FOUR, four_factor())
+    scenes += _both("stack of which every joint slides", family, SLIDERS, 0.25, overrides=("parameters.n=19",))
+    scenes += _both("row of 200 blocks that all slide", family, ROW, 0.5)
+    scenes += _both("radial dome pushed", family, DOME, None, diagnosis=("solved",))
+    return scenes
+
+
+def four_factor() -> float:
+    """As for the beam: a quarter of the slab rides on the upper edge of each column."""
+    b, h = 0.5, 2.0
+    w, q = b * b * h, 2.5 * 2.5 * 0.25 / 4
+    return (w * b / 2 + q * b) / (w * h / 2 + q * h)
+
+
+def _touching() -> list[Scene]:
+    family = "contact in edges and points only"
+    return [
+        *_both("pyramid on its apex", family, PYRAMIDS, None, diagnosis=("no_equilibrium",)),
+        *_both("prism on its edge", family, EDGE, None, diagnosis=("no_equilibrium",)),
+        *_both("blocks that meet in edges and corners", family, CORNER, 0.5),
+    ]
+
+
+SCENES = (*_statics(), *_points(), *_symmetric(), *_touching())

@@ -1,0 +1,255 @@
+"""Structures whose load factor is zero, huge or without limit, and those that move under their dead load alone."""
+
+from __future__ import annotations
+
+from tests.extremes.outcome import Scene
+
+HEAD = """\
+mbla: 1
+materials: {stone: {density: 2000}}
+contacts: {joint: dry}
+"""
+RULES = ("associative", "non_associative")
+SMALLEST = 1e-9
+"""Of load factors near zero, absolute, in units of dead over live load: a millionth of the thousandth below which the
+program measures its errors by that size (``ZERO_FACTOR``) instead of by the factor itself."""
+FALLS, UNDECIDED, ENDLESS = "no_equilibrium", "not_verified", "unbounded"
+
+
+def _both(
+    name: str,
+    family: str,
+    deck: str,
+    expected: float | None,
+    tolerance: float = 1e-6,
+    diagnosis: tuple[str, ...] = (),
+    overrides: tuple[str, ...] = (),
+    *,
+    long: bool = False,
+) -> list[Scene]:
+    """With associative flow and without dilatancy."""
+    return [
+        Scene(
+            f"{name}, {rule}",
+            family,
+            deck,
+            (*overrides, f"analysis.flow_rule={rule}"),
+            expected,
+            tolerance,
+            diagnosis,
+            long,
+        )
+        for rule in RULES
+    ]
+
+
+def _tolerance(factor: float) -> float:
+    """Relative, or absolute for a load factor of zero."""
+    return max(1e-6, SMALLEST / factor) if factor > 0 else SMALLEST
+
+
+INCLINE = (
+    HEAD
+    + """\
+parameters: {mu: 0.5, more: 0, a: "=atan(mu) + more"}
+joints: {dry: {friction: "=mu"}}
+blocks:
+  - box: {group: block, material: stone, min: [-0.5, -0.5, 0], max: [0.5, 0.5, 0.2],
+          transform: {rotate: {axis: [0, -1, 0], angle: "=degrees(a)"}}}
+supports: [{ground: {point: [0, 0, 0], normal: ["=-sin(a)", 0, "=cos(a)"]}}]
+load_cases: {down: {live: [{acceleration: [-1, 0, 0]}]}}
+"""
+)
+"""Block on a slope, pushed down it: (mu - tan a)/(1 + mu tan a)."""
+
+TIPPING = (
+    HEAD
+    + """\
+parameters: {more: 0}
+joints: {dry: {friction: 0.8}}
+blocks:
+  - box: {group: base, material: stone, min: [-1, 0, 0], max: [0, 0.5, 0.2]}
+  - box: {group: top, material: stone, min: ["=-0.5 + more", 0, 0.2], max: ["=0.5 + more", 0.5, 0.4]}
+supports: [{blocks: base}]
+load_cases: {push: {live: [{acceleration: [1, 0, 0], on: top}]}}
+"""
+)
+"""A block with its centre of gravity over the edge of the one below, pushed outwards: -more/(h/2)."""
+
+OVERHANG = (
+    HEAD
+    + """\
+parameters: {s: 1, n: 12, weight: "=2000*9.81*0.1", tip: 0}
+joints: {dry: {friction: 0.7}}
+blocks:
+  - stack: {group: pile, material: stone, block: [1, 0.5, 0.2], count: "=n", overhang: "=s"}
+supports: [{ground: {z: 0}}]
+load_cases: {tip: {live: [{force: [0, 0, "=-weight"], on: {group: pile, drum: -1}, at: ["=1 + tip", 0.25, "=0.2*n"]}]}}
+"""
+)
+"""Harmonic overhang loaded at its tip: (1 - s)/s."""
+
+BLOCK = (
+    HEAD
+    + """\
+parameters: {mu: 0.5, live: 1, b: 1, h: 1}
+joints: {dry: {friction: "=mu"}}
+blocks:
+  - box: {group: block, material: stone, min: [0, 0, 0], max: ["=b", 1, "=h"]}
+supports: [{ground: {z: 0}}]
+load_cases: {push: {live: [{acceleration: ["=live", 0, 0]}]}}
+"""
+)
+"""One block on the ground: min(mu, b/h)/live."""
+
+PRESSED = (
+    HEAD
+    + """\
+joints: {dry: {friction: 0.5}}
+blocks:
+  - box: {group: block, material: stone, min: [0, 0, 0], max: [1, 1, 1]}
+supports: [{ground: {z: 0}}]
+load_cases: {push: {live: [{acceleration: [0, 0, -1]}]}}
+"""
+)
+
+TWO = (
+    HEAD
+    + """\
+joints: {dry: {friction: 0.5}}
+blocks:
+  - box: {group: safe, material: stone, min: [0, 0, 0], max: [1, 1, 1]}
+  - box: {group: slab, material: stone, min: [0, 0, 1], max: [3, 1, 1.2]}
+  - box: {group: loose, material: stone, min: [5, 0, 0], max: [6, 1, 1]}
+supports: [{ground: {z: 0}}]
+load_cases: {push: {live: [{acceleration: [1, 0, 0], on: loose}]}}
+"""
+)
+"""A slab that falls off by its own weight, beside a block that is pushed."""
+
+WEDGED = (
+    HEAD
+    + """\
+parameters: {mu: 0.5}
+joints: {dry: {friction: "=mu"}}
+blocks:
+  - box: {group: left, material: stone, min: [0, 0, 0], max: [1, 1, 1]}
+  - box: {group: middle, material: stone, min: [1, 0, 0], max: [2, 1, 1]}
+  - box: {group: right, material: stone, min: [2, 0, 0], max: [3, 1, 1]}
+supports: [{ground: {z: 0}}, {blocks: left}, {blocks: right}]
+load_cases: {push: {live: [{acceleration: [1, 0, 0]}]}}
+"""
+)
+"""A block between two that are fixed, pushed against one: nothing can give."""
+
+HOVERING = (
+    HEAD
+    + """\
+joints: {dry: {friction: 0.5}}
+blocks:
+  - box: {group: base, material: stone, min: [0, 0, 0], max: [1, 1, 1]}
+  - box: {group: hovering, material: stone, min: [0, 0, 2], max: [1, 1, 3]}
+supports: [{ground: {z: 0}}]
+load_cases: {push: {live: [{acceleration: [1, 0, 0]}]}}
+"""
+)
+
+WEIGHTLESS = BLOCK.replace("load_cases: {push: {", "load_cases: {push: {dead: [], ")
+
+
+def _no_margin() -> list[Scene]:
+    family, scenes = "no margin", []
+    for more in (0.0, 1e-12, -1e-12, 1e-9, -1e-9, 1e-6, -1e-6):
+        near = (UNDECIDED,) if abs(more) < 1e-8 else ()
+        slope = 0.5 + 1.25 * more
+        tipped = max(0.0, -more / 0.1)
+        factor = (0.5 - slope) / (1 + 0.5 * slope) if more < 0 else 0.0
+        falls = more > 0
+        scenes += _both(
+            f"incline {more:+.0e} over the angle of friction",
+            family,
+            INCLINE,
+            None if falls and not near else factor,
+            _tolerance(factor),
+            ((FALLS,) if falls or more == 0 else ()) + near,
+            (f"parameters.more={more!r}",),
+            long=abs(more) not in (0.0, 1e-9),
+        )
+        scenes += _both(
+            f"block {more:+.0e} beyond its tipping point",
+            family,
+            TIPPING,
+            None if falls and not near else tipped,
+            _tolerance(tipped),
+            ((FALLS,) if falls or more == 0 else ()) + near,
+            (f"parameters.more={more!r}",),
+            long=abs(more) not in (0.0, 1e-9),
+        )
+    for s in (1.0, 1 - 1e-8, 1 + 1e-8, 1 - 1e-6, 1 + 1e-6):
+        for n in (3, 12, 50):
+            tip = s / 2 * sum(1 / k for k in range(1, n))
+            near = abs(s - 1) < 1e-7
+            falls, factor = s > 1, max(0.0, (1 - s) / s)
+            scenes += _both(
+                f"overhang of {n} blocks, {s - 1:+.0e} of the limit",
+                family,
+                OVERHANG,
+                None if falls and not near else factor,
+                _tolerance(factor),
+                ((FALLS,) if falls or s == 1 else ()) + ((UNDECIDED,) if near else ()),
+                (f"parameters.s={s!r}", f"parameters.n={n}", f"parameters.tip={tip!r}"),
+                long=n != 12 or abs(s - 1) > 1e-7,
+            )
+    return scenes
+
+
+def _without_limit() -> list[Scene]:
+    family = "no live mechanism, and huge load factors"
+    scenes = [
+        *_both("block pressed on the ground", family, PRESSED, None, diagnosis=(ENDLESS,)),
+        *_both("block wedged between two that are fixed", family, WEDGED, None, diagnosis=(ENDLESS,)),
+    ]
+    for live in (1e-9, 1e-6, 1e6, 1e9):
+        scenes += _both(
+            f"one block, load factor {0.5 / live:.0e}",
+            family,
+            BLOCK,
+            0.5 / live,
+            overrides=(f"parameters.live={live!r}",),
+        )
+    for mu in (0.0, 1e-9):
+        scenes += _both(
+            f"one block, friction {mu:g}", "one block", BLOCK, mu, _tolerance(mu), overrides=(f"parameters.mu={mu!r}",)
+        )
+    for b in (1e-4, 1e-2, 1.0, 1e2, 1e4):
+        scenes += _both(
+            f"one block, breadth {b:g} of its height",
+            "one block",
+            BLOCK,
+            min(0.5, b),
+            overrides=(f"parameters.b={b!r}",),
+        )
+    scenes += _both("one block without weight", "one block", WEIGHTLESS, 0.0, 1e-9, long=True)
+    return scenes
+
+
+def _moving() -> list[Scene]:
+    family = "mechanism under the dead load"
+    return [
+        *_both("slab that tips off beside a block that is pushed", family, TWO, None, diagnosis=(FALLS,)),
+        *_both("block in the air", family, HOVERING, None, diagnosis=(FALLS,)),
+        *_both(
+            "one block on a slope too steep",
+            family,
+            INCLINE,
+            None,
+            diagnosis=(FALLS,),
+            overrides=("parameters.more=0.2",),
+        ),
+        *_both(
+            "overhang far beyond the limit", family, OVERHANG, None, diagnosis=(FALLS,), overrides=("parameters.s=1.5",)
+        ),
+    ]
+
+
+SCENES = (*_no_margin(), *_without_limit(), *_moving())
