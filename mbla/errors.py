@@ -84,6 +84,9 @@ class DeckError(MblaError):
         self.faults = tuple(sorted(faults, key=lambda f: (f.place.file, f.place.line, f.place.column)))
         super().__init__("\n".join(str(fault) for fault in self.faults))
 
+    def __reduce__(self) -> tuple[type[DeckError], tuple[tuple[Fault, ...]]]:
+        return type(self), (self.faults,)  # what it was made of: a process hands it on with its places
+
 
 @dataclass(frozen=True)
 class Notice:

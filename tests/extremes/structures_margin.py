@@ -188,15 +188,15 @@ def _no_margin() -> list[Scene]:
     for s in (1.0, 1 - 1e-8, 1 + 1e-8, 1 - 1e-6, 1 + 1e-6):
         for n in (3, 12, 50):
             tip = s / 2 * sum(1 / k for k in range(1, n))
-            near = abs(s - 1) < 1e-7
+            close = abs(s - 1) < 1e-7
             falls, factor = s > 1, max(0.0, (1 - s) / s)
             scenes += _both(
                 f"overhang of {n} blocks, {s - 1:+.0e} of the limit",
                 family,
                 OVERHANG,
-                None if falls and not near else factor,
+                None if falls and not close else factor,
                 _tolerance(factor),
-                ((FALLS,) if falls or s == 1 else ()) + ((UNDECIDED,) if near else ()),
+                ((FALLS,) if falls or s == 1 else ()) + ((UNDECIDED,) if close else ()),
                 (f"parameters.s={s!r}", f"parameters.n={n}", f"parameters.tip={tip!r}"),
                 long=n != 12 or abs(s - 1) > 1e-7,
             )
