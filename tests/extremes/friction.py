@@ -18,9 +18,11 @@ def frictions() -> Iterator[Scene]:
         for mu in FRICTIONS:
             value, overrides = float(mu), (f"parameters.mu={mu}", ruled(rule))
             name = f"{worded(rule)}, friction {mu}"
-            yield Scene(f"block, {name}", "friction", BLOCK, overrides, min(value, 0.5))
+            said = ("load-factor-rounding",) if value <= 1e-6 else ()
+            yield Scene(f"block, {name}", "friction", BLOCK, overrides, min(value, 0.5), diagnosis=said)
             if value <= 0.1:
-                yield Scene(f"wall, {name}", "friction", WALL, overrides, value, long=mu not in ("0", "1.0e-9"))
+                long = mu not in ("0", "1.0e-9")
+                yield Scene(f"wall, {name}", "friction", WALL, overrides, value, diagnosis=said, long=long)
                 yield Scene(f"arch, {name}", "friction", ARCH, overrides, None, diagnosis=("no_equilibrium",))
             else:
                 yield Scene(f"arch, {name}", "friction", ARCH, overrides, HINGES, long=mu not in ("10", "1.0e15"))

@@ -28,11 +28,11 @@ STACKED = (
 ON_FOOT = (
     HEAD
     + """\
-  - box: {group: foot, material: stone, min: ["=-a/2", "=-a/2", 0], max: ["=a/2", "=a/2", "=a"]}
-  - box: {group: block, material: stone, min: [-0.5, -0.5, "=a"], max: [0.5, 0.5, "=1+a"]}
+  - box: {group: foot, material: stone, min: ["=-a/2", "=-a/2", 0], max: ["=a/2", "=a/2", 0.1]}
+  - box: {group: block, material: stone, min: [-0.5, -0.5, 0.1], max: [0.5, 0.5, 1.1]}
 """
 )
-"""A cube of 1 m on a foot of a x a x a: over before anything slides."""
+"""A cube of 1 m on a foot of a x a x 0.1 m: over before anything slides."""
 PEBBLE = (
     HEAD.replace("[1, 0, 0]}", "[1, 0, 0], on: pebble}")
     + """\
@@ -49,6 +49,7 @@ GAP = (
 """
 )
 """Two blocks, one on the other with a gap: b/(2 h) = 0.25 for the two together."""
+FAR_APART = "magnitudes-far-apart"
 SIZE = 0.5 ** (1 / 3)
 """Of these blocks, to which contacts.tolerance is relative."""
 
@@ -76,9 +77,11 @@ def small() -> Iterator[Scene]:
             a = 10.0**k
             overrides = (f"parameters.a=1.0e{k}", ruled(rule))
             name = f"{worded(rule)}, interface 1e{2 * k} of the largest"
-            lever = (a**3 * a / 2 + (0.5 + a)) / (1 + a**3)
-            yield Scene(f"cube on a foot, {name}", "small interfaces", ON_FOOT, overrides, a / 2 / lever)
-            yield Scene(f"pebble on a slab, {name}", "small interfaces", PEBBLE, overrides, 0.4)
+            lever = (0.1 * a**2 * 0.05 + 0.6) / (1 + 0.1 * a**2)
+            said = (FAR_APART,) if k <= -4 or (k == -3 and rule != "associative") else ()
+            foot = a / 2 / lever
+            yield Scene(f"cube on a foot, {name}", "small interfaces", ON_FOOT, overrides, foot, diagnosis=said)
+            yield Scene(f"pebble on a slab, {name}", "small interfaces", PEBBLE, overrides, 0.4, diagnosis=said)
 
 
 def gaps() -> Iterator[Scene]:

@@ -19,7 +19,11 @@ blocks: [{box: {group: block, material: stone, min: [0, 0, 0], max: ["=b", 1, 1]
 """
 """Stress of self-weight 20 kPa; strengths are multiples of it."""
 
-CRUSHING = STRONG.replace("tensile_strength: \"=20000*ft\"", "compressive_strength: \"=20000*fc\"").replace("ft: 0", "fc: 1")
+SAID = ("magnitudes-far-apart",)
+
+CRUSHING = STRONG.replace('tensile_strength: "=20000*ft"', 'compressive_strength: "=20000*fc"').replace(
+    "ft: 0", "fc: 1"
+)
 
 
 def cohesive() -> Iterator[Scene]:
@@ -33,6 +37,7 @@ def cohesive() -> Iterator[Scene]:
                     STRONG,
                     (f"parameters.c=1.0e{k}", f"parameters.b={b}", ruled(rule)),
                     min(0.4 + 10.0**k, float(b)),
+                    diagnosis=SAID if k >= 8 else (),
                 )
 
 
@@ -46,6 +51,7 @@ def tensile() -> Iterator[Scene]:
                 STRONG,
                 (f"parameters.ft=1.0e{k}", f"parameters.c={20.0 + 20 * 10.0**k}", "parameters.mu=2", ruled(rule)),
                 0.5 * (1 + 10.0**k),
+                diagnosis=SAID if k >= 8 else (),
             )
 
 
