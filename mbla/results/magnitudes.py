@@ -45,8 +45,8 @@ def magnitude_notices(model: Model, contacts: Contacts, case: CaseResult, *, dou
         notices += [Notice("warning", "magnitudes-far-apart", text, name)] if words else []
     mechanics, unit = case.solution.mechanics, float(np.linalg.norm(scale.own)) / scale.live
     dead = np.any(case.load_case.dead_load[model.free])
-    valued = case.status in (Status.SOLVED, Status.APPROXIMATE) and mechanics is not None and dead
-    if valued and abs(mechanics.load_factor) < SMALL_FACTOR * unit:
+    valued = case.status in (Status.SOLVED, Status.APPROXIMATE) and dead
+    if valued and mechanics is not None and abs(mechanics.load_factor) < SMALL_FACTOR * unit:
         text = f"{name}: the load factor is zero as far as forces can tell, to about {PROVED_RESIDUAL * unit:.1e}"
         notices.append(Notice("notice", "load-factor-rounding", text, name))
     return notices
