@@ -40,6 +40,7 @@ def build_parser() -> argparse.ArgumentParser:
     _add_report(commands)
     _add_export(commands)
     _add_diff(commands)
+    _add_tradeoff(commands)
     _add_explain(commands)
     _add_schema_and_new(commands)
     return parser
@@ -79,14 +80,14 @@ def _add_check(commands: Any) -> None:
     command.add_argument("--vtu", action="store_true", help="write blocks and contacts for ParaView")
 
 
-def _add_deck_options(command: argparse.ArgumentParser) -> None:
+def _add_deck_options(command: argparse.ArgumentParser, extent: str = "") -> None:
     command.add_argument("-o", "--output", type=Path, metavar="DIR", help="folder of the results (default DECK.out)")
     command.add_argument(
         "--set",
         action="append",
         default=[],
         metavar="KEY.PATH=VALUE",
-        help="change a value of the deck (repeatable); items of lists by number, from 0",
+        help=f"change a value of the deck{extent and ' '}{extent} (repeatable); items of lists by number, from 0",
     )
     command.add_argument("--force", action="store_true", help="replace an earlier result")
     command.add_argument(
@@ -221,6 +222,46 @@ def _add_explain(commands: Any) -> None:
     command.add_argument("--json", action="store_true", help="one JSON object on standard output")
 
 
+def _add_tradeoff(commands: Any) -> None:
+    command = commands.add_parser(
+        "tradeoff",
+        help="speed against accuracy on a deck: table, CSV and plot",
+        description="Run a deck under a ladder of settings, each in a process of its own, and hold time, memory and "
+        "error against each other: table, STEM_tradeoff.csv, .json, and a picture of each load case (extra "
+        "mbla[pictures]). Without --knob and --setting the ladder has everything that applies to the deck.",
+        epilog="Exit status 0; 4 where no setting is verified that the others could be held against; 7 where the time "
+        "limit came before the reference.",
+    )
+    command.add_argument("deck", type=Path, metavar="DECK")
+    command.add_argument("--case", action="append", default=[], metavar="NAME", help="only this load case (repeatable)")
+    _add_deck_options(command, "for every setting")
+    command.add_argument(
+        "--knob",
+        action="append",
+        default=[],
+        metavar="KEY.PATH=V,V,...",
+        help="instead of the ladder: a setting for each value; of several, every combination (repeatable)",
+    )
+    command.add_argument(
+        "--setting",
+        action="append",
+        default=[],
+        metavar="'NAME: KEY.PATH=V ...'",
+        help="instead of the ladder: one setting under a name of its own (repeatable)",
+    )
+    command.add_argument(
+        "--wanted-error",
+        type=relative_above_zero,
+        default=1e-4,
+        metavar="E",
+        help="relative error for which a setting is advised (default 1e-4)",
+    )
+    command.add_argument("--time-limit", type=seconds, metavar="S", help="seconds for all settings together")
+    command.add_argument("--run-limit", type=seconds, metavar="S", help="seconds for each setting")
+    command.add_argument("--threads", type=threads, default=1, metavar="N", help="as of mbla run (default 1)")
+    command.add_argument("-q", "--quiet", action="store_true", help="say nothing but errors")
+
+
 def _add_schema_and_new(commands: Any) -> None:
     command = commands.add_parser("schema", help="print the JSON Schema of decks")
     command.add_argument("kind", nargs="?", choices=["deck"], default="deck")
@@ -245,6 +286,11 @@ def seconds(text: str) -> float:
 def relative(text: str) -> float:
     """A relative difference, zero or more."""
     return _number(text, float, lambda value: 0 <= value < float("inf"), "a relative difference, 0 or more")
+
+
+def relative_above_zero(text: str) -> float:
+    """A relative error above zero and below one."""
+    return _number(text, float, lambda value: 0 < value < 1, "a relative error between 0 and 1")
 
 
 def threads(text: str) -> int:

@@ -15,6 +15,7 @@ from mbla.model.model import LoadCase
 from mbla.program import assemble
 from mbla.program.kinematic import ConeProgram, kinematic_form
 from mbla.results.files import OutputFolder
+from mbla.results.needs import CaseNeeds
 from mbla.results.paraview.mesh_files import write_model_vtu
 from mbla.results.provenance import collect_provenance
 from mbla.results.results import Results
@@ -24,8 +25,8 @@ from mbla.settings_words import settings_in_words
 from mbla.solution.cone_solver import interior_point_method
 from mbla.solution.settings import solver_settings
 
-Needs = dict[str, dict[str, int | str]]
-"""Load case by name: what is counted, and how many; ``solver``: which takes its associative programs."""
+Needs = dict[str, CaseNeeds]
+"""By the name of the load case."""
 
 
 def check(deck: Deck, options: RunOptions, vtu: bool, started: float) -> tuple[Results, Needs]:
@@ -60,20 +61,21 @@ def check(deck: Deck, options: RunOptions, vtu: bool, started: float) -> tuple[R
     return results, {case.name: needs_of(deck, model, contacts, case) for case in select_cases(model, options.cases)}
 
 
-def needs_of(deck: Deck, model: Model, contacts: Contacts, load_case: LoadCase) -> dict[str, int | str]:
+def needs_of(deck: Deck, model: Model, contacts: Contacts, load_case: LoadCase) -> CaseNeeds:
     """What of the model reaches the solver, the size of its first cone programs, and who solves them."""
     model = model.of_case(load_case)
     solids = solids_of(model, contacts)
     program = assemble(solids.model, solids.contacts, solids.load_case(load_case))
-    reduced = reduced_program(deck, solids.model, solids.contacts, program)
+    reduced = reduced_program(deck, solids, program)
     programs = [kinematic_form(part, part.limits).cone_program for part in reduced.parts if np.any(part.live_load)]
-    return asdict(reduced.size) | {
+    counts = asdict(reduced.size) | {
         "unknown_velocities": sum(len(part.dead_load) for part in reduced.parts),
         "cones": sum(program.n_cones for program in programs),
         "half_lines": sum(program.n_half_lines for program in programs),
         "matrix_entries": sum(int(program.matrix.nnz) for program in programs),
         "solver": ", ".join(dict.fromkeys(_solver(deck, program) for program in programs)),
     }
+    return CaseNeeds(counts, reduced.steps)
 
 
 def _solver(deck: Deck, program: ConeProgram) -> str:

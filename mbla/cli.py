@@ -113,6 +113,31 @@ def _check(options: argparse.Namespace) -> int:
     return _each_deck(options, one, None)
 
 
+def _tradeoff(options: argparse.Namespace) -> int:
+    """Measure a deck under many settings; the table goes to standard output, with ``--json`` the object alone."""
+    _refuse_unfit_name(options.deck)
+    run_options = _run_options(options, override=False)
+    content, _ = _read(options.deck, run_options)
+    from mbla.results.records.json_record import json_line
+    from mbla.studies.tradeoff.command import tradeoff
+    from mbla.studies.tradeoff.words import study_lines
+
+    tell = None if options.quiet else _rung_progress()
+    study, record, remarks = tradeoff(content, run_options, options, tell)
+    _clear_progress(tell)
+    for remark in remarks:
+        _say(f"mbla: {remark}", 0)
+    if options.json:
+        print(json_line(record), flush=True)
+    if not options.quiet:
+        lines = [
+            *study_lines(study),
+            f"  files: {', '.join(record['files'])} in {run_options.folder_for(options.deck)}/",
+        ]
+        print("\n".join(lines), file=sys.stderr if options.json else sys.stdout, flush=True)
+    return study.exit_code
+
+
 def _schema(options: argparse.Namespace) -> int:
     from mbla.deck.schema import deck_schema
 
@@ -138,6 +163,7 @@ COMMANDS: dict[str, Callable[[argparse.Namespace], int]] = {
     "export": result_commands.export,
     "diff": result_commands.diff,
     "explain": result_commands.explain,
+    "tradeoff": _tradeoff,
     "schema": _schema,
     "new": _new,
 }
@@ -154,9 +180,10 @@ def _read(path: Path, options: RunOptions) -> tuple[Deck, float]:
     return read_deck(path, options.overrides), time.perf_counter() - started
 
 
-def _run_options(options: argparse.Namespace) -> RunOptions:
+def _run_options(options: argparse.Namespace, *, override: bool = True) -> RunOptions:
+    """Options of a run; those that stand for values of the deck become overrides unless the command means others."""
     overrides = list(options.set)
-    for name in ("accuracy", "flow_rule", "time_limit"):
+    for name in ("accuracy", "flow_rule", "time_limit") if override else ():
         value = getattr(options, name, None)
         if value is not None:
             overrides.append(f"analysis.{name}={value}")
@@ -256,6 +283,18 @@ def _progress() -> Progress | None:
     return show
 
 
-def _clear_progress(progress: Progress | None) -> None:
+def _rung_progress() -> Callable[[int, int, str, str], None] | None:
+    """The same for the settings of a study."""
+    if not sys.stderr.isatty():
+        return None
+
+    def show(number: int, count: int, name: str, case: str) -> None:
+        text = f"setting {number} of {count}: {name}" + (f", {case} done" if case else "")
+        print(f"\r{text[:78]:<78}", end="", file=sys.stderr, flush=True)
+
+    return show
+
+
+def _clear_progress(progress: Callable[..., None] | None) -> None:
     if progress is not None:
         print(f"\r{'':<78}\r", end="", file=sys.stderr, flush=True)

@@ -8,17 +8,25 @@ from mbla.errors import Notice
 from mbla.results.results import CaseResult
 from mbla.results.series import series_of
 from mbla.solution import Status
+from mbla.solution.verify import meets_what_was_asked
 
 
 def exit_code(cases: Sequence[CaseResult], differences: Sequence[Notice] = ()) -> int:
     """Exit status of a run: the gravest of its cases; a difference from what is expected counts as not verified.
 
-    Positions of a travelling load that bring nothing down are no failure where another is the worst.
+    An approximate case that is as sharp as its deck asks for is no failure: a draft ends well, and its status tells it
+    from a case that is solved. Nor are positions of a travelling load that bring nothing down where another is the
+    worst.
     """
     harmless = {id(case) for series in series_of(cases) if series.worst is not None for case in series.cases}
     judged = [case for case in cases if case.status is not Status.UNBOUNDED or id(case) not in harmless]
-    codes = {EXIT_CODES[case.status] for case in judged} | ({4} if differences else set())
+    codes = {0 if as_asked(case) else EXIT_CODES[case.status] for case in judged} | ({4} if differences else set())
     return next((code for code in GRAVEST_FIRST if code in codes), 0)
+
+
+def as_asked(case: CaseResult) -> bool:
+    """Whether a case is approximate only because its deck asks for no more (``gap``, ``residual``, a draft)."""
+    return case.status is Status.APPROXIMATE and meets_what_was_asked(case.solution, case.checks)
 
 
 EXIT_CODES = {

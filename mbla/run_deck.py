@@ -8,7 +8,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from mbla.contacts import Contacts, find_contacts
-from mbla.contacts.glue import held_model, solids_of
+from mbla.contacts.glue import Solids, held_model, solids_of
 from mbla.contacts.glue_findings import glue_findings
 from mbla.contacts.interface_points import PointsRefused
 from mbla.contacts.notices import overlap_messages
@@ -21,7 +21,9 @@ from mbla.model.model import LoadCase
 from mbla.model.settlement import with_reference
 from mbla.program import Program, assemble
 from mbla.program.convex import assemble_convex
-from mbla.program.reductions import Reduced, allowed_reductions, reduce_program
+from mbla.program.reductions import Reduced, allowed_reductions, reduce_program, unreduced
+from mbla.program.reductions.glued import glued_step
+from mbla.program.reductions.steps import size_of, told_apart
 from mbla.program.remarks import program_notices
 from mbla.results.files import OutputFolder
 from mbla.results.provenance import collect_provenance
@@ -142,7 +144,7 @@ def solve_case(
         if deck.analysis.contact_model == "convex":
             solution = solve_convex(assemble_convex(*on_solids), deck.analysis, settings, log)
         else:
-            reduced = reduced_program(deck, solids.model, solids.contacts, assemble(*on_solids))
+            reduced = reduced_program(deck, solids, assemble(*on_solids))
             solution = solve(reduced, deck.analysis, settings, log)
         solution = solution_on_blocks(solution, solids)
         return solution, verify(model, contacts, case, solution)
@@ -164,10 +166,16 @@ def with_loads_found(model: Model, cases: Sequence[CaseResult]) -> Model:
     return replace(model, load_cases=tuple(found.get(case.name, case) for case in model.load_cases))
 
 
-def reduced_program(deck: Deck, model: Model, contacts: Contacts, program: Program) -> Reduced:
-    """What of the program has to be solved."""
+def reduced_program(deck: Deck, solids: Solids, program: Program) -> Reduced:
+    """What of the program has to be solved, and what each reduction left out."""
     associative = deck.analysis.flow_rule == "associative"
-    return reduce_program(model, contacts, program, allowed_reductions(deck.analysis), associative=associative)
+    if deck.analysis.contact_model == "convex":  # conditions of whole interfaces: solved as they are
+        whole = unreduced(program, solids.contacts)
+        return replace(whole, steps=(glued_step(solids, size_of([program])),))
+    allowed = allowed_reductions(deck.analysis)
+    reduced = reduce_program(solids.model, solids.contacts, program, allowed, associative=associative)
+    steps = told_apart(reduced.steps, deck.analysis.reductions.model_dump())
+    return replace(reduced, steps=(glued_step(solids, steps[0].before), *steps))
 
 
 def contacts_of(deck: Deck, model: Model) -> Contacts:

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from mbla.deck import Deck
+from mbla.deck.accuracy import knobs_of
+from mbla.deck.analysis import AnalysisSection
 from mbla.solution.settings import SolverSettings
 
 
@@ -16,13 +18,12 @@ def settings_in_words(deck: Deck, settings: SolverSettings) -> dict[str, str]:
         "accuracy": analysis.accuracy,
         "solver": f"{analysis.solver}, {analysis.form} form",
         "tolerance": f"{settings.tolerance:g}",
+        **_knobs_in_words(analysis, settings),
         "max_iterations": str(settings.max_iterations),
         "contact_points": _points_in_words(deck),
         "contact_tolerance": f"{deck.contacts.tolerance:g}",
     }
-    if analysis.flow_rule == "associative":
-        words["forces"] = analysis.forces
-    elif analysis.flow_rule == "non_associative":
+    if analysis.flow_rule == "non_associative":
         words["scheme"] = analysis.scheme
         parameters = getattr(analysis, analysis.scheme, None)  # none for auto
         if parameters is not None:
@@ -33,6 +34,27 @@ def settings_in_words(deck: Deck, settings: SolverSettings) -> dict[str, str]:
     if analysis.time_limit is not None:
         words["time_limit"] = f"{analysis.time_limit:g} s"
     return words
+
+
+def _knobs_in_words(analysis: AnalysisSection, settings: SolverSettings) -> dict[str, str]:
+    """What accuracy sets, and the deck may set by itself, where it has an effect."""
+    knobs, associative = knobs_of(analysis), analysis.flow_rule == "associative"
+    words = {}
+    if analysis.contact_model == "concave" and analysis.friction_cone == "circular":
+        words["gap"] = f"{settings.gap:g}"
+    if analysis.flow_rule in ("non_associative", "dilatancy") and analysis.scheme != "published":
+        words["residual"] = f"{settings.residual:g}"
+    if analysis.contact_model == "concave" and associative:
+        words["forces"] = knobs.forces
+    elif analysis.contact_model == "concave":
+        words["range"] = _on(knobs.range)
+        if analysis.flow_rule == "non_associative":
+            words["peak"] = _on(knobs.peak)
+    return words | {"standing": _on(knobs.standing)}
+
+
+def _on(switch: bool) -> str:
+    return "true" if switch else "false"
 
 
 def _points_in_words(deck: Deck) -> str:

@@ -6,6 +6,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
+from mbla.deck.accuracy import Accuracy, Forces, set_by_accuracy
 from mbla.deck.quantities import Count, Quantity, Switch, Time, Whole
 from mbla.deck.section import Section
 
@@ -65,7 +66,9 @@ class ReductionSwitches(Section):
     planar: Switch = Field(True, description="planar structures are solved with three unknowns a block")
     mirror: Switch = Field(True, description="associative flow: only one half of a symmetric structure is solved")
     parts: Switch = Field(True, description="parts that cannot interact are solved apart")
+    unloaded: Switch = Field(True, description="parts without live load only have to stand, which is shown apart")
     points: Switch = Field(True, description="associative flow: contact points that cannot matter are left out")
+    merged: Switch = Field(True, description="contact points in one place and of one law are solved as one")
 
 
 class AnalysisSection(Section):
@@ -117,22 +120,48 @@ class AnalysisSection(Section):
     published: PublishedScheme = Field(
         default_factory=PublishedScheme, description="parameters of the published procedure"
     )
-    range: Switch = Field(
-        True, description="non-associative flow: least and greatest load factor for the mechanism found"
+    range: Switch | None = Field(
+        None,
+        description="flow other than associative: least and greatest load factor for the mechanism found; "
+        + set_by_accuracy("range"),
     )
-    standing: Switch = Field(True, description="assess whether the structure stands before any live load")
-    forces: Literal["least_squares", "solver"] = Field(
-        "least_squares",
-        description="contact forces of associative flow, which are not unique: the least ones, the same with every "
-        "solver; or as the solver left them",
+    peak: Switch | None = Field(
+        None,
+        description="non-associative flow: a greater load factor that the structure passes before it comes to rest, "
+        "looked for below 85 % of the associative one; " + set_by_accuracy("peak"),
+    )
+    standing: Switch | None = Field(
+        None,
+        description="assess whether the structure stands before any live load; "
+        + set_by_accuracy("standing")
+        + "; always true for flow other than associative, whose load factor depends on it",
+    )
+    forces: Forces | None = Field(
+        None,
+        description="contact forces of associative flow, which are not unique: least_squares, the least ones, the same "
+        "with every solver; or solver, as that left them; " + set_by_accuracy("forces"),
     )
     force_ranges: Switch = Field(
         False, description="how far the normal force of each interface can range at the load factor"
     )
     reductions: ReductionSwitches = Field(default_factory=ReductionSwitches, description="what is left out")
-    accuracy: Literal["draft", "standard", "reference"] = Field("standard", description="one word for every knob")
+    accuracy: Accuracy = Field(
+        "standard",
+        description="one word for tolerance, gap, residual, range, peak, standing and forces. draft: first looks and "
+        "sweeps, error below 1 %; standard: below 1e-4; reference: as close as double precision gives",
+    )
     tolerance: Annotated[float, Quantity("number", gt=0, le=1e-3)] | None = Field(
-        None, description="relative tolerance of the cone solver; set by accuracy unless given"
+        None, description="relative tolerance of the cone solver; " + set_by_accuracy("tolerance")
+    )
+    gap: Annotated[float, Quantity("number", gt=0, le=1e-2)] | None = Field(
+        None,
+        description="wanted distance of the proved bounds of the associative load factor, relative; further apart, its "
+        "program is solved again, more sharply; " + set_by_accuracy("gap"),
+    )
+    residual: Annotated[float, Quantity("number", gt=0, le=1e-2)] | None = Field(
+        None,
+        description="flow other than associative: wanted of the largest residual of the joint law; a scheme goes on "
+        "until it is reached, above 1e-6 no further; " + set_by_accuracy("residual"),
     )
     max_iterations: Count | None = Field(None, description="iterations of the cone solver for one program")
     time_limit: Time | None = Field(None, description="seconds for all load cases together")

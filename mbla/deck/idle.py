@@ -35,6 +35,11 @@ def _in_the_interior(analysis: AnalysisSection) -> bool:
     return _concave(analysis) and _with_scheme("auto", "interior", "lowest")(analysis)
 
 
+def _by_exact_law(analysis: AnalysisSection) -> bool:
+    published = analysis.scheme == "published" and _no_normality(analysis)
+    return analysis.flow_rule in ("non_associative", "dilatancy") and not published
+
+
 APPLIES: Mapping[str, tuple[Applies, str]] = {
     "sides": (lambda analysis: analysis.friction_cone == "polyhedral", "friction_cone: polyhedral"),
     "scheme": (_no_normality, "flow_rule: non_associative"),
@@ -43,6 +48,15 @@ APPLIES: Mapping[str, tuple[Applies, str]] = {
     "path": (_with_scheme("path"), "flow_rule: non_associative with scheme: path"),
     "lowest": (_with_scheme("lowest"), "flow_rule: non_associative with scheme: lowest"),
     "published": (_with_scheme("published"), "flow_rule: non_associative with scheme: published"),
+    "gap": (
+        lambda analysis: _concave(analysis) and analysis.friction_cone == "circular",
+        "contact_model: concave with friction_cone: circular",
+    ),
+    "residual": (_by_exact_law, "flow_rule: non_associative or dilatancy with another scheme than published"),
+    "peak": (
+        lambda analysis: _concave(analysis) and _no_normality(analysis),
+        "contact_model: concave with flow_rule: non_associative",
+    ),
     "range": (
         lambda analysis: _concave(analysis) and analysis.flow_rule != "associative",
         "contact_model: concave and another flow_rule than associative",

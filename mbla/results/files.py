@@ -101,6 +101,11 @@ class OutputFolder:
         else:
             self._discard()
 
+    def refuse(self, *names: str) -> None:
+        """Raise FileError now where files of these names are in the way, not after the work that would make them."""
+        for name in names:
+            self._refuse(name)
+
     def path(self, name: str) -> Path:
         """Where to write the file that will be ``name``; for libraries that write files themselves."""
         if not name or Path(name).name != name or name.startswith(PREFIX):

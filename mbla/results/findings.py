@@ -111,6 +111,7 @@ REMARKS = (
     Finding("peak-on-path", "warning", ("the peak is the collapse load",)),
     Finding("no-live-load-carried", "warning", ("no live load is carried",)),
     Finding("peak-not-seen", "warning", ("was not seen", "the load path was not followed")),
+    Finding("peak-not-examined", "warning", ("whether the structure carries more on the way was not examined",)),
     Finding("lowest-search", "notice", ("search for lower load factors (", "fit the joint law and are not counted")),
     Finding("lowest-search-not-begun", "warning", ("did not begin",)),
     Finding("range-not-found", "warning", ("end of the range",)),

@@ -61,6 +61,7 @@ class AssociativeResult:
     certificate : (n_rows,) velocities, non-dimensional, of a motion in which the dead load does more work than the
                   joints dissipate
     solver      : that the state comes from, empty without one: the program may have been solved by several
+    asked       : approximate: the distance of the bounds that was asked for, and reached; None where it was not
     """
 
     status: Status
@@ -69,6 +70,7 @@ class AssociativeResult:
     reason: str
     programs: tuple[ProgramRecord, ...]
     solver: str = ""
+    asked: float | None = None
 
 
 def solve_associative(
@@ -149,18 +151,22 @@ def _locked_both_ways(run: AssociativeRun, settings: SolverSettings) -> Associat
 
 
 def _with_load_factor(run: AssociativeRun, answer: ProvedAnswer) -> AssociativeResult:
-    gap, status, reason = answer.gap, Status.SOLVED, ""
+    gap, status, reason, asked = answer.gap, Status.SOLVED, "", None
     assert gap is not None
     if not gap.gap <= ACCEPTED_GAP:
         live = run.program.scaling.live
         status = Status.APPROXIMATE
+        asked = run.settings.gap if gap.gap <= run.settings.gap else None
+        apart = f"they could not be brought together ({answer.solution.verdict})"
+        if asked is not None:
+            apart = f"that is within the gap of {asked:g} that was asked for"
         reason = (
             f"forces prove a load factor of {gap.static * live:.8g}, velocities one of {gap.kinematic * live:.8g}: "
-            f"they could not be brought together ({answer.solution.verdict})"
+            f"{apart}"
         )
     forces, factor, velocities = gap.forces, gap.load_factor, gap.velocities
     state = law_state(run.program, run.program.limits.friction, forces, velocities, factor)
-    return AssociativeResult(status, state, None, reason, tuple(run.records), answer.solution.solver.lower())
+    return AssociativeResult(status, state, None, reason, tuple(run.records), answer.solution.solver.lower(), asked)
 
 
 def _carried(run: AssociativeRun, form: AssociativeForm, reverse: ConeSolution) -> bool:

@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
+from mbla.deck.accuracy import knobs_of
 from mbla.deck.analysis import AnalysisSection
 from mbla.program.convex import ConvexProgram
 from mbla.program.convex.friction_limit import torsion_reserve
@@ -45,7 +46,7 @@ def solve_convex(
             log(iteration)
 
     solution = _solved(convex, analysis, settings, record)
-    if analysis.standing:
+    if knobs_of(analysis).standing:
         solution = _with_standing(convex, solution, settings)
     return replace(solution, iterations=tuple(iterations), seconds=time.perf_counter() - started)
 
@@ -82,6 +83,7 @@ def _solved(convex: ConvexProgram, analysis: AnalysisSection, settings: SolverSe
         certificate_motions=motions,
         contact_model="convex",
         solver=settings.solver,
+        asked=None if sequence is None or associative.status is Status.APPROXIMATE else sequence.asked,
         lock=None if associative.lock is None else convex.points.scaling.forces(associative.lock) / live,
     )
 

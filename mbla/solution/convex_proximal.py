@@ -24,6 +24,7 @@ from mbla.solution.cone_solution import ConeSolution, Log
 from mbla.solution.cone_solver import interior_point_solver
 from mbla.solution.convex_law import ConvexLaw, convex_law, exact_convex_step
 from mbla.solution.convex_state import ConvexState, state_without_dilatancy
+from mbla.solution.proximal import AS_ASKED
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import ProgramRecord, Status
 
@@ -57,7 +58,10 @@ SPREAD_STEPS = 10
 
 @dataclass(frozen=True)
 class ConvexSequence:
-    """Best state of a sequence; spread of load factors non-dimensional; remarks one sentence each."""
+    """Best state of a sequence; spread of load factors non-dimensional; remarks one sentence each.
+
+    asked : approximate: the residual at which it was told to stop, and did
+    """
 
     status: Status
     state: ConvexState | None
@@ -65,6 +69,7 @@ class ConvexSequence:
     programs: tuple[ProgramRecord, ...]
     spread: tuple[float, float] | None = None
     remarks: tuple[str, ...] = ()
+    asked: float | None = None
 
 
 @dataclass
@@ -118,7 +123,7 @@ def solve_convex_proximal(
         state = _state_of(form, solution)
         run.states.append(state)
         run.add("convex step", solution, state.load_factor)
-        if state.residual <= EXACT:
+        if state.residual <= EXACT or _is_enough(run):
             break
         due = step >= FIRST_TRY and (step - FIRST_TRY) % TRY_EVERY == 0 and state.residual < NEAR
         if due and _exact(run, law, anchor, rho, state):
@@ -173,9 +178,23 @@ def _exact(run: _Run, law: ConvexLaw, anchor: FloatArray, rho: float, state: Con
     return fits
 
 
+def _is_enough(run: _Run) -> bool:
+    """Whether a rough state is asked for and here: residual and change of the load factor at most that."""
+    wanted, states = run.settings.residual, run.states[-2:]
+    if wanted <= SOLVED or len(states) < 2 or states[-1].residual > wanted:
+        return False
+    return abs(states[-1].load_factor - states[-2].load_factor) <= wanted * abs(states[-1].load_factor)
+
+
 def _finished(run: _Run, max_programs: int) -> ConvexSequence:
     best = min(run.states, key=lambda state: state.residual)
-    records = tuple(run.records)
+    records, wanted = tuple(run.records), run.settings.residual
+    if best.residual > SOLVED and _is_enough(run):
+        best = run.states[-1]
+        words = AS_ASKED.format(best.residual, wanted)
+        if best.residual <= WARNED:
+            return ConvexSequence(Status.SOLVED, best, "", records, remarks=(words,))
+        return ConvexSequence(Status.APPROXIMATE, best, words, records, asked=wanted)
     if best.residual <= SOLVED:
         return ConvexSequence(Status.SOLVED, best, "", records)
     words = (

@@ -82,23 +82,23 @@ def solve_dilatancy(
     direct = tries.along([angle], gravity)
     if direct.status is Status.TIME_LIMIT or not np.any(angle > 0.0):
         return direct
-    if _fits(direct):
+    if _fits(tries, direct):
         return direct if above is None else _with_state_from_above(tries, direct, angle, above)
     raised = tries.along([share * angle for share in (0.0, *SHARES)], gravity)
-    if _fits(raised) or above is None:
+    if _fits(tries, raised) or above is None:
         return _best_of(tries, direct, raised)
     lowered = tries.along([most + share * (angle - most) for share in SHARES], above)
     remark = "this state was reached from the forces of associative flow, and others may lie below it"
     return _best_of(tries, direct, raised, replace(lowered, remarks=(*lowered.remarks, remark)))
 
 
-def _fits(result: SequenceResult) -> bool:
-    return result.state is not None and result.state.residual <= SOLVED
+def _fits(tries: _Tries, result: SequenceResult) -> bool:
+    return result.state is not None and result.state.residual <= max(SOLVED, tries.settings.residual)
 
 
 def _best_of(tries: _Tries, *results: SequenceResult) -> SequenceResult:
     """The first that fits the law, else the one that fits it best."""
-    best = next((result for result in results if _fits(result)), None)
+    best = next((result for result in results if _fits(tries, result)), None)
     if best is None:
         best = min(results, key=lambda result: np.inf if result.state is None else result.state.residual)
     return replace(best, programs=tuple(tries.records))
@@ -112,7 +112,7 @@ def _with_state_from_above(
     from_above = replace(tries, most_steps=FROM_ABOVE).along([angle], above)
     here = direct.state.load_factor
     result = replace(direct, programs=tuple(tries.records))
-    if not _fits(from_above) or from_above.state is None:
+    if not _fits(tries, from_above) or from_above.state is None:
         return result
     there = from_above.state.load_factor
     if abs(there - here) <= DIFFERENT * max(abs(here), abs(there)):

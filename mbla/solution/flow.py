@@ -23,8 +23,7 @@ from mbla.solution.published import solve_published
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Status
 
-STALLED = 1e-6
-"""Residual of the proximal scheme beyond which ``auto`` goes on to the interior path."""
+NOT_REACHED = "forces and velocities miss the law by {:.2g}: the residual of {:g} that was asked for was not reached"
 
 NOT_PUBLISHED = (
     "the published procedure starts from associative forces, of which there are none here: the proximal scheme was "
@@ -56,8 +55,17 @@ def solve_flow(flow: Flow) -> SequenceResult:
     if flow.analysis.flow_rule == "livesley":
         return _livesley(flow)
     if flow.analysis.flow_rule == "dilatancy":
-        return _dilatancy(flow)
-    return SCHEMES[flow.analysis.scheme](flow)
+        return _with_shortfall(flow, _dilatancy(flow))
+    sequence = SCHEMES[flow.analysis.scheme](flow)
+    return sequence if flow.analysis.scheme == "published" else _with_shortfall(flow, sequence)
+
+
+def _with_shortfall(flow: Flow, sequence: SequenceResult) -> SequenceResult:
+    """The same, with a remark where it is solved, but not as sharply as was asked for."""
+    state, wanted = sequence.state, flow.settings.residual
+    if state is None or sequence.status is not Status.SOLVED or state.residual <= wanted:
+        return sequence
+    return replace(sequence, remarks=(*sequence.remarks, NOT_REACHED.format(state.residual, wanted)))
 
 
 def _proximal(flow: Flow) -> SequenceResult:
@@ -69,9 +77,9 @@ def _interior(flow: Flow) -> SequenceResult:
 
 
 def _auto(flow: Flow) -> SequenceResult:
-    """The proximal scheme, and the interior path where that stalls."""
+    """The proximal scheme, and the interior path where that stalls above the residual that is asked for."""
     sequence = _proximal(flow)
-    if sequence.state is not None and sequence.state.residual <= STALLED:
+    if sequence.state is not None and sequence.state.residual <= flow.settings.residual:
         return sequence
     if sequence.status is Status.TIME_LIMIT:
         return sequence

@@ -34,6 +34,7 @@ class SequenceResult:
     spread  : least and greatest load factor of several tries that did not agree, non-dimensional
     remarks : what a reader of the figure must know, one sentence each
     path    : the load path, where one was followed, load factors of the model
+    asked   : approximate: the residual at which the scheme was told to stop, and did; None where it fell short of it
     """
 
     status: Status
@@ -43,6 +44,7 @@ class SequenceResult:
     spread: tuple[float, float] | None = None
     remarks: tuple[str, ...] = ()
     path: tuple[PathPoint, ...] = ()
+    asked: float | None = None
 
 
 def law_state(
@@ -69,3 +71,22 @@ def law_state(
     closing = float(np.where(crushable, 0.0, np.maximum(-v[:, 0], 0.0)).max(initial=0.0)) / speed
     excess = float(yield_violation(forces, limits).max(initial=0.0))
     return LawState(forces, velocities, load_factor, max(excess, closing, float(unexplained.sum()) / balance))
+
+
+def residual_with_closing(program: Program, slope: FloatArray | float, state: LawState) -> float:
+    """The residual of a state as verification sees it: what normal forces do where joints close counts too.
+
+    Close to the law that is of second order, and ``law_state`` leaves it out; of a rough state it may be the most.
+    """
+    limits = program.limits
+    v = (program.equilibrium_matrix.T @ state.velocities).reshape(-1, program.components)
+    sliding = np.linalg.norm(v[:, 1:], axis=1)
+    strength = limits.friction * state.forces[:, 0] + limits.cohesion
+    surplus = v[:, 0] - slope * sliding
+    closing = np.where(np.isfinite(limits.compression), 0.0, np.maximum(-surplus, 0.0))
+    unexplained = np.abs(strength * sliding + (state.forces[:, 1:] * v[:, 1:]).sum(axis=1))
+    unexplained += np.abs((state.forces[:, 0] + limits.tension) * np.maximum(surplus, 0.0))
+    unexplained += np.abs(state.forces[:, 0] * closing)
+    dead_power = abs(float(program.dead_load @ state.velocities))
+    balance = max(abs(state.load_factor), float(np.abs(strength) @ sliding), dead_power, 1e-300)
+    return max(state.residual, float(unexplained.sum()) / balance)

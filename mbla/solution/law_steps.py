@@ -92,15 +92,9 @@ def next_step(stepper: Stepper, anchor: FloatArray, rho: float, before: Step | N
     before : the step that led to ``anchor``
     number : of the step in the sequence, for the log
     """
-    work = 0
-    if before is not None and before.exact:
-        start = continued(stepper, before, anchor)
-        if start is not None:
-            size = before.rho / LONGER if before.by_continuation else rho
-            step = exact_step(stepper.stiffness, stepper.slope, anchor, size, *start, NEWTON_STEPS)
-            work = 1 + step.factorizations
-            if step.residual <= FITS:
-                return replace(_step_of(anchor, size, step, work), by_continuation=True)
+    step, work = continuing_step(stepper, anchor, rho, before)
+    if step is not None:
+        return step
     law = exact_law(stepper.program, stepper.slope)
     if before is not None and _moved(before, anchor) < CREEPING:
         result = _interior(stepper, law, anchor, before.rho / LONGER, before, number, START_SHARE)
@@ -116,6 +110,17 @@ def next_step(stepper: Stepper, anchor: FloatArray, rho: float, before: Step | N
             step_made = _polished(stepper, anchor, size, result, work)
             return replace(step_made, shorter=shorter)
     return None
+
+
+def continuing_step(stepper: Stepper, anchor: FloatArray, rho: float, before: Step | None) -> tuple[Step | None, int]:
+    """The step that Newton's method finds where the joints go on as before, None where it finds none; its work."""
+    start = None if before is None or not before.exact else continued(stepper, before, anchor)
+    if before is None or start is None:
+        return None, 0
+    size = before.rho / LONGER if before.by_continuation else rho
+    step = exact_step(stepper.stiffness, stepper.slope, anchor, size, *start, NEWTON_STEPS)
+    work = 1 + step.factorizations
+    return (replace(_step_of(anchor, size, step, work), by_continuation=True) if step.residual <= FITS else None), work
 
 
 def lagged_step(stepper: Stepper, anchor: FloatArray, rho: float, number: int) -> Step | None:

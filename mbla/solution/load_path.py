@@ -151,7 +151,7 @@ def _end_of(run: ProximalRun, path: _Path, scale: float) -> SequenceResult:
     """The mechanism at the end of the path, or the path as stalled."""
     found = steps_from(run, path.last.forces, LAST_STEPS)
     reached, live = path.last.load_factor, run.program.scaling.live
-    if found.state is None or found.state.residual > SOLVED:
+    if found.state is None or found.state.residual > max(SOLVED, run.stepper.settings.residual):
         return _stalled(run, path, "no mechanism that fits the law was found there")
     if abs(found.state.load_factor - reached) > MEETS * max(scale, abs(reached)):
         away = f"{found.state.load_factor * live:.6g}"

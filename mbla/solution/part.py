@@ -73,6 +73,14 @@ class PartResult:
         return self.associative.reason if self.sequence is None else self.sequence.reason or self.associative.reason
 
     @property
+    def asked(self) -> float | None:
+        """Gap or residual that was asked for, and reached, where the part is approximate for no other reason."""
+        if self.sequence is None or self.sequence.status is Status.SOLVED:
+            return self.associative.asked
+        exact_start = self.associative.status in (Status.SOLVED, Status.UNBOUNDED)
+        return self.sequence.asked if exact_start or self.associative.asked is not None else None
+
+    @property
     def programs(self) -> tuple[ProgramRecord, ...]:
         """All cone programs that were solved for it."""
         own = self.associative.programs if self.sequence is None else self.sequence.programs

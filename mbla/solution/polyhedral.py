@@ -113,6 +113,7 @@ def solve_with_opinion(
 
     A status that the other solver does not confirm is lowered.
     """
+    settings = replace(settings, gap=min(settings.gap, AGREE))  # what is rougher could not agree
     made = FORMS[form](program, facets)
     result = solve_associative(program, settings, log, form=made, first=first)
     if result.state is None:

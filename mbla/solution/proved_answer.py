@@ -149,7 +149,8 @@ def is_decided(run: AssociativeRun, answer: ProvedAnswer) -> bool:
         return True
     if answer.gap is None or not answer.gap.gap <= run.settings.gap:
         return False
-    return abs(answer.gap.kinematic - answer.gap.static) <= ACCEPTED_GAP * abs(answer.gap.kinematic)
+    share = max(ACCEPTED_GAP, run.settings.gap)
+    return abs(answer.gap.kinematic - answer.gap.static) <= share * abs(answer.gap.kinematic)
 
 
 def better(first: ProvedAnswer, second: ProvedAnswer) -> ProvedAnswer:

@@ -31,8 +31,8 @@ from mbla.program.program import Program
 from mbla.solution.associative import AssociativeResult
 from mbla.solution.cone_solution import ConeSolution, Log
 from mbla.solution.gravity import gravity_forces
-from mbla.solution.law_state import LawState, SequenceResult, law_state
-from mbla.solution.law_steps import Step, Stepper, lagged_step, next_step
+from mbla.solution.law_state import LawState, SequenceResult, law_state, residual_with_closing
+from mbla.solution.law_steps import Step, Stepper, continuing_step, lagged_step, next_step
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import ProgramRecord, Status
 from mbla.solution.stiffness import stiffness_of
@@ -59,6 +59,8 @@ SOLVED = 1e-6
 WARNED = 1e-4
 APPROXIMATE = 1e-2
 """Residuals up to which a state that did not come to rest is solved, solved with a warning, approximate."""
+
+AS_ASKED = "forces and velocities miss the law by {:.2g}, within the residual of {:g} that was asked for"
 
 BELOW_PEAK = 1e-2
 """Share by which the load factor may lie below one that the steps passed through before that is remarked on."""
@@ -127,6 +129,8 @@ def steps_from(run: ProximalRun, anchor: FloatArray, max_programs: int) -> Seque
         fitting += state.residual <= FITTING
         if (state.residual <= EXACT and _settled(run.states[first:])) or fitting > LAST_STEPS:
             return finished(run, "")
+        if _is_enough(run, run.states[first:]):
+            return _as_asked(run, step, rho)
         if _stands_still(run.states[first:]):
             return finished(run, "the steps came no closer")
         if late:
@@ -158,6 +162,40 @@ def _settled(states: list[LawState]) -> bool:
     """Whether the last step left the load factor where it was."""
     here, before = states[-1].load_factor, states[-2].load_factor if len(states) > 1 else np.inf
     return abs(here - before) <= SETTLED * max(abs(here), abs(before)) or (here == 0.0 and before == 0.0)
+
+
+def _is_enough(run: ProximalRun, states: list[LawState]) -> bool:
+    """Whether a rough state is asked for and here: residual and change of the load factor at most that.
+
+    Below ``SOLVED`` the steps go on until they rest: the last ones, close to the end, cost little.
+    """
+    wanted = run.stepper.settings.residual
+    if wanted <= SOLVED or len(states) < 2 or states[-1].residual > wanted:
+        return False
+    here, before = states[-1].load_factor, states[-2].load_factor
+    near = abs(here - before) <= wanted * abs(here)
+    return near and residual_with_closing(run.program, run.stepper.slope, states[-1]) <= wanted
+
+
+def _as_asked(run: ProximalRun, last: Step, rho: float) -> SequenceResult:
+    """The last state, or the one after it where Newton's method alone leads there: that is often the end itself."""
+    started = time.perf_counter()
+    further, _ = continuing_step(run.stepper, last.forces, min(rho, step_size(run.program, last.forces)), last)
+    state = run.states[-1]
+    if further is not None:
+        after = _keep(run, EXACT_STEP, further, time.perf_counter() - started)
+        state = after if after.residual <= state.residual else state
+    return rough_result(state, run.stepper.settings.residual, tuple(run.records))
+
+
+def rough_result(state: LawState, wanted: float, records: tuple[ProgramRecord, ...]) -> SequenceResult:
+    """A state at which a scheme was told to stop, by ``wanted`` above ``SOLVED``, judged by its residual."""
+    if state.residual <= SOLVED:
+        return SequenceResult(Status.SOLVED, state, "", records)
+    words = AS_ASKED.format(state.residual, wanted)
+    if state.residual <= WARNED:
+        return SequenceResult(Status.SOLVED, state, "", records, remarks=(words,))
+    return SequenceResult(Status.APPROXIMATE, state, words, records, asked=wanted)
 
 
 def _stands_still(states: list[LawState]) -> bool:

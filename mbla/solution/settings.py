@@ -5,18 +5,11 @@ from __future__ import annotations
 import time
 from dataclasses import dataclass
 
+from mbla.deck.accuracy import PRESETS, knobs_of
 from mbla.deck.types import AnalysisSection
-
-SOLVER_TOLERANCE = {"draft": 1e-7, "standard": 1e-9, "reference": 1e-10}
-"""Tolerance of the cone solver; the error of the load factor is not this figure but the gap of the verified bounds.
-
-A hundredth of the tolerance costs two iterations of thirty, solving again because the bounds lie apart thirty."""
 
 MAX_ITERATIONS = 300
 """Iterations of one program; walls of 10,000 blocks need about 70."""
-
-GAP = {"draft": 5e-6, "standard": 3e-7, "reference": 5e-8}
-"""Distance of the proved bounds, relative, beyond which an associative program is solved again, more sharply."""
 
 
 @dataclass(frozen=True)
@@ -32,6 +25,7 @@ class SolverSettings:
     factorization  : of clarabel, qdldl or mkl; None: by size of the program and by what is installed
     cholesky       : of the condensed method, qdldl, pardiso or cholmod; None likewise
     gap            : relative distance of the proved bounds that an associative load factor should have
+    residual       : of the joint law without normality at which a scheme has found its state
     """
 
     tolerance: float
@@ -40,19 +34,21 @@ class SolverSettings:
     threads: int = 1
     deadline: float | None = None
     solver: str = "auto"
-    gap: float = GAP["standard"]
+    gap: float = PRESETS["standard"].gap
+    residual: float = PRESETS["standard"].residual
     factorization: str | None = None
     cholesky: str | None = None
 
 
 def solver_settings(analysis: AnalysisSection, threads: int = 1) -> SolverSettings:
     """Settings that a deck asks for; the time limit starts now."""
-    tolerance = analysis.tolerance or SOLVER_TOLERANCE[analysis.accuracy]
+    knobs = knobs_of(analysis)
     return SolverSettings(
-        tolerance=tolerance,
+        tolerance=knobs.tolerance,
         max_iterations=analysis.max_iterations or MAX_ITERATIONS,
         threads=threads,
         deadline=None if analysis.time_limit is None else time.monotonic() + analysis.time_limit,
         solver=analysis.solver,
-        gap=GAP[analysis.accuracy],
+        gap=knobs.gap,
+        residual=knobs.residual,
     )

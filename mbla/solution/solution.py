@@ -7,6 +7,7 @@ from enum import IntEnum, StrEnum
 
 from mbla.arrays import FloatArray, IntArray
 from mbla.program.reductions import ModelSize as ModelSize
+from mbla.program.reductions import ReductionStep as ReductionStep
 
 
 class Status(StrEnum):
@@ -158,7 +159,10 @@ class Solution:
     force_ranges: (n_interfaces, 2) least and greatest normal force at the load factor, on request
     path        : steps of the load path that was followed
     size        : what reached the solver
+    reductions  : what each reduction left out, in the order in which they were applied; empty where none was looked for
     solver      : that was asked for, as in ``analysis.solver``; ``programs`` say which took each
+    asked       : approximate: gap of the bounds (associative flow) or residual (other flow) that the analysis asks for,
+                  where the answer is no sharper only because no more was asked for; None otherwise
     """
 
     flow_rule: str
@@ -186,6 +190,8 @@ class Solution:
     certificate_motions: FloatArray | None = None
     contact_model: str = "concave"
     solver: str = "auto"
+    asked: float | None = None
+    reductions: tuple[ReductionStep, ...] = ()
 
 
 @dataclass(frozen=True)

@@ -57,9 +57,16 @@ class _Stage:
     log: Log
     more: list[ProgramRecord] = field(default_factory=list)
 
-    def mechanics(self, part: int, state: LawState | None, flow_rule: str) -> Mechanics | None:
-        """A state of one part as mechanics of the whole model; None where the other parts do not carry it."""
-        whole = None if state is None else whole_state(self.parts, part, state, self.settings, self.log)
+    def mechanics(
+        self, part: int, state: LawState | None, flow_rule: str, collapse: Sequence[LawState | None] = ()
+    ) -> Mechanics | None:
+        """A state of one part as mechanics of the whole model; None where the other parts do not carry it.
+
+        collapse : of each part its own state at collapse
+        """
+        if state is None:
+            return None
+        whole = whole_state(self.parts, part, state, self.settings, self.log, collapse)
         return None if whole is None else mechanics_of(*whole, flow_rule)
 
 
@@ -92,6 +99,7 @@ def solve(reduced: Reduced, analysis: AnalysisSection, settings: SolverSettings,
         iterations=tuple(iterations),
         seconds=time.perf_counter() - started,
         size=reduced.size,
+        reductions=reduced.steps,
         solver=settings.solver,
     )
 
@@ -136,10 +144,12 @@ def _with_load_factor(
     stage: _Stage, analysis: AnalysisSection, results: Sequence[PartResult], first: int, first_associative: int
 ) -> Solution:
     result = results[first]
+    solved = [each.associative.state for each in results]
     remarks = [remark for each in results for remark in each.remarks]
     solution = replace(
         _solution(analysis, *_claim(results, first)),
-        associative=stage.mechanics(first_associative, results[first_associative].associative.state, "associative"),
+        asked=_asked(results),
+        associative=stage.mechanics(first_associative, solved[first_associative], "associative", solved),
         outer=_outer(stage, results),
     )
     state = result.state if result.least is None else result.least
@@ -147,13 +157,16 @@ def _with_load_factor(
         ranges, words = _force_ranges(stage, first, state)
         solution, remarks = replace(solution, force_ranges=ranges), [*remarks, *words]
     if result.sequence is None:
-        mechanics = solution.associative if result.least is None else stage.mechanics(first, state, "associative")
+        least = [each.least or each.associative.state for each in results]
+        mechanics = solution.associative
+        if result.least is not None:
+            mechanics = stage.mechanics(first, state, "associative", least)
         return replace(solution, mechanics=mechanics, remarks=tuple(remarks))
     sequence, ends, rule = result.sequence, result.range, analysis.flow_rule
     words = [ends.reason] if ends is not None and ends.reason else []
     return replace(
         solution,
-        mechanics=stage.mechanics(first, sequence.state, rule),
+        mechanics=stage.mechanics(first, sequence.state, rule, [each.state for each in results]),
         lower=None if ends is None else stage.mechanics(first, ends.lower, rule),
         upper=None if ends is None else stage.mechanics(first, ends.upper, rule),
         peak=stage.mechanics(first, result.peak, rule),
@@ -169,6 +182,14 @@ def _claim(results: Sequence[PartResult], first: int) -> tuple[Status, str]:
     open_parts = [result for result in results if result.loaded and result.status not in DECIDED]
     result = results[first] if results[first].status not in DECIDED or not open_parts else open_parts[0]
     return result.status, result.reason
+
+
+def _asked(results: Sequence[PartResult]) -> float | None:
+    """Gap or residual asked for where every part that is not solved is approximate because of it; else None."""
+    open_parts = [result for result in results if result.loaded and result.status not in DECIDED]
+    asked = [result.asked for result in open_parts if result.status is Status.APPROXIMATE]
+    known = [value for value in asked if value is not None]
+    return max(known) if known and len(known) == len(open_parts) else None
 
 
 def _in_load_factors(program: Program, spread: tuple[float, float] | None) -> tuple[float, float] | None:

@@ -33,7 +33,7 @@ def newtons_method(problem: SpringProblem, kappa: float, u: FloatArray) -> tuple
         step = None if problem.late else newton_step(problem, kappa, now, lagged=False)
         if step is None:
             return False, nearest
-        u, now = _backtracked(problem, kappa, u, step, float(np.linalg.norm(now.unbalanced)))
+        u, now = _backtracked(problem, kappa, u, step, now)
         norm = float(np.linalg.norm(now.unbalanced))
         if norm < least:
             nearest, least, uphill = u, norm, 0
@@ -43,10 +43,11 @@ def newtons_method(problem: SpringProblem, kappa: float, u: FloatArray) -> tuple
 
 
 def _backtracked(
-    problem: SpringProblem, kappa: float, u: FloatArray, step: FloatArray, norm: float
+    problem: SpringProblem, kappa: float, u: FloatArray, step: FloatArray, now: Joints
 ) -> tuple[FloatArray, Joints]:
     """The first of ever shorter steps that comes nearer to balance, or else the one that comes nearest."""
-    size, best = 1.0, (np.inf, u, joints_at(problem, kappa, u, None))
+    norm = float(np.linalg.norm(now.unbalanced))
+    size, best = 1.0, (np.inf, u, now)
     for _ in range(BACKTRACKS):
         trial = joints_at(problem, kappa, u + size * step, None)
         here = float(np.linalg.norm(trial.unbalanced))

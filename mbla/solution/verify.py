@@ -107,6 +107,28 @@ def verified_status(solution: Solution, checks: Checks) -> Status:
     return Status.APPROXIMATE if all(value <= APPROXIMATE_RESIDUAL for value in measures) else Status.NOT_VERIFIED
 
 
+def meets_what_was_asked(solution: Solution, checks: Checks) -> bool:
+    """Whether an approximate answer is as sharp as the analysis asks for, by the figures of the verification.
+
+    Associative flow: its proved bounds lie within the gap asked for. Other flow: every residual is within the one asked
+    for, and the load factor not above the proved kinematic bound by more than that.
+    """
+    asked = solution.asked
+    if asked is None or solution.mechanics is None or not abs(checks.live_power - 1.0) <= LIVE_POWER:
+        return False
+    residuals = (
+        checks.equilibrium_residual,
+        checks.yield_violation,
+        checks.penetration,
+        checks.complementarity_residual,
+        checks.power_balance,
+    )
+    if solution.flow_rule == "associative":
+        return checks.gap <= asked and all(value <= APPROXIMATE_RESIDUAL for value in residuals)
+    above = _above(solution, checks.kinematic_bound, asked * abs(checks.kinematic_bound))
+    return not above and all(value <= asked for value in residuals)
+
+
 def dilatancy_of(limits: YieldLimits, flow_rule: str) -> FloatArray:
     """Tangent of the dilatancy angle that a flow rule claims, (n_points,)."""
     return {

@@ -21,13 +21,25 @@ from mbla.solution.mechanics import lifted
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Status
 
+SAME_FACTOR = 1e-7
+"""Relative difference of load factors within which a part is about to collapse as well. Of it no forces but those of
+its own collapse are asked for: at its load factor a program that looks for the least ones has hardly an inside, and of
+two equal walls the forces found for the second were too rough for a static bound."""
+
 
 def whole_state(
-    parts: Sequence[Program], part: int, state: LawState, settings: SolverSettings, log: Log
+    parts: Sequence[Program],
+    part: int,
+    state: LawState,
+    settings: SolverSettings,
+    log: Log,
+    collapse: Sequence[LawState | None] = (),
 ) -> tuple[Program, LawState] | None:
     """A state of one part as one of the whole model, the other parts at rest; None where these do not carry it.
 
     A single part is returned as it is.
+
+    collapse : of each part its own state at collapse, None where there is none; nothing where none is known
     """
     if len(parts) == 1:
         return parts[0], state
@@ -36,7 +48,8 @@ def whole_state(
     for number, other in enumerate(parts):
         own: LawState | None = state
         if number != part:
-            own = at_rest(other, state.load_factor, settings, log)
+            own = _about_to_collapse(collapse[number] if collapse else None, state.load_factor)
+            own = own or at_rest(other, state.load_factor, settings, log)
         if own is None:
             return None
         program, own = to_full(other, own)
@@ -47,6 +60,13 @@ def whole_state(
             total = LawState(forces, velocities, state.load_factor, state.residual)
     assert total is not None
     return program, total
+
+
+def _about_to_collapse(collapse: LawState | None, load_factor: float) -> LawState | None:
+    """Forces of a part at its own collapse, without motion, where that is at the load factor given."""
+    if collapse is None or abs(collapse.load_factor - load_factor) > SAME_FACTOR * abs(load_factor):
+        return None
+    return LawState(collapse.forces, np.zeros_like(collapse.velocities), load_factor, collapse.residual)
 
 
 def to_full(program: Program, state: LawState) -> tuple[Program, LawState]:

@@ -5,14 +5,17 @@ from __future__ import annotations
 import csv
 import os
 import platform
+import subprocess
 import sys
 import time
 from collections.abc import Callable, Mapping
 from datetime import UTC, datetime
+from functools import cache
 from importlib.metadata import version
 from pathlib import Path
 
 RESULTS = Path(__file__).parent / "results"
+PROJECT = Path(__file__).parents[2]
 REPEATS = 3
 LIBRARIES = ("mbla", "numpy", "scipy", "clarabel", "shapely", "h5py", "meshio", "pyyaml", "pydantic")
 
@@ -29,12 +32,23 @@ def best_time(run: Callable[[], object], repeats: int = REPEATS) -> tuple[float,
 
 
 def record(benchmark: str, row: Mapping[str, object]) -> None:
-    """Append a row to ``results/BENCHMARK.csv`` and say it; numbers get four digits."""
+    """Append a row to ``results/BENCHMARK.csv`` and say it; numbers get four digits.
+
+    Raises
+    ------
+    ValueError
+        the file has other columns: its figures are of another benchmark, and the row would land in the wrong ones
+    """
     RESULTS.mkdir(exist_ok=True)
     path = RESULTS / f"{benchmark}.csv"
     values = {name: f"{value:.4g}" if isinstance(value, float) else str(value) for name, value in row.items()}
     full = {"date": datetime.now(UTC).date().isoformat(), **values, "versions": versions(), "machine": machine()}
     new = not path.exists()
+    if not new:
+        with path.open(newline="", encoding="utf-8") as file:
+            header = next(csv.reader(file), [])
+        if header != list(full):
+            raise ValueError(f"{path}: has the columns {', '.join(header)}, the row has {', '.join(full)}")
     with path.open("a", newline="", encoding="utf-8") as file:
         writer = csv.DictWriter(file, full, lineterminator="\n")
         if new:
@@ -43,9 +57,26 @@ def record(benchmark: str, row: Mapping[str, object]) -> None:
     sys.stdout.write("  ".join(f"{name} {value}" for name, value in values.items()) + "\n")
 
 
+@cache
 def versions() -> str:
-    """Versions that the figures depend on."""
-    return " ".join([f"python {platform.python_version()}", *(f"{name} {version(name)}" for name in LIBRARIES)])
+    """Versions that the figures depend on; of mbla also the last commit, with + where the files differ from it."""
+    libraries = [f"{name} {version(name)}" for name in LIBRARIES]
+    libraries[0] += commit()
+    return " ".join([f"python {platform.python_version()}", *libraries])
+
+
+def commit() -> str:
+    """`` (a1b2c3d)``: the last commit that changed the package; empty outside a repository."""
+
+    def git(*arguments: str) -> str:
+        command = ["git", *arguments, "--", "mbla"]
+        return subprocess.run(command, cwd=PROJECT, capture_output=True, text=True, check=True).stdout.strip()
+
+    try:
+        last, changed = git("log", "-1", "--format=%h"), git("status", "--porcelain")
+    except (OSError, subprocess.CalledProcessError):
+        return ""
+    return f" ({last}{'+' if changed else ''})" if last else ""
 
 
 def machine() -> str:

@@ -17,6 +17,7 @@ from mbla.model.blocks import Blocks
 from mbla.model.guides import Guides
 from mbla.model.labels import no_labels
 from mbla.model.model import Ground, Joint, LoadCase, Model, Settlement, Tilt, TravelPosition
+from mbla.program.reductions import ProgramSize, ReductionStep, StepState
 from mbla.results.results import CaseResult, DeckRecord, Results
 from mbla.solution.solution import (
     Checks,
@@ -35,6 +36,7 @@ BOX_FACES = np.array(
     [[0, 3, 2, 1], [4, 5, 6, 7], [0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7]], dtype=np.int64
 )
 TOWER_WEIGHT = 10.0
+STEP = ReductionStep("parts", StepState.APPLIED, 2, ProgramSize(12, 8, 80, 12), ProgramSize(12, 8, 80, 6))
 G = 9.81
 
 
@@ -252,6 +254,7 @@ def full_solution(solution: Solution) -> Solution:
         peak=replace(mechanics, load_factor=0.6),
         outer=replace(mechanics, load_factor=0.56),
         spread=(0.49, 0.51),
+        asked=5e-3,
         standing=StandingResult(
             Standing.SELF_STRESS, 1, "the tower hangs between two walls", mechanics.contact_forces, mechanics.mechanism
         ),
@@ -259,6 +262,7 @@ def full_solution(solution: Solution) -> Solution:
         force_ranges=np.array([[0.0, 10.0], [5.0, np.inf]]),
         path=(PathPoint(0, 0.0, 0, 0, 1e-9), PathPoint(1, 0.6, 2, 0, 1e-8), PathPoint(2, 0.5, 2, 1, np.nan)),
         size=ModelSize(2, 1, 3, 2, 4, 4),
+        reductions=(STEP,),
         sides=8,
         solver="mbla",
     )

@@ -1,5 +1,9 @@
 """Parts that cannot interact: free blocks connected through contacts; what does not move connects nothing.
 
+No mechanism reaches from one part to another. Those with live load each have a load factor of their own, of which the
+least is that of the structure. Those without cannot change it: they only have to carry their dead load, which is shown
+apart.
+
 Each part gets the mean dead load of its own blocks as its unit of force, as if it were alone: with forces x = f y and
 velocities u = q/f the power of the live load stays what it was, and the load factor too. In the unit of a part a
 million times as heavy all its loads would pass for rounding.
@@ -7,17 +11,31 @@ million times as heavy all its loads would pass for rounding.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 import scipy.sparse as sp
 from scipy.sparse.csgraph import connected_components
 
-from mbla.arrays import FloatArray
+from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.program.reductions.restrict import chosen_limits, restricted, selection
 from mbla.program.reductions.scene import Scene, part_of
 
 
-def split_into_parts(scene: Scene) -> list[Scene]:
-    """One scene a part, in the order of their first blocks; the same scene where all blocks are connected."""
+@dataclass(frozen=True)
+class Parts:
+    """Free blocks by the part that they belong to.
+
+    part_of_block : (n_free,) numbered in the order of first blocks
+    loaded        : (n_parts,) those that a live load acts on
+    """
+
+    part_of_block: IntArray
+    loaded: BoolArray
+
+
+def find_parts(scene: Scene) -> Parts:
+    """Which blocks can interact, and whether a live load acts on them."""
     n = len(scene.centroids)
     both = (scene.bodies >= 0).all(axis=1)
     pairs = scene.bodies[both]
@@ -25,21 +43,55 @@ def split_into_parts(scene: Scene) -> list[Scene]:
         pairs = np.vstack([pairs, np.column_stack(scene.allowed.nonzero()) // 6])
     graph = sp.coo_array((np.ones(len(pairs)), (pairs[:, 0], pairs[:, 1])), shape=(n, n))
     count, label = connected_components(graph, directed=False)
-    if count == 1:
+    first = np.unique(label, return_index=True)[1]
+    rank = np.empty(count, dtype=np.int64)
+    rank[np.argsort(first)] = np.arange(count)
+    part = rank[label]
+    loaded = np.bincount(part, np.any(scene.loads()[1], axis=1), count) > 0
+    return Parts(part, loaded)
+
+
+def split_into_parts(scene: Scene, *, apart: bool = True, unloaded: bool = True) -> list[Scene]:
+    """Scenes that are solved one by one, in the order of their first blocks; the same scene where that is one.
+
+    apart    : parts with live load are solved one by one, else in one program
+    unloaded : parts without live load are solved apart from those with one, else with the first of these
+    """
+    parts = find_parts(scene)
+    program_of_part = _programs(parts, apart, unloaded)
+    label = program_of_part[parts.part_of_block]
+    if not np.any(label):
         return [scene]
-    part_of_point = label[scene.bodies.max(axis=1)]  # the greater body is free: contacts of fixed bodies are left out
-    parts = []
-    for part in range(count):
-        blocks, points = np.flatnonzero(label == part), np.flatnonzero(part_of_point == part)
-        unit = _unit_of_force(scene.loads()[0][blocks])
-        program = restricted(
-            scene.program,
-            sp.csr_array(selection(blocks, n, 6) / unit),
-            sp.csr_array(selection(points, scene.program.n_points, 3) * unit),
-            chosen_limits(scene.program.limits, points).scaled(1.0 / unit),
-        )
-        parts.append(part_of(scene, program, blocks, points))
-    return parts
+    label_of_point = label[scene.bodies.max(axis=1)]  # the greater body is free: fixed bodies have no contacts
+    return [
+        _alone(scene, np.flatnonzero(label == number), np.flatnonzero(label_of_point == number))
+        for number in range(label.max() + 1)
+    ]
+
+
+def _programs(parts: Parts, apart: bool, unloaded: bool) -> IntArray:
+    """Number of the program of each part, in the order of first parts."""
+    number = np.arange(len(parts.loaded))
+    if not parts.loaded.any() or parts.loaded.all():
+        return number if apart else np.zeros_like(number)
+    first = {flag: int(np.flatnonzero(parts.loaded == flag)[0]) for flag in (True, False)}
+    if not apart:
+        number = np.where(parts.loaded, first[True], first[False])
+    if not unloaded:
+        number = np.where(parts.loaded, number, first[True])
+    return np.unique(number, return_inverse=True)[1]
+
+
+def _alone(scene: Scene, blocks: IntArray, points: IntArray) -> Scene:
+    """Some of the blocks with all their points, in their own unit of force."""
+    unit = _unit_of_force(scene.loads()[0][blocks])
+    program = restricted(
+        scene.program,
+        sp.csr_array(selection(blocks, len(scene.centroids), 6) / unit),
+        sp.csr_array(selection(points, scene.program.n_points, 3) * unit),
+        chosen_limits(scene.program.limits, points).scaled(1.0 / unit),
+    )
+    return part_of(scene, program, blocks, points)
 
 
 def _unit_of_force(dead_load: FloatArray) -> float:

@@ -13,13 +13,7 @@ from scipy.spatial import ConvexHull, QhullError
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.program.reductions.restrict import chosen_limits, restricted, selection
-from mbla.program.reductions.scene import Scene, part_of
-
-COPLANAR = 1e-9
-"""Relative to block size: distance up to which points count as in one plane or on one line."""
-
-STRAIGHT_ON = 1e3 * COPLANAR
-"""Sine of a turn that counts as none."""
+from mbla.program.reductions.scene import COPLANAR, STRAIGHT_ON, Scene, part_of, turns
 
 
 def without_inner_points(scene: Scene) -> Scene:
@@ -60,23 +54,15 @@ def _groups(scene: Scene, dry: BoolArray) -> list[IntArray]:
 
 def _suspicious(scene: Scene) -> IntArray:
     """Interfaces that share their pair of bodies with another one, or do not turn strictly left at each point."""
+    return np.union1d(several_of_a_pair(scene), scene.interfaces[turns(scene) <= STRAIGHT_ON])
+
+
+def several_of_a_pair(scene: Scene) -> IntArray:
+    """Interfaces that share their pair of bodies with another one; all that does not move is one body."""
     first = np.flatnonzero(np.diff(scene.interfaces, prepend=-1))
     number, pair = scene.interfaces[first], np.sort(scene.bodies[first], axis=1)
     _, which, count = np.unique(pair, axis=0, return_inverse=True, return_counts=True)
-    return np.union1d(number[count[which] > 1], scene.interfaces[turns(scene) <= STRAIGHT_ON])
-
-
-def turns(scene: Scene) -> FloatArray:
-    """Sine of the turn to the left at each point of an interface, in their order, (n_points,)."""
-    start = np.flatnonzero(np.diff(scene.interfaces, prepend=-1))
-    length = np.diff(np.append(start, len(scene.interfaces)))
-    place = np.arange(len(scene.interfaces)) - np.repeat(start, length)
-    after = np.repeat(start, length) + (place + 1) % np.repeat(length, length)
-    before = np.repeat(start, length) + (place - 1) % np.repeat(length, length)
-    inward, outward = scene.points - scene.points[before], scene.points[after] - scene.points
-    turn = (np.cross(inward, outward) * scene.frames[:, 0]).sum(axis=1)
-    size = np.linalg.norm(inward, axis=1) * np.linalg.norm(outward, axis=1)
-    return np.asarray(turn / np.maximum(size, 1e-300))
+    return np.asarray(number[count[which] > 1])
 
 
 def _on_hull(scene: Scene, group: IntArray) -> BoolArray:

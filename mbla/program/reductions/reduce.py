@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -13,6 +14,7 @@ from mbla.model.model import Model
 from mbla.program.program import Program
 from mbla.program.reductions.guided import guided_program
 from mbla.program.reductions.half import half_of
+from mbla.program.reductions.merged import with_merged_points
 from mbla.program.reductions.mirror import SYMMETRIC, Mirror, mirror_about, mirror_candidates
 from mbla.program.reductions.parts import split_into_parts
 from mbla.program.reductions.planar import is_planar, planar_program
@@ -20,6 +22,7 @@ from mbla.program.reductions.points import without_inner_points
 from mbla.program.reductions.restrict import tidy
 from mbla.program.reductions.scene import Scene, scene_of
 from mbla.program.reductions.shares import program_by_shares
+from mbla.program.reductions.steps import ReductionStep, size_of, step_of
 
 
 @dataclass(frozen=True)
@@ -48,12 +51,14 @@ class Reduced:
 
     interface_of_point : (n_points of the whole program,)
     point_areas        : (n_points of the whole program,)
+    steps              : what each reduction did, in the order in which they were applied
     """
 
     parts: tuple[Program, ...]
     size: ModelSize
     interface_of_point: IntArray
     point_areas: FloatArray
+    steps: tuple[ReductionStep, ...] = ()
 
 
 def reduce_program(
@@ -66,21 +71,83 @@ def reduce_program(
     """
     if program.guided and program.reduction is not None:
         program = program.reduction.full  # guides come last, on what the other reductions leave
-    scene = scene_of(model, contacts, program)
-    if switches.points and associative:
-        scene = without_inner_points(scene)
-    parts = split_into_parts(scene) if switches.parts else [scene]
-    reduced, planes, blocks = [], 0, 0
-    for part in parts:
-        smaller, mirror = _reduced_part(part, switches, associative, model.mirrors)
-        reduced.append(program_by_shares(part, _guided(part, smaller)))
-        planes = max(planes, int(mirror is not None))
+    scene, steps = _with_fewer_points(scene_of(model, contacts, program), switches, associative)
+    scenes = split_into_parts(scene, apart=switches.parts, unloaded=switches.unloaded)
+    steps += _steps_of_parts(scene, scenes, switches)
+    smaller = [_reduced_part(part, switches, associative, model.mirrors) for part in scenes]
+    steps += _steps_of_planes(scenes, smaller, switches, associative or bool(model.mirrors))
+    parts = [
+        program_by_shares(part, _guided(part, program)) for part, (program, _) in zip(scenes, smaller, strict=True)
+    ]
+    size = _model_size(scenes, [mirror for _, mirror in smaller], parts, program.n_points)
+    return Reduced(tuple(parts), size, contacts.interface_of_point, contacts.point_areas, tuple(steps))
+
+
+def _with_fewer_points(
+    scene: Scene, switches: ReductionSwitches, associative: bool
+) -> tuple[Scene, list[ReductionStep]]:
+    """Contact points that cannot matter, and those that coincide with others, left out."""
+    steps = []
+    tried: tuple[tuple[str, bool, Callable[[Scene], Scene]], ...] = (
+        ("points", switches.points and associative, without_inner_points),
+        ("merged", switches.merged, with_merged_points),
+    )
+    for name, allowed, fewer in tried:
+        left = fewer(scene) if allowed else scene
+        found = len(scene.points) - len(left.points)
+        steps.append(step_of(name, allowed, found, size_of([scene.program]), size_of([left.program])))
+        scene = left
+    return scene, steps
+
+
+def _steps_of_parts(scene: Scene, scenes: Sequence[Scene], switches: ReductionSwitches) -> list[ReductionStep]:
+    """Parts without live load left out, blocks counted; parts with live load taken apart, parts counted."""
+    before = size_of([scene.program])
+    split = size_of([part.program for part in scenes])
+    loaded = replace(split, largest=split.unknowns)
+    n_loaded = sum(bool(np.any(part.program.live_load)) for part in scenes)
+    left_out = len(scene.centroids) - sum(
+        len(part.centroids) for part in scenes if np.any(part.program.live_load) or not n_loaded
+    )
+    return [
+        step_of("unloaded", switches.unloaded, left_out, before, loaded),
+        step_of("parts", switches.parts, n_loaded if n_loaded > 1 else 0, loaded, split),
+    ]
+
+
+def _steps_of_planes(
+    scenes: Sequence[Scene],
+    smaller: Sequence[tuple[Program, Mirror | None]],
+    switches: ReductionSwitches,
+    mirrored: bool,
+) -> list[ReductionStep]:
+    """Parts that are planar, and parts of which one half is solved, both counted.
+
+    mirrored : halves may be left out at all
+    """
+    whole = [part.program for part in scenes]
+    planar = [program if program.components == 2 else part for part, (program, _) in zip(whole, smaller, strict=True)]
+    n_planar = sum(program.components == 2 for program in planar)
+    n_halved = sum(mirror is not None for _, mirror in smaller)
+    sizes = size_of(whole), size_of(planar), size_of([program for program, _ in smaller])
+    return [
+        step_of("planar", switches.planar, n_planar, sizes[0], sizes[1]),
+        step_of("mirror", switches.mirror and mirrored, n_halved, sizes[1], sizes[2]),
+    ]
+
+
+def _model_size(
+    scenes: Sequence[Scene], mirrors: Sequence[Mirror | None], parts: Sequence[Program], n_points: int
+) -> ModelSize:
+    """What reaches the solver of a model with n_points contact points."""
+    blocks = 0
+    for part, mirror in zip(scenes, mirrors, strict=True):
         own = np.arange(len(part.centroids))
         blocks += len(own) if mirror is None else int(np.sum(mirror.block_of >= own))
-    points = sum(part.n_points for part in reduced)
-    dimension = 2 if all(part.components == 2 for part in reduced) else 3
-    size = ModelSize(dimension, planes, len(parts), blocks, points, program.n_points - points)
-    return Reduced(tuple(reduced), size, contacts.interface_of_point, contacts.point_areas)
+    points = sum(part.n_points for part in parts)
+    dimension = 2 if all(part.components == 2 for part in parts) else 3
+    planes = int(any(mirror is not None for mirror in mirrors))
+    return ModelSize(dimension, planes, len(scenes), blocks, points, n_points - points)
 
 
 def _reduced_part(

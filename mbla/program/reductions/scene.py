@@ -7,11 +7,17 @@ from dataclasses import dataclass
 import numpy as np
 import scipy.sparse as sp
 
-from mbla.arrays import FloatArray, IntArray
+from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.contacts.contacts import Contacts
 from mbla.model.model import Model
 from mbla.program.equilibrium import lever_arms
 from mbla.program.program import Program
+
+COPLANAR = 1e-9
+"""Relative to block size: distance up to which points count as in one plane or on one line."""
+
+STRAIGHT_ON = 1e3 * COPLANAR
+"""Sine of a turn that counts as none."""
 
 
 @dataclass(frozen=True)
@@ -22,6 +28,8 @@ class Scene:
     points    : (n_points, 3); frames : (n_points, 3, 3); areas : (n_points,)
     bodies    : (n_points, 2) row of each free block, −1 for what does not move
     interfaces: (n_points,) number of the interface
+    refined   : (n_points,) points of interfaces with more points than corners, where that can no longer be seen from
+                their outlines; None where it can
     allowed   : projector on the motions that guides allow, (6 n_free, 6 n_free) in the program's units; None for all
     """
 
@@ -34,6 +42,15 @@ class Scene:
     bodies: IntArray
     interfaces: IntArray
     allowed: sp.csr_array | None = None
+    refined: BoolArray | None = None
+
+    @property
+    def refined_points(self) -> BoolArray:
+        """Points of interfaces whose outline goes straight on at some of them, (n_points,)."""
+        if self.refined is not None:
+            return self.refined
+        straight = self.interfaces[np.abs(turns(self)) <= STRAIGHT_ON]
+        return np.asarray(np.isin(self.interfaces, straight))
 
     @property
     def length(self) -> float:
@@ -75,6 +92,7 @@ def part_of(scene: Scene, program: Program, blocks: IntArray, points: IntArray) 
         areas=scene.areas[points],
         bodies=row[scene.bodies[points]],
         interfaces=scene.interfaces[points],
+        refined=None if scene.refined is None else scene.refined[points],
         allowed=None if scene.allowed is None else _own(scene.allowed, blocks),
     )
 
@@ -84,3 +102,16 @@ def _own(allowed: sp.csr_array, blocks: IntArray) -> sp.csr_array | None:
     rows = (6 * blocks[:, None] + np.arange(6)).ravel()
     own = sp.csr_array(allowed[rows][:, rows])
     return own if own.diagonal().sum() < len(rows) - 0.5 else None
+
+
+def turns(scene: Scene) -> FloatArray:
+    """Sine of the turn to the left at each point of an interface, in their order, (n_points,)."""
+    start = np.flatnonzero(np.diff(scene.interfaces, prepend=-1))
+    length = np.diff(np.append(start, len(scene.interfaces)))
+    place = np.arange(len(scene.interfaces)) - np.repeat(start, length)
+    after = np.repeat(start, length) + (place + 1) % np.repeat(length, length)
+    before = np.repeat(start, length) + (place - 1) % np.repeat(length, length)
+    inward, outward = scene.points - scene.points[before], scene.points[after] - scene.points
+    turn = (np.cross(inward, outward) * scene.frames[:, 0]).sum(axis=1)
+    size = np.linalg.norm(inward, axis=1) * np.linalg.norm(outward, axis=1)
+    return np.asarray(turn / np.maximum(size, 1e-300))

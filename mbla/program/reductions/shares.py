@@ -20,7 +20,6 @@ import scipy.sparse as sp
 
 from mbla.arrays import FloatArray
 from mbla.program.program import Program
-from mbla.program.reductions.points import STRAIGHT_ON, turns
 from mbla.program.reductions.restrict import restricted
 from mbla.program.reductions.scene import Scene
 
@@ -66,5 +65,5 @@ def _shares(part: Scene, program: Program) -> FloatArray:
     interface = part.interfaces[normals.indices[normals.indptr[:-1]]]
     count, total = np.bincount(interface), np.bincount(interface, area)
     share = area * count[interface] / total[interface]
-    refined = part.interfaces[np.abs(turns(part)) <= STRAIGHT_ON]
+    refined = part.interfaces[part.refined_points]
     return np.asarray(np.where(np.isin(interface, refined), share, 1.0))

@@ -136,11 +136,11 @@ def _answers(
         return (figure("reaction", unit, values[0], values[1] * scale, tolerance, least),)
     if own.tilt is not None and its.tilt is not None:
         return (figure("angle", "degree", angle_of(case), angle_of(other), tolerance),)
-    least = _least_factor(model, own)
+    least = least_factor(model, own)
     return (figure("load factor", "", _factor(result_of(case)), _factor(result_of(other)), tolerance, least),)
 
 
-def _least_factor(model: Model, load_case: LoadCase) -> float:
+def least_factor(model: Model, load_case: LoadCase) -> float:
     """A share of dead over live load on the free blocks: load factors below are compared as if they were that."""
     dead, live = (float(np.abs(load[model.free, :3]).sum()) for load in (load_case.dead_load, load_case.live_load))
     return ZERO * dead / live if live > 0.0 else 0.0
@@ -148,7 +148,7 @@ def _least_factor(model: Model, load_case: LoadCase) -> float:
 
 def _figures(model: Model, case: CaseResult, other: CaseResult, tolerance: float) -> tuple[Figure, ...]:
     """Figures beside the answer that one of the two has."""
-    least = _least_factor(model, case.load_case)
+    least = least_factor(model, case.load_case)
     none = (math.nan, math.nan)
     ranges = [range_of(each) or none for each in (case, other)]
     values = {

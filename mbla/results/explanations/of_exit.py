@@ -16,8 +16,9 @@ _NO_FACTOR = "No load factor: nothing was computed."
 OF_EXIT = (
     _status(
         0,
-        "Every load case solved and verified.",
-        "Every load factor is confirmed by code that did not compute it.",
+        "Every load case solved and verified, to the accuracy that the deck asks for.",
+        "Every load factor is confirmed by code that did not compute it. With accuracy: draft, or a gap or residual "
+        "given, a case may be approximate within what was asked for: its status says so.",
         "All went well.",
         "Read the warnings all the same.",
     ),
@@ -45,8 +46,8 @@ OF_EXIT = (
     _status(
         4,
         "A load case is not solved or not verified, or is not as expected.",
-        "At least one case has no load factor, an approximate one, or one that differs from the deck's expected "
-        "section. Other cases of the run may be verified: the status of each says so.",
+        "At least one case has no load factor, one rougher than asked for, or one that differs from what the deck "
+        "expects. Other cases of the run may be verified: the status of each says so.",
         "Verification found more than its tolerances; a limit of iterations; a numerical failure; --expected; "
         "mbla verify found that a file says otherwise; mbla diff --fail found a difference.",
         "Look at the status of each case and at its warnings.",

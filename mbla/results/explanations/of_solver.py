@@ -36,10 +36,11 @@ OF_NON_UNIQUE = (
     Explanation(
         "range-not-computed",
         "notice",
-        "With interface resultants the range of the load factor is not computed.",
+        "The range of the load factor is not computed.",
         "How far the factor could range for this mechanism is not known.",
-        "contact_model: convex.",
-        "contact_model: concave gives a range, of its own law.",
+        "contact_model: convex; or a mechanism that misses the law by more than 1e-4.",
+        "contact_model: concave gives a range, of its own law; a smaller residual, or accuracy: standard, a mechanism "
+        "that it may be computed for.",
     ),
     Explanation(
         "range-not-found",
@@ -115,6 +116,15 @@ OF_PATH = (
         "The collapse load may be higher than the figure, which is on the safe side.",
         "The load path stalled or found no gravity state to start from.",
         "scheme: path with more steps.",
+    ),
+    Explanation(
+        "peak-not-examined",
+        "warning",
+        "Whether the load rises above the load factor on its way was not examined.",
+        "The load factor lies below 85 % of the associative one. The collapse load may be higher than the figure, "
+        "which is on the safe side.",
+        "accuracy: draft, or peak: false; or forces and velocities miss the law by more than 1e-4.",
+        "accuracy: standard, or peak: true with a residual of 1e-4 or less.",
     ),
     Explanation(
         "below-passed-load",

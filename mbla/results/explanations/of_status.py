@@ -24,9 +24,11 @@ OF_STATUS = (
         f"Associative flow: proved bounds up to {APPROXIMATE_RESIDUAL:g} of it apart, or a polyhedral bracket wider "
         f"than {GAP_TOLERANCE:g}. Other flow: residuals up to {APPROXIMATE_RESIDUAL:g}, so that the factor is good to "
         "about that share.",
-        "The solver stalled, a scheme did not come to rest, or a second opinion came to no answer.",
-        "Decide with the kinematic bound, which holds all the same. accuracy: reference, another solver or scheme, or "
-        "more sides of a polyhedron may solve it. Exit status 4.",
+        "The solver stalled, a scheme did not come to rest, or a second opinion came to no answer; or the deck asks "
+        "for no more: accuracy: draft, a wide gap, a large residual.",
+        "Decide with the kinematic bound, which holds all the same. accuracy: standard or reference, another solver or "
+        "scheme, or more sides of a polyhedron may solve it. Exit status 4, but 0 where bounds or residuals are within "
+        "the gap or residual that the deck asks for (asked in JSON).",
     ),
     Explanation(
         "not-verified",

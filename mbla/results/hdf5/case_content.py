@@ -12,7 +12,7 @@ from mbla.model.model import Model
 from mbla.results.collapse.collapse import collapse_of
 from mbla.results.hdf5.mechanism_fields import MECHANICS_GROUPS
 from mbla.results.results import CaseResult
-from mbla.solution.solution import Mechanics, Solution, StandingResult
+from mbla.solution.solution import Mechanics, ReductionStep, Solution, StandingResult
 
 Value: TypeAlias = "np.typing.NDArray[np.generic] | str | Sequence[str] | float | int | bool"
 Content: TypeAlias = dict[str, Value]
@@ -47,6 +47,7 @@ ITERATION_FIELDS = (
 )
 PATH_FIELDS = ("step", "load_factor", "open", "slide", "residual")
 SIZE_FIELDS = ("dimension", "mirror_planes", "parts", "free_blocks", "contact_points", "dropped_points")
+STEP_SIZES, STEP_ENDS = ("unknowns", "cones", "entries", "largest"), ("before", "after")
 TEXT_COLUMNS = ("kind", "status", *SOLVER_FIELDS)
 
 
@@ -129,9 +130,27 @@ def _further(solution: Solution) -> Content:
         content["certificate_crushing_motions"] = solution.certificate_motions[:, 1]
     if solution.spread is not None:
         content["spread"] = np.array(solution.spread, dtype=float)
+    if solution.asked is not None:
+        content["asked"] = solution.asked
+    if solution.reductions:
+        content |= _reductions(solution.reductions)
     if solution.size is not None:
         content |= {f"size/{name}": getattr(solution.size, name) for name in SIZE_FIELDS}
     return content if solution.standing is None else content | _standing(solution.standing)
+
+
+def _reductions(steps: Sequence[ReductionStep]) -> Content:
+    """A column for each figure of the reductions."""
+    columns: Content = {
+        "reductions/name": [step.name for step in steps],
+        "reductions/state": [step.state.value for step in steps],
+        "reductions/found": np.array([step.found for step in steps], dtype=np.int64),
+    }
+    for when in STEP_ENDS:
+        for name in STEP_SIZES:
+            values = [getattr(getattr(step, when), name) for step in steps]
+            columns[f"reductions/{name}_{when}"] = np.array(values, dtype=np.int64)
+    return columns
 
 
 def _standing(standing: StandingResult) -> Content:

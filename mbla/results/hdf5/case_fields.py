@@ -43,6 +43,22 @@ ANSWER = (
     Field(f"{CASE}/sides", "int", (), "1", "of the friction polyhedron, 0: circular cone", part="solution"),
 )
 
+REDUCTIONS: tuple[tuple[str, FieldKind, str], ...] = (
+    ("name", "text", "the reduction, as in analysis.reductions, or glued"),
+    ("state", "text", "applied, nothing found, switched off, would change the answer"),
+    ("found", "int", "contact points or blocks left out, or parts taken apart or reduced"),
+    *(
+        (f"{name}_{when}", "int", f"{words}, {when} it")
+        for when in ("before", "after")
+        for name, words in (
+            ("unknowns", "velocities in the programs with live load"),
+            ("cones", "friction cones in these, one a contact point"),
+            ("entries", "entries of their equilibrium matrices, other than zero"),
+            ("largest", "unknowns of the largest of them"),
+        )
+    ),
+)
+
 FURTHER_ANSWERS = (
     Field(
         f"{CASE}/certificate",
@@ -78,6 +94,14 @@ FURTHER_ANSWERS = (
         "1",
         "least and greatest load factor of several tries that did not agree",
         part="spread",
+    ),
+    Field(
+        f"{CASE}/asked",
+        "float",
+        (),
+        "1",
+        "gap of the bounds or residual that the analysis asks for, of a case that is approximate for no other reason",
+        part="asked",
     ),
     Field(
         f"{CASE}/force_ranges",
@@ -132,6 +156,10 @@ FURTHER_ANSWERS = (
             ("contact_points", "contact points with unknowns"),
             ("dropped_points", "contact points that cannot matter, or follow from others by symmetry"),
         )
+    ),
+    *(
+        Field(f"{CASE}/reductions/{name}", kind, ("reduction",), "1", words, part="reductions")
+        for name, kind, words in REDUCTIONS
     ),
     *_columns(
         f"{CASE}/path",

@@ -9,6 +9,7 @@ import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.model.model import LoadCase
+from mbla.program.reductions import ProgramSize, ReductionStep, StepState
 from mbla.results.hdf5.case_content import (
     CHECKED,
     ITERATION_FIELDS,
@@ -17,6 +18,8 @@ from mbla.results.hdf5.case_content import (
     PROGRAM_FIELDS,
     SIZE_FIELDS,
     SOLVER_FIELDS,
+    STEP_ENDS,
+    STEP_SIZES,
 )
 from mbla.results.hdf5.mechanism_fields import MECHANICS_GROUPS
 from mbla.results.results import CaseResult
@@ -68,8 +71,10 @@ def case_from(load_case: LoadCase, get: dict[str, Any]) -> CaseResult:
         force_ranges=get.get("force_ranges"),
         path=_records(PathPoint, PATH_FIELDS, get, "path/"),
         size=_size(get),
+        reductions=_reductions(get),
         sides=get["sides"],
         solver=_solver(get),
+        asked=get.get("asked"),
     )
     checks = Checks(
         **{name: get[name] for name in CHECKED},
@@ -128,6 +133,17 @@ def _size(get: dict[str, Any]) -> ModelSize | None:
     if size.dimension not in (2, 3):
         raise ValueError("dimension of the model")
     return size
+
+
+def _reductions(get: dict[str, Any]) -> tuple[ReductionStep, ...]:
+    """Files of runs that looked for none, and the first ones of this layout, have no such table."""
+    if "reductions/name" not in get:
+        return ()
+    columns = {when: [get[f"reductions/{name}_{when}"] for name in STEP_SIZES] for when in STEP_ENDS}
+    sizes = {when: [ProgramSize(*row) for row in np.column_stack(of).tolist()] for when, of in columns.items()}
+    found = get["reductions/name"], get["reductions/state"], get["reductions/found"].tolist()
+    rows = zip(*found, sizes["before"], sizes["after"], strict=True)
+    return tuple(ReductionStep(name, StepState(state), *row) for name, state, *row in rows)
 
 
 def _solver(get: dict[str, Any]) -> str:

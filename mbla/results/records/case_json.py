@@ -10,6 +10,7 @@ from mbla.model.model import Model
 from mbla.results.outcome import associative_of, best_iterate, factor_unique, range_of, result_of
 from mbla.results.records.mechanism_json import mechanism_json
 from mbla.results.records.numbers import number
+from mbla.results.records.reduction_json import reductions_json
 from mbla.results.results import CaseResult
 from mbla.results.tilt_angle import angle_bounds, angle_of
 from mbla.results.words.settlement_words import reaction_json
@@ -40,6 +41,7 @@ def case_json(model: Model, contacts: Contacts, case: CaseResult) -> dict[str, A
         "iterations": sum(program.iterations for program in solution.programs),
         "solver": solver_json(solution),
         "size": None if solution.size is None else asdict(solution.size),
+        "reductions": reductions_json(solution.reductions),
         "path": [{name: finite(value) for name, value in asdict(point).items()} for point in solution.path],
         "mechanism": None if mechanics is None else _mechanism(model, contacts, case, mechanics),
         "time": {"total": number(solution.seconds), "solver": number(solver)},
@@ -68,6 +70,7 @@ def _load_factors(case: CaseResult) -> dict[str, Any]:
         "static_bound": number(checks.static_bound),
         "kinematic_bound": number(checks.kinematic_bound),
         "gap": number(checks.gap),
+        "asked": None if solution.asked is None else number(solution.asked),
         "associative_load_factor": None if associative is None else number(associative.load_factor),
         "bracket": _bracket(solution, associative),
     }

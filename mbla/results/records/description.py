@@ -9,6 +9,7 @@ from __future__ import annotations
 from mbla.results.records.failure_description import FAILURE, part_keys
 from mbla.results.records.failure_description import MECHANISM as _MECHANISM
 from mbla.results.records.key import Key
+from mbla.results.records.reduction_json import reduction_keys
 
 RUN = (
     Key("mbla", "string", "version of the program"),
@@ -94,6 +95,11 @@ CASE = (
     Key("cases[].static_bound", "number?", "verified lower bound of the associative load factor"),
     Key("cases[].kinematic_bound", "number?", "verified upper bound of it"),
     Key("cases[].gap", "number?", "relative distance of the two"),
+    Key(
+        "cases[].asked",
+        "number?",
+        "gap or residual that the deck asks for, of a case that is approximate for no other reason",
+    ),
     Key("cases[].associative_load_factor", "number?", "by associative flow"),
     Key("cases[].bracket", "object?", "polyhedral friction: associative load factors with two polyhedra"),
     Key("cases[].bracket.inner", "number?", "with the inscribed one"),
@@ -138,6 +144,7 @@ EFFORT = (
     Key("cases[].size.free_blocks", "integer", "blocks with unknowns"),
     Key("cases[].size.contact_points", "integer", "contact points with unknowns"),
     Key("cases[].size.dropped_points", "integer", "contact points that cannot matter, or follow by symmetry"),
+    *reduction_keys("cases[].reductions"),
     Key("cases[].path", "list", "steps of the load path that was followed"),
     Key("cases[].path[]", "object", "a step"),
     Key("cases[].path[].step", "integer", "number of the step"),
@@ -205,6 +212,7 @@ CHECK = (
     Key("needs.*", "object", "of a load case"),
     Key("needs.*.*", "integer", "counts by name"),
     Key("needs.*.solver", "string", "who solves its programs"),
+    *reduction_keys("needs.*.reductions"),
 )
 
 

@@ -10,9 +10,11 @@ from mbla import __version__
 from mbla.contacts.glue import solid_sizes
 from mbla.errors import Notice
 from mbla.model.model import Model
+from mbla.results.needs import CaseNeeds
 from mbla.results.outcome import dimension_of, notices_of, standing_of
 from mbla.results.records.case_json import case_json
 from mbla.results.records.numbers import number, numbers
+from mbla.results.records.reduction_json import reductions_json
 from mbla.results.records.series_json import series_json
 from mbla.results.results import Results
 from mbla.results.series import series_of
@@ -38,7 +40,7 @@ def results_json(results: Results) -> dict[str, Any]:
     }
 
 
-def check_json(results: Results, needs: Mapping[str, Mapping[str, int | str]]) -> dict[str, Any]:
+def check_json(results: Results, needs: Mapping[str, CaseNeeds]) -> dict[str, Any]:
     """The record of a check: no cases; ``needs`` says by load case what reaches the solver."""
     report = results.contacts.report
     record = results_json(results)
@@ -56,7 +58,11 @@ def check_json(results: Results, needs: Mapping[str, Mapping[str, int | str]]) -
         "isolated_blocks": [results.model.blocks.name(int(b)) for b in report.isolated],
         "unsupported_parts": len(report.unsupported),
     }
-    return record | {"needs": {case: dict(counts) for case, counts in needs.items()}}
+    return record | {"needs": {case: _needs(own) for case, own in needs.items()}}
+
+
+def _needs(needs: CaseNeeds) -> dict[str, Any]:
+    return dict(needs.counts) | {"reductions": reductions_json(needs.reductions)}
 
 
 def verification_json(results: Results, disagreements: Sequence[str]) -> dict[str, Any]:

@@ -21,6 +21,7 @@ from mbla.results.words.force_words import force_range_lines, group_reaction_lin
 from mbla.results.words.mechanism_words import mechanism_lines, mechanism_summary
 from mbla.results.words.path_words import path_lines
 from mbla.results.words.program_words import program_lines
+from mbla.results.words.reduction_words import reduction_lines
 from mbla.results.words.text import full_sentence, heading, sentence
 from mbla.results.words.verdict_words import bound_words, known_words, verdict
 from mbla.results.words.work_words import work_lines
@@ -75,6 +76,7 @@ def case_sections(model: Model, contacts: Contacts, case: CaseResult) -> list[Se
             sections.append(Section("Range of normal forces", ranges))
     sections += [
         Section("Load factor and bounds", ["", *figures(model, case)]),
+        Section("Reductions", spaced(reduction_lines(solution.reductions))),
         Section("Load path", path_lines(model, case)),
         Section("Solver programs", program_lines(solution)),
     ]

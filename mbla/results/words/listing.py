@@ -9,13 +9,15 @@ import numpy as np
 from mbla import __version__
 from mbla.arrays import IntArray
 from mbla.model.model import Model
+from mbla.results.needs import CaseNeeds
 from mbla.results.results import Results
 from mbla.results.series import series_of
-from mbla.results.words.case_words import case_lines
+from mbla.results.words.case_words import case_lines, spaced
 from mbla.results.words.contact_words import contact_lines, finding_lines
 from mbla.results.words.figure_words import figures
 from mbla.results.words.label_words import label_words
 from mbla.results.words.notice_words import notice_lines, warning_lines
+from mbla.results.words.reduction_words import reduction_lines
 from mbla.results.words.series_words import series_lines, worst_words
 from mbla.results.words.text import WIDTH, counted, entry, heading, number, sentence, table
 from mbla.results.words.verdict_words import verdict
@@ -38,7 +40,7 @@ def listing(results: Results) -> str:
     return "\n".join(line.rstrip() for line in lines) + "\n"
 
 
-def check_listing(results: Results, needs: Mapping[str, Mapping[str, int | str]]) -> str:
+def check_listing(results: Results, needs: Mapping[str, CaseNeeds]) -> str:
     """What ``mbla check`` prints: the model and its contacts as in the listing, and what each load case needs."""
     lines = [
         *_header(results),
@@ -47,15 +49,16 @@ def check_listing(results: Results, needs: Mapping[str, Mapping[str, int | str]]
         *contact_lines(results.model, results.contacts),
         *finding_lines(results.model, results.contacts.report),
         *notice_lines(results.notices),
-        *(line for case, counts in needs.items() for line in _needs(case, counts)),
+        *(line for case, own in needs.items() for line in _needs(case, own)),
     ]
     lines += sentence("Nothing was solved.")
     return "\n".join(line.rstrip() for line in lines) + "\n"
 
 
-def _needs(case: str, counts: Mapping[str, int | str]) -> list[str]:
+def _needs(case: str, needs: CaseNeeds) -> list[str]:
     lines = heading(f"Needed for load case {case}")
-    return lines + [line for name, count in counts.items() for line in entry(name.replace("_", " "), str(count))]
+    lines += [line for name, count in needs.counts.items() for line in entry(name.replace("_", " "), str(count))]
+    return lines + spaced(reduction_lines(needs.reductions))
 
 
 def verification_lines(results: Results, disagreements: Sequence[str]) -> list[str]:

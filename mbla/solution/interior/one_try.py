@@ -26,7 +26,7 @@ from mbla.solution.law_state import LawState
 from mbla.solution.stiffness import Stiffness
 
 EXACT = 1e-9
-"""Residual at which a try ends."""
+"""Residual at which a try ends, unless a rougher or a sharper one is asked for."""
 
 END_OF_PATH = 1e-8
 """Residual of a point beyond which rounding takes over: slacks are differences of velocities."""
@@ -44,7 +44,7 @@ PATIENCE = 300
 """Factorisations along the path without a lower point after which it is given up."""
 
 SOLVED = 1e-6
-"""Residual of a state of the exact law: with such a state the path is not taken up again."""
+"""Residual of a state of the exact law."""
 
 FIRST_POLISH = 1e-3
 """Residual from which exact steps are tried, once a decade."""
@@ -83,8 +83,9 @@ class Moment:
 class Try:
     """A try under way, with the best it has found.
 
-    watch : called at every step
-    late  : whether the time is over
+    watch  : called at every step
+    late   : whether the time is over
+    wanted : residual of a state with which the path is not taken up again, and above ``SOLVED`` not followed further
     """
 
     program: Program
@@ -93,6 +94,7 @@ class Try:
     most: int
     watch: Callable[[Moment], None]
     late: Callable[[], bool]
+    wanted: float = SOLVED
     factorizations: int = 0
     best: LawState | None = None
     started: float = field(default_factory=time.perf_counter)
@@ -100,12 +102,13 @@ class Try:
 
     def over(self) -> bool:
         """Whether the state is exact, or factorisations or time are used up."""
-        exact = self.best is not None and self.best.residual <= EXACT
+        enough = self.wanted if self.wanted > SOLVED else min(EXACT, self.wanted)
+        exact = self.best is not None and self.best.residual <= enough
         return exact or self.factorizations >= self.most or self.late()
 
     def solved(self) -> bool:
-        """Whether a state of the exact law has been found."""
-        return self.best is not None and self.best.residual <= SOLVED
+        """Whether a state of the exact law has been found that is as sharp as asked for."""
+        return self.best is not None and self.best.residual <= self.wanted
 
     def reached(self, point: PathVector, step: float) -> LawState:
         """Take note of a point, and try exact steps from it once a decade; the state it stands for."""

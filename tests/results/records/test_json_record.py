@@ -4,10 +4,11 @@ from typing import Any
 
 import pytest
 
+from mbla.results.needs import CaseNeeds
 from mbla.results.records.json_record import check_json, json_line, results_json, verification_json
 from mbla.results.results import Results
 from mbla.solution.solution import Standing, StandingResult, Status
-from tests.results.synthetic import full_results, tower_results
+from tests.results.synthetic import STEP, full_results, tower_results
 
 
 @pytest.fixture(scope="module")
@@ -92,9 +93,16 @@ def test_a_number_that_is_none_cannot_slip_through() -> None:
 
 
 def test_check_record_has_no_cases() -> None:
-    record = check_json(tower_results(), {"push": {"cones": 8}})
+    record = check_json(tower_results(), {"push": CaseNeeds({"cones": 8}, (STEP,))})
     assert "cases" not in record
-    assert record["needs"] == {"push": {"cones": 8}}
+    step = {
+        "name": "parts",
+        "state": "applied",
+        "found": 2,
+        "before": {"unknowns": 12, "cones": 8, "entries": 80, "largest": 12},
+        "after": {"unknowns": 12, "cones": 8, "entries": 80, "largest": 6},
+    }
+    assert record["needs"] == {"push": {"cones": 8, "reductions": [step]}}
     assert record["model"]["joints"] == {"dry": {"interfaces": 2, "area": 2.0}}
     json_line(record)
 

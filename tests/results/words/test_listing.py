@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from mbla.results.hdf5.result_file import read_results_hdf5, write_results_hdf5
+from mbla.results.needs import CaseNeeds
 from mbla.results.results import Results
 from mbla.results.words.listing import check_listing, listing, verification_lines
 from mbla.results.words.text import WIDTH
@@ -183,7 +184,7 @@ def test_residuals_say_what_they_are_relative_to(text: str) -> None:
 
 
 def test_check_listing_has_no_results(results: Results) -> None:
-    text = check_listing(replace(results, cases=()), {"push": {"unknown_velocities": 12, "cones": 8}})
+    text = check_listing(replace(results, cases=()), {"push": CaseNeeds({"unknown_velocities": 12, "cones": 8})})
     assert "Nothing was solved." in text
     assert re.search(r"unknown velocities +12", text)
     assert "Load case" not in text.replace("Needed for load case push", "")

@@ -1,0 +1,90 @@
+"""What the word ``analysis.accuracy`` sets: the knobs of speed against accuracy, and the value of each by preset.
+
+A knob that the deck gives wins. What a preset turns was measured knob by knob (``tests/performance/bench_accuracy.py``,
+``results/accuracy.csv``); what it leaves alone costs little or changes the structure that is analysed:
+
+- a looser solver saves nothing. Of the 10 to 50 iterations of a program the tolerance 1e-4 spares the last two to
+  eight, and the repair of the rougher answer to proved bounds takes as long again: with 1e-8 a draft mostly proves its
+  load factor of associative flow to 1e-5, as every other answer that is called solved;
+- the proof of that load factor takes 3 to 15 % of an associative run, and is never left out; nor is the program that
+  shows that the dead load is carried, without which a load factor means nothing;
+- least forces, standing, range and a peak are other answers beside the load factor, and none changes it. A draft goes
+  without, save for the standing where flow is not associative: what stands by self-stress only has no collapse load;
+- steps of the exact law may creep long before they end: on a dome a draft comes to 0.54335 with residuals of 3e-3 in a
+  fifth of the time that leads to 0.54254, on a cross vault to 0.2588 in a fifth of that to 0.2599. Where they come to
+  rest by themselves, as on walls and arches, a draft ends in the same state;
+- flow rule, friction polyhedra, contact points or resultants are the engineer's choice. They move the load factor by up
+  to tens of per cent, and no preset touches them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, fields
+from typing import TYPE_CHECKING, Literal, TypeAlias, get_args
+
+if TYPE_CHECKING:
+    from mbla.deck.analysis import AnalysisSection
+
+Accuracy: TypeAlias = Literal["draft", "standard", "reference"]
+Forces: TypeAlias = Literal["least_squares", "solver"]
+
+
+@dataclass(frozen=True)
+class Knobs:
+    """Everything that trades speed for accuracy; a field for each key of the analysis section of that name.
+
+    tolerance : of the cone solver, relative
+    gap       : wanted distance of the proved bounds of an associative load factor, relative; a program whose bounds lie
+                further apart is solved again, more sharply
+    residual  : wanted of flow without normality: largest residual at which a scheme has found its state
+    forces    : which of the many contact forces of associative flow
+    range     : whether the least and greatest load factor for the mechanism found are computed
+    peak      : whether a greater load factor on the way is looked for
+    standing  : whether it is assessed that the structure stands under its dead load
+    """
+
+    tolerance: float
+    gap: float
+    residual: float
+    forces: Forces
+    range: bool
+    peak: bool
+    standing: bool
+
+
+PRESETS: Mapping[Accuracy, Knobs] = {
+    "draft": Knobs(tolerance=1e-8, gap=1e-3, residual=5e-3, forces="solver", range=False, peak=False, standing=False),
+    "standard": Knobs(
+        tolerance=1e-9, gap=3e-7, residual=1e-6, forces="least_squares", range=True, peak=True, standing=True
+    ),
+    "reference": Knobs(
+        tolerance=1e-10, gap=5e-8, residual=1e-9, forces="least_squares", range=True, peak=True, standing=True
+    ),
+}
+"""By the deck's word."""
+
+
+def knobs_of(analysis: AnalysisSection) -> Knobs:
+    """The knobs in effect: those given in the deck, the others as ``accuracy`` sets them.
+
+    Where flow is not associative the standing is assessed whatever the preset: a claim depends on it.
+    """
+    preset = PRESETS[analysis.accuracy]
+    values = {field.name: getattr(analysis, field.name) for field in fields(Knobs)}
+    values = {name: getattr(preset, name) if value is None else value for name, value in values.items()}
+    if analysis.standing is None and analysis.flow_rule != "associative":
+        values["standing"] = True
+    return Knobs(**values)
+
+
+def set_by_accuracy(knob: str) -> str:
+    """For the description of a key: what each preset sets it to."""
+    values = ", ".join(f"{name} {_in_words(getattr(PRESETS[name], knob))}" for name in get_args(Accuracy))
+    return f"set by accuracy unless given: {values}"
+
+
+def _in_words(value: float | bool | str) -> str:
+    if isinstance(value, bool):
+        return str(value).lower()
+    return value if isinstance(value, str) else f"{value:g}"

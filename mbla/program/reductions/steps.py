@@ -1,0 +1,83 @@
+"""What each reduction did for one load case: its name, what it found, and the size of the programs before and after.
+
+Reductions are counted in the order in which they are applied, each on what those before it left. Counted are the
+programs that have a live load in them: others only have to show that the dead load is carried.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, replace
+from enum import StrEnum
+
+import numpy as np
+
+from mbla.program.program import Program
+
+
+class StepState(StrEnum):
+    """What became of a reduction: done; nothing found; switched off; on, but it would change what is asked for."""
+
+    APPLIED = "applied"
+    NONE = "nothing found"
+    OFF = "switched off"
+    BARRED = "would change the answer"
+
+
+@dataclass(frozen=True)
+class ProgramSize:
+    """Size of the programs of a load case that have a live load in them.
+
+    unknowns : velocities, rows of the equilibrium matrices
+    cones    : friction cones, one a contact point; in a plane each is a pair of half-lines
+    entries  : of the equilibrium matrices, other than zero
+    largest  : unknowns of the largest program
+    """
+
+    unknowns: int
+    cones: int
+    entries: int
+    largest: int
+
+
+@dataclass(frozen=True)
+class ReductionStep:
+    """One reduction of one load case.
+
+    name  : key of ``analysis.reductions``, or glued
+    found : how many contact points, blocks, parts it left out or took apart; 0 unless applied
+    """
+
+    name: str
+    state: StepState
+    found: int
+    before: ProgramSize
+    after: ProgramSize
+
+
+def size_of(programs: Iterable[Program]) -> ProgramSize:
+    """Size of those of the programs that have a live load in them."""
+    loaded = [program for program in programs if np.any(program.live_load)]
+    unknowns = [len(program.dead_load) for program in loaded]
+    return ProgramSize(
+        unknowns=sum(unknowns),
+        cones=sum(program.n_points for program in loaded),
+        entries=sum(int(program.equilibrium_matrix.nnz) for program in loaded),
+        largest=max(unknowns, default=0),
+    )
+
+
+def step_of(name: str, allowed: bool, found: int, before: ProgramSize, after: ProgramSize) -> ReductionStep:
+    """The record of a reduction that was tried, or not allowed."""
+    state = StepState.NONE if allowed else StepState.OFF
+    return ReductionStep(name, StepState.APPLIED if found else state, found, before, after)
+
+
+def told_apart(steps: Sequence[ReductionStep], switched_on: dict[str, bool]) -> tuple[ReductionStep, ...]:
+    """Steps not allowed although the deck has them switched on are those that would change its answer."""
+
+    def of(step: ReductionStep) -> ReductionStep:
+        barred = step.state is StepState.OFF and switched_on.get(step.name, True)
+        return replace(step, state=StepState.BARRED) if barred else step
+
+    return tuple(of(step) for step in steps)

@@ -1,0 +1,88 @@
+"""Which setting to take for a wanted error: the fastest sound one that is near enough, in one sentence."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from mbla.results.words.text import small
+from mbla.studies.setting import Setting
+from mbla.studies.tradeoff.trade import CaseTrade, Row
+
+SAME_TIME = 0.1
+"""share of time that another run of the same may differ by: a preset is preferred to a single knob within it"""
+PRESET = "accuracy: "
+
+
+@dataclass(frozen=True)
+class Advice:
+    """What is advised.
+
+    rung    : name of the setting; empty where none can be advised
+    setting : what to put into the deck
+    seconds : that it takes, all load cases of the advice together
+    error   : largest distance from the reference; nan without a rung
+    sentence: the advice, or why there is none
+    """
+
+    rung: str
+    setting: Setting
+    seconds: float
+    error: float
+    sentence: str
+
+
+def advice(trades: Sequence[CaseTrade], wanted: float) -> Advice:
+    """For some load cases together: a rung must be sound and near enough under every one of them."""
+    lacking = [trade.name for trade in trades if trade.reference is None]
+    if lacking:
+        return _none(f"No setting can be advised: there is no reference for {', '.join(lacking)}.")
+    unsure = [trade.name for trade in trades if not trade.verified]
+    if unsure:
+        return _none(f"No setting can be advised: no setting is verified for {', '.join(unsure)}.")
+    coarse = max(trade.resolution for trade in trades)
+    if coarse > wanted:
+        return _none(f"No setting can be advised for an error of {_digits(wanted)}: the reference itself is good to "
+                     f"{small(coarse)}.")  # fmt: skip
+    candidates = [_candidate(trades, row.name) for row in trades[0].rows]
+    fit = [each for each in candidates if each is not None and each.error <= wanted]
+    fastest = min((each.seconds for each in fit), default=math.inf)
+    near = [each for each in fit if each.seconds <= (1.0 + SAME_TIME) * fastest]
+    presets = [each for each in near if each.rung.startswith(PRESET)]
+    chosen = min(presets or near, key=lambda each: each.seconds)  # the reference is always among those that fit
+    return _said(chosen, wanted, coarse)
+
+
+def _candidate(trades: Sequence[CaseTrade], name: str) -> Advice | None:
+    """A rung over all load cases; None where it is not sound under one."""
+    rows: list[Row] = [next(row for row in trade.rows if row.name == name) for trade in trades]
+    if not all(row.sound for row in rows):
+        return None
+    seconds = sum(row.measurement.wall for row in rows if row.measurement is not None)
+    return Advice(name, rows[0].run.rung.setting, seconds, max(row.distance for row in rows), "")
+
+
+def _said(chosen: Advice, wanted: float, coarse: float) -> Advice:
+    reached = f"{small(chosen.error)} from the reference" if chosen.error > coarse else (
+        f"not to be told from the reference, which is good to {small(coarse)}")  # fmt: skip
+    freed = chosen.setting.freed
+    without = f" without {', '.join(f'analysis.{name}' for name in freed)}" if freed else ""
+    sentence = f"For an error of {_digits(wanted)} take {chosen.rung}{without} ({duration(chosen.seconds)}): {reached}."
+    return Advice(chosen.rung, chosen.setting, chosen.seconds, chosen.error, sentence)
+
+
+def _none(sentence: str) -> Advice:
+    return Advice("", Setting(), math.nan, math.nan, sentence)
+
+
+def _digits(value: float) -> str:
+    """``1e-4``, ``0.02``."""
+    text = f"{value:.3g}" if value >= 0.01 else f"{value:.2e}"
+    mantissa, _, exponent = text.partition("e")
+    return f"{float(mantissa):g}e{int(exponent)}" if exponent else text
+
+
+def duration(seconds: float) -> str:
+    """``0.81 s``, ``12.3 s``, ``-``."""
+    return "-" if math.isnan(seconds) else f"{seconds:.3g} s" if seconds < 1000.0 else f"{seconds:.0f} s"

@@ -1,0 +1,87 @@
+"""Run the rungs one after the other, each in a process of its own, within a budget."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from mbla.errors import DeckError, UsageError
+from mbla.studies.measured_run import Task
+from mbla.studies.measurement import Measurement
+from mbla.studies.measuring import ChildRun, MeasuringProcess
+from mbla.studies.tradeoff.rung import Rung
+
+Tell = Callable[[int, int, str, str], None]
+"""called with number of the rung from 1, number of rungs, name of the rung, and load case done (empty: it begins)"""
+LEAST_TIME = 0.5
+"""seconds of a budget below which no further process is started: it would not get past its imports"""
+
+
+@dataclass(frozen=True)
+class Limits:
+    """Seconds for all rungs together and for each of them; None: no limit. Threads of each."""
+
+    budget: float | None = None
+    each: float | None = None
+    threads: int = 1
+
+
+@dataclass(frozen=True)
+class RungRun:
+    """What became of a rung.
+
+    end     : ``done``; ``unfit``: does not apply; ``failed``; ``died``; ``stopped``: ran out of its time; ``not run``
+    words   : why, for every end but ``done``
+    expired : the budget of all rungs ended it, or left no time to begin it
+    """
+
+    rung: Rung
+    measurements: tuple[Measurement, ...]
+    end: str
+    words: str = ""
+    expired: bool = False
+
+
+def run_ladder(
+    deck: Path, fixed: Sequence[str], cases: Sequence[str], rungs: Sequence[Rung], limits: Limits, tell: Tell | None
+) -> list[RungRun]:
+    """One run for each rung, in their order."""
+    until = None if limits.budget is None else time.monotonic() + limits.budget
+    runs: list[RungRun] = []
+    planar = False
+    with MeasuringProcess() as process:
+        for number, rung in enumerate(rungs, 1):
+
+            def done(measurement: Measurement | None, number: int = number, name: str = rung.name) -> None:
+                if tell is not None:
+                    tell(number, len(rungs), name, measurement.case if measurement else "")
+
+            unfit = rung.unfit or (rung.spatial if planar else "")
+            if unfit:
+                runs.append(RungRun(rung, (), "unfit", unfit))
+            elif until is not None and until - time.monotonic() < LEAST_TIME:
+                runs.append(RungRun(rung, (), "not run", "the time limit was over", expired=True))
+            else:
+                done(None)
+                setting = rung.setting
+                task = Task(
+                    str(deck.resolve()), tuple(fixed), setting.overrides, setting.freed, tuple(cases), limits.threads
+                )
+                run = process.run(task, until, limits.each, done)
+                runs.append(_told(rung, run, until is not None and time.monotonic() >= until, limits))
+                planar = planar or (not rung.model and _is_planar(runs[-1]))
+    return runs
+
+
+def _told(rung: Rung, run: ChildRun, expired: bool, limits: Limits) -> RungRun:
+    if run.end == "stopped":
+        words = "stopped at the end of the time limit" if expired else f"stopped after {limits.each:g} s"
+        return RungRun(rung, run.measurements, "stopped", words, expired)
+    unfit = run.end == "failed" and run.exit_status in (UsageError.exit_status, DeckError.exit_status)
+    return RungRun(rung, run.measurements, "unfit" if unfit else run.end, run.words)
+
+
+def _is_planar(run: RungRun) -> bool:
+    return run.end == "done" and {measurement.dimension for measurement in run.measurements} == {2}

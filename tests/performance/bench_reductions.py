@@ -1,0 +1,172 @@
+"""Time and load factor with and without each reduction; appends to results/reductions.csv.
+
+::
+
+    python -m tests.performance.bench_reductions            the structures of which each run takes seconds
+    python -m tests.performance.bench_reductions --all      the whole standard set: hours
+    python -m tests.performance.bench_reductions NAME ...   structures whose names contain one of these
+
+A row for each reduction that a load case allows and that finds something: processor seconds of the solver stage
+(reductions, programs and everything asked for beside the load factor) with all reductions and without that one, one
+after the other in one process, and both load factors. Without normality load factors are not unique: the difference of
+the two is then no error, both being verified in the whole model.
+"""
+
+from __future__ import annotations
+
+import sys
+import tempfile
+import time
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from mbla.contacts.glue import held_model, solids_of
+from mbla.deck import Deck, read_deck
+from mbla.model import build_model
+from mbla.program import assemble
+from mbla.program.reductions import StepState
+from mbla.run_deck import contacts_of, reduced_program
+from mbla.solution import Solution, solve, verified_status, verify
+from mbla.solution.glued import solution_on_blocks
+from mbla.solution.settings import solver_settings
+from tests.performance.recording import record
+from tests.performance.standard_set import DECKS, FLOW_RULES, STANDARD_SET, Structure
+
+HEAD = """\
+mbla: 1
+materials: {stone: {density: 2000}}
+joints: {dry: {friction: 0.7}}
+contacts: {joint: dry}
+blocks:
+"""
+WALL = "  - wall: {{group: {}, material: stone, unit: [0.4, 0.2, 0.2], length: {}, courses: {}, transform: [{}]}}\n"
+FIXED = "  - wall: {{group: base, material: stone, unit: [0.4, 0.2, 0.2], length: {}, courses: 1, transform: [{}]}}\n"
+
+
+def _walls(count: int) -> str:
+    """Walls of 8 x 8 units beside each other."""
+    return "".join(WALL.format("walls", 3.2, 8, f"{{translate: [0, {y}, 0]}}") for y in range(count))
+
+
+GROUND = "supports: [{ground: {z: 0}}]\n"
+PUSHED = "load_cases: {push: {live: [{acceleration: [1, 0, 0]}]}}\n"
+OUTWARDS = "load_cases: {push: {live: [{acceleration: [0, 1, 0]}]}}\n"
+ONE_PUSHED = "load_cases: {push: {live: [{acceleration: [1, 0, 0], on: {group: walls, index: 40}}]}}\n"
+COURSE = FIXED.format(3.6, "{translate: [-0.2, 0, -0.2]}") + WALL.format("walls", 3.2, 8, "{translate: [0, 0, 0]}")
+TEXTS = {
+    "two walls apart": HEAD + _walls(2) + GROUND + PUSHED,
+    "six walls apart, one pushed": HEAD + _walls(6) + GROUND + ONE_PUSHED,
+    "wall, pushed outwards": HEAD + _walls(1) + GROUND + OUTWARDS,
+    "wall on a fixed course": HEAD + COURSE + "supports: [{blocks: base}]\n" + PUSHED,
+    "wall on a fixed course, pushed outwards": HEAD + COURSE + "supports: [{blocks: base}]\n" + OUTWARDS,
+}
+"""Structures of which one or the other reduction makes something."""
+
+QUICK = ("5 x 5", "10 x 10", "20 voussoirs", "50 voussoirs", "colonnade", *TEXTS)
+"""Parts of the names of structures that are measured unless others are asked for."""
+
+
+@dataclass(frozen=True)
+class Run:
+    """One run of the solver stage."""
+
+    solution: Solution
+    status: str
+    seconds: float
+
+    @property
+    def load_factor(self) -> float:
+        """nan where there is none."""
+        return float("nan") if self.solution.mechanics is None else self.solution.mechanics.load_factor
+
+
+def structures(folder: Path) -> Iterator[Structure]:
+    """The standard set, and the structures made for this benchmark."""
+    yield from STANDARD_SET
+    yield Structure("colonnade", "structures", DECKS / "structures" / "colonnade.yaml", (), "across")
+    for name, text in TEXTS.items():
+        path = folder / f"{name.replace(' ', '_').replace(',', '')}.yaml"
+        path.write_text(text, encoding="utf-8")
+        yield Structure(name, "reductions", path, (), "push")
+
+
+class Measured:
+    """A structure up to its contacts, ready to be solved in several ways."""
+
+    def __init__(self, structure: Structure, flow_rule: str) -> None:
+        self.deck = read_deck(structure.deck, (*structure.overrides, f"analysis.flow_rule={flow_rule}"))
+        model = build_model(self.deck)
+        self.contacts = contacts_of(self.deck, model)
+        (self.load_case,) = (case for case in model.load_cases if case.name == structure.load_case)
+        self.model = held_model(model, self.contacts)
+
+    def run(self, without: str | None = None) -> Run:
+        """The solver stage with all reductions, or without one; verified on the whole model."""
+        deck = self.deck if without is None else _without(self.deck, without)
+        solids = solids_of(self.model, self.contacts)
+        program = assemble(solids.model, solids.contacts, solids.load_case(self.load_case))
+        started = time.process_time()
+        reduced = reduced_program(deck, solids, program)
+        solution = solve(reduced, deck.analysis, solver_settings(deck.analysis))
+        seconds = time.process_time() - started
+        solution = solution_on_blocks(solution, solids)
+        checks = verify(self.model, self.contacts, self.load_case, solution)
+        return Run(solution, str(verified_status(solution, checks)), seconds)
+
+
+def _without(deck: Deck, name: str) -> Deck:
+    analysis = deck.analysis
+    switches = analysis.reductions.model_copy(update={name: False})
+    content = deck.content.model_copy(update={"analysis": analysis.model_copy(update={"reductions": switches})})
+    return replace(deck, content=content)
+
+
+def measure(structure: Structure, flow_rule: str) -> None:
+    """A row for each reduction that applies."""
+    measured = Measured(structure, flow_rule)
+    measured.run()  # what is imported or built once
+    own = measured.run()
+    for step in own.solution.reductions:
+        if step.state is not StepState.APPLIED or step.name == "glued":  # no switch: glued joints are rigid
+            continue
+        other = measured.run(step.name)
+        last, others = own.solution.reductions[-1].after, other.solution.reductions[-1].after
+        size = abs(own.load_factor) or 1.0
+        record(
+            "reductions",
+            {
+                "structure": structure.name,
+                "flow_rule": flow_rule,
+                "without": step.name,
+                "found": step.found,
+                "unknowns": last.unknowns,
+                "unknowns_without": others.unknowns,
+                "cones": last.cones,
+                "cones_without": others.cones,
+                "entries": last.entries,
+                "entries_without": others.entries,
+                "processor_seconds": own.seconds,
+                "processor_seconds_without": other.seconds,
+                "times_faster": other.seconds / own.seconds,
+                "status": own.status,
+                "status_without": other.status,
+                "load_factor": f"{own.load_factor:.9g}",
+                "load_factor_without": f"{other.load_factor:.9g}",
+                "difference": (own.load_factor - other.load_factor) / size,
+            },
+        )
+
+
+def main(arguments: Sequence[str]) -> None:
+    """Measure what is asked for."""
+    names = [""] if "--all" in arguments else list(arguments) or list(QUICK)
+    with tempfile.TemporaryDirectory() as folder:
+        for structure in structures(Path(folder)):
+            if any(name in structure.name for name in names):
+                for flow_rule in FLOW_RULES:
+                    measure(structure, flow_rule)
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])

@@ -1,0 +1,78 @@
+"""mbla itself, from the contacts to the verified answer, and what of that a rival does."""
+
+from __future__ import annotations
+
+from functools import partial
+
+from mbla.deck.analysis import AnalysisSection
+from mbla.program import assemble
+from mbla.program.reductions import Reduced, allowed_reductions, reduce_program
+from mbla.solution import solve, verified_status, verify
+from mbla.solution.associative_form import in_velocities
+from mbla.solution.cone_solver import cone_solver
+from mbla.solution.highs_adapter import HighsProgram
+from mbla.solution.settings import solver_settings
+from mbla.solution.solution import Checks, IterationRecord, Solution
+from mbla.solution.standing import assess_standing
+from tests.performance.rivals.answer import Answer, timed
+from tests.performance.rivals.structure import Structure
+
+
+def whole(structure: Structure) -> Answer:
+    """As ``mbla run`` solves it: load factor, proved bounds, unique forces, standing, verification."""
+    return _answer(structure, structure.deck.analysis)
+
+
+def load_factor_alone(structure: Structure) -> Answer:
+    """Load factor with proved bounds and verification; neither standing nor the least forces."""
+    return _answer(structure, structure.deck.analysis.model_copy(update={"standing": False, "forces": "solver"}))
+
+
+def standing(structure: Structure) -> Answer:
+    """Only whether it stands from the stress-free assembly, which is what coupled rigid-block analysis asks."""
+    reduced = _reduced(structure, structure.deck.analysis)
+    settings = solver_settings(structure.deck.analysis)
+    found, seconds = timed(lambda: [assess_standing(program, settings, None) for program in reduced.parts])
+    verdicts = {str(result.verdict) for result in found}
+    return Answer("stands: " + ", ".join(sorted(verdicts)), None, None, None, seconds)
+
+
+def reference(structure: Structure) -> tuple[float, float]:
+    """Static and kinematic bound as close as mbla proves them, whatever that takes."""
+    analysis = structure.deck.analysis.model_copy(update={"accuracy": "reference", "standing": False})
+    checks = _verified(structure, analysis)[1]
+    return checks.static_bound, checks.kinematic_bound
+
+
+def _answer(structure: Structure, analysis: AnalysisSection) -> Answer:
+    solution, checks = _verified(structure, analysis)
+    factor = None if solution.mechanics is None else solution.mechanics.load_factor
+    residual = max(checks.equilibrium_residual, checks.yield_violation, checks.tension_violation)
+    bounds = (checks.static_bound, checks.kinematic_bound)
+    return Answer(str(verified_status(solution, checks)), factor, residual, bounds, None)
+
+
+def _verified(structure: Structure, analysis: AnalysisSection) -> tuple[Solution, Checks]:
+    solution = solve(_reduced(structure, analysis), analysis, solver_settings(analysis))
+    return solution, verify(structure.model, structure.contacts, structure.load_case, solution)
+
+
+def _reduced(structure: Structure, analysis: AnalysisSection) -> Reduced:
+    model, contacts = structure.model, structure.contacts
+    program = assemble(model, contacts, structure.load_case)
+    return reduce_program(model, contacts, program, allowed_reductions(analysis), associative=True)
+
+
+def cone_program_seconds(structure: Structure) -> float:
+    """Seconds of the processor in the cone solver alone, for the program of the load factor, each part once."""
+
+    def silent(record: IterationRecord) -> None:
+        pass
+
+    settings, seconds = solver_settings(structure.deck.analysis), 0.0
+    for program in _reduced(structure, structure.deck.analysis).parts:
+        form = in_velocities(program)
+        solver = cone_solver(form.cone_program, settings, silent)
+        assert not isinstance(solver, HighsProgram)  # only where the deck asks for it
+        seconds += timed(partial(solver.solve_once, 1, 1.0))[1]
+    return seconds

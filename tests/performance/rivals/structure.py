@@ -1,0 +1,52 @@
+"""Structures on which rivals are compared: walls and arches of the standard set, in their plane and in space."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+from mbla.contacts import Contacts
+from mbla.deck import Deck, read_deck
+from mbla.model import Model, build_model
+from mbla.model.model import LoadCase
+from mbla.run_deck import contacts_of, select_cases
+from tests.performance.standard_set import SPATIAL, STANDARD_SET
+from tests.performance.standard_set import Structure as Standard
+
+WALLS = (5, 10, 20)
+ARCHES = (20, 50, 100)
+
+
+@dataclass(frozen=True)
+class Structure:
+    """Everything that is there before anyone begins: the blocks, their contacts and loads."""
+
+    deck: Deck
+    model: Model
+    contacts: Contacts
+    load_case: LoadCase
+    planar: bool
+
+
+def compared() -> dict[str, tuple[Standard, bool]]:
+    """Structures of the standard set by name, and whether they are taken as planar."""
+    standard = {structure.name: structure for structure in STANDARD_SET}
+    chosen: dict[str, tuple[Standard, bool]] = {}
+    for n in WALLS:
+        chosen[f"wall, planar, {n} x {n}"] = standard[f"wall, planar, {n} x {n}"], True
+    for n in WALLS:
+        chosen[f"wall, spatial, {n} x {n}"] = standard[f"wall, spatial, {n} x {n}"], False
+    for n in ARCHES:
+        chosen[f"arch, planar, {n} voussoirs"] = standard[f"arch, {n} voussoirs"], True
+    for n in ARCHES:
+        arch = standard[f"arch, {n} voussoirs"]
+        chosen[f"arch, spatial, {n} voussoirs"] = replace(arch, overrides=(*arch.overrides, *SPATIAL)), False
+    return chosen
+
+
+def structure_of(standard: Standard, overrides: Sequence[str] = (), *, planar: bool) -> Structure:
+    """Read, build and find the contacts, under associative flow."""
+    deck = read_deck(standard.deck, (*standard.overrides, "analysis.flow_rule=associative", *overrides))
+    model = build_model(deck)
+    (load_case,) = select_cases(model, [standard.load_case])
+    return Structure(deck, model, contacts_of(deck, model), load_case, planar)

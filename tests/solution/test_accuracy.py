@@ -1,0 +1,121 @@
+"""Presets keep within the error they promise, and every knob has an effect."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from mbla.exit_status import exit_code
+from mbla.results.results import CaseResult
+from mbla.solution.solution import Status
+from mbla.solution.verify import meets_what_was_asked
+from tests.line import WALL, case_of
+
+ARCH = (Path(__file__).parents[2] / "decks" / "tradeoff" / "arch.yaml").read_text(encoding="utf-8")
+DOME = (Path(__file__).parents[2] / "decks" / "tutorials" / "dome.yaml").read_text(encoding="utf-8")
+WALL_10 = 0.592864
+"""Linear program, to six digits (decks/benchmarks)."""
+ARCH_20 = 0.149350
+
+WITHOUT = "analysis.flow_rule=non_associative"
+
+
+def case(text: str, *overrides: str) -> CaseResult:
+    return case_of(text, *overrides)[1]
+
+
+def factor(result: CaseResult) -> float:
+    assert result.solution.mechanics is not None
+    return result.solution.mechanics.load_factor
+
+
+@pytest.mark.parametrize(("accuracy", "error"), [("draft", 1e-2), ("standard", 1e-4), ("reference", 1e-5)])
+@pytest.mark.parametrize(
+    ("text", "size", "expected"), [(WALL, 5, 0.65), (WALL, 10, WALL_10), (ARCH, 20, ARCH_20)], ids=str
+)
+def test_error_and_proof(text: str, size: int, expected: float, accuracy: str, error: float) -> None:
+    result = case(text, f"parameters.n={size}", f"analysis.accuracy={accuracy}", "analysis.flow_rule=associative")
+    assert result.status is Status.SOLVED
+    assert factor(result) == pytest.approx(expected, rel=error)
+    assert result.checks.gap <= {"draft": 1e-3, "standard": 3e-7, "reference": 1e-7}[accuracy]
+
+
+def test_a_draft_leaves_out_what_does_not_change_the_load_factor() -> None:
+    draft, standard = (case(WALL, f"analysis.accuracy={name}") for name in ("draft", "standard"))
+    assert draft.solution.standing is None
+    assert standard.solution.standing is not None
+    assert len(draft.solution.programs) < len(standard.solution.programs)
+
+
+def test_range_and_peak_go_each_by_itself() -> None:
+    rule = (WITHOUT, "parameters.n=10")
+    standard, without = case(WALL, *rule), case(WALL, *rule, "analysis.range=false")
+    given = case(WALL, *rule, "analysis.accuracy=draft", "analysis.range=true")
+    assert standard.solution.lower is not None
+    assert without.solution.lower is None
+    assert given.solution.lower is not None
+
+
+def test_forces_go_by_the_knob() -> None:
+    least, left = (case(WALL, f"analysis.forces={name}") for name in ("least_squares", "solver"))
+    kinds = [[program.kind for program in each.solution.programs] for each in (least, left)]
+    assert len(kinds[0]) > len(kinds[1])
+
+
+def test_the_gap_asked_for_decides_what_is_solved_again() -> None:
+    rough = ("analysis.tolerance=1e-3", "analysis.flow_rule=associative", "parameters.n=10")
+    one, sharp = case(WALL, *rough, "analysis.gap=0.01"), case(WALL, *rough, "analysis.gap=1e-7")
+    assert len(sharp.solution.programs) > len(one.solution.programs)
+    assert sharp.checks.gap <= 1e-7 < one.checks.gap
+
+
+def test_a_wide_gap_that_was_asked_for_is_approximate_and_no_failure() -> None:
+    """One wall; the solver is stopped so early that its bounds lie further apart than a solved case may have them."""
+    rough = ("analysis.tolerance=1e-4", "analysis.solver=clarabel", "parameters.n=10")
+    result = case(WALL, *rough, "analysis.gap=0.01")
+    assert result.status is Status.APPROXIMATE
+    assert result.solution.asked == 0.01
+    assert "within the gap of 0.01 that was asked for" in result.solution.reason
+    assert exit_code([result]) == 0
+    assert factor(result) == pytest.approx(WALL_10, rel=1e-2)
+    assert not meets_what_was_asked(replace(result.solution, asked=result.checks.gap / 2.0), result.checks)
+    assert exit_code([replace(result, solution=replace(result.solution, asked=None))]) == 4
+
+
+@pytest.fixture(scope="module")
+def rough_dome() -> CaseResult:
+    return case(DOME, WITHOUT, "analysis.accuracy=draft", "analysis.residual=0.01")
+
+
+def test_a_draft_without_normality_stops_at_its_residual(rough_dome: CaseResult) -> None:
+    """The dome, on which steps of the exact law come no closer than 1e-3 for long; its interior path ends at 0.5425."""
+    checks = rough_dome.checks
+    assert rough_dome.status is Status.APPROXIMATE
+    assert max(checks.complementarity_residual, checks.penetration, checks.power_balance) <= 1e-2
+    assert exit_code([rough_dome]) == 0
+    assert factor(rough_dome) == pytest.approx(0.5425, rel=1e-2)
+    assert all(program.kind != "interior" for program in rough_dome.solution.programs)
+    assert "that was asked for" in rough_dome.solution.reason
+
+
+def test_what_misses_the_residual_asked_for_is_a_failure(rough_dome: CaseResult) -> None:
+    solution = replace(rough_dome.solution, asked=1e-4)
+    assert exit_code([replace(rough_dome, solution=solution)]) == 4
+
+
+def test_a_draft_that_comes_to_rest_is_solved() -> None:
+    draft, standard = (case(WALL, WITHOUT, "parameters.n=10", f"analysis.accuracy={a}") for a in ("draft", "standard"))
+    assert draft.status is standard.status is Status.SOLVED
+    assert math.isnan(draft.checks.lower)
+    assert factor(draft) == pytest.approx(factor(standard), rel=1e-6)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("size", [50, 100, 200])
+def test_reference_proves_larger_arches_within_its_promise(size: int) -> None:
+    result = case(ARCH, f"parameters.n={size}", "analysis.accuracy=reference", "analysis.flow_rule=associative")
+    assert result.status is Status.SOLVED
+    assert result.checks.gap <= 1e-7

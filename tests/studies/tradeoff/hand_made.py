@@ -1,0 +1,35 @@
+"""Measurements and runs made by hand."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+from mbla.studies.measurement import Measurement
+from mbla.studies.setting import Setting
+from mbla.studies.tradeoff.ladder_run import RungRun
+from mbla.studies.tradeoff.rung import Rung
+
+SOLVED = Measurement("push", "solved", "answer", verified=True, answer=0.5, accuracy=1e-9, wall=1.0)
+
+
+def measured(answer: float, wall: float, **changes: Any) -> Measurement:
+    """A solved and verified load factor that took ``wall`` seconds."""
+    return replace(SOLVED, answer=answer, wall=wall, **changes)
+
+
+def run_of(name: str, *measurements: Measurement, model: str = "") -> RungRun:
+    """A rung that was run to its end."""
+    return RungRun(Rung(name, Setting((f"analysis.{name.replace(': ', '=')}",)), model=model), measurements, "done")
+
+
+def ladder() -> list[RungRun]:
+    """A preset of each kind, a fast one that is not verified, a dominated one and another model, faster and nearer."""
+    return [
+        run_of("accuracy: standard", measured(0.50001, 0.8)),
+        run_of("accuracy: reference", measured(0.5, 2.0)),
+        run_of("accuracy: draft", measured(0.5005, 0.2)),
+        run_of("form: static", measured(0.50002, 1.5)),
+        run_of("solver: clarabel", measured(0.5, 0.1, status="not_verified", verified=False)),
+        run_of("flow_rule: associative", measured(0.5, 0.1), model="flow_rule"),
+    ]
