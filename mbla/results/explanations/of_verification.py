@@ -29,7 +29,7 @@ OF_MAGNITUDES = (
         "Loads of blocks, or the strength of joints and the loads, lie so far apart that double precision is at its "
         "end.",
         "What light blocks carry is lost in the rounding of the forces on heavy ones: the load factor is not verified, "
-        "or only roughly. Its bounds, where both are given, hold all the same.",
+        "or only roughly.",
         "Densities in a wrong unit, slivers as blocks, a strength that is meant to be unlimited.",
         "Correct the densities; glue slivers to their neighbours; give a joint that is not to fail `glued`, or a "
         "strength of some thousand times the stress instead of 1e9 times.",
