@@ -7,7 +7,7 @@ from collections.abc import Callable
 import numpy as np
 import scipy.sparse as sp
 
-from mbla.arrays import FloatArray
+from mbla.arrays import FloatArray, IntArray
 from mbla.solution.linear_algebra.superlu import factorize
 
 ROUNDS = 6
@@ -49,10 +49,12 @@ def bordered_solver(normal: sp.csc_array, live: FloatArray, weight: float) -> Ca
 def _bordered(normal: sp.csc_array, scale: FloatArray, border: FloatArray, corner: float) -> sp.csc_array:
     """The matrix that is factorised: S N S with its regularisation, the border and its corner."""
     n = len(scale)
-    row, column = normal.indices, np.repeat(np.arange(n), np.diff(normal.indptr))
+    row, column = np.asarray(normal.indices), np.repeat(np.arange(n), np.diff(normal.indptr))
     every, there = np.arange(n), np.flatnonzero(border)
     last, end = np.full(len(there), n), np.full(1 if corner else 0, n)
     entries = [scale[row] * normal.data * scale[column], np.full(n, REGULARIZATION), border[there], border[there]]
-    rows, columns = [row, every, there, last, end], [column, every, last, there, end]
-    values = np.concatenate([*entries, np.full(len(end), corner)])
-    return sp.csc_array((values, (np.concatenate(rows), np.concatenate(columns))), shape=(n + 1, n + 1))
+    rows: list[IntArray] = [row, every, there, last, end]
+    columns: list[IntArray] = [column, every, last, there, end]
+    entries.append(np.full(len(end), corner))
+    places = np.concatenate(rows), np.concatenate(columns)
+    return sp.csc_array((np.concatenate(entries), places), shape=(n + 1, n + 1))

@@ -97,9 +97,11 @@ def _matched(there: FloatArray, image: FloatArray, length: float, sizes: FloatAr
 def _nearest(there: FloatArray, image: FloatArray) -> tuple[FloatArray, IntArray]:
     """Distance and row of the point of ``there`` next to each of ``image``."""
     if len(there) <= FEW:
-        squares = sum(np.subtract.outer(here, other) ** 2 for here, other in zip(image.T, there.T, strict=True))
-        row = np.asarray(squares).argmin(axis=1)
-        return np.linalg.norm(image - there[row], axis=1), row
+        squares = np.zeros((len(image), len(there)))
+        for here, other in zip(image.T, there.T, strict=True):
+            squares += np.subtract.outer(here, other) ** 2
+        row = np.asarray(squares.argmin(axis=1), dtype=np.int64)
+        return np.asarray(np.sqrt(((image - there[row]) ** 2).sum(axis=1))), row
     from scipy.spatial import cKDTree
 
     distance, nearest = cKDTree(there).query(image)
