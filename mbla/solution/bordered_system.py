@@ -49,7 +49,7 @@ def bordered_solver(normal: sp.csc_array, live: FloatArray, weight: float) -> Ca
 def _bordered(normal: sp.csc_array, scale: FloatArray, border: FloatArray, corner: float) -> sp.csc_array:
     """The matrix that is factorised: S N S with its regularisation, the border and its corner."""
     n = len(scale)
-    row, column = np.asarray(normal.indices), np.repeat(np.arange(n), np.diff(normal.indptr))
+    row, column = normal.indices.astype(np.int64), np.repeat(np.arange(n), np.diff(normal.indptr))
     every, there = np.arange(n), np.flatnonzero(border)
     last, end = np.full(len(there), n), np.full(1 if corner else 0, n)
     entries = [scale[row] * normal.data * scale[column], np.full(n, REGULARIZATION), border[there], border[there]]

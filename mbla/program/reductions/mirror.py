@@ -105,7 +105,7 @@ def _nearest(there: FloatArray, image: FloatArray) -> tuple[FloatArray, IntArray
     from scipy.spatial import cKDTree
 
     distance, nearest = cKDTree(there).query(image)
-    return distance, np.asarray(nearest, dtype=np.int64)
+    return np.asarray(distance, dtype=np.float64), np.asarray(nearest, dtype=np.int64)
 
 
 def _loads_match(scene: Scene, block_of: IntArray, velocity_map: FloatArray) -> bool:
