@@ -46,6 +46,22 @@ DIMENSIONS = {
 }
 
 
+DECIMAL: dict[str, dict[str, float]] = {
+    "length": {"m": 1.0, "mm": 1e-3, "cm": 1e-2, "km": 1e3},
+    "force": {"N": 1.0, "kN": 1e3, "MN": 1e6},
+    "moment": {"N*m": 1.0, "kN*m": 1e3, "N m": 1.0, "kN m": 1e3},
+    "force_per_length": {"N/m": 1.0, "kN/m": 1e3},
+    "mass": {"kg": 1.0, "t": 1e3},
+    "stress": {"Pa": 1.0, "kPa": 1e3, "MPa": 1e6, "GPa": 1e9, "N/mm^2": 1e6, "kN/m^2": 1e3},
+    "density": {"kg/m^3": 1.0, "t/m^3": 1e3},
+    "unit_weight": {"N/m^3": 1.0, "kN/m^3": 1e3},
+    "acceleration": {"m/s^2": 1.0},
+    "angle": {"degree": 1.0, "degrees": 1.0, "deg": 1.0},
+    "time": {"s": 1.0, "min": 60.0},
+}
+"""Factors to ``Dimension.si`` of what decks mostly write; all else is for pint, which takes half a second to load."""
+
+
 @dataclass(frozen=True)
 class Units:
     """Units of length, force and mass; time is always in seconds, an angle of the deck in degrees."""
@@ -144,6 +160,12 @@ def _article(name: str) -> str:
 @cache
 def _si_factor(unit: str, dimension: str) -> float:
     """Factor from a unit to the SI unit of a dimension (angles: degree)."""
+    decimal = DECIMAL[dimension].get(unit)
+    return _factor_by_pint(unit, dimension) if decimal is None else decimal
+
+
+def _factor_by_pint(unit: str, dimension: str) -> float:
+    """The same of any unit."""
     import pint
 
     registry = _registry()

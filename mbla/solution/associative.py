@@ -6,14 +6,15 @@ compatible velocities from above. Where the two lie too far apart the program is
 and in units of the load factor where that is small, since the solver's tolerance is absolute there.
 
 The load factors under which the structure is in equilibrium form an interval. The dead load alone is carried if there
-is equilibrium at a load factor of zero or below besides that at collapse: a second program looks for it with the live
-load reversed, and is stopped as soon as its forces, well inside the cones, can be repaired. If zero is not in the
-interval a mechanism shows how the structure falls.
+is equilibrium at a load factor of zero or below besides that at collapse. Where it is asked as well whether the
+structure stands from its stress-free assembly (:mod:`mbla.solution.standing`), the forces that arise there are repaired
+to prove it. Otherwise a second program looks for it with the live load reversed, and is stopped as soon as its forces,
+well inside the cones, can be repaired. If zero is not in the interval a mechanism shows how the structure falls.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -42,6 +43,8 @@ from mbla.solution.proved_answer import (
 )
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import ProgramRecord, Status
+from mbla.solution.standing import stress_free_state
+from mbla.solution.weakening import Outcome, Weakening
 
 ENOUGH = 1e-1
 """Residuals and gap at which the program with the live load reversed is stopped: its forces, far inside the cones then,
@@ -62,6 +65,7 @@ class AssociativeResult:
                   joints dissipate
     solver      : that the state comes from, empty without one: the program may have been solved by several
     asked       : approximate: the distance of the bounds that was asked for, and reached; None where it was not
+    stress_free : what becomes of the dead load on the stress-free assembly, None where that was not looked at
     """
 
     status: Status
@@ -71,15 +75,24 @@ class AssociativeResult:
     programs: tuple[ProgramRecord, ...]
     solver: str = ""
     asked: float | None = None
+    stress_free: Weakening | None = field(default=None, repr=False)
 
 
 def solve_associative(
-    program: Program, settings: SolverSettings, log: Log, *, form: AssociativeForm | None = None, first: int = 1
+    program: Program,
+    settings: SolverSettings,
+    log: Log,
+    *,
+    form: AssociativeForm | None = None,
+    first: int = 1,
+    stress_free: bool = False,
 ) -> AssociativeResult:
     """Solve the program of one load case with associative flow.
 
-    form  : kinematic with the friction cone, unless another is given (:mod:`mbla.solution.associative_form`)
-    first : number of its first program in the sequence of the load case
+    form        : kinematic with the friction cone, unless another is given (:mod:`mbla.solution.associative_form`)
+    first       : number of its first program in the sequence of the load case
+    stress_free : the state of the stress-free assembly is wanted as well: it is found before the program with the live
+                  load reversed, which it mostly saves
     """
     run = AssociativeRun(program, settings, log, first, [])
     falling = _fall_of_what_nothing_touches(program)
@@ -97,13 +110,27 @@ def solve_associative(
         return _no_equilibrium(run, answer.certificate)
     if answer.gap is None and answer.solution.status is not Status.UNBOUNDED:
         return _undecided(run, answer.solution)
-    return _with_dead_load(run, form, answer)
+    if not (stress_free and form.exact) or settings.deadline is not None:
+        return _with_dead_load(run, form, answer, proved=False)
+    state = stress_free_state(program, settings)
+    result = _with_dead_load(run, form, answer, proved=_proves(run, state))
+    return replace(result, stress_free=state)
 
 
-def _with_dead_load(run: AssociativeRun, form: AssociativeForm, answer: ProvedAnswer) -> AssociativeResult:
-    """The result, once it is known that the dead load alone is carried."""
+def _proves(run: AssociativeRun, state: Weakening) -> bool:
+    """Whether the forces on the stress-free assembly, without springs, prove that the dead load alone is carried."""
+    return state.outcome is Outcome.CARRIED and state.forces is not None and _carries(run, state.forces, 0.0)
+
+
+def _with_dead_load(
+    run: AssociativeRun, form: AssociativeForm, answer: ProvedAnswer, *, proved: bool
+) -> AssociativeResult:
+    """The result, once it is known that the dead load alone is carried.
+
+    proved : it is known already
+    """
     settings = replace(run.settings, tolerance=form.tolerance(run.settings.tolerance))
-    reverse, carried = answer.solution, not run.program.dead_load.any()
+    reverse, carried = answer.solution, proved or not run.program.dead_load.any()
     if not carried:
         reverse, carried = _reversed(run, form, settings)
     if not carried and reverse.status is Status.NUMERICAL_ERROR and settings.solver == "auto":
@@ -117,7 +144,7 @@ def _with_dead_load(run: AssociativeRun, form: AssociativeForm, answer: ProvedAn
         if reverse.status not in (*WITH_VALUE, Status.UNBOUNDED):
             reason = "whether the dead load alone is carried could not be decided: " + _words_of(reverse)
             return _without_state(run, reverse.status, reason)
-    if answer.solution.status is Status.UNBOUNDED and reverse.status is Status.UNBOUNDED:
+    if answer.solution.status is Status.UNBOUNDED and reverse.status is Status.UNBOUNDED and not proved:
         return _locked_both_ways(run, settings)
     if answer.solution.status is Status.UNBOUNDED:
         return _without_state(run, Status.UNBOUNDED, LOCKED)
@@ -174,6 +201,11 @@ def _carried(run: AssociativeRun, form: AssociativeForm, reverse: ConeSolution) 
     forces, factor = form.forces(reverse), form.factor(reverse)
     if not np.isfinite(forces).all() or not np.isfinite(factor):
         return False
+    return _carries(run, forces, factor)
+
+
+def _carries(run: AssociativeRun, forces: FloatArray, factor: float) -> bool:
+    """Whether forces in balance with about that load factor can be repaired to carry one of zero or below."""
     repaired = repaired_forces(run.program, forces, factor)
     return repaired is not None and repaired[1] <= STANDS_MARGIN * run.size
 

@@ -99,7 +99,8 @@ def _with_peak(result: PartResult, analysis: AnalysisSection, settings: SolverSe
         return result.with_remark(NO_PEAK, ())
     from mbla.solution.limit_point import limit_point  # late: the load path is followed rarely
 
-    found = limit_point(result.program, state, settings, log, len(result.programs) + 1, most)
+    known = result.associative.stress_free
+    found = limit_point(result.program, state, settings, log, len(result.programs) + 1, most, known)
     return replace(result.with_remark(found.remark, found.programs), peak=found.peak)
 
 
@@ -108,7 +109,8 @@ def _standing_of(result: PartResult, settings: SolverSettings) -> StandingResult
     if associative.certificate is not None:
         return standing_without_equilibrium(result.program, associative.certificate)
     decided = associative.state is not None or associative.status is Status.UNBOUNDED
-    state = assess_dead_load(result.program, settings, True if decided else None)
+    known = associative.stress_free
+    state = assess_dead_load(result.program, settings, True if decided else None, known)
     if state.forces is None or state.displacements is None:
         return state.standing
     forces = forces_of(result.program, state.forces)

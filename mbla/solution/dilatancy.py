@@ -29,6 +29,7 @@ from mbla.solution.proximal import SOLVED, ProximalRun, gravity_state, steps_fro
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import ProgramRecord, Status
 from mbla.solution.stiffness import Stiffness, stiffness_of
+from mbla.solution.weakening import Weakening
 
 SHARES = (0.25, 0.5, 0.75, 1.0)
 """Angles on the way from none, or from that of friction, to the one asked for."""
@@ -51,10 +52,12 @@ class _Tries:
     log: Log
     most_steps: int
     records: list[ProgramRecord]
+    stress_free: Weakening | None
 
     def run(self, slope: FloatArray) -> ProximalRun:
         """A new sequence with the tangents of given angles, (n_points,)."""
-        return ProximalRun(Stepper(self.stiffness, slope, self.settings, self.log), self.records)
+        stepper = Stepper(self.stiffness, slope, self.settings, self.log)
+        return ProximalRun(stepper, self.records, stress_free=self.stress_free)
 
     def along(self, angles: list[FloatArray], forces: FloatArray) -> SequenceResult:
         """From given forces through angles, each from the state of the one before; the result at the last."""
@@ -70,7 +73,8 @@ def solve_dilatancy(
     program: Program, associative: AssociativeResult, scheme: ProximalScheme, settings: SolverSettings, log: Log
 ) -> SequenceResult:
     """Run the scheme with the dilatancy of the joints; associative forces are used where there are any."""
-    tries = _Tries(stiffness_of(program), settings, log, scheme.max_programs, list(associative.programs))
+    records = list(associative.programs)
+    tries = _Tries(stiffness_of(program), settings, log, scheme.max_programs, records, associative.stress_free)
     limits = program.limits
     angle, most = np.arctan(limits.dilatancy), np.arctan(limits.friction)
     above = None if associative.state is None else associative.state.forces

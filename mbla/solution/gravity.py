@@ -20,17 +20,23 @@ from mbla.solution.cone_solver import interior_point_solver
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import ProgramRecord, Status
 from mbla.solution.standing import assess_dead_load
+from mbla.solution.weakening import Weakening
 
 
 def gravity_forces(
-    program: Program, settings: SolverSettings, log: Log, records: list[ProgramRecord]
+    program: Program,
+    settings: SolverSettings,
+    log: Log,
+    records: list[ProgramRecord],
+    known: Weakening | None = None,
 ) -> FloatArray | ConeSolution:
     """Forces under the dead load, (n_points, components), or the solver's verdict where there are none.
 
     records : gets a line
+    known   : ``stress_free_state`` of the program where it was found before
     """
     started, number = time.perf_counter(), len(records) + 1
-    stress_free = assess_dead_load(program, settings).forces
+    stress_free = assess_dead_load(program, settings, known=known).forces
     if stress_free is not None:
         seconds = time.perf_counter() - started
         records.append(ProgramRecord(number, "gravity", Status.SOLVED, np.nan, np.nan, 0, seconds))

@@ -29,6 +29,7 @@ from mbla.solution.law_steps import Step, Stepper, next_step
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import ProgramRecord, Status
 from mbla.solution.stiffness import stiffness_of
+from mbla.solution.weakening import Weakening
 
 STEPS = (3.0, 30.0, 300.0)
 """ε of the steps relative to the gravity state: the first sees whether there is a peak, the others where it is."""
@@ -69,16 +70,18 @@ def limit_point(
     log: Log,
     first_program: int,
     associative: float = np.inf,
+    known: Weakening | None = None,
 ) -> LimitPoint:
     """Peak of the load path above the load factor of a state at rest, without dilatancy.
 
     first_program : number of the first program in the records
     associative   : load factor that nothing within the yield conditions exceeds; next to it there is no room for a peak
+    known         : state of the stress-free assembly under the dead load where it was found before
     """
     if associative <= _least_peak(program, state.load_factor):
         return LimitPoint(None, np.nan, ())
     stepper = Stepper(stiffness_of(program), np.zeros(program.n_points), settings, log)
-    gravity = gravity_forces(program, settings, log, [])
+    gravity = gravity_forces(program, settings, log, [], known)
     if isinstance(gravity, ConeSolution):
         return LimitPoint(None, np.nan, (), "the load path was not followed: no gravity state was found to start from")
     records: list[ProgramRecord] = []

@@ -64,7 +64,7 @@ def solve_path(
 ) -> SequenceResult:
     """Follow the load path without dilatancy; the associative factor over ``scheme.steps`` is the step."""
     stepper = Stepper(stiffness_of(program), np.zeros(program.n_points), settings, log)
-    run = ProximalRun(stepper, list(associative.programs))
+    run = ProximalRun(stepper, list(associative.programs), stress_free=associative.stress_free)
     gravity = gravity_state(run)
     if isinstance(gravity, SequenceResult):
         return gravity

@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from mbla.deck.accuracy import knobs_of
 from mbla.deck.analysis import AnalysisSection
 from mbla.program.program import Program
 from mbla.solution.associative import AssociativeResult, solve_associative
@@ -18,6 +19,7 @@ from mbla.solution.law_state import LawState, SequenceResult
 from mbla.solution.polyhedral import solve_polyhedral, solve_with_opinion
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import ProgramRecord, StandingResult, Status
+from mbla.solution.standing import stress_free_state
 
 
 @dataclass(frozen=True)
@@ -103,13 +105,16 @@ def _with_clean_certificate(result: PartResult, settings: SolverSettings, log: L
 
 def _by_flow_rule(program: Program, analysis: AnalysisSection, settings: SolverSettings, log: Log) -> PartResult:
     if not np.any(program.live_load):
-        return _unloaded_part(program, settings, log)
+        return _unloaded_part(program, analysis, settings, log)
     result = _associative(program, analysis, settings, log)
     associative = result.associative
     if analysis.flow_rule == "associative" or not (associative.state or associative.status is Status.UNBOUNDED):
         return result
     if program.n_points == 0:  # blocks held by guides alone: no joint that could flow by another rule
         return result
+    if associative.stress_free is None and knobs_of(analysis).standing:  # most schemes start from it
+        associative = replace(associative, stress_free=stress_free_state(program, settings))
+        result = replace(result, associative=associative)
     if associative.state is None:
         return _locked_by_dilatancy(result, analysis, settings, log)
     return replace(result, sequence=_by_law(program, associative, analysis, settings, log))
@@ -134,7 +139,8 @@ def _associative(program: Program, analysis: AnalysisSection, settings: SolverSe
     if analysis.second_opinion:
         answer, remark = solve_with_opinion(program, None, analysis.form, "", settings, log)
         return PartResult(program, answer, None, loaded=True, remarks=(remark,) if remark else ())
-    answer = solve_associative(program, settings, log, form=FORMS[analysis.form](program, None))
+    form, wanted = FORMS[analysis.form](program, None), knobs_of(analysis).standing
+    answer = solve_associative(program, settings, log, form=form, stress_free=wanted)
     return PartResult(program, answer, None, loaded=True)
 
 
@@ -158,11 +164,12 @@ def _locked_by_dilatancy(
     return replace(result, associative=replace(associative, reason=""), sequence=sequence)
 
 
-def _unloaded_part(program: Program, settings: SolverSettings, log: Log) -> PartResult:
+def _unloaded_part(program: Program, analysis: AnalysisSection, settings: SolverSettings, log: Log) -> PartResult:
     """A part without live load: whether it carries its dead load shows when that is taken away step by step."""
     relieved = replace(program, live_load=-program.dead_load)
-    result = solve_associative(relieved, settings, log) if np.any(program.dead_load) else None
-    if result is None:
+    if np.any(program.dead_load):
+        result = solve_associative(relieved, settings, log, stress_free=knobs_of(analysis).standing)
+    else:
         result = AssociativeResult(Status.UNBOUNDED, None, None, "", ())
     carried = result.status in (Status.SOLVED, Status.APPROXIMATE)
     if carried:

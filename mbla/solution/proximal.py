@@ -36,6 +36,7 @@ from mbla.solution.law_steps import Step, Stepper, continuing_step, lagged_step,
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import ProgramRecord, Status
 from mbla.solution.stiffness import stiffness_of
+from mbla.solution.weakening import Weakening
 
 STEP = 0.03
 """ε: size of a proximal step relative to the gravity state; 0.01 needs more iterations a step, 0.1 more steps."""
@@ -78,12 +79,16 @@ NO_FORCE = 1e-15
 
 @dataclass
 class ProximalRun:
-    """What a sequence has so far; ``states`` in the order in which they were reached."""
+    """What a sequence has so far; ``states`` in the order in which they were reached.
+
+    stress_free : state of the stress-free assembly under the dead load where it was found before
+    """
 
     stepper: Stepper
     records: list[ProgramRecord]
     states: list[LawState] = field(default_factory=list)
     peak: float = -np.inf
+    stress_free: Weakening | None = None
 
     @property
     def program(self) -> Program:
@@ -99,9 +104,9 @@ class ProximalRun:
 def solve_proximal(
     program: Program, associative: AssociativeResult, max_programs: int, settings: SolverSettings, log: Log
 ) -> SequenceResult:
-    """Run the scheme without dilatancy; the associative result only gives the records it continues."""
+    """Run the scheme without dilatancy; the associative result gives records and the stress-free state."""
     stepper = Stepper(stiffness_of(program), np.zeros(program.n_points), settings, log)
-    run = ProximalRun(stepper, list(associative.programs))
+    run = ProximalRun(stepper, list(associative.programs), stress_free=associative.stress_free)
     gravity = gravity_state(run)
     if isinstance(gravity, SequenceResult):
         return gravity
@@ -110,7 +115,7 @@ def solve_proximal(
 
 def gravity_state(run: ProximalRun) -> FloatArray | SequenceResult:
     """Forces of the gravity state, (n_points, components), or how the scheme ends where there is none."""
-    found = gravity_forces(run.program, run.stepper.settings, run.stepper.log, run.records)
+    found = gravity_forces(run.program, run.stepper.settings, run.stepper.log, run.records, run.stress_free)
     return _broken_off(run, found) if isinstance(found, ConeSolution) else found
 
 

@@ -19,7 +19,7 @@ from mbla.program.program import Program
 from mbla.solution.mechanics import motion_of
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Standing, StandingResult
-from mbla.solution.weakening import Outcome, weaken_springs
+from mbla.solution.weakening import Outcome, Weakening, weaken_springs
 from mbla.stopwatch import timed
 
 YES = "the dead load is carried from the stress-free assembly"
@@ -54,16 +54,28 @@ def assess_standing(program: Program, settings: SolverSettings, carried: bool | 
 
 
 @timed("standing")
-def assess_dead_load(program: Program, settings: SolverSettings, carried: bool | None = True) -> DeadLoadState:
+def stress_free_state(program: Program, settings: SolverSettings) -> Weakening:
+    """What becomes of the dead load on the stress-free assembly: the same whatever the live load and the flow rule."""
+    if not np.any(program.dead_load):
+        forces = np.zeros((program.n_points, program.components))
+        displacements = np.zeros_like(program.dead_load)
+        return Weakening(Outcome.CARRIED, None, 0.0, forces=forces, displacements=displacements)
+    return weaken_springs(program, "dead_load", program.limits, settings)
+
+
+def assess_dead_load(
+    program: Program, settings: SolverSettings, carried: bool | None = True, known: Weakening | None = None
+) -> DeadLoadState:
     """Assess the dead load of a program, reduced or not.
 
     carried : whether some contact forces within the yield conditions are known to carry the dead load; None where that
               was not decided. False needs no springs: see ``standing_without_equilibrium``
+    known   : ``stress_free_state`` of the program where it was found before
     """
+    weakening = known or stress_free_state(program, settings)
     if not np.any(program.dead_load):
-        none = np.zeros((program.n_points, program.components))
-        return DeadLoadState(StandingResult(Standing.YES, None, NO_DEAD_LOAD), none, np.zeros_like(program.dead_load))
-    weakening = weaken_springs(program, "dead_load", program.limits, settings)
+        nothing = StandingResult(Standing.YES, None, NO_DEAD_LOAD)
+        return DeadLoadState(nothing, weakening.forces, weakening.displacements)
     if weakening.outcome is Outcome.CARRIED:
         return DeadLoadState(StandingResult(Standing.YES, None, YES), weakening.forces, weakening.displacements)
     verdict, reason = (Standing.SELF_STRESS, SELF_STRESS) if carried else (Standing.NO, NO)

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mbla.deck.units import DIMENSIONS, KILOGRAMS, METRES, NEWTONS, STANDARD_GRAVITY, Units
+from mbla.deck.units import DECIMAL, DIMENSIONS, KILOGRAMS, METRES, NEWTONS, STANDARD_GRAVITY, Units, _factor_by_pint
 
 SI = Units()
 
@@ -100,6 +100,11 @@ def test_gravity(units: Units) -> None:
 def test_any_text_is_a_number_or_a_value_error(text: str, dimension: str) -> None:
     with suppress(ValueError):
         assert isinstance(SI.convert(text, dimension), float)
+
+
+@pytest.mark.parametrize(("dimension", "unit"), [(name, unit) for name, units in DECIMAL.items() for unit in units])
+def test_units_read_without_the_library_are_what_it_makes_of_them(dimension: str, unit: str) -> None:
+    assert DECIMAL[dimension][unit] == pytest.approx(_factor_by_pint(unit, dimension), rel=1e-15)
 
 
 def test_units_library_is_loaded_only_when_needed() -> None:

@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from mbla.solution.solution import Status
+from mbla.solution import standing
+from mbla.solution.solution import Standing, Status
+from mbla.solution.weakening import Outcome, Weakening, weaken_springs
 from tests.line import BLOCK, WALL, line_of, load_factor, solution_of, verified
 
 NO_STANDING = "analysis.standing=false"
@@ -167,11 +171,50 @@ def test_without_any_dead_load_there_is_the_strength_of_the_joints() -> None:
 
 def test_the_dead_load_is_proved_to_be_carried_by_a_few_iterations() -> None:
     """A wall needs no more than a rough equilibrium with the live load reversed, mended."""
-    solution = solution_of(line_of(WALL, "parameters.n=10"))
+    solution = solution_of(line_of(WALL, "parameters.n=10", NO_STANDING))
     forward, reverse = solution.programs[:2]
     assert (forward.kind, reverse.kind) == ("associative", "reverse")
     assert reverse.load_factor < 0.0
     assert reverse.iterations <= 0.6 * forward.iterations
+
+
+@pytest.mark.parametrize("rule", ["associative", "non_associative"])
+def test_where_standing_is_asked_its_forces_prove_that_the_dead_load_is_carried(
+    rule: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The springs are weakened once, for every question about the dead load, and nothing else is solved for it."""
+    weakened = []
+
+    def counted(*arguments: Any) -> Weakening:
+        weakened.append(arguments)
+        return weaken_springs(*arguments)
+
+    monkeypatch.setattr(standing, "weaken_springs", counted)
+    solution, _, status = verified(line_of(WALL, "parameters.n=6", f"analysis.flow_rule={rule}"))
+    assert status is Status.SOLVED
+    assert solution.standing is not None
+    assert solution.standing.verdict is Standing.YES
+    assert "reverse" not in [program.kind for program in solution.programs]
+    assert len(weakened) == 1
+
+
+def test_where_the_springs_decide_nothing_the_reversed_live_load_does(monkeypatch: pytest.MonkeyPatch) -> None:
+    def undecided(*arguments: Any) -> Weakening:
+        return replace(weaken_springs(*arguments), outcome=Outcome.UNDECIDED)
+
+    monkeypatch.setattr(standing, "weaken_springs", undecided)
+    solution = solution_of(line_of(WALL, "parameters.n=4"))
+    assert "reverse" in [program.kind for program in solution.programs]
+    assert solution.standing is not None
+    assert solution.standing.verdict is Standing.DOUBTFUL
+
+
+def test_with_a_time_limit_the_programs_come_before_the_springs() -> None:
+    """What standing takes cannot be foreseen: it must not take the load factor's time."""
+    solution = solution_of(line_of(WALL, "parameters.n=4", "analysis.time_limit=60"))
+    assert [program.kind for program in solution.programs][:2] == ["associative", "reverse"]
+    assert solution.standing is not None
+    assert solution.standing.verdict is Standing.YES
 
 
 @every_reduction

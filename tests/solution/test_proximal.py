@@ -101,7 +101,6 @@ def test_wall_with_an_opening_gives_the_published_factor() -> None:
         "range, lower",
         "range, upper",
         "associative",
-        "reverse",
         "gravity",
         "exact step",
     }

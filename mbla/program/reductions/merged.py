@@ -17,7 +17,6 @@ from dataclasses import replace
 import numpy as np
 import scipy.sparse as sp
 from scipy.sparse.csgraph import connected_components
-from scipy.spatial import cKDTree
 
 from mbla.arrays import FloatArray, IntArray
 from mbla.program.reductions.points import several_of_a_pair
@@ -65,6 +64,8 @@ def _groups(scene: Scene) -> IntArray | None:
     candidates = np.flatnonzero(np.isin(scene.interfaces, several_of_a_pair(scene)) & ~scene.refined_points)
     if not len(candidates):
         return None
+    from scipy.spatial import cKDTree  # late: few structures have such points
+
     pairs = cKDTree(_features(scene, candidates)).query_pairs(COINCIDENT, output_type="ndarray")
     pairs = candidates[pairs]
     pairs = pairs[_same_law(scene, pairs)]

@@ -17,6 +17,9 @@ from mbla.arrays import FloatArray, IntArray
 from mbla.program.reductions.restrict import block_matrix
 from mbla.program.reductions.scene import Scene
 
+FEW = 300
+"""Points of which all distances are compared: loading scipy's tree of points takes longer."""
+
 SYMMETRIC = 1e-9
 """Relative to block size, and to the mean load of a block: deviation from symmetry that counts as rounding. The load
 factor moves by no more than about that much."""
@@ -85,13 +88,24 @@ def mirror_about(scene: Scene, normal: FloatArray) -> Mirror | None:
 
 def _matched(there: FloatArray, image: FloatArray, length: float, sizes: FloatArray) -> IntArray | None:
     """Row of ``there`` at each row of ``image``, each used once; None where one has no partner."""
-    from scipy.spatial import cKDTree
-
-    distance, nearest = cKDTree(there).query(image)
-    row = np.asarray(nearest, dtype=np.int64)
+    distance, row = _nearest(there, image)
     if np.any(distance > SYMMETRIC * np.maximum(sizes, length)) or len(np.unique(row)) < len(row):
         return None
     return row
+
+
+def _nearest(there: FloatArray, image: FloatArray) -> tuple[FloatArray, IntArray]:
+    """Distance and row of the point of ``there`` next to each of ``image``."""
+    if len(there) <= FEW:
+        squares = np.zeros((len(image), len(there)))
+        for here, other in zip(image.T, there.T, strict=True):
+            squares += np.subtract.outer(here, other) ** 2
+        row = np.asarray(squares.argmin(axis=1), dtype=np.int64)
+        return np.asarray(np.sqrt(((image - there[row]) ** 2).sum(axis=1))), row
+    from scipy.spatial import cKDTree
+
+    distance, nearest = cKDTree(there).query(image)
+    return np.asarray(distance, dtype=np.float64), np.asarray(nearest, dtype=np.int64)
 
 
 def _loads_match(scene: Scene, block_of: IntArray, velocity_map: FloatArray) -> bool:

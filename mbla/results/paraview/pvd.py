@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
-from xml.sax.saxutils import quoteattr
 
 import numpy as np
 
@@ -32,6 +31,8 @@ def frame_times(frames: int) -> list[float]:
 
 def collection_pvd(files: Sequence[str], times: Sequence[float]) -> str:
     """The text of a PVD file that plays the frames."""
+    from xml.sax.saxutils import quoteattr  # late: it brings the network libraries of Python with it
+
     lines = [
         '<?xml version="1.0"?>',
         '<VTKFile type="Collection" version="0.1" byte_order="LittleEndian">',
