@@ -12,6 +12,7 @@ from mbla.arrays import FloatArray, IntArray
 from mbla.deck.analysis import AnalysisSection
 from mbla.program.program import Program
 from mbla.program.reductions import Reduced
+from mbla.solution.associative import AssociativeResult
 from mbla.solution.beside import Questions, with_answers
 from mbla.solution.cone_solution import Log
 from mbla.solution.force_ranges import force_ranges
@@ -45,6 +46,9 @@ LOCK_NOT_PROVED = (
 ONLY_BY_SELF_STRESS = (
     "it stands only by forces locked in between the blocks beforehand: without knowing these there is no collapse load"
 )
+
+
+BROKE_DOWN = "a system of equations of the method broke down ({}): try another scheme or solver"
 
 
 @dataclass(frozen=True)
@@ -85,7 +89,7 @@ def solve(reduced: Reduced, analysis: AnalysisSection, settings: SolverSettings,
 
     stage = _Stage(reduced.parts, reduced.interface_of_point, settings, record)
     questions = Questions(analysis, reduced.point_areas, settings, record)
-    results = [with_answers(solve_part(program, analysis, settings, record), questions) for program in reduced.parts]
+    results = [_result_of(program, questions) for program in reduced.parts]
     solution = _combined(stage, analysis, results)
     assessed = [result.standing for result in results if result.standing is not None]
     standing = worst_standing(assessed) if assessed else None
@@ -102,6 +106,16 @@ def solve(reduced: Reduced, analysis: AnalysisSection, settings: SolverSettings,
         reductions=reduced.steps,
         solver=settings.solver,
     )
+
+
+def _result_of(program: Program, questions: Questions) -> PartResult:
+    """What was found for one part; a system of equations that nobody expected to be singular is a failure told."""
+    try:
+        return with_answers(solve_part(program, questions.analysis, questions.settings, questions.log), questions)
+    except np.linalg.LinAlgError as error:
+        reason = BROKE_DOWN.format(str(error).lower())
+        failure = AssociativeResult(Status.NUMERICAL_ERROR, None, None, reason, ())
+        return PartResult(program, failure, None, loaded=bool(np.any(program.live_load)))
 
 
 def _combined(stage: _Stage, analysis: AnalysisSection, results: Sequence[PartResult]) -> Solution:
