@@ -20,6 +20,7 @@ from mbla.solution.law_state import LawState
 from mbla.solution.locking import locking_forces
 from mbla.solution.mechanics import mechanics_of, motion_of
 from mbla.solution.part import PartResult, solve_part
+from mbla.solution.repeated import answer_for
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import IterationRecord, Mechanics, ProgramRecord, Solution, Standing, Status
 from mbla.solution.standing import worst_standing
@@ -53,9 +54,13 @@ BROKE_DOWN = "a system of equations of the method broke down ({}): try another s
 
 @dataclass(frozen=True)
 class _Stage:
-    """What every step of one load case needs."""
+    """What every step of one load case needs.
+
+    like : of each part the number of the first one that is the same, its own where there is none before
+    """
 
     parts: tuple[Program, ...]
+    like: tuple[int, ...]
     interface_of_point: IntArray
     settings: SolverSettings
     log: Log
@@ -70,7 +75,7 @@ class _Stage:
         """
         if state is None:
             return None
-        whole = whole_state(self.parts, part, state, self.settings, self.log, collapse)
+        whole = whole_state(self.parts, part, state, self.settings, self.log, collapse, self.like)
         return None if whole is None else mechanics_of(*whole, flow_rule)
 
 
@@ -87,9 +92,13 @@ def solve(reduced: Reduced, analysis: AnalysisSection, settings: SolverSettings,
         if log is not None:
             log(iteration)
 
-    stage = _Stage(reduced.parts, reduced.interface_of_point, settings, record)
+    like = reduced.like or tuple(range(len(reduced.parts)))
+    stage = _Stage(reduced.parts, like, reduced.interface_of_point, settings, record)
     questions = Questions(analysis, reduced.point_areas, settings, record)
-    results = [_result_of(program, questions) for program in reduced.parts]
+    results: list[PartResult] = []
+    for program, like in zip(reduced.parts, stage.like, strict=True):
+        again = like < len(results)
+        results.append(answer_for(program, results[like]) if again else _result_of(program, questions))
     solution = _combined(stage, analysis, results)
     assessed = [result.standing for result in results if result.standing is not None]
     standing = worst_standing(assessed) if assessed else None

@@ -78,7 +78,7 @@ def test_optimum_and_way_back(strength: tuple[str, ...], case: int) -> None:
 
 
 @pytest.mark.parametrize("case", [0, 1, 2])
-@pytest.mark.parametrize("scheme", ["proximal", "published", "interior", "path"])
+@pytest.mark.parametrize("scheme", ["proximal", "published", "interior"])
 def test_no_scheme_without_normality_sees_the_difference(scheme: str, case: int) -> None:
     """Load factor, its range and the residuals recomputed in the whole model."""
     factors = []
