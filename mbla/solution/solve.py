@@ -96,9 +96,9 @@ def solve(reduced: Reduced, analysis: AnalysisSection, settings: SolverSettings,
     stage = _Stage(reduced.parts, like, reduced.interface_of_point, settings, record)
     questions = Questions(analysis, reduced.point_areas, settings, record)
     results: list[PartResult] = []
-    for program, like in zip(reduced.parts, stage.like, strict=True):
-        again = like < len(results)
-        results.append(answer_for(program, results[like]) if again else _result_of(program, questions))
+    for program, first in zip(reduced.parts, like, strict=True):
+        again = first < len(results)
+        results.append(answer_for(program, results[first]) if again else _result_of(program, questions))
     solution = _combined(stage, analysis, results)
     assessed = [result.standing for result in results if result.standing is not None]
     standing = worst_standing(assessed) if assessed else None

@@ -186,7 +186,7 @@ def _model_size(
     scenes: Sequence[Scene], mirrors: Sequence[Mirror | None], parts: Sequence[Program], like: IntArray, n_points: int
 ) -> ModelSize:
     """What reaches the solver of a model with n_points contact points."""
-    blocks, solved = 0, np.flatnonzero(like == np.arange(len(like)))
+    blocks, solved = 0, np.flatnonzero(like == np.arange(len(like))).tolist()
     for number in solved:
         mirror, own = mirrors[number], np.arange(len(scenes[number].centroids))
         blocks += len(own) if mirror is None else int(np.sum(mirror.block_of >= own))
