@@ -53,7 +53,7 @@ blocks:
 supports: [{ground: {z: 0}}]
 load_cases: {push: {live: [{acceleration: [1, 0, 0]}]}}
 """
-"""Two cubes and a shorter block on them, the middle one in two glued halves, of which the block above is numbered between."""
+"""Two cubes and a shorter block on them, the middle one in two glued halves between which that block is numbered."""
 
 
 @pytest.mark.parametrize("flow_rule", ["associative", "non_associative"])
