@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from dataclasses import asdict
+from dataclasses import asdict, replace
 
 import numpy as np
 
@@ -14,6 +14,7 @@ from mbla.model import Model, build_model
 from mbla.model.model import LoadCase
 from mbla.program import assemble
 from mbla.program.kinematic import ConeProgram, kinematic_form
+from mbla.program.reductions.glued import glued_step
 from mbla.results.files import OutputFolder
 from mbla.results.needs import CaseNeeds
 from mbla.results.paraview.mesh_files import write_model_vtu
@@ -65,13 +66,23 @@ def needs_of(deck: Deck, model: Model, contacts: Contacts, load_case: LoadCase) 
     """What of the model reaches the solver, the size of its first cone programs, and who solves them."""
     model = model.of_case(load_case)
     solids = solids_of(model, contacts)
-    program = assemble(solids.model, solids.contacts, solids.load_case(load_case))
-    reduced = reduced_program(deck, solids, program)
-    programs = [kinematic_form(part, part.limits).cone_program for part in reduced.parts if np.any(part.live_load)]
+    on_solids = (solids.model, solids.contacts, solids.load_case(load_case))
+    reduced = reduced_program(deck, solids, assemble(*on_solids))
+    if deck.analysis.contact_model == "convex":
+        from mbla.program.convex import assemble_convex, convex_form
+        from mbla.program.convex.size import size_of_convex
+
+        convex = assemble_convex(*on_solids)
+        reduced = replace(reduced, steps=(glued_step(solids, size_of_convex(convex)),))
+        unknowns, programs = len(convex.program.dead_load), [convex_form(convex).cone_program]
+    else:
+        unknowns = sum(len(part.dead_load) for part in reduced.solved)
+        programs = [kinematic_form(part, part.limits).cone_program for part in reduced.solved if np.any(part.live_load)]
+    further = [size for program in programs for size in program.further_cones]
     counts = asdict(reduced.size) | {
-        "unknown_velocities": sum(len(part.dead_load) for part in reduced.parts),
-        "cones": sum(program.n_cones for program in programs),
-        "half_lines": sum(program.n_half_lines for program in programs),
+        "unknown_velocities": unknowns,
+        "cones": sum(program.n_cones for program in programs) + sum(size > 1 for size in further),
+        "half_lines": sum(program.n_half_lines for program in programs) + further.count(1),
         "matrix_entries": sum(int(program.matrix.nnz) for program in programs),
         "solver": ", ".join(dict.fromkeys(_solver(deck, program) for program in programs)),
     }

@@ -9,7 +9,8 @@ from typing import Any
 import pytest
 
 from mbla.cli import main
-from tests.line import BLOCK, WALL
+from mbla.program.convex import assemble_convex, convex_form
+from tests.line import BLOCK, WALL, line_of
 
 TWO_CASES = BLOCK.replace("load_cases:\n", "load_cases:\n  down: {live: [{acceleration: [0, 0, -1]}]}\n", 1)
 
@@ -176,6 +177,22 @@ def test_check_solves_nothing_and_writes_nothing(deck: Path, capsys: pytest.Capt
     assert main(["check", str(deck), "--vtu"]) == 0
     assert f"files: {deck.with_suffix('.out') / 'block_check_*.vtu'}" in capsys.readouterr().out
     assert {path.suffix for path in deck.with_suffix(".out").iterdir()} == {".vtu"}
+
+
+def test_check_counts_the_program_of_interface_resultants(deck: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """The unknowns and cones of the conditions, of torsion here, beside those of the points."""
+    _, (record,), _ = run_json(capsys, "check", deck, "--json", "--set", "analysis.contact_model=convex")
+    (needs,) = record["needs"].values()
+    line = line_of(BLOCK, "analysis.contact_model=convex")
+    convex = assemble_convex(line.model, line.contacts, line.load_case)
+    (program,) = (convex_form(convex).cone_program,)
+    n_cones = program.n_cones + sum(size > 1 for size in program.further_cones)
+    assert needs["unknown_velocities"] == len(convex.program.dead_load) > 6
+    assert (needs["cones"], needs["matrix_entries"]) == (n_cones, program.matrix.nnz)
+    assert needs["half_lines"] == program.n_half_lines + program.further_cones.count(1) > 0
+    (glued,) = needs["reductions"]
+    assert glued["after"]["unknowns"] == needs["unknown_velocities"]
+    assert glued["after"]["cones"] == n_cones
 
 
 @pytest.mark.parametrize(

@@ -11,6 +11,7 @@ import scipy.sparse as sp
 
 from mbla.arrays import FloatArray
 from mbla.program.yield_conditions import YieldLimits
+from mbla.solution.linear_algebra.small_inverses import inverses
 
 TINY = 1e-100
 """Stands for zero slack: its square and the square of its inverse are within the range of numbers."""
@@ -65,4 +66,4 @@ def _inverse(hessian: FloatArray) -> FloatArray:
     """Inverse of each block; scaled to unit diagonal, so that points with forces 1e-12 of the others keep accuracy."""
     size = 1.0 / np.sqrt(np.maximum(np.einsum("nii->ni", hessian), TINY))
     unit = hessian * size[:, :, None] * size[:, None, :] + 1e-14 * np.eye(hessian.shape[1])[None]
-    return np.asarray(np.linalg.inv(unit) * size[:, :, None] * size[:, None, :])
+    return np.asarray(inverses(unit) * size[:, :, None] * size[:, None, :])

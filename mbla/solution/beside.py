@@ -12,13 +12,14 @@ import numpy as np
 from mbla.arrays import FloatArray
 from mbla.deck.accuracy import knobs_of
 from mbla.deck.analysis import AnalysisSection
+from mbla.program.program import Program
 from mbla.solution.cone_solution import Log
 from mbla.solution.factor_range import factor_range
 from mbla.solution.mechanics import forces_of
 from mbla.solution.part import PartResult
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import StandingResult, Status
-from mbla.solution.standing import assess_dead_load, settlement_of, standing_without_equilibrium
+from mbla.solution.standing import DeadLoadState, assess_dead_load, settlement_of, standing_without_equilibrium
 from mbla.solution.unique_forces import least_forces, point_weights
 
 RANGE_RESIDUAL = 1e-4
@@ -61,7 +62,7 @@ def with_answers(result: PartResult, questions: Questions) -> PartResult:
     if knobs.range:
         result = _with_range(result, analysis, settings, log)
     result = _with_peak(result, analysis, settings, log)
-    return replace(result, standing=_standing_of(result, settings)) if knobs.standing else result
+    return _with_standing(result, settings) if knobs.standing else result
 
 
 def _with_least_forces(result: PartResult, questions: Questions) -> PartResult:
@@ -104,14 +105,18 @@ def _with_peak(result: PartResult, analysis: AnalysisSection, settings: SolverSe
     return replace(result.with_remark(found.remark, found.programs), peak=found.peak)
 
 
-def _standing_of(result: PartResult, settings: SolverSettings) -> StandingResult:
+def _with_standing(result: PartResult, settings: SolverSettings) -> PartResult:
     associative = result.associative
     if associative.certificate is not None:
-        return standing_without_equilibrium(result.program, associative.certificate)
+        return replace(result, standing=standing_without_equilibrium(result.program, associative.certificate))
     decided = associative.state is not None or associative.status is Status.UNBOUNDED
-    known = associative.stress_free
-    state = assess_dead_load(result.program, settings, True if decided else None, known)
+    state = assess_dead_load(result.program, settings, True if decided else None, associative.stress_free)
+    return replace(result, at_dead_load=state, standing=standing_on_model(result.program, state))
+
+
+def standing_on_model(program: Program, state: DeadLoadState) -> StandingResult:
+    """Standing of a part with its forces and displacements as those of the model, where they are known."""
     if state.forces is None or state.displacements is None:
         return state.standing
-    forces = forces_of(result.program, state.forces)
-    return replace(state.standing, forces=forces, settlement=settlement_of(result.program, state.displacements))
+    forces = forces_of(program, state.forces)
+    return replace(state.standing, forces=forces, settlement=settlement_of(program, state.displacements))

@@ -12,6 +12,7 @@ import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
 from mbla.program.program import Program
+from mbla.solution.linear_algebra.small_inverses import inverses
 from mbla.solution.stiffness import Stiffness
 
 LEAST_LIMIT = 1e-10
@@ -191,7 +192,7 @@ class Joints:
         g[:, 0, 0] = 1.0
         g[:, 0, 1:] = (law.dilatancy * over)[:, None] * now.shear
         g[:, 1:, 1:] = cone
-        inverse: FloatArray = np.asarray(np.linalg.inv(h), dtype=np.float64)
+        inverse = inverses(h)
         return Joints(step, limit, cone, inverse, np.matmul(inverse, g))
 
     def direction(

@@ -148,8 +148,15 @@ def _errors(step: StepProblem, now: Iterate, missing: Missing) -> tuple[float, f
 def _iterate(
     step: StepProblem, now: Iterate, missing: Missing, last: float, gap: float
 ) -> tuple[Iterate, float] | None:
-    """Predictor, corrector, step; the new iterate and the length of the step, None where the system is singular."""
+    """Predictor, corrector, step; the new iterate and the length of the step, None where there is none.
+
+    That is where the system is singular, and where no way is left: with a load that nothing carries the velocities grow
+    without bound until rounding of their products puts joints outside their cones. The way back inside is negative, and
+    steps along it end anywhere.
+    """
     joints = Joints.of(step, now)
+    if not np.isfinite(joints.tangents).all():
+        return None
     shift = REGULARIZATION * float(np.abs(joints.tangents[:, 0, 0]).mean()) * step.stiffness.size
     solve = step.stiffness.factorized(joints.tangents, shift, fixed_load=step.fixed_load)
     if solve is None:
@@ -169,6 +176,8 @@ def _iterate(
     direction, length = _centred(
         step, now, products, target, lambda sought: joints.direction(solve, now, missing, sought)
     )
+    if not length > 0.0:
+        return None
     if length < 1.0:
         length *= max(SHARE, 1.0 - gap)
     return moved(now, direction, length), length

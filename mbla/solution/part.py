@@ -19,7 +19,7 @@ from mbla.solution.law_state import LawState, SequenceResult
 from mbla.solution.polyhedral import solve_polyhedral, solve_with_opinion
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import ProgramRecord, StandingResult, Status
-from mbla.solution.standing import stress_free_state
+from mbla.solution.standing import DeadLoadState, stress_free_state
 
 
 @dataclass(frozen=True)
@@ -35,6 +35,7 @@ class PartResult:
     remarks     : beside those of the sequence, one sentence each
     least       : the associative state with the least forces
     peak        : greatest load factor of the load path, where that lies above the load factor
+    at_dead_load : forces and displacements from which the standing was seen, in the part's own unknowns
     more        : programs solved for what is found beside the load factor
     """
 
@@ -49,6 +50,7 @@ class PartResult:
     least: LawState | None = None
     peak: LawState | None = None
     more: tuple[ProgramRecord, ...] = ()
+    at_dead_load: DeadLoadState | None = None
 
     def with_remark(self, remark: str, programs: tuple[ProgramRecord, ...]) -> PartResult:
         """The same with one more remark, unless that is empty, and more programs."""

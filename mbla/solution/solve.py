@@ -12,6 +12,7 @@ from mbla.arrays import FloatArray, IntArray
 from mbla.deck.analysis import AnalysisSection
 from mbla.program.program import Program
 from mbla.program.reductions import Reduced
+from mbla.solution.associative import AssociativeResult
 from mbla.solution.beside import Questions, with_answers
 from mbla.solution.cone_solution import Log
 from mbla.solution.force_ranges import force_ranges
@@ -19,6 +20,7 @@ from mbla.solution.law_state import LawState
 from mbla.solution.locking import locking_forces
 from mbla.solution.mechanics import mechanics_of, motion_of
 from mbla.solution.part import PartResult, solve_part
+from mbla.solution.repeated import answer_for
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import IterationRecord, Mechanics, ProgramRecord, Solution, Standing, Status
 from mbla.solution.standing import worst_standing
@@ -47,11 +49,18 @@ ONLY_BY_SELF_STRESS = (
 )
 
 
+BROKE_DOWN = "a system of equations of the method broke down ({}): try another scheme or solver"
+
+
 @dataclass(frozen=True)
 class _Stage:
-    """What every step of one load case needs."""
+    """What every step of one load case needs.
+
+    like : of each part the number of the first one that is the same, its own where there is none before
+    """
 
     parts: tuple[Program, ...]
+    like: tuple[int, ...]
     interface_of_point: IntArray
     settings: SolverSettings
     log: Log
@@ -66,7 +75,7 @@ class _Stage:
         """
         if state is None:
             return None
-        whole = whole_state(self.parts, part, state, self.settings, self.log, collapse)
+        whole = whole_state(self.parts, part, state, self.settings, self.log, collapse, self.like)
         return None if whole is None else mechanics_of(*whole, flow_rule)
 
 
@@ -83,9 +92,13 @@ def solve(reduced: Reduced, analysis: AnalysisSection, settings: SolverSettings,
         if log is not None:
             log(iteration)
 
-    stage = _Stage(reduced.parts, reduced.interface_of_point, settings, record)
+    like = reduced.like or tuple(range(len(reduced.parts)))
+    stage = _Stage(reduced.parts, like, reduced.interface_of_point, settings, record)
     questions = Questions(analysis, reduced.point_areas, settings, record)
-    results = [with_answers(solve_part(program, analysis, settings, record), questions) for program in reduced.parts]
+    results: list[PartResult] = []
+    for program, first in zip(reduced.parts, like, strict=True):
+        again = first < len(results)
+        results.append(answer_for(program, results[first]) if again else _result_of(program, questions))
     solution = _combined(stage, analysis, results)
     assessed = [result.standing for result in results if result.standing is not None]
     standing = worst_standing(assessed) if assessed else None
@@ -102,6 +115,16 @@ def solve(reduced: Reduced, analysis: AnalysisSection, settings: SolverSettings,
         reductions=reduced.steps,
         solver=settings.solver,
     )
+
+
+def _result_of(program: Program, questions: Questions) -> PartResult:
+    """What was found for one part; a system of equations that nobody expected to be singular is a failure told."""
+    try:
+        return with_answers(solve_part(program, questions.analysis, questions.settings, questions.log), questions)
+    except np.linalg.LinAlgError as error:
+        reason = BROKE_DOWN.format(str(error).lower())
+        failure = AssociativeResult(Status.NUMERICAL_ERROR, None, None, reason, ())
+        return PartResult(program, failure, None, loaded=bool(np.any(program.live_load)))
 
 
 def _combined(stage: _Stage, analysis: AnalysisSection, results: Sequence[PartResult]) -> Solution:

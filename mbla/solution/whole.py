@@ -21,10 +21,17 @@ from mbla.solution.mechanics import lifted
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Status
 
-SAME_FACTOR = 1e-7
-"""Relative difference of load factors within which a part is about to collapse as well. Of it no forces but those of
-its own collapse are asked for: at its load factor a program that looks for the least ones has hardly an inside, and of
-two equal walls the forces found for the second were too rough for a static bound."""
+SAME_FACTOR = 1e-9
+"""Relative difference of load factors within which a part is about to collapse as well: it has the forces of its own
+collapse. With what 3e-8 leaves unbalanced no static bound was found of a wall whose forces are at their limits."""
+
+NEAR = 1e-3
+"""Relative difference up to which a part collapses soon after. At the load factor a program that looks for the least
+forces has hardly an inside then, and its answer was too rough for a static bound."""
+
+BELOW = 1e-2
+"""Share of the load factor by which such a part is looked at below it. Forces of there and of its own collapse,
+combined to the load factor between the two, balance the loads and keep within the yield conditions as both do."""
 
 
 def whole_state(
@@ -34,22 +41,27 @@ def whole_state(
     settings: SolverSettings,
     log: Log,
     collapse: Sequence[LawState | None] = (),
+    like: Sequence[int] = (),
 ) -> tuple[Program, LawState] | None:
     """A state of one part as one of the whole model, the other parts at rest; None where these do not carry it.
 
     A single part is returned as it is.
 
     collapse : of each part its own state at collapse, None where there is none; nothing where none is known
+    like     : of each part the number of the first one that is the same; those at rest are then found once
     """
     if len(parts) == 1:
         return parts[0], state
     total: LawState | None = None
-    program = parts[part]
+    program, resting = parts[part], dict[int, LawState | None]()
     for number, other in enumerate(parts):
         own: LawState | None = state
         if number != part:
-            own = _about_to_collapse(collapse[number] if collapse else None, state.load_factor)
-            own = own or at_rest(other, state.load_factor, settings, log)
+            first = like[number] if like else number
+            if first not in resting:
+                ending = collapse[number] if collapse else None
+                resting[first] = _resting(other, ending, state.load_factor, settings, log)
+            own = resting[first]
         if own is None:
             return None
         program, own = to_full(other, own)
@@ -62,11 +74,24 @@ def whole_state(
     return program, total
 
 
-def _about_to_collapse(collapse: LawState | None, load_factor: float) -> LawState | None:
-    """Forces of a part at its own collapse, without motion, where that is at the load factor given."""
-    if collapse is None or abs(collapse.load_factor - load_factor) > SAME_FACTOR * abs(load_factor):
-        return None
-    return LawState(collapse.forces, np.zeros_like(collapse.velocities), load_factor, collapse.residual)
+def _resting(
+    program: Program, collapse: LawState | None, load_factor: float, settings: SolverSettings, log: Log
+) -> LawState | None:
+    """Forces of a part that does not move at a load factor; from its own collapse where that is near."""
+    apart = np.inf if collapse is None else abs(collapse.load_factor - load_factor)
+    if collapse is not None and apart <= SAME_FACTOR * abs(load_factor):
+        return _without_motion(collapse, collapse.forces, load_factor)
+    if collapse is not None and apart <= NEAR * abs(load_factor):
+        lower = load_factor - BELOW * abs(load_factor)
+        below = at_rest(program, lower, settings, log)
+        if below is not None:
+            share = (load_factor - lower) / (collapse.load_factor - lower)
+            return _without_motion(collapse, (1.0 - share) * below.forces + share * collapse.forces, load_factor)
+    return at_rest(program, load_factor, settings, log)
+
+
+def _without_motion(collapse: LawState, forces: FloatArray, load_factor: float) -> LawState:
+    return LawState(forces, np.zeros_like(collapse.velocities), load_factor, collapse.residual)
 
 
 def to_full(program: Program, state: LawState) -> tuple[Program, LawState]:

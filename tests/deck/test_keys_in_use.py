@@ -27,7 +27,7 @@ UNUSED: dict[str, str] = {
     "PathScheme": "steps",
     "ProximalScheme": "max_programs",
     "PublishedScheme": "averaging max_programs",
-    "ReductionSwitches": "merged mirror parts planar points unloaded",
+    "ReductionSwitches": "merged mirror parts planar points repeated unloaded",
     "SymmetryPlane": "z",
 }
 """Type -> keys that no deck gives. A new key belongs into a deck; one of these that a deck takes up leaves the list."""

@@ -49,12 +49,17 @@ def _walls(count: int) -> str:
     return "".join(WALL.format("walls", 3.2, 8, f"{{translate: [0, {y}, 0]}}") for y in range(count))
 
 
+COLUMN = (
+    "  - column: {group: column, material: stone, radius: 0.4, top_radius: 0.35, height: 4, drums: 6, sides: 12, "
+    "repeat: {count: 30, translate: [2, 0, 0]}}\n"
+)
 GROUND = "supports: [{ground: {z: 0}}]\n"
 PUSHED = "load_cases: {push: {live: [{acceleration: [1, 0, 0]}]}}\n"
 OUTWARDS = "load_cases: {push: {live: [{acceleration: [0, 1, 0]}]}}\n"
 ONE_PUSHED = "load_cases: {push: {live: [{acceleration: [1, 0, 0], on: {group: walls, index: 40}}]}}\n"
 COURSE = FIXED.format(3.6, "{translate: [-0.2, 0, -0.2]}") + WALL.format("walls", 3.2, 8, "{translate: [0, 0, 0]}")
 TEXTS = {
+    "thirty columns apart": HEAD + COLUMN + GROUND + PUSHED,
     "two walls apart": HEAD + _walls(2) + GROUND + PUSHED,
     "six walls apart, one pushed": HEAD + _walls(6) + GROUND + ONE_PUSHED,
     "wall, pushed outwards": HEAD + _walls(1) + GROUND + OUTWARDS,

@@ -137,8 +137,8 @@ def _bounds_apart(case: CaseResult, other: CaseResult, ratio: float) -> str:
     """Proved bounds of one and the same figure must overlap."""
     low, high = (ratio * bound for bound in bounds_of(case))
     other_low, other_high = bounds_of(other)
-    if any(math.isnan(bound) for bound in (low, high, other_low, other_high)):
-        return ""
+    if any(math.isnan(bound) for bound in (low, high, other_low, other_high)) or (low, high) == (other_low, other_high):
+        return ""  # infinite ones too: a table that nothing stands on
     room = MET * max(abs(high), abs(other_high)) + NOTHING
     if max(low, other_low) <= min(high, other_high) + room:
         return ""

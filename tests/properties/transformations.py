@@ -22,7 +22,9 @@ import numpy as np
 
 from mbla.arrays import FloatArray, IntArray, starts
 from mbla.contacts import Contacts
+from mbla.deck.loads import Load, LoadCaseSection
 from mbla.deck.units import Units
+from mbla.model import build_model
 from mbla.model.ragged import items_of_rows
 from tests.properties.additions import movable, split_in_two, with_far_part
 from tests.properties.rigid_motions import in_other_units, moved_scene, renumbered, with_forces
@@ -164,6 +166,38 @@ def live_load_times(scale: float) -> Callable[[Scene, Solved], Scene | None]:
     return make
 
 
+PARTS_OF_A_LOAD = (0.3, 0.7)
+"""factors of the two named loads that a load is divided into"""
+
+
+def named_loads(scene: Scene, _: Solved) -> Scene | None:
+    """In the deck: every load of every list as two named ones with a share each, and each list the two together.
+
+    Loads at one position after another, and a table that tilts, are whole; a support that gives way has no live loads.
+    """
+    content = scene.deck.content
+    kept = {case.name for case in scene.model.load_cases}
+    if not kept <= set(content.load_cases) or any(_cannot_be_shared(case) for case in content.load_cases.values()):
+        return None
+    named, cases = dict(content.loads), {}
+    for name, case in content.load_cases.items():
+        lists = {side: loads for side in ("dead", "live") if (loads := getattr(case, side))}
+        both = {side: [Load(loads=f"{name}_{side}_{part}") for part in range(2)] for side in lists}
+        for side, loads in lists.items():
+            for part, share in enumerate(PARTS_OF_A_LOAD):
+                shared = [load.model_copy(update={"factor": share * load.factor}) for load in loads]
+                named[f"{name}_{side}_{part}"] = shared
+        cases[name] = case.model_copy(update=both)
+    deck = replace(scene.deck, content=content.model_copy(update={"loads": named, "load_cases": cases}))
+    model = build_model(deck)
+    chosen = tuple(case for case in model.load_cases if case.name in kept)
+    return replace(scene, deck=deck, model=replace(model, load_cases=chosen))
+
+
+def _cannot_be_shared(case: LoadCaseSection) -> bool:
+    return any(load.travel is not None or load.tilt is not None for load in case.live or [])
+
+
 def heavier(scene: Scene, _: Solved) -> Scene:
     """All densities, forces and strengths times 37: accelerations stay as they are."""
     blocks = scene.model.blocks
@@ -302,6 +336,9 @@ TABLE = (
     Transformation("units ft, lbf, lb", E_, "a load factor has no unit", feet),
     Transformation("reverse the order of interfaces", E_, "sums do not know their order", reverse_interfaces),
     Transformation("live load times 8", E_, "the factor is inversely proportional", live_load_times(8.0), 0.125, True),
+    Transformation(
+        "every load as two named loads, combined", E_, "loads add up, whatever they are called", named_loads
+    ),
     Transformation(
         "densities, forces, strengths times 37", E_, "equilibrium and yield are homogeneous", heavier, any_flow=True
     ),

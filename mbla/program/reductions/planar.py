@@ -47,9 +47,13 @@ def planar_program(scene: Scene, mirror: Mirror) -> Program:
 
 
 def _one_behind_the_other(scene: Scene, mirror: Mirror, shear: FloatArray) -> IntArray:
-    """Group of each point, by interfaces: same interface or that of the image, same place in the plane."""
+    """Group of each point, by interfaces: same interface or that of the image, same place in the plane.
+
+    An interface and its image may name their two blocks in opposite orders; places are counted the same way in both.
+    """
     interface = np.minimum(scene.interfaces, scene.interfaces[mirror.point_of])
-    place = ((scene.points - scene.centroids.mean(axis=0)) * shear).sum(axis=1) / scene.length
+    turned = np.where(scene.bodies[:, 0] <= scene.bodies[:, 1], 1.0, -1.0)
+    place = turned * ((scene.points - scene.centroids.mean(axis=0)) * shear).sum(axis=1) / scene.length
     order = np.lexsort((place, interface))
     new = np.diff(interface[order], prepend=-1) != 0
     new |= np.diff(place[order], prepend=-np.inf) > BEHIND

@@ -28,7 +28,11 @@ def reduction_keys(place: str) -> tuple[Key, ...]:
         Key(place, "list", "what each reduction left out, in the order in which they are applied"),
         Key(f"{place}[].name", "string", "the reduction, as in analysis.reductions, or glued"),
         Key(f"{place}[].state", "string", "applied, nothing found, switched off, would change the answer"),
-        Key(f"{place}[].found", "integer", "contact points or blocks left out, or parts taken apart or reduced"),
+        Key(
+            f"{place}[].found",
+            "integer",
+            "contact points or blocks left out, or parts taken apart, reduced or left out",
+        ),
         *(
             key
             for when in ("before", "after")

@@ -15,6 +15,7 @@ FOUND = {
     "parts": ("part", "solved apart"),
     "planar": ("part", "in its plane"),
     "mirror": ("part", "by one half"),
+    "repeated": ("part", "the same as another"),
 }
 """What a reduction counts, and what becomes of it."""
 

@@ -94,7 +94,12 @@ def across(border: FloatArray, v: FloatArray) -> FloatArray:
 
 
 def bordered(inner: FloatArray, rhs: FloatArray) -> FloatArray:
-    """Solution of the small system of the border, which has no more than a few unknowns and may be singular."""
+    """Solution of the small system of the border, which has no more than a few unknowns and may be singular.
+
+    Not-a-number where an entry has overflowed, on which least squares would end with an error.
+    """
+    if not (np.isfinite(inner).all() and np.isfinite(rhs).all()):
+        return np.full((inner.shape[1], *rhs.shape[1:]), np.nan)
     return np.asarray(np.linalg.lstsq(inner, rhs, rcond=None)[0], dtype=np.float64)
 
 

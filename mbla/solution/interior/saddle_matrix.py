@@ -23,6 +23,7 @@ from mbla.arrays import FloatArray, IntArray
 from mbla.solution.interior.central_path import CentralPath, Residuals
 from mbla.solution.interior.condensed_matrix import MatrixMap
 from mbla.solution.interior.products import LocalCost
+from mbla.solution.linear_algebra.small_inverses import inverses
 from mbla.solution.linear_algebra.superlu import factorize
 
 REFINEMENTS = 2
@@ -134,7 +135,7 @@ def _inverse(blocks: FloatArray, held: np.typing.NDArray[np.bool_]) -> FloatArra
     """Inverses of positive blocks, scaled by their diagonals; zero in rows and columns that are held."""
     scale = 1.0 / np.sqrt(np.einsum("kii->ki", np.where(held[:, :, None], np.eye(held.shape[1]), blocks)))
     free = np.where(held[:, :, None] | held[:, None, :], np.eye(held.shape[1]), blocks * _outer(scale))
-    inverse = np.linalg.inv(free + INVERSE * np.eye(held.shape[1])) * _outer(scale)
+    inverse = inverses(free + INVERSE * np.eye(held.shape[1])) * _outer(scale)
     return np.where(held[:, :, None] | held[:, None, :], 0.0, inverse)
 
 

@@ -41,3 +41,31 @@ def test_halves_cut_askew_balance_out_of_the_plane(form: str) -> None:
     assert result.checks.equilibrium_residual < 1e-9
     assert result.solution.mechanics is not None
     assert result.solution.mechanics.load_factor == pytest.approx(0.5, rel=1e-6)  # about the edge of the ground
+
+
+BETWEEN = """\
+joints: {dry: {friction: 0.9}}
+blocks:
+  - box: {group: foot, material: stone, min: [0, 0, 0], max: [1, 1, 1]}
+  - box: {group: half, material: stone, min: [0, 0, 1], max: [1, 0.5, 2]}
+  - box: {group: cap, material: stone, min: [0, 0, 2], max: [0.8, 1, 3]}
+  - box: {group: half, material: stone, min: [0, 0.5, 1], max: [1, 1, 2]}
+supports: [{ground: {z: 0}}]
+load_cases: {push: {live: [{acceleration: [1, 0, 0]}]}}
+"""
+"""Two cubes and a shorter block on them, the middle one in two glued halves between which that block is numbered."""
+
+
+@pytest.mark.parametrize("flow_rule", ["associative", "non_associative"])
+def test_an_interface_and_its_image_may_name_their_blocks_in_opposite_orders(flow_rule: str) -> None:
+    """The points of one half, behind one another from its end, were taken for a place of their own: equilibrium
+    missed half of a moment out of the plane."""
+    glued = "joint: dry, overrides: [{between: [half, half], joint: glued}]}"
+    deck = (HEAD + BETWEEN).replace("joint: dry}", glued) + f"analysis: {{flow_rule: {flow_rule}}}\n"
+    _, result = case_of(deck)
+    assert result.solution.size is not None
+    assert result.solution.size.dimension == 2
+    assert result.status is Status.SOLVED, result.checks.failures
+    assert result.checks.equilibrium_residual < 1e-9
+    assert result.solution.mechanics is not None
+    assert result.solution.mechanics.load_factor == pytest.approx(1.48 / 4.0, rel=1e-6)  # about the edge of the ground

@@ -110,11 +110,26 @@ def test_each_part_stands_by_itself() -> None:
     assert verdicts == [Standing.YES] * 3
 
 
+@pytest.mark.parametrize("hair", [3e-8, 1e-5])
+def test_of_two_walls_of_which_one_is_a_hair_stronger_both_are_proved(hair: float) -> None:
+    """At 3e-8 its own collapse is not the load, and next to its collapse least forces have no room."""
+    push = (
+        f"push: {{live: [{{acceleration: [1, 0, 0], on: wall}}, {{acceleration: [{1.0 - hair!r}, 0, 0], on: copy}}]}}"
+    )
+    text = WALL.replace("supports:", ASIDE.format("copy", 8, "[9, 3, 0]") + "supports:")
+    text = text.replace("push: {live: [{acceleration: [1, 0, 0]}]}", push)
+    solution, checks, status = verified(line_of(text, "parameters.n=8", "parameters.mu=0.7"))
+    assert solution.size is not None
+    assert solution.size.parts == 2
+    assert status == "solved", checks.failures
+    assert checks.gap < 1e-6
+
+
 @pytest.mark.parametrize("switch", ["planar: true", "planar: false"])
 def test_of_two_equal_walls_both_are_proved(switch: str) -> None:
     """The second is at rest at its own collapse load: least forces there were too rough for a static bound."""
     text = WALL.replace("supports:", ASIDE.format("copy", 8, "[9, 3, 0]") + "supports:")
-    overrides = ("parameters.n=8", "parameters.mu=0.7", f"analysis.reductions={{{switch}}}")
+    overrides = ("parameters.n=8", "parameters.mu=0.7", f"analysis.reductions={{{switch}, repeated: false}}")
     solution, checks, status = verified(line_of(text, *overrides))
     assert solution.size is not None
     assert solution.size.parts == 2
