@@ -17,7 +17,7 @@ where every joint moves, rounding in the directions of sliding leaves hardly any
     min ½ ε Σ ‖x_k‖²/a_k − λ,      ε = 1e-3 |λ|/Σ ‖x_k‖²/a_k   at the forces first found
 
 where no point is fixed by the mechanism. In linear programs that is exact for small ε (Mangasarian and Meyer 1979,
-doi:10.1137/0317052). Smaller ε, which walls from about 1,000 blocks need, are beyond cone solvers: from the forces found
+doi:10.1137/0317052). Smaller ε, which walls from about 1,000 blocks need, are beyond cone solvers: from what they find
 Newton's method on the multipliers goes on with them (:mod:`mbla.solution.least_newton`). Measured on walls of up to 410
 blocks in both forms and reductions: the first way agrees to 1e-6 of a mean block load or better, the second to 1e-3.
 
