@@ -2,7 +2,7 @@
 
 From ``CHOLESKY_FROM`` unknowns on the matrix is factorised by Cholesky and the border eliminated after it, which is
 refined against the bordered system. Smaller ones, and those where that breaks down, are factorised with their border by
-SuperLU, which takes five times as long for a planar wall of 10,000 blocks, and nothing to speak of for a small one.
+SuperLU, which takes several times as long for a planar wall of 10,000 blocks, and nothing to speak of for a small one.
 """
 
 from __future__ import annotations

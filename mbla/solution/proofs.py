@@ -35,7 +35,8 @@ is more than their weight."""
 
 LARGE, LARGE_GAP = 30_000, 1e-5
 """Rows of equilibrium, 5,000 blocks in space, beyond which a mechanism that proves a load factor so close to the static
-bound is not repaired once more: the solver stage has done that, and here it took 40 s for a wall of 10,000 blocks."""
+bound is not repaired once more: the solver stage has done that. On a wall of 3,630 blocks it took seven eighths of the
+verification and changed neither bound."""
 
 LOCKED_IN = 1e4
 """Normal force, over the whole dead load, that would have to be locked in to hold a structure that a certificate with

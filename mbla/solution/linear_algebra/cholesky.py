@@ -16,7 +16,7 @@ A solution takes 0.1 (small) to 0.01 (large) of a factorisation by qdldl, with e
 rounding. CHOLMOD is the fastest and costs 0.03 s to load. Pardiso is close behind, but MKL is tried in a process of its
 own first, half a second once in a process: won back from about 5,000 unknowns on. Below 300 there is little to be won
 over qdldl. Of the three that are always there
-the multifrontal one is the fastest from 2,000 on, but its first takes as long as several by qdldl. First and each on a
+the multifrontal one is the fastest from 2,500 on, but its first takes as long as several by qdldl. First and each on a
 busy machine: 6,120 unknowns 0.09 and 0.015 (qdldl 0.04 and 0.030), 9,720 0.17 and 0.031 (0.11 and 0.085), 30,150 planar
 0.5 and 0.09 (0.4 and 0.26).
 """
