@@ -15,10 +15,7 @@ running-bond walls whose joints differ by sixteen decades (``tests/performance/r
 A solution takes 0.1 (small) to 0.01 (large) of a factorisation by qdldl, with every library. All leave a residual of
 rounding. CHOLMOD is the fastest and costs 0.03 s to load. Pardiso is close behind, but MKL is tried in a process of its
 own first, half a second once in a process: won back from about 5,000 unknowns on. Below 300 there is little to be won
-over qdldl. Of the three that are always there
-the multifrontal one is the fastest from 2,500 on, but its first takes as long as several by qdldl. First and each on a
-busy machine: 6,120 unknowns 0.09 and 0.015 (qdldl 0.04 and 0.030), 9,720 0.17 and 0.031 (0.11 and 0.085), 30,150 planar
-0.5 and 0.09 (0.4 and 0.26).
+over qdldl. Of the two that are always there SuperLU is the faster from 20,000 unknowns on.
 """
 
 from __future__ import annotations
@@ -33,9 +30,9 @@ from mbla.errors import SolverError
 from mbla.solution.linear_algebra.mkl import mkl_library, mkl_works
 from mbla.solution.linear_algebra.pattern import SymmetricPattern
 
-LIBRARIES = ("qdldl", "superlu", "multifrontal", "pardiso", "cholmod")
+LIBRARIES = ("qdldl", "superlu", "pardiso", "cholmod")
 
-CHOLMOD_FROM, PARDISO_FROM, MULTIFRONTAL_FROM = 300, 5_000, 5_000
+CHOLMOD_FROM, PARDISO_FROM, SUPERLU_FROM = 300, 5_000, 20_000
 """Unknowns from which they are taken where they are installed, in this order."""
 
 
@@ -84,7 +81,7 @@ def best_library(n: int) -> str:
         return "cholmod"
     if n >= PARDISO_FROM and _fault("pardiso") is None:
         return "pardiso"
-    return "multifrontal" if n >= MULTIFRONTAL_FROM else "qdldl"
+    return "superlu" if n >= SUPERLU_FROM else "qdldl"
 
 
 def _made(library: str, pattern: SymmetricPattern) -> Factorization:
@@ -99,10 +96,6 @@ def _made(library: str, pattern: SymmetricPattern) -> Factorization:
         if runtime is None or not mkl_works():
             raise ImportError(WITHOUT_MKL)
         return PardisoFactors(pattern, runtime)
-    if library == "multifrontal":
-        from mbla.solution.linear_algebra.multifrontal_factors import MultifrontalFactors
-
-        return MultifrontalFactors(pattern)
     if library == "superlu":
         from mbla.solution.linear_algebra.superlu_factors import SuperluFactors
 

@@ -14,7 +14,7 @@ import numpy as np
 import qdldl
 import scipy.sparse as sp
 
-from mbla.arrays import FloatArray, IntArray
+from mbla.arrays import FloatArray
 from mbla.solution.linear_algebra.pattern import SymmetricPattern
 
 
@@ -57,16 +57,3 @@ class QdldlFactors:
         for number in range(rhs.shape[1]):
             answer[::-1, number] = self._solver.solve(rhs[::-1, number])
         return answer
-
-
-def structure_of_factor(pattern: SymmetricPattern) -> tuple[sp.csc_array, IntArray]:
-    """Strict lower triangle of a factor, rows sorted, and the unknown at each place of its minimum degree order.
-
-    From a matrix of the pattern that cannot break down.
-    """
-    whole = pattern.matrix(np.full(len(pattern.indices), -1.0))
-    whole.setdiag(1.0 + np.asarray(abs(whole).sum(axis=1)).ravel())
-    factor, _, permutation = qdldl.Solver(sp.csc_matrix(sp.triu(whole)), upper=True).factors()
-    held = sp.csc_array(factor)
-    held.sort_indices()
-    return held, np.asarray(permutation, dtype=np.int64)

@@ -165,13 +165,11 @@ cholesky.mkl_library = lambda: None
 
 
 def test_two_are_always_there() -> None:
-    assert {"qdldl", "superlu", "multifrontal"} <= set(installed())
+    assert {"qdldl", "superlu"} <= set(installed())
 
 
 def test_an_unknown_library_is_named() -> None:
-    with pytest.raises(
-        SolverError, match="no factorisation mumps: it is one of qdldl, superlu, multifrontal, pardiso, cholmod"
-    ):
+    with pytest.raises(SolverError, match="no factorisation mumps: it is one of qdldl, superlu, pardiso, cholmod"):
         factorization(definite(3)[0], "mumps")
 
 
@@ -194,7 +192,7 @@ def only_qdldl(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
 @pytest.mark.usefixtures("only_qdldl")
 def test_what_is_not_installed_is_left_out_and_said_where_it_is_asked_for() -> None:
     pattern = definite(3)[0]
-    assert installed() == ("qdldl", "superlu", "multifrontal")
+    assert installed() == ("qdldl", "superlu")
     for library in ("pardiso", "cholmod"):
         with pytest.raises(SolverError, match=f"the factorisation {library} does not work here: .+"):
             factorization(pattern, library)
@@ -232,8 +230,8 @@ def test_a_library_with_wrong_answers_is_left_out(monkeypatch: pytest.MonkeyPatc
         ({"cholmod", "pardiso"}, cholesky.CHOLMOD_FROM - 1, "qdldl"),
         ({"pardiso"}, cholesky.PARDISO_FROM, "pardiso"),
         ({"pardiso"}, cholesky.PARDISO_FROM - 1, "qdldl"),
-        (set(), cholesky.MULTIFRONTAL_FROM, "multifrontal"),
-        (set(), cholesky.MULTIFRONTAL_FROM - 1, "qdldl"),
+        (set(), cholesky.SUPERLU_FROM, "superlu"),
+        (set(), cholesky.SUPERLU_FROM - 1, "qdldl"),
     ],
 )
 def test_the_best_for_the_size(monkeypatch: pytest.MonkeyPatch, there: set[str], n: int, expected: str) -> None:
