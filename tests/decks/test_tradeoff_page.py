@@ -57,10 +57,10 @@ def test_rows_and_summary() -> None:
     model = replace(ENTRY, rung="contact_model: convex", other_model="contact_model", front=False, time=5.0)
     stopped = Entry(ENTRY.structure, "associative", "form: static", "", "stopped after 60 s")
     text = page_text([ENTRY, twice, doubtful, model, stopped])
-    name = ENTRY.structure
-    assert f"| associative | standard | 1 | 1 | 2.0e-06 ({name}) | 2.0e-06 | 1.00 | 0.5 s ({name}) |" in text
-    assert f"| associative | reference | 1 | 1 | 1.0e-09 ({name}) | 1.0e-09 | 2.00 | 1 s ({name}) |" in text
-    assert "| associative | draft | 1 | 0 | - (-) | - | 1.00 |" in text  # nothing verified, so no error
+    name, count = ENTRY.structure, f"1 of {len(STANDARD_SET)}"
+    assert f"| associative | standard | {count} | 1 | 2.0e-06 ({name}) | 2.0e-06 | 1.00 | 0.5 s ({name}) |" in text
+    assert f"| associative | reference | {count} | 1 | 1.0e-09 ({name}) | 1.0e-09 | 2.00 | 1 s ({name}) |" in text
+    assert f"| associative | draft | {count} | 0 | - (-) | - | 1.00 |" in text  # nothing verified, so no error
     row = f"| {name} | 0.65 | 0.5 (not verified) | 0.5 | 1 | 0.1 | 12.0 | 5.0e-01 | 2.0e-06 | 1.0e-09 |"
     assert row in text
     assert f"| associative | contact_model: convex (other model) | 1 | 1 | 10.00 | 2.0e-06 | 2.0e-06 ({name}) |" in text

@@ -60,9 +60,9 @@ def _summary(entries: Sequence[Entry]) -> Iterator[str]:
             sure = [e for e in own if e.verified]
             errors = [(_reached(e), e.structure) for e in sure if not math.isnan(_reached(e))]
             slowest = max(((e.time, e.structure) for e in own if not math.isnan(e.time)), default=(NAN, "-"))
-            worst = max(errors, default=(NAN, "-"))
+            worst, count = max(errors, default=(NAN, "-")), f"{len(own)} of {len(STANDARD_SET)}"
             yield (
-                f"| {RULES[rule]} | {preset} | {len(own)} | {len(sure)} | {_small(worst[0])} ({worst[1]}) | "
+                f"| {RULES[rule]} | {preset} | {count} | {len(sure)} | {_small(worst[0])} ({worst[1]}) | "
                 f"{_small(median(error for error, _ in errors) if errors else NAN)} | {_ratios(entries, own)} | "
                 f"{_seconds(slowest[0])} s ({slowest[1]}) |"
             )
