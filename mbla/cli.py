@@ -123,8 +123,10 @@ def _tradeoff(options: argparse.Namespace) -> int:
     from mbla.studies.tradeoff.words import study_lines
 
     tell = None if options.quiet else _rung_progress()
-    study, record, remarks = tradeoff(content, run_options, options, tell)
-    _clear_progress(tell)
+    try:
+        study, record, remarks = tradeoff(content, run_options, options, tell)
+    finally:
+        _clear_progress(tell)  # what is said of an interruption has a line of its own
     for remark in remarks:
         _say(f"mbla: {remark}", 0)
     if options.json:
