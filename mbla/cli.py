@@ -122,11 +122,11 @@ def _tradeoff(options: argparse.Namespace) -> int:
     from mbla.studies.tradeoff.command import tradeoff
     from mbla.studies.tradeoff.words import study_lines
 
-    tell = None if options.quiet else _rung_progress()
+    report = None if options.quiet else _rung_progress()
     try:
-        study, record, remarks = tradeoff(content, run_options, options, tell)
+        study, record, remarks = tradeoff(content, run_options, options, report)
     finally:
-        _clear_progress(tell)  # what is said of an interruption has a line of its own
+        _clear_progress(report)  # what is said of an interruption has a line of its own
     for remark in remarks:
         _say(f"mbla: {remark}", 0)
     if options.json:

@@ -12,9 +12,10 @@ from mbla.errors import DeckError, Fault, Notice
 from mbla.model.added_masses import with_added_masses
 from mbla.model.build_blocks import build_blocks
 from mbla.model.collect_items import collect_items
+from mbla.model.far_coordinates import far_fault, far_notices
 from mbla.model.interfaces import read_interfaces
 from mbla.model.item_defects import defects_in_words
-from mbla.model.joint_laws import build_joints
+from mbla.model.joint_laws import build_joints, joint_notices
 from mbla.model.loads import LoadSite, build_load_cases
 from mbla.model.model import LoadCase, Model
 from mbla.model.overrides import check_overrides
@@ -37,7 +38,8 @@ def build_model(deck: Deck) -> Model:
     notices: list[Notice] = []
     items = collect_items(deck, faults)
     built = build_blocks(items.polyhedra, items.labels, deck.contacts.tolerance)
-    faults += defects_in_words(deck, items, built)
+    far = far_fault(items.polyhedra, deck.contacts.tolerance)
+    faults += defects_in_words(deck, items, built) if far is None else [deck.fault_at(("blocks",), far)]
     partial = items.partial | {built.blocks.groups[defect.block] for defect in built.defects}
     roster = build_roster(built.blocks, partial, deck.fault_at)
     supports = build_supports(deck, Supports(items.fixed, items.grounds), roster, faults)
@@ -56,7 +58,13 @@ def build_model(deck: Deck) -> Model:
         grounds=supports.grounds,
         joints=build_joints(deck, supports.grounds, interfaces),
         load_cases=load_cases,
-        notices=(*items.notices, *built.notices, *notices),
+        notices=(
+            *items.notices,
+            *built.notices,
+            *far_notices(items.polyhedra, items.labels.name),
+            *joint_notices(deck),
+            *notices,
+        ),
         guides=supports.guides,
         interfaces=interfaces,
     )

@@ -8,7 +8,13 @@ from collections.abc import Sequence
 from mbla.deck.deck import Deck
 from mbla.deck.joints import FRICTIONLESS
 from mbla.deck.types import JointLaw
+from mbla.errors import Notice
 from mbla.model.model import GivenInterfaces, Ground, Joint
+
+UNLIMITED = 1e6
+"""Greatest friction coefficient and tangent of the dilatancy angle, 0.2 seconds of arc from a right angle: what is
+steeper is taken for this. A load factor changes by a millionth between here and no limit; the power of sliding, which
+is rounding times friction, would be the whole answer at 1e15."""
 
 
 def build_joints(deck: Deck, grounds: Sequence[Ground], interfaces: GivenInterfaces | None) -> dict[str, Joint]:
@@ -29,9 +35,19 @@ def build_joint(name: str, law: JointLaw) -> Joint:
         friction = math.tan(math.radians(law.friction_angle))
     return Joint(
         name=name,
-        friction=friction,
+        friction=min(friction, UNLIMITED),
         cohesion=law.cohesion,
         tensile_strength=law.tensile_strength,
         compressive_strength=math.inf if law.compressive_strength is None else law.compressive_strength,
-        dilatancy=math.tan(math.radians(law.dilatancy)),
+        dilatancy=min(math.tan(math.radians(law.dilatancy)), UNLIMITED),
     )
+
+
+def joint_notices(deck: Deck) -> list[Notice]:
+    """Laws whose friction is taken for less than the deck gives."""
+    steepest = math.degrees(math.atan(UNLIMITED))
+    return [
+        Notice("notice", "friction-limited", f"joint law {name}: its friction is taken for {UNLIMITED:g}")
+        for name, law in deck.content.joints.items()
+        if (law.friction or 0.0) > UNLIMITED or (law.friction_angle or 0.0) > steepest
+    ]

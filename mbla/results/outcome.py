@@ -13,6 +13,7 @@ import numpy as np
 
 from mbla.errors import Notice
 from mbla.results.findings import found_notices
+from mbla.results.magnitudes import magnitude_notices
 from mbla.results.results import CaseResult, Results
 from mbla.solution.solution import Checks, Mechanics, Standing, Status
 from mbla.solution.verify import APPROXIMATE_RESIDUAL
@@ -148,7 +149,10 @@ def notices_of(results: Results) -> tuple[Notice, ...]:
     notices = list(results.notices)
     for case in results.cases:
         harmless = case.status is Status.UNBOUNDED and _series(case) in fallen
-        notices += (*case_notices(case), *found_notices(case, harmless=harmless))
+        own = case_notices(case)
+        doubtful = any(notice.identifier == "law-residual" for notice in own)
+        notices += (*own, *found_notices(case, harmless=harmless))
+        notices += magnitude_notices(results.model, results.contacts, case, doubtful=doubtful)
     return tuple(notices)
 
 

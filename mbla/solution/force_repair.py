@@ -43,6 +43,9 @@ RUNAWAY = 1e9
 MARGIN = 1e-12
 """Share of the largest normal force, or of what a light block has to balance, by which forces are put inside."""
 
+NO_FORCE = 1e-18
+"""Share of the largest force that is no normal force beside a shear."""
+
 STEEP = 10.0
 """Friction up to which the metric follows the cone: beyond it shear could move so much more freely than normal force
 that nothing is left of the latter in double precision."""
@@ -117,7 +120,8 @@ def _pulled_inside(program: Program, x: FloatArray) -> FloatArray:
 def _static_correction(program: Program, x: FloatArray, factor: float) -> tuple[FloatArray, float] | None:
     """Least change of forces and load factor, in the barrier's metric, that restores equilibrium."""
     limits = program.limits
-    needed = 2.0 * np.linalg.norm(x[:, 1:], axis=1) / np.maximum(x[:, 0], 1e-300)
+    least = NO_FORCE * max(float(np.abs(x).max(initial=0.0)), 1e-280)  # a steeper cone is none: no digits are left
+    needed = 2.0 * np.linalg.norm(x[:, 1:], axis=1) / np.maximum(x[:, 0], least)
     weights = force_metric(replace(limits, friction=np.minimum(limits.friction, np.maximum(STEEP, needed))), x)
     matrix = program.equilibrium_matrix
     normal = sp.csc_array(matrix @ weights @ matrix.T)

@@ -20,7 +20,7 @@ from mbla.program import assemble
 from mbla.program.yield_conditions import YieldLimits, yield_violation
 from mbla.solution.force_repair import repaired_forces
 from mbla.solution.guides import allowed_motion
-from mbla.solution.load_scale import LoadScale
+from mbla.solution.load_scale import LoadScale, forces_on_blocks
 from mbla.solution.mechanism_repair import repaired_mechanisms
 from mbla.solution.residuals import unbalanced_loads
 from mbla.solution.solution import Mechanics
@@ -112,9 +112,11 @@ def _forces_prove(
     """Whether forces balance the loads within the yield conditions up to rounding."""
     unbalanced = unbalanced_loads(model, contacts, load_case, forces, factor, scale)
     excess = yield_violation(forces, limits)
-    rounding = ROUNDING * float(np.abs(forces).max(initial=0.0))
+    rounding = ROUNDING * forces_on_blocks(
+        contacts, forces, len(scale.own)
+    )  # of each block: elsewhere they may be huge
     block_scale = np.maximum(scale.block_scale(contacts, forces), rounding)
-    point_scale = np.maximum(scale.point_scale(contacts, forces), rounding)
+    point_scale = scale.of_lighter(contacts, block_scale)
     return bool(np.all(unbalanced <= PROVED_RESIDUAL * block_scale) and np.all(excess <= PROVED_RESIDUAL * point_scale))
 
 

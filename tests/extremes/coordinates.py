@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from tests.extremes.decks import FACTORS, ruled, worded
 from tests.extremes.outcome import Scene
 
-SAID = ("coordinates-coarse",)
+SAID = ("coordinates-coarse", "so far from the origin coordinates are rounded")
 FAR = range(1, 17)
 FINE = 6
 """Up to 1e6 m blocks of 0.4 m have their corners to 3e-10 of their size, and nothing may be lost but these digits."""

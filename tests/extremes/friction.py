@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from tests.extremes.decks import ARCH, BLOCK, FACTORS, FLOW_RULES, WALL, ruled, worded
+from tests.extremes.decks import ARCH, BLOCK, FLOW_RULES, WALL, ruled, worded
 from tests.extremes.outcome import Scene
 
 FRICTIONS = ("0", "1.0e-12", "1.0e-9", "1.0e-6", "1.0e-3", "0.01", "0.1", "10", "1.0e3", "1.0e6", "1.0e9", "1.0e15")
-HINGES = 0.3854019171
+HINGES = 0.4354047711
 """Of the arch whose joints do not slide."""
 
 
@@ -18,9 +18,11 @@ def frictions() -> Iterator[Scene]:
         for mu in FRICTIONS:
             value, overrides = float(mu), (f"parameters.mu={mu}", ruled(rule))
             name = f"{worded(rule)}, friction {mu}"
-            yield Scene(f"block, {name}", "friction", BLOCK, overrides, min(value, 0.5))
+            said = ("load-factor-rounding",) if value <= 1e-6 else ()
+            yield Scene(f"block, {name}", "friction", BLOCK, overrides, min(value, 0.5), diagnosis=said)
             if value <= 0.1:
-                yield Scene(f"wall, {name}", "friction", WALL, overrides, value, long=mu not in ("0", "1.0e-9"))
+                long = mu not in ("0", "1.0e-9")
+                yield Scene(f"wall, {name}", "friction", WALL, overrides, value, diagnosis=said, long=long)
                 yield Scene(f"arch, {name}", "friction", ARCH, overrides, None, diagnosis=("no_equilibrium",))
             else:
                 yield Scene(f"arch, {name}", "friction", ARCH, overrides, HINGES, long=mu not in ("10", "1.0e15"))
@@ -47,4 +49,3 @@ def dilatancies() -> Iterator[Scene]:
 
 
 SCENES = (*frictions(), *dilatancies())
-_ = FACTORS

@@ -17,6 +17,7 @@ The last five are red lines.
 from __future__ import annotations
 
 import io
+import re
 import signal
 import time
 import warnings
@@ -157,6 +158,7 @@ def _verdict(scene: Scene, case: CaseResult, got: float | None, named: list[str]
 
 
 def _refused(scene: Scene, message: str) -> Outcome:
+    message = re.sub(r"\S*/scene\.yaml", "scene.yaml", message)
     named = any(words in message for words in scene.diagnosis)
     verdict = "silent" if not named else "right" if scene.expected is None else "diagnosed"
     return Outcome(scene, verdict, words=message)

@@ -3,12 +3,31 @@
 from __future__ import annotations
 
 from mbla.model.build_blocks import PLANAR
+from mbla.model.joint_laws import UNLIMITED
 from mbla.results.explanations.explanation import Explanation
 
 _SHAPE_KEPT = "None: the shape of the blocks is the same."
 _LOOK = "Look at the blocks in a picture or in ParaView (mbla check --vtu) if the number surprises."
 
 OF_BLOCKS = (
+    Explanation(
+        "coordinates-coarse",
+        "warning",
+        "Blocks lie so far from the origin that the rounding of their coordinates is noticeable beside their size.",
+        "It may be off by about ten times the share in the message: the corners themselves are rounded before anything "
+        "is computed. Beyond contacts.tolerance the deck is refused.",
+        "Coordinates of a surveyor's grid, or a wrong unit of the offset.",
+        "Move the structure to the origin, in the file or with `transform: {translate: ...}` where the file has the "
+        "small coordinates.",
+    ),
+    Explanation(
+        "friction-limited",
+        "notice",
+        f"A friction coefficient above {UNLIMITED:g} is taken for {UNLIMITED:g}.",
+        "Less than a millionth: joints do not slide either way.",
+        "Friction that is meant to be unlimited.",
+        "Nothing.",
+    ),
     Explanation(
         "vertices-unused",
         "notice",

@@ -22,6 +22,30 @@ _TRY = "Another scheme or solver, or accuracy: reference. Look for blocks of ver
 _REPORT = "Report it with the deck: the answer does not fit what the program itself claims."
 _STALLED = "The solver stopped before it was there."
 
+OF_MAGNITUDES = (
+    Explanation(
+        "magnitudes-far-apart",
+        "warning",
+        "Loads of blocks, or the strength of joints and the loads, lie so far apart that double precision is at its "
+        "end.",
+        "What light blocks carry is lost in the rounding of the forces on heavy ones: the load factor is not verified, "
+        "or only roughly.",
+        "Densities in a wrong unit, slivers as blocks, a strength that is meant to be unlimited.",
+        "Correct the densities; glue slivers to their neighbours; give a joint that is not to fail `glued`, or a "
+        "strength of some thousand times the stress instead of 1e9 times.",
+        example="push: loads of blocks lie 1e+12 apart: beyond what sixteen digits hold apart",
+    ),
+    Explanation(
+        "load-factor-rounding",
+        "notice",
+        "The load factor is so small beside dead over live load that forces cannot tell it from zero.",
+        "Read it as zero to within the figure of the message; its digits mean nothing.",
+        "Hardly any friction, a structure at the limit of what stands, or a live load far larger than the dead load "
+        "on blocks that are next to weightless.",
+        "None, where the structure has no margin; else look at the units of loads and densities.",
+    ),
+)
+
 OF_RESIDUALS = (
     Explanation(
         "equilibrium-residual",
@@ -244,4 +268,4 @@ OF_PROOFS = (
     ),
 )
 
-OF_VERIFICATION = (*OF_RESIDUALS, *OF_BOUNDS, *OF_PROOFS)
+OF_VERIFICATION = (*OF_RESIDUALS, *OF_MAGNITUDES, *OF_BOUNDS, *OF_PROOFS)

@@ -1,0 +1,63 @@
+"""Magnitudes in one model that lie so far apart that double precision is the cause of what is not verified.
+
+Sixteen digits hold the forces on a heavy block and what is left of them for a light neighbour. Measured: weights of
+neighbours 1e8 apart, and joints 1e7 times as strong as the loads, still give verified load factors; at 1e12 none does
+for sure. Likewise a load factor is exact to the rounding of the forces over the live load: one that is near zero beside
+dead over live load is zero as far as anything can tell.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from mbla.arrays import FloatArray
+from mbla.contacts.contacts import Contacts
+from mbla.errors import Notice
+from mbla.model.model import Model
+from mbla.program.assemble import yield_limits
+from mbla.results.results import CaseResult
+from mbla.solution.load_scale import load_scale
+from mbla.solution.proofs import PROVED_RESIDUAL
+from mbla.solution.solution import Status
+
+FAR_APART = 1e6
+"""Ratio of loads, or of strength and loads, from which it is named as the cause."""
+
+SMALL_FACTOR = 1e-5
+"""Load factor, over dead over live load, below which the rounding of forces is more than a ten thousandth of it."""
+
+NOT_SETTLED = (Status.APPROXIMATE, Status.NOT_VERIFIED, Status.ITERATION_LIMIT, Status.NUMERICAL_ERROR)
+
+
+def magnitude_notices(model: Model, contacts: Contacts, case: CaseResult, *, doubtful: bool) -> list[Notice]:
+    """What lies too far apart in a case that is not settled, and a load factor that is rounding.
+
+    doubtful : solved, but forces and velocities miss the law by more than they should
+    """
+    if not len(model.free) or not np.any(case.load_case.live_load[model.free]):
+        return []
+    limits, name = yield_limits(model, contacts), case.load_case.name
+    scale = load_scale(model, contacts, case.load_case, limits)
+    notices = []
+    if case.status in NOT_SETTLED or doubtful:
+        words = [*_loads(scale.own), *_strength(limits.cohesion + limits.tension, scale.mean)]
+        text = f"{name}: {' and '.join(words)}: beyond what sixteen digits hold apart"
+        notices += [Notice("warning", "magnitudes-far-apart", text, name)] if words else []
+    mechanics, unit = case.solution.mechanics, float(np.linalg.norm(scale.own)) / scale.live
+    dead = np.any(case.load_case.dead_load[model.free])
+    valued = case.status in (Status.SOLVED, Status.APPROXIMATE) and dead
+    if valued and mechanics is not None and abs(mechanics.load_factor) < SMALL_FACTOR * unit:
+        text = f"{name}: the load factor is zero as far as forces can tell, to about {PROVED_RESIDUAL * unit:.1e}"
+        notices.append(Notice("notice", "load-factor-rounding", text, name))
+    return notices
+
+
+def _loads(own: FloatArray) -> list[str]:
+    loads = own[own > 0]
+    ratio = float(loads.max() / loads.min()) if len(loads) else 1.0
+    return [f"loads of blocks lie {ratio:.0e} apart"] if ratio > FAR_APART else []
+
+
+def _strength(strength: FloatArray, mean: float) -> list[str]:
+    ratio = float(strength.max(initial=0.0)) / mean
+    return [f"a joint is {ratio:.0e} times as strong as the mean load of a block"] if ratio > FAR_APART else []

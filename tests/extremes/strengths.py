@@ -1,0 +1,83 @@
+"""Strength of joints against the stress of self-weight: cohesion, tensile and compressive strength."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from tests.extremes.decks import FLOW_RULES, ruled, worded
+from tests.extremes.outcome import Scene
+
+STRONG = """\
+mbla: 1
+parameters: {b: 0.5, c: 0, ft: 0, mu: 0.4}
+materials: {stone: {unit_weight: 20000}}
+joints: {dry: {friction: "=mu", cohesion: "=20000*c", tensile_strength: "=20000*ft"}}
+contacts: {joint: dry}
+load_cases: {push: {live: [{acceleration: [1, 0, 0]}]}}
+supports: [{ground: {z: 0}}]
+blocks: [{box: {group: block, material: stone, min: [0, 0, 0], max: ["=b", 1, 1]}}]
+"""
+"""Stress of self-weight 20 kPa; strengths are multiples of it."""
+
+SAID = ("magnitudes-far-apart",)
+
+CRUSHING = STRONG.replace('tensile_strength: "=20000*ft"', 'compressive_strength: "=20000*fc"').replace(
+    "ft: 0", "fc: 1"
+)
+
+
+def cohesive() -> Iterator[Scene]:
+    """Sliding at mu + c/sigma, or rocking at b/h, which cohesion alone does not change."""
+    for rule in FLOW_RULES:
+        for k in range(-9, 10):
+            for b in ("0.5", "1.0e4"):
+                yield Scene(
+                    f"block {b} wide and 1 high, {worded(rule)}, cohesion 1e{k} of the weight stress",
+                    "strength of joints",
+                    STRONG,
+                    (f"parameters.c=1.0e{k}", f"parameters.b={b}", ruled(rule)),
+                    min(0.4 + 10.0**k, float(b)),
+                    diagnosis=SAID if k >= 8 else (),
+                )
+
+
+def tensile() -> Iterator[Scene]:
+    """Rocking at (b/h) (1 + ft/sigma): points at the edge stand for half of the area each."""
+    for rule in FLOW_RULES:
+        for k in range(-9, 10):
+            yield Scene(
+                f"block, {worded(rule)}, tensile strength 1e{k} of the weight stress",
+                "strength of joints",
+                STRONG,
+                (f"parameters.ft=1.0e{k}", f"parameters.c={20.0 + 20 * 10.0**k}", "parameters.mu=2", ruled(rule)),
+                0.5 * (1 + 10.0**k),
+                diagnosis=SAID if k >= 8 else (),
+            )
+
+
+def crushing() -> Iterator[Scene]:
+    """Two points bear b/h times (fc/sigma - 1) where fc is between one and two weight stresses, b/h beyond."""
+    for rule in FLOW_RULES:
+        for k in range(-6, 7):
+            value = 10.0**k
+            yield Scene(
+                f"block, {worded(rule)}, compressive strength 1e{k} of the weight stress",
+                "strength of joints",
+                CRUSHING,
+                (f"parameters.fc=1.0e{k}", "parameters.mu=2", ruled(rule)),
+                None if value < 1 else 0.5 * min(value - 1, 1),
+                diagnosis=("no_equilibrium",) if value < 1 else (),
+            )
+        for k in (-9, -6, -3):
+            yield Scene(
+                f"block, {worded(rule)}, compressive strength 1 + 1e{k} of the weight stress",
+                "strength of joints",
+                CRUSHING,
+                (f"parameters.fc={1 + 10.0**k!r}", "parameters.mu=2", ruled(rule)),
+                0.5 * 10.0**k,
+                1e-3 if k == -9 else 1e-5,
+                diagnosis=("load-factor-rounding",) if k < -6 else (),
+            )
+
+
+SCENES = (*cohesive(), *tensile(), *crushing())
