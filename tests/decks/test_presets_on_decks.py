@@ -23,7 +23,7 @@ PROMISED = {"draft": 1e-2, "standard": 1e-4}
 PROVED = 1e-7
 """distance of the bounds of the reference"""
 ROUNDING = 1e-9
-"""distance of the bounds, of the live load itself, that is rounding where the factor is a thousandth (overhang_stack)"""
+"""distance of the bounds, as a factor, that is rounding where the factor is a thousandth (overhang_stack)"""
 LONG = {
     "arch_on_piers", "barrel_vault", "bridge_with_parapets", "corner", "cross_vault", "crossvault", "dome",
     "gable_wall", "crossvault_without_dilatancy", "dome_24_voussoirs", "dome_in_bond", "dome_of_slices",
