@@ -56,10 +56,10 @@ def test_presets_keep_their_promise(deck: Path, rule: str) -> None:
         if rule == "associative" and circular and result_of(case) is not None:
             apart = case.checks.kinematic_bound - case.checks.static_bound
             assert case.checks.gap <= PROVED or apart <= ROUNDING, case.load_case.name
-    for accuracy, error in PROMISED.items():
+    for accuracy, share in PROMISED.items():
         for case, sharp in zip(cases_of(deck, accuracy, rule), reference, strict=True):
             found, exact = result_of(case), result_of(sharp)
             assert (found is None) == (exact is None), case.load_case.name
             if found is not None and exact is not None:
-                expected = pytest.approx(exact.load_factor, rel=error, abs=ROUNDING)
+                expected = pytest.approx(exact.load_factor, rel=share, abs=ROUNDING)
                 assert found.load_factor == expected, f"{accuracy}, {case.load_case.name}"
