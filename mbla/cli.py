@@ -123,8 +123,10 @@ def _tradeoff(options: argparse.Namespace) -> int:
     from mbla.studies.tradeoff.words import study_lines
 
     report = None if options.quiet else _rung_progress()
-    study, record, remarks = tradeoff(content, run_options, options, report)
-    _clear_progress(report)
+    try:
+        study, record, remarks = tradeoff(content, run_options, options, report)
+    finally:
+        _clear_progress(report)  # what is said of an interruption has a line of its own
     for remark in remarks:
         _say(f"mbla: {remark}", 0)
     if options.json:

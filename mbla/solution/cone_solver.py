@@ -16,7 +16,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 from mbla.arrays import FloatArray
-from mbla.errors import SolverError
+from mbla.errors import SolverError, UnfitSolverError
 from mbla.program.kinematic import ConeProgram
 from mbla.solution.clarabel_adapter import ClarabelProgram
 from mbla.solution.condensed.program import CondensedProgram, condensed_size, fits
@@ -36,11 +36,11 @@ FAST = ("cholmod", "pardiso")
 
 
 def cone_solver(cone_program: ConeProgram, settings: SolverSettings, log: Log) -> InteriorPointSolver | HighsProgram:
-    """The program held by ``settings.solver``; SolverError with the remedy where that cannot take it."""
+    """The program held by ``settings.solver``; UnfitSolverError with the remedy where that cannot take it."""
     if settings.solver != "highs":
         return interior_point_solver(cone_program, settings, log)
     if cone_program.n_cones:
-        raise SolverError(
+        raise UnfitSolverError(
             f"analysis.solver = highs solves linear programs only, and this load case has {cone_program.n_cones} "
             "friction cones because it is not planar: use friction_cone: polyhedral, or solver: auto"
         )

@@ -38,14 +38,13 @@ LAST_WORDS = 2000
 class ChildRun:
     """What came of a task.
 
-    end         : ``done``; ``failed`` with ``words`` and exit status of the error; ``stopped`` as its time was over;
-                  ``died`` without an answer, with ``words``
+    end   : ``done``; ``failed``, or ``unfit`` where the setting does not apply to the deck, with ``words`` of the
+            error; ``stopped`` as its time was over; ``died`` without an answer, with ``words``
     """
 
     measurements: tuple[Measurement, ...]
     end: str
     words: str = ""
-    exit_status: int = 0
 
 
 class MeasuringProcess:
@@ -91,7 +90,7 @@ class MeasuringProcess:
                 if "gone" in record:
                     return last or ChildRun(tuple(found), "died", self._words_of(record["gone"]))
                 if "end" in record:
-                    last = ChildRun(tuple(found), record["end"], record.get("words", ""), record.get("exit_status", 0))
+                    last = ChildRun(tuple(found), record["end"], record.get("words", ""))
                     continue
                 found.append(Measurement(**record["measurement"]))
                 if report is not None:

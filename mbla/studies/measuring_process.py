@@ -21,12 +21,15 @@ import signal
 from dataclasses import asdict
 from typing import IO, Any
 
+from mbla.errors import DeckError, UnfitSolverError, UsageError
 from mbla.failures import words_of
 from mbla.studies.measured_run import Task, measure
 
 STAGES = ("deck", "model", "contacts", "program", "solution", "results.collapse")
 LATE = ("clarabel", "qdldl", "highspy", "cvxopt", "scipy.sparse.linalg", "scipy.sparse.csgraph", "scipy.spatial")
 """libraries that the stages import when they need them"""
+UNFIT = (DeckError, UsageError, UnfitSolverError)
+"""errors of a setting that does not apply to the deck, rather than of its run"""
 LOOK = 0.02
 """seconds between looks at whether the task is done or the parent gone"""
 
@@ -72,8 +75,9 @@ def _answer(task: Task, answers: IO[str]) -> None:
             _tell(answers, {"measurement": asdict(measurement)})
         _tell(answers, {"end": "done"})
     except Exception as error:
-        status, words = words_of(error)
-        _tell(answers, {"end": "failed", "exit_status": status, "words": " ".join(words.split())})
+        _, words = words_of(error)
+        end = "unfit" if isinstance(error, UNFIT) else "failed"
+        _tell(answers, {"end": end, "words": " ".join(words.split())})
 
 
 def _answer_in_a_copy(task: Task, answers: IO[str]) -> None:

@@ -14,48 +14,47 @@ import time
 from collections.abc import Sequence
 from datetime import UTC, datetime
 
-from mbla.deck import read_deck
-from mbla.studies.tradeoff.ladder import usual_ladder
-from mbla.studies.tradeoff.ladder_run import Limits
+from mbla.deck import Deck, read_deck
+from mbla.studies.tradeoff.ladder import fitted
+from mbla.studies.tradeoff.ladder_run import Limits, RungRun, run_ladder
 from mbla.studies.tradeoff.rung import Rung
-from mbla.studies.tradeoff.study import Study, study_deck
+from mbla.studies.tradeoff.study import Study, study_deck, study_of, traded_cases
 from tests.decks.tradeoff_pictures import write_pictures
+from tests.decks.tradeoff_plan import overrides_of, plan_of, rungs_for
 from tests.decks.tradeoff_record import FOLDER, Entry, entries_of, read_entries, write_entries
 from tests.decks.tradeoff_text import page_text
 from tests.performance.recording import machine, versions
 from tests.performance.standard_set import FLOW_RULES, STANDARD_SET, Structure
 
-RUN_LIMIT = 60.0
-"""seconds after which a rung is stopped"""
-LEFT_OUT = ("the deck's own settings", "tolerance: 1e-4", "tolerance: 1e-10", "points per edge: 3")
-"""rungs of the usual ladder that tell nothing more here"""
-LARGE = ("60 x 60", "40 x 40", "500 voussoirs")
-"""structures under which only the presets and what they are made of are run"""
-FEW = {"associative": ("accuracy: ", "form: ", "solver: "), "non_associative": ("accuracy: ",)}
-"""beginnings of the names of those rungs"""
+WANTED = 1e-4
+"""error for which a study advises; the page has no advice"""
 
 
-def rungs_for(structure: Structure, rule: str) -> list[Rung]:
-    """The important rungs of the usual ladder."""
-    fixed = overrides_of(structure, rule)
-    rungs = [rung for rung in usual_ladder(read_deck(structure.deck, fixed), fixed) if rung.name not in LEFT_OUT]
-    rungs = [rung for rung in rungs if not rung.unfit and rung.name != f"flow_rule: {rule}"]
-    if any(name in structure.name for name in LARGE):
-        return [rung for rung in rungs if rung.name.startswith(FEW[rule])]
-    return rungs
-
-
-def overrides_of(structure: Structure, rule: str) -> tuple[str, ...]:
-    """What makes the deck the structure of the set."""
-    return (*structure.overrides, f"analysis.flow_rule={rule}")
-
-
-def measure(structure: Structure, rule: str, limits: Limits) -> Study:
-    """Run the rungs of one structure with one flow rule, as ``mbla tradeoff`` does."""
-    fixed = overrides_of(structure, rule)
-    rungs = rungs_for(structure, rule)
+def measure(structure: Structure, rule: str, run_limit: float | None = None) -> Study:
+    """Run what is planned for one structure with one flow rule, as ``mbla tradeoff`` does."""
+    fixed, plan = overrides_of(structure, rule), plan_of(structure, rule)
     deck = read_deck(structure.deck, fixed)
-    return study_deck(deck, fixed, (structure.load_case,), rungs, 1e-4, limits, _tell)
+    limits = Limits(None, run_limit or plan.limit, 1)
+    rungs = rungs_for(structure, rule)
+    if not plan.in_turn:
+        return study_deck(deck, fixed, (structure.load_case,), rungs, WANTED, limits, _tell)
+    started = time.perf_counter()
+    runs = _in_turn(deck, structure, rule, rungs, limits)
+    cases = traded_cases(deck, (structure.load_case,))
+    return study_of(deck, fixed, cases, runs, WANTED, limits, time.perf_counter() - started)
+
+
+def _in_turn(deck: Deck, structure: Structure, rule: str, rungs: Sequence[Rung], limits: Limits) -> list[RungRun]:
+    """Each with a process of its own; none after one that was stopped, as it would take longer still."""
+    fixed = overrides_of(structure, rule)
+    runs: list[RungRun] = []
+    for rung in fitted(deck.path, fixed, deck, rungs):
+        stopped = next((run for run in runs if run.end == "stopped"), None)
+        if stopped is not None:
+            runs.append(RungRun(rung, (), "not run", f"not tried, as {stopped.rung.name} was {stopped.words}"))
+        else:
+            runs += run_ladder(deck.path, fixed, (structure.load_case,), [rung], limits, _tell)
+    return runs
 
 
 def chosen(names: Sequence[str], entries: Sequence[Entry]) -> list[tuple[Structure, str]]:
@@ -74,18 +73,19 @@ def main() -> None:
     """Measure and write."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("names", nargs="*", metavar="NAME")
-    parser.add_argument("--run-limit", type=float, default=RUN_LIMIT, metavar="S", help="seconds for each rung")
+    parser.add_argument("--run-limit", type=float, metavar="S", help="seconds for each rung (default: as planned)")
     parser.add_argument("--time-limit", type=float, metavar="S", help="seconds after which no structure is begun")
     parser.add_argument("--page", action="store_true", help="measure nothing, write the page")
     options = parser.parse_args()
-    until = time.monotonic() + (options.time_limit or float("inf"))
+    started = time.monotonic()
     entries = read_entries()
     for structure, rule in [] if options.page else chosen(options.names, entries):
-        if time.monotonic() > until:
+        if options.time_limit and time.monotonic() - started > options.time_limit:
             sys.stdout.write(f"not begun: {structure.name}, {rule}\n")
             continue
         sys.stdout.write(f"{structure.name}, {rule}\n")
-        study = measure(structure, rule, Limits(None, options.run_limit, 1))
+        study = measure(structure, rule, options.run_limit)
+        sys.stdout.write(f"  {study.seconds:.0f} s, {time.monotonic() - started:.0f} s in all\n")
         date = datetime.now(UTC).isoformat(timespec="seconds")
         new = entries_of(study, structure, rule, date, versions(), machine())
         entries = [*(e for e in entries if (e.structure, e.flow_rule) != (structure.name, rule)), *new]

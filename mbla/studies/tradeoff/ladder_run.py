@@ -7,7 +7,6 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from mbla.errors import DeckError, UsageError
 from mbla.studies.measured_run import Task
 from mbla.studies.measurement import Measurement
 from mbla.studies.measuring import ChildRun, MeasuringProcess
@@ -79,8 +78,7 @@ def _told(rung: Rung, run: ChildRun, expired: bool, limits: Limits) -> RungRun:
     if run.end == "stopped":
         words = "stopped at the end of the time limit" if expired else f"stopped after {limits.each:g} s"
         return RungRun(rung, run.measurements, "stopped", words, expired)
-    unfit = run.end == "failed" and run.exit_status in (UsageError.exit_status, DeckError.exit_status)
-    return RungRun(rung, run.measurements, "unfit" if unfit else run.end, run.words)
+    return RungRun(rung, run.measurements, run.end, run.words)
 
 
 def _is_planar(run: RungRun) -> bool:

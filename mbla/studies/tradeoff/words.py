@@ -16,10 +16,17 @@ from mbla.studies.tradeoff.rung import REFERENCE
 from mbla.studies.tradeoff.study import Study
 from mbla.studies.tradeoff.trade import CaseTrade, Row
 
-HEAD = ("setting", "time", "solver", "iter.", "memory", "answer", "error", "static", "kinematic", "residual", "")
+HEAD = ("setting", "time", "solve", "iter", "mem.", "answer", "error", "static", "kinem.", "resid.", "")
 UNITS = ("", "s", "s", "", "MB", "", "", "bound", "bound", "", "")
 LEFT = (0, 10)
 """columns of words, aligned to the left"""
+FRONT = "*"
+"""before the setting: on the Pareto front"""
+LEGEND = (
+    "time: a load case by the clock; solve: its share in solvers; mem.: beyond imports; error: distance from ref., the "
+    "reference; bounds: proved, of associative flow; resid.: largest, recomputed; *: no verified setting of the same "
+    "model is both faster and nearer"
+)
 
 
 def study_lines(study: Study) -> list[str]:
@@ -28,6 +35,8 @@ def study_lines(study: Study) -> list[str]:
     lines.append(f"{INDENT}flow rule {study.flow_rule}; {preparation_words(study)}")
     for trade in study.trades:
         lines += ["", *trade_lines(study, trade)]
+    if any(row.measurement is not None for trade in study.trades for row in trade.rows):
+        lines += ["", *sentence(LEGEND)]
     lines += ["", *_unmeasured(study)]
     for row, one in enumerate(study.advices):
         lines += sentence(_of_case(study, row) + one.sentence)
@@ -56,9 +65,11 @@ def trade_lines(study: Study, trade: CaseTrade) -> list[str]:
     head = [kind if name == "answer" else name for name in HEAD]
     units = [unit if name == "answer" else text for name, text in zip(HEAD, UNITS, strict=True)]
     shown = aligned([head, units, *body])
-    lines += shown[: 2 + split]
+    marks = [FRONT if row.front else " " for row in own]
+    lines += shown[:2] + [mark + line[1:] for mark, line in zip(marks, shown[2 : 2 + split], strict=True)]
     if others:
-        lines += [f"{INDENT}other models, whose difference is no error:", *shown[2 + split :]]
+        what = ", ".join(dict.fromkeys(row.run.rung.model for row in others))
+        lines += [*sentence(f"other models ({what}), whose difference is no error:"), *shown[2 + split :]]
     return lines
 
 
@@ -97,10 +108,7 @@ def mark_words(row: Row) -> str:
     measurement = row.measurement
     if measurement is None:
         return ""
-    words = ["reference"] if row.reference else []
-    words += ["front"] if row.front else []
-    if row.run.rung.model:
-        words.append(f"other {row.run.rung.model}")
+    words: list[str] = []
     if measurement.verdict == "locked_in":
         words.append(verdict_words(measurement))
     elif measurement.status != Status.SOLVED:
@@ -112,7 +120,9 @@ def mark_words(row: Row) -> str:
 
 def error_words(trade: CaseTrade, row: Row) -> str:
     """The distance; ``<1e-9`` where it is less than can be told."""
-    if row.reference or math.isnan(row.distance):
+    if row.reference:
+        return "ref."
+    if math.isnan(row.distance):
         return "-"
     if row.measurement is not None and row.measurement.verdict != "answer":
         return "same"
@@ -137,7 +147,7 @@ def _cells(trade: CaseTrade, row: Row) -> list[str]:
         _seconds(measurement.wall),
         _seconds(measurement.solver),
         str(measurement.iterations),
-        "-" if math.isnan(measurement.memory) else f"{measurement.memory / 1e6:.1f}",
+        _megabytes(measurement.memory),
         number(measurement.answer),
         error_words(trade, row),
         _bound(measurement.lower_bound if measurement.kind != "reaction" else measurement.upper_bound),
@@ -148,17 +158,24 @@ def _cells(trade: CaseTrade, row: Row) -> list[str]:
 
 
 def _seconds(value: float) -> str:
-    return "-" if math.isnan(value) else f"{value:.3f}" if value < 10.0 else f"{value:.1f}"
+    """``0.012``, ``1.234``, ``12.3``, ``1234``."""
+    digits = 3 if value < 10.0 else 1 if value < 1000.0 else 0
+    return "-" if math.isnan(value) else f"{value:.{digits}f}"
+
+
+def _megabytes(size: float) -> str:
+    return "-" if math.isnan(size) else f"{size / 1e6:.{1 if size < 1e8 else 0}f}"
 
 
 def _bound(value: float) -> str:
-    return "-" if math.isnan(value) else f"{value + 0.0:.8g}"
+    return "-" if math.isnan(value) else number(value)
 
 
 def _kind(rows: Sequence[Row]) -> tuple[str, str]:
+    """Heading of the column of the answer, in two lines."""
     first = rows[0].measurement
     assert first is not None
-    return first.kind, first.unit
+    return ("load", "factor") if first.kind == "load factor" else (first.kind, first.unit)
 
 
 def _positions(trade: CaseTrade) -> str:
@@ -179,9 +196,9 @@ def _unmeasured(study: Study) -> Iterator[str]:
 
 
 def _reason(run: RungRun) -> str:
-    same = run.words.startswith("the same as ")
+    told = run.words.startswith(("the same as ", "applies to "))
     lead = {
-        "unfit": "" if same else "does not apply",
+        "unfit": "" if told else "does not apply",
         "failed": "failed",
         "died": "broke off",
         "not run": "not run",

@@ -87,7 +87,7 @@ def test_another_model_is_told_from_an_error(written: Written) -> None:
     assert float(rows["stronger"]["distance"]) == pytest.approx(0.8, rel=1e-5)
     assert rows["stronger"]["front"] == "False"
     assert float(rows["tolerance: 1e-9"]["distance"]) < 1e-8
-    assert "other models, whose difference is no error:" in written.words
+    assert "other models (parameters, joints, blocks), whose difference is no error:" in written.words
 
 
 def test_a_load_case_that_nothing_brings_down(written: Written) -> None:
@@ -155,3 +155,14 @@ def test_refusals(
     assert main(["tradeoff", str(deck), *arguments]) == status
     assert words in capsys.readouterr().err
     assert not deck.with_suffix(".out").exists()
+
+
+def test_a_solver_that_takes_no_cones_does_not_apply(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    deck = tmp_path / "block.yaml"
+    deck.write_text(BLOCK, encoding="utf-8")
+    arguments = ["--set", "analysis.reductions.planar=false", "--setting", "highs: analysis.solver=highs"]
+    assert main(["tradeoff", str(deck), *arguments]) == 0
+    told = " ".join(capsys.readouterr().out.split())
+    assert "highs: does not apply: analysis.solver = highs solves linear programs only" in told
+    record = json.loads((tmp_path / "block.out" / "block_tradeoff.json").read_text(encoding="utf-8"))
+    assert {run["name"]: run["end"] for run in record["settings"]} == {"accuracy: reference": "done", "highs": "unfit"}

@@ -69,7 +69,15 @@ def test_a_preset_is_preferred_within_the_noise_of_time() -> None:
     runs = [*ladder(), run_of("solver: mbla", measured(0.50001, 0.76))]
     assert advice([trade_of(runs)], 1e-4).rung == "accuracy: standard"
     runs = [*ladder(), run_of("solver: mbla", measured(0.50001, 0.5))]
-    assert advice([trade_of(runs)], 1e-4).rung == "solver: mbla"
+    chosen = advice([trade_of(runs)], 1e-4)
+    assert chosen.rung == "solver: mbla"
+    assert "take solver: mbla (0.5 s; accuracy: standard 0.8 s)" in chosen.sentence  # what it gains
+
+
+def test_hundredths_of_a_second_are_no_reason_to_leave_the_standard() -> None:
+    times = {"accuracy: standard": 0.06, "accuracy: reference": 0.04, "form: static": 0.035}
+    runs = [run_of(name, measured(0.5, wall)) for name, wall in times.items()]
+    assert advice([trade_of(runs)], 1e-4).rung == "accuracy: standard"
 
 
 def test_the_sharpest_verified_takes_the_place_of_a_reference_that_is_not() -> None:

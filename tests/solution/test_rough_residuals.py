@@ -1,0 +1,89 @@
+"""Every scheme of flow without normality under a rough ``residual``: it stops there, and says what it reached."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+
+from mbla.exit_status import exit_code
+from mbla.results.outcome import law_residual
+from mbla.results.results import CaseResult
+from mbla.solution.solution import Status
+from tests.line import WALL, case_of
+from tests.solution.test_limit_point import PLANK
+
+ROUGH = 1e-2
+WITHOUT = "analysis.flow_rule=non_associative"
+SPATIAL = ("analysis.reductions.planar=false", "analysis.reductions.mirror=false")
+DILATANCY = WALL.replace('friction: "=mu"', 'friction: "=mu", dilatancy: 10')
+
+
+def case(text: str, *overrides: str) -> CaseResult:
+    return case_of(text, *overrides)[1]
+
+
+def factor(result: CaseResult) -> float:
+    assert result.solution.mechanics is not None
+    return result.solution.mechanics.load_factor
+
+
+def iterations(result: CaseResult) -> int:
+    return sum(program.iterations for program in result.solution.programs)
+
+
+@pytest.mark.parametrize("scheme", [("analysis.scheme=interior",), ("analysis.contact_model=convex",)], ids=str)
+def test_schemes_that_creep_stop_where_they_were_told_to(scheme: tuple[str, ...]) -> None:
+    """0.65 is the load factor of this wall with any flow rule."""
+    sharp, rough = (case(WALL, WITHOUT, *SPATIAL, *scheme, f"analysis.residual={r}") for r in (1e-6, ROUGH))
+    assert sharp.status is Status.SOLVED
+    assert law_residual(sharp.checks) <= 1e-6
+    assert rough.status is Status.APPROXIMATE
+    assert 1e-4 < law_residual(rough.checks) <= ROUGH
+    assert rough.solution.asked == ROUGH
+    assert exit_code([rough]) == 0
+    assert iterations(rough) < iterations(sharp)
+    assert factor(rough) == pytest.approx(factor(sharp), rel=ROUGH)
+
+
+@pytest.mark.parametrize(
+    ("text", "scheme"),
+    [(WALL, (WITHOUT,)), (WALL, (WITHOUT, "analysis.scheme=path")), (DILATANCY, ("analysis.flow_rule=dilatancy",))],
+    ids=["proximal", "path", "dilatancy"],
+)
+def test_schemes_that_come_to_rest_end_as_sharply_whatever_was_asked(text: str, scheme: tuple[str, ...]) -> None:
+    """Their last step solves the joint law as an active set: there is no rough state on the way to stop at."""
+    for residual in (1e-9, ROUGH):
+        result = case(text, *scheme, f"analysis.residual={residual}")
+        assert result.status is Status.SOLVED
+        assert law_residual(result.checks) <= 1e-9
+        assert factor(result) == pytest.approx(0.65, rel=1e-9)
+        assert exit_code([result]) == 0
+
+
+def test_a_path_that_stalls_is_no_result_though_within_the_residual() -> None:
+    """It stops at a peak of this wall, its motion 1.1e-3 from the law: near, but no mechanism and no collapse load."""
+    result = case(WALL, WITHOUT, "analysis.scheme=path", "parameters.n=10", f"analysis.residual={ROUGH}")
+    assert 1e-4 < law_residual(result.checks) < ROUGH
+    assert result.status is Status.NOT_VERIFIED
+    assert "stalled" in result.solution.reason
+    assert exit_code([result]) == 4
+
+
+def test_a_peak_is_looked_for_as_the_knob_says() -> None:
+    """A clamped plank, which carries more on the way than when it slides."""
+    looked, left = (case(PLANK, WITHOUT, f"analysis.peak={word}") for word in ("true", "false"))
+    assert looked.checks.peak_load_factor > 1.5 * factor(looked)
+    assert math.isnan(left.checks.peak_load_factor)
+    assert "was not examined" in " ".join([left.solution.reason, *left.solution.remarks])
+    assert factor(left) == pytest.approx(factor(looked), rel=1e-9)
+    assert len(left.solution.programs) < len(looked.solution.programs)
+
+
+def test_the_tolerance_is_that_of_the_cone_solver() -> None:
+    """A rough one spares iterations of the program, not of the whole: its answer needs others to be proved."""
+    knobs = ("analysis.gap=1e-2", "analysis.forces=solver", "analysis.standing=false", "parameters.n=10")
+    rough, sharp = (case(WALL, *knobs, f"analysis.tolerance={value}") for value in ("1e-3", "1e-10"))
+    assert sharp.checks.gap < 1e-8
+    assert 1e-5 < rough.checks.gap <= 1e-2
+    assert rough.solution.programs[0].iterations < sharp.solution.programs[0].iterations
