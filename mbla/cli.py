@@ -122,9 +122,9 @@ def _tradeoff(options: argparse.Namespace) -> int:
     from mbla.studies.tradeoff.command import tradeoff
     from mbla.studies.tradeoff.words import study_lines
 
-    tell = None if options.quiet else _rung_progress()
-    study, record, remarks = tradeoff(content, run_options, options, tell)
-    _clear_progress(tell)
+    report = None if options.quiet else _rung_progress()
+    study, record, remarks = tradeoff(content, run_options, options, report)
+    _clear_progress(report)
     for remark in remarks:
         _say(f"mbla: {remark}", 0)
     if options.json:

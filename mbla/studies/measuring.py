@@ -70,13 +70,13 @@ class MeasuringProcess:
         task: Task,
         until: float | None = None,
         seconds: float | None = None,
-        tell: Callable[[Measurement], None] | None = None,
+        report: Callable[[Measurement], None] | None = None,
     ) -> ChildRun:
         """Measure one task.
 
         until   : time.monotonic() at which it is stopped
         seconds : after which it is stopped, not counting the start of the process
-        tell    : called with each measurement as it comes
+        report  : called with each measurement as it comes
         """
         found: list[Measurement] = []
         last: ChildRun | None = None
@@ -94,8 +94,8 @@ class MeasuringProcess:
                     last = ChildRun(tuple(found), record["end"], record.get("words", ""), record.get("exit_status", 0))
                     continue
                 found.append(Measurement(**record["measurement"]))
-                if tell is not None:
-                    tell(found[-1])
+                if report is not None:
+                    report(found[-1])
             return self._death(found)
         except TimeoutError:
             self._stop()

@@ -8,13 +8,15 @@ from mbla.deck import Deck
 from mbla.results.files import OutputFolder
 from mbla.run_options import RunOptions
 from mbla.studies.tradeoff.knobs import asked_rungs
-from mbla.studies.tradeoff.ladder_run import Limits, Tell
+from mbla.studies.tradeoff.ladder_run import Limits, Report
 from mbla.studies.tradeoff.records import study_json
 from mbla.studies.tradeoff.study import Study, file_name, study_deck
 from mbla.studies.tradeoff.write import write_study
 
 
-def tradeoff(deck: Deck, run: RunOptions, options: Any, tell: Tell | None) -> tuple[Study, dict[str, Any], list[str]]:
+def tradeoff(
+    deck: Deck, run: RunOptions, options: Any, report: Report | None
+) -> tuple[Study, dict[str, Any], list[str]]:
     """Measure a deck and write the files; the study, its JSON record, and remarks.
 
     options : ``knob`` and ``setting`` texts, ``wanted_error``, ``time_limit``, ``run_limit`` [s] or None
@@ -27,6 +29,6 @@ def tradeoff(deck: Deck, run: RunOptions, options: Any, tell: Tell | None) -> tu
     out = OutputFolder(run.folder_for(deck.path), stem, run.force, beside=True)
     out.refuse(f"{stem}.csv", f"{stem}.json")
     with out:
-        study = study_deck(deck, run.overrides, run.cases, asked, options.wanted_error, limits, tell)
+        study = study_deck(deck, run.overrides, run.cases, asked, options.wanted_error, limits, report)
         remark = write_study(study, out)
     return study, study_json(study, out.names), [remark] if remark else []

@@ -13,7 +13,7 @@ from mbla.studies.measurement import Measurement
 from mbla.studies.measuring import ChildRun, MeasuringProcess
 from mbla.studies.tradeoff.rung import Rung
 
-Tell = Callable[[int, int, str, str], None]
+Report = Callable[[int, int, str, str], None]
 """called with number of the rung from 1, number of rungs, name of the rung, and load case done (empty: it begins)"""
 LEAST_TIME = 0.5
 """seconds of a budget below which no further process is started: it would not get past its imports"""
@@ -45,7 +45,7 @@ class RungRun:
 
 
 def run_ladder(
-    deck: Path, fixed: Sequence[str], cases: Sequence[str], rungs: Sequence[Rung], limits: Limits, tell: Tell | None
+    deck: Path, fixed: Sequence[str], cases: Sequence[str], rungs: Sequence[Rung], limits: Limits, report: Report | None
 ) -> list[RungRun]:
     """One run for each rung, in their order."""
     until = None if limits.budget is None else time.monotonic() + limits.budget
@@ -55,8 +55,8 @@ def run_ladder(
         for number, rung in enumerate(rungs, 1):
 
             def done(measurement: Measurement | None, number: int = number, name: str = rung.name) -> None:
-                if tell is not None:
-                    tell(number, len(rungs), name, measurement.case if measurement else "")
+                if report is not None:
+                    report(number, len(rungs), name, measurement.case if measurement else "")
 
             unfit = rung.unfit or (rung.spatial if planar else "")
             if unfit:

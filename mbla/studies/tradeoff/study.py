@@ -16,7 +16,7 @@ from mbla.results.results import now
 from mbla.run_deck import contacts_of, select_cases, title_of
 from mbla.studies.tradeoff.advice import Advice, advice
 from mbla.studies.tradeoff.ladder import asked_ladder, fitted, usual_ladder
-from mbla.studies.tradeoff.ladder_run import Limits, RungRun, Tell, run_ladder
+from mbla.studies.tradeoff.ladder_run import Limits, Report, RungRun, run_ladder
 from mbla.studies.tradeoff.rung import REFERENCE, Rung
 from mbla.studies.tradeoff.trade import CaseTrade, case_trades
 
@@ -61,7 +61,7 @@ def study_deck(
     asked: Sequence[Rung],
     wanted: float,
     limits: Limits,
-    tell: Tell | None = None,
+    report: Report | None = None,
 ) -> Study:
     """Run the ladder on a deck that was read with the overrides ``fixed``, and hold it against the reference.
 
@@ -77,7 +77,7 @@ def study_deck(
     ladder = asked_ladder(deck, fixed, asked) if asked else usual_ladder(deck, fixed)
     rungs = fitted(deck.path, fixed, deck, ladder)
     left = None if limits.budget is None else max(limits.budget - (time.perf_counter() - started), 0.0)
-    runs = run_ladder(deck.path, fixed, cases, rungs, Limits(left, limits.each, limits.threads), tell)
+    runs = run_ladder(deck.path, fixed, cases, rungs, Limits(left, limits.each, limits.threads), report)
     return study_of(deck, fixed, names, runs, wanted, limits, time.perf_counter() - started)
 
 
