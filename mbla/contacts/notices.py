@@ -7,6 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from mbla.arrays import IntArray
+from mbla.contacts.between import HeldApart
 from mbla.contacts.contacts import ContactReport
 from mbla.contacts.glue import Glue
 from mbla.contacts.nearest import nearest_words
@@ -46,6 +47,22 @@ def glue_notices(report: ContactReport, glue: Glue) -> tuple[Notice, ...]:
         text = f"{_count(len(report.glued), 'interface')} glued, and left out: {glue_words(report, glue.sizes)}"
         found.append(Notice("notice", "blocks-glued", text))
     return tuple(found)
+
+
+def held_apart_notices(model: Model, held: HeldApart) -> tuple[Notice, ...]:
+    """Faces within the tolerance of each other that are no contacts, for a third block lies between."""
+    if not len(held):
+        return ()
+    overlays = held.patches.overlays
+    gaps = held.patches.mid_gaps
+    row = int(np.argmax(gaps * overlays.sizes))
+    pair = overlays.bodies[row]
+    text = (
+        f"{_count(len(held), 'common surface')} within the tolerance left out, because a thin block lies between: "
+        f"{_pair(model, pair)} stand {_length(model, pair.tolist(), float(gaps[row]))} apart on "
+        f"{model.body_name(int(held.between[row]))}{', and others' if len(held) > 1 else ''}"
+    )
+    return (Notice("notice", "thin-block-between", text),)
 
 
 def glue_words(report: ContactReport, sizes: IntArray) -> str:

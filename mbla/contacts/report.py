@@ -7,11 +7,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
+from mbla.contacts.between import HeldApart
 from mbla.contacts.connectivity import isolated_blocks, unsupported_parts
 from mbla.contacts.contacts import ContactReport
 from mbla.contacts.glue import Glue
 from mbla.contacts.narrow_phase import Patches
-from mbla.contacts.notices import glue_notices, report_notices
+from mbla.contacts.notices import glue_notices, held_apart_notices, report_notices
 from mbla.contacts.overlaps import Overlaps
 from mbla.deck.types import ContactsSection
 from mbla.errors import Notice
@@ -30,6 +31,7 @@ class Findings:
     slivers: Patches
     near_misses: Patches
     overlaps: Overlaps
+    held_apart: HeldApart
     open_bodies: IntArray
     glued_bodies: IntArray
     glue: Glue
@@ -60,7 +62,12 @@ def build_report(model: Model, section: ContactsSection, findings: Findings, not
         notices=(),
     )
     return report.with_notices(
-        (*notices, *report_notices(model, section, report, touching), *glue_notices(report, findings.glue))
+        (
+            *notices,
+            *report_notices(model, section, report, touching),
+            *held_apart_notices(model, findings.held_apart),
+            *glue_notices(report, findings.glue),
+        )
     )
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
+from mbla.contacts.between import HeldApart, without_held_apart
 from mbla.contacts.broad_phase import BlockPairs, find_block_pairs
 from mbla.contacts.contacts import ContactReport, Contacts
 from mbla.contacts.corners import areas_and_centroids, needed_corners
@@ -37,7 +38,7 @@ def find_contacts(model: Model, section: ContactsSection) -> Contacts:
     """
     facets = build_facets(model.blocks)
     pairs = find_block_pairs(model.blocks, section.tolerance)
-    verdicts = _verdicts(model, facets, pairs, section.tolerance)
+    verdicts, held_apart = _verdicts(model, facets, pairs, section.tolerance)
     overlaps = find_overlaps(model.blocks, facets, pairs, section.tolerance)
     order = _order(verdicts.contacts, ~both_fixed(model, verdicts.contacts.overlays.bodies))
     movable = verdicts.contacts.take(order)
@@ -56,6 +57,7 @@ def find_contacts(model: Model, section: ContactsSection) -> Contacts:
         slivers=verdicts.slivers,
         near_misses=without_covered(verdicts.near_misses, verdicts.contacts),
         overlaps=overlaps,
+        held_apart=held_apart,
         open_bodies=bodies[laws.open],
         glued_bodies=bodies[inside & ~laws.open],
         glue=glue,
@@ -64,13 +66,14 @@ def find_contacts(model: Model, section: ContactsSection) -> Contacts:
     return _contacts(kept, areas, found, laws.in_use(rows), report, glue.solid_of_block)
 
 
-def _verdicts(model: Model, facets: Facets, pairs: BlockPairs, tolerance: float) -> Verdicts:
-    """What touches, and what nearly does; where the model gives its interfaces these, and nothing besides."""
+def _verdicts(model: Model, facets: Facets, pairs: BlockPairs, tolerance: float) -> tuple[Verdicts, HeldApart]:
+    """What touches, what nearly does, and what a third body holds apart; given interfaces are taken as they are."""
     if model.interfaces is None:
-        return judge(find_patches(model.blocks, facets, pairs, model.grounds, tolerance), tolerance)
+        found = judge(find_patches(model.blocks, facets, pairs, model.grounds, tolerance), tolerance)
+        return without_held_apart(found, model.blocks, tolerance)
     given = patches_of(model, model.interfaces)
     nothing = given.take(np.empty(0, dtype=np.int64))
-    return Verdicts(given, nothing, nothing)
+    return Verdicts(given, nothing, nothing), HeldApart(nothing, np.empty(0, dtype=np.int64))
 
 
 def _contacts(

@@ -6,7 +6,9 @@
   joints dissipate.
 
 Rounding leaves velocities incompatible by δ = μ s − v_N here and there. By virtual work each δ is worth at most N δ: it
-is charged with a normal force that no solution comes near.
+is charged with a normal force that no solution comes near. Likewise forces are left out of balance by R and beyond the
+yield conditions by e: in the mechanism of collapse these are worth |R·u| + e |v|, and the static bound is charged with
+that. Where the load factor is as small as rounding, only so is the static bound one.
 """
 
 from __future__ import annotations
@@ -24,7 +26,7 @@ from mbla.solution.load_scale import LoadScale, forces_on_blocks
 from mbla.solution.mechanism_repair import repaired_mechanisms
 from mbla.solution.residuals import unbalanced_loads
 from mbla.solution.solution import Mechanics
-from mbla.solution.statics import contact_velocities, power
+from mbla.solution.statics import contact_resultants, contact_velocities, power
 
 PROVED_RESIDUAL = 2e-9
 """Unbalanced force and excess over yield, relative to the scale of the block, with which forces still prove a bound."""
@@ -57,13 +59,23 @@ def associative_bounds(
     repaired = repaired_forces(
         program, associative.contact_forces / scaling.force, associative.load_factor / scaling.live
     )
+    largest = 2.0 * float(np.abs(associative.contact_forces[:, 0]).max(initial=0.0))
+    velocities = program.velocities(associative.mechanism)
+    motions = [
+        allowed_motion(model, program.mechanism(u), scale.arms) for u in repaired_mechanisms(program, velocities)
+    ]
+    values = [_proved_kinematic(model, contacts, load_case, motion, limits, largest) for motion in motions]
+    kinematic = min((value for value in values if np.isfinite(value)), default=np.nan)
     static = np.nan
     if repaired is not None:
         forces, factor = scaling.forces(repaired[0]), scaling.load_factor(repaired[1])
         if _forces_prove(model, contacts, load_case, forces, factor, limits, scale):
             static = factor
+            if np.isfinite(kinematic):
+                static -= _charge(model, contacts, load_case, forces, factor, limits, motions[values.index(kinematic)])
     if not np.any(load_case.dead_load[model.free]):
         static = float(np.fmax(static, 0.0))  # no forces balance no load
+<<<<<<< HEAD
     largest = 2.0 * float(np.abs(associative.contact_forces[:, 0]).max(initial=0.0))
     velocities = program.velocities(associative.mechanism)
 
@@ -76,6 +88,26 @@ def associative_bounds(
         return static, given
     values = [given, *(proved(u) for u in repaired_mechanisms(program, velocities)[1:])]
     return static, min((value for value in values if np.isfinite(value)), default=np.nan)
+=======
+    return static, kinematic
+
+
+def _charge(
+    model: Model,
+    contacts: Contacts,
+    load_case: LoadCase,
+    forces: FloatArray,
+    factor: float,
+    limits: YieldLimits,
+    mechanism: FloatArray,
+) -> float:
+    """What unbalanced forces and those beyond yield are worth in a mechanism, over its live power."""
+    acting = contact_resultants(model, contacts, forces) + load_case.dead_load + factor * load_case.live_load
+    unbalanced = float(np.abs(np.einsum("bi,bi->b", acting, mechanism)).sum())
+    v = contact_velocities(model, contacts, mechanism)
+    excess = float((yield_violation(forces, limits) * np.sqrt((v**2).sum(axis=1))).sum())
+    return (unbalanced + excess) / power(load_case.live_load, mechanism)
+>>>>>>> ee984d0804a2744b3f9d660ef2f6ecea6d80c975
 
 
 def certificate_failures(

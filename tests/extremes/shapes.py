@@ -33,6 +33,18 @@ ON_FOOT = (
 """
 )
 """A cube of 1 m on a foot of a x a x 0.1 m: over before anything slides."""
+ON_THIN_FOOT = ON_FOOT.replace("b: 1,", "b: 1, t: 0.1,").replace("0.1", '"=t"').replace("1.1", '"=1 + t"')
+"""The foot 0.3 m wide and t high: over about its edge, unless the cube is taken to rest on the ground beside it."""
+LAYERS = (
+    HEAD.replace("g: 0,", "t: 1.0e-4,")
+    + """\
+  - box: {group: layer, material: stone, min: [0, 0, 0], max: [0.3, 1, "=t"],
+          repeat: {count: 4, translate: [0, 0, "=0.5 + t"]}}
+  - box: {group: course, material: stone, min: [0, 0, "=t"], max: [0.3, 1, "=0.5 + t"],
+          repeat: {count: 4, translate: [0, 0, "=0.5 + t"]}}
+"""
+)
+"""Four blocks with a layer below each, all of one density: b/h of the whole."""
 PEBBLE = (
     HEAD.replace("[1, 0, 0]}", "[1, 0, 0], on: pebble}")
     + """\
@@ -84,6 +96,28 @@ def small() -> Iterator[Scene]:
             yield Scene(f"pebble on a slab, {name}", "small interfaces", PEBBLE, overrides, 0.4, diagnosis=said)
 
 
+def thin() -> Iterator[Scene]:
+    """Feet and layers down to 1e-6 and less of the blocks that rest on them, far below the tolerance of contacts."""
+    for rule in FLOW_RULES:
+        for k in (-1, -2, -3, -4, -6, -9):
+            t = 10.0**k
+            overrides = (f"parameters.t=1.0e{k}", ruled(rule))
+            foot = 0.3**2 * t
+            lever = (foot * t / 2 + 0.5 + t) / (1 + foot)
+            said = (FAR_APART,) if k < -6 else ()
+            name = f"{worded(rule)}, 1e{k} thick"
+            yield Scene(
+                f"cube on a foot, {name}",
+                "thin blocks",
+                ON_THIN_FOOT,
+                (*overrides, "parameters.a=0.3"),
+                0.15 / lever,
+                diagnosis=said,
+            )
+            total = 4 * (0.5 + t)
+            yield Scene(f"layers in a stack, {name}", "thin blocks", LAYERS, overrides, 0.3 / total, diagnosis=said)
+
+
 def gaps() -> Iterator[Scene]:
     """Up to the tolerance a gap is rounding, and moves the answer by no more than itself; beyond it is named."""
     for rule in FLOW_RULES:
@@ -102,4 +136,4 @@ def gaps() -> Iterator[Scene]:
                 )
 
 
-SCENES = (*slender(), *small(), *gaps())
+SCENES = (*slender(), *small(), *thin(), *gaps())

@@ -5,6 +5,9 @@ Then symmetric motions are motions in the plane, contact points one behind the o
 the strength of all stands for them. Forces go back to the points in proportion to their areas, which keeps each within
 its own limits, and alike to a point and its image, which leaves no moment out of the plane. An interface that comes in
 pieces may have its image in another one: where two blocks meet one in two halves that are glued, say.
+
+The unknown y of a group is such that the squares of its points' forces add up to y²/2: where two points stand one
+behind the other it is their sum. The least forces and equally stiff springs of the program are then those of the model.
 """
 
 from __future__ import annotations
@@ -39,11 +42,13 @@ def planar_program(scene: Scene, mirror: Mirror) -> Program:
     n_groups = int(group.max(initial=-1)) + 1
     areas = (scene.areas + scene.areas[mirror.point_of]) / 2  # cuts and points left out may make them unlike
     share = areas / np.bincount(group, areas, n_groups)[group]
+    size = np.sqrt(2.0 * np.bincount(group, share**2, n_groups))
+    share = share / size[group]
     maps = np.zeros((len(group), 3, 2))
     maps[:, 0, 0] = share
     maps[:, 1:, 1] = share[:, None] * np.einsum("ptx,px->pt", scene.frames[:, 1:], shear)
     forces = block_matrix(maps, np.arange(len(group)), group, (len(group), n_groups))
-    return restricted(scene.program, velocities, forces, _added(scene.program.limits, group, n_groups), components=2)
+    return restricted(scene.program, velocities, forces, _added(scene.program.limits, group, size), components=2)
 
 
 def _one_behind_the_other(scene: Scene, mirror: Mirror, shear: FloatArray) -> IntArray:
@@ -62,13 +67,17 @@ def _one_behind_the_other(scene: Scene, mirror: Mirror, shear: FloatArray) -> In
     return group
 
 
-def _added(limits: YieldLimits, group: IntArray, n_groups: int) -> YieldLimits:
-    """Limits of the groups: strengths add up, coefficients are those of the interface's joint law."""
+def _added(limits: YieldLimits, group: IntArray, size: FloatArray) -> YieldLimits:
+    """Limits of the groups: strengths add up, coefficients are those of the interface's joint law.
+
+    size : (n_groups,) unknown of a group over the sum of its forces
+    """
+    n_groups = len(size)
     first = np.full(n_groups, -1)
     first[group[::-1]] = np.arange(len(group))[::-1]
 
     def total(values: FloatArray) -> FloatArray:
-        return np.asarray(np.bincount(group, values, n_groups), dtype=np.float64)
+        return np.asarray(np.bincount(group, values, n_groups) * size, dtype=np.float64)
 
     crushable = np.isfinite(limits.compression)
     return YieldLimits(

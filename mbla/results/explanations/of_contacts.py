@@ -44,6 +44,15 @@ OF_CONTACTS = (
         "Lower contacts.tolerance if the widest one is a real bearing.",
     ),
     Explanation(
+        "thin-block-between",
+        "notice",
+        "Faces within the tolerance of each other were not taken as contacts, because a thinner block lies between.",
+        "Taken as contacts they would carry what only the thin block can carry: a block on a small thin foot would "
+        "rest on the ground beside it.",
+        "Feet, wedges, plates or layers of mortar thinner than contacts.tolerance of the blocks about them.",
+        "Nothing, if the thin block is meant. Leave out blocks that are there only by rounding.",
+    ),
+    Explanation(
         "outlines-simplified",
         "notice",
         "Corners of common surfaces that lie within the tolerance of the outline are left out, and the area shows it.",

@@ -1,0 +1,88 @@
+"""Thin blocks between others: only they are touched, not what lies behind them."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from mbla.contacts import Contacts
+from mbla.model.polyhedra import Polyhedra, join_polyhedra, polyhedra_from_lists
+from tests.contacts.structures import any_rotation, boxes, contacts_of, ground, moved
+
+HEIGHTS = (1e-2, 1e-3, 1e-5, 1e-7, 1e-9)
+
+
+def pairs(contacts: Contacts) -> list[list[int]]:
+    return contacts.bodies.tolist()
+
+
+def said(contacts: Contacts) -> dict[str, str]:
+    return {notice.identifier: notice.message for notice in contacts.report.notices}
+
+
+def on_foot(height: float, side: float = 0.2) -> Polyhedra:
+    half = side / 2
+    return boxes(([-half, -half, 0], [half, half, height]), ([-0.5, -0.5, height], [0.5, 0.5, 1 + height]))
+
+
+@pytest.mark.parametrize("height", HEIGHTS)
+@pytest.mark.parametrize("side", [0.2, 1.0])
+def test_block_on_a_thin_foot_does_not_touch_the_ground(height: float, side: float) -> None:
+    contacts = contacts_of(on_foot(height, side), grounds=(ground(),))
+    assert pairs(contacts) == [[0, 1], [2, 0]]
+    assert contacts.areas == pytest.approx([side**2, side**2])
+    assert ("thin-block-between" in said(contacts)) == (height <= 1e-3)
+
+
+def test_notice_names_the_bodies_and_the_block_between() -> None:
+    assert said(contacts_of(on_foot(1e-3), grounds=(ground(),)))["thin-block-between"] == (
+        "1 common surface within the tolerance left out, because a thin block lies between: ground and block[1] "
+        "stand 0.001 m, 0.001 of the block size apart on block[0]"
+    )
+
+
+@pytest.mark.parametrize("height", HEIGHTS)
+@pytest.mark.parametrize("turned", [False, True])
+def test_block_on_a_thin_foot_on_a_block(height: float, turned: bool) -> None:
+    below = boxes(([-0.5, -0.5, -1], [0.5, 0.5, 0]))
+    pile = join_polyhedra([below, on_foot(height)])
+    if turned and height >= 1e-7:  # turned, coordinates are rounded by 1e-16
+        pile = moved(pile, turn=any_rotation(3))
+    assert pairs(contacts_of(pile, fixed=[0])) == [[0, 1], [1, 2]]
+
+
+@pytest.mark.parametrize("thickness", [1e-3, 1e-4, 1e-6])
+def test_plates_on_each_other_touch_their_neighbours_alone(thickness: float) -> None:
+    """Thinner than their own tolerance: the top of one and the bottom of the one below see each other through both."""
+    plates = boxes(*(([0, 0, thickness * i], [1, 1, thickness * (i + 1)]) for i in range(6)))
+    block = boxes(([0, 0, 6 * thickness], [1, 1, 1 + 6 * thickness]))
+    contacts = contacts_of(join_polyhedra([plates, block]), grounds=(ground(),))
+    assert pairs(contacts) == [[0, 1], [1, 2], [2, 3], [3, 4], [4, 5], [5, 6], [7, 0]]
+    assert contacts.normals == pytest.approx(np.tile([0.0, 0.0, 1.0], (7, 1)))
+
+
+def test_flange_of_a_thick_block_keeps_its_neighbours_apart() -> None:
+    """The third block is thick beside the joint, and only its flange of 1e-4 lies in it."""
+    lower, upper = boxes(([0, 0, -1], [1, 1, 0])), boxes(([0, 0, 1e-4], [1, 1, 1]))
+    outline = [(-0.5, -1), (0, -1), (0, 0), (0.4, 0), (0.4, 1e-4), (0, 1e-4), (0, 1), (-0.5, 1)]
+    contacts = contacts_of(join_polyhedra([lower, upper, prism(outline)]), fixed=[0])
+    assert [0, 1] not in pairs(contacts)
+    assert "thin-block-between" in said(contacts)
+
+
+def test_gap_of_rounding_beside_a_block_stays_a_contact() -> None:
+    """Two piers, one 1e-4 lower than the other: the lintel rests on both."""
+    piers = boxes(([0, 0, 0], [1, 1, 1]), ([1, 0, 0], [2, 1, 1 - 1e-4]))
+    contacts = contacts_of(join_polyhedra([piers, boxes(([0, 0, 1], [2, 1, 2]))]), grounds=(ground(),))
+    assert [0, 2] in pairs(contacts)
+    assert [1, 2] in pairs(contacts)
+    assert "thin-block-between" not in said(contacts)
+
+
+def prism(outline: list[tuple[float, float]]) -> Polyhedra:
+    """A block from y = 0 to 1 over an outline in x and z, counter-clockwise."""
+    count = len(outline)
+    vertices = np.array([(x, y, z) for y in (0.0, 1.0) for x, z in outline])
+    sides = [[i, i + count, (i + 1) % count + count, (i + 1) % count] for i in range(count)]
+    ends = [list(range(count)), list(range(2 * count - 1, count - 1, -1))]
+    return polyhedra_from_lists([vertices], [[*ends, *sides]])
