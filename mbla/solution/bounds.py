@@ -56,7 +56,7 @@ def certified_gap(program: Program, state: LawState) -> CertifiedGap:
     repaired = repaired_forces(program, state.forces, state.load_factor)
     forces, factor = (state.forces, state.load_factor) if repaired is None else repaired
     charge = CHARGED * float(np.abs(state.forces[:, 0]).max(initial=0.0))
-    mechanisms = repaired_mechanisms(program, state.velocities)
+    mechanisms = list(repaired_mechanisms(program, state.velocities))
     values = [kinematic_value(program, u, charge) for u in mechanisms]
     best = int(np.argmin(np.nan_to_num(values, nan=np.inf)))
     static, kinematic = (np.nan if repaired is None else factor), values[best]

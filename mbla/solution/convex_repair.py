@@ -90,7 +90,7 @@ def repaired_convex_motions(
             dead_load=np.append(program.dead_load, 0.0),
             live_load=np.append(program.live_load, 0.0),
         )
-        moved = repaired_mechanisms(with_motions, np.append(velocities, 1.0))
+        moved = list(repaired_mechanisms(with_motions, np.append(velocities, 1.0)))
         found += [(u[:-1], float(u[-1]) * kept) for u in moved]
     return found
 

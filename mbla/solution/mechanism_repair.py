@@ -6,6 +6,8 @@ mechanism is moved, in the metric of the cones' own barrier, towards contact vel
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import numpy as np
 import scipy.sparse as sp
 
@@ -20,23 +22,24 @@ OPENINGS = (1e-13, 1e-11, 1e-9)
 compatible; the best one counts. Confined joints cannot open at all: there the smallest leaves least to be charged."""
 
 
-@timed("repair")
-def repaired_mechanisms(program: Program, velocities: FloatArray) -> list[FloatArray]:
-    """The given velocities, (n_rows,) non-dimensional, and versions of them moved towards compatibility."""
-    found = [velocities]
+def repaired_mechanisms(program: Program, velocities: FloatArray) -> Iterator[FloatArray]:
+    """The given velocities, (n_rows,) non-dimensional, and versions of them moved towards compatibility.
+
+    Each is found when it is asked for.
+    """
+    yield velocities
     for opening in OPENINGS:
         u, lack = velocities, np.inf
         for _ in range(ROUNDS):
             moved = _kinematic_correction(program, u, opening)
             if moved is None:
                 break
-            found.append(moved)
+            yield moved
             u, before, lack = moved, lack, incompatibility(program, moved)
             if lack == 0.0:
-                return found
+                return
             if lack > PROGRESS * before:
                 break
-    return found
 
 
 def incompatibility(program: Program, velocities: FloatArray) -> float:
@@ -46,6 +49,7 @@ def incompatibility(program: Program, velocities: FloatArray) -> float:
     return float(lack[np.isinf(program.limits.compression)].sum())
 
 
+@timed("repair")
 def _kinematic_correction(program: Program, u: FloatArray, opening: float) -> FloatArray | None:
     """Least change, in the barrier's metric, towards velocities that open by ``opening`` of the largest speed."""
     mu, matrix = program.limits.friction, program.equilibrium_matrix

@@ -18,10 +18,10 @@ import numpy as np
 from mbla.arrays import FloatArray
 from mbla.contacts.contacts import Contacts
 from mbla.model.model import LoadCase, Model
-from mbla.program import assemble
+from mbla.program import Program, assemble
 from mbla.program.yield_conditions import YieldLimits, yield_violation
 from mbla.solution.force_repair import repaired_forces
-from mbla.solution.guides import allowed_motion
+from mbla.solution.guides import allowed_motion, left_to_balance
 from mbla.solution.load_scale import LoadScale, forces_on_blocks
 from mbla.solution.mechanism_repair import repaired_mechanisms
 from mbla.solution.residuals import unbalanced_loads
@@ -59,37 +59,45 @@ def associative_bounds(
     repaired = repaired_forces(
         program, associative.contact_forces / scaling.force, associative.load_factor / scaling.live
     )
-    largest = 2.0 * float(np.abs(associative.contact_forces[:, 0]).max(initial=0.0))
-    velocities = program.velocities(associative.mechanism)
-    motions = [
-        allowed_motion(model, program.mechanism(u), scale.arms) for u in repaired_mechanisms(program, velocities)
-    ]
-    values = [_proved_kinematic(model, contacts, load_case, motion, limits, largest) for motion in motions]
-    kinematic = min((value for value in values if np.isfinite(value)), default=np.nan)
+    approximate = np.nan if repaired is None else scaling.load_factor(repaired[1])
+    kinematic, motion = _best_motion(model, contacts, load_case, associative, limits, scale, program, approximate)
     static = np.nan
     if repaired is not None:
         forces, factor = scaling.forces(repaired[0]), scaling.load_factor(repaired[1])
         if _forces_prove(model, contacts, load_case, forces, factor, limits, scale):
             static = factor
-            if np.isfinite(kinematic):
-                static -= _charge(model, contacts, load_case, forces, factor, limits, motions[values.index(kinematic)])
+            if motion is not None:
+                static -= _charge(model, contacts, load_case, forces, factor, limits, scale, motion)
     if not np.any(load_case.dead_load[model.free]):
         static = float(np.fmax(static, 0.0))  # no forces balance no load
-<<<<<<< HEAD
+    return static, kinematic
+
+
+def _best_motion(
+    model: Model,
+    contacts: Contacts,
+    load_case: LoadCase,
+    associative: Mechanics,
+    limits: YieldLimits,
+    scale: LoadScale,
+    program: Program,
+    static: float,
+) -> tuple[float, FloatArray | None]:
+    """The least kinematic bound of the mechanism and its repairs, and the motion that proves it; NaN and None without.
+
+    static : of a large model's mechanism that is already this near no repair is tried
+    """
     largest = 2.0 * float(np.abs(associative.contact_forces[:, 0]).max(initial=0.0))
     velocities = program.velocities(associative.mechanism)
-
-    def proved(u: FloatArray) -> float:
+    best: tuple[float, FloatArray | None] = np.nan, None
+    for u in repaired_mechanisms(program, velocities):
         motion = allowed_motion(model, program.mechanism(u), scale.arms)
-        return _proved_kinematic(model, contacts, load_case, motion, limits, largest)
-
-    given = proved(velocities)
-    if len(velocities) > LARGE and abs(given - static) <= LARGE_GAP * abs(given):
-        return static, given
-    values = [given, *(proved(u) for u in repaired_mechanisms(program, velocities)[1:])]
-    return static, min((value for value in values if np.isfinite(value)), default=np.nan)
-=======
-    return static, kinematic
+        bound = _proved_kinematic(model, contacts, load_case, motion, limits, largest)
+        if np.isfinite(bound) and not bound >= best[0]:
+            best = bound, motion
+        if len(velocities) > LARGE and abs(bound - static) <= LARGE_GAP * abs(bound):
+            break
+    return best
 
 
 def _charge(
@@ -99,15 +107,16 @@ def _charge(
     forces: FloatArray,
     factor: float,
     limits: YieldLimits,
+    scale: LoadScale,
     mechanism: FloatArray,
 ) -> float:
     """What unbalanced forces and those beyond yield are worth in a mechanism, over its live power."""
     acting = contact_resultants(model, contacts, forces) + load_case.dead_load + factor * load_case.live_load
-    unbalanced = float(np.abs(np.einsum("bi,bi->b", acting, mechanism)).sum())
+    left = left_to_balance(model, acting, scale.arms)
+    unbalanced = float(np.abs(np.einsum("bi,bi->b", left, mechanism)).sum())
     v = contact_velocities(model, contacts, mechanism)
     excess = float((yield_violation(forces, limits) * np.sqrt((v**2).sum(axis=1))).sum())
     return (unbalanced + excess) / power(load_case.live_load, mechanism)
->>>>>>> ee984d0804a2744b3f9d660ef2f6ecea6d80c975
 
 
 def certificate_failures(

@@ -13,7 +13,7 @@ HEIGHTS = (1e-2, 1e-3, 1e-5, 1e-7, 1e-9)
 
 
 def pairs(contacts: Contacts) -> list[list[int]]:
-    return contacts.bodies.tolist()
+    return [[int(body) for body in pair] for pair in contacts.bodies]
 
 
 def said(contacts: Contacts) -> dict[str, str]:
