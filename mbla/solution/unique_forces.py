@@ -68,8 +68,9 @@ NEAR = 1e-5
 """Change of the load factor up to which a program's multipliers are near those sought; beyond it Newton's method would
 take hundreds of steps."""
 
-MOST_STEPS = 100
-"""Factorisations of Newton's method in all: it takes 10 to 30 for one ε on walls of 400 to 1,000 blocks."""
+MOST_STEPS, MOST_OF_LARGE = 100, 25
+"""Factorisations of Newton's method in all, and of a program of ``OWN_FROM`` rows or more: there 10 are enough where it
+finds them soon, and 100 cost three times the load factor on a wall of 1,021 blocks and found nothing."""
 
 MOST_POINTS = 40_000
 """Contact points up to which they are sought. On a planar wall of 10,050 blocks, 59,700 points, all three programs took
@@ -142,14 +143,14 @@ def least_forces(
 def _without_mechanism(search: _Search, by_mechanism: _Candidate, all_move: bool) -> LawState | None:
     """Least forces with the load factor in the cost, by Newton's method from those of the mechanism where it can.
 
-    Large structures whose mechanism leaves no forces are given up: on a house and a vault the load factor falls slowly
+    Large structures for which neither finds any soon are given up: on a house and a vault the load factor falls slowly
     with ε, and all that was tried took half of the run and found nothing.
     """
     if by_mechanism.near and not all_move:
         found = search.by_newton(by_mechanism, SMALL_SHARES)
         if found is not None:
             return found
-    if not (by_mechanism.near or all_move) and len(search.program.dead_load) >= OWN_FROM:
+    if search.large and not all_move:
         return None
     at_rest = search.solve(_at_rest(search.program), SHARE)
     if at_rest.fits:
@@ -189,6 +190,11 @@ class _Search:
     first: int
     records: list[ProgramRecord] = field(default_factory=list)
 
+    @property
+    def large(self) -> bool:
+        """What is not found soon is not sought further."""
+        return len(self.program.dead_load) >= OWN_FROM
+
     def solve(self, motion: PointMotion, share: float) -> _Candidate:
         """Least forces among those that fit a motion, with the load factor in the cost if share > 0."""
         form, rows = _in_own_units(fixed_mechanism_form(self.program, motion), self.state.forces)
@@ -211,7 +217,11 @@ class _Search:
         """Least forces with the load factor in the cost, with ever smaller shares until it falls by little enough."""
         program, deadline = self.program, self.settings.deadline
         stiffness, mechanism = stiffness_of(program), self._mechanism()
-        multipliers, factor, left = start.multipliers, start.state.load_factor, MOST_STEPS
+        multipliers, factor, left = (
+            start.multipliers,
+            start.state.load_factor,
+            MOST_OF_LARGE if self.large else MOST_STEPS,
+        )
         for share in shares:
             problem = LeastProblem(stiffness, mechanism, self.weights, self._epsilon(share))
             began = time.perf_counter()

@@ -85,8 +85,9 @@ class CondensedProgram:
         if ended is None:
             ended = solve_cone_program(data, condensation, run, self._paused)
             iterations += ended.iterations
-        if ended.outcome in UNDECIDED:
-            again = solve_embedded(data, condensation, run)
+        left = run.max_iterations - iterations
+        if ended.outcome in UNDECIDED and left > 0:
+            again = solve_embedded(data, condensation, replace(run, max_iterations=left))
             ended, iterations = _better(ended, again), iterations + again.iterations
         self._paused = ended.point if ended.outcome is Outcome.ENOUGH else None
         self._solved = ended.point if ended.outcome is Outcome.SOLVED else None
