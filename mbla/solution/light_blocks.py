@@ -9,7 +9,8 @@ it falls. Such a state is taken further, by
 2. the associative state, where forces and mechanism fit this law as they are: nothing slides in it that would have to
    lift. On a light block upon a heavy one, 1e8 apart, the steps break down, and blocks rock at the associative factor.
 
-What fits best is kept, judged block by block.
+What fits best is kept, judged block by block. The same is tried where a sequence fell short of the law: a pile of 50
+blocks that overhang exactly as far as they can, where any of 49 upper parts may tip, has no path to one of them.
 """
 
 from __future__ import annotations
@@ -22,6 +23,7 @@ import numpy as np
 from mbla.arrays import FloatArray
 from mbla.program.program import Program
 from mbla.solution.associative import AssociativeResult
+from mbla.solution.bounds import ZERO_FACTOR
 from mbla.solution.exact_law import exact_step
 from mbla.solution.force_repair import carried_loads
 from mbla.solution.law_state import LawState, SequenceResult, law_state
@@ -39,6 +41,9 @@ SOLVED = 1e-6
 NEAR = 1e-5
 """Relative difference of load factors up to which the associative state is the same but sharper."""
 
+FELL_SHORT = (Status.APPROXIMATE, Status.NOT_VERIFIED)
+"""Of sequences that ended without a state of the law."""
+
 STEP, MOST_STEPS, FACTORIZATIONS = 0.03, 3, 12
 """ρ ‖x‖² of a step in the unit of the part, as in the proximal scheme; steps, and factorisations of each."""
 
@@ -50,7 +55,10 @@ def sharpened(
 
     slope : (n_points,) tangent of the dilatancy angle, or 0
     """
-    if sequence.state is None or program.guided or not imbalance(program, sequence.state) > BALANCED:
+    if sequence.state is None or program.guided:
+        return sequence
+    fell_short = sequence.status in FELL_SHORT or sequence.state.residual > SOLVED
+    if not fell_short and not imbalance(program, sequence.state) > BALANCED:
         return sequence
     best, start = sequence.state, misfit(program, sequence.state)
     least = start
@@ -62,9 +70,11 @@ def sharpened(
             break
     if best is sequence.state:
         return sequence
-    if least <= SOLVED < start and sequence.status in (Status.APPROXIMATE, Status.NOT_VERIFIED):
-        return replace(sequence, status=Status.SOLVED, state=best, reason="", spread=None, asked=None)
-    return replace(sequence, state=best)
+    if not fell_short:
+        return replace(sequence, state=best)
+    if least > SOLVED:
+        return sequence
+    return replace(sequence, status=Status.SOLVED, state=best, reason="", spread=None, remarks=(), asked=None)
 
 
 def misfit(program: Program, state: LawState) -> float:
@@ -105,4 +115,6 @@ def _candidates(
         yield state
     start = associative.state
     if start is not None and (least > SOLVED or abs(start.load_factor - factor) <= NEAR * abs(factor)):
-        yield law_state(program, slope, start.forces, start.velocities, start.load_factor)
+        size = max(abs(start.load_factor), ZERO_FACTOR * program.dead_over_live)  # what its residual is relative to
+        found = law_state(program, slope, start.forces, start.velocities, size)
+        yield replace(found, load_factor=start.load_factor)

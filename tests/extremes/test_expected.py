@@ -16,8 +16,8 @@ from tests.performance.rivals.statement import Statement, statement_of
 
 FRICTION = 5.0
 VIOLATED = 1e-6
-"""Excess over a friction cone, in mean block weights, that is cut off no further: of the dome's load factor 1e-8 is then
-left to fall."""
+"""Excess over a friction cone, in mean block weights, that is cut off no further: the load factor of the dome would
+fall by 1e-8 of itself."""
 
 
 @pytest.mark.parametrize(("voussoirs", "thickness"), CROWNS)
@@ -55,7 +55,7 @@ def cut_to_cones(statement: Statement) -> float:
             np.append(np.zeros(unknowns), -1.0),
             A_ub=sp.vstack(cuts, format="csr"),
             b_ub=np.zeros(sum(cut.shape[0] for cut in cuts)),
-            A_eq=sp.hstack([statement.matrix, statement.live.reshape(-1, 1)], format="csr"),
+            A_eq=sp.hstack([statement.matrix, sp.csr_array(statement.live.reshape(-1, 1))], format="csr"),
             b_eq=-statement.dead,
             bounds=[(0, None)] * points + [(None, None)] * (unknowns - points + 1),
             method="highs-ipm",

@@ -8,6 +8,7 @@ import pytest
 
 from mbla.solution import Status, verified_status, verify
 from mbla.solution.light_blocks import BALANCED
+from tests.extremes.structures_margin import OVERHANG
 from tests.extremes.weights import SIDE_BY_SIDE, TOWER
 from tests.line import line_of, verified
 
@@ -39,3 +40,15 @@ def test_an_unbalanced_light_block_is_not_solved() -> None:
     checks = verify(line.model, line.contacts, line.load_case, spoilt)
     assert any("equilibrium residual" in failure for failure in checks.failures)
     assert verified_status(spoilt, checks) is Status.APPROXIMATE
+
+
+def test_a_pile_that_overhangs_as_far_as_it_can_has_no_margin() -> None:
+    """Any of its upper parts may tip: no path ends in a state of the law, and the associative state is one.
+
+    The residual of a load factor of zero is relative to a thousandth of dead over live load.
+    """
+    line = line_of(OVERHANG, "parameters.n=30", f"parameters.tip={sum(1 / k for k in range(1, 30)) / 2!r}")
+    solution, _, status = verified(line)
+    assert status is Status.SOLVED
+    assert solution.mechanics is not None
+    assert abs(solution.mechanics.load_factor) < 1e-9
