@@ -49,9 +49,10 @@ def cut_to_cones(statement: Statement) -> float:
     """Load factor within the true cones, from above: planes t·d ≤ μ n at the directions d of shear beyond them."""
     points, unknowns = len(statement.friction), statement.matrix.shape[1]
     every = np.arange(points)
+    factor = np.inf
     cuts = [_cuts(statement, every, np.full(points, angle)) for angle in np.arange(8) * np.pi / 4]
     for _ in range(40):
-        answer = linprog(  # type: ignore[call-overload]  # its stubs do not know sparse matrices
+        answer = linprog(
             np.append(np.zeros(unknowns), -1.0),
             A_ub=sp.vstack(cuts, format="csr"),
             b_ub=np.zeros(sum(cut.shape[0] for cut in cuts)),
@@ -62,12 +63,14 @@ def cut_to_cones(statement: Statement) -> float:
             options={"primal_feasibility_tolerance": 1e-9, "dual_feasibility_tolerance": 1e-9},
         )
         assert answer.status == 0, answer.message
+        assert answer.x is not None
+        factor = float(answer.x[-1])
         n, along, across = answer.x[:-1].reshape(3, -1)
         beyond = np.flatnonzero(np.hypot(along, across) - statement.friction * n > VIOLATED)
         if not len(beyond):
             break
         cuts.append(_cuts(statement, beyond, np.arctan2(across[beyond], along[beyond])))
-    return float(-answer.fun)
+    return factor
 
 
 def _cuts(statement: Statement, points: IntArray, angles: FloatArray) -> sp.csr_array:
