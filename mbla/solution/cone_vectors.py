@@ -9,7 +9,8 @@ from mbla.arrays import FloatArray, IntArray
 from mbla.program.kinematic import ConeProgram
 
 LEAST = 1e-13
-"""Least distance from the border of its cone, relative to the largest vector, that a vector is moved to."""
+"""Least distance from the border of its cone, relative to the largest vector, that a vector is moved to; relative to
+what light blocks carry where it belongs to one."""
 
 
 class ConeVectors:
@@ -41,10 +42,14 @@ class ConeVectors:
         """‖x̄‖ of every cone."""
         return np.asarray(np.sqrt(np.bincount(self.cone_of_row, np.where(self.is_head, 0.0, x**2), len(self.sizes))))
 
-    def pulled_inside(self, z: FloatArray, distance: float) -> FloatArray:
-        """Heads raised until every vector is inside by a distance relative to its size."""
+    def pulled_inside(self, z: FloatArray, distance: float, sizes: FloatArray | None = None) -> FloatArray:
+        """Heads raised until every vector is inside by a distance relative to its size.
+
+        sizes : (n_cones,) what a vector is large beside, where that is less than the largest vector
+        """
         inside, tail = z.copy(), self.tails(z)
-        least = LEAST * max(float(np.abs(z).max(initial=0.0)), 1e-300)
+        largest = max(float(np.abs(z).max(initial=0.0)), 1e-300)
+        least = LEAST * (largest if sizes is None else np.minimum(largest, sizes))
         inside[self.head] = np.maximum(z[self.head], tail * (1.0 + distance) + least)
         return inside
 

@@ -21,6 +21,7 @@ from mbla.arrays import FloatArray
 from mbla.program.convex import ConvexProgram, convex_form
 from mbla.solution.cone_vectors import ConeVectors
 from mbla.solution.convex_slacks import slacks_of
+from mbla.solution.convex_units import in_units, units_of_unknowns
 from mbla.solution.least_step import Equilibrium, StepOf, augmented_step, normal_step
 from mbla.solution.mechanism_repair import repaired_mechanisms
 from mbla.stopwatch import timed
@@ -30,7 +31,8 @@ PROGRESS = 0.5
 """Share of the residual that a whole step must do away with at least to be followed by another."""
 
 EQUILIBRIUM_TOLERANCE, GOOD_EQUILIBRIUM = 1e-11, 3e-10
-"""Residual of Mᵀz = −cost, in mean block loads, at which corrections stop, and at which no other start is tried."""
+"""Residual of Mᵀz = −cost, in mean block loads or in what a light block carries, at which corrections stop, and at
+which no other start is tried."""
 
 INSIDES = (1e-10, 1e-8, 1e-7)
 """Distances from the borders of the cones, relative to the size of a vector, from which corrections start: where a
@@ -51,14 +53,14 @@ def repaired_convex_forces(
     """
     form = convex_form(convex)
     cones = ConeVectors.of(form.cone_program)
-    cost = form.cone_program.cost
-    rows = sp.csr_array(form.cone_program.matrix)
-    live, matrix = rows[[0]].toarray().ravel(), rows[1:]
-    slacks = slacks_of(convex, form, forces)
-    equilibrium = Equilibrium(matrix, live, cost)
+    units = units_of_unknowns(form, convex, forces)
+    cone_program = in_units(form.cone_program, units)
+    rows = sp.csr_array(cone_program.matrix)
+    equilibrium = Equilibrium(rows[1:], rows[[0]].toarray().ravel(), cone_program.cost)
+    slacks, sizes = slacks_of(convex, form, forces), _sizes(cones, sp.csr_array(form.cone_program.matrix)[1:], units)
     best, least = None, np.inf
     for inside, step_of in product(INSIDES, (normal_step, augmented_step)):
-        z = np.concatenate([[-load_factor], cones.pulled_inside(slacks, inside)])
+        z = np.concatenate([[-load_factor], cones.pulled_inside(slacks, inside, sizes)])
         z, residual = _corrected(equilibrium, cones, z, step_of)
         if residual < least:
             best, least = z, residual
@@ -91,6 +93,14 @@ def repaired_convex_motions(
         moved = list(repaired_mechanisms(with_motions, np.append(velocities, 1.0)))
         found += [(u[:-1], float(u[-1]) * kept) for u in moved]
     return found
+
+
+def _sizes(cones: ConeVectors, matrix: sp.csr_array, units: FloatArray) -> FloatArray:
+    """What the vector of each cone is large beside: the least that the equations it stands in carry, (n_cones,)."""
+    entries = matrix.tocoo()
+    least = np.full(len(cones.sizes), np.inf)
+    np.minimum.at(least, cones.cone_of_row[entries.row], units[entries.col] / np.maximum(np.abs(entries.data), 1e-300))
+    return least
 
 
 def _corrected(
