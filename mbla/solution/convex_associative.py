@@ -18,6 +18,7 @@ from mbla.program.convex import ConvexProgram, convex_form
 from mbla.program.kinematic import KinematicForm
 from mbla.solution.cone_solution import ConeSolution, Log
 from mbla.solution.cone_solver import interior_point_solver
+from mbla.solution.convex_repair import repaired_convex_forces
 from mbla.solution.convex_state import ConvexState
 from mbla.solution.convex_units import in_units, loses_light_blocks, units_of_unknowns
 from mbla.solution.settings import SolverSettings
@@ -32,6 +33,9 @@ itself need not be solved to tolerance: its verified bounds tell what it is wort
 
 REGULARIZATION = 1e-8
 """Static regularisation: with 1e-11 the solver broke down on a wall of 410 blocks."""
+
+MOVED = 1e-4
+"""Share of the load factor by which a repair may move it: beyond it another state was found."""
 
 OWN_UNITS = 2
 """Times that it is solved again in units which give light blocks their due, each from the forces of the time before."""
@@ -94,7 +98,18 @@ def solve_convex_associative(convex: ConvexProgram, settings: SolverSettings, lo
         run.forces = state.forces
         again = _attempt(run)
         result = replace(result, programs=again.programs) if again.state is None else again
-    return result
+    return result if result.state is None else replace(result, state=_repaired(convex, result.state))
+
+
+def _repaired(convex: ConvexProgram, state: ConvexState) -> ConvexState:
+    """The state with the forces that its static bound will be proved with, and the load factor that these carry.
+
+    The solver's own miss equilibrium and conditions by its tolerance, and its load factor may lie above both bounds.
+    """
+    found = repaired_convex_forces(convex, state.forces, state.load_factor, sharp=True)
+    if found is None or abs(found[1] - state.load_factor) > MOVED * abs(state.load_factor):
+        return state
+    return replace(state, forces=found[0], load_factor=found[1])
 
 
 def _attempt(run: _Run) -> ConvexAssociative:

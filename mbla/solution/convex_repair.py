@@ -45,11 +45,12 @@ THRESHOLDS = (0.0, 1e-6, np.inf)
 
 @timed("repair")
 def repaired_convex_forces(
-    convex: ConvexProgram, forces: FloatArray, load_factor: float
+    convex: ConvexProgram, forces: FloatArray, load_factor: float, *, sharp: bool = False
 ) -> tuple[FloatArray, float] | None:
     """Forces near the given ones in equilibrium and within all conditions, and the load factor that they carry.
 
     forces : (n_points, 3), non-dimensional like the load factor. None where no repair is found.
+    sharp  : None too where they are not as near to equilibrium as ``GOOD_EQUILIBRIUM``
     """
     form = convex_form(convex)
     cones = ConeVectors.of(form.cone_program)
@@ -66,7 +67,9 @@ def repaired_convex_forces(
             best, least = z, residual
         if least <= GOOD_EQUILIBRIUM:
             break
-    return None if best is None else (form.contact_forces(best), -float(best[0]))
+    if best is None or (sharp and not least <= GOOD_EQUILIBRIUM):
+        return None
+    return form.contact_forces(best), -float(best[0])
 
 
 @timed("repair")
