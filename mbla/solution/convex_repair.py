@@ -32,7 +32,7 @@ PROGRESS = 0.5
 
 EQUILIBRIUM_TOLERANCE, GOOD_EQUILIBRIUM = 1e-11, 3e-10
 """Residual of Mᵀz = −cost, in mean block loads or in what a light block carries, at which corrections stop, and at
-which no other start is tried."""
+which no other start is tried; of the largest load where that is more, by a large load factor."""
 
 INSIDES = (1e-10, 1e-8, 1e-7)
 """Distances from the borders of the cones, relative to the size of a vector, from which corrections start: where a
@@ -59,15 +59,16 @@ def repaired_convex_forces(
     rows = sp.csr_array(cone_program.matrix)
     equilibrium = Equilibrium(rows[1:], rows[[0]].toarray().ravel(), cone_program.cost)
     slacks, sizes = slacks_of(convex, form, forces), _sizes(cones, sp.csr_array(form.cone_program.matrix)[1:], units)
-    best, least = None, np.inf
+    loads = np.abs(equilibrium.cost) + np.abs(load_factor * equilibrium.live)
+    best, least, good = None, np.inf, GOOD_EQUILIBRIUM * max(1.0, float(loads.max(initial=0.0)))
     for inside, step_of in product(INSIDES, (normal_step, augmented_step)):
         z = np.concatenate([[-load_factor], cones.pulled_inside(slacks, inside, sizes)])
         z, residual = _corrected(equilibrium, cones, z, step_of)
         if residual < least:
             best, least = z, residual
-        if least <= GOOD_EQUILIBRIUM:
+        if least <= good:
             break
-    if best is None or (sharp and not least <= GOOD_EQUILIBRIUM):
+    if best is None or (sharp and not least <= good):
         return None
     return form.contact_forces(best), -float(best[0])
 

@@ -63,9 +63,9 @@ def in_units(program: ConeProgram, units: FloatArray) -> ConeProgram:
     return replace(program, cost=program.cost / units, matrix=matrix)
 
 
-def _least_along(matrix: sp.sparray, of_rows: FloatArray, none: float = 1.0) -> FloatArray:
+def _least_along(matrix: sp.csr_array, of_rows: FloatArray, none: float = 1.0) -> FloatArray:
     """The least value of the rows in which each column has an entry, (n_columns,)."""
-    entries = sp.coo_array(matrix)
+    entries = matrix.tocoo()
     least = np.full(entries.shape[1], np.inf)
     np.minimum.at(least, entries.col, of_rows[entries.row])
     return np.where(np.isinf(least), none, least)
