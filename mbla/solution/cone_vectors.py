@@ -9,7 +9,8 @@ from mbla.arrays import FloatArray, IntArray
 from mbla.program.kinematic import ConeProgram
 
 LEAST = 1e-13
-"""Least distance from the border of its cone, relative to the largest vector, that a vector is moved to."""
+"""Least distance from the border of its cone, relative to the largest vector, that a vector is moved to; relative to
+what light blocks carry where it belongs to one."""
 
 
 class ConeVectors:
@@ -41,10 +42,14 @@ class ConeVectors:
         """‖x̄‖ of every cone."""
         return np.asarray(np.sqrt(np.bincount(self.cone_of_row, np.where(self.is_head, 0.0, x**2), len(self.sizes))))
 
-    def pulled_inside(self, z: FloatArray, distance: float) -> FloatArray:
-        """Heads raised until every vector is inside by a distance relative to its size."""
+    def pulled_inside(self, z: FloatArray, distance: float, sizes: FloatArray | None = None) -> FloatArray:
+        """Heads raised until every vector is inside by a distance relative to its size.
+
+        sizes : (n_cones,) what a vector is large beside, where that is less than the largest vector
+        """
         inside, tail = z.copy(), self.tails(z)
-        least = LEAST * max(float(np.abs(z).max(initial=0.0)), 1e-300)
+        largest = max(float(np.abs(z).max(initial=0.0)), 1e-300)
+        least = LEAST * (largest if sizes is None else np.minimum(largest, sizes))
         inside[self.head] = np.maximum(z[self.head], tail * (1.0 + distance) + least)
         return inside
 
@@ -65,3 +70,20 @@ class ConeVectors:
         reflection[self.sizes[self.cone_of_row] == 1] = 0.0
         membership = sp.csr_array((z, (np.arange(len(z)), self.cone_of_row)), shape=(len(z), len(self.sizes)))
         return sp.csr_array(membership @ membership.T + sp.diags_array(reflection))
+
+    def root_of_inverse_hessian(self, z: FloatArray) -> sp.csr_array:
+        """L, block-diagonal and symmetric, with L L the inverse Hessian.
+
+        Of a cone it is [[z_0, z̄ᵀ], [z̄, d I + (z_0 − d) u uᵀ]]/√2 with u = z̄/‖z̄‖ and d² = z_0² − ‖z̄‖².
+        """
+        half_line, tail = self.sizes == 1, self.tails(z)
+        root = np.sqrt(np.maximum(self.products(z, z), 0.0))
+        direction = np.where(self.is_head, 0.0, z) / np.maximum(tail, 1e-300)[self.cone_of_row]
+        shape = (len(z), len(self.sizes))
+        along = sp.csr_array((direction, (np.arange(len(z)), self.cone_of_row)), shape=shape)
+        heads = sp.csr_array((np.ones(len(self.sizes)), (self.head, np.arange(len(self.sizes)))), shape=shape)
+        more, across = sp.diags_array(z[self.head] - root), sp.diags_array(tail)
+        both = sp.diags_array(root[self.cone_of_row]) + heads @ more @ heads.T + along @ more @ along.T
+        both = both + heads @ across @ along.T + along @ across @ heads.T
+        size = np.where(half_line, 1.0, np.sqrt(0.5))[self.cone_of_row]
+        return sp.csr_array(sp.diags_array(size) @ both)

@@ -1,7 +1,8 @@
 """The associative load factor with the convex contact model, and whether the dead load is carried at all.
 
 The program is solved in its stabilised form first, which has a value even where the plain one has none; where that
-gives no load factor, or none to the solver's satisfaction, the plain form decides: its rays are certificates. A second
+gives no load factor, or none to the solver's satisfaction, the plain form decides: its rays are certificates. Where the
+forces found leave light blocks out of balance all is solved again in their own units. A second
 program, with the live load reversed, finds the least load factor under which there is equilibrium; if zero is not
 between the two the dead load alone is not carried.
 """
@@ -17,7 +18,9 @@ from mbla.program.convex import ConvexProgram, convex_form
 from mbla.program.kinematic import KinematicForm
 from mbla.solution.cone_solution import ConeSolution, Log
 from mbla.solution.cone_solver import interior_point_solver
+from mbla.solution.convex_repair import repaired_convex_forces
 from mbla.solution.convex_state import ConvexState
+from mbla.solution.convex_units import in_units, loses_light_blocks, units_of_unknowns
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import ProgramRecord, Status
 
@@ -30,6 +33,12 @@ itself need not be solved to tolerance: its verified bounds tell what it is wort
 
 REGULARIZATION = 1e-8
 """Static regularisation: with 1e-11 the solver broke down on a wall of 410 blocks."""
+
+MOVED = 1e-4
+"""Share of the load factor by which a repair may move it: beyond it another state was found."""
+
+OWN_UNITS = 2
+"""Times that it is solved again in units which give light blocks their due, each from the forces of the time before."""
 
 WITH_VALUE = (Status.SOLVED, Status.APPROXIMATE)
 DECIDED = (Status.SOLVED, Status.NO_EQUILIBRIUM, Status.UNBOUNDED)
@@ -59,16 +68,19 @@ class _Run:
     settings: SolverSettings
     log: Log
     records: list[ProgramRecord]
+    forces: FloatArray | None = None
 
     def solve(self, form: KinematicForm, sense: float) -> ConeSolution:
-        """The program with the live load as it is, or reversed."""
-        program = replace(form.cone_program, rhs=sense * form.cone_program.rhs)
+        """The program with the live load as it is, or reversed; in own units where ``forces`` give them."""
+        units = None if self.forces is None else units_of_unknowns(form, self.convex, self.forces)
+        own = form.cone_program if units is None else in_units(form.cone_program, units)
+        program = replace(own, rhs=sense * own.rhs)
         number, live = len(self.records) + 1, sense * self.convex.points.scaling.live
         solution = interior_point_solver(program, self.settings, self.log).solve(number, live)
         value = solution.objective * live if solution.status in WITH_VALUE else np.nan
         kind = "associative" if sense > 0 else "reverse"
         self.records.append(solution.record(number, kind, value))
-        return solution
+        return solution if units is None else replace(solution, x=solution.x / units)
 
     def result(self, status: Status, reason: str) -> ConvexAssociative:
         """A result without state."""
@@ -78,6 +90,31 @@ class _Run:
 def solve_convex_associative(convex: ConvexProgram, settings: SolverSettings, log: Log) -> ConvexAssociative:
     """Solve the program of one load case with associative flow."""
     run = _Run(convex, replace(settings, regularization=REGULARIZATION), log, [])
+    result = _attempt(run)
+    for _ in range(OWN_UNITS):
+        state = result.state
+        if state is None or not loses_light_blocks(convex, state.forces, state.load_factor):
+            break
+        run.forces = state.forces
+        again = _attempt(run)
+        result = replace(result, programs=again.programs) if again.state is None else again
+    return result if result.state is None else replace(result, state=_repaired(convex, result.state))
+
+
+def _repaired(convex: ConvexProgram, state: ConvexState) -> ConvexState:
+    """The state with the forces that its static bound will be proved with, and the load factor that these carry.
+
+    The solver's own miss equilibrium and conditions by its tolerance, and its load factor may lie above both bounds.
+    """
+    found = repaired_convex_forces(convex, state.forces, state.load_factor, sharp=True)
+    if found is None or abs(found[1] - state.load_factor) > MOVED * abs(state.load_factor):
+        return state
+    return replace(state, forces=found[0], load_factor=found[1])
+
+
+def _attempt(run: _Run) -> ConvexAssociative:
+    """The program and, with the live load reversed, whether the dead load is carried."""
+    convex = run.convex
     form, forward = _solved(run, 1.0)
     if forward.status not in (*WITH_VALUE, Status.UNBOUNDED):
         return _without_value(run, form, forward, _words(forward))

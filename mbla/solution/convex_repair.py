@@ -3,8 +3,8 @@
 As in :mod:`mbla.solution.force_repair` and :mod:`mbla.solution.mechanism_repair`, with the conditions on interfaces.
 *Static:* the dual variables z of the kinematic form are contact forces and the slacks of all conditions; any z in the
 cones with Mᵀz = −cost is in equilibrium and within all conditions. They are rebuilt from the contact forces, moved
-strictly inside and corrected in the metric of the barrier, whose inverse Hessian for a cone z_0 ≥ ‖z̄‖ is z zᵀ − ½
-(z_0² − ‖z̄‖²) diag(1, −1, ...).
+strictly inside and corrected in the metric of the barrier (:mod:`mbla.solution.least_step`): by normal equations, and
+where these stall by the augmented system.
 *Kinematic:* blocks and, all together, interfaces move towards points strictly inside their cones.
 What the repaired forces and motions prove is evaluated by ``verify_convex`` with its own statics.
 """
@@ -12,21 +12,27 @@ What the repaired forces and motions prove is evaluated by ``verify_convex`` wit
 from __future__ import annotations
 
 from dataclasses import replace
+from itertools import product
 
 import numpy as np
 import scipy.sparse as sp
 
 from mbla.arrays import FloatArray
 from mbla.program.convex import ConvexProgram, convex_form
-from mbla.solution.bordered_system import bordered_solver
 from mbla.solution.cone_vectors import ConeVectors
 from mbla.solution.convex_slacks import slacks_of
+from mbla.solution.convex_units import in_units, units_of_unknowns
+from mbla.solution.least_step import Equilibrium, StepOf, augmented_step, normal_step
 from mbla.solution.mechanism_repair import repaired_mechanisms
 from mbla.stopwatch import timed
 
 ROUNDS = 6
+PROGRESS = 0.5
+"""Share of the residual that a whole step must do away with at least to be followed by another."""
+
 EQUILIBRIUM_TOLERANCE, GOOD_EQUILIBRIUM = 1e-11, 3e-10
-"""Residual of Mᵀz = −cost, in mean block loads, at which corrections stop, and at which no other start is tried."""
+"""Residual of Mᵀz = −cost, in mean block loads or in what a light block carries, at which corrections stop, and at
+which no other start is tried; of the largest load where that is more, by a large load factor."""
 
 INSIDES = (1e-10, 1e-8, 1e-7)
 """Distances from the borders of the cones, relative to the size of a vector, from which corrections start: where a
@@ -39,34 +45,32 @@ THRESHOLDS = (0.0, 1e-6, np.inf)
 
 @timed("repair")
 def repaired_convex_forces(
-    convex: ConvexProgram, forces: FloatArray, load_factor: float
+    convex: ConvexProgram, forces: FloatArray, load_factor: float, *, sharp: bool = False
 ) -> tuple[FloatArray, float] | None:
     """Forces near the given ones in equilibrium and within all conditions, and the load factor that they carry.
 
     forces : (n_points, 3), non-dimensional like the load factor. None where no repair is found.
+    sharp  : None too where they are not as near to equilibrium as ``GOOD_EQUILIBRIUM``
     """
     form = convex_form(convex)
     cones = ConeVectors.of(form.cone_program)
-    cost = form.cone_program.cost
-    rows = sp.csr_array(form.cone_program.matrix)
-    live, matrix = rows[[0]].toarray().ravel(), rows[1:]
-    slacks = slacks_of(convex, form, forces)
-    best, least = None, np.inf
-    for inside in INSIDES:
-        z = np.concatenate([[-load_factor], cones.pulled_inside(slacks, inside)])
-        for _ in range(ROUNDS):
-            step = _static_step(matrix, cost, live, cones, z)
-            if step is None:
-                break
-            z = z + min(1.0, 0.999 * cones.longest_step(z[1:], step[1:])) * step
-            residual = float(np.abs(matrix.T @ z[1:] + live * z[0] + cost).max(initial=0.0))
-            if residual < least:
-                best, least = z, residual
-            if residual <= EQUILIBRIUM_TOLERANCE:
-                break
-        if least <= GOOD_EQUILIBRIUM:
+    units = units_of_unknowns(form, convex, forces)
+    cone_program = in_units(form.cone_program, units)
+    rows = sp.csr_array(cone_program.matrix)
+    equilibrium = Equilibrium(rows[1:], rows[[0]].toarray().ravel(), cone_program.cost)
+    slacks, sizes = slacks_of(convex, form, forces), _sizes(cones, sp.csr_array(form.cone_program.matrix)[1:], units)
+    loads = np.abs(equilibrium.cost) + np.abs(load_factor * equilibrium.live)
+    best, least, good = None, np.inf, GOOD_EQUILIBRIUM * max(1.0, float(loads.max(initial=0.0)))
+    for inside, step_of in product(INSIDES, (normal_step, augmented_step)):
+        z = np.concatenate([[-load_factor], cones.pulled_inside(slacks, inside, sizes)])
+        z, residual = _corrected(equilibrium, cones, z, step_of)
+        if residual < least:
+            best, least = z, residual
+        if least <= good:
             break
-    return None if best is None else (form.contact_forces(best), -float(best[0]))
+    if best is None or (sharp and not least <= good):
+        return None
+    return form.contact_forces(best), -float(best[0])
 
 
 @timed("repair")
@@ -95,19 +99,29 @@ def repaired_convex_motions(
     return found
 
 
-def _static_step(
-    matrix: sp.csr_array, cost: FloatArray, live: FloatArray, cones: ConeVectors, z: FloatArray
-) -> FloatArray | None:
-    """Least change of z = (−λ, rest), in the barrier's metric, that restores live z_0 + Mᵀ(rest) = −cost."""
-    weights = cones.inverse_hessian(z[1:])
-    normal = sp.csc_array(matrix.T @ weights @ matrix)
-    solve = bordered_solver(normal, live, (1e-4 * max(abs(float(z[0])), 1e-3)) ** 2)
-    if solve is None:
-        return None
-    step = np.zeros_like(z)
-    for _ in range(4):  # refinement: the metric spans many decades
-        change = solve(-(matrix.T @ (z + step)[1:] + live * (z[0] + step[0]) + cost))
-        if not np.isfinite(change).all():
-            return None
-        step = step + np.append(change[-1], weights @ (matrix @ change[:-1]))
-    return step
+def _sizes(cones: ConeVectors, matrix: sp.csr_array, units: FloatArray) -> FloatArray:
+    """What the vector of each cone is large beside: the least that the equations it stands in carry, (n_cones,)."""
+    entries = matrix.tocoo()
+    least = np.full(len(cones.sizes), np.inf)
+    np.minimum.at(least, cones.cone_of_row[entries.row], units[entries.col] / np.maximum(np.abs(entries.data), 1e-300))
+    return least
+
+
+def _corrected(
+    equilibrium: Equilibrium, cones: ConeVectors, z: FloatArray, step_of: StepOf
+) -> tuple[FloatArray, float]:
+    """The best of the corrections of z that keep it inside the cones, and its residual."""
+    best, least = z, np.inf
+    for _ in range(ROUNDS):
+        step = step_of(equilibrium, cones, z)
+        if step is None:
+            break
+        longest = 0.999 * cones.longest_step(z[1:], step[1:])
+        z = z + min(1.0, longest) * step
+        residual = float(np.abs(equilibrium.unbalanced(z)).max(initial=0.0))
+        stalled = longest >= 1.0 and residual > PROGRESS * least
+        if residual < least:
+            best, least = z, residual
+        if stalled or least <= EQUILIBRIUM_TOLERANCE:
+            break
+    return best, least
