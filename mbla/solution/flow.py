@@ -20,7 +20,7 @@ from mbla.solution.light_blocks import SOLVED, sharpened
 from mbla.solution.livesley import solve_livesley
 from mbla.solution.load_path import solve_path
 from mbla.solution.lowest import solve_lowest
-from mbla.solution.proximal import solve_proximal
+from mbla.solution.proximal import SOLVED, solve_proximal
 from mbla.solution.published import solve_published
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Status
@@ -88,9 +88,12 @@ def _interior(flow: Flow) -> SequenceResult:
 
 
 def _auto(flow: Flow) -> SequenceResult:
-    """The proximal scheme, and the interior path where that stalls above the residual that is asked for."""
-    sequence = _proximal(flow)
-    if sequence.state is not None and sequence.state.residual <= flow.settings.residual:
+    """The proximal scheme, and the interior path where that stalls above the residual of a state of the exact law.
+
+    A sharper one is asked of what was found: the other scheme would end in another state, and costs many times more.
+    """
+    sequence, enough = _proximal(flow), max(SOLVED, flow.settings.residual)
+    if sequence.state is not None and sequence.state.residual <= enough:
         return sequence
     if sequence.status is Status.TIME_LIMIT:
         return sequence
