@@ -23,8 +23,8 @@ from numpy.typing import NDArray
 
 from mbla.arrays import FloatArray, IntArray
 from mbla.program.program import Program
+from mbla.solution.linear_algebra.elimination_order import elimination_order
 from mbla.solution.linear_algebra.general import GeneralFactorization, Solve
-from mbla.solution.linear_algebra.superlu import elimination_order
 
 
 @dataclass(frozen=True)
