@@ -51,7 +51,7 @@ DECADE, SHORTEST = 0.1, 0.8
 is the square root of the one before."""
 
 ELASTIC = 1e-9
-"""κ on which a state without opening and sliding is looked for: that decides where blocks settle less than 1e3 units."""
+"""κ on which a state without opening and sliding is looked for; it decides where blocks settle less than 1e3 units."""
 
 LENGTHENING = 1.5
 """Power of a ratio that is the next one after a state was found."""
