@@ -50,9 +50,6 @@ DECADE, SHORTEST = 0.1, 0.8
 """Ratio of one κ to the one before, and the ratio closest to 1 that is tried where no state is found; in between each
 is the square root of the one before."""
 
-ELASTIC = 1e-9
-"""κ on which a state without opening and sliding is looked for; it decides where blocks settle less than 1e3 units."""
-
 LENGTHENING = 1.5
 """Power of a ratio that is the next one after a state was found."""
 
@@ -228,10 +225,10 @@ def _elastic_state(problem: SpringProblem, blocks: _Blocks) -> _State | None:
     It is the first step of Newton's method from where nothing has moved. What goes on from another state has none.
     """
     u = np.zeros(len(problem.load))
-    step = newton_step(problem, ELASTIC, joints_at(problem, ELASTIC, u, None), lagged=False)
-    if step is None or not balanced(problem, ELASTIC, step, joints_at(problem, ELASTIC, step, None)):
+    step = newton_step(problem, WEAKEST, joints_at(problem, WEAKEST, u, None), lagged=False)
+    if step is None or not balanced(problem, WEAKEST, step, joints_at(problem, WEAKEST, step, None)):
         return None
-    state = _state(blocks, ELASTIC, step)
+    state = _state(blocks, WEAKEST, step)
     return state if state.share < CARRIED_SHARE else None
 
 
