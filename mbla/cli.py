@@ -132,10 +132,9 @@ def _tradeoff(options: argparse.Namespace) -> int:
     if options.json:
         print(json_line(record), flush=True)
     if not options.quiet:
-        lines = [
-            *study_lines(study),
-            f"  files: {', '.join(record['files'])} in {run_options.folder_for(options.deck)}/",
-        ]
+        lines = study_lines(study)
+        if record["files"]:
+            lines.append(f"  files: {', '.join(record['files'])} in {run_options.folder_for(options.deck)}/")
         print("\n".join(lines), file=sys.stderr if options.json else sys.stdout, flush=True)
     return study.exit_code
 
