@@ -56,14 +56,8 @@ def advice(trades: Sequence[CaseTrade], wanted: float) -> Advice:
     preset = next((near[name] for name in PRESETS if name in near), None)
     chosen = preset or min(near.values(), key=lambda each: each.seconds)  # the reference is always among those that fit
     usual = next((each for each in candidates if each is not None and each.rung == PRESETS[0]), None)
-    figures = any(_has_figure(trade) for trade in trades)
+    figures = any(trade.has_figure for trade in trades)
     return _said(chosen, usual, wanted, coarse, figures=figures)
-
-
-def _has_figure(trade: CaseTrade) -> bool:
-    """Whether the reference has a load factor; without one there is but a verdict (unbounded, no equilibrium)."""
-    measurement = None if trade.reference is None else trade.reference.measurement
-    return measurement is not None and measurement.verdict == "answer"
 
 
 def _candidate(trades: Sequence[CaseTrade], name: str) -> Advice | None:
