@@ -21,7 +21,7 @@ HEAD = ("setting", "time", "solve", "iter", "mem.", "answer", "error", "static",
 UNITS = ("", "s", "s", "", "MB", "", "", "bound", "bound", "", "")
 LEFT = (0, 10)
 """columns of words, aligned to the left"""
-NAME = 30
+NAME = 25
 """columns that the name of a setting may take; a longer one takes more lines"""
 RELATIVE = "errors are relative to"
 FRONT = "*"
@@ -148,9 +148,9 @@ def _wrapped(rows: Sequence[Row], trade: CaseTrade) -> tuple[list[list[str]], li
     body: list[list[str]] = []
     marks: list[str] = []
     for row in rows:
-        first, *more = textwrap.wrap(row.name, NAME, break_on_hyphens=False) or [row.name]
+        first, *more = textwrap.wrap(row.name, NAME, subsequent_indent=INDENT, break_on_hyphens=False) or [row.name]
         body.append([first, *_cells(trade, row)])
-        body += [[f"  {part}", *[""] * (len(HEAD) - 1)] for part in more]
+        body += [[part, *[""] * (len(HEAD) - 1)] for part in more]
         marks += [FRONT if row.front else " ", *[" "] * len(more)]
     return body, marks
 
