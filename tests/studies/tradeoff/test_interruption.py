@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import json
+import sys
 from pathlib import Path
 from typing import Any
 
@@ -80,3 +81,15 @@ def test_before_anything_was_measured_nothing_is_left(
     assert main(command) == 130
     assert capsys.readouterr().err == "interrupted\n"
     assert not Path(command[1]).with_suffix(".out").exists()
+
+
+def test_without_the_extra_for_pictures_the_rest_is_written(
+    command: list[str], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(LeftAfter, "answered", 9)
+    monkeypatch.setitem(sys.modules, "matplotlib", None)
+    assert main(command) == 0
+    assert "mbla: no pictures: " in (said := capsys.readouterr().err)
+    assert "pictures]" in said
+    names = sorted(path.name for path in Path(command[1]).with_suffix(".out").iterdir())
+    assert names == ["block_tradeoff.csv", "block_tradeoff.json"]
