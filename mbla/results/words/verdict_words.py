@@ -155,11 +155,12 @@ def uniqueness_words(model: Model, case: CaseResult) -> str:
     what, lower = ("reaction", "higher") if settles else ("load factor", "lower")
     noun, above = what.split()[-1], ""
     if associative:
-        limit, name = associative.load_factor, "that of associative flow" if settles else "the associative factor"
-        if case.checks.gap > GAP_TOLERANCE:  # what is proved of it
-            limit, name = case.checks.kinematic_bound, f"the kinematic bound of {name}"
-        side = "a lower" if settles else "an upper"
-        above = f"; {name}, {value(limit)}, is {side} limit to all"
+        wide = case.checks.gap > GAP_TOLERANCE  # then what is proved of it
+        limit = value(case.checks.kinematic_bound if wide else associative.load_factor)
+        of = "the kinematic bound of " if wide else ""
+        above = f"; {of}the associative factor, {limit}, is an upper limit to all"
+        if settles:
+            above = f"; {limit}, {of}that of associative flow, is a lower limit to all"
     if ends is None or not np.isfinite(ends).all():
         known = "" if ends is None else f" (of the range for this mechanism only one end is verified: {_ends(ends)})"
         return f"The {what} without normality need not be unique, and its range is not known{known}{above}."
