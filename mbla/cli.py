@@ -119,6 +119,7 @@ def _tradeoff(options: argparse.Namespace) -> int:
     run_options = _run_options(options, override=False)
     content, _ = _read(options.deck, run_options)
     from mbla.results.records.json_record import json_line
+    from mbla.results.words.text import sentence
     from mbla.studies.tradeoff.command import tradeoff
     from mbla.studies.tradeoff.words import study_lines
 
@@ -132,10 +133,9 @@ def _tradeoff(options: argparse.Namespace) -> int:
     if options.json:
         print(json_line(record), flush=True)
     if not options.quiet:
-        lines = [
-            *study_lines(study),
-            f"  files: {', '.join(record['files'])} in {run_options.folder_for(options.deck)}/",
-        ]
+        lines = study_lines(study)
+        if record["files"]:
+            lines += sentence(f"files: {', '.join(record['files'])} in {run_options.folder_for(options.deck)}/")
         print("\n".join(lines), file=sys.stderr if options.json else sys.stdout, flush=True)
     return study.exit_code
 

@@ -93,6 +93,7 @@ FAILURES = (
 
 REMARKS = (
     Finding("law-missed", "notice", ("miss the law by", "miss it by")),  # law-residual warns of it
+    Finding("associative-bounds-apart", "notice", ("with associative flow",)),
     Finding("second-opinion-differs", "warning", ("and should by",)),
     Finding("second-opinion-missing", "warning", ("came to no answer",)),
     Finding("second-opinion-agrees", "notice", ("they agree",)),

@@ -65,6 +65,7 @@ class AssociativeResult:
                   joints dissipate
     solver      : that the state comes from, empty without one: the program may have been solved by several
     asked       : approximate: the distance of the bounds that was asked for, and reached; None where it was not
+    apart       : approximate for no other reason than that the bounds are apart: how far, in words; else empty
     stress_free : what becomes of the dead load on the stress-free assembly, None where that was not looked at
     """
 
@@ -75,6 +76,7 @@ class AssociativeResult:
     programs: tuple[ProgramRecord, ...]
     solver: str = ""
     asked: float | None = None
+    apart: str = ""
     stress_free: Weakening | None = field(default=None, repr=False)
 
 
@@ -193,7 +195,8 @@ def _with_load_factor(run: AssociativeRun, answer: ProvedAnswer) -> AssociativeR
         )
     forces, factor, velocities = gap.forces, gap.load_factor, gap.velocities
     state = law_state(run.program, run.program.limits.friction, forces, velocities, factor)
-    return AssociativeResult(status, state, None, reason, tuple(run.records), answer.solution.solver.lower(), asked)
+    solver = answer.solution.solver.lower()
+    return AssociativeResult(status, state, None, reason, tuple(run.records), solver, asked, reason)
 
 
 def _carried(run: AssociativeRun, form: AssociativeForm, reverse: ConeSolution) -> bool:

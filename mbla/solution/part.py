@@ -21,6 +21,8 @@ from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import ProgramRecord, StandingResult, Status
 from mbla.solution.standing import DeadLoadState, stress_free_state
 
+APART = "with associative flow {}"
+
 
 @dataclass(frozen=True)
 class PartResult:
@@ -64,24 +66,34 @@ class PartResult:
 
     @property
     def status(self) -> Status:
-        """Of the flow rule of the analysis; never better than that of the associative program it started from."""
-        if self.sequence is None:
+        """Of the flow rule of the analysis.
+
+        Residuals speak for a state of another flow rule than the associative one, whose proved kinematic bound holds
+        however far the static one is from it; what another solver contradicts stays that.
+        """
+        if self.sequence is None or (self._doubted and self.sequence.status is Status.SOLVED):
             return self.associative.status
-        weak_start = self.associative.state is not None and self.sequence.status is Status.SOLVED
-        return self.associative.status if weak_start else self.sequence.status
+        return self.sequence.status
+
+    @property
+    def _doubted(self) -> bool:
+        """Whether more is open about the associative load factor than how far its bounds are apart."""
+        associative = self.associative
+        return associative.state is not None and associative.status is not Status.SOLVED and not associative.apart
 
     @property
     def reason(self) -> str:
         """Why the part is not plainly solved."""
-        return self.associative.reason if self.sequence is None else self.sequence.reason or self.associative.reason
+        if self.sequence is None:
+            return self.associative.reason
+        return self.sequence.reason or ("" if self.associative.apart else self.associative.reason)
 
     @property
     def asked(self) -> float | None:
         """Gap or residual that was asked for, and reached, where the part is approximate for no other reason."""
-        if self.sequence is None or self.sequence.status is Status.SOLVED:
+        if self.sequence is None:
             return self.associative.asked
-        exact_start = self.associative.status in (Status.SOLVED, Status.UNBOUNDED)
-        return self.sequence.asked if exact_start or self.associative.asked is not None else None
+        return None if self._doubted else self.sequence.asked
 
     @property
     def programs(self) -> tuple[ProgramRecord, ...]:
@@ -119,7 +131,8 @@ def _by_flow_rule(program: Program, analysis: AnalysisSection, settings: SolverS
         result = replace(result, associative=associative)
     if associative.state is None:
         return _locked_by_dilatancy(result, analysis, settings, log)
-    return replace(result, sequence=_by_law(program, associative, analysis, settings, log))
+    remarks = (*result.remarks, APART.format(associative.apart)) if associative.apart else result.remarks
+    return replace(result, sequence=_by_law(program, associative, analysis, settings, log), remarks=remarks)
 
 
 def _by_law(

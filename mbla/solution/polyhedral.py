@@ -122,9 +122,10 @@ def solve_with_opinion(
     opinion = second_opinion(made, result.state.load_factor, result.solver, kind, settings, log, number)
     result = replace(result, programs=(*result.programs, opinion.record))
     if opinion.agrees is False:
-        result = replace(result, status=Status.NOT_VERIFIED, reason=opinion.remark)
-    elif opinion.agrees is None and result.status is Status.SOLVED:
-        result = replace(result, status=Status.APPROXIMATE, reason=opinion.remark)
+        result = replace(result, status=Status.NOT_VERIFIED, reason=opinion.remark, apart="")
+    elif opinion.agrees is None:
+        reason = result.reason if result.status is not Status.SOLVED else opinion.remark
+        result = replace(result, status=Status.APPROXIMATE, reason=reason, apart="")
     return result, opinion.remark
 
 
@@ -162,7 +163,7 @@ def _claim(sides: int, inner: AssociativeResult, outer: AssociativeResult) -> As
     """The inner result with what both together say of the true cone."""
     if inner.state is not None and outer.state is not None:
         worse = outer if inner.status is Status.SOLVED else inner
-        return replace(inner, status=worse.status, reason=worse.reason)
+        return replace(inner, status=worse.status, reason=worse.reason, apart=worse.apart)
     if inner.status is Status.UNBOUNDED:
         return inner
     if outer.status is Status.NO_EQUILIBRIUM:

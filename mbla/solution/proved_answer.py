@@ -152,17 +152,26 @@ def _answer(run: AssociativeRun, form: AssociativeForm, unit: float, settings: S
         before, tolerance = (answer.distance, tolerance), max(FURTHER * tolerance, SHARPEST)
         if tolerance >= before[1] or not sharpen(solver, tolerance):
             break
-        answer = better(answer, _once(run, form, solver, unit))
+        again = _once(run, form, solver, unit, answer)
+        if again is answer:  # it was that sharp already
+            continue
+        answer = better(answer, again)
         if not answer.distance <= WORTHWHILE * before[0]:
             break
     return answer
 
 
 def _once(
-    run: AssociativeRun, form: AssociativeForm, solver: InteriorPointSolver | HighsProgram, unit: float
+    run: AssociativeRun,
+    form: AssociativeForm,
+    solver: InteriorPointSolver | HighsProgram,
+    unit: float,
+    before: ProvedAnswer | None = None,
 ) -> ProvedAnswer:
-    """One run of a solver, and what of its solution can be proved."""
+    """One run of a solver, and what of its solution can be proved; ``before`` where it goes on from it by no step."""
     solution = solved_once(run, form, solver, "associative", unit)
+    if before is not None and not solution.iterations:
+        return before
     if unit != 1.0:
         solution = replace(solution, x=solution.x * unit, objective=solution.objective * unit)
     if solution.status in (Status.TIME_LIMIT, Status.ITERATION_LIMIT, Status.UNBOUNDED):

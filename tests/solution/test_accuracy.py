@@ -5,15 +5,21 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import pytest
 
 from mbla.exit_status import exit_code
+from mbla.results.findings import REMARKS, UNKNOWN_REMARK, finding_of
 from mbla.results.results import CaseResult
+from mbla.results.words.verdict_words import load_factor_words, uniqueness_words
+from mbla.solution import polyhedral
+from mbla.solution.polyhedral import SecondOpinion, second_opinion
 from mbla.solution.solution import Status
 from mbla.solution.verify import meets_what_was_asked
-from tests.line import WALL, case_of
+from tests.line import BLOCK, WALL, case_of
 
+BENCHMARKS = Path(__file__).parents[2] / "decks" / "benchmarks"
 ARCH = (Path(__file__).parents[2] / "decks" / "tradeoff" / "arch.yaml").read_text(encoding="utf-8")
 DOME = (Path(__file__).parents[2] / "decks" / "tutorials" / "dome.yaml").read_text(encoding="utf-8")
 WALL_10 = 0.592864
@@ -104,6 +110,41 @@ def test_a_draft_without_normality_stops_at_its_residual(rough_dome: CaseResult)
 def test_what_misses_the_residual_asked_for_is_a_failure(rough_dome: CaseResult) -> None:
     solution = replace(rough_dome.solution, asked=1e-4)
     assert exit_code([replace(rough_dome, solution=solution)]) == 4
+
+
+def test_a_state_without_normality_is_judged_by_its_residuals_not_by_associative_bounds() -> None:
+    """An arch at its least thickness: the bounds of a factor of 0.0015 end 5e-5 apart, which a draft may leave so.
+
+    The load factor without normality lies between them, above what the static bound proves; the upper limit that is
+    named beside it is the kinematic bound, which it does not exceed.
+    """
+    deck = BENCHMARKS / "cocchetti_rizzi_mu_310_stands.yaml"
+    model, result = case_of(deck.read_text(encoding="utf-8"), "analysis.accuracy=draft", WITHOUT)
+    checks = result.checks
+    assert checks.static_bound < factor(result) < checks.kinematic_bound
+    assert 1e-5 < checks.gap < 1e-3
+    assert max(checks.equilibrium_residual, checks.complementarity_residual, checks.power_balance) < 1e-9
+    assert result.status is Status.SOLVED
+    assert result.solution.reason == ""
+    (remark,) = result.solution.remarks
+    assert remark.startswith("with associative flow forces prove")
+    assert finding_of(remark, REMARKS, UNKNOWN_REMARK).identifier == "associative-bounds-apart"
+    limit = load_factor_words(model, result.load_case, checks.kinematic_bound)
+    assert f"the kinematic bound of the associative factor, {limit}, is an upper limit" in uniqueness_words(
+        model, result
+    )
+
+
+def test_what_another_solver_leaves_open_is_not_solved_whatever_the_residuals(monkeypatch: pytest.MonkeyPatch) -> None:
+    def silent(*arguments: Any) -> SecondOpinion:
+        opinion = second_opinion(*arguments)
+        return replace(opinion, agrees=None, remark="clarabel came to no answer (none)")
+
+    monkeypatch.setattr(polyhedral, "second_opinion", silent)
+    result = case(BLOCK, "analysis.second_opinion=true", WITHOUT)
+    assert result.status is Status.APPROXIMATE
+    assert result.solution.reason == "clarabel came to no answer (none)"
+    assert result.solution.asked is None
 
 
 def test_a_draft_that_comes_to_rest_is_solved() -> None:

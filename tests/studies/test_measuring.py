@@ -12,6 +12,7 @@ import pytest
 
 from mbla.studies.measured_run import Task
 from mbla.studies.measuring import MeasuringProcess
+from tests.line import BLOCK
 from tests.studies.tradeoff.hand_made import SOLVED
 
 READY = 'import sys, os, time; print("{\\"ready\\": true}", flush=True); sys.stdin.readline(); '
@@ -66,3 +67,23 @@ def runs(number: int) -> bool:
     except OSError:
         return False
     return state not in "ZX"
+
+
+def test_a_deck_with_faults_is_told_by_the_process_that_measures(tmp_path: Path) -> None:
+    """Faults that come with a setting or after the parent read the deck; the process goes on to the next task."""
+    deck = tmp_path / "block.yaml"
+    deck.write_text(BLOCK, encoding="utf-8")
+    with MeasuringProcess() as process:
+        refused = process.run(Task(str(deck), overrides=("parameters.h=-1",)))
+        unfit = process.run(Task(str(deck), overrides=("analysis.solver=highs", "analysis.reductions.planar=false")))
+        gone = process.run(Task(str(tmp_path / "none.yaml")))
+        sound = process.run(Task(str(deck), overrides=("parameters.mu=0.4", "analysis.accuracy=draft")))
+    assert (refused.end, refused.measurements) == ("unfit", ())
+    assert "block.yaml:" in refused.words
+    assert "blocks" in refused.words
+    assert unfit.end == "unfit"
+    assert "highs solves linear programs only" in unfit.words
+    assert gone.end == "failed"
+    assert "none.yaml" in gone.words
+    assert sound.end == "done"
+    assert [measurement.answer for measurement in sound.measurements] == [pytest.approx(0.4, rel=1e-6)]

@@ -34,6 +34,15 @@ OF_NON_UNIQUE = (
         "More programs (analysis.proximal.max_programs), or another scheme.",
     ),
     Explanation(
+        "associative-bounds-apart",
+        "notice",
+        "The proved bounds of the associative load factor are more than 1e-5 apart.",
+        "Of the associative load factor given beside it; the one without normality is judged by its residuals alone. "
+        "Of the two bounds the upper one holds for every flow rule.",
+        "accuracy: draft, or a gap given in the deck; structures whose load factor is almost zero.",
+        "accuracy: standard, where the associative load factor is wanted too.",
+    ),
+    Explanation(
         "range-not-computed",
         "notice",
         "The range of the load factor is not computed.",

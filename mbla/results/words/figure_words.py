@@ -122,13 +122,12 @@ def _standing(model: Model, case: CaseResult) -> list[str]:
 def size_words(size: ModelSize) -> str:
     """What reached the solver."""
     words = ["planar" if size.dimension == 2 else "spatial"]
-    words += [counted(size.free_blocks, "free block"), counted(size.contact_points, "contact point")]
+    dropped = f" ({size.dropped_points} more left out)" if size.dropped_points else ""
+    words += [counted(size.free_blocks, "free block"), counted(size.contact_points, "contact point") + dropped]
     if size.mirror_planes:
         words.append(f"{counted(size.mirror_planes, 'mirror plane')} used")
     if size.parts > 1:
         words.append(f"{size.parts} parts solved apart")
-    if size.dropped_points:
-        words.append(f"{counted(size.dropped_points, 'contact point')} left out")
     return ", ".join(words)
 
 

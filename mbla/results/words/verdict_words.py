@@ -21,7 +21,7 @@ from mbla.results.words.answer_words import status_name
 from mbla.results.words.settlement_words import reaction_words
 from mbla.results.words.text import number, small
 from mbla.solution.solution import Status
-from mbla.solution.verify import SOLVED_RESIDUAL
+from mbla.solution.verify import GAP_TOLERANCE, SOLVED_RESIDUAL
 
 STOPPED_BY = {
     Status.ITERATION_LIMIT: "out of iterations",
@@ -154,10 +154,13 @@ def uniqueness_words(model: Model, case: CaseResult) -> str:
     settles = case.load_case.settlement is not None  # the greater the factor, the less the reaction
     what, lower = ("reaction", "higher") if settles else ("load factor", "lower")
     noun, above = what.split()[-1], ""
-    if associative and settles:
-        above = f"; {value(associative.load_factor)}, that of associative flow, is a lower limit to all"
-    elif associative:
-        above = f"; the associative factor, {value(associative.load_factor)}, is an upper limit to all"
+    if associative:
+        wide = case.checks.gap > GAP_TOLERANCE  # then what is proved of it
+        limit = value(case.checks.kinematic_bound if wide else associative.load_factor)
+        of = "the kinematic bound of " if wide else ""
+        above = f"; {of}the associative factor, {limit}, is an upper limit to all"
+        if settles:
+            above = f"; {limit}, {of}that of associative flow, is a lower limit to all"
     if ends is None or not np.isfinite(ends).all():
         known = "" if ends is None else f" (of the range for this mechanism only one end is verified: {_ends(ends)})"
         return f"The {what} without normality need not be unique, and its range is not known{known}{above}."

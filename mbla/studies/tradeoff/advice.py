@@ -56,7 +56,8 @@ def advice(trades: Sequence[CaseTrade], wanted: float) -> Advice:
     preset = next((near[name] for name in PRESETS if name in near), None)
     chosen = preset or min(near.values(), key=lambda each: each.seconds)  # the reference is always among those that fit
     usual = next((each for each in candidates if each is not None and each.rung == PRESETS[0]), None)
-    return _said(chosen, usual, wanted, coarse)
+    figures = any(trade.has_figure for trade in trades)
+    return _said(chosen, usual, wanted, coarse, figures=figures)
 
 
 def _candidate(trades: Sequence[CaseTrade], name: str) -> Advice | None:
@@ -68,14 +69,20 @@ def _candidate(trades: Sequence[CaseTrade], name: str) -> Advice | None:
     return Advice(name, rows[0].run.rung.setting, seconds, max(row.distance for row in rows), "")
 
 
-def _said(chosen: Advice, usual: Advice | None, wanted: float, coarse: float) -> Advice:
-    reached = f"{small(chosen.error)} from the reference" if chosen.error > coarse else (
-        f"not to be told from the reference, which is good to {small(coarse)}")  # fmt: skip
+def _said(chosen: Advice, usual: Advice | None, wanted: float, coarse: float, *, figures: bool) -> Advice:
+    """``figures``: a load case has one; others have the same verdict in the reference and in all that is advised."""
+    if not figures:
+        reached = "it comes to the same verdict as the reference"
+    elif chosen.error > coarse:
+        reached = f"{small(chosen.error)} from the reference"
+    else:
+        reached = f"not to be told from the reference, which is good to {small(coarse)}"
     freed = chosen.setting.freed
     without = f" without {', '.join(f'analysis.{name}' for name in freed)}" if freed else ""
     beside = "" if usual is None or usual.rung == chosen.rung else f"; {usual.rung} {duration(usual.seconds)}"
     took = f"({duration(chosen.seconds)}{beside})"
-    sentence = f"For an error of {_digits(wanted)} take {chosen.rung}{without} {took}: {reached}."
+    take = f"For an error of {_digits(wanted)} take" if figures else "Take"
+    sentence = f"{take} {chosen.rung}{without} {took}: {reached}."
     return Advice(chosen.rung, chosen.setting, chosen.seconds, chosen.error, sentence)
 
 

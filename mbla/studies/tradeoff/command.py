@@ -13,11 +13,15 @@ from mbla.studies.tradeoff.records import study_json
 from mbla.studies.tradeoff.study import Study, file_name, study_deck
 from mbla.studies.tradeoff.write import write_study
 
+INTERRUPTION = "interrupted: here is what was measured until then"
+
 
 def tradeoff(
     deck: Deck, run: RunOptions, options: Any, report: Report | None
 ) -> tuple[Study, dict[str, Any], list[str]]:
     """Measure a deck and write the files; the study, its JSON record, and remarks.
+
+    A study that was interrupted is written as far as it came, but never over an earlier one.
 
     options : ``knob`` and ``setting`` texts, ``wanted_error``, ``time_limit``, ``run_limit`` [s] or None
 
@@ -27,8 +31,13 @@ def tradeoff(
     limits = Limits(options.time_limit, options.run_limit, run.threads)
     stem = file_name(deck.path)
     out = OutputFolder(run.folder_for(deck.path), stem, run.force, beside=True)
-    out.refuse(f"{stem}.csv", f"{stem}.json")
+    names = (f"{stem}.csv", f"{stem}.json")
+    out.refuse(*names)
     with out:
         study = study_deck(deck, run.overrides, run.cases, asked, options.wanted_error, limits, report)
-        remark = write_study(study, out)
-    return study, study_json(study, out.names), [remark] if remark else []
+        remarks = [INTERRUPTION] if study.interrupted else []
+        if study.interrupted and any((out.folder / name).exists() for name in names):
+            remarks.append("the files of the earlier study are left as they are")
+        else:
+            remarks += write_study(study, out)
+    return study, study_json(study, out.names), remarks

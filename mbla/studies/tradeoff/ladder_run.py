@@ -14,6 +14,8 @@ from mbla.studies.tradeoff.rung import Rung
 
 Report = Callable[[int, int, str, str], None]
 """called with number of the rung from 1, number of rungs, name of the rung, and load case done (empty: it begins)"""
+INTERRUPTED = "interrupted"
+"""end of the rung that an interruption from the keyboard stopped, and of all after it"""
 LEAST_TIME = 0.5
 """seconds of a budget below which no further process is started: it would not get past its imports"""
 
@@ -31,7 +33,8 @@ class Limits:
 class RungRun:
     """What became of a rung.
 
-    end     : ``done``; ``unfit``: does not apply; ``failed``; ``died``; ``stopped``: ran out of its time; ``not run``
+    end     : ``done``; ``unfit``: does not apply; ``failed``; ``died``; ``stopped``: ran out of its time; ``not run``;
+              ``interrupted``
     words   : why, for every end but ``done``
     expired : the budget of all rungs ended it, or left no time to begin it
     """
@@ -46,32 +49,54 @@ class RungRun:
 def run_ladder(
     deck: Path, fixed: Sequence[str], cases: Sequence[str], rungs: Sequence[Rung], limits: Limits, report: Report | None
 ) -> list[RungRun]:
-    """One run for each rung, in their order."""
+    """One run for each rung, in their order; an interruption from the keyboard ends them, and is told of each left.
+
+    Raises KeyboardInterrupt where nothing was measured before it.
+    """
     until = None if limits.budget is None else time.monotonic() + limits.budget
     runs: list[RungRun] = []
-    planar = False
     with MeasuringProcess() as process:
-        for number, rung in enumerate(rungs, 1):
-
-            def done(measurement: Measurement | None, number: int = number, name: str = rung.name) -> None:
-                if report is not None:
-                    report(number, len(rungs), name, measurement.case if measurement else "")
-
-            unfit = rung.unfit or (rung.spatial if planar else "")
-            if unfit:
-                runs.append(RungRun(rung, (), "unfit", unfit))
-            elif until is not None and until - time.monotonic() < LEAST_TIME:
-                runs.append(RungRun(rung, (), "not run", "the time limit was over", expired=True))
-            else:
-                done(None)
+        try:
+            for number, rung in enumerate(rungs, 1):
                 setting = rung.setting
                 task = Task(
                     str(deck.resolve()), tuple(fixed), setting.overrides, setting.freed, tuple(cases), limits.threads
                 )
-                run = process.run(task, until, limits.each, done)
-                runs.append(_told(rung, run, until is not None and time.monotonic() >= until, limits))
-                planar = planar or (not rung.model and _is_planar(runs[-1]))
+
+                def done(case: str, number: int = number, name: str = rung.name) -> None:
+                    if report is not None:
+                        report(number, len(rungs), name, case)
+
+                planar = any(_is_planar(run) for run in runs)
+                runs.append(_run(process, rung, task, until, limits, done, planar=planar))
+        except KeyboardInterrupt:
+            if not any(run.measurements for run in runs):
+                raise
+            left = rungs[len(runs) :]
+            runs += [RungRun(rung, (), INTERRUPTED, "interrupted before its end") for rung in left[:1]]
+            runs += [RungRun(rung, (), INTERRUPTED, "not run: interrupted before") for rung in left[1:]]
     return runs
+
+
+def _run(
+    process: MeasuringProcess,
+    rung: Rung,
+    task: Task,
+    until: float | None,
+    limits: Limits,
+    done: Callable[[str], None],
+    *,
+    planar: bool,
+) -> RungRun:
+    """One rung, until a time.monotonic(); ``planar`` where one before it showed the structure to be that."""
+    unfit = rung.unfit or (rung.spatial if planar else "")
+    if unfit:
+        return RungRun(rung, (), "unfit", unfit)
+    if until is not None and until - time.monotonic() < LEAST_TIME:
+        return RungRun(rung, (), "not run", "the time limit was over", expired=True)
+    done("")
+    run = process.run(task, until, limits.each, lambda measurement: done(measurement.case))
+    return _told(rung, run, until is not None and time.monotonic() >= until, limits)
 
 
 def _told(rung: Rung, run: ChildRun, expired: bool, limits: Limits) -> RungRun:
@@ -82,4 +107,6 @@ def _told(rung: Rung, run: ChildRun, expired: bool, limits: Limits) -> RungRun:
 
 
 def _is_planar(run: RungRun) -> bool:
-    return run.end == "done" and {measurement.dimension for measurement in run.measurements} == {2}
+    return (
+        run.end == "done" and not run.rung.model and {measurement.dimension for measurement in run.measurements} == {2}
+    )

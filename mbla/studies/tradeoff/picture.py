@@ -1,7 +1,8 @@
 """Error against time on logarithmic scales, the Pareto front marked; one picture for each load case.
 
 Drawn are the runs of the deck's own model that can be held against the reference. Other models are named below the
-words only: their difference is no error. Distances that are too small to be told lie on the line of the resolution.
+words only: their difference is no error. Where the reference has but a verdict (unbounded), there is nothing to draw,
+and the words say it. Distances that are too small to be told lie on the line of the resolution.
 """
 
 from __future__ import annotations
@@ -36,7 +37,7 @@ def draw_trade(path: Path, title: str, trade: CaseTrade, advised: str, options: 
         if others:
             words.append(f"not drawn, as their difference is no error: {', '.join(others)}")
         rows = [row for row in trade.rows if row.measurement is not None and not row.run.rung.model]
-        drawn = [row for row in rows if trade.error(row) == trade.error(row)]
+        drawn = [row for row in rows if trade.has_figure and trade.error(row) == trade.error(row)]
         mark = "" if trade.verified else "NOT VERIFIED: no run is verified that the others could be held against"
         above = add_words(page, words, mark)
         axes = page.figure.add_axes((LEFT, BOTTOM, RIGHT - LEFT, 1 - above - BOTTOM - 0.02))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import signal
 import time
 from collections.abc import Sequence
 from dataclasses import dataclass, field
@@ -16,7 +17,7 @@ from mbla.results.results import now
 from mbla.run_deck import contacts_of, select_cases, title_of
 from mbla.studies.tradeoff.advice import Advice, advice
 from mbla.studies.tradeoff.ladder import asked_ladder, fitted, usual_ladder
-from mbla.studies.tradeoff.ladder_run import Limits, Report, RungRun, run_ladder
+from mbla.studies.tradeoff.ladder_run import INTERRUPTED, Limits, Report, RungRun, run_ladder
 from mbla.studies.tradeoff.rung import REFERENCE, Rung
 from mbla.studies.tradeoff.trade import CaseTrade, case_trades
 
@@ -46,8 +47,15 @@ class Study:
     created: str = field(default_factory=now)
 
     @property
+    def interrupted(self) -> bool:
+        """Whether the ladder was left from the keyboard before its end."""
+        return any(run.end == INTERRUPTED for run in self.runs)
+
+    @property
     def exit_code(self) -> int:
-        """7 where the time limit came before the reference, 4 where no reference is verified, else 0."""
+        """130: interrupted; 7: the time limit came before the reference; 4: no reference is verified; else 0."""
+        if self.interrupted:
+            return 128 + signal.SIGINT
         reference = next((run for run in self.runs if run.rung.name == REFERENCE), None)
         if reference is not None and reference.expired:
             return LimitError.exit_status

@@ -71,6 +71,12 @@ class CaseTrade:
         """The row that the others are held against."""
         return next((row for row in self.rows if row.reference), None)
 
+    @property
+    def has_figure(self) -> bool:
+        """Whether the reference has a load factor; else it has but a verdict (unbounded, no equilibrium)."""
+        reference = self.reference
+        return reference is not None and reference.measurement is not None and reference.measurement.verdict == "answer"
+
     def error(self, row: Row) -> float:
         """Distance of a row, at least what can be told; nan where it has none."""
         return NAN if math.isnan(row.distance) else max(row.distance, self.resolution)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import textwrap
 from collections.abc import Iterator, Sequence
 
 from mbla.results.outcome import range_is_a_point
@@ -20,6 +21,9 @@ HEAD = ("setting", "time", "solve", "iter", "mem.", "answer", "error", "static",
 UNITS = ("", "s", "s", "", "MB", "", "", "bound", "bound", "", "")
 LEFT = (0, 10)
 """columns of words, aligned to the left"""
+NAME = 25
+"""columns that the name of a setting may take; a longer one takes more lines"""
+RELATIVE = "errors are relative to"
 FRONT = "*"
 """before the setting: on the Pareto front"""
 LEGEND = (
@@ -58,14 +62,14 @@ def trade_lines(study: Study, trade: CaseTrade) -> list[str]:
     lines = sentence(f"load case {trade.name}{_positions(trade)}: {reference_words(trade)}")
     if not measured:
         return lines
-    body = [_cells(trade, row) for row in own]
+    body, marks = _wrapped(own, trade)
+    further, _ = _wrapped(others, trade)
     split = len(body)
-    body += [_cells(trade, row) for row in others]
+    body += further
     kind, unit = _kind(measured)
     head = [kind if name == "answer" else name for name in HEAD]
     units = [unit if name == "answer" else text for name, text in zip(HEAD, UNITS, strict=True)]
     shown = aligned([head, units, *body])
-    marks = [FRONT if row.front else " " for row in own]
     lines += shown[:2] + [mark + line[1:] for mark, line in zip(marks, shown[2 : 2 + split], strict=True)]
     if others:
         what = ", ".join(dict.fromkeys(row.run.rung.model for row in others))
@@ -78,13 +82,13 @@ def reference_words(trade: CaseTrade) -> str:
     reference = trade.reference
     if reference is None or reference.measurement is None:
         return "no setting gave a result, so there is no reference"
-    words = f"errors are relative to {reference.name}"
+    words = f"{RELATIVE} {reference.name}"
     if not trade.verified:
         words += ", which is NOT VERIFIED"
     elif reference.name != REFERENCE:
         words += f", the sharpest that is verified ({REFERENCE} is not)"
     if reference.measurement.verdict != "answer":
-        return f"{words}: {verdict_words(reference.measurement)}"
+        return f"{words.replace(RELATIVE, 'all are held against')}: {verdict_words(reference.measurement)}"
     return f"{words}, good to {small(trade.resolution)}{_range_words(reference.measurement)}"
 
 
@@ -139,11 +143,22 @@ def aligned(rows: Sequence[Sequence[str]]) -> list[str]:
     ]  # fmt: skip
 
 
+def _wrapped(rows: Sequence[Row], trade: CaseTrade) -> tuple[list[list[str]], list[str]]:
+    """Cells of rows, a long name on lines of its own below its first, and what stands before each line."""
+    body: list[list[str]] = []
+    marks: list[str] = []
+    for row in rows:
+        first, *more = textwrap.wrap(row.name, NAME, subsequent_indent=INDENT, break_on_hyphens=False) or [row.name]
+        body.append([first, *_cells(trade, row)])
+        body += [[part, *[""] * (len(HEAD) - 1)] for part in more]
+        marks += [FRONT if row.front else " ", *[" "] * len(more)]
+    return body, marks
+
+
 def _cells(trade: CaseTrade, row: Row) -> list[str]:
     measurement = row.measurement
     assert measurement is not None
     return [
-        row.name,
         _seconds(measurement.wall),
         _seconds(measurement.solver),
         str(measurement.iterations),

@@ -14,7 +14,7 @@ from mbla.studies.tradeoff.study import Study
 PICTURES = ("png", "svg")
 
 
-def write_study(study: Study, out: OutputFolder) -> str:
+def write_study(study: Study, out: OutputFolder) -> list[str]:
     """Write CSV, JSON and pictures to a folder that is open; why there are no pictures, or nothing."""
     stem = out.stem
     out.write_text(f"{stem}.csv", study_csv(study))
@@ -26,7 +26,7 @@ def write_study(study: Study, out: OutputFolder) -> str:
                     draw_trade(path, f"{study.deck}: {study.title}", trade, advised.sentence)
     record = study_json(study, tuple(sorted((*out.names, f"{stem}.json"))))
     out.write_text(f"{stem}.json", json.dumps(record, indent=1, ensure_ascii=False, allow_nan=False) + "\n")
-    return remark
+    return [remark] if remark else []
 
 
 def _without_pictures() -> str:

@@ -95,7 +95,7 @@ def test_a_load_case_that_nothing_brings_down(written: Written) -> None:
     assert {row["status"] for row in rows} == {"unbounded"}
     assert {row["load_factor"] for row in rows} == {""}
     assert {row["distance"] for row in rows} == {"0.0"}
-    assert "relative to accuracy: reference: unbounded" in written.words
+    assert "all are held against accuracy: reference: unbounded" in written.words
 
 
 def test_a_setting_that_the_deck_refuses_is_told(written: Written) -> None:

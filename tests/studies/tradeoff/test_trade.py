@@ -128,6 +128,8 @@ def test_verdicts_without_a_figure() -> None:
     assert math.isnan(distance(measured(0.5, 1.0), none))
     runs = [run_of("accuracy: reference", none), run_of("accuracy: draft", replace(none, wall=0.1))]
     assert names_on_front(trade_of(runs)) == {"accuracy: draft"}
+    words = advice([trade_of(runs)], 1e-4).sentence
+    assert words == "Take accuracy: draft (0.1 s): it comes to the same verdict as the reference."
 
 
 def test_a_load_factor_of_nothing_is_compared_with_the_least_that_counts() -> None:

@@ -53,6 +53,16 @@ def test_tables_fit_a_terminal_with_the_widest_of_usual_figures() -> None:
     assert max(map(len, lines_of(runs))) <= WIDE
 
 
+def test_a_long_name_of_a_setting_takes_more_lines() -> None:
+    name = "every knob at once: tolerance, solver, form and scheme"
+    fast = measured(0.5, 0.1, lower_bound=0.3161937, upper_bound=0.3161939, residual=1e-10)
+    lines = lines_of([run_of("accuracy: reference", replace(fast, wall=0.2)), run_of(name, fast)])
+    place = next(number for number, line in enumerate(lines) if line.startswith("* every knob at once:"))
+    assert lines[place + 1 : place + 3] == ["    tolerance, solver, form", "    and scheme"]
+    assert "0.100" in lines[place]
+    assert max(map(len, lines)) <= WIDE
+
+
 def test_what_was_not_run_is_told_once_and_why() -> None:
     runs = [
         *ladder(),

@@ -1,0 +1,171 @@
+"""What is done otherwise on large models, shown on small ones told to be large; and solved programs that go on."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from mbla.arrays import FloatArray
+from mbla.program.program import Program
+from mbla.solution import least_search, proofs, proved_answer, unique_forces
+from mbla.solution.associative_form import in_velocities
+from mbla.solution.cone_solver import cone_solver, sharpen
+from mbla.solution.least_search import Search
+from mbla.solution.mechanism_repair import repaired_mechanisms
+from mbla.solution.proved_answer import AssociativeRun, solve_until_proved, wanted_gap
+from mbla.solution.settings import SolverSettings
+from mbla.solution.solution import Status
+from mbla.solution.unique_forces import SHARES, least_forces, point_weights, trusted_motion
+from tests.line import WALL, line_of, solution_of
+from tests.solution.test_unique_forces import SETTINGS, associative, ignored
+
+
+@pytest.fixture(scope="module")
+def program() -> Program:
+    return line_of(WALL, "parameters.n=6").program
+
+
+def run_of(program: Program, **settings: Any) -> AssociativeRun:
+    return AssociativeRun(program, replace(SETTINGS, **settings), ignored, 1, [])
+
+
+# --- going on from a solution -----------------------------------------------------------------------------------------
+
+
+def held(program: Program, **settings: Any) -> Any:
+    return cone_solver(in_velocities(program).cone_program, replace(SETTINGS, **settings), ignored)
+
+
+@pytest.mark.parametrize("solver", ["mbla", "auto"])
+def test_a_sharpened_program_goes_on_where_it_ended(
+    program: Program, solver: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Both runs together are the run that the smaller tolerance makes from the beginning."""
+    monkeypatch.setattr("mbla.solution.cone_solver.OWN_FROM", 1)
+    rough, sharp = held(program, solver=solver, tolerance=1e-4), held(program, solver=solver, tolerance=1e-9)
+    first = rough.solve(1, 1.0)
+    assert first.status is Status.SOLVED
+    assert sharpen(rough, 1e-9)
+    second, whole = rough.solve(2, 1.0), sharp.solve(1, 1.0)
+    assert second.status is Status.SOLVED
+    assert first.iterations + second.iterations == whole.iterations
+    assert second.objective == pytest.approx(whole.objective, rel=1e-12)
+    assert abs(first.objective / whole.objective - 1.0) > 1e-9
+
+
+def test_what_cannot_go_on_says_so(program: Program) -> None:
+    assert not sharpen(held(program, solver="mbla"), 1e-9)  # nothing was solved yet
+    clarabel = held(program, solver="clarabel")
+    clarabel.solve(1, 1.0)
+    assert not sharpen(clarabel, 1e-9)
+
+
+def test_bounds_too_far_apart_are_brought_together_by_going_on(
+    program: Program, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def iterations() -> int:
+        run = run_of(program, solver="mbla", tolerance=1e-4, gap=1e-7)
+        answer = solve_until_proved(run, in_velocities(program))
+        assert answer.distance <= 1e-7
+        assert len(run.records) > 1
+        return sum(record.iterations for record in run.records)
+
+    gone_on = iterations()
+    monkeypatch.setattr(proved_answer, "sharpen", lambda *_: False)
+    assert gone_on < iterations()
+
+
+# --- large models -----------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(("asked", "wanted"), [(1e-3, 1e-3), (3e-7, 1e-5), (1e-7, 1e-5), (5e-8, 5e-8)])
+def test_bounds_that_verify_are_enough_on_large_models_unless_closer_ones_are_asked_for(
+    program: Program, asked: float, wanted: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    run = run_of(program, gap=asked)
+    assert wanted_gap(run) == asked
+    monkeypatch.setattr(proved_answer, "LARGE", len(program.dead_load) - 1)
+    assert wanted_gap(run) == wanted
+
+
+def test_a_mechanism_that_proves_its_factor_is_not_repaired_again_on_large_models(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    line = line_of(WALL, "parameters.n=6", "analysis.flow_rule=associative")
+    solution, tried = solution_of(line), []
+
+    def counted(*arguments: Any) -> Iterator[FloatArray]:
+        for motion in repaired_mechanisms(*arguments):
+            tried.append(motion)
+            yield motion
+
+    def bounds(large: int, near: float) -> tuple[int, float, float]:
+        monkeypatch.setattr(proofs, "LARGE", large)
+        monkeypatch.setattr(proofs, "LARGE_GAP", near)
+        tried.clear()
+        checks = verified_checks(line, solution)
+        return len(tried), checks.static_bound, checks.kinematic_bound
+
+    monkeypatch.setattr(proofs, "repaired_mechanisms", counted)
+    every, static, kinematic = bounds(10**9, 1e-5)
+    assert every > 1
+    once = bounds(0, 1e-5)
+    assert once[0] == 1
+    assert once[1:] == pytest.approx((static, kinematic), rel=1e-5)
+    assert bounds(0, 0.0)[0] == every  # none is so near
+
+
+def verified_checks(line: Any, solution: Any) -> Any:
+    from mbla.solution.verify import verify
+
+    return verify(line.model, line.contacts, line.load_case, solution)
+
+
+def test_least_forces_of_too_many_points_are_not_sought(program: Program, monkeypatch: pytest.MonkeyPatch) -> None:
+    state, weights = associative(program), point_weights(program, None)
+    monkeypatch.setattr(unique_forces, "MOST_POINTS", program.n_points - 1)
+    found = least_forces(program, state, weights, SETTINGS, ignored)
+    assert found.state is state
+    assert found.programs == ()
+    assert found.remark == unique_forces.NOT_SOUGHT
+    monkeypatch.setattr(unique_forces, "MOST_POINTS", program.n_points)
+    assert least_forces(program, state, weights, SETTINGS, ignored).remark == ""
+
+
+def test_newtons_method_for_least_forces_is_short_on_large_models(
+    program: Program, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    state, weights = associative(program), point_weights(program, None)
+    monkeypatch.setattr(least_search, "MOST_OF_LARGE", 2)
+
+    def steps(first: Callable[[Search], bool]) -> int:
+        search = Search(program, state, weights, SolverSettings(1e-10, regularization=1e-8), ignored, 1)
+        start = search.solve(trusted_motion(program, state), 0.0)
+        far = replace(start, multipliers=np.zeros_like(start.multipliers))
+        assert first(search)
+        search.by_newton(far, SHARES)
+        return sum(record.iterations for record in search.records[1:])
+
+    assert steps(lambda search: not search.large) > 2
+    monkeypatch.setattr(least_search, "OWN_FROM", len(program.dead_load))
+    assert steps(lambda search: search.large) == 2
+
+
+def test_large_models_without_least_forces_by_the_mechanism_are_given_up(monkeypatch: pytest.MonkeyPatch) -> None:
+    """In this wall, other than in the smaller one, not all joints move."""
+    program = line_of(WALL, "parameters.n=10").program
+    state = associative(program)
+    too_high, weights = replace(state, load_factor=1.001 * state.load_factor), point_weights(program, None)
+
+    def programs() -> int:
+        found = least_forces(program, too_high, weights, SETTINGS, ignored)
+        assert found.remark == unique_forces.NOT_FOUND
+        return len(found.programs)
+
+    small = programs()
+    monkeypatch.setattr(least_search, "OWN_FROM", len(program.dead_load))
+    assert programs() == 1 < small
