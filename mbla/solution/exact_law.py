@@ -70,18 +70,20 @@ def exact_step(
     most_steps: int,
     *,
     fixed_load: bool = False,
+    balanced: float = CONVERGED,
 ) -> LawStep:
     """Solve one step from forces ``anchor``, (n_points, components), starting from velocities and a load factor.
 
     slope      : (n_points,) tangent of the dilatancy angle
     fixed_load : the load factor stays as given and f_L·u is free
+    balanced   : unbalanced force, in mean block loads, at which it ends; with 0 where rounding lets it fall no further
 
     The last iterate is returned; whether it is good enough its residual says.
     """
     u, factor, count = velocities, load_factor, 0
     regularization = REGULARIZATION * stiffness.size / rho
     residual, state = _residual(stiffness, slope, anchor, rho, u, factor, fixed_load)
-    while np.abs(residual).max(initial=0.0) > CONVERGED and count < most_steps:
+    while np.abs(residual).max(initial=0.0) > balanced and count < most_steps:
         solve = stiffness.factorized(
             joint_tangents(stiffness.program, slope, rho, state), regularization, fixed_load=fixed_load
         )

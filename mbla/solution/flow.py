@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from mbla.arrays import FloatArray
 from mbla.deck.analysis import AnalysisSection
 from mbla.program.kinematic import friction_polygon
 from mbla.program.program import Program
@@ -15,10 +16,11 @@ from mbla.solution.cone_solution import Log
 from mbla.solution.dilatancy import solve_dilatancy
 from mbla.solution.interior.solve_interior import solve_interior
 from mbla.solution.law_state import SequenceResult
+from mbla.solution.light_blocks import SOLVED, sharpened
 from mbla.solution.livesley import solve_livesley
 from mbla.solution.load_path import solve_path
 from mbla.solution.lowest import solve_lowest
-from mbla.solution.proximal import solve_proximal
+from mbla.solution.proximal import SOLVED, solve_proximal
 from mbla.solution.published import solve_published
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Status
@@ -55,9 +57,18 @@ def solve_flow(flow: Flow) -> SequenceResult:
     if flow.analysis.flow_rule == "livesley":
         return _livesley(flow)
     if flow.analysis.flow_rule == "dilatancy":
-        return _with_shortfall(flow, _dilatancy(flow))
+        return _with_shortfall(flow, _sharpened(flow, flow.program.limits.dilatancy, _dilatancy(flow)))
     sequence = SCHEMES[flow.analysis.scheme](flow)
-    return sequence if flow.analysis.scheme == "published" else _with_shortfall(flow, sequence)
+    if flow.analysis.scheme == "published":
+        return sequence
+    return _with_shortfall(flow, _sharpened(flow, 0.0, sequence))
+
+
+def _sharpened(flow: Flow, slope: FloatArray | float, sequence: SequenceResult) -> SequenceResult:
+    """With a state that light blocks fit too, unless a rough one was asked for."""
+    if flow.settings.residual > SOLVED:
+        return sequence
+    return sharpened(flow.program, flow.associative, slope, sequence)
 
 
 def _with_shortfall(flow: Flow, sequence: SequenceResult) -> SequenceResult:
@@ -77,9 +88,12 @@ def _interior(flow: Flow) -> SequenceResult:
 
 
 def _auto(flow: Flow) -> SequenceResult:
-    """The proximal scheme, and the interior path where that stalls above the residual that is asked for."""
-    sequence = _proximal(flow)
-    if sequence.state is not None and sequence.state.residual <= flow.settings.residual:
+    """The proximal scheme, and the interior path where that stalls above the residual of a state of the exact law.
+
+    A sharper one is asked of what was found: the other scheme would end in another state, and costs many times more.
+    """
+    sequence, enough = _proximal(flow), max(SOLVED, flow.settings.residual)
+    if sequence.state is not None and sequence.state.residual <= enough:
         return sequence
     if sequence.status is Status.TIME_LIMIT:
         return sequence

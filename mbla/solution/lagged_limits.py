@@ -25,6 +25,10 @@ Limits that swing by −q each time come to rest where the share is below 2/(1 +
 
 CONVEX_STEPS = 30
 
+AHEAD = 0.01
+"""Unbalanced force under limits that are held, over that under the joints' own limits, from which on the limits have to
+move before anything comes nearer to balance."""
+
 LINE_STEPS = 20
 
 FLAT = 0.5
@@ -37,7 +41,7 @@ def by_lagged_limits(problem: SpringProblem, kappa: float, u: FloatArray) -> tup
     for lag in range(1, LAGS + 1):
         if problem.late:
             break
-        u = convex_minimum(problem, kappa, u, limit)
+        u = convex_minimum(problem, kappa, u, limit, AHEAD)
         misfit = joints_at(problem, kappa, u, None).limit - limit
         share = max(0.5 * share, LEAST_MOVE) if misfit @ before < 0.0 else min(1.5 * share, 1.0)
         limit, before = limit + share * misfit, misfit
@@ -48,11 +52,17 @@ def by_lagged_limits(problem: SpringProblem, kappa: float, u: FloatArray) -> tup
     return False, u
 
 
-def convex_minimum(problem: SpringProblem, kappa: float, u: FloatArray, limit: FloatArray) -> FloatArray:
-    """Equilibrium under given limits of shear, (n_points,), from u; the unbalanced force is the negative gradient."""
+def convex_minimum(
+    problem: SpringProblem, kappa: float, u: FloatArray, limit: FloatArray, enough: float = 0.0
+) -> FloatArray:
+    """Equilibrium under given limits of shear, (n_points,), from u; the unbalanced force is the negative gradient.
+
+    enough : unbalanced force that may be left, over that under the joints' own limits: it is not worth while to find
+             the minimum any better than the limits are known
+    """
     now = joints_at(problem, kappa, u, limit)
     for _ in range(CONVEX_STEPS):
-        if balanced(problem, u, now):
+        if balanced(problem, kappa, u, now) or np.linalg.norm(now.unbalanced) <= enough * _own_norm(problem, kappa, u):
             break
         step = newton_step(problem, kappa, now, lagged=True)
         if step is None:
@@ -67,6 +77,11 @@ def convex_minimum(problem: SpringProblem, kappa: float, u: FloatArray, limit: F
         u = u + _line_minimum(slope_at, descent) * step
         now = joints_at(problem, kappa, u, limit)
     return u
+
+
+def _own_norm(problem: SpringProblem, kappa: float, u: FloatArray) -> float:
+    """Norm of the unbalanced force under the joints' own limits."""
+    return float(np.linalg.norm(joints_at(problem, kappa, u, None).unbalanced))
 
 
 def _line_minimum(slope_at: Callable[[float], float], descent: float) -> float:

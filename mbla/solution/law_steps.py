@@ -96,12 +96,13 @@ def next_step(stepper: Stepper, anchor: FloatArray, rho: float, before: Step | N
     if step is not None:
         return step
     law = exact_law(stepper.program, stepper.slope)
-    if before is not None and _moved(before, anchor) < CREEPING:
+    first = 0 if before is None else max(before.shorter - 1, 0)
+    if before is not None and before.exact and moved_by(before, anchor) < CREEPING:
         result = _interior(stepper, law, anchor, before.rho / LONGER, before, number, START_SHARE)
         work += result.iterations
         if result.converged:
             return _polished(stepper, anchor, before.rho / LONGER, result, work)
-    first = 0 if before is None else max(before.shorter - 1, 0)
+        first = before.shorter  # the next longer one is longer than the one just tried in vain
     for shorter in range(first, SHORTEST):
         size = rho * SHORTER**shorter
         result = _interior(stepper, law, anchor, size, before, number)
@@ -132,8 +133,8 @@ def lagged_step(stepper: Stepper, anchor: FloatArray, rho: float, number: int) -
     return _polished(stepper, anchor, rho, result, result.iterations) if result.converged else None
 
 
-def _moved(before: Step, anchor: FloatArray) -> float:
-    """Change of the forces by the step before, relative."""
+def moved_by(before: Step, anchor: FloatArray) -> float:
+    """Change of the forces from the anchor of a step to ``anchor``, relative."""
     return float(np.linalg.norm(anchor - before.anchor)) / max(float(np.linalg.norm(anchor)), 1e-300)
 
 

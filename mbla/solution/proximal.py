@@ -32,7 +32,7 @@ from mbla.solution.associative import AssociativeResult
 from mbla.solution.cone_solution import ConeSolution, Log
 from mbla.solution.gravity import gravity_forces
 from mbla.solution.law_state import LawState, SequenceResult, law_state, residual_with_closing
-from mbla.solution.law_steps import Step, Stepper, continuing_step, lagged_step, next_step
+from mbla.solution.law_steps import CREEPING, Step, Stepper, continuing_step, lagged_step, moved_by, next_step
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import ProgramRecord, Status
 from mbla.solution.stiffness import stiffness_of
@@ -49,6 +49,12 @@ EXACT_STEP, CONVEX_STEP = "exact step", "convex step"
 
 CONVEX_STEPS = 4
 """Convex steps after the first before an exact one is looked for again; each ends with a try of Newton's method."""
+
+SHORT, MOST_CONVEX = 2, 16
+"""An exact step shortened so many times, by which the forces change by less than ``CREEPING``, is followed by convex
+steps of the usual length; each time by twice as many, up to this. On a planar wall of 40 by 40 units such steps raised
+the load factor by 1.3e-4 each, at the cost of two convex ones that raised it by 5e-3 together.
+"""
 
 EXACT, SETTLED = 1e-12, 1e-9
 FITTING, LAST_STEPS = 1e-9, 8
@@ -82,6 +88,7 @@ class ProximalRun:
     """What a sequence has so far; ``states`` in the order in which they were reached.
 
     stress_free : state of the stress-free assembly under the dead load where it was found before
+    convex : convex steps that the next exact one that creeps is followed by
     """
 
     stepper: Stepper
@@ -89,6 +96,7 @@ class ProximalRun:
     states: list[LawState] = field(default_factory=list)
     peak: float = -np.inf
     stress_free: Weakening | None = None
+    convex: int = CONVEX_STEPS
 
     @property
     def program(self) -> Program:
@@ -156,11 +164,20 @@ def _step(
     number = len(run.records) + 1
     step = next_step(run.stepper, anchor, rho, before, number) if convex_steps == 0 else None
     if step is not None:
-        return step, EXACT_STEP, 0
+        return step, EXACT_STEP, _convex_after(run, step)
     step = lagged_step(run.stepper, anchor, rho, number)
     if step is not None and step.exact:
         return step, EXACT_STEP, 0
     return step, CONVEX_STEP, convex_steps - 1 if convex_steps > 0 else CONVEX_STEPS
+
+
+def _convex_after(run: ProximalRun, step: Step) -> int:
+    """How many convex steps are to follow an exact one: none unless it creeps."""
+    if step.shorter < SHORT or moved_by(step, step.forces) > CREEPING:
+        return 0
+    follow = run.convex
+    run.convex = min(2 * run.convex, MOST_CONVEX)
+    return follow
 
 
 def _settled(states: list[LawState]) -> bool:

@@ -28,7 +28,7 @@ def newtons_method(problem: SpringProblem, kappa: float, u: FloatArray) -> tuple
     now = joints_at(problem, kappa, u, None)
     nearest, least, uphill = u, float(np.linalg.norm(now.unbalanced)), 0
     for _ in range(NEWTON_STEPS):
-        if balanced(problem, u, now):
+        if balanced(problem, kappa, u, now):
             return True, u
         step = None if problem.late else newton_step(problem, kappa, now, lagged=False)
         if step is None:
@@ -39,7 +39,7 @@ def newtons_method(problem: SpringProblem, kappa: float, u: FloatArray) -> tuple
             nearest, least, uphill = u, norm, 0
         elif (uphill := uphill + 1) > MOST_UPHILL:
             return False, nearest
-    return balanced(problem, u, now), u
+    return balanced(problem, kappa, u, now), u
 
 
 def _backtracked(

@@ -29,11 +29,15 @@ from mbla.solution.stiffness import Stiffness, stiffness_of
 BALANCED = 1e-9
 """Unbalanced force of a block, over its own load, that counts as equilibrium."""
 
+NEARLY = 0.3
+"""Share of what the springs carry that may be left unbalanced in a state that is only on the way: the next one, on
+springs a tenth as strong, changes by ten times as much. Of 97 factorisations for a house of 1,105 blocks 30 went."""
+
 ROUNDING = 64 * np.finfo(float).eps
 """Unbalanced force, per unit of the largest displacement, that rounding leaves: falling blocks go as far as 1/κ."""
 
 PATTERN_FROM = 8
-"""Tangents after which the pattern is worked out: that takes as long as some five of them by products of sparse
+"""Tangents after which the pattern is worked out: that takes as long as some two of them by products of sparse
 matrices, each of which then takes three quarters of the time; many structures settle in six."""
 
 
@@ -63,6 +67,7 @@ class SpringProblem:
     deadline           : time.monotonic() at which to stop, or None
     shear_stiffness    : k_T, with k_N = 1
     pattern            : of A C Aᵀ, for springs that are diagonal; None: products of sparse matrices each time
+    on_the_way         : states are wanted ``NEARLY`` balanced only
     """
 
     equilibrium_matrix: sp.csr_array
@@ -75,6 +80,7 @@ class SpringProblem:
     deadline: float | None
     shear_stiffness: float = 1.0
     pattern: LatePattern | None = None
+    on_the_way: bool = False
 
     @property
     def late(self) -> bool:
@@ -120,10 +126,11 @@ def joint_forces(problem: SpringProblem, u: FloatArray) -> FloatArray:
     return joints_at(problem, 0.0, u, None).forces
 
 
-def balanced(problem: SpringProblem, u: FloatArray, joints: Joints) -> bool:
-    """Whether the joints balance the load of every block."""
-    rounding = ROUNDING * float(np.abs(u).max(initial=0.0))
-    return bool(np.all(np.abs(joints.unbalanced) <= np.maximum(BALANCED * problem.sizes, rounding)))
+def balanced(problem: SpringProblem, kappa: float, u: FloatArray, joints: Joints) -> bool:
+    """Whether the joints and the springs balance the load of every block."""
+    furthest = float(np.abs(u).max(initial=0.0))
+    share = max(BALANCED, NEARLY * kappa * furthest) if problem.on_the_way else BALANCED
+    return bool(np.all(np.abs(joints.unbalanced) <= np.maximum(share * problem.sizes, ROUNDING * furthest)))
 
 
 def joints_at(problem: SpringProblem, kappa: float, u: FloatArray, limit: FloatArray | None) -> Joints:

@@ -21,10 +21,10 @@ import numpy as np
 import scipy.sparse as sp
 from numpy.typing import NDArray
 
-from mbla.arrays import FloatArray, IntArray
+from mbla.arrays import FloatArray, IntArray, distinct
 from mbla.program.program import Program
+from mbla.solution.linear_algebra.elimination_order import elimination_order
 from mbla.solution.linear_algebra.general import GeneralFactorization, Solve
-from mbla.solution.linear_algebra.superlu import elimination_order
 
 
 @dataclass(frozen=True)
@@ -122,7 +122,7 @@ def stiffness_of(program: Program) -> Stiffness:
     every = np.arange(n)
     rows = place_of[np.concatenate([row, every, np.full(n, n), [n]])]
     columns = place_of[np.concatenate([column, np.full(n, n), every, [n]])]
-    keys = np.unique(columns * (n + 1) + rows)
+    keys = distinct(columns * (n + 1) + rows)
 
     def places(row: IntArray, column: IntArray) -> IntArray:
         return np.searchsorted(keys, place_of[column] * (n + 1) + place_of[row])
@@ -187,5 +187,5 @@ def _pattern(n: int, sets: list[tuple[IntArray, FloatArray]]) -> sp.coo_array:
     rows = [np.repeat(rows, rows.shape[1], axis=1).ravel() for rows, _ in sets]
     columns = [np.tile(rows, (1, rows.shape[1])).ravel() for rows, _ in sets]
     row, column = np.concatenate([*rows, np.arange(n)]), np.concatenate([*columns, np.arange(n)])
-    keys = np.unique(row * n + column)
+    keys = distinct(row * n + column)
     return sp.coo_array((np.ones(len(keys)), (keys // n, keys % n)), shape=(n, n))

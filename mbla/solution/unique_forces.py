@@ -129,6 +129,13 @@ def least_forces(
     iterations = min(settings.max_iterations, MOST_ITERATIONS)
     settings = replace(settings, tolerance=TOLERANCE, regularization=REGULARIZATION, max_iterations=iterations)
     search = _Search(program, state, weights, settings, log, first)
+    found = _least(search)
+    return replace(found, state=search.with_proved_factor(found.state))
+
+
+def _least(search: _Search) -> LeastForces:
+    """The least forces by the mechanism, or without it."""
+    program, state = search.program, search.state
     motion = point_motion(program, state, TOUCHING, program.limits.friction)
     by_mechanism, all_move = search.solve(motion, 0.0), _all_move(motion)
     if by_mechanism.fits and not all_move:
@@ -273,6 +280,14 @@ class _Search:
     def _factor_size(self) -> float:
         """Size of the load factor, or of a small one."""
         return max(abs(self.state.load_factor), SMALL_FACTOR * factor_size(self.program))
+
+    def with_proved_factor(self, least: LawState) -> LawState:
+        """The same forces with the load factor that was proved, where they carry it to rounding as well.
+
+        They do where it is small beside dead over live load. Their own may then lie outside of its bounds.
+        """
+        proved = replace(least, load_factor=self.state.load_factor)
+        return proved if self._fits(proved) else least
 
     def _fits(self, least: LawState) -> bool:
         """Residual, unbalanced force and change of load factor within what is allowed."""

@@ -29,7 +29,7 @@ from mbla.solution.load_scale import load_scale
 from mbla.solution.proofs import associative_bounds
 from mbla.solution.residuals import Residuals, residuals_of
 from mbla.solution.solution import Checks, Mechanics, Solution
-from mbla.solution.verify import ASSOCIATIVE_EQUILIBRIUM, GAP_TOLERANCE, LIVE_POWER, ROUNDING, SOLVED_RESIDUAL
+from mbla.solution.verify import GAP_TOLERANCE, LIVE_POWER, ROUNDING, SOLVED_EQUILIBRIUM, SOLVED_RESIDUAL
 from mbla.solution.verify import verify as verify_mechanics
 
 
@@ -118,7 +118,7 @@ def _bounds(model: Model, contacts: Contacts, load_case: LoadCase, inner: Mechan
 
 def _residual_failures(of: str, residuals: Residuals) -> list[str]:
     limits = (
-        ("equilibrium residual", residuals.equilibrium, ASSOCIATIVE_EQUILIBRIUM),
+        ("equilibrium residual", residuals.equilibrium, SOLVED_EQUILIBRIUM),
         ("yield violation", residuals.yielding, SOLVED_RESIDUAL),
         ("penetration", residuals.penetration, SOLVED_RESIDUAL),
         ("complementarity residual", residuals.complementarity, SOLVED_RESIDUAL),

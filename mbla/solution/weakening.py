@@ -6,7 +6,8 @@ On springs of κ times the size of each block's load the assembly always finds a
 - goes to zero in proportion to κ where the joints carry the load;
 - stays where they do not: the block falls, and the springs hold it.
 
-Each state starts from the one before. Where s falls in proportion, κ is reduced to its last value in one go.
+Each state starts from the one before. Where s falls in proportion, κ is reduced to its last value in one go. Where no
+joint has to open or slide, as in most walls, the state is linear in the load: one step finds it on the weakest springs.
 """
 
 from __future__ import annotations
@@ -22,7 +23,8 @@ from mbla.arrays import FloatArray, IntArray
 from mbla.program.program import Program
 from mbla.program.yield_conditions.limits import YieldLimits
 from mbla.solution.settings import SolverSettings
-from mbla.solution.spring_problem import LatePattern, SpringProblem, joint_forces, spring_problem
+from mbla.solution.spring_newton import newton_step
+from mbla.solution.spring_problem import LatePattern, SpringProblem, balanced, joint_forces, joints_at, spring_problem
 from mbla.solution.spring_state import spring_state
 
 SHEAR_STIFFNESSES = (1.0, 0.4)
@@ -181,9 +183,12 @@ class _State:
 
 def _weaken(problem: SpringProblem, blocks: _Blocks, kappa: float, start: FloatArray) -> tuple[Weakening, _State]:
     """Weaken the springs, from κ on, until the outcome is clear; the outcome with the last state."""
+    last = _State(kappa, start, np.nan, -1)
+    elastic = None if problem.late or np.any(start) else _elastic_state(problem, blocks)
+    if elastic is not None:
+        return _outcome(Outcome.CARRIED, elastic), elastic
     states: list[_State] = []
     step, leaps, failures = DECADE, True, 0
-    last = _State(kappa, start, np.nan, -1)
     while True:
         state = _state_at(problem, blocks, kappa, states or [last])
         leapt = bool(states) and kappa < step * (1 - ROUNDING) * last.kappa
@@ -214,19 +219,39 @@ def _outcome(outcome: Outcome, state: _State, reason: str = "") -> Weakening:
     return Weakening(outcome, None if state.block < 0 else state.block, state.share, reason)
 
 
+def _elastic_state(problem: SpringProblem, blocks: _Blocks) -> _State | None:
+    """The state in which every joint sticks and is closed, if that carries the load; None where it does not.
+
+    It is the first step of Newton's method from where nothing has moved. What goes on from another state has none.
+    """
+    u = np.zeros(len(problem.load))
+    step = newton_step(problem, WEAKEST, joints_at(problem, WEAKEST, u, None), lagged=False)
+    if step is None or not balanced(problem, WEAKEST, step, joints_at(problem, WEAKEST, step, None)):
+        return None
+    state = _state(blocks, WEAKEST, step)
+    return state if state.share < CARRIED_SHARE else None
+
+
 def _state_at(problem: SpringProblem, blocks: _Blocks, kappa: float, states: list[_State]) -> _State | None:
     """The state on springs κ, from the last one or from where the last two point.
 
-    That is u = a + b/κ, which what stands and what falls both follow.
+    That is u = a + b/κ, which what stands and what falls both follow. States that decide nothing need not be balanced
+    well.
     """
     starts = [states[-1].displacements]
     if len(states) > 1:
         before, last = states[-2:]
         share = (1 / kappa - 1 / last.kappa) / (1 / last.kappa - 1 / before.kappa)
         starts.append(last.displacements + share * (last.displacements - before.displacements))
-    u = spring_state(problem, kappa, starts)
-    if u is None:
-        return None
+    on_the_way = replace(problem, on_the_way=kappa > PLATEAU_FROM * (1 + ROUNDING))
+    u = spring_state(on_the_way, kappa, starts)
+    if u is not None and on_the_way.on_the_way and blocks.shares(kappa, u).max() < CARRIED_SHARE:
+        u = spring_state(problem, kappa, [u])  # it is the last
+    return None if u is None else _state(blocks, kappa, u)
+
+
+def _state(blocks: _Blocks, kappa: float, u: FloatArray) -> _State:
+    """The state with displacements u on springs κ; the first block of those with the greatest share."""
     shares = blocks.shares(kappa, u)
     worst = int(np.flatnonzero(shares >= ALIKE * shares.max())[0])
     return _State(kappa, u, float(shares[worst]), int(blocks.index[worst]))

@@ -118,6 +118,15 @@ def thin() -> Iterator[Scene]:
             yield Scene(f"layers in a stack, {name}", "thin blocks", LAYERS, overrides, 0.3 / total, diagnosis=said)
 
 
+def flat() -> Iterator[Scene]:
+    """As thick as the rounding of coordinates: refused, with the place."""
+    for rule in FLOW_RULES:
+        for deck, what in ((ON_THIN_FOOT, "cube on a foot"), (LAYERS, "layers in a stack")):
+            overrides = ("parameters.t=1.0e-12", "parameters.a=0.3", ruled(rule))
+            name = f"{what}, {worded(rule)}, 1e-12 thick"
+            yield Scene(name, "thin blocks", deck, overrides, None, diagnosis=("lie at the same place",))
+
+
 def gaps() -> Iterator[Scene]:
     """Up to the tolerance a gap is rounding, and moves the answer by no more than itself; beyond it is named."""
     for rule in FLOW_RULES:
@@ -136,4 +145,4 @@ def gaps() -> Iterator[Scene]:
                 )
 
 
-SCENES = (*slender(), *small(), *thin(), *gaps())
+SCENES = (*slender(), *small(), *thin(), *flat(), *gaps())

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 from tests.extremes.outcome import Scene
 
@@ -220,6 +221,10 @@ blocks:
 )
 
 
+DOME_FACTOR = 0.57273048334
+"""Associative; from linear programs whose planes are cut to the friction cones, see ``test_expected``."""
+
+
 def _statics() -> list[Scene]:
     family = "statically indeterminate to the thousands"
     scenes = []
@@ -307,7 +312,8 @@ def _symmetric() -> list[Scene]:
     scenes += _both("four columns under a slab", family, FOUR, four_factor())
     scenes += _both("stack of which every joint slides", family, SLIDERS, 0.25, overrides=("parameters.n=19",))
     scenes += _both("row of 200 blocks that all slide", family, ROW, 0.5)
-    scenes += _both("radial dome pushed", family, DOME, None, diagnosis=("solved",))
+    associative, other = _both("radial dome pushed", family, DOME, DOME_FACTOR)
+    scenes += [associative, replace(other, expected=None, diagnosis=("solved",))]
     return scenes
 
 

@@ -7,7 +7,7 @@ import pytest
 from tests.extremes.outcome import Scene, outcome_of
 from tests.extremes.scenes import all_scenes
 
-EVERY = 20
+EVERY = 12
 """The normal run takes one of so many short scenes; the table has them all."""
 
 

@@ -16,6 +16,7 @@ import resource
 import subprocess
 import sys
 import time
+from collections.abc import Sequence
 from pathlib import Path
 
 from tests.performance.compare import read_rows
@@ -25,21 +26,24 @@ HERE = Path(__file__).parent
 PREFIX = "bench_"
 
 ESTIMATED = {
+    "accuracy": 2.0,
     "cone_solvers": 15.0,
     "contacts": 0.2,
     "deck": 0.3,
-    "factorization": 0.3,
-    "growth": 45.0,
+    "factorization": 0.5,
+    "growth": 60.0,
+    "line": 3.0,
     "model": 0.3,
-    "proximal": 4.0,
+    "proximal": 10.0,
+    "reductions": 1.5,
     "results": 0.5,
     "rivals": 30.0,
     "run": 0.5,
-    "solver": 1.0,
+    "solver": 3.0,
     "structures": 0.5,
-    "warm_start": 0.5,
+    "warm_start": 1.0,
 }
-"""Minutes on an idle core, before the first run by this command."""
+"""Minutes on an idle core, at most where there is a limit, before the first run by this command."""
 
 
 def benchmarks() -> list[str]:
@@ -53,6 +57,13 @@ def minutes_of(benchmark: str, folder: Path = RESULTS) -> float | None:
     rows = read_rows(path) if path.exists() else []
     taken = [float(row["clock"]) / 60.0 for row in rows if row["benchmark"] == benchmark]
     return taken[-1] if taken else ESTIMATED.get(benchmark)
+
+
+def total_of(minutes: Sequence[float | None]) -> str:
+    """Minutes of several benchmarks in words, and of how many they are not known."""
+    known = [each for each in minutes if each is not None]
+    said = f"{len(minutes)} benchmarks, together about {sum(known):.0f} minutes on an idle machine"
+    return said + (f" and those of {len(minutes) - len(known)} more" if len(known) < len(minutes) else "")
 
 
 def run(benchmark: str) -> bool:
@@ -81,8 +92,9 @@ def main(arguments: list[str]) -> int:
     for name in options.benchmarks:
         if name not in benchmarks():
             parser.error(f"no benchmark {name}; there are {', '.join(benchmarks())}")
-    failed = []
-    for name in options.benchmarks or benchmarks():
+    failed, chosen = [], options.benchmarks or benchmarks()
+    sys.stdout.write(f"{total_of([minutes_of(name) for name in chosen])}\n")
+    for name in chosen:
         minutes = minutes_of(name)
         sys.stdout.write(f"{name}: {'unknown' if minutes is None else f'about {minutes:.1f}'} minutes\n")
         sys.stdout.flush()

@@ -13,10 +13,14 @@ from datetime import UTC, datetime
 from functools import cache
 from importlib.metadata import version
 from pathlib import Path
+from tempfile import NamedTemporaryFile
+
+from tests.performance.columns import columns_of
 
 RESULTS = Path(__file__).parent / "results"
 PROJECT = Path(__file__).parents[2]
 REPEATS = 3
+OCCASION = ("date", "versions", "machine")
 LIBRARIES = ("mbla", "numpy", "scipy", "clarabel", "shapely", "h5py", "meshio", "pyyaml", "pydantic")
 
 
@@ -32,7 +36,9 @@ def best_time(run: Callable[[], object], repeats: int = REPEATS) -> tuple[float,
 
 
 def record(benchmark: str, row: Mapping[str, object]) -> None:
-    """Append a row to ``results/BENCHMARK.csv`` and say it; numbers get four digits.
+    """Put a row into ``results/BENCHMARK.csv`` and say it; numbers get four digits.
+
+    It replaces rows of the same case of that day, those versions and that machine: who measures again means the newest.
 
     Raises
     ------
@@ -43,18 +49,27 @@ def record(benchmark: str, row: Mapping[str, object]) -> None:
     path = RESULTS / f"{benchmark}.csv"
     values = {name: f"{value:.4g}" if isinstance(value, float) else str(value) for name, value in row.items()}
     full = {"date": datetime.now(UTC).date().isoformat(), **values, "versions": versions(), "machine": machine()}
-    new = not path.exists()
-    if not new:
-        with path.open(newline="", encoding="utf-8") as file:
-            header = next(csv.reader(file), [])
-        if header != list(full):
-            raise ValueError(f"{path}: has the columns {', '.join(header)}, the row has {', '.join(full)}")
-    with path.open("a", newline="", encoding="utf-8") as file:
-        writer = csv.DictWriter(file, full, lineterminator="\n")
-        if new:
-            writer.writeheader()
-        writer.writerow(full)
+    header, rows = _recorded(path)
+    if header and header != list(full):
+        raise ValueError(f"{path}: has the columns {', '.join(header)}, the row has {', '.join(full)}")
+    same = (*columns_of(benchmark, list(full)).case, *OCCASION)
+    kept = [other for other in rows if any(other[name] != full[name] for name in same)]
+    with NamedTemporaryFile("w", newline="", encoding="utf-8", dir=RESULTS, delete=False) as file:
+        writer = csv.DictWriter(file, list(full), lineterminator="\n")
+        writer.writeheader()
+        writer.writerows([*kept, full])
+    Path(file.name).chmod(0o644)  # a temporary file is its owner's alone
+    Path(file.name).replace(path)
     sys.stdout.write("  ".join(f"{name} {value}" for name, value in values.items()) + "\n")
+
+
+def _recorded(path: Path) -> tuple[list[str], list[dict[str, str]]]:
+    """Header and rows of a file, none where there is none."""
+    if not path.exists():
+        return [], []
+    with path.open(newline="", encoding="utf-8") as file:
+        reader = csv.DictReader(file)
+        return list(reader.fieldnames or []), list(reader)
 
 
 @cache

@@ -9,8 +9,9 @@ from pathlib import Path
 import pytest
 
 from tests.performance import compare, recording
-from tests.performance.all import benchmarks, minutes_of
-from tests.performance.compare import COLUMNS, TIMELESS, Columns, Row, columns_of, compared, lines_of, main, read_rows
+from tests.performance.all import benchmarks, minutes_of, total_of
+from tests.performance.columns import COLUMNS, Columns, columns_of
+from tests.performance.compare import TIMELESS, Row, compared, lines_of, main, read_rows
 
 CASES = Columns(("case",), ("seconds",))
 
@@ -119,6 +120,8 @@ def test_minutes_are_those_of_the_last_run_else_estimated(tmp_path: Path) -> Non
     assert set(benchmarks()) >= {"rivals", "growth", "solver"}
     assert minutes_of("rivals", tmp_path) == pytest.approx(30.0)
     assert minutes_of("unheard of", tmp_path) is None
+    assert all(minutes_of(name, tmp_path) is not None for name in benchmarks())
+    assert total_of([1.5, None, 3.0]) == "3 benchmarks, together about 4 minutes on an idle machine and those of 1 more"
     (tmp_path / "all.csv").write_text("date,benchmark,clock\n1,rivals,120\n2,rivals,180\n")
     assert minutes_of("rivals", tmp_path) == pytest.approx(3.0)
 

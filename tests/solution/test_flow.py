@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import numpy as np
 import pytest
 
+from mbla.solution import flow as flow_module
 from mbla.solution.associative import AssociativeResult
-from mbla.solution.flow import NOT_PUBLISHED, Flow, solve_flow
+from mbla.solution.flow import NOT_PUBLISHED, NOT_REACHED, Flow, solve_flow
+from mbla.solution.law_state import LawState, SequenceResult
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Status
 from tests.line import BLOCK, line_of
@@ -19,3 +22,21 @@ def test_another_scheme_than_the_published_one_is_said_to_have_been_used() -> No
     assert NOT_PUBLISHED in result.remarks
     assert result.state is not None
     assert line.program.scaling.load_factor(result.state.load_factor) == pytest.approx(0.5, rel=1e-9)
+
+
+def test_a_state_of_the_law_is_kept_though_a_sharper_one_was_asked_for(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Another scheme would lead to another state, at many times the cost; what was missed is said."""
+    line = line_of(BLOCK, "analysis.flow_rule=non_associative", "analysis.residual=1e-9")
+    state = LawState(np.zeros((0, 3)), np.zeros(0), 0.5, 4e-8)
+    found = SequenceResult(Status.SOLVED, state, "", ())
+
+    def elsewhere(*arguments: object, **more: object) -> SequenceResult:
+        raise AssertionError("the interior scheme was begun")
+
+    monkeypatch.setattr(flow_module, "solve_proximal", lambda *arguments: found)
+    monkeypatch.setattr(flow_module, "solve_interior", elsewhere)
+    nothing = AssociativeResult(Status.SOLVED, None, None, "", ())
+    settings = SolverSettings(1e-10, residual=1e-9)
+    result = solve_flow(Flow(line.program, nothing, line.deck.analysis, settings, lambda record: None))
+    assert result.state is state
+    assert result.remarks == (NOT_REACHED.format(4e-8, 1e-9),)

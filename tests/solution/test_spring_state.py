@@ -8,11 +8,13 @@ import numpy as np
 import pytest
 import scipy.sparse as sp
 
+from mbla.arrays import FloatArray
 from mbla.solution.lagged_limits import convex_minimum
 from mbla.solution.settings import SolverSettings
 from mbla.solution.spring_newton import newton_step
 from mbla.solution.spring_problem import (
     PATTERN_FROM,
+    Joints,
     LatePattern,
     SpringProblem,
     joints_at,
@@ -20,9 +22,9 @@ from mbla.solution.spring_problem import (
     stiffness_at,
 )
 from mbla.solution.spring_state import spring_state
-from mbla.solution.weakening import is_diagonal, springs_of, weaken_springs
+from mbla.solution.weakening import Outcome, is_diagonal, springs_of, weaken_springs
 from tests.line import BLOCK, WALL, line_of
-from tests.solution.standing_structures import rafters
+from tests.solution.standing_structures import arch, overhang, rafters, wall_with_opening
 
 
 def problem_of(text: str, *overrides: str) -> SpringProblem:
@@ -117,3 +119,65 @@ def test_the_share_is_what_friction_leaves_over() -> None:
     weakening = weaken_springs(line.program, "dead_load", line.program.limits, settings)
     # the load is sqrt(1 + 0.6²) weights; the moment of the push is balanced by the joints
     assert weakening.share == pytest.approx(0.1 / np.hypot(1, 0.6), rel=1e-2)
+
+
+def test_where_nothing_slides_or_opens_one_step_finds_the_state_that_the_path_leads_to(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    program, settings = line_of(WALL).program, SolverSettings(tolerance=1e-8)
+    steps = counted_steps(monkeypatch)
+    at_once = weaken_springs(program, "dead_load", program.limits, settings)
+    assert len(steps) == 1
+    monkeypatch.setattr("mbla.solution.weakening._elastic_state", lambda problem, blocks: None)
+    by_path = weaken_springs(program, "dead_load", program.limits, settings)
+    assert len(steps) == 5
+    assert at_once.outcome is by_path.outcome is Outcome.CARRIED
+    assert at_once.block == by_path.block
+    # springs carry 1e-7 of a load at the end of the path
+    assert at_once.forces == pytest.approx(by_path.forces, abs=1e-6)
+
+
+def test_where_joints_slide_one_step_decides_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
+    program = line_of(arch(0.15)).program
+    steps = counted_steps(monkeypatch)
+    weakening = weaken_springs(program, "dead_load", program.limits, SolverSettings(tolerance=1e-8))
+    assert weakening.outcome is Outcome.CARRIED
+    assert len(steps) > 5
+
+
+@pytest.mark.parametrize(
+    ("text", "outcome"),
+    [
+        pytest.param(arch(0.108), Outcome.CARRIED, id="thin arch"),
+        pytest.param(wall_with_opening((1.0, 2.0)), Outcome.FALLS, id="lintel squeezed between its jambs"),
+        pytest.param(overhang(1.001), Outcome.FALLS, id="overhang"),
+    ],
+)
+def test_how_well_states_on_the_way_are_balanced_changes_nothing(
+    text: str, outcome: Outcome, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    program, settings = line_of(text).program, SolverSettings(tolerance=1e-8)
+    steps = counted_steps(monkeypatch)
+    nearly = weaken_springs(program, "dead_load", program.limits, settings)
+    few = len(steps)
+    monkeypatch.setattr("mbla.solution.spring_problem.NEARLY", 0.0)
+    exactly = weaken_springs(program, "dead_load", program.limits, settings)
+    assert few < len(steps) - few
+    assert nearly.outcome is exactly.outcome is outcome
+    assert nearly.block == exactly.block
+    assert nearly.share == pytest.approx(exactly.share, rel=1e-3)
+    if outcome is Outcome.CARRIED:
+        assert nearly.forces == pytest.approx(exactly.forces, abs=1e-6)
+
+
+def counted_steps(monkeypatch: pytest.MonkeyPatch) -> list[float]:
+    """The stiffness of springs at every step of Newton's method from now on."""
+    steps: list[float] = []
+
+    def counted(problem: SpringProblem, kappa: float, joints: Joints, *, lagged: bool) -> FloatArray | None:
+        steps.append(kappa)
+        return newton_step(problem, kappa, joints, lagged=lagged)
+
+    for module in ("spring_newton", "lagged_limits", "weakening"):
+        monkeypatch.setattr(f"mbla.solution.{module}.newton_step", counted)
+    return steps

@@ -200,7 +200,8 @@ def _reduced_part(
     part: Scene, switches: ReductionSwitches, associative: bool, given: Mirrors
 ) -> tuple[Program, Mirror | None]:
     """The planar program, that of one half with its mirror, or the part's own."""
-    mirror = _first_mirror(part, switches, given) if len(part.points) else None
+    wanted = switches.planar or switches.mirror
+    mirror = _first_mirror(part, switches, given) if wanted and len(part.points) else None
     if mirror is None:
         return part.program, None
     if switches.planar and is_planar(part, mirror):

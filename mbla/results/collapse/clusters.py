@@ -122,14 +122,14 @@ class _Sums:
         squares = blocks.volumes * (velocity**2).sum(axis=1) + inertia * (rotation**2).sum(axis=1)
         self.matrices, self.vectors = _by_part(parts, matrices, count), _by_part(parts, vectors, count)
         self.squares, self.volumes = _by_part(parts, squares, count), _by_part(parts, blocks.volumes, count)
-        self.left = np.array([self._left(self.matrices[i], self.vectors[i], self.squares[i]) for i in range(count)])
+        self.left = _left_of(self.matrices, self.vectors, self.squares)
 
     def apart(self, first: int, second: int) -> float:
         """Speed by which two clusters differ over the lighter one."""
         if first == 0:
             return float(np.sqrt(self.squares[second] / self.volumes[second]))
-        both = self._left(*(values[first] + values[second] for values in (self.matrices, self.vectors, self.squares)))
-        more = max(both - self.left[first] - self.left[second], 0.0)
+        both = (self._of_both(values, first, second) for values in (self.matrices, self.vectors, self.squares))
+        more = max(float(_left_of(*both)[0]) - self.left[first] - self.left[second], 0.0)
         return float(np.sqrt(more / min(self.volumes[first], self.volumes[second])))
 
     def join(self, first: int, second: int) -> None:
@@ -137,13 +137,21 @@ class _Sums:
         for values in (self.matrices, self.vectors, self.squares, self.volumes):
             values[first] += values[second]
         if first:
-            self.left[first] = self._left(self.matrices[first], self.vectors[first], self.squares[first])
+            own = (values[first : first + 1] for values in (self.matrices, self.vectors, self.squares))
+            self.left[first] = _left_of(*own)[0]
 
     @staticmethod
-    def _left(matrix: FloatArray, vector: FloatArray, square: FloatArray) -> float:
-        if not matrix.any():
-            return 0.0
-        return max(float(square - vector @ np.linalg.solve(matrix, vector)), 0.0)
+    def _of_both(values: FloatArray, first: int, second: int) -> FloatArray:
+        return values[first : first + 1] + values[second : second + 1]
+
+
+def _left_of(matrices: FloatArray, vectors: FloatArray, squares: FloatArray) -> FloatArray:
+    """What is left of c when the best rigid motion of each cluster is taken off, (n,); 0 where there is no volume."""
+    filled = matrices.any(axis=(1, 2))
+    left = np.zeros(len(matrices))
+    motions = np.linalg.solve(matrices[filled], vectors[filled, :, None])[:, :, 0]
+    left[filled] = np.maximum(squares[filled] - (vectors[filled] * motions).sum(axis=1), 0.0)
+    return left
 
 
 def _crosses(vectors: FloatArray) -> FloatArray:

@@ -6,9 +6,9 @@ from mbla.results.explanations.explanation import Explanation
 from mbla.results.outcome import CLEAN_RESIDUAL, UNIQUE
 from mbla.solution.verify import (
     APPROXIMATE_RESIDUAL,
-    ASSOCIATIVE_EQUILIBRIUM,
     GAP_TOLERANCE,
     LIVE_POWER,
+    SOLVED_EQUILIBRIUM,
     SOLVED_RESIDUAL,
 )
 from mbla.solution.verify_lock import LASTING
@@ -50,8 +50,10 @@ OF_RESIDUALS = (
     Explanation(
         "equilibrium-residual",
         "verification",
-        "Largest unbalanced force (or moment over the lever arm) of a block, over the mean load of a block.",
-        f"The load factor is good to about that share. {_LIMITS} With associative flow {ASSOCIATIVE_EQUILIBRIUM:g}.",
+        "Largest unbalanced force (or moment over the lever arm) of a block, over the mean load of a block, or over "
+        "what the block itself has to balance where that is less.",
+        f"The load factor is good to about that share. At most {SOLVED_EQUILIBRIUM:g} counts as solved, "
+        f"{APPROXIMATE_RESIDUAL:g} as approximate.",
         _STALLED,
         _TRY,
         aliases=("equilibrium residual", "equilibrium_residual"),

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 import scipy.sparse as sp
 
-from mbla.arrays import FloatArray, IntArray
+from mbla.arrays import FloatArray, IntArray, distinct
 from mbla.solution.linear_algebra import SymmetricPattern
 
 
@@ -45,7 +45,7 @@ def placed_products(n: int, columns: list[IntArray]) -> PlacedProducts:
     keys = [
         (held[:, column] * n + held[:, row]).ravel() for held, (row, column) in zip(columns, triangles, strict=True)
     ]
-    stored = np.unique(np.concatenate([*keys, np.arange(n) * (n + 1)]))
+    stored = distinct(np.concatenate([*keys, np.arange(n) * (n + 1)]))
     pointers = np.searchsorted(stored, np.arange(n + 1) * n).astype(np.int32)
     pattern = SymmetricPattern(n, (stored % n).astype(np.int32), pointers)
     return PlacedProducts(

@@ -16,7 +16,7 @@ import numpy as np
 import scipy.sparse as sp
 from scipy.sparse.csgraph import connected_components
 
-from mbla.arrays import FloatArray, IntArray
+from mbla.arrays import FloatArray, IntArray, distinct
 from mbla.program.program import Program
 from mbla.solution.linear_algebra.superlu import factors_on_the_diagonal
 
@@ -62,7 +62,7 @@ def matrix_map(program: Program) -> MatrixMap:
     entry = other[used] * size + pairs[used]
     row = np.arange(n)
     diagonal, last_column, last_row = row * size + row, n * size + row, row * size + n
-    stored = np.unique(np.concatenate([entry, diagonal, last_column, last_row, [n * size + n]]))
+    stored = distinct(np.concatenate([entry, diagonal, last_column, last_row, [n * size + n]]))
     counts = np.bincount(stored // size, minlength=size)
     return MatrixMap(
         columns=columns,
@@ -84,7 +84,7 @@ def _columns_of_points(program: Program) -> tuple[IntArray, FloatArray]:
     row, column = (part.astype(np.int64) for part in matrix.coords)
     n_rows, components, n_points = matrix.shape[0], program.components, program.n_points
     point = column // components
-    keys = np.unique(point * n_rows + row)
+    keys = distinct(point * n_rows + row)
     of_point = keys // n_rows
     count = np.bincount(of_point, minlength=n_points)
     place = np.arange(len(keys)) - np.concatenate([[0], np.cumsum(count)])[of_point]

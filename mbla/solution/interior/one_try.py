@@ -86,6 +86,7 @@ class Try:
     watch  : called at every step
     late   : whether the time is over
     wanted : residual of a state with which the path is not taken up again, and above ``SOLVED`` not followed further
+    sharp  : residual of a state with which the path is not followed further, where that is below ``EXACT``
     """
 
     program: Program
@@ -95,6 +96,7 @@ class Try:
     watch: Callable[[Moment], None]
     late: Callable[[], bool]
     wanted: float = SOLVED
+    sharp: float = EXACT
     factorizations: int = 0
     best: LawState | None = None
     started: float = field(default_factory=time.perf_counter)
@@ -102,12 +104,12 @@ class Try:
 
     def over(self) -> bool:
         """Whether the state is exact, or factorisations or time are used up."""
-        enough = self.wanted if self.wanted > SOLVED else min(EXACT, self.wanted)
+        enough = self.wanted if self.wanted > SOLVED else min(EXACT, self.sharp)
         exact = self.best is not None and self.best.residual <= enough
         return exact or self.factorizations >= self.most or self.late()
 
     def solved(self) -> bool:
-        """Whether a state of the exact law has been found that is as sharp as asked for."""
+        """Whether a state of the exact law has been found, or one as rough as asked for."""
         return self.best is not None and self.best.residual <= self.wanted
 
     def reached(self, point: PathVector, step: float) -> LawState:

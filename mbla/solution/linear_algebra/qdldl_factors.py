@@ -14,7 +14,7 @@ import numpy as np
 import qdldl
 import scipy.sparse as sp
 
-from mbla.arrays import FloatArray
+from mbla.arrays import FloatArray, IntArray
 from mbla.solution.linear_algebra.pattern import SymmetricPattern
 
 
@@ -57,3 +57,20 @@ class QdldlFactors:
         for number in range(rhs.shape[1]):
             answer[::-1, number] = self._solver.solve(rhs[::-1, number])
         return answer
+
+
+def minimum_degree_order(n: int, row: IntArray, column: IntArray) -> IntArray:
+    """Approximate minimum degree order of a graph of n nodes, (n,) numbers of nodes.
+
+    row, column : (n_links,) ends of the links, every link once, row < column
+
+    The library gives it out with the factors of a matrix alone: here of one that cannot break down.
+    """
+    if n == 0:
+        return np.zeros(0, dtype=np.int64)
+    links = np.bincount(row, minlength=n) + np.bincount(column, minlength=n)
+    every = np.arange(n)
+    entries = np.concatenate([links + 1.0, np.full(len(row), -1.0)])
+    places = (np.concatenate([every, row]), np.concatenate([every, column]))
+    dominant = sp.csc_matrix((entries, places), shape=(n, n))
+    return np.asarray(qdldl.Solver(dominant, upper=True).factors()[2], dtype=np.int64)

@@ -14,7 +14,7 @@ import numpy as np
 import scipy.sparse as sp
 import scipy.sparse.linalg as spla
 
-from mbla.arrays import FloatArray, IntArray
+from mbla.arrays import FloatArray
 
 Solve = Callable[[FloatArray], FloatArray]
 
@@ -58,15 +58,6 @@ def factors_on_the_diagonal(
     except RuntimeError:
         return None
     return factors
-
-
-def elimination_order(pattern: sp.coo_array | sp.csc_array) -> IntArray:
-    """Minimum degree order of a symmetric pattern of ones, from a factorisation that cannot break down."""
-    matrix = sp.csc_matrix(pattern)
-    dominant = sp.csc_matrix(matrix + sp.diags_array(np.asarray(matrix.sum(axis=1)).ravel()))
-    factors = factors_on_the_diagonal(dominant, 0.0)
-    assert factors is not None
-    return np.argsort(factors.perm_c)
 
 
 def _solver(factors: spla.SuperLU) -> Solve:

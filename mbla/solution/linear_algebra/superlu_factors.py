@@ -12,8 +12,9 @@ import numpy as np
 import scipy.sparse as sp
 
 from mbla.arrays import FloatArray
+from mbla.solution.linear_algebra.elimination_order import elimination_order
 from mbla.solution.linear_algebra.pattern import SymmetricPattern
-from mbla.solution.linear_algebra.superlu import elimination_order, factors_on_the_diagonal
+from mbla.solution.linear_algebra.superlu import factors_on_the_diagonal
 
 if TYPE_CHECKING:
     from scipy.sparse.linalg import SuperLU

@@ -165,6 +165,15 @@ def test_every_try_is_recorded_and_the_log_moves() -> None:
     assert path[-1].load_factor == pytest.approx(result.programs[-1].load_factor, rel=0.1)
 
 
+def test_a_sharper_residual_than_there_is_begins_no_further_path() -> None:
+    """No state is exact to 1e-30; the first try ends in one of the law."""
+    program, scheme = line_of(BLOCK).program, InteriorScheme(tries=4)
+    settings = SolverSettings(1e-8, residual=1e-30)
+    result = solve_interior(program, NOTHING_BEFORE, scheme, settings, lambda record: None)
+    assert result.status is Status.SOLVED
+    assert [record.kind for record in result.programs].count("interior") == 1
+
+
 def test_a_path_cut_short_is_not_called_solved() -> None:
     """Twenty factorisations are too few for the wall: the state is far from the law, and says so."""
     result = result_of(line_of(FERRIS_3).program, tries=2, most=20)
