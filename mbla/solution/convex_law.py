@@ -27,8 +27,16 @@ from mbla.solution.convex_state import with_motions
 from mbla.solution.exact_law import CONVERGED, REGULARIZATION
 from mbla.solution.linear_algebra.superlu import factorize
 
-MOST_STEPS = 30
-BACKTRACKS = 10
+MOST_STEPS = 60
+"""Factorisations of one step."""
+
+BACKTRACKS = 3
+"""Halvings of a step before it is damped more instead."""
+
+FIRST_DAMPING, MORE, LESS, MOST_DAMPING = 1e6, 1e3, 1e-2, 1e12
+"""Multiples of the regularisation, 1e-12 of the stiffness, that damp a step which does not lessen what is unbalanced:
+the first, by how much it grows and falls again, and the most. Open interfaces have no stiffness against slip, and
+undamped steps ended at their first on walls of 6 and 10 courses; damped the former come to 1e-10."""
 
 
 @dataclass(frozen=True)
@@ -86,26 +94,37 @@ def exact_convex_step(
     """Solve one step from forces ``anchor``, (n_points, 3), starting from velocities, slips and a load factor."""
     matrix = law.program.equilibrium_matrix
     stiffness = REGULARIZATION * (matrix.multiply(matrix)).sum(axis=1) / rho
-    u, factor = velocities, load_factor
+    u, factor, damping = velocities, load_factor, 1.0
     trial = _Trial.at(law, anchor, rho, u, factor)
     best = ConvexStep(u, factor, trial.forces, trial.largest, 0)
     for count in range(1, MOST_STEPS + 1):
-        step = trial.direction(law, rho, stiffness)
-        if step is None:
-            return best
-        size, norm = 1.0, float(np.linalg.norm(trial.residual))
-        for _ in range(BACKTRACKS):
-            moved = _Trial.at(law, anchor, rho, u + size * step[:-1], factor + size * float(step[-1]))
-            if np.linalg.norm(moved.residual) < (1.0 - 1e-4 * size) * norm:
-                break
-            size *= 0.5
-        else:
-            return replace(best, factorizations=count)
-        u, factor, trial = u + size * step[:-1], factor + size * float(step[-1]), moved
+        step = trial.direction(law, rho, damping * stiffness)
+        moved = None if step is None else _descent(law, anchor, rho, u, factor, step, trial)
+        if step is None or moved is None:
+            damping = max(damping * MORE, FIRST_DAMPING)
+            if damping > MOST_DAMPING:
+                return replace(best, factorizations=count)
+            continue
+        size, trial = moved
+        damping = max(1.0, damping * LESS) if size == 1.0 else damping
+        u, factor = u + size * step[:-1], factor + size * float(step[-1])
         best = ConvexStep(u, factor, trial.forces, trial.largest, count)
         if best.residual <= CONVERGED:
             break
     return best
+
+
+def _descent(
+    law: ConvexLaw, anchor: FloatArray, rho: float, u: FloatArray, factor: float, step: FloatArray, trial: _Trial
+) -> tuple[float, _Trial] | None:
+    """The largest of a few shares of a step that lessens what is unbalanced, and the trial there."""
+    size, norm = 1.0, float(np.linalg.norm(trial.residual))
+    for _ in range(BACKTRACKS):
+        moved = _Trial.at(law, anchor, rho, u + size * step[:-1], factor + size * float(step[-1]))
+        if np.linalg.norm(moved.residual) < (1.0 - 1e-4 * size) * norm:
+            return size, moved
+        size *= 0.5
+    return None
 
 
 @dataclass(frozen=True)

@@ -52,6 +52,10 @@ SOLVED, WARNED, APPROXIMATE = 1e-6, 1e-4, 1e-2
 QUIET = 1e-8
 """Tolerance of the proximal programs: velocities are divided by ρ."""
 
+PATIENCE = 15
+"""Proximal steps in which the least residual must fall to half of what it was, or the sequence is given up: walls of
+ten courses creep between 1e-3 and 1e-2 for as many steps as they are given."""
+
 SPREAD_STEPS = 10
 """Last steps that give the spread of a load factor that did not come to rest."""
 
@@ -74,13 +78,14 @@ class ConvexSequence:
 
 @dataclass
 class _Run:
-    """What a sequence has so far; ``states`` in the order in which they were reached."""
+    """What a sequence has so far; ``states`` in the order in which they were reached, ``of_steps`` residuals."""
 
     convex: ConvexProgram
     settings: SolverSettings
     log: Log
     records: list[ProgramRecord]
     states: list[ConvexState] = field(default_factory=list)
+    of_steps: list[float] = field(default_factory=list)
 
     def add(self, kind: str, solution: ConeSolution, factor: float) -> None:
         """Record a cone program."""
@@ -122,14 +127,17 @@ def solve_convex_proximal(
             return _broken_off(run, solution)
         state = _state_of(form, solution)
         run.states.append(state)
+        run.of_steps.append(state.residual)
         run.add("convex step", solution, state.load_factor)
         if state.residual <= EXACT or _is_enough(run):
             break
         due = step >= FIRST_TRY and (step - FIRST_TRY) % TRY_EVERY == 0 and state.residual < NEAR
         if due and _exact(run, law, anchor, rho, state):
             break
+        if _is_stuck(run):
+            break
         anchor = MOVE * state.forces + (1.0 - MOVE) * anchor
-    return _finished(run, max_programs)
+    return _finished(run)
 
 
 def _data(form: ConvexStaticForm, rho: float, anchor: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -186,7 +194,13 @@ def _is_enough(run: _Run) -> bool:
     return abs(states[-1].load_factor - states[-2].load_factor) <= wanted * abs(states[-1].load_factor)
 
 
-def _finished(run: _Run, max_programs: int) -> ConvexSequence:
+def _is_stuck(run: _Run) -> bool:
+    """Whether the last steps have not halved the least residual, those of the exact law left out."""
+    earlier, last = run.of_steps[:-PATIENCE], run.of_steps[-PATIENCE:]
+    return bool(earlier) and min(last) > 0.5 * min(earlier)
+
+
+def _finished(run: _Run) -> ConvexSequence:
     best = min(run.states, key=lambda state: state.residual)
     records, wanted = tuple(run.records), run.settings.residual
     if best.residual > SOLVED and _is_enough(run):
@@ -198,7 +212,7 @@ def _finished(run: _Run, max_programs: int) -> ConvexSequence:
     if best.residual <= SOLVED:
         return ConvexSequence(Status.SOLVED, best, "", records)
     words = (
-        f"the steps did not come to rest in {max_programs} programs: "
+        f"the steps did not come to rest in {len(run.of_steps)} programs: "
         f"forces and motions miss the law by {best.residual:.2g}"
     )
     factors = [state.load_factor for state in run.states[-SPREAD_STEPS:]]

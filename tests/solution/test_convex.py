@@ -254,3 +254,13 @@ load_cases:
         )
         values.append(factor(text))
     assert values[1] == pytest.approx(values[0], rel=1e-7)
+
+
+def test_damped_steps_of_the_exact_law_reach_it_on_a_wall() -> None:
+    """Undamped they ended at their first, and forces and motions missed the law by 2e-3."""
+    line = line_of(WALL, "parameters.n=6", "analysis.proximal.max_programs=30")
+    solution, checks = convex(line, "non_associative")
+    assert checks.verified, checks.failures
+    assert solution.mechanics is not None
+    assert checks.complementarity_residual < 1e-9
+    assert solution.mechanics.load_factor <= checks.kinematic_bound * (1 + 1e-9)
