@@ -18,20 +18,18 @@ def blocks_of(graph: sp.coo_array, size: int) -> sp.coo_array:
 
 def grid(m: int, n: int) -> sp.coo_array:
     """Nodes of a rectangular grid that touch their four neighbours and themselves."""
-    path = [sp.diags_array([np.ones(k - 1), np.ones(k), np.ones(k - 1)], offsets=[-1, 0, 1]) for k in (m, n)]
-    across, along = sp.kron(path[0], sp.eye_array(n)), sp.kron(sp.eye_array(m), path[1])
-    return sp.coo_array(((across + along) != 0).astype(float))
+    node = np.arange(m * n).reshape(m, n)
+    pairs = [(node, node), (node[1:], node[:-1]), (node[:-1], node[1:])]
+    pairs += [(node[:, 1:], node[:, :-1]), (node[:, :-1], node[:, 1:])]
+    row, column = (np.concatenate([pair[end].ravel() for pair in pairs]) for end in (0, 1))
+    return sp.coo_array((np.ones(len(row)), (row, column)), shape=(m * n, m * n))
 
 
-def fill(pattern: sp.coo_array, order: IntArray | str) -> int:
-    """Entries of the factor L in that order, or in one of SuperLU's own."""
-    held = sp.csc_array(pattern)
-    dominant = sp.csc_array(held + sp.diags_array(np.asarray(held.sum(axis=1)).ravel()))
-    own = isinstance(order, str)
-    ordered = dominant if own else sp.csc_array(dominant[order][:, order])
-    lu = spla.splu(
-        ordered, permc_spec=order if own else "NATURAL", diag_pivot_thresh=0.0, relax=1, options={"SymmetricMode": True}
-    )
+def fill(pattern: sp.coo_array, order: IntArray, own: str = "NATURAL") -> int:
+    """Entries of the factor L of the rows in that order, or in one of SuperLU's own on top of it."""
+    held = pattern.toarray()[np.ix_(order, order)]
+    dominant = sp.csc_array(held + np.diag(held.sum(axis=1)))
+    lu = spla.splu(dominant, permc_spec=own, diag_pivot_thresh=0.0, relax=1, options={"SymmetricMode": True})
     return int(lu.nnz)
 
 
@@ -67,7 +65,7 @@ def test_fill_is_that_of_the_order_of_all_rows_or_about(size: int) -> None:
     """That of SuperLU, as dear as a factorisation. On a small grid it fills 3 % less, on walls 10 % more."""
     pattern = blocks_of(grid(30, 30), size)
     own = fill(pattern, elimination_order(pattern))
-    assert own < 1.1 * fill(pattern, "MMD_AT_PLUS_A")
+    assert own < 1.1 * fill(pattern, np.arange(900 * size), "MMD_AT_PLUS_A")
     assert own < 0.8 * fill(pattern, np.arange(900 * size))
 
 
