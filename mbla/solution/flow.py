@@ -16,7 +16,7 @@ from mbla.solution.cone_solution import Log
 from mbla.solution.dilatancy import solve_dilatancy
 from mbla.solution.interior.solve_interior import solve_interior
 from mbla.solution.law_state import SequenceResult
-from mbla.solution.light_blocks import SOLVED, sharpened
+from mbla.solution.light_blocks import sharpened
 from mbla.solution.livesley import solve_livesley
 from mbla.solution.load_path import solve_path
 from mbla.solution.lowest import solve_lowest

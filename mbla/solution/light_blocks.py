@@ -28,15 +28,13 @@ from mbla.solution.exact_law import exact_step
 from mbla.solution.force_repair import carried_loads
 from mbla.solution.law_state import LawState, SequenceResult, law_state
 from mbla.solution.mechanics import lifted
+from mbla.solution.proximal import SOLVED
 from mbla.solution.solution import Status
 from mbla.solution.stiffness import stiffness_of
 
 BALANCED = 1e-8
 """Unbalanced force, over what the block carries, that needs no sharpening. On a light block upon one of 1e6 times its
 weight 9e-8 were worth 9e-7 of the load factor."""
-
-SOLVED = 1e-6
-"""Residual, block by block, up to which a sharpened state is solved."""
 
 NEAR = 1e-5
 """Relative difference of load factors up to which the associative state is the same but sharper."""

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Literal
+
 import numpy as np
 import pytest
 import scipy.sparse as sp
@@ -25,7 +27,7 @@ def grid(m: int, n: int) -> sp.coo_array:
     return sp.coo_array((np.ones(len(row)), (row, column)), shape=(m * n, m * n))
 
 
-def fill(pattern: sp.coo_array, order: IntArray, own: str = "NATURAL") -> int:
+def fill(pattern: sp.coo_array, order: IntArray, own: Literal["NATURAL", "MMD_AT_PLUS_A"] = "NATURAL") -> int:
     """Entries of the factor L of the rows in that order, or in one of SuperLU's own on top of it."""
     held = pattern.toarray()[np.ix_(order, order)]
     dominant = sp.csc_array(held + np.diag(held.sum(axis=1)))
