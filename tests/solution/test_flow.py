@@ -35,6 +35,9 @@ def test_a_state_of_the_law_is_kept_though_a_sharper_one_was_asked_for(monkeypat
 
     monkeypatch.setattr(flow_module, "solve_proximal", lambda *arguments: found)
     monkeypatch.setattr(flow_module, "solve_interior", elsewhere)
+    monkeypatch.setattr(
+        flow_module, "sharpened", lambda *arguments: arguments[-1]
+    )  # the state has no forces to look at
     nothing = AssociativeResult(Status.SOLVED, None, None, "", ())
     settings = SolverSettings(1e-10, residual=1e-9)
     result = solve_flow(Flow(line.program, nothing, line.deck.analysis, settings, lambda record: None))
