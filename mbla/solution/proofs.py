@@ -21,12 +21,12 @@ from mbla.model.model import LoadCase, Model
 from mbla.program import Program, assemble
 from mbla.program.yield_conditions import YieldLimits, yield_violation
 from mbla.solution.force_repair import repaired_forces
-from mbla.solution.guides import allowed_motion, left_to_balance
+from mbla.solution.guides import allowed_motion
 from mbla.solution.load_scale import LoadScale, forces_on_blocks
 from mbla.solution.mechanism_repair import repaired_mechanisms
-from mbla.solution.residuals import unbalanced_loads
+from mbla.solution.residuals import unbalanced_loads, unbalanced_wrenches
 from mbla.solution.solution import Mechanics
-from mbla.solution.statics import contact_resultants, contact_velocities, power
+from mbla.solution.statics import contact_velocities, power
 
 PROVED_RESIDUAL = 2e-9
 """Unbalanced force and excess over yield, relative to the scale of the block, with which forces still prove a bound."""
@@ -111,8 +111,7 @@ def _charge(
     mechanism: FloatArray,
 ) -> float:
     """What unbalanced forces and those beyond yield are worth in a mechanism, over its live power."""
-    acting = contact_resultants(model, contacts, forces) + load_case.dead_load + factor * load_case.live_load
-    left = left_to_balance(model, acting, scale.arms)
+    left = unbalanced_wrenches(model, contacts, load_case, forces, factor, scale)
     unbalanced = float(np.abs(np.einsum("bi,bi->b", left, mechanism)).sum())
     v = contact_velocities(model, contacts, mechanism)
     excess = float((yield_violation(forces, limits) * np.sqrt((v**2).sum(axis=1))).sum())

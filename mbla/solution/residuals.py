@@ -113,11 +113,18 @@ def unbalanced_loads(
 
     Of guided blocks only what their guides do not take counts.
     """
-    loads = load_case.dead_load + factor * load_case.live_load
-    acting = contact_resultants(model, contacts, contact_forces) + loads
-    unbalanced = np.abs(left_to_balance(model, acting, scale.arms))
+    unbalanced = np.abs(unbalanced_wrenches(model, contacts, load_case, contact_forces, factor, scale))
     unbalanced[:, 3:] /= scale.arms[:, None]
     return np.where(model.fixed, 0.0, unbalanced.max(axis=1))
+
+
+def unbalanced_wrenches(
+    model: Model, contacts: Contacts, load_case: LoadCase, contact_forces: FloatArray, factor: float, scale: LoadScale
+) -> FloatArray:
+    """What loads and contact forces leave on each block beside what its guides take, (n_blocks, 6) N, N m."""
+    loads = load_case.dead_load + factor * load_case.live_load
+    acting = contact_resultants(model, contacts, contact_forces) + loads
+    return left_to_balance(model, acting, scale.arms)
 
 
 def penetration_of(closing: FloatArray, speed: float, mechanism: FloatArray, arms: FloatArray) -> float:

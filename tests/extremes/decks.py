@@ -1,6 +1,8 @@
-"""Deck texts that several families of scenes share, and their load factors."""
+"""Deck texts that several families of scenes share, their load factors, and scenes under both flow rules."""
 
 from __future__ import annotations
+
+from tests.extremes.outcome import Scene
 
 HEAD = """\
 mbla: 1
@@ -61,3 +63,30 @@ def ruled(rule: str) -> str:
 def worded(rule: str) -> str:
     """A flow rule as names of scenes have it."""
     return rule.replace("_", "-")
+
+
+def under_both_rules(
+    name: str,
+    family: str,
+    deck: str,
+    expected: float | None,
+    tolerance: float = 1e-6,
+    diagnosis: tuple[str, ...] = (),
+    overrides: tuple[str, ...] = (),
+    *,
+    long: bool = False,
+) -> list[Scene]:
+    """With associative flow and without dilatancy."""
+    return [
+        Scene(
+            f"{name}, {rule}",
+            family,
+            deck,
+            (*overrides, ruled(rule)),
+            expected,
+            tolerance,
+            diagnosis,
+            long,
+        )
+        for rule in FLOW_RULES
+    ]

@@ -13,6 +13,7 @@ import numpy as np
 from scipy.optimize import brentq
 
 from tests.analytic.planar import polygon_arch
+from tests.extremes.decks import FLOW_RULES, ruled
 from tests.extremes.outcome import Scene
 
 VOUSSOIRS = 20
@@ -98,7 +99,7 @@ def _arch(offset: float, voussoirs: int, flow_rule: str) -> Scene:
         overrides=(
             f"parameters.n={voussoirs}",
             f"parameters.t={thickness!r}",
-            f"analysis.flow_rule={flow_rule}",
+            ruled(flow_rule),
         ),
         expected=expected,
         tolerance=max(1e-6, 1e-10 / offset) if offset > 0 else 0.0,
@@ -108,8 +109,5 @@ def _arch(offset: float, voussoirs: int, flow_rule: str) -> Scene:
 
 
 SCENES = tuple(
-    _arch(offset, voussoirs, rule)
-    for voussoirs in (10, 20, 40)
-    for offset in OFFSETS
-    for rule in ("associative", "non_associative")
+    _arch(offset, voussoirs, rule) for voussoirs in (10, 20, 40) for offset in OFFSETS for rule in FLOW_RULES
 )

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from tests.extremes.decks import under_both_rules
 from tests.extremes.outcome import Scene
 
 HEAD = """\
@@ -11,7 +12,6 @@ mbla: 1
 materials: {stone: {density: 2000}}
 contacts: {joint: dry}
 """
-RULES = ("associative", "non_associative")
 
 ROW = (
     HEAD
@@ -75,30 +75,6 @@ load_cases: {push: {live: [{acceleration: [1, 0, 0]}]}}
 )
 
 
-def _both(
-    name: str,
-    family: str,
-    deck: str,
-    expected: float | None,
-    *overrides: str,
-    long: bool = False,
-    tolerance: float = 1e-6,
-) -> list[Scene]:
-    """With associative flow and without dilatancy."""
-    return [
-        Scene(
-            f"{name}, {rule}",
-            family,
-            deck,
-            (*overrides, f"analysis.flow_rule={rule}"),
-            expected,
-            tolerance,
-            long=long,
-        )
-        for rule in RULES
-    ]
-
-
 def top_factor(n: int, height: float = 0.1, mu: float = 0.5) -> float:
     """The top block alone slides, or the upper k blocks turn about the edge of a joint: k/2 = factor (k - 1/2) h."""
     k = np.arange(1, n + 1)
@@ -109,13 +85,19 @@ def _scenes() -> list[Scene]:
     family, scenes = "chains and stacks", []
     for n, long in ((200, False), (2000, True)):
         size = f"parameters.n={n}"
-        scenes += _both(f"row of {n} blocks, all pushed", family, ROW, 0.5, size, long=long)
-        scenes += _both(f"row of {n} blocks, the first shoves all", family, SHOVED, 0.5 * n, size, long=long)
-        scenes += _both(f"hanging chain of {n} blocks", family, HANGING, 1.0, size, long=long)
+        scenes += under_both_rules(f"row of {n} blocks, all pushed", family, ROW, 0.5, overrides=(size,), long=long)
+        scenes += under_both_rules(
+            f"row of {n} blocks, the first shoves all", family, SHOVED, 0.5 * n, overrides=(size,), long=long
+        )
+        scenes += under_both_rules(f"hanging chain of {n} blocks", family, HANGING, 1.0, overrides=(size,), long=long)
     for n, long in ((100, False), (1000, True)):
         size = f"parameters.n={n}"
-        scenes += _both(f"stack of {n} blocks", family, STACK, min(0.5, 1 / (n * 0.1)), size, long=long)
-        scenes += _both(f"stack of {n} blocks, the top pushed", family, TOP, top_factor(n), size, long=long)
+        scenes += under_both_rules(
+            f"stack of {n} blocks", family, STACK, min(0.5, 1 / (n * 0.1)), overrides=(size,), long=long
+        )
+        scenes += under_both_rules(
+            f"stack of {n} blocks, the top pushed", family, TOP, top_factor(n), overrides=(size,), long=long
+        )
     return scenes
 
 

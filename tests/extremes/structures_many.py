@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 
+from tests.extremes.decks import under_both_rules
 from tests.extremes.outcome import Scene
 
 HEAD = """\
@@ -14,35 +15,7 @@ contacts: {joint: dry}
 """
 PUSH = "load_cases: {push: {live: [{acceleration: [1, 0, 0]}]}}\n"
 OUTLINES = "outlines-simplified"
-RULES = ("associative", "non_associative")
 SPATIAL = ("analysis.reductions.planar=false", "analysis.reductions.mirror=false")
-
-
-def _both(
-    name: str,
-    family: str,
-    deck: str,
-    expected: float | None,
-    tolerance: float = 1e-6,
-    diagnosis: tuple[str, ...] = (),
-    overrides: tuple[str, ...] = (),
-    *,
-    long: bool = False,
-) -> list[Scene]:
-    """With associative flow and without dilatancy."""
-    return [
-        Scene(
-            f"{name}, {rule}",
-            family,
-            deck,
-            (*overrides, f"analysis.flow_rule={rule}"),
-            expected,
-            tolerance,
-            diagnosis,
-            long,
-        )
-        for rule in RULES
-    ]
 
 
 ON_MANY = (
@@ -230,7 +203,7 @@ def _statics() -> list[Scene]:
     scenes = []
     for n, long in ((16, False), (32, True)):
         for h, word in ((1.0, "slides"), (4.0, "rocks")):
-            scenes += _both(
+            scenes += under_both_rules(
                 f"block on {n * n} fixed blocks, {word}",
                 family,
                 ON_MANY,
@@ -239,7 +212,7 @@ def _statics() -> list[Scene]:
                 long=long,
             )
     for h, word in ((1.0, "slides"), (4.0, "rocks")):
-        scenes += _both(
+        scenes += under_both_rules(
             f"block on 100 loose blocks, {word}",
             family,
             ON_LOOSE,
@@ -248,7 +221,7 @@ def _statics() -> list[Scene]:
             overrides=("parameters.n=10", f"parameters.h={h!r}"),
         )
     for n, long in ((100, False), (2000, True)):
-        scenes += _both(
+        scenes += under_both_rules(
             f"beam on {n} columns",
             family,
             BEAM,
@@ -275,7 +248,7 @@ def _points() -> list[Scene]:
     scenes = []
     for k in (10, 50):
         for h, word in ((1.0, "slides"), (4.0, "rocks")):
-            scenes += _both(
+            scenes += under_both_rules(
                 f"{k} points on every edge, {word}",
                 family,
                 POINTS,
@@ -285,7 +258,7 @@ def _points() -> list[Scene]:
             )
     for n in (100, 360):
         for h, word in ((1.0, "slides"), (4.0, "rocks")):
-            scenes += _both(
+            scenes += under_both_rules(
                 f"faces of {n} corners, {word}",
                 family,
                 CORNERS,
@@ -301,7 +274,7 @@ def _symmetric() -> list[Scene]:
     scenes = []
     for n, long in ((2, False), (10, False), (100, True), (1000, True)):
         for h, word in ((0.5, "slide"), (2.0, "rock")):
-            scenes += _both(
+            scenes += under_both_rules(
                 f"{n} equal columns, {word}",
                 family,
                 COLUMNS,
@@ -309,10 +282,12 @@ def _symmetric() -> list[Scene]:
                 overrides=(f"parameters.n={n}", f"parameters.h={h!r}"),
                 long=long,
             )
-    scenes += _both("four columns under a slab", family, FOUR, four_factor())
-    scenes += _both("stack of which every joint slides", family, SLIDERS, 0.25, overrides=("parameters.n=19",))
-    scenes += _both("row of 200 blocks that all slide", family, ROW, 0.5)
-    associative, other = _both("radial dome pushed", family, DOME, DOME_FACTOR)
+    scenes += under_both_rules("four columns under a slab", family, FOUR, four_factor())
+    scenes += under_both_rules(
+        "stack of which every joint slides", family, SLIDERS, 0.25, overrides=("parameters.n=19",)
+    )
+    scenes += under_both_rules("row of 200 blocks that all slide", family, ROW, 0.5)
+    associative, other = under_both_rules("radial dome pushed", family, DOME, DOME_FACTOR)
     scenes += [associative, replace(other, expected=None, diagnosis=("solved",))]
     return scenes
 
@@ -327,9 +302,9 @@ def four_factor() -> float:
 def _touching() -> list[Scene]:
     family = "contact in edges and points only"
     return [
-        *_both("pyramid on its apex", family, PYRAMIDS, None, diagnosis=("no_equilibrium",)),
-        *_both("prism on its edge", family, EDGE, None, diagnosis=("no_equilibrium",)),
-        *_both("blocks that meet in edges and corners", family, CORNER, 0.5),
+        *under_both_rules("pyramid on its apex", family, PYRAMIDS, None, diagnosis=("no_equilibrium",)),
+        *under_both_rules("prism on its edge", family, EDGE, None, diagnosis=("no_equilibrium",)),
+        *under_both_rules("blocks that meet in edges and corners", family, CORNER, 0.5),
     ]
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from tests.extremes.decks import under_both_rules
 from tests.extremes.outcome import Scene
 
 HEAD = """\
@@ -9,38 +10,10 @@ mbla: 1
 materials: {stone: {density: 2000}}
 contacts: {joint: dry}
 """
-RULES = ("associative", "non_associative")
 SMALLEST = 1e-9
 """Of load factors near zero, absolute, in units of dead over live load: a millionth of the thousandth below which the
 program measures its errors by that size (``ZERO_FACTOR``) instead of by the factor itself."""
 FALLS, UNDECIDED, ENDLESS = "no_equilibrium", "not_verified", "unbounded"
-
-
-def _both(
-    name: str,
-    family: str,
-    deck: str,
-    expected: float | None,
-    tolerance: float = 1e-6,
-    diagnosis: tuple[str, ...] = (),
-    overrides: tuple[str, ...] = (),
-    *,
-    long: bool = False,
-) -> list[Scene]:
-    """With associative flow and without dilatancy."""
-    return [
-        Scene(
-            f"{name}, {rule}",
-            family,
-            deck,
-            (*overrides, f"analysis.flow_rule={rule}"),
-            expected,
-            tolerance,
-            diagnosis,
-            long,
-        )
-        for rule in RULES
-    ]
 
 
 def _tolerance(factor: float) -> float:
@@ -165,7 +138,7 @@ def _no_margin() -> list[Scene]:
         tipped = max(0.0, -more / 0.1)
         factor = (0.5 - slope) / (1 + 0.5 * slope) if more < 0 else 0.0
         falls = more > 0
-        scenes += _both(
+        scenes += under_both_rules(
             f"incline {more:+.0e} over the angle of friction",
             family,
             INCLINE,
@@ -175,7 +148,7 @@ def _no_margin() -> list[Scene]:
             (f"parameters.more={more!r}",),
             long=abs(more) not in (0.0, 1e-9),
         )
-        scenes += _both(
+        scenes += under_both_rules(
             f"block {more:+.0e} beyond its tipping point",
             family,
             TIPPING,
@@ -190,7 +163,7 @@ def _no_margin() -> list[Scene]:
             tip = s / 2 * sum(1 / k for k in range(1, n))
             close = abs(s - 1) < 1e-7
             falls, factor = s > 1, max(0.0, (1 - s) / s)
-            scenes += _both(
+            scenes += under_both_rules(
                 f"overhang of {n} blocks, {s - 1:+.0e} of the limit",
                 family,
                 OVERHANG,
@@ -206,11 +179,11 @@ def _no_margin() -> list[Scene]:
 def _without_limit() -> list[Scene]:
     family = "no live mechanism, and huge load factors"
     scenes = [
-        *_both("block pressed on the ground", family, PRESSED, None, diagnosis=(ENDLESS,)),
-        *_both("block wedged between two that are fixed", family, WEDGED, None, diagnosis=(ENDLESS,)),
+        *under_both_rules("block pressed on the ground", family, PRESSED, None, diagnosis=(ENDLESS,)),
+        *under_both_rules("block wedged between two that are fixed", family, WEDGED, None, diagnosis=(ENDLESS,)),
     ]
     for live in (1e-9, 1e-6, 1e6, 1e9):
-        scenes += _both(
+        scenes += under_both_rules(
             f"one block, load factor {0.5 / live:.0e}",
             family,
             BLOCK,
@@ -218,27 +191,27 @@ def _without_limit() -> list[Scene]:
             overrides=(f"parameters.live={live!r}",),
         )
     for mu in (0.0, 1e-9):
-        scenes += _both(
+        scenes += under_both_rules(
             f"one block, friction {mu:g}", "one block", BLOCK, mu, _tolerance(mu), overrides=(f"parameters.mu={mu!r}",)
         )
     for b in (1e-4, 1e-2, 1.0, 1e2, 1e4):
-        scenes += _both(
+        scenes += under_both_rules(
             f"one block, breadth {b:g} of its height",
             "one block",
             BLOCK,
             min(0.5, b),
             overrides=(f"parameters.b={b!r}",),
         )
-    scenes += _both("one block without weight", "one block", WEIGHTLESS, 0.0, 1e-9, long=True)
+    scenes += under_both_rules("one block without weight", "one block", WEIGHTLESS, 0.0, 1e-9, long=True)
     return scenes
 
 
 def _moving() -> list[Scene]:
     family = "mechanism under the dead load"
     return [
-        *_both("slab that tips off beside a block that is pushed", family, TWO, None, diagnosis=(FALLS,)),
-        *_both("block in the air", family, HOVERING, None, diagnosis=(FALLS,)),
-        *_both(
+        *under_both_rules("slab that tips off beside a block that is pushed", family, TWO, None, diagnosis=(FALLS,)),
+        *under_both_rules("block in the air", family, HOVERING, None, diagnosis=(FALLS,)),
+        *under_both_rules(
             "one block on a slope too steep",
             family,
             INCLINE,
@@ -246,7 +219,7 @@ def _moving() -> list[Scene]:
             diagnosis=(FALLS,),
             overrides=("parameters.more=0.2",),
         ),
-        *_both(
+        *under_both_rules(
             "overhang far beyond the limit", family, OVERHANG, None, diagnosis=(FALLS,), overrides=("parameters.s=1.5",)
         ),
     ]

@@ -6,6 +6,7 @@ works them out again. With much friction they fall by hinges, with any flow rule
 
 from __future__ import annotations
 
+from tests.extremes.decks import FLOW_RULES, ruled
 from tests.extremes.outcome import Scene
 
 HEAD = """\
@@ -14,7 +15,6 @@ materials: {stone: {density: 2000}}
 joints: {dry: {friction: 5}}
 contacts: {joint: dry}
 """
-RULES = ("associative", "non_associative")
 
 CROWN = (
     HEAD
@@ -47,8 +47,8 @@ PUSHES = {(21, 0.3): 0.52062466103388, (2000, 0.3): 0.518069053659506}
 
 def _arches() -> list[Scene]:
     family, scenes = "symmetric arches", []
-    for rule in RULES:
-        asked = f"analysis.flow_rule={rule}"
+    for rule in FLOW_RULES:
+        asked = ruled(rule)
         for (n, t), factor in CROWNS.items():
             size = (f"parameters.n={n}", f"parameters.t={t}", asked)
             for mirror in ("true", "false"):
@@ -68,11 +68,11 @@ def _apart() -> list[Scene]:
             f"arches {apart:g} m apart, the other turned by {turn} degrees, {rule}",
             family,
             APART,
-            (f"parameters.apart={apart!r}", f"parameters.turn={turn}", f"analysis.flow_rule={rule}"),
+            (f"parameters.apart={apart!r}", f"parameters.turn={turn}", ruled(rule)),
             PUSHES[21, 0.3],
             long=apart > 1e3 or (turn > 0 and rule != "associative"),
         )
-        for rule in RULES
+        for rule in FLOW_RULES
         for apart in (10.0, 1e6)
         for turn in (0, 180)
     ]

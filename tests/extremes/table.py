@@ -13,6 +13,7 @@ from __future__ import annotations
 
 import argparse
 import multiprocessing
+import sys
 from collections.abc import Sequence
 from multiprocessing.connection import Connection
 from pathlib import Path
@@ -43,12 +44,13 @@ def main(arguments: Sequence[str] | None = None) -> int:
         outcome = apart(scene)
         outcomes.append(outcome)
         if outcome.is_red or not asked.red:
-            print(f"{outcome.seconds:6.2f} s {scene.family}: {row(outcome)}", flush=True)  # noqa: T201
+            sys.stdout.write(f"{outcome.seconds:6.2f} s {scene.family}: {row(outcome)}\n")
+            sys.stdout.flush()
     target = asked.o or (None if asked.family or asked.short else PAGE)
     if target is not None:
         target.write_text(page(outcomes), encoding="utf-8")
     red = [outcome for outcome in outcomes if outcome.is_red]
-    print(f"{len(outcomes)} scenes, {len(red)} red")  # noqa: T201
+    sys.stdout.write(f"{len(outcomes)} scenes, {len(red)} red\n")
     return 1 if red else 0
 
 

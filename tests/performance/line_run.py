@@ -148,4 +148,4 @@ def _of_results(line: Line) -> dict[str, Any]:
 
 
 if __name__ == "__main__":
-    print(json.dumps(measured(sys.argv[1:])))  # noqa: T201 - to whoever started it
+    sys.stdout.write(json.dumps(measured(sys.argv[1:])) + "\n")  # to whoever started it

@@ -10,6 +10,7 @@ from mbla.arrays import FloatArray, IntArray
 from mbla.deck.joints import GLUED
 from mbla.deck.selectors import SelectorTerm
 from mbla.deck.types import ContactOverride
+from mbla.model.blocks import Blocks
 from mbla.model.build_blocks import Labels, build_blocks
 from mbla.model.labels import BlockLabels, join_labels, no_labels
 from mbla.model.mirrored_blocks import polyhedra_of
@@ -126,7 +127,7 @@ def _half(vertices: FloatArray, polyhedra: Polyhedra, block: int, point: FloatAr
     return polyhedra_from_lists([places], [[*faces, ring.tolist()]])
 
 
-def _with_blocks(model: Model, blocks: object, count: int, fixed: tuple[bool, ...] = (False,)) -> Model:
+def _with_blocks(model: Model, blocks: Blocks, count: int, fixed: tuple[bool, ...] = (False,)) -> Model:
     """The model with some more blocks at the end, on which nothing acts."""
 
     def longer(loads: FloatArray) -> FloatArray:
@@ -138,7 +139,7 @@ def _with_blocks(model: Model, blocks: object, count: int, fixed: tuple[bool, ..
         if tilt is not None:
             tilt = replace(tilt, fixed=longer(tilt.fixed), turning=longer(tilt.turning), across=longer(tilt.across))
         cases.append(replace(case, dead_load=longer(case.dead_load), live_load=longer(case.live_load), tilt=tilt))
-    return replace(model, blocks=blocks, fixed=np.append(model.fixed, fixed), load_cases=tuple(cases))  # type: ignore[arg-type]
+    return replace(model, blocks=blocks, fixed=np.append(model.fixed, fixed), load_cases=tuple(cases))
 
 
 def _with_loads_moved(case: LoadCase, block: int, arm: FloatArray) -> LoadCase:

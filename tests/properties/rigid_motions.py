@@ -159,7 +159,7 @@ def in_other_units(scene: Scene, units: Units) -> Scene:
         units=units,
         blocks=blocks,
         grounds=tuple(replace(ground, point=ground.point * length) for ground in model.grounds),
-        mirrors=tuple((*normal, offset * length) for *normal, offset in model.mirrors),  # type: ignore[misc]
+        mirrors=tuple((x, y, z, offset * length) for x, y, z, offset in model.mirrors),
         guides=replace(model.guides, motions=motions),
         interfaces=None if interfaces is None else replace(interfaces, corners=interfaces.corners * length),
     )

@@ -14,6 +14,7 @@ import contextlib
 import io
 from collections.abc import Callable
 from functools import partial
+from importlib import import_module
 from importlib.metadata import version
 from typing import Any
 
@@ -28,8 +29,7 @@ TENSION = 1e-3
 
 def compas_version() -> str:
     """Of the package; ImportError where it is not installed."""
-    import compas_cra.equilibrium  # noqa: F401
-
+    import_module("compas_cra.equilibrium")
     return f"compas_cra {version('compas_cra')} compas {version('compas')}"
 
 
