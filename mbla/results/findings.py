@@ -36,6 +36,13 @@ WITHOUT_REASON = {
 }
 """What is said of a status where the solver gives no reason."""
 
+BROKEN = {
+    Status.ITERATION_LIMIT: "the iterations ran out",
+    Status.TIME_LIMIT: "the time ran out",
+    Status.NUMERICAL_ERROR: "the solver failed numerically",
+}
+"""What befell a cone program that came to no answer."""
+
 
 @dataclass(frozen=True)
 class Finding:
@@ -118,7 +125,7 @@ REMARKS = (
     Finding("range-not-found", "warning", ("end of the range",)),
     Finding("range-not-computed", "notice", ("the range of the load factor for the mechanism found is not computed",)),
     Finding("force-range-not-found", "warning", ("range of the normal force was not found",)),
-    Finding("least-forces-not-found", "warning", ("not the least ones, which were not found",)),
+    Finding("least-forces-not-found", "notice", ("not the least ones, which were not found",)),
     Finding("tilt-by-steps", "notice", ("change of the loads from the level table", "collapses as soon as it turns")),
     Finding("tilt-between-not-proved", "warning", ("not proved",)),
 )
@@ -148,7 +155,7 @@ def found_notices(case: CaseResult, *, harmless: bool = False) -> tuple[Notice, 
             notices.append(notice)
 
     if case.status in UNSETTLED:
-        reason = solution.reason or WITHOUT_REASON[case.status]
+        reason = solution.reason or _reason_of(case)
         add("notice" if harmless else "warning", UNSETTLED[case.status], reason)
     for text in case.checks.failures:
         if text != solution.reason:
@@ -158,6 +165,17 @@ def found_notices(case: CaseResult, *, harmless: bool = False) -> tuple[Notice, 
             kind = finding_of(text, REMARKS, UNKNOWN_REMARK)
             add(kind.severity, kind.identifier, text)
     return (*notices, *_of_figures(case))
+
+
+def _reason_of(case: CaseResult) -> str:
+    """What is said where the solver gives no reason; of an answer that is not verified also what it came from."""
+    words = WITHOUT_REASON[case.status]
+    ended = [record for record in case.solution.programs if record.status in BROKEN]
+    if case.status is not Status.NOT_VERIFIED or not ended:
+        return words
+    first = ended[0]
+    what = BROKEN[first.status]
+    return f"{words}: {what} in program {first.program} ({first.kind}), and what another found instead does not hold"
 
 
 def _of_figures(case: CaseResult) -> list[Notice]:

@@ -7,9 +7,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from mbla.solution.verify import GAP_TOLERANCE
 from tests.extremes.decks import FACTORS, ruled
 from tests.extremes.outcome import Scene
-from tests.extremes.shapes import SLENDER, STACKED
+from tests.extremes.shapes import FAR_APART, SLENDER, STACKED
 from tests.extremes.weights import PORTAL, SAID, TOWER, tower_factor
 
 FAMILY = "convex contact model"
@@ -64,9 +65,12 @@ def slender() -> Iterator[Scene]:
         for deck, what in ((SLENDER, "block"), (STACKED, "two blocks")):
             overrides = (f"parameters.b=1.0e{k}", "parameters.mu=0.6", *CONVEX)
             yield Scene(f"{what}, width 1e{k} of the height", FAMILY, deck, overrides, min(0.6, 10.0**k))
-    for k in range(1, 5):
+    for k in range(-6, 5):
         overrides = (f"parameters.b=1.0e{k}", "parameters.mu=1.0e5", *CONVEX)
-        yield Scene(f"block, width 1e{k} of the height, friction 1e5", FAMILY, SLENDER, overrides, 10.0**k)
+        said = (FAR_APART,) if k < -3 else ()
+        tolerance = GAP_TOLERANCE if k == -3 else 1e-6  # solved, and its bounds 1.2e-6 apart
+        name = f"block, width 1e{k} of the height, friction 1e5"
+        yield Scene(name, FAMILY, SLENDER, overrides, 10.0**k, tolerance, said)
 
 
 SCENES = (*sizes(), *weights(), *friction(), *slender())

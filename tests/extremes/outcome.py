@@ -102,7 +102,7 @@ def outcome_of(scene: Scene) -> Outcome:
     try:
         with warnings.catch_warnings(), _limited(LONG_LIMIT if scene.long else LIMIT):
             warnings.simplefilter("error")
-            outcome = _judged(scene, _results(scene))
+            outcome = _judged(scene, results_of(scene))
     except MblaError as error:
         outcome = _refused(scene, str(error))
     except Warning as warning:
@@ -115,7 +115,8 @@ def outcome_of(scene: Scene) -> Outcome:
     return replace(outcome, seconds=seconds)
 
 
-def _results(scene: Scene) -> Results:
+def results_of(scene: Scene) -> Results:
+    """All that a run of the scene's deck gives, shown once in every form of text."""
     with TemporaryDirectory() as folder:
         path = Path(folder) / "scene.yaml"
         path.write_text(scene.deck, encoding="utf-8")

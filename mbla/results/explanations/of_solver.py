@@ -77,7 +77,7 @@ OF_NON_UNIQUE = (
     ),
     Explanation(
         "least-forces-not-found",
-        "warning",
+        "notice",
         "Contact forces are those of the solver, not the least ones.",
         "None on the load factor; single forces depend on the solver.",
         "The program of least squares was not solved.",

@@ -1,0 +1,67 @@
+"""Magnitudes that lie too far apart: named where a case is not settled, and only there."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+
+from mbla.results.findings import found_notices
+from mbla.results.magnitudes import magnitude_notices
+from mbla.results.outcome import notices_of
+from mbla.results.results import Results
+from mbla.solution.solution import Status
+from tests.extremes.outcome import Scene, results_of
+from tests.extremes.shapes import SLENDER
+
+
+def slender(width: float, friction: float, rule: str = "associative", contact_model: str = "convex") -> Results:
+    """A block 1 m high, pushed, that tips at its width over its height."""
+    overrides = (
+        f"parameters.b={width!r}",
+        f"parameters.mu={friction!r}",
+        f"analysis.flow_rule={rule}",
+        f"analysis.contact_model={contact_model}",
+    )
+    return results_of(Scene("slender", "", SLENDER, overrides))
+
+
+def said_of(results: Results, identifier: str) -> list[str]:
+    return [notice.message for notice in notices_of(results) if notice.identifier == identifier]
+
+
+@pytest.mark.parametrize("rule", ["associative", "non_associative"])
+def test_friction_far_beyond_what_tips_a_narrow_block_is_named(rule: str) -> None:
+    """Friction of 1e5 times the arm of 0.5 over half the width: what slides it over what tips it."""
+    results = slender(1e-4, 1e5, rule)
+    assert results.cases[0].status is Status.NOT_VERIFIED
+    (text,) = said_of(results, "magnitudes-far-apart")
+    assert "sliding on an interface takes 1e+09 times the push that tips a block on it" in text
+
+
+def test_a_case_that_is_solved_is_not_doubted() -> None:
+    results = slender(1e-4, 1e5, contact_model="concave")
+    assert results.cases[0].status is Status.SOLVED
+    assert not said_of(results, "magnitudes-far-apart")
+
+
+@pytest.mark.parametrize("contact_model", ["concave", "convex"])
+def test_the_ratio_is_that_of_the_widths(contact_model: str) -> None:
+    """Half of the width is what tips, whatever the contact model, and the same in other units of length."""
+    for width, friction, named in ((0.1, 1e4, False), (0.1, 1.1e6, True), (10.0, 1e4, False)):
+        results = slender(width, friction, contact_model=contact_model)
+        (case,) = results.cases
+        stuck = replace(case, status=Status.ITERATION_LIMIT)
+        notices = magnitude_notices(results.model, results.contacts, stuck, doubtful=False)
+        assert [notice.identifier for notice in notices] == ["magnitudes-far-apart"] * named
+
+
+def test_what_was_not_verified_came_from_a_program_that_failed() -> None:
+    """Silent before: the solver gave no reason, for another program had come to an answer that does not hold."""
+    (case,) = slender(1e-4, 1e5).cases
+    assert not case.solution.reason
+    first = found_notices(case)[0]
+    assert first.identifier == "not-verified"
+    assert "the solver failed numerically in program 1 (associative)" in first.message
+    kept = replace(case, solution=replace(case.solution, programs=()))
+    assert found_notices(kept)[0].message == "push: verification does not confirm the answer"
