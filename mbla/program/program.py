@@ -114,14 +114,26 @@ class Program:
             return 1.0
         return float(dead[dead > 0].mean() / np.sqrt(np.mean(live**2)))
 
+    def moved_over_live(self, velocities: FloatArray) -> float:
+        """Size of the dead load that velocities, (n_rows,) for unit live load power, move over that of the live load.
+
+        As ``dead_over_live``, which it does not exceed, but where light blocks move it is theirs.
+        """
+        dead, moved = self._of_blocks(self.dead_load), self._of_blocks(velocities)
+        power = float(np.linalg.norm(dead, axis=1) @ np.linalg.norm(moved, axis=1))
+        live = float(np.linalg.norm(self.live_load))
+        return min(power, self.dead_over_live) if live > 0.0 else power
+
     def _loads_of_blocks(self) -> tuple[FloatArray, FloatArray]:
         """Dead and live load, a row for each block; of guided blocks what does work in their ways."""
-        dead, live, program = self.dead_load, self.live_load, self
+        return self._of_blocks(self.dead_load), self._of_blocks(self.live_load)
+
+    def _of_blocks(self, values: FloatArray) -> FloatArray:
+        """Loads or velocities, (n_rows,), a row for each block, with the full one of guided and mirrored blocks."""
+        program = self
         while program.reduction is not None and (program.guided or program.halved):
-            dead, live = program.reduction.velocities @ dead, program.reduction.velocities @ live
-            program = program.reduction.full
-        rows = 3 if program.components == 2 else 6
-        return dead.reshape(-1, rows), live.reshape(-1, rows)
+            values, program = program.reduction.velocities @ values, program.reduction.full
+        return values.reshape(-1, 3 if program.components == 2 else 6)
 
     def mechanism(self, scaled: FloatArray) -> FloatArray:
         """Velocities of all blocks, fixed ones at rest, (n_blocks, 6), from those of the program, (n_rows,)."""

@@ -17,7 +17,7 @@ from mbla.errors import Notice
 from mbla.model.model import Model
 from mbla.program.assemble import yield_limits
 from mbla.results.results import CaseResult
-from mbla.solution.load_scale import load_scale
+from mbla.solution.load_scale import load_scale, load_sizes
 from mbla.solution.proofs import PROVED_RESIDUAL
 from mbla.solution.solution import Status
 from mbla.solution.statics import bodies_of_points
@@ -49,13 +49,23 @@ def magnitude_notices(model: Model, contacts: Contacts, case: CaseResult, *, dou
         words += _slender(contacts, limits.friction, scale.arms)
         text = f"{name}: {' and '.join(words)}: beyond what sixteen digits hold apart"
         notices += [Notice("warning", "magnitudes-far-apart", text, name)] if words else []
-    mechanics, unit = case.solution.mechanics, float(np.linalg.norm(scale.own)) / scale.live
-    dead = np.any(case.load_case.dead_load[model.free])
-    valued = case.status in (Status.SOLVED, Status.APPROXIMATE) and dead
-    if valued and mechanics is not None and abs(mechanics.load_factor) < SMALL_FACTOR * unit:
-        text = f"{name}: the load factor is zero as far as forces can tell, to about {PROVED_RESIDUAL * unit:.1e}"
+    rounding = rounding_of(model, case)
+    if rounding > 0.0:
+        text = f"{name}: the load factor is zero as far as forces can tell, to about {rounding:.1e}"
         notices.append(Notice("notice", "load-factor-rounding", text, name))
     return notices
+
+
+def rounding_of(model: Model, case: CaseResult) -> float:
+    """What the rounding of forces is worth in a load factor that is next to nothing; 0 where it does not matter."""
+    mechanics, free = case.solution.mechanics, model.free
+    dead, live = case.load_case.dead_load[free], case.load_case.live_load[free]
+    valued = case.status in (Status.SOLVED, Status.APPROXIMATE) and mechanics is not None
+    if not valued or mechanics is None or not dead.any() or not live.any():
+        return 0.0
+    sizes = model.blocks.sizes[free]
+    unit = float(np.linalg.norm(load_sizes(dead, sizes)) / np.linalg.norm(load_sizes(live, sizes)))
+    return PROVED_RESIDUAL * unit if abs(mechanics.load_factor) < SMALL_FACTOR * unit else 0.0
 
 
 def _loads(own: FloatArray) -> list[str]:

@@ -11,6 +11,10 @@ from mbla.program.program import Program
 from mbla.program.yield_conditions import yield_violation
 from mbla.solution.solution import PathPoint, ProgramRecord, Status
 
+NEAR_ZERO = 1e-5
+"""Load factors below this share of dead over live load count as that share: what of them forces can tell from zero is a
+share of 2e-9, and a residual of 1e-6 of a hundred thousandth is far within that."""
+
 
 @dataclass(frozen=True)
 class LawState:
@@ -65,8 +69,7 @@ def law_state(
     unexplained = np.abs(strength * sliding + (forces[:, 1:] * v[:, 1:]).sum(axis=1))
     unexplained += np.abs((forces[:, 0] + limits.tension) * np.maximum(surplus, 0.0))
     unexplained += np.abs((capacity - forces[:, 0]) * np.maximum(-surplus, 0.0))
-    dead_power = abs(float(program.dead_load @ velocities))
-    balance = max(abs(load_factor), float(np.abs(strength) @ sliding), dead_power, 1e-300)
+    balance = _balance(program, velocities, load_factor, float(np.abs(strength) @ sliding))
     speed = max(float(np.linalg.norm(v, axis=1).max(initial=0.0)), 1e-300)
     closing = float(np.where(crushable, 0.0, np.maximum(-v[:, 0], 0.0)).max(initial=0.0)) / speed
     excess = float(yield_violation(forces, limits).max(initial=0.0))
@@ -87,6 +90,11 @@ def residual_with_closing(program: Program, slope: FloatArray | float, state: La
     unexplained = np.abs(strength * sliding + (state.forces[:, 1:] * v[:, 1:]).sum(axis=1))
     unexplained += np.abs((state.forces[:, 0] + limits.tension) * np.maximum(surplus, 0.0))
     unexplained += np.abs(state.forces[:, 0] * closing)
-    dead_power = abs(float(program.dead_load @ state.velocities))
-    balance = max(abs(state.load_factor), float(np.abs(strength) @ sliding), dead_power, 1e-300)
+    balance = _balance(program, state.velocities, state.load_factor, float(np.abs(strength) @ sliding))
     return max(state.residual, float(unexplained.sum()) / balance)
+
+
+def _balance(program: Program, velocities: FloatArray, load_factor: float, frictional: float) -> float:
+    """The largest power of the balance, with a floor where load factor and friction are next to nothing."""
+    least = NEAR_ZERO * program.moved_over_live(velocities)
+    return max(abs(load_factor), frictional, abs(float(program.dead_load @ velocities)), least, 1e-300)

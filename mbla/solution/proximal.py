@@ -31,7 +31,7 @@ from mbla.program.program import Program
 from mbla.solution.associative import AssociativeResult
 from mbla.solution.cone_solution import ConeSolution, Log
 from mbla.solution.gravity import gravity_forces
-from mbla.solution.law_state import LawState, SequenceResult, law_state, residual_with_closing
+from mbla.solution.law_state import NEAR_ZERO, LawState, SequenceResult, law_state, residual_with_closing
 from mbla.solution.law_steps import CREEPING, Step, Stepper, continuing_step, lagged_step, moved_by, next_step
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import ProgramRecord, Status
@@ -239,7 +239,8 @@ def finished(run: ProximalRun, cause: str) -> SequenceResult:
         return SequenceResult(Status.NOT_VERIFIED, None, cause, tuple(run.records))
     words = f"{cause}: forces and velocities miss the law by {best.residual:.2g}" if cause else ""
     remarks: list[str] = []
-    if run.peak - best.load_factor > BELOW_PEAK * max(abs(run.peak), abs(best.load_factor)):
+    least = NEAR_ZERO * run.program.moved_over_live(best.velocities)
+    if run.peak - best.load_factor > BELOW_PEAK * max(abs(run.peak), abs(best.load_factor), least):
         remarks.append(
             f"the load factor lies below {run.peak * live:.6g}, which the steps passed through: between the two the "
             "structure moves to another state, and may come to rest under a load that it does not survive at first"

@@ -10,6 +10,7 @@ from mbla.results.findings import found_notices
 from mbla.results.magnitudes import magnitude_notices
 from mbla.results.outcome import notices_of
 from mbla.results.results import Results
+from mbla.results.words.verdict_words import verdict
 from mbla.solution.solution import Status
 from tests.extremes.outcome import Scene, results_of
 from tests.extremes.shapes import SLENDER
@@ -65,3 +66,19 @@ def test_what_was_not_verified_came_from_a_program_that_failed() -> None:
     assert "the solver failed numerically in program 1 (associative)" in first.message
     kept = replace(case, solution=replace(case.solution, programs=()))
     assert found_notices(kept)[0].message == "push: verification does not confirm the answer"
+
+
+@pytest.mark.parametrize(
+    ("friction", "words"),
+    [
+        (1e-10, "collapses at 0 g to within 2e-09 g, verified"),
+        (1e-6, "collapses at 1e-06 g to within 2e-09 g, verified"),
+        (1e-4, "collapses at 0.0001 g, verified"),
+    ],
+)
+def test_a_load_factor_that_rounding_could_have_made_says_so(friction: float, words: str) -> None:
+    """Friction of 1e-10 and 1e-6 is told from zero by less than a ten thousandth, 1e-4 by more."""
+    results = slender(0.5, friction, contact_model="concave")
+    (case,) = results.cases
+    assert verdict(results.model, case) == words
+    assert bool(said_of(results, "load-factor-rounding")) == (friction < 1e-5)

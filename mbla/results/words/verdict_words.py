@@ -6,6 +6,7 @@ import numpy as np
 
 from mbla.model.model import LoadCase, Model
 from mbla.results.collapse.mechanics import live_load_in_g
+from mbla.results.magnitudes import rounding_of
 from mbla.results.outcome import (
     associative_of,
     best_iterate,
@@ -65,7 +66,7 @@ def verdict(model: Model, case: CaseResult) -> str:
     mechanics = result_of(case)
     if mechanics is None:
         return _without_load_factor(model, case)
-    value = load_factor_words(model, case.load_case, mechanics.load_factor)
+    value = _known_words(model, case, mechanics.load_factor)
     verified = case.status is Status.SOLVED
     outer = case.solution.outer
     if outer is not None and not range_is_a_point((mechanics.load_factor, outer.load_factor)):
@@ -78,6 +79,17 @@ def verdict(model: Model, case: CaseResult) -> str:
         moves = "follows its support" if case.load_case.settlement is not None else "collapses"
         return f"{moves} at {peak}, the peak of its load path; once moving it carries {known}"
     return f"follows its support at {known}" if case.load_case.settlement is not None else f"collapses at {known}"
+
+
+def _known_words(model: Model, case: CaseResult, load_factor: float) -> str:
+    """A load factor; of one that rounding could have made, how much that is."""
+    rounding = rounding_of(model, case)
+    words = load_factor_words(model, case.load_case, load_factor)
+    if rounding == 0.0 or case.load_case.settlement is not None or case.load_case.tilt is not None:
+        return words
+    if abs(load_factor) <= rounding:
+        words = load_factor_words(model, case.load_case, 0.0)
+    return f"{words} to within {load_factor_words(model, case.load_case, float(f'{rounding:.1e}'))}"
 
 
 def _without_load_factor(model: Model, case: CaseResult) -> str:
