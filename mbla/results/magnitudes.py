@@ -57,14 +57,19 @@ def magnitude_notices(model: Model, contacts: Contacts, case: CaseResult, *, dou
 
 
 def rounding_of(model: Model, case: CaseResult) -> float:
-    """What the rounding of forces is worth in a load factor that is next to nothing; 0 where it does not matter."""
+    """What the rounding of forces is worth in a load factor that is next to nothing; 0 where it does not matter.
+
+    Next to nothing beside dead over live load, of the blocks that move where the others are heavier.
+    """
     mechanics, free = case.solution.mechanics, model.free
     dead, live = case.load_case.dead_load[free], case.load_case.live_load[free]
     valued = case.status in (Status.SOLVED, Status.APPROXIMATE) and mechanics is not None
     if not valued or mechanics is None or not dead.any() or not live.any():
         return 0.0
-    sizes = model.blocks.sizes[free]
-    unit = float(np.linalg.norm(load_sizes(dead, sizes)) / np.linalg.norm(load_sizes(live, sizes)))
+    sizes, u = model.blocks.sizes[free], mechanics.mechanism[free]
+    own = load_sizes(dead, sizes)
+    moved = float(own @ (np.linalg.norm(u[:, :3], axis=1) + sizes * np.linalg.norm(u[:, 3:], axis=1)))
+    unit = min(moved, float(np.linalg.norm(own) / np.linalg.norm(load_sizes(live, sizes))))
     return PROVED_RESIDUAL * unit if abs(mechanics.load_factor) < SMALL_FACTOR * unit else 0.0
 
 
@@ -80,7 +85,10 @@ def _strength(strength: FloatArray, mean: float) -> list[str]:
 
 
 def _slender(contacts: Contacts, friction: FloatArray, arms: FloatArray) -> list[str]:
-    """Friction times the lever arm of the greater block over half the width of an interface, where that is large."""
+    """Friction times the lever arm of the lesser block over half the width of an interface, where that is large.
+
+    arms : (n_blocks,); of the ground, which does not tip, there is none
+    """
     if not len(contacts):
         return []
     start, here = contacts.point_start[:-1], contacts.interface_of_point
@@ -92,7 +100,7 @@ def _slender(contacts: Contacts, friction: FloatArray, arms: FloatArray) -> list
     least, greatest = np.sqrt(np.maximum(np.linalg.eigvalsh(moments), 0.0)).T
     width = np.where(least > LINE * greatest, least, greatest)  # corners of a rectangle a x b: a/2 and b/2
     bodies = bodies_of_points(contacts)[start]
-    arm = np.append(arms, 0.0)[np.minimum(bodies, len(arms))].max(axis=1)
+    arm = np.append(arms, np.inf)[np.minimum(bodies, len(arms))].min(axis=1)
     mu = friction[start]
     known = (width > 0) & np.isfinite(mu)
     ratio = float((mu[known] * arm[known] / width[known]).max(initial=0.0))

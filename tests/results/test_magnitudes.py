@@ -12,8 +12,10 @@ from mbla.results.outcome import notices_of
 from mbla.results.results import Results
 from mbla.results.words.verdict_words import verdict
 from mbla.solution.solution import Status
+from mbla.solution.verify import GAP_TOLERANCE
 from tests.extremes.outcome import Scene, results_of
-from tests.extremes.shapes import SLENDER
+from tests.extremes.shapes import PEBBLE, SLENDER
+from tests.extremes.weights import SIDE_BY_SIDE
 
 
 def slender(width: float, friction: float, rule: str = "associative", contact_model: str = "convex") -> Results:
@@ -82,3 +84,21 @@ def test_a_load_factor_that_rounding_could_have_made_says_so(friction: float, wo
     (case,) = results.cases
     assert verdict(results.model, case) == words
     assert bool(said_of(results, "load-factor-rounding")) == (friction < 1e-5)
+
+
+def test_a_heavy_block_at_rest_makes_no_load_factor_next_to_nothing() -> None:
+    """The pushed block beside one of 1e8 times its weight slides alone at 0.4: dead over live load are 1e8."""
+    overrides = ("parameters.light=1.0e8", "analysis.flow_rule=associative", "analysis.contact_model=convex")
+    results = results_of(Scene("side by side", "", SIDE_BY_SIDE, overrides))
+    (case,) = results.cases
+    assert case.checks.static_bound <= 0.4 <= case.checks.kinematic_bound
+    assert case.checks.gap <= GAP_TOLERANCE
+    assert not said_of(results, "load-factor-rounding")
+    assert verdict(results.model, case) == "collapses at 0.4 g, verified"
+
+
+def test_a_pebble_does_not_tip_the_slab_below_it() -> None:
+    """Its interface is a millionth of the slab's; beside its own height it is as wide as that of any block."""
+    results = results_of(Scene("pebble", "", PEBBLE, ("parameters.a=1.0e-6", "analysis.flow_rule=associative")))
+    (text,) = said_of(results, "magnitudes-far-apart")
+    assert "loads of blocks lie 5e+18 apart: beyond" in text
