@@ -161,8 +161,9 @@ class AnalysisSection(Section):
     )
     residual: Annotated[float, Quantity("number", gt=0, le=1e-2)] | None = Field(
         None,
-        description="flow other than associative: wanted of the largest residual of the joint law; a scheme goes on "
-        "until it is reached, above 1e-6 no further; " + set_by_accuracy("residual"),
+        description="flow other than associative: wanted of the largest residual of the joint law; above 1e-6 a scheme "
+        "goes no further than it; else other starts are tried until a state within 1e-6 is found, and a sharper one is "
+        "asked of that state alone; " + set_by_accuracy("residual"),
     )
     max_iterations: Count | None = Field(None, description="iterations of the cone solver for one program")
     time_limit: Time | None = Field(None, description="seconds for all load cases together")

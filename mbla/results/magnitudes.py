@@ -102,7 +102,7 @@ def _slender(contacts: Contacts, friction: FloatArray, arms: FloatArray) -> list
     bodies = bodies_of_points(contacts)[start]
     arm = np.append(arms, np.inf)[np.minimum(bodies, len(arms))].min(axis=1)
     mu = friction[start]
-    known = (width > 0) & np.isfinite(mu)
+    known = (width > 0) & np.isfinite(mu * arm)
     ratio = float((mu[known] * arm[known] / width[known]).max(initial=0.0))
     words = f"sliding on an interface takes {ratio:.0e} times the push that tips a block on it"
     return [words] if ratio > FAR_APART else []
