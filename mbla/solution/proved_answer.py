@@ -60,8 +60,8 @@ LARGE = 30_000
 enough there, unless bounds closer than CLOSE are asked for. The results say how far apart they are."""
 
 FIRST_OF_LARGE = 1e-8
-"""Tolerance at which the bounds of a large program are first looked at; it goes on where they lie too far apart. Beyond
-it a planar wall of 20,000 blocks took 27 more iterations, a quarter of all, on the border of what rounding allows."""
+"""Tolerance at which the bounds of a large program are first looked at; it goes on where they lie too far apart. A
+planar wall of 19,951 blocks came to it in 76 iterations, bounds 1.7e-8 apart; it stalled at 2.8e-9 thirty later."""
 
 CLOSE = 1e-7
 """A wanted distance of the bounds below this is worth every try, at any size."""
