@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Callable
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any
 
 from mbla import __version__
-
-Amount = TypeVar("Amount", int, float)
+from mbla.argument_values import names, relative, relative_above_zero, seconds, threads
 
 EXIT_STATUS = """\
 exit status:
@@ -268,41 +266,3 @@ def _add_schema_and_new(commands: Any) -> None:
     command = commands.add_parser("new", help="write a commented starter deck")
     command.add_argument("name", metavar="NAME")
     command.add_argument("--force", action="store_true", help="replace an existing file")
-
-
-def names(text: str) -> list[str]:
-    """Names with commas between them."""
-    listed = [name.strip() for name in text.split(",")]
-    if not all(listed):
-        raise argparse.ArgumentTypeError(f"{text!r} is not a list of names with commas between them")
-    return listed
-
-
-def seconds(text: str) -> float:
-    """A positive number of seconds."""
-    return _number(text, float, lambda value: 0 < value < float("inf"), "a positive number of seconds")
-
-
-def relative(text: str) -> float:
-    """A relative difference, zero or more."""
-    return _number(text, float, lambda value: 0 <= value < float("inf"), "a relative difference, 0 or more")
-
-
-def relative_above_zero(text: str) -> float:
-    """A relative error above zero and below one."""
-    return _number(text, float, lambda value: 0 < value < 1, "a relative error between 0 and 1")
-
-
-def threads(text: str) -> int:
-    """A number of threads."""
-    return _number(text, int, lambda value: value >= 1, "a whole number of threads, at least 1")
-
-
-def _number(text: str, kind: Callable[[str], Amount], allowed: Callable[[Amount], bool], wanted: str) -> Amount:
-    try:
-        value = kind(text)
-    except ValueError:
-        raise argparse.ArgumentTypeError(f"{text!r} is not {wanted}") from None
-    if not allowed(value):
-        raise argparse.ArgumentTypeError(f"{text!r} is not {wanted}")
-    return value

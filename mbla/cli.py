@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import argparse
 import contextlib
-import io
 import json
 import os
 import shlex
@@ -25,6 +24,7 @@ from mbla.arguments import build_parser
 from mbla.errors import DeckError, FileError, MblaError, UsageError
 from mbla.failures import failure_record, words_of
 from mbla.run_options import RunOptions
+from mbla.streams import drop_output, prepare_streams
 from mbla.threads import limit_threads
 
 if TYPE_CHECKING:
@@ -45,7 +45,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     if signal.getsignal(signal.SIGTERM) is not signal.SIG_IGN:
         signal.signal(signal.SIGTERM, _terminate)
     try:
-        _prepare_streams(json_lines=getattr(options, "json", False))
+        prepare_streams(json_lines=getattr(options, "json", False))
         _refuse_vanished_folder()
         status = COMMANDS[options.command](options)
         sys.stdout.flush()
@@ -55,11 +55,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except Terminated:
         return _say("terminated", 143)
     except BrokenPipeError:  # the reader of our output went away: not our error, but the output is not whole
-        _drop_output()
+        drop_output()
         return FileError.exit_status
     except Exception as error:
         if isinstance(error, OSError) and error.filename is None:
-            _drop_output()
+            drop_output()
         return _failed(error)
 
 
@@ -245,21 +245,6 @@ def _say(text: str, status: int) -> int:
     with contextlib.suppress(OSError):  # nobody listens; the exit status still tells
         print(text, file=sys.stderr, flush=True)
     return status
-
-
-def _prepare_streams(*, json_lines: bool) -> None:
-    """No name or title may fail to be printed; JSON is UTF-8 whatever the terminal speaks."""
-    if sys.stdout is None:  # closed by who started us, as services do: nobody wants to read
-        _drop_output()
-    for stream in (sys.stdout, sys.stderr):
-        if isinstance(stream, io.TextIOWrapper):
-            utf8 = json_lines and stream is sys.stdout
-            stream.reconfigure(encoding="utf-8" if utf8 else None, errors="backslashreplace")
-
-
-def _drop_output() -> None:
-    """Standard output cannot be written: keep the interpreter from trying again at its end."""
-    sys.stdout = Path(os.devnull).open("w")  # noqa: SIM115 - for the interpreter's own flush at exit
 
 
 def _refuse_vanished_folder() -> None:

@@ -11,8 +11,8 @@ import numpy as np
 from mbla.errors import MblaError
 from mbla.results.collapse.mechanics import support_reactions
 from mbla.results.results import CaseResult
+from tests.properties.relations import Relation, Transformation
 from tests.properties.scenes import Scene, Solved, bounds_of, solve_scene, value_of, with_analysis
-from tests.properties.transformations import Relation, Transformation
 
 SAME = 1e-6
 """relative difference of load factors that counts as none"""

@@ -19,8 +19,9 @@ from pathlib import Path
 from mbla.errors import DeckError
 from tests.decks.folder import LONG, PATHS, name_of
 from tests.properties.comparisons import Comparison, Verdict, compare, without_normality
+from tests.properties.relations import Relation
 from tests.properties.scenes import Scene, random_scene, scene_of, solve_scene
-from tests.properties.transformations import TABLE, Relation
+from tests.properties.transformations import TABLE
 
 README = Path(__file__).with_name("README.md")
 MOST_POINTS = 700

@@ -11,9 +11,11 @@ import pytest
 from tests.properties.additions import split_in_two
 from tests.properties.comparisons import Verdict, compare, relative
 from tests.properties.metamorphic import README, checked, names, page, scene_named, unexplained
+from tests.properties.relations import Relation, Transformation
+from tests.properties.restatements import live_load_times, rotation
 from tests.properties.rigid_motions import moved_scene
 from tests.properties.scenes import Solved, solve_scene, value_of
-from tests.properties.transformations import TABLE, Relation, Transformation, live_load_times, rotation
+from tests.properties.transformations import TABLE
 
 FEW = ("benchmarks/groove", "benchmarks/eccentric_compression", "random/302")
 """a wedge between two planes, a joint that crushes, and friction that locks resultants of interfaces"""
