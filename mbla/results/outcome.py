@@ -67,9 +67,9 @@ def range_of(case: CaseResult) -> tuple[float, float] | None:
     return lower, upper
 
 
-def range_is_a_point(ends: tuple[float, float]) -> bool:
-    """Whether both ends are known and one figure."""
-    return bool(abs(ends[1] - ends[0]) <= UNIQUE * max(abs(ends[0]), abs(ends[1])))
+def range_is_a_point(ends: tuple[float, float], rounding: float = 0.0) -> bool:
+    """Whether both ends are known and one figure, or no further apart than the rounding of both."""
+    return bool(abs(ends[1] - ends[0]) <= max(UNIQUE * max(abs(ends[0]), abs(ends[1])), rounding))
 
 
 def factor_unique(case: CaseResult) -> bool | None:

@@ -7,10 +7,10 @@ from dataclasses import replace
 import pytest
 
 from mbla.results.findings import found_notices
-from mbla.results.magnitudes import magnitude_notices
-from mbla.results.outcome import notices_of
+from mbla.results.magnitudes import magnitude_notices, rounding_of
+from mbla.results.outcome import notices_of, range_of
 from mbla.results.results import Results
-from mbla.results.words.verdict_words import verdict
+from mbla.results.words.verdict_words import range_summary, uniqueness_words, verdict
 from mbla.solution.solution import Status
 from mbla.solution.verify import GAP_TOLERANCE
 from tests.extremes.outcome import Scene, results_of
@@ -102,3 +102,13 @@ def test_a_pebble_does_not_tip_the_slab_below_it() -> None:
     results = results_of(Scene("pebble", "", PEBBLE, ("parameters.a=1.0e-6", "analysis.flow_rule=associative")))
     (text,) = said_of(results, "magnitudes-far-apart")
     assert "loads of blocks lie 5e+18 apart: beyond" in text
+
+
+def test_ends_of_a_range_that_rounding_could_have_parted_are_one_figure() -> None:
+    """At friction 1e-6 they lie 3e-11 apart, one part in thirty thousand, and forces tell 2e-9 from nothing."""
+    results = slender(0.5, 1e-6, "non_associative", "concave")
+    (case,) = results.cases
+    least, greatest = range_of(case) or (0.0, 0.0)
+    assert 1e-5 * greatest < greatest - least < rounding_of(results.model, case)
+    assert not range_summary(results.model, case)
+    assert "every distribution of forces has the same load factor" in uniqueness_words(results.model, case)

@@ -176,7 +176,7 @@ def uniqueness_words(model: Model, case: CaseResult) -> str:
     if ends is None or not np.isfinite(ends).all():
         known = "" if ends is None else f" (of the range for this mechanism only one end is verified: {_ends(ends)})"
         return f"The {what} without normality need not be unique, and its range is not known{known}{above}."
-    if range_is_a_point(ends):
+    if range_is_a_point(ends, rounding_of(model, case)):
         return (
             f"For this mechanism every distribution of forces has the same {what}; without normality another "
             f"mechanism may have another{above}."
@@ -190,7 +190,7 @@ def uniqueness_words(model: Model, case: CaseResult) -> str:
 def range_summary(model: Model, case: CaseResult) -> str:
     """``not unique: 0.639 g to 0.643 g for this mechanism``; nothing where that is not known."""
     ends = range_of(case)
-    if ends is None or not np.isfinite(ends).all() or range_is_a_point(ends):
+    if ends is None or not np.isfinite(ends).all() or range_is_a_point(ends, rounding_of(model, case)):
         return ""
     least, greatest = (load_factor_words(model, case.load_case, end) for end in ends)
     return f"not unique: {least} to {greatest} for this mechanism, verified"
