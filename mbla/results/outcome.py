@@ -12,8 +12,9 @@ from collections.abc import Sequence
 import numpy as np
 
 from mbla.errors import Notice
+from mbla.model.model import Model
 from mbla.results.findings import found_notices
-from mbla.results.magnitudes import magnitude_notices
+from mbla.results.magnitudes import magnitude_notices, rounding_of
 from mbla.results.results import CaseResult, Results
 from mbla.solution.solution import Checks, Mechanics, Standing, Status
 from mbla.solution.verify import APPROXIMATE_RESIDUAL
@@ -72,7 +73,7 @@ def range_is_a_point(ends: tuple[float, float], rounding: float = 0.0) -> bool:
     return bool(abs(ends[1] - ends[0]) <= max(UNIQUE * max(abs(ends[0]), abs(ends[1])), rounding))
 
 
-def factor_unique(case: CaseResult) -> bool | None:
+def factor_unique(model: Model, case: CaseResult) -> bool | None:
     """True where a theorem says so (associative flow), False where two verified factors differ, None if not known.
 
     A range that is a point says that this mechanism has one factor; another mechanism may have another.
@@ -82,7 +83,9 @@ def factor_unique(case: CaseResult) -> bool | None:
     if case.solution.flow_rule == "associative":
         return True
     ends = range_of(case)
-    return False if ends is not None and np.isfinite(ends).all() and not range_is_a_point(ends) else None
+    if ends is None or not np.isfinite(ends).all() or range_is_a_point(ends, rounding_of(model, case)):
+        return None
+    return False
 
 
 def law_residual(checks: Checks) -> float:

@@ -30,7 +30,7 @@ def case_json(model: Model, contacts: Contacts, case: CaseResult) -> dict[str, A
         "remarks": list(solution.remarks),
         "flow_rule": solution.flow_rule,
         "scheme": solution.scheme or None,
-        **_load_factors(case),
+        **_load_factors(model, case),
         **_single_checks(checks),
         "residuals": residuals_json(checks),
         "verified": checks.verified,
@@ -53,7 +53,7 @@ def _mechanism(model: Model, contacts: Contacts, case: CaseResult, mechanics: Me
     return mechanism_json(model, contacts, case.load_case, mechanics, 3 if size is None else size.dimension)
 
 
-def _load_factors(case: CaseResult) -> dict[str, Any]:
+def _load_factors(model: Model, case: CaseResult) -> dict[str, Any]:
     """The load factor, what it means, and everything that stands beside it."""
     solution, checks = case.solution, case.checks
     mechanics, associative, ends = result_of(case), associative_of(case), range_of(case)
@@ -62,7 +62,7 @@ def _load_factors(case: CaseResult) -> dict[str, Any]:
         "angle": number(angle_of(case)),
         "angle_bounds": _angle_bounds(case),
         "reaction": reaction_json(case),
-        "factor_unique": factor_unique(case),
+        "factor_unique": factor_unique(model, case),
         "range": None if ends is None else [number(end) for end in ends],
         "peak": number(checks.peak_load_factor),
         "spread": None if solution.spread is None else [number(end) for end in solution.spread],

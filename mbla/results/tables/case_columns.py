@@ -55,7 +55,7 @@ def _reaction(load_factor: float | None, rows: CaseRows, turns: bool) -> float |
 
 
 def _unique(rows: CaseRows) -> str:
-    unique = factor_unique(rows.case)
+    unique = factor_unique(rows.model, rows.case)
     return "" if unique is None else "yes" if unique else "no"
 
 
