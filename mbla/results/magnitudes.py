@@ -46,7 +46,7 @@ def magnitude_notices(model: Model, contacts: Contacts, case: CaseResult, *, dou
     notices = []
     if case.status in NOT_SETTLED or doubtful:
         words = [*_loads(scale.own), *_strength(limits.cohesion + limits.tension, scale.mean)]
-        words += _slender(contacts, limits.friction, scale.arms)
+        words += [*_slender(contacts, limits.friction, scale.arms), *_scant(limits.friction)]
         text = f"{name}: {' and '.join(words)}: beyond what sixteen digits hold apart"
         notices += [Notice("warning", "magnitudes-far-apart", text, name)] if words else []
     rounding = rounding_of(model, case)
@@ -82,6 +82,11 @@ def _loads(own: FloatArray) -> list[str]:
 def _strength(strength: FloatArray, mean: float) -> list[str]:
     ratio = float(strength.max(initial=0.0)) / mean
     return [f"a joint is {ratio:.0e} times as strong as the mean load of a block"] if ratio > FAR_APART else []
+
+
+def _scant(friction: FloatArray) -> list[str]:
+    least = float(friction[friction > 0].min(initial=np.inf))
+    return [f"friction of {least:.0e} is next to none beside the normal forces"] if least * FAR_APART < 1.0 else []
 
 
 def _slender(contacts: Contacts, friction: FloatArray, arms: FloatArray) -> list[str]:

@@ -113,3 +113,13 @@ def test_ends_of_a_range_that_rounding_could_have_parted_are_one_figure() -> Non
     assert not range_summary(results.model, case)
     assert "every distribution of forces has the same load factor" in uniqueness_words(results.model, case)
     assert factor_unique(results.model, case) is None
+
+
+@pytest.mark.parametrize(("friction", "named"), [(1e-9, True), (1e-3, False), (0.0, False)])
+def test_friction_that_is_next_to_none_is_named_where_a_case_is_not_settled(friction: float, named: bool) -> None:
+    results = slender(0.5, friction, contact_model="concave")
+    (case,) = results.cases
+    stuck = replace(case, status=Status.NUMERICAL_ERROR)
+    notices = magnitude_notices(results.model, results.contacts, stuck, doubtful=False)
+    assert [notice.identifier for notice in notices] == ["magnitudes-far-apart"] * named
+    assert all("friction of 1e-09 is next to none" in notice.message for notice in notices)

@@ -26,14 +26,15 @@ OF_MAGNITUDES = (
     Explanation(
         "magnitudes-far-apart",
         "warning",
-        "Loads of blocks, the strength of joints and the loads, or what slides an interface and what tips a block on "
-        "it, lie so far apart that double precision is at its end.",
+        "Loads of blocks, the strength of joints and the loads, friction and normal forces, or what slides an "
+        "interface and what tips a block on it, lie so far apart that double precision is at its end.",
         "What light blocks carry is lost in the rounding of the forces on heavy ones: the load factor is not verified, "
         "or only roughly.",
         "Densities in a wrong unit, slivers as blocks, a strength, or a friction on narrow interfaces, that is meant "
         "to be unlimited.",
         "Correct the densities; glue slivers to their neighbours; give a joint that is not to fail `glued`, or a "
-        "strength of some thousand times the stress instead of 1e9 times; friction of 1e3 holds like one of 1e6.",
+        "strength of some thousand times the stress instead of 1e9 times; friction of 1e3 holds like one of 1e6, "
+        "and `frictionless` slides like one of 1e-9.",
         example="push: loads of blocks lie 1e+12 apart: beyond what sixteen digits hold apart",
     ),
     Explanation(
