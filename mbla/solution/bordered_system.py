@@ -13,7 +13,8 @@ import numpy as np
 import scipy.sparse as sp
 
 from mbla.arrays import FloatArray, IntArray
-from mbla.solution.linear_algebra import Factorization, SymmetricPattern, factorization
+from mbla.solution.linear_algebra import Factorization, factorization
+from mbla.solution.linear_algebra.pattern import stored_lower_triangle
 from mbla.solution.linear_algebra.superlu import factorize
 
 Solve = Callable[[FloatArray], FloatArray]
@@ -128,16 +129,11 @@ def _refined(once: Solve, left: Callable[[FloatArray, FloatArray], FloatArray], 
 
 def _factors(scaled: sp.csc_array) -> Factorization | None:
     """Of a matrix that has its whole diagonal, regularised more strongly where it must be."""
-    scaled.sort_indices()
-    n = int(scaled.shape[0])
-    columns = np.repeat(np.arange(n), np.diff(scaled.indptr))
-    lower = scaled.indices >= columns
-    pointers = np.concatenate([[0], np.cumsum(np.bincount(columns[lower], minlength=n))]).astype(np.int32)
-    pattern = SymmetricPattern(n, scaled.indices[lower].astype(np.int32), pointers)
-    factors, values = factorization(pattern), scaled.data[lower]
+    pattern, values = stored_lower_triangle(scaled)
+    factors = factorization(pattern)
     for stronger in STRONGER:
         shifted = values.copy()
-        shifted[pointers[:-1]] += (stronger - 1.0) * REGULARIZATION
+        shifted[pattern.pointers[:-1]] += (stronger - 1.0) * REGULARIZATION
         if factors.factorize(shifted):
             return factors
     return None
