@@ -86,8 +86,7 @@ def _bordered(normal: sp.csc_array, scale: FloatArray, border: FloatArray, corne
 
 def _border_last(normal: sp.csc_array, scale: FloatArray, border: FloatArray, corner: float) -> Solve | None:
     """The bordered system by factors of the matrix alone; None where these are not good enough."""
-    scaling = sp.diags_array(scale)
-    scaled = sp.csc_array(scaling @ normal @ scaling + REGULARIZATION * sp.eye_array(len(scale)))
+    scaled = _scaled(normal, scale)
     factors = _factors(scaled)
     if factors is None:
         return None
@@ -111,6 +110,20 @@ def _border_last(normal: sp.csc_array, scale: FloatArray, border: FloatArray, co
     trial = np.append(scaled @ np.ones(len(border)), 0.0)
     off = float(np.abs(left(trial, solve(trial))).max(initial=0.0))
     return solve if off <= POOR * float(np.abs(trial).max(initial=0.0)) else None
+
+
+def _scaled(normal: sp.csc_array, scale: FloatArray) -> sp.csc_array:
+    """S N S with its regularisation, whole diagonal stored, rows sorted."""
+    n = len(scale)
+    held = normal.sorted_indices()
+    column = np.repeat(np.arange(n), np.diff(held.indptr))
+    held.data = scale[held.indices] * held.data * scale[column]
+    on_diagonal = np.flatnonzero(held.indices == column)
+    if len(on_diagonal) < n:
+        return sp.csc_array(held + REGULARIZATION * sp.eye_array(n))
+    held.data[on_diagonal] += REGULARIZATION
+    held.eliminate_zeros()
+    return held
 
 
 def _refined(once: Solve, left: Callable[[FloatArray, FloatArray], FloatArray], rhs: FloatArray) -> FloatArray:
