@@ -16,7 +16,7 @@ from mbla.solution.associative_form import in_velocities
 from mbla.solution.cone_solver import cone_solver, sharpen
 from mbla.solution.least_search import Search
 from mbla.solution.mechanism_repair import repaired_mechanisms
-from mbla.solution.proved_answer import AssociativeRun, solve_until_proved, wanted_gap
+from mbla.solution.proved_answer import AssociativeRun, ProvedAnswer, solve_until_proved, wanted_gap
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Status
 from mbla.solution.unique_forces import SHARES, least_forces, point_weights, trusted_motion
@@ -90,6 +90,39 @@ def test_bounds_that_verify_are_enough_on_large_models_unless_closer_ones_are_as
     assert wanted_gap(run) == asked
     monkeypatch.setattr(proved_answer, "LARGE", len(program.dead_load) - 1)
     assert wanted_gap(run) == wanted
+
+
+def test_a_large_program_is_first_solved_no_finer_than_pays(program: Program, monkeypatch: pytest.MonkeyPatch) -> None:
+    def iterations(large: int, gap: float) -> int:
+        monkeypatch.setattr(proved_answer, "LARGE", large)
+        run = run_of(program, solver="mbla", tolerance=1e-10, gap=gap)
+        answer = solve_until_proved(run, in_velocities(program))
+        assert answer.solution.status is Status.SOLVED
+        assert answer.distance <= wanted_gap(run)
+        return run.records[0].iterations
+
+    whole = iterations(10**9, 1e-6)
+    assert iterations(0, 1e-6) < whole
+    assert iterations(0, 1e-8) == whole  # so close only from the tolerance that was asked for
+
+
+@pytest.mark.parametrize("large", [True, False])
+def test_a_large_program_of_which_something_is_proved_is_not_given_to_the_other_method(
+    large: bool, program: Program, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    asked: set[str] = set()
+    once = proved_answer._answer
+
+    def kept(run: AssociativeRun, form: Any, unit: float, settings: SolverSettings) -> ProvedAnswer:
+        asked.add(settings.solver)
+        return once(run, form, unit, settings)
+
+    monkeypatch.setattr("mbla.solution.cone_solver.OWN_FROM", 1)
+    monkeypatch.setattr(proved_answer, "LARGE", 0 if large else 10**9)
+    monkeypatch.setattr(proved_answer, "wanted_gap", lambda run: 0.0)  # never close enough
+    monkeypatch.setattr(proved_answer, "_answer", kept)
+    solve_until_proved(run_of(program, solver="auto", gap=1e-6), in_velocities(program))
+    assert ("clarabel" in asked) is not large
 
 
 def test_a_mechanism_that_proves_its_factor_is_not_repaired_again_on_large_models(
