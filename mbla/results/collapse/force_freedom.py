@@ -168,18 +168,16 @@ def _equilibrium(model: Model, contacts: Contacts, bases: FloatArray, owner: Any
 
 def _freedom(matrix: sp.csr_array, owner: Any, n_interfaces: int) -> ForceFreedom | None:
     shifted = _Shifted(sp.csc_array(matrix @ matrix.T))
-    below, above = shifted.eigenvalues_below(BELOW), shifted.eigenvalues_below(ABOVE)
+    above, below = shifted.eigenvalues_below(ABOVE), shifted.eigenvalues_below(BELOW)
     if below is None or below != above:
         return None
     degree = matrix.shape[1] - (matrix.shape[0] - below)
     determined = np.ones(n_interfaces, dtype=bool)
     if degree > 0:
-        if shifted.pivots(-BELOW) is None:
-            return None
         null = np.random.default_rng(0).standard_normal(matrix.shape[1])
         scale = float(np.abs(null).max())
         for _ in range(3):  # each takes what is left of the range of Aᵀ down by the shift over the gap
-            null = null - matrix.T @ shifted.factors.solve(matrix @ null)
+            null = null - matrix.T @ shifted.solve(matrix @ null)
         determined[owner[np.abs(null) > UNTOUCHED * scale]] = False
     return ForceFreedom(degree, determined)
 
@@ -191,14 +189,14 @@ class _Shifted:
         self._diagonal = normal.diagonal()
         pattern, self._values = stored_lower_triangle(sp.csc_array(normal + sp.eye_array(normal.shape[0])))
         self._on_diagonal = pattern.pointers[:-1]
-        self.factors = QdldlFactors(pattern)
-
-    def pivots(self, shift: float) -> FloatArray | None:
-        """Pivots of the factors, (n,), which are kept until the next ones; None where one is zero."""
-        self._values[self._on_diagonal] = self._diagonal - shift
-        return self.factors.pivots(self._values)
+        self._factors = QdldlFactors(pattern)
 
     def eigenvalues_below(self, shift: float) -> int | None:
-        """How many, by the signs of the pivots."""
-        pivots = self.pivots(shift)
+        """How many, by the signs of the pivots; None where one of them is zero."""
+        self._values[self._on_diagonal] = self._diagonal - shift
+        pivots = self._factors.pivots(self._values)
         return None if pivots is None else int(np.sum(pivots < 0))
+
+    def solve(self, rhs: FloatArray) -> FloatArray:
+        """With the factors at the last shift."""
+        return self._factors.solve(rhs)
