@@ -7,14 +7,12 @@ from __future__ import annotations
 
 import itertools
 from dataclasses import dataclass
-from functools import cached_property
 from typing import Any
 
 import numpy as np
 
 from mbla.arrays import IntArray
 from mbla.model.blocks import Blocks
-from mbla.results.paraview.vtu_file import CellArrays, cell_arrays
 
 
 @dataclass(frozen=True)
@@ -27,11 +25,6 @@ class BlockCells:
 
     cells: tuple[tuple[str, Any], ...]
     rows: tuple[IntArray, ...]
-
-    @cached_property
-    def arrays(self) -> CellArrays:
-        """The cells as a file holds them: the same in every frame."""
-        return cell_arrays(self.cells)
 
 
 @dataclass(frozen=True)

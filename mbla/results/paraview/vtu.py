@@ -66,7 +66,7 @@ def _largest_at_blocks(scene: Scene, values: FloatArray) -> FloatArray:
 def write_cells(path: Path, points: FloatArray, displacement: FloatArray, data: Arrays, cells: BlockCells) -> None:
     """Blocks with their vertices at ``points`` and data on each, (n_blocks, ...)."""
     cell_data = {name: [values[rows] for rows in cells.rows] for name, values in data.items()}
-    write_mesh(path, points, cells.arrays, point_data={"displacement": displacement}, cell_data=cell_data)
+    write_mesh(path, points, list(cells.cells), point_data={"displacement": displacement}, cell_data=cell_data)
 
 
 def block_data(model: Model) -> Arrays:

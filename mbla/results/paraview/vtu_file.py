@@ -14,7 +14,6 @@ import base64
 import sys
 import zlib
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
 from typing import Any
@@ -62,24 +61,10 @@ DATA_TYPES = {
 Arrays = dict[str, NDArray[Any]]
 
 
-@dataclass(frozen=True)
-class CellArrays:
-    """Cells as the file holds them: arrays by name, and how many cells they are."""
-
-    arrays: Arrays
-    count: int
-
-
-def cell_arrays(cells: Sequence[tuple[str, Any]]) -> CellArrays:
-    """Of cells as ``write_mesh`` takes them: once for files that share them."""
-    polyhedra = any(kind == POLYHEDRON for kind, _ in cells)
-    return CellArrays(_polyhedra(cells) if polyhedra else _plain_cells(cells), sum(len(block) for _, block in cells))
-
-
 def write_mesh(
     path: Path,
     points: FloatArray,
-    cells: Sequence[tuple[str, Any]] | CellArrays,
+    cells: Sequence[tuple[str, Any]],
     point_data: Mapping[str, NDArray[Any]],
     cell_data: Mapping[str, Sequence[NDArray[Any]]],
 ) -> None:
@@ -87,7 +72,7 @@ def write_mesh(
 
     points     : (n_points, 3)
     cells      : pairs of a type of ``CELL_TYPES`` and rows of points, (n, corners); of polyhedra their faces, each an
-                 array of rows of points. They cannot be mixed with other types. Or what ``cell_arrays`` makes of them
+                 array of rows of points. They cannot be mixed with other types
     point_data : by name, (n_points,) or (n_points, k); whole or real numbers
     cell_data  : by name, one array per entry of ``cells``
 
@@ -99,18 +84,18 @@ def write_mesh(
         for data of another length than that of its points or cells
     """
     on_cells = {name: np.concatenate(list(arrays)) for name, arrays in cell_data.items()}
-    held = cells if isinstance(cells, CellArrays) else cell_arrays(cells)
+    n_cells = sum(len(block) for _, block in cells)
     _check_lengths("points", point_data, len(points))
-    _check_lengths("cells", on_cells, held.count)
+    _check_lengths("cells", on_cells, n_cells)
     sections = (
         ("Points", {"Points": points}),
-        ("Cells", held.arrays),
+        ("Cells", _polyhedra(cells) if any(kind == POLYHEDRON for kind, _ in cells) else _plain_cells(cells)),
         ("PointData", point_data),
         ("CellData", on_cells),
     )
     try:
         with path.open("w", encoding="ascii", newline="\n") as file:
-            file.writelines(_lines(sections, len(points), held.count))
+            file.writelines(_lines(sections, len(points), n_cells))
     except OSError as error:
         raise FileError(f"{path}: cannot be written: {error.strerror or error}") from error
 
