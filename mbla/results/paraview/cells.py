@@ -1,6 +1,6 @@
 """Blocks as the cells that ParaView knows: tetrahedra, wedges and hexahedra where every block is one, else polyhedra.
 
-A file does not mix polyhedra with other cells, so one block of another shape makes all of them polyhedra.
+One file cannot mix polyhedra with other cells (meshio), so one block of another shape makes all of them polyhedra.
 """
 
 from __future__ import annotations

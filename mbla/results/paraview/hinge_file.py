@@ -6,11 +6,11 @@ from pathlib import Path
 
 import numpy as np
 
+from mbla.model.geometry.meshio_files import write_mesh
 from mbla.results.collapse.interface_modes import InterfaceMode
 from mbla.results.collapse.motion import motion_scale
 from mbla.results.paraview.points import interface_displacements
 from mbla.results.paraview.scene import Scene
-from mbla.results.paraview.vtu_file import write_mesh
 
 
 def has_hinges(scene: Scene) -> bool:

@@ -15,12 +15,12 @@ import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
 from mbla.model.blocks import Blocks
+from mbla.model.geometry.meshio_files import write_mesh
 from mbla.model.model import Model, TravelPosition
 from mbla.results.collapse.by_interface import sum_by_interface
 from mbla.results.collapse.mechanics import global_forces
 from mbla.results.collapse.motion import displacements_at
 from mbla.results.paraview.scene import Scene
-from mbla.results.paraview.vtu_file import write_mesh
 from mbla.solution.statics import contact_resultants
 
 DEAD, LIVE, REACTION, GUIDE = 0, 1, 2, 3

@@ -9,8 +9,8 @@ import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
 from mbla.contacts.contacts import Contacts
+from mbla.model.geometry.meshio_files import write_mesh
 from mbla.model.model import Model
-from mbla.results.paraview.vtu_file import write_mesh
 from mbla.results.pictures.geometry import ground_slab
 
 GROUND, FIXED, GUIDED = 0, 1, 2

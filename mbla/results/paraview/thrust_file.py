@@ -7,9 +7,9 @@ from pathlib import Path
 import numpy as np
 
 from mbla.arrays import IntArray
+from mbla.model.geometry.meshio_files import write_mesh
 from mbla.results.paraview.points import interface_displacements
 from mbla.results.paraview.scene import Scene
-from mbla.results.paraview.vtu_file import write_mesh
 
 POINT, LINE = 0, 1
 """kinds of cells"""

@@ -1,7 +1,7 @@
 """Files for ParaView: blocks, contact points and interfaces, one file per kind of cell; without a case the model alone.
 
 Blocks have points of their own, so that Warp By Vector on ``displacement`` (scale factor 1) shows them part.
-The files hold neither texts nor truth values: groups are numbered in alphabetical order, flags are 0 and 1.
+meshio writes neither texts nor truth values: groups are numbered in alphabetical order, flags are 0 and 1.
 """
 
 from __future__ import annotations
@@ -14,6 +14,7 @@ import numpy as np
 from mbla.arrays import FloatArray
 from mbla.contacts.contacts import Contacts
 from mbla.deck.selectors import POSITIONS
+from mbla.model.geometry.meshio_files import write_mesh
 from mbla.model.labels import BlockLabels
 from mbla.model.model import Model
 from mbla.results.collapse.mechanics import global_forces, interface_resultants
@@ -21,7 +22,6 @@ from mbla.results.collapse.thrust import point_friction_use
 from mbla.results.collapse.work import work_of
 from mbla.results.paraview.cells import BlockCells
 from mbla.results.paraview.scene import Scene
-from mbla.results.paraview.vtu_file import write_mesh
 
 Arrays = dict[str, np.typing.NDArray[Any]]
 

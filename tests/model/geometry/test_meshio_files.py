@@ -3,16 +3,19 @@ from __future__ import annotations
 import subprocess
 import sys
 from pathlib import Path
+from typing import Any
 
+import meshio
 import numpy as np
 import pytest
 
 from mbla.arrays import FloatArray, IntArray
+from mbla.errors import FileError
 from mbla.model.geometry import READERS, read_geometry
 from mbla.model.geometry.geometry import Geometry, GeometryFileError
+from mbla.model.geometry.meshio_files import write_mesh
 from mbla.model.geometry.repair import repair
 from mbla.model.polyhedra import HEXAHEDRON, cuboids
-from tests.model.geometry.written import write_mesh
 from tests.model.shapes import box, build_raw, moved, rotation
 
 FORMATS = {".ply": "ply", ".stl": "stl", ".vtu": "vtu", ".msh": "gmsh", ".inp": "abaqus"}
@@ -254,6 +257,24 @@ def test_extension_in_capitals(tmp_path: Path) -> None:
     path = tmp_path / "wall.VTU"
     write_mesh(path, points, [("hexahedron", cells)])
     assert volumes(path) == pytest.approx([1] * 9)
+
+
+def test_write_mesh_keeps_points_cells_and_data(tmp_path: Path) -> None:
+    points, cells = grid()
+    data: dict[str, Any] = {"displacement": points * 0.5, "number": np.arange(len(points))}
+    path = tmp_path / "out.vtu"
+    write_mesh(path, points, [("hexahedron", cells)], data, {"block": [np.arange(9)]})
+    mesh = meshio.read(path)
+    assert mesh.points == pytest.approx(points)
+    assert mesh.cells[0].data.tolist() == cells.tolist()
+    assert mesh.point_data["displacement"] == pytest.approx(points * 0.5)
+    assert mesh.cell_data["block"][0].tolist() == list(range(9))
+
+
+def test_write_mesh_says_which_file_it_could_not_write(tmp_path: Path) -> None:
+    path = tmp_path / "nowhere" / "out.vtu"
+    with pytest.raises(FileError, match=r"out\.vtu: cannot be written: No such file"):
+        write_mesh(path, np.zeros((1, 3)), [("vertex", np.array([[0]]))])
 
 
 def test_meshio_is_imported_only_when_needed() -> None:

@@ -4,8 +4,8 @@ from typing import Any
 import numpy as np
 import pytest
 
+from mbla.model.geometry.meshio_files import write_mesh
 from mbla.results.paraview.cells import block_cells
-from mbla.results.paraview.vtu_file import write_mesh
 from tests.results.reading import read_vtk, vtk_volumes
 from tests.results.shapes import BRICK, PYRAMID, TETRA, WEDGE, blocks_of
 
@@ -32,7 +32,7 @@ def test_cells_have_the_volumes_of_their_blocks(tmp_path: Path, shapes: Any, cel
     assert [cell for cell, _ in found.cells] == cells
     assert sorted(np.concatenate(found.rows)) == list(range(len(blocks)))
     path = tmp_path / "blocks.vtu"
-    write_mesh(path, blocks.vertices, found.cells, {}, {"block": list(found.rows)})
+    write_mesh(path, blocks.vertices, found.cells, cell_data={"block": list(found.rows)})
     assert vtk_volumes(path) == pytest.approx(blocks.volumes[np.concatenate(found.rows)], rel=1e-12)
 
 
@@ -57,6 +57,6 @@ def test_block_that_only_counts_like_a_brick_is_a_polyhedron() -> None:
 def test_vtk_reads_the_cell_types(tmp_path: Path) -> None:
     blocks = blocks_of([TETRA, BRICK, WEDGE])
     path = tmp_path / "blocks.vtu"
-    write_mesh(path, blocks.vertices, block_cells(blocks).cells, {}, {})
+    write_mesh(path, blocks.vertices, block_cells(blocks).cells)
     grid = read_vtk(path)
     assert [grid.GetCellType(i) for i in range(3)] == [10, 13, 12]
