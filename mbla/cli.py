@@ -21,6 +21,7 @@ from typing import TYPE_CHECKING, Any, NoReturn
 
 from mbla import result_commands
 from mbla.arguments import build_parser
+from mbla.collector import loading, no_collection
 from mbla.errors import DeckError, FileError, MblaError, UsageError
 from mbla.failures import failure_record, words_of
 from mbla.run_options import RunOptions
@@ -72,10 +73,11 @@ def _run(options: argparse.Namespace) -> int:
 
     def one(deck: Path) -> int:
         content, seconds = _read(deck, run_options)
-        from mbla.results.records.json_record import json_line, results_json
-        from mbla.results.words.listing import listing
-        from mbla.results.words.summary import summary_lines
-        from mbla.run_deck import run_and_write
+        with loading():
+            from mbla.results.records.json_record import json_line, results_json
+            from mbla.results.words.listing import listing
+            from mbla.results.words.summary import summary_lines
+            from mbla.run_deck import run_and_write
 
         results = run_and_write(content, run_options, progress, time.perf_counter() - seconds)
         _clear_progress(progress)
@@ -176,7 +178,8 @@ COMMANDS: dict[str, Callable[[argparse.Namespace], int]] = {
 
 def _read(path: Path, options: RunOptions) -> tuple[Deck, float]:
     """The deck, and the seconds it took; a faulty one is told before anything heavy is imported."""
-    from mbla.deck import read_deck
+    with no_collection():
+        from mbla.deck import read_deck
 
     started = time.perf_counter()
     return read_deck(path, options.overrides), time.perf_counter() - started

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import gc
 import hashlib
-from collections.abc import Callable, Iterable, Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 from typing import Any
 
+from mbla.collector import no_collection
 from mbla.deck.deck import Deck, Source
 from mbla.deck.expressions import Parameters, is_expression
 from mbla.deck.include import confined, read_files
@@ -36,7 +35,7 @@ def read_deck(path: str | Path, overrides: Sequence[str] = ()) -> Deck:
     FileError
         if the deck file itself cannot be opened
     """
-    with _no_collection():
+    with no_collection():
         return _read(Path(path), overrides)
 
 
@@ -50,24 +49,8 @@ def read_deck_text(text: str, path: Path, overrides: Sequence[str] = ()) -> Deck
     DeckError
         with every fault found
     """
-    with _no_collection():
+    with no_collection():
         return _read(path, overrides, text)
-
-
-@contextmanager
-def _no_collection() -> Iterator[None]:
-    """Pause the cyclic garbage collector.
-
-    Reading makes no cycles but hundreds of thousands of lists, through which the collector would walk again and again:
-    a third of the time for a deck of 5,000 polyhedra.
-    """
-    was_enabled = gc.isenabled()
-    gc.disable()
-    try:
-        yield
-    finally:
-        if was_enabled:
-            gc.enable()
 
 
 def _read(path: Path, overrides: Sequence[str], text: str | None = None) -> Deck:

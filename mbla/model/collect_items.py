@@ -14,7 +14,7 @@ from mbla.deck.types import BlockItem, Item, Material
 from mbla.deck.units import Units
 from mbla.errors import DeckError, Fault, Notice
 from mbla.model.build_blocks import Labels, indices_in_groups
-from mbla.model.generators import GENERATORS
+from mbla.model.generators import KINDS, generator_of
 from mbla.model.generators.generator import Generated, ItemRefused, Site
 from mbla.model.labels import NONE, BlockLabels, join_labels, labels_of
 from mbla.model.model import Ground
@@ -105,7 +105,7 @@ def collect_items(deck: Deck, faults: list[Fault]) -> CollectedItems:
 
 def kind_of(entry: BlockItem) -> tuple[str, Item]:
     """Key and content of an item of the deck."""
-    return next((kind, item) for kind in GENERATORS if (item := getattr(entry, kind)) is not None)
+    return next((kind, item) for kind in KINDS if (item := getattr(entry, kind)) is not None)
 
 
 def density_of(material: Material, units: Units) -> float:
@@ -122,7 +122,7 @@ def _generate(deck: Deck, kind: str, item: Item, path: KeyPath) -> Generated:
         deck.contacts.tolerance, lambda below, name: deck.resolve_file((*path, *below), name), deck.units.length
     )
     with np.errstate(over="ignore", invalid="ignore"):  # coordinates that are not finite are refused by block
-        generated = GENERATORS[kind](item, site)
+        generated = generator_of(kind)(item, site)
         transform = build_transform(item.transform)
         return generated if transform is None else transform_item(generated, transform)
 

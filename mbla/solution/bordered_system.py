@@ -13,7 +13,8 @@ import numpy as np
 import scipy.sparse as sp
 
 from mbla.arrays import FloatArray, IntArray
-from mbla.solution.linear_algebra import Factorization, SymmetricPattern, factorization
+from mbla.solution.linear_algebra import Factorization, factorization
+from mbla.solution.linear_algebra.pattern import stored_lower_triangle
 from mbla.solution.linear_algebra.superlu import factorize
 
 Solve = Callable[[FloatArray], FloatArray]
@@ -85,8 +86,7 @@ def _bordered(normal: sp.csc_array, scale: FloatArray, border: FloatArray, corne
 
 def _border_last(normal: sp.csc_array, scale: FloatArray, border: FloatArray, corner: float) -> Solve | None:
     """The bordered system by factors of the matrix alone; None where these are not good enough."""
-    scaling = sp.diags_array(scale)
-    scaled = sp.csc_array(scaling @ normal @ scaling + REGULARIZATION * sp.eye_array(len(scale)))
+    scaled = _scaled(normal, scale)
     factors = _factors(scaled)
     if factors is None:
         return None
@@ -112,6 +112,20 @@ def _border_last(normal: sp.csc_array, scale: FloatArray, border: FloatArray, co
     return solve if off <= POOR * float(np.abs(trial).max(initial=0.0)) else None
 
 
+def _scaled(normal: sp.csc_array, scale: FloatArray) -> sp.csc_array:
+    """S N S with its regularisation, whole diagonal stored, rows sorted."""
+    n = len(scale)
+    held = normal.sorted_indices()
+    column = np.repeat(np.arange(n), np.diff(held.indptr))
+    held.data = scale[held.indices] * held.data * scale[column]
+    on_diagonal = np.flatnonzero(held.indices == column)
+    if len(on_diagonal) < n:
+        return sp.csc_array(held + REGULARIZATION * sp.eye_array(n))
+    held.data[on_diagonal] += REGULARIZATION
+    held.eliminate_zeros()
+    return held
+
+
 def _refined(once: Solve, left: Callable[[FloatArray, FloatArray], FloatArray], rhs: FloatArray) -> FloatArray:
     x = once(rhs)
     residual, wanted = left(rhs, x), REFINED * float(np.abs(rhs).max(initial=0.0))
@@ -128,16 +142,11 @@ def _refined(once: Solve, left: Callable[[FloatArray, FloatArray], FloatArray], 
 
 def _factors(scaled: sp.csc_array) -> Factorization | None:
     """Of a matrix that has its whole diagonal, regularised more strongly where it must be."""
-    scaled.sort_indices()
-    n = int(scaled.shape[0])
-    columns = np.repeat(np.arange(n), np.diff(scaled.indptr))
-    lower = scaled.indices >= columns
-    pointers = np.concatenate([[0], np.cumsum(np.bincount(columns[lower], minlength=n))]).astype(np.int32)
-    pattern = SymmetricPattern(n, scaled.indices[lower].astype(np.int32), pointers)
-    factors, values = factorization(pattern), scaled.data[lower]
+    pattern, values = stored_lower_triangle(scaled)
+    factors = factorization(pattern)
     for stronger in STRONGER:
         shifted = values.copy()
-        shifted[pointers[:-1]] += (stronger - 1.0) * REGULARIZATION
+        shifted[pattern.pointers[:-1]] += (stronger - 1.0) * REGULARIZATION
         if factors.factorize(shifted):
             return factors
     return None

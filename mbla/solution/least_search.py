@@ -119,7 +119,7 @@ class Search:
 
     def by_newton(self, start: Candidate, shares: tuple[float, ...]) -> LawState | None:
         """Least forces with the load factor in the cost, with ever smaller shares until it falls by little enough."""
-        program, deadline = self.program, self.settings.deadline
+        program, deadline, began = self.program, self.settings.deadline, time.perf_counter()
         stiffness, mechanism = stiffness_of(program), self._mechanism()
         multipliers, factor, left = (
             start.multipliers,
@@ -128,13 +128,14 @@ class Search:
         )
         for share in shares:
             problem = LeastProblem(stiffness, mechanism, self.weights, self._epsilon(share))
-            began = time.perf_counter()
             found = least_by_newton(problem, multipliers, factor, left, deadline)
             multipliers, factor, left = found.multipliers, found.load_factor, left - found.steps
             forces, velocities = found.forces, self.state.velocities
             least = law_state(program, program.limits.friction, forces, velocities, factor)
             fitting, solved = self._fits(least), found.unbalanced <= SOLVED_TO
-            self._record_newton(stiffness, found, solved, time.perf_counter() - began)
+            now = time.perf_counter()
+            self._record_newton(stiffness, found, solved, now - began)  # pattern and order count, as in cone programs
+            began = now
             fall = (self.state.load_factor - factor) / self._factor_size()
             if fitting or not solved or left <= 0 or fall > SLOWLY * FALL:
                 return least if fitting else None

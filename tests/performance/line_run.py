@@ -4,9 +4,11 @@
 
     python tests/performance/line_run.py DECK [options of mbla run]
 
-Needs nothing but the standard library and the mbla that is imported, so that it measures another checkout as well:
-``PYTHONPATH=CHECKOUT``. The clock that mbla reads for its own records is exchanged for one that counts the seconds of
-the processor and stands still while modules are imported; what takes time outside these records is timed from here.
+A run that leaves no results prints nothing and ends with the exit status of the command. Needs nothing but the
+standard library and the mbla that is imported, so that it measures another checkout as well: ``PYTHONPATH=CHECKOUT``.
+
+The clock that mbla reads for its own records is exchanged for one that counts the seconds of the processor and stands
+still while modules are imported; what takes time outside these records is timed from here.
 """
 
 from __future__ import annotations
@@ -107,6 +109,8 @@ def measured(arguments: list[str]) -> dict[str, Any]:
     line.around(OutputFolder, "__exit__", "place")
     line.keep(run_deck, "write_results")
     code = main(["run", *arguments, "-q"])
+    if line.results is None:  # interrupted, or refused: said by the command itself
+        raise SystemExit(code)
     usage = resource.getrusage(resource.RUSAGE_SELF)
     return {
         "exit_code": code,

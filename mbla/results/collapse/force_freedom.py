@@ -30,7 +30,8 @@ from mbla.contacts.glue import solids_of
 from mbla.model.model import Model
 from mbla.results.collapse.by_interface import interface_radii
 from mbla.results.collapse.kept import kept
-from mbla.solution.linear_algebra.superlu import factors_on_the_diagonal
+from mbla.solution.linear_algebra.pattern import stored_lower_triangle
+from mbla.solution.linear_algebra.qdldl_factors import QdldlFactors
 from mbla.solution.solution import ContactMode, Mechanics
 
 MOST_EQUATIONS = 12_000
@@ -166,28 +167,36 @@ def _equilibrium(model: Model, contacts: Contacts, bases: FloatArray, owner: Any
 
 
 def _freedom(matrix: sp.csr_array, owner: Any, n_interfaces: int) -> ForceFreedom | None:
-    normal = sp.csc_array(matrix @ matrix.T)
-    below, above = _eigenvalues_below(normal, BELOW), _eigenvalues_below(normal, ABOVE)
+    shifted = _Shifted(sp.csc_array(matrix @ matrix.T))
+    above, below = shifted.eigenvalues_below(ABOVE), shifted.eigenvalues_below(BELOW)
     if below is None or below != above:
         return None
     degree = matrix.shape[1] - (matrix.shape[0] - below)
     determined = np.ones(n_interfaces, dtype=bool)
     if degree > 0:
-        factors = factors_on_the_diagonal(sp.csc_array(normal + BELOW * sp.eye_array(normal.shape[0])), 0.0)
-        if factors is None:
-            return None
         null = np.random.default_rng(0).standard_normal(matrix.shape[1])
         scale = float(np.abs(null).max())
         for _ in range(3):  # each takes what is left of the range of Aᵀ down by the shift over the gap
-            null = null - matrix.T @ factors.solve(matrix @ null)
+            null = null - matrix.T @ shifted.solve(matrix @ null)
         determined[owner[np.abs(null) > UNTOUCHED * scale]] = False
     return ForceFreedom(degree, determined)
 
 
-def _eigenvalues_below(normal: sp.csc_array, shift: float) -> int | None:
-    """How many, by the signs of the pivots; None where the factors are not symmetric."""
-    shifted = sp.csc_array(normal - shift * sp.eye_array(normal.shape[0]))
-    factors = factors_on_the_diagonal(shifted, 0.0)
-    if factors is None or not np.array_equal(factors.perm_r, factors.perm_c):
-        return None
-    return int(np.sum(factors.U.diagonal() < 0))
+class _Shifted:
+    """Factors of a symmetric matrix less multiples of the unit matrix: one pattern, analysed once."""
+
+    def __init__(self, normal: sp.csc_array) -> None:
+        self._diagonal = normal.diagonal()
+        pattern, self._values = stored_lower_triangle(sp.csc_array(normal + sp.eye_array(normal.shape[0])))
+        self._on_diagonal = pattern.pointers[:-1]
+        self._factors = QdldlFactors(pattern)
+
+    def eigenvalues_below(self, shift: float) -> int | None:
+        """How many, by the signs of the pivots; None where one of them is zero."""
+        self._values[self._on_diagonal] = self._diagonal - shift
+        pivots = self._factors.pivots(self._values)
+        return None if pivots is None else int(np.sum(pivots < 0))
+
+    def solve(self, rhs: FloatArray) -> FloatArray:
+        """With the factors at the last shift."""
+        return self._factors.solve(rhs)

@@ -65,9 +65,10 @@ def write_results_hdf5(results: Results) -> bytes:
     with h5py.File("results.h5", "w", driver="core", backing_store=False, libver=("v110", "v110")) as file:
         for name, value in root_attributes(results).items():
             _set_attribute(file, name, value)
+        scales: dict[str, h5py.Dataset] = {}
         for path, field in _fields([case.name for case in results.model.load_cases]):
             if path in content:
-                _write_field(file, path, field, content.pop(path), results.model.units)
+                _write_field(file, scales, path, field, content.pop(path), results.model.units)
         if content:
             raise AssertionError(f"not in the layout: {sorted(content)}")
         file.flush()
@@ -150,8 +151,15 @@ def write_hdf5(content: PlainFile) -> bytes:
 
 
 def _set_attribute(owner: h5py.HLObject, name: str, value: str | int) -> None:
-    """An attribute inside the object header; text at its own length, as text of variable length stands outside."""
-    owner.attrs.create(name, _text_array(value) if isinstance(value, str) else np.int64(value))
+    """An attribute inside the object header; text at its own length, as text of variable length stands outside.
+
+    By the functions beneath ``owner.attrs``, which looks for one of that name first: there is none.
+    """
+    import h5py
+
+    array = _text_array(value) if isinstance(value, str) else np.array(value, dtype=np.int64)
+    kind, space = h5py.h5t.py_create(array.dtype, logical=True), h5py.h5s.create_simple(array.shape)
+    h5py.h5a.create(owner.id, name.encode(), kind, space).write(array, mtype=h5py.h5t.py_create(array.dtype))
 
 
 def _text_array(value: str | list[str] | tuple[str, ...]) -> np.typing.NDArray[Any]:
@@ -174,7 +182,9 @@ def _as_array(value: Value, field: Field) -> np.typing.NDArray[Any]:
     return array
 
 
-def _write_field(file: h5py.File, path: str, field: Field, value: Value, units: Units) -> None:
+def _write_field(
+    file: h5py.File, scales: dict[str, h5py.Dataset], path: str, field: Field, value: Value, units: Units
+) -> None:
     array = _as_array(value, field)
     dataset = _create(file, path, array)
     _set_attribute(dataset, "units", unit_text(field.unit, units))
@@ -182,9 +192,9 @@ def _write_field(file: h5py.File, path: str, field: Field, value: Value, units: 
     if field.kind == "text":
         _set_attribute(dataset, "_Encoding", "utf-8")  # netCDF's word for it: xarray gives text, not bytes
     for axis, name in enumerate(field.dims):
-        scale = _scale(file, path, name, array.shape[axis])
-        dataset.dims[axis].label = name
-        dataset.dims[axis].attach_scale(scale)
+        scale, dimension = _scale(file, scales, path, name, array.shape[axis]), dataset.dims[axis]
+        dimension.label = name
+        dimension.attach_scale(scale)
 
 
 def _create(file: h5py.File, path: str, array: np.typing.NDArray[Any]) -> h5py.Dataset:
@@ -210,15 +220,18 @@ def _create(file: h5py.File, path: str, array: np.typing.NDArray[Any]) -> h5py.D
     )
 
 
-def _scale(file: h5py.File, path: str, name: str, size: int) -> h5py.Dataset:
-    """The dimension scale of that name: in the root group if the dimension is shared, else beside the dataset."""
-    group = file if name in SHARED_DIMENSIONS else file[path.rpartition("/")[0]]
-    if name not in group:
-        scale = _create(file, f"{group.name}/{name}".lstrip("/"), np.arange(size, dtype=np.int64))
+def _scale(file: h5py.File, scales: dict[str, h5py.Dataset], path: str, name: str, size: int) -> h5py.Dataset:
+    """The dimension scale of that name: in the root group if the dimension is shared, else beside the dataset.
+
+    scales : those of this file so far, by their paths
+    """
+    place = name if name in SHARED_DIMENSIONS else f"{path.rpartition('/')[0]}/{name}"
+    scale = scales.get(place)
+    if scale is None:
+        scale = scales[place] = _create(file, place, np.arange(size, dtype=np.int64))
         _set_attribute(scale, "units", "1")
         _set_attribute(scale, "long_name", f"dimension: {name.replace('_', ' ')}")
         scale.make_scale(name)
-    scale = group[name]
     if len(scale) != size:
         raise AssertionError(f"{path}: {size} along {name}, which has {len(scale)}")
     return scale

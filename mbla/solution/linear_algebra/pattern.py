@@ -63,3 +63,13 @@ def lower_triangle(matrix: sp.csc_array | sp.csr_array | sp.coo_array) -> tuple[
     counts = np.bincount(stored // max(n, 1), minlength=n)
     pointers = np.concatenate([[0], np.cumsum(counts)]).astype(np.int32)
     return SymmetricPattern(n, (stored % max(n, 1)).astype(np.int32), pointers), values.astype(np.float64)
+
+
+def stored_lower_triangle(matrix: sp.csc_array) -> tuple[SymmetricPattern, FloatArray]:
+    """The same of a matrix that stores its whole diagonal and every entry once: nothing has to be looked for."""
+    held = matrix if matrix.has_sorted_indices else matrix.sorted_indices()
+    n = int(held.shape[0])
+    columns = np.repeat(np.arange(n), np.diff(held.indptr))
+    lower = held.indices >= columns
+    pointers = np.concatenate([[0], np.cumsum(np.bincount(columns[lower], minlength=n))]).astype(np.int32)
+    return SymmetricPattern(n, held.indices[lower].astype(np.int32), pointers), held.data[lower]

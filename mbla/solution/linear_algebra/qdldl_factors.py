@@ -4,8 +4,8 @@ Its library takes the upper triangle by columns. That is what the lower one beco
 the end, and its stored entries then stand in the reverse order: nothing has to be sorted. Order, elimination tree and
 the place of every entry are found once, at the first factorisation, and kept.
 
-It goes on past negative pivots. They are given out with a copy of the factors alone, which takes as long as one
-solution: 3 % of a factorisation of 20,000 unknowns.
+It goes on past negative pivots, which tell the inertia of a matrix. They are given out with a copy of the factors
+alone, which takes as long as one solution: 3 % of a factorisation of 20,000 unknowns.
 """
 
 from __future__ import annotations
@@ -32,9 +32,18 @@ class QdldlFactors:
 
     def factorize(self, values: FloatArray) -> bool:
         """Factorise; False where the matrix is not positive definite to working accuracy or not finite."""
+        pivots = self.pivots(values)
+        self._good = pivots is not None and bool((pivots > 0.0).all())
+        return self._good
+
+    def pivots(self, values: FloatArray) -> FloatArray | None:
+        """Factorise a matrix that need not be definite: its pivots, (n,), in the order of elimination.
+
+        As many are negative as eigenvalues are (Sylvester's law of inertia). None where one is zero or not finite.
+        """
         self._good = False
         if not np.isfinite(values).all():
-            return False
+            return None
         self._upper.data[:] = values[::-1]
         try:
             if self._solver is None:
@@ -42,10 +51,10 @@ class QdldlFactors:
             else:
                 self._solver.update(self._upper, upper=True)
         except RuntimeError:  # a pivot is exactly zero
-            return False
+            return None
         _, pivots, _ = self._solver.factors()
-        self._good = bool((pivots > 0.0).all() and np.isfinite(pivots).all())
-        return self._good
+        self._good = bool(np.isfinite(pivots).all())
+        return np.asarray(pivots) if self._good else None
 
     def solve(self, rhs: FloatArray) -> FloatArray:
         """Solution for one right-hand side, (n,), or several, (n, k)."""

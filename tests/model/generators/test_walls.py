@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from mbla.model.generators import GENERATORS
+from mbla.model.generators import generator_of
 from mbla.model.generators.walls import generate_walls
 from tests.model.generators.masonry.built import Built, build, is_sound, least_distance
 
@@ -196,4 +196,4 @@ def test_a_corner_drawn_backwards_on_the_other_side_covers_the_same_plan(tmp_pat
 
 
 def test_registered() -> None:
-    assert GENERATORS["walls"] is generate_walls
+    assert generator_of("walls") is generate_walls
