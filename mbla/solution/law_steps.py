@@ -118,10 +118,20 @@ def continuing_step(stepper: Stepper, anchor: FloatArray, rho: float, before: St
     start = None if before is None or not before.exact else continued(stepper, before, anchor)
     if before is None or start is None:
         return None, 0
-    size = before.rho / LONGER if before.by_continuation else rho
-    step = exact_step(stepper.stiffness, stepper.slope, anchor, size, *start, NEWTON_STEPS)
-    work = 1 + step.factorizations
-    return (replace(_step_of(anchor, size, step, work), by_continuation=True) if step.residual <= FITS else None), work
+    work = 1
+    for size in _sizes_that_go_on(before, rho):
+        step = exact_step(stepper.stiffness, stepper.slope, anchor, size, *start, NEWTON_STEPS)
+        work += step.factorizations
+        if step.residual <= FITS:
+            return replace(_step_of(anchor, size, step, work), by_continuation=True), work
+    return None, work
+
+
+def _sizes_that_go_on(before: Step, rho: float) -> tuple[float, ...]:
+    """ρ to try where the joints go on as before: longer after a step that went so, else the same and shorter ones."""
+    if not before.by_continuation:
+        return (rho,)
+    return (before.rho / LONGER, before.rho, before.rho * LONGER)
 
 
 def lagged_step(stepper: Stepper, anchor: FloatArray, rho: float, number: int) -> Step | None:

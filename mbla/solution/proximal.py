@@ -139,7 +139,7 @@ def steps_from(run: ProximalRun, anchor: FloatArray, max_programs: int) -> Seque
         if step is None:
             return _late(run) if late else finished(run, "no further step was found")
         state = _keep(run, kind, step, time.perf_counter() - started)
-        fitting += state.residual <= FITTING
+        fitting += state.residual <= _fits(run)
         if (state.residual <= EXACT and _settled(run.states[first:])) or fitting > LAST_STEPS:
             return finished(run, "")
         if _is_enough(run, run.states[first:]):
@@ -151,6 +151,11 @@ def steps_from(run: ProximalRun, anchor: FloatArray, max_programs: int) -> Seque
         anchor = step.forces if kind == EXACT_STEP else MOVE * step.forces + (1.0 - MOVE) * anchor
         before, rho = step, min(rho, step_size(run.program, anchor))
     return finished(run, f"the steps did not come to rest in {max_programs} programs")
+
+
+def _fits(run: ProximalRun) -> float:
+    """Residual that counts as fitting: that asked for, between those of a state at rest and of a solved one."""
+    return max(FITTING, min(run.stepper.settings.residual, SOLVED))
 
 
 def _late(run: ProximalRun) -> SequenceResult:
