@@ -10,7 +10,9 @@
 
        max λ − ρ/2 ‖x − x̄‖²   s.t.   A x + f_D + λ f_L = 0,   ‖T‖ ≤ (μ − δ) N̄ + c + δ N,   −f_t ≤ N ≤ f_c
 
-   after which x̄ moves 0.7 of the way; δ is the tangent of the dilatancy angle, zero by default.
+   after which x̄ moves 0.7 of the way; δ is the tangent of the dilatancy angle, zero by default. Where the forces
+   hardly change any more, the convex step is repeated from the same x̄ with the friction of its own forces, which leads
+   to the exact one.
 
 It starts from the dead load, not from the associative forces: coming down from those, a sequence stays on states in
 which joints are locked by forces that nothing but dilatancy would bring about. The load factor is not unique even so.
