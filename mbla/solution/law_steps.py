@@ -44,8 +44,10 @@ five, of 40 factorisations the first and 20 each other one, where shortened exac
 far; with three at most the wall took a quarter longer."""
 
 SHORTER = 8.0
-SHORTEST = 4
-"""Lengths that are tried before the exact law is given up from a state."""
+SHORTEST, AFTER_CONVEX = 4, 2
+"""Lengths that are tried before the exact law is given up from a state, and from one that convex steps led to: still
+shorter ones lead back from there. On a planar wall of 60 by 60 units three of them, of 110 to 200 factorisations, left
+the residual at 0.2 to 0.9 and undid what four convex steps of 150 had gained in the load factor."""
 
 
 @dataclass(frozen=True)
@@ -108,7 +110,8 @@ def next_step(stepper: Stepper, anchor: FloatArray, rho: float, before: Step | N
         if result.converged:
             return _polished(stepper, anchor, before.rho / LONGER, result, work)
         first = before.shorter  # the next longer one is longer than the one just tried in vain
-    for shorter in range(first, SHORTEST):
+    shortest = SHORTEST if before is None or before.exact else AFTER_CONVEX
+    for shorter in range(min(first, shortest - 1), shortest):
         size = rho * SHORTER**shorter
         result = _interior(stepper, law, anchor, size, before, number)
         work += result.iterations

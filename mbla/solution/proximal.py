@@ -24,7 +24,7 @@ load factor for the mechanism is the same on both ways.
 from __future__ import annotations
 
 import time
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -115,7 +115,7 @@ class ProximalRun:
         self.spent += step.work
         if step.exact and state.residual <= PROGRESS * self.lowest:
             self.lowest, self.spent = state.residual, 0
-        return self.spent > MOST_WORK
+        return self.spent > MOST_WORK and self.lowest <= APPROXIMATE
 
     @property
     def program(self) -> Program:
@@ -195,6 +195,8 @@ def _step(
         step = lagged_step(run.stepper, anchor, rho, number)
     if step is not None and step.exact:
         return step, EXACT_STEP, 0
+    if step is not None and before is not None:  # the next exact one need not be looked for among longer ones
+        step = replace(step, shorter=before.shorter)
     return step, CONVEX_STEP, convex_steps - 1 if convex_steps > 0 else CONVEX_STEPS
 
 
