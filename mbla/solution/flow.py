@@ -20,7 +20,7 @@ from mbla.solution.light_blocks import sharpened
 from mbla.solution.livesley import solve_livesley
 from mbla.solution.load_path import solve_path
 from mbla.solution.lowest import solve_lowest
-from mbla.solution.proximal import APPROXIMATE, SOLVED, solve_proximal
+from mbla.solution.proximal import SOLVED, solve_proximal
 from mbla.solution.published import solve_published
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Status
@@ -28,9 +28,9 @@ from mbla.solution.solution import Status
 NOT_REACHED = "forces and velocities miss the law by {:.2g}: the residual of {:g} that was asked for was not reached"
 
 LARGE = 4000
-"""Unknowns of the motion above which no interior path is followed from a state within ``APPROXIMATE``. A planar wall of
-30 by 30 units, 2,745 unknowns, took one of 1,018 factorisations, twice the time of its steps; of 40 by 40, 4,860, one
-of 1,319 in 70 s that ended at 4e-3, where the steps had come to 3e-5 in half of that."""
+"""Unknowns of the motion above which no interior path is followed unless it is asked for. On a planar wall of 30 by 30
+units, 2,745 unknowns, one took 1,018 factorisations, twice the time of the steps; on one of 40 by 40, 4,860 unknowns,
+one took 1,319 in 70 s and ended at 4e-3, where the steps had come to 3e-5 in half of that."""
 
 NOT_FOLLOWED = (
     "interior paths of the exact law were not followed: on a structure of this size they take longer than the steps "
@@ -107,17 +107,11 @@ def _auto(flow: Flow) -> SequenceResult:
         return sequence
     if sequence.status is Status.TIME_LIMIT:
         return sequence
-    if _is_near_enough(flow.program, sequence):
+    if sequence.state is not None and len(flow.program.dead_load) > LARGE:
         return replace(sequence, remarks=(*sequence.remarks, NOT_FOLLOWED))
     return solve_interior(
         flow.program, flow.associative, flow.analysis.interior, flow.settings, flow.log, start=sequence
     )
-
-
-def _is_near_enough(program: Program, sequence: SequenceResult) -> bool:
-    """Whether a structure is so large, and its state so near the law, that interior paths would hardly come nearer."""
-    state = sequence.state
-    return state is not None and state.residual <= APPROXIMATE and len(program.dead_load) > LARGE
 
 
 def _lowest(flow: Flow) -> SequenceResult:
