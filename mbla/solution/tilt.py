@@ -42,6 +42,9 @@ MOST_STEPS = 16
 """steps; Newton's method takes 3 to 6, secants about as many"""
 PROBES = (0.5 * math.pi, 0.75 * math.pi, math.pi)
 """angles tried where the load across alone, from the level table, brings nothing down"""
+BY_LINE = 1e-6
+"""angle within which it falls at once where nothing of the change is borne: a load factor that is 0 but for rounding,
+1e-13, moves the arc cosine near 1 by 5e-7"""
 BETWEEN = 8
 """angles tried before the one found where nothing proves that the table gets there"""
 
@@ -76,7 +79,7 @@ class Answer:
 
     def falls_at_once(self, tilt: Tilt) -> bool:
         """Whether nothing of the change of the loads is borne, so that every turn brings it down."""
-        return abs(self.load_factor) <= GOOD and self.next_angle(tilt) <= AT_ONCE
+        return abs(self.load_factor) <= GOOD and self.next_angle(tilt) <= BY_LINE
 
 
 def only_direction_counts(model: Model, contacts: Contacts, tilt: Tilt) -> bool:

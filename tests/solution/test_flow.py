@@ -7,7 +7,7 @@ import pytest
 
 from mbla.solution import flow as flow_module
 from mbla.solution.associative import AssociativeResult
-from mbla.solution.flow import NOT_PUBLISHED, NOT_REACHED, Flow, solve_flow
+from mbla.solution.flow import NOT_FOLLOWED, NOT_PUBLISHED, NOT_REACHED, Flow, solve_flow
 from mbla.solution.law_state import LawState, SequenceResult
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Status
@@ -43,3 +43,22 @@ def test_a_state_of_the_law_is_kept_though_a_sharper_one_was_asked_for(monkeypat
     result = solve_flow(Flow(line.program, nothing, line.deck.analysis, settings, lambda record: None))
     assert result.state is state
     assert result.remarks == (NOT_REACHED.format(4e-8, 1e-9),)
+
+
+@pytest.mark.parametrize(("large", "miss", "followed"), [(0, 3e-5, False), (0, 3e-2, False), (10_000, 3e-5, True)])
+def test_no_interior_path_is_followed_unasked_on_large_structures(
+    monkeypatch: pytest.MonkeyPatch, *, large: int, miss: float, followed: bool
+) -> None:
+    """What the steps came to is kept, and that nothing else was tried is said."""
+    line = line_of(BLOCK, "analysis.flow_rule=non_associative")
+    near = SequenceResult(Status.SOLVED, LawState(np.zeros((0, 3)), np.zeros(0), 0.5, miss), "", ())
+    exact = SequenceResult(Status.SOLVED, LawState(np.zeros((0, 3)), np.zeros(0), 0.4, 0.0), "", ())
+    monkeypatch.setattr(flow_module, "LARGE", large)
+    monkeypatch.setattr(flow_module, "solve_proximal", lambda *arguments: near)
+    monkeypatch.setattr(flow_module, "solve_interior", lambda *arguments, **more: exact)
+    monkeypatch.setattr(flow_module, "sharpened", lambda *arguments: arguments[-1])
+    nothing = AssociativeResult(Status.SOLVED, None, None, "", ())
+    settings = SolverSettings(1e-9, residual=1e-6)
+    result = solve_flow(Flow(line.program, nothing, line.deck.analysis, settings, lambda record: None))
+    assert result.state is (exact.state if followed else near.state)
+    assert (NOT_FOLLOWED in result.remarks) is not followed

@@ -2,16 +2,39 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+from typing import cast
+
 import numpy as np
 import pytest
 
 from mbla.solution import law_steps
+from mbla.solution.exact_law import LawStep
 from mbla.solution.interior_step import InteriorResult
-from mbla.solution.law_steps import LONGER, SHORTER, SHORTEST, Step, Stepper, next_step
-from mbla.solution.proximal import CONVEX_STEPS, MOST_CONVEX, SHORT, ProximalRun, _convex_after
+from mbla.solution.law_state import LawState
+from mbla.solution.law_steps import (
+    LONGER,
+    SHORTER,
+    SHORTEST,
+    Step,
+    Stepper,
+    continuing_step,
+    lagged_step,
+    next_step,
+    repeated_step,
+)
+from mbla.solution.proximal import (
+    CONVEX_STEPS,
+    MOST_WORK,
+    SHORTENED,
+    ProximalRun,
+    _convex_after,
+    gravity_state,
+    step_size,
+)
 from mbla.solution.settings import SolverSettings
 from mbla.solution.stiffness import stiffness_of
-from tests.line import BLOCK, line_of
+from tests.line import BLOCK, WALL, line_of
 
 RHO = 1e-3
 
@@ -56,11 +79,66 @@ def test_after_a_convex_step_the_usual_length_comes_first(monkeypatch: pytest.Mo
     assert lengths_tried(monkeypatch, before, of)[0] == RHO
 
 
-def test_steps_that_creep_are_followed_by_more_and_more_convex_ones() -> None:
+def test_shortened_steps_are_followed_by_convex_ones_once_they_move_little() -> None:
     of = stepper()
+    assert _convex_after(step_before(of, shorter=1, moved=0.5 * SHORTENED)) == CONVEX_STEPS
+    assert _convex_after(step_before(of, shorter=1, moved=2.0 * SHORTENED)) == 0
+    assert _convex_after(step_before(of, shorter=0, moved=0.5 * SHORTENED)) == 0
+
+
+def sizes_of_newtons_method(monkeypatch: pytest.MonkeyPatch, before: Step, of: Stepper) -> list[float]:
+    """ρ of every attempt to go on as before where none succeeds."""
+    tried: list[float] = []
+
+    def in_vain(*arguments: object, **named: object) -> LawStep:
+        tried.append(cast(float, arguments[3]))
+        return LawStep(before.velocities, 0.0, before.forces, 1.0, 1)
+
+    monkeypatch.setattr(law_steps, "continued", lambda *arguments: (before.velocities, 0.0))
+    monkeypatch.setattr(law_steps, "exact_step", in_vain)
+    assert continuing_step(of, before.forces, RHO, before) == (None, 1 + len(tried))
+    return tried
+
+
+def test_where_a_longer_step_fails_one_as_long_as_before_is_tried(monkeypatch: pytest.MonkeyPatch) -> None:
+    """And no shorter one than usual: each would be a fourth of the one before, at the same cost."""
+    of = stepper()
+    before = replace(step_before(of, shorter=0), by_continuation=True, rho=RHO / 2)
+    assert sizes_of_newtons_method(monkeypatch, before, of) == [RHO / 2 / LONGER, RHO / 2, RHO / 2 * LONGER]
+    before = replace(before, rho=RHO)
+    assert sizes_of_newtons_method(monkeypatch, before, of) == [RHO / LONGER, RHO]
+    assert sizes_of_newtons_method(monkeypatch, replace(before, by_continuation=False), of) == [RHO]
+
+
+def test_repeated_convex_steps_come_to_the_exact_step() -> None:
+    """Without a try of Newton's method the friction of the last forces is that of the step itself."""
+    line = line_of(WALL, "parameters.n=6")
+    program = line.program
+    of = Stepper(stiffness_of(program), np.zeros(program.n_points), SolverSettings(1e-8), lambda record: None)
     run = ProximalRun(of, [])
-    creeping = step_before(of, shorter=SHORT)
-    counts = [_convex_after(run, creeping) for _ in range(4)]
-    assert counts == [CONVEX_STEPS, 2 * CONVEX_STEPS, MOST_CONVEX, MOST_CONVEX]
-    assert _convex_after(run, step_before(of, shorter=SHORT, moved=0.1)) == 0
-    assert _convex_after(run, step_before(of, shorter=SHORT - 1)) == 0
+    gravity = gravity_state(run)
+    assert isinstance(gravity, np.ndarray)
+    rho = step_size(program, gravity)
+    first = lagged_step(of, gravity, rho, 1)
+    assert first is not None
+    found = repeated_step(of, gravity, rho, first, 1)
+    exact = next_step(of, gravity, rho, None, 1)
+    assert found is not None
+    assert exact is not None
+    assert found.exact
+    assert exact.exact
+    assert found.load_factor == pytest.approx(exact.load_factor, rel=1e-8)
+    assert np.abs(found.forces - exact.forces).max() < 1e-6 * np.abs(exact.forces).max()
+
+
+def test_steps_that_come_no_closer_end() -> None:
+    run = ProximalRun(stepper(), [])
+    step = step_before(run.stepper, shorter=0)
+    miss = [LawState(step.forces, step.velocities, 0.1, residual) for residual in (1e-2, 4e-3, 3e-3)]
+    dear = replace(step, work=MOST_WORK // 2)
+    assert not run.in_vain(step, miss[0])
+    assert not run.in_vain(dear, miss[0])
+    assert not run.in_vain(dear, miss[1])
+    assert not run.in_vain(dear, miss[2])
+    assert not run.in_vain(replace(dear, exact=False), miss[2])
+    assert run.in_vain(step, miss[2])
