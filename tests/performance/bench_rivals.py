@@ -211,8 +211,9 @@ def row_of(
 
 
 def _ratio(figures: Mapping[str, object], against: Mapping[str, object], column: str) -> float | None:
+    """Of the seconds of a column; None where either has none, as a check that needs no solver."""
     mine, theirs = against.get(column), figures.get(column)
-    return None if mine is None or theirs is None else float(str(theirs)) / float(str(mine))
+    return None if not mine or theirs is None else float(str(theirs)) / float(str(mine))
 
 
 DIGITS = {"load_factor": 10, "static_bound": 10, "kinematic_bound": 10, "reference": 10}

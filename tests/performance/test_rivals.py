@@ -142,3 +142,4 @@ def test_a_row_has_error_and_ratios() -> None:
     assert row["ratio"] == pytest.approx(3.0)
     assert row["solver_ratio"] is None
     assert row_of("wall", "linprog", {"load_factor": None}, mine, {})["error"] is None
+    assert row_of("wall", "linprog", {"solver": 0.5}, {"solver": 0.0}, {})["solver_ratio"] is None
