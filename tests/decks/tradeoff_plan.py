@@ -46,8 +46,9 @@ VAULTS = Plan(("accuracy: ", "form: ", "solver: ", "polyhedron: 8 ", "contact_mo
 MIDDLE = Plan(("accuracy: ", "form: ", "solver: "), 100.0)
 PRESETS_ALONE = Plan(("accuracy: ",), 100.0, in_turn=True)
 LARGE = Plan(("accuracy: ",), 150.0, in_turn=True)
+LARGEST = Plan(("accuracy: ",), 400.0, in_turn=True)
 PLANS = {
-    "60 x 60": (LARGE, LARGE),
+    "60 x 60": (LARGE, LARGEST),
     "house": (LARGE, LARGE),
     "40 x 40": (MIDDLE, PRESETS_ALONE),
     "500 voussoirs": (MIDDLE, PRESETS_ALONE),
