@@ -188,3 +188,25 @@ def test_what_slips_with_the_first_turn_has_the_angle_zero(rule: str) -> None:
     answer = turned(text, "parameters.mu=0", "parameters.f=1", f"analysis.flow_rule={rule}")
     assert angle(answer) == 0.0
     assert any("as soon as it turns" in remark for remark in answer.solution.remarks)
+
+
+@pytest.mark.parametrize(("crossing", "at_once"), [(0.0, True), (5e-7, True), (5e-6, False)])
+def test_at_once_is_within_what_rounding_leaves_of_an_angle(
+    crossing: float, at_once: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A load factor of 1e-13 puts the crossing of a line through the level loads at sqrt(2e-13), 4.5e-7."""
+    text = METRES.replace(
+        "supports: [", "supports: [{ground: {x: 0}}, {ground: {point: [3, 0, 0], normal: [-1, 0, 0]}}, "
+    )
+    text = text.replace("axis: [0, 1, 0]", "axis: [0, 1, 0.2]")
+    answer = turned(text, "parameters.mu=0", "parameters.f=1")
+    assert answer.load_case.tilt is not None
+    monkeypatch.setattr(Answer, "next_angle", lambda answer, tilt: crossing)
+    assert answer.falls_at_once(answer.load_case.tilt) is at_once
+    assert not replace(answer, solution=carrying(answer, 1e-5)).falls_at_once(answer.load_case.tilt)
+
+
+def carrying(answer: Answer, load_factor: float) -> Solution:
+    mechanics = answer.solution.mechanics
+    assert mechanics is not None
+    return replace(answer.solution, mechanics=replace(mechanics, load_factor=load_factor))
