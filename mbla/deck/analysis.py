@@ -110,9 +110,9 @@ class AnalysisSection(Section):
         "auto",
         description="how non-associative flow is solved. proximal: steps from the gravity state to the exact law; "
         "interior: a path inside the cones followed by arc length through its turning points, then steps of least "
-        "change; the way for domes and cross vaults; auto: proximal, and interior where that stalls; path: the live "
-        "load raised step by step; lowest: search for lower load factors from the solution; published: the procedure "
-        "of Portioli et al. 2014",
+        "change; the way for domes and cross vaults; auto: proximal, and interior where that stalls, up to 4,000 "
+        "unknowns; path: the live load raised step by step; lowest: search for lower load factors from the solution; "
+        "published: the procedure of Portioli et al. 2014",
     )
     proximal: ProximalScheme = Field(default_factory=ProximalScheme, description="parameters of the proximal scheme")
     interior: InteriorScheme = Field(default_factory=InteriorScheme, description="parameters of the interior path")
