@@ -2,7 +2,7 @@
 
 ::
 
-    python -m tests.extremes.table [--family TEXT] [--short] [--red] [-o FILE]
+    python -m tests.extremes.table [--family TEXT] [--short] [--red] [--jobs N] [-o FILE]
 
 Every scene has a process of its own, so that one that dies or hangs is a line of the table like the others. With
 ``--family`` or ``--short`` the lines go to the terminal and the page stays as it is, unless ``-o`` names another file.
@@ -15,6 +15,7 @@ import argparse
 import multiprocessing
 import sys
 from collections.abc import Sequence
+from concurrent.futures import ThreadPoolExecutor
 from multiprocessing.connection import Connection
 from pathlib import Path
 
@@ -37,15 +38,16 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--short", action="store_true", help="without those that take long")
     parser.add_argument("--red", action="store_true", help="print red lines alone")
     parser.add_argument("-o", type=Path, default=None, help="file of the page")
+    parser.add_argument("--jobs", type=int, default=1, help="scenes at a time")
     asked = parser.parse_args(arguments)
     scenes = [scene for scene in all_scenes() if asked.family in scene.family and not (asked.short and scene.long)]
     outcomes = []
-    for scene in scenes:
-        outcome = apart(scene)
-        outcomes.append(outcome)
-        if outcome.is_red or not asked.red:
-            sys.stdout.write(f"{outcome.seconds:6.2f} s {scene.family}: {row(outcome)}\n")
-            sys.stdout.flush()
+    with ThreadPoolExecutor(asked.jobs) as jobs:
+        for outcome in jobs.map(apart, scenes):
+            outcomes.append(outcome)
+            if outcome.is_red or not asked.red:
+                sys.stdout.write(f"{outcome.seconds:6.2f} s {outcome.scene.family}: {row(outcome)}\n")
+                sys.stdout.flush()
     target = asked.o or (None if asked.family or asked.short else PAGE)
     if target is not None:
         target.write_text(page(outcomes), encoding="utf-8")
