@@ -3,6 +3,7 @@
 ::
 
     python -m tests.performance.bench_growth [--most BLOCKS] [--limit SECONDS] [--budget SECONDS] [--only FAMILY]
+                                              [--flow-rule RULE]
 
 Walls from 100 to 10,000 blocks, in their plane and in space, with associative flow and then without dilatancy,
 everything else by default. Each run has a process of its own on one thread; one that takes more seconds of the
@@ -52,7 +53,8 @@ LEAST = 10.0
 """Seconds left of the budget below which no run is begun."""
 
 ENDED = ("solved", "approximate")
-"""States of runs that did all of their work: what breaks off early would flatter the exponent."""
+"""States of runs that did all of their work: what breaks off early would flatter the exponent. Larger walls of a family
+are not begun after one that did not."""
 
 FAMILIES = ("wall, planar", "wall, spatial")
 FEWEST = 3
@@ -148,14 +150,14 @@ def _taken() -> float:
 
 
 def measure(family: str, flow_rule: str, sides: Sequence[int], limit: float, budget: Budget) -> None:
-    """All sizes of one family, the smallest first, up to the first that does not come to its end."""
+    """All sizes of one family, the smallest first, up to the first that does not come to a result."""
     rows = []
     for side in sides:
         row: dict[str, object] = {"family": family, "flow_rule": flow_rule, "blocks": blocks_of(side), "status": ""}
         found = budget.run([family, flow_rule, str(side)], limit)
         rows.append(row | dict.fromkeys(FIGURES, "") | found)
         record("growth", rows[-1])
-        if rows[-1]["total"] == "":
+        if rows[-1]["status"] not in ENDED:
             break
     record_exponents(family, flow_rule, rows)
 
@@ -169,10 +171,11 @@ def main(arguments: list[str]) -> None:
     parser.add_argument("--limit", type=float, default=LIMIT, metavar="SECONDS", help="of the processor for one run")
     parser.add_argument("--budget", type=float, default=BUDGET, metavar="SECONDS", help="of the processor for all runs")
     parser.add_argument("--only", choices=FAMILIES, help="only this family")
+    parser.add_argument("--flow-rule", choices=FLOW_RULES, help="only this flow rule")
     options = parser.parse_args(arguments)
     sides = [side for side in SIDES if blocks_of(side) <= options.most]
     budget = Budget(options.budget)
-    for flow_rule in FLOW_RULES:
+    for flow_rule in [options.flow_rule] if options.flow_rule else FLOW_RULES:
         for family in [options.only] if options.only else FAMILIES:
             measure(family, flow_rule, sides, options.limit, budget)
 
