@@ -15,7 +15,7 @@ from mbla.solution.associative import AssociativeResult
 from mbla.solution.cone_solution import Log
 from mbla.solution.dilatancy import solve_dilatancy
 from mbla.solution.interior.solve_interior import solve_interior
-from mbla.solution.law_state import SequenceResult
+from mbla.solution.law_state import LawState, SequenceResult, residual_with_closing
 from mbla.solution.light_blocks import sharpened
 from mbla.solution.livesley import solve_livesley
 from mbla.solution.load_path import solve_path
@@ -102,8 +102,8 @@ def _auto(flow: Flow) -> SequenceResult:
 
     A sharper one is asked of what was found: the other scheme would end in another state, and costs many times more.
     """
-    sequence, enough = _proximal(flow), max(SOLVED, flow.settings.residual)
-    if sequence.state is not None and sequence.state.residual <= enough:
+    sequence = _proximal(flow)
+    if sequence.state is not None and _is_enough(flow, sequence.state):
         return sequence
     if sequence.status is Status.TIME_LIMIT:
         return sequence
@@ -112,6 +112,13 @@ def _auto(flow: Flow) -> SequenceResult:
     return solve_interior(
         flow.program, flow.associative, flow.analysis.interior, flow.settings, flow.log, start=sequence
     )
+
+
+def _is_enough(flow: Flow, state: LawState) -> bool:
+    """Whether a state fits as asked for; a rough one as verification sees it."""
+    rough = flow.settings.residual > SOLVED
+    residual = residual_with_closing(flow.program, 0.0, state) if rough else state.residual
+    return residual <= max(SOLVED, flow.settings.residual)
 
 
 def _lowest(flow: Flow) -> SequenceResult:

@@ -62,3 +62,20 @@ def test_no_interior_path_is_followed_unasked_on_large_structures(
     result = solve_flow(Flow(line.program, nothing, line.deck.analysis, settings, lambda record: None))
     assert result.state is (exact.state if followed else near.state)
     assert (NOT_FOLLOWED in result.remarks) is not followed
+
+
+@pytest.mark.parametrize(("closing", "followed"), [(4e-3, False), (1.1e-2, True)])
+def test_a_rough_state_is_enough_if_verification_sees_it_so(
+    closing: float, followed: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """On a dome steps ended at 3.3e-3, which with the normal forces of closing joints are 1.1e-2: no result."""
+    line = line_of(BLOCK, "analysis.flow_rule=non_associative")
+    near = SequenceResult(Status.APPROXIMATE, LawState(np.zeros((0, 3)), np.zeros(0), 0.5, 3.3e-3), "", ())
+    exact = SequenceResult(Status.SOLVED, LawState(np.zeros((0, 3)), np.zeros(0), 0.4, 0.0), "", ())
+    monkeypatch.setattr(flow_module, "residual_with_closing", lambda *arguments: closing)
+    monkeypatch.setattr(flow_module, "solve_proximal", lambda *arguments: near)
+    monkeypatch.setattr(flow_module, "solve_interior", lambda *arguments, **more: exact)
+    nothing = AssociativeResult(Status.SOLVED, None, None, "", ())
+    settings = SolverSettings(1e-9, residual=5e-3)
+    result = solve_flow(Flow(line.program, nothing, line.deck.analysis, settings, lambda record: None))
+    assert result.state is (exact.state if followed else near.state)
