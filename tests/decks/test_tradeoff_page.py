@@ -81,6 +81,15 @@ def test_a_broken_promise_is_told() -> None:
     assert "No verified run breaks them." in page_text([without])
 
 
+def test_a_distance_of_two_states_is_no_error() -> None:
+    far = replace(ENTRY, flow_rule="non_associative", distance=2e-3, residual=8e-7, resolution=1e-8)
+    text = page_text([far])
+    assert "No verified run breaks them." in text
+    assert f"reference: accuracy: standard on {ENTRY.structure} (without dilatancy, 2.0e-03)." in text
+    for own in (replace(far, residual=2e-6), replace(far, resolution=2e-6), replace(far, flow_rule="associative")):
+        assert "**Broken: accuracy: standard" in page_text([own])
+
+
 def test_the_oldest_come_first() -> None:
     newer = replace(ENTRY, structure=STANDARD_SET[1].name, date="2026-02-01T00:00:00+00:00")
     order = [(structure.name, rule) for structure, rule in chosen([], [newer, ENTRY])]
