@@ -239,15 +239,18 @@ def _as_asked(run: ProximalRun, last: Step, rho: float) -> SequenceResult:
     if further is not None:
         after = _keep(run, EXACT_STEP, further, time.perf_counter() - started)
         state = after if after.residual <= state.residual else state
-    return rough_result(state, run.stepper.settings.residual, tuple(run.records))
+    return rough_result(run.program, run.stepper.slope, state, run.stepper.settings.residual, tuple(run.records))
 
 
-def rough_result(state: LawState, wanted: float, records: tuple[ProgramRecord, ...]) -> SequenceResult:
-    """A state at which a scheme was told to stop, by ``wanted`` above ``SOLVED``, judged by its residual."""
+def rough_result(
+    program: Program, slope: FloatArray | float, state: LawState, wanted: float, records: tuple[ProgramRecord, ...]
+) -> SequenceResult:
+    """A state with which a scheme may end, by ``wanted`` above ``SOLVED``, judged by its residual in verification."""
     if state.residual <= SOLVED:
         return SequenceResult(Status.SOLVED, state, "", records)
-    words = AS_ASKED.format(state.residual, wanted)
-    if state.residual <= WARNED:
+    seen = residual_with_closing(program, slope, state)
+    words = AS_ASKED.format(seen, wanted)
+    if seen <= WARNED:
         return SequenceResult(Status.SOLVED, state, "", records, remarks=(words,))
     return SequenceResult(Status.APPROXIMATE, state, words, records, asked=wanted)
 
@@ -280,7 +283,10 @@ def finished(run: ProximalRun, cause: str) -> SequenceResult:
     if best.residual <= SOLVED:
         return SequenceResult(Status.SOLVED, best, "", tuple(run.records), remarks=tuple(remarks))
     factors = [state.load_factor for state in run.states[-SPREAD_STEPS:]]
-    spread = (min(factors), max(factors))
+    spread, wanted, slope = (min(factors), max(factors)), run.stepper.settings.residual, run.stepper.slope
+    if wanted > SOLVED and residual_with_closing(run.program, slope, best) <= wanted:
+        rough = rough_result(run.program, slope, best, wanted, tuple(run.records))
+        return replace(rough, spread=spread, remarks=(*remarks, *rough.remarks))
     if best.residual <= WARNED:
         remarks.append(words)
         return SequenceResult(Status.SOLVED, best, "", tuple(run.records), spread, tuple(remarks))

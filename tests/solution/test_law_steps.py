@@ -8,7 +8,7 @@ from typing import cast
 import numpy as np
 import pytest
 
-from mbla.solution import law_steps
+from mbla.solution import law_steps, proximal
 from mbla.solution.exact_law import LawStep
 from mbla.solution.interior_step import InteriorResult
 from mbla.solution.law_state import LawState
@@ -33,6 +33,7 @@ from mbla.solution.proximal import (
     step_size,
 )
 from mbla.solution.settings import SolverSettings
+from mbla.solution.solution import Status
 from mbla.solution.stiffness import stiffness_of
 from tests.line import BLOCK, WALL, line_of
 
@@ -142,3 +143,18 @@ def test_steps_that_come_no_closer_end() -> None:
     assert not run.in_vain(dear, miss[2])
     assert not run.in_vain(replace(dear, exact=False), miss[2])
     assert run.in_vain(step, miss[2])
+
+
+@pytest.mark.parametrize(("seen", "asked"), [(4e-3, 5e-3), (6e-3, None)])
+def test_steps_that_come_no_closer_may_be_as_close_as_asked(
+    seen: float, asked: float | None, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    of = replace(stepper(), settings=SolverSettings(1e-8, residual=5e-3))
+    run = ProximalRun(of, [])
+    forces = np.ones((of.program.n_points, of.program.components))
+    run.states.append(LawState(forces, np.ones(len(of.program.live_load)), 0.5, 3e-3))
+    monkeypatch.setattr(proximal, "residual_with_closing", lambda *arguments: seen)
+    result = proximal.finished(run, "the steps came no closer")
+    assert result.status is Status.APPROXIMATE
+    assert result.asked == asked
+    assert ("came no closer" in result.reason) is (asked is None)

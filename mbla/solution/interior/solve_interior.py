@@ -212,7 +212,7 @@ def _result(tries: _Tries, scheme: InteriorScheme) -> SequenceResult:
     if best.residual <= SOLVED:
         return SequenceResult(Status.SOLVED, best, "", records, _spread(tries, WARNED), (ONE_OF_MANY,))
     if best.residual <= tries.wanted:
-        rough = rough_result(best, tries.settings.residual, records)
+        rough = rough_result(tries.program, 0.0, best, tries.settings.residual, records)
         return replace(rough, remarks=(*rough.remarks, ONE_OF_MANY))
     spread = _spread(tries, USABLE)
     reason = f"no interior path ended in a state of the exact law: forces and velocities miss it by {best.residual:.2g}"
