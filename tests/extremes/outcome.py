@@ -4,7 +4,8 @@ Verdicts::
 
     right      solved and verified, and within the stated tolerance of the expected load factor; or, where there is
                none, one of the statuses or notices that the scene names
-    diagnosed  not that, but a status, notice or error that the scene allows says so, in words
+    diagnosed  not that, but a status, notice or error that the scene allows says so, in words; or the load factor is
+               within what it is given with as the worth of rounding
     wrong      a load factor that is given out as a result is not the right one
     silent     no result, and nothing that names the cause
     warning    a warning of Python or a library reached the user
@@ -30,6 +31,7 @@ from types import FrameType
 
 from mbla.deck import read_deck
 from mbla.errors import MblaError
+from mbla.results.magnitudes import rounding_of
 from mbla.results.outcome import notices_of, result_of
 from mbla.results.records.json_record import json_line, results_json
 from mbla.results.results import CaseResult, Results
@@ -135,6 +137,8 @@ def _judged(scene: Scene, results: Results) -> Outcome:
     notices = notices_of(results)
     said = [str(case.status), *(notice.identifier for notice in notices)]
     named = [word for word in said if word in scene.diagnosis]
+    if got is not None and scene.expected is not None and abs(got - scene.expected) <= rounding_of(results.model, case):
+        named.append("load-factor-rounding")
     words = f"{case.status}: {case.solution.reason}" if case.solution.reason else str(case.status)
     shown = [notice.message for notice in notices if notice.identifier in named]
     return Outcome(
