@@ -12,8 +12,8 @@ A knob that the deck gives wins. What a preset turns was measured knob by knob (
   without, save for the standing where flow is not associative: what stands by self-stress only has no collapse load;
 - steps of the exact law may creep long before they end: on a dome a draft comes to 0.54299 with residuals of 5e-4 in
   0.37 of the time that leads to 0.54254, on a cross vault to 0.2576 in 0.29 of that to 0.2599, on a planar wall of 40
-  by 40 units to within 4e-4 in 0.4. Where they come to rest by themselves, as on smaller walls and arches, a draft ends in
-  the same state;
+  by 40 units to within 4e-4 in 0.4. Where they come to rest by themselves, as on smaller walls and arches, a draft ends
+  in the same state;
 - flow rule, friction polyhedra, contact points or resultants are the engineer's choice. They move the load factor by up
   to tens of per cent, and no preset touches them.
 """
