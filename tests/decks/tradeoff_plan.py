@@ -1,4 +1,4 @@
-"""What is run on each structure of the standard set, so that the whole page is measured in about half an hour.
+"""What is run on each structure of the standard set, so that the page takes three quarters of an hour.
 
 Times of an idle machine with two cores, one thread: small members take a tenth of a second to some seconds a setting
 and get every setting that tells something; vaults take up to a minute, walls of 40 x 40 as long, walls of 60 x 60 in

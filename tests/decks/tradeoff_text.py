@@ -19,9 +19,9 @@ most beyond its imports. The *error* is the relative distance of the load factor
 of the sharpest verified run where that is not verified, and never told smaller than what that one is itself good to.
 Without dilatancy the load factor need not be unique: a distance may be another solution of the same law.
 
-`python -m tests.decks.tradeoff_page` measures all and writes this page (half an hour; with names of structures only
-these; `--page` measures nothing). Every run, with its bounds, residual, solvers, date, versions and machine, is a row
-of [measured.csv](measured.csv).
+`python -m tests.decks.tradeoff_page` measures all and writes this page (three quarters of an hour; with names of
+structures only these; `--page` measures nothing). Every run, with its bounds, residual, solvers, date, versions and
+machine, is a row of [measured.csv](measured.csv).
 """
 PRESETS = ("draft", "standard", "reference")
 PROMISED = {"draft": 1e-2, "standard": 1e-4, "reference": 1e-7}
