@@ -73,6 +73,14 @@ def range_is_a_point(ends: tuple[float, float], rounding: float = 0.0) -> bool:
     return bool(abs(ends[1] - ends[0]) <= max(UNIQUE * max(abs(ends[0]), abs(ends[1])), rounding))
 
 
+def range_of_several(model: Model, case: CaseResult) -> tuple[float, float] | None:
+    """Both ends of the range where they are known, and further apart than rounding."""
+    ends = range_of(case)
+    if ends is None or not np.isfinite(ends).all() or range_is_a_point(ends, rounding_of(model, case)):
+        return None
+    return ends
+
+
 def factor_unique(model: Model, case: CaseResult) -> bool | None:
     """True where a theorem says so (associative flow), False where two verified factors differ, None if not known.
 
@@ -82,10 +90,7 @@ def factor_unique(model: Model, case: CaseResult) -> bool | None:
         return None
     if case.solution.flow_rule == "associative":
         return True
-    ends = range_of(case)
-    if ends is None or not np.isfinite(ends).all() or range_is_a_point(ends, rounding_of(model, case)):
-        return None
-    return False
+    return None if range_of_several(model, case) is None else False
 
 
 def law_residual(checks: Checks) -> float:

@@ -15,12 +15,12 @@ from mbla.solution.associative import AssociativeResult
 from mbla.solution.cone_solution import Log
 from mbla.solution.dilatancy import solve_dilatancy
 from mbla.solution.interior.solve_interior import solve_interior
-from mbla.solution.law_state import LawState, SequenceResult, residual_with_closing
+from mbla.solution.law_state import LawState, SequenceResult
 from mbla.solution.light_blocks import sharpened
 from mbla.solution.livesley import solve_livesley
 from mbla.solution.load_path import solve_path
 from mbla.solution.lowest import solve_lowest
-from mbla.solution.proximal import SOLVED, solve_proximal
+from mbla.solution.proximal import SOLVED, is_rough_enough, solve_proximal
 from mbla.solution.published import solve_published
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Status
@@ -115,10 +115,9 @@ def _auto(flow: Flow) -> SequenceResult:
 
 
 def _is_enough(flow: Flow, state: LawState) -> bool:
-    """Whether a state fits as asked for; a rough one as verification sees it."""
-    rough = flow.settings.residual > SOLVED
-    residual = residual_with_closing(flow.program, 0.0, state) if rough else state.residual
-    return residual <= max(SOLVED, flow.settings.residual)
+    """Whether a state is one of the exact law, or as rough as asked for."""
+    wanted = flow.settings.residual
+    return is_rough_enough(flow.program, 0.0, state, wanted) if wanted > SOLVED else state.residual <= SOLVED
 
 
 def _lowest(flow: Flow) -> SequenceResult:

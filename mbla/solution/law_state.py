@@ -60,16 +60,10 @@ def law_state(
     joint cannot crush; share of the power balance that the law (dilatancy ``slope``, a tangent) does not explain.
     """
     limits = program.limits
-    v = (program.equilibrium_matrix.T @ velocities).reshape(-1, program.components)
-    sliding = np.linalg.norm(v[:, 1:], axis=1)
-    strength = limits.friction * forces[:, 0] + limits.cohesion
-    surplus = v[:, 0] - slope * sliding
+    v, surplus, unexplained, balance = _unexplained(program, slope, forces, velocities, load_factor)
     crushable = np.isfinite(limits.compression)
     capacity = np.where(crushable, limits.compression, forces[:, 0])
-    unexplained = np.abs(strength * sliding + (forces[:, 1:] * v[:, 1:]).sum(axis=1))
-    unexplained += np.abs((forces[:, 0] + limits.tension) * np.maximum(surplus, 0.0))
     unexplained += np.abs((capacity - forces[:, 0]) * np.maximum(-surplus, 0.0))
-    balance = _balance(program, velocities, load_factor, float(np.abs(strength) @ sliding))
     speed = max(float(np.linalg.norm(v, axis=1).max(initial=0.0)), 1e-300)
     closing = float(np.where(crushable, 0.0, np.maximum(-v[:, 0], 0.0)).max(initial=0.0)) / speed
     excess = float(yield_violation(forces, limits).max(initial=0.0))
@@ -81,20 +75,27 @@ def residual_with_closing(program: Program, slope: FloatArray | float, state: La
 
     Close to the law that is of second order, and ``law_state`` leaves it out; of a rough state it may be the most.
     """
-    limits = program.limits
-    v = (program.equilibrium_matrix.T @ state.velocities).reshape(-1, program.components)
-    sliding = np.linalg.norm(v[:, 1:], axis=1)
-    strength = limits.friction * state.forces[:, 0] + limits.cohesion
-    surplus = v[:, 0] - slope * sliding
-    closing = np.where(np.isfinite(limits.compression), 0.0, np.maximum(-surplus, 0.0))
-    unexplained = np.abs(strength * sliding + (state.forces[:, 1:] * v[:, 1:]).sum(axis=1))
-    unexplained += np.abs((state.forces[:, 0] + limits.tension) * np.maximum(surplus, 0.0))
+    _, surplus, unexplained, balance = _unexplained(program, slope, state.forces, state.velocities, state.load_factor)
+    closing = np.where(np.isfinite(program.limits.compression), 0.0, np.maximum(-surplus, 0.0))
     unexplained += np.abs(state.forces[:, 0] * closing)
-    balance = _balance(program, state.velocities, state.load_factor, float(np.abs(strength) @ sliding))
     return max(state.residual, float(unexplained.sum()) / balance)
 
 
-def _balance(program: Program, velocities: FloatArray, load_factor: float, frictional: float) -> float:
-    """The largest power of the balance, with a floor where load factor and friction are next to nothing."""
+def _unexplained(
+    program: Program, slope: FloatArray | float, forces: FloatArray, velocities: FloatArray, load_factor: float
+) -> tuple[FloatArray, FloatArray, FloatArray, float]:
+    """Power in sliding and opening joints that the law does not explain, (n_points,), and what it comes from.
+
+    Contact velocities, (n_points, components); their normal part beyond dilatancy, (n_points,); that power; the largest
+    power of the balance, with a floor where load factor and friction are next to nothing.
+    """
+    limits = program.limits
+    v = (program.equilibrium_matrix.T @ velocities).reshape(-1, program.components)
+    sliding = np.linalg.norm(v[:, 1:], axis=1)
+    strength = limits.friction * forces[:, 0] + limits.cohesion
+    surplus = v[:, 0] - slope * sliding
+    unexplained = np.abs(strength * sliding + (forces[:, 1:] * v[:, 1:]).sum(axis=1))
+    unexplained += np.abs((forces[:, 0] + limits.tension) * np.maximum(surplus, 0.0))
+    frictional, dead_power = float(np.abs(strength) @ sliding), abs(float(program.dead_load @ velocities))
     least = NEAR_ZERO * program.moved_over_live(velocities)
-    return max(abs(load_factor), frictional, abs(float(program.dead_load @ velocities)), least, 1e-300)
+    return v, surplus, unexplained, max(abs(load_factor), frictional, dead_power, least, 1e-300)

@@ -116,8 +116,8 @@ def solve_until_proved(run: AssociativeRun, form: AssociativeForm) -> ProvedAnsw
         methods = [best.solution.solver]
         if not (_is_large(run) and best.gap is not None):
             methods.append(other_method(best.solution.solver))
-        if len(methods) > 1 and _is_open(run, best):
-            best = better(best, _answer(run, form, 1.0, replace(run.settings, solver=methods[1])))
+            if _is_open(run, best):
+                best = better(best, _answer(run, form, 1.0, replace(run.settings, solver=methods[1])))
     tried: set[tuple[str, float, float | None, bool]] = set()
     if best.solution.solver == "mbla" and best.solution.status is not Status.SOLVED:
         tried.add(("mbla", 1.0, None, True))

@@ -228,7 +228,7 @@ def _is_enough(run: ProximalRun, states: list[LawState]) -> bool:
         return False
     here, before = states[-1].load_factor, states[-2].load_factor
     near = abs(here - before) <= wanted * abs(here)
-    return near and residual_with_closing(run.program, run.stepper.slope, states[-1]) <= wanted
+    return near and is_rough_enough(run.program, run.stepper.slope, states[-1], wanted)
 
 
 def _as_asked(run: ProximalRun, last: Step, rho: float) -> SequenceResult:
@@ -240,6 +240,11 @@ def _as_asked(run: ProximalRun, last: Step, rho: float) -> SequenceResult:
         after = _keep(run, EXACT_STEP, further, time.perf_counter() - started)
         state = after if after.residual <= state.residual else state
     return rough_result(run.program, run.stepper.slope, state, run.stepper.settings.residual, tuple(run.records))
+
+
+def is_rough_enough(program: Program, slope: FloatArray | float, state: LawState, wanted: float) -> bool:
+    """Whether a rough state is asked for, by ``wanted`` above ``SOLVED``, and this is one as verification sees it."""
+    return wanted > SOLVED and residual_with_closing(program, slope, state) <= wanted
 
 
 def rough_result(
@@ -284,7 +289,7 @@ def finished(run: ProximalRun, cause: str) -> SequenceResult:
         return SequenceResult(Status.SOLVED, best, "", tuple(run.records), remarks=tuple(remarks))
     factors = [state.load_factor for state in run.states[-SPREAD_STEPS:]]
     spread, wanted, slope = (min(factors), max(factors)), run.stepper.settings.residual, run.stepper.slope
-    if wanted > SOLVED and residual_with_closing(run.program, slope, best) <= wanted:
+    if is_rough_enough(run.program, slope, best, wanted):
         rough = rough_result(run.program, slope, best, wanted, tuple(run.records))
         return replace(rough, spread=spread, remarks=(*remarks, *rough.remarks))
     if best.residual <= WARNED:

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from mbla.solution import flow as flow_module
+from mbla.solution import proximal
 from mbla.solution.associative import AssociativeResult
 from mbla.solution.flow import NOT_FOLLOWED, NOT_PUBLISHED, NOT_REACHED, Flow, solve_flow
 from mbla.solution.law_state import LawState, SequenceResult
@@ -72,7 +73,7 @@ def test_a_rough_state_is_enough_if_verification_sees_it_so(
     line = line_of(BLOCK, "analysis.flow_rule=non_associative")
     near = SequenceResult(Status.APPROXIMATE, LawState(np.zeros((0, 3)), np.zeros(0), 0.5, 3.3e-3), "", ())
     exact = SequenceResult(Status.SOLVED, LawState(np.zeros((0, 3)), np.zeros(0), 0.4, 0.0), "", ())
-    monkeypatch.setattr(flow_module, "residual_with_closing", lambda *arguments: closing)
+    monkeypatch.setattr(proximal, "residual_with_closing", lambda *arguments: closing)
     monkeypatch.setattr(flow_module, "solve_proximal", lambda *arguments: near)
     monkeypatch.setattr(flow_module, "solve_interior", lambda *arguments, **more: exact)
     nothing = AssociativeResult(Status.SOLVED, None, None, "", ())

@@ -14,6 +14,7 @@ from mbla.results.outcome import (
     locked_in,
     range_is_a_point,
     range_of,
+    range_of_several,
     result_of,
 )
 from mbla.results.results import CaseResult
@@ -189,8 +190,8 @@ def uniqueness_words(model: Model, case: CaseResult) -> str:
 
 def range_summary(model: Model, case: CaseResult) -> str:
     """``not unique: 0.639 g to 0.643 g for this mechanism``; nothing where that is not known."""
-    ends = range_of(case)
-    if ends is None or not np.isfinite(ends).all() or range_is_a_point(ends, rounding_of(model, case)):
+    ends = range_of_several(model, case)
+    if ends is None:
         return ""
     least, greatest = (load_factor_words(model, case.load_case, end) for end in ends)
     return f"not unique: {least} to {greatest} for this mechanism, verified"
