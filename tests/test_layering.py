@@ -35,6 +35,7 @@ DOORS = {
     "plotly": "results/view3d/view.py",
     "pandas": "results/tables/table.py",
     "pyarrow": "results/tables/parquet_file.py",
+    "distributed": "studies/sweep/engine/cluster.py",
 }
 FILES = sorted(PACKAGE.rglob("*.py"))
 

@@ -1,0 +1,1 @@
+"""What hands tasks to workers: one process, local ones, a cluster."""

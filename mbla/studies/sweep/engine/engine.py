@@ -1,0 +1,25 @@
+"""What every engine promises: tasks go in, outcomes come out as they are done, each exactly once."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import Protocol
+
+from mbla.studies.sweep.outcome import Outcome
+from mbla.studies.sweep.plan import Plan, Task
+
+
+class Engine(Protocol):
+    """Hands tasks to workers."""
+
+    def run(self, plan: Plan, tasks: Sequence[Task]) -> Iterator[Outcome]:
+        """Outcomes in the order in which they are done; one for every task, also where its worker died.
+
+        Closing the iterator stops what is under way.
+
+        Raises
+        ------
+        UsageError
+            no worker can be had, or one has another mbla or reads another base deck
+        """
+        ...

@@ -1,0 +1,1 @@
+"""The sweep file: its types, how it is read and checked, its schema."""

@@ -1,0 +1,215 @@
+"""The types of a sweep file: the one source of its schema, of the checks on single values and of its key reference.
+
+Numbers are plain; values that go into the deck are written as the deck takes them there, with a unit or as a list.
+"""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Literal, TypeAlias
+
+from pydantic import Field
+
+from mbla.deck.names import Line, Name
+from mbla.deck.quantities import Number, PositiveNumber, Quantity, Switch, Time, Whole
+from mbla.deck.section import Section
+
+MAX_POINTS = 1_000_000
+"""points of one sweep; more would not end in a table that anybody reads"""
+
+Degrees: TypeAlias = Annotated[float, Quantity("number", ge=-360, le=360)]
+Elevation: TypeAlias = Annotated[float, Quantity("number", ge=-90, le=90)]
+Points: TypeAlias = Annotated[int, Whole(ge=1, le=MAX_POINTS)]
+Seed: TypeAlias = Annotated[int, Whole(ge=0, le=2**32 - 1)]
+
+
+class LinearRange(Section):
+    """Values at equal distances, both ends among them."""
+
+    start: Number = Field(alias="from", description="first value")
+    end: Number = Field(alias="to", description="last value")
+    points: Annotated[int, Whole(ge=2, le=MAX_POINTS)] | None = Field(
+        None, description="how many; in a design that samples the range there are none, it takes any value"
+    )
+
+
+class LogRange(Section):
+    """Values at equal ratios, both ends among them."""
+
+    start: PositiveNumber = Field(alias="from", description="first value")
+    end: PositiveNumber = Field(alias="to", description="last value")
+    points: Annotated[int, Whole(ge=2, le=MAX_POINTS)] | None = Field(
+        None, description="how many; in a design that samples the range there are none, it takes any value"
+    )
+
+
+class WholeRange(Section):
+    """Whole numbers, each of them; all equally likely where they are drawn."""
+
+    start: Annotated[int, Whole(ge=-(2**31), le=2**31 - 1)] = Field(alias="from", description="first number")
+    end: Annotated[int, Whole(ge=-(2**31), le=2**31 - 1)] = Field(alias="to", description="last number")
+
+
+class Normal(Section):
+    """Normal distribution, cut off where that is asked for."""
+
+    mean: Number = Field(description="mean, before it is cut off")
+    deviation: PositiveNumber = Field(description="standard deviation, before it is cut off")
+    least: Number | None = Field(None, alias="min", description="least value")
+    greatest: Number | None = Field(None, alias="max", description="greatest value")
+
+
+class Lognormal(Section):
+    """Lognormal distribution by mean and standard deviation of the value itself, not of its logarithm."""
+
+    mean: PositiveNumber = Field(description="mean, before it is cut off")
+    deviation: PositiveNumber = Field(description="standard deviation, before it is cut off")
+    least: PositiveNumber | None = Field(None, alias="min", description="least value")
+    greatest: PositiveNumber | None = Field(None, alias="max", description="greatest value")
+
+
+class Uniform(Section):
+    """Uniform distribution."""
+
+    start: Number = Field(alias="from", description="least value")
+    end: Number = Field(alias="to", description="greatest value")
+
+
+class Triangular(Section):
+    """Triangular distribution."""
+
+    start: Number = Field(alias="from", description="least value")
+    mode: Number = Field(description="most likely value")
+    end: Number = Field(alias="to", description="greatest value")
+
+
+class Horizon(Section):
+    """Directions around the vertical: the horizontal part of a vector of the deck is turned, its size kept."""
+
+    start: Degrees = Field(0.0, alias="from", description="first azimuth in degrees, from +x towards +y")
+    end: Degrees = Field(360.0, alias="to", description="last azimuth; left out where it is a full circle on")
+    points: Annotated[int, Whole(ge=1, le=MAX_POINTS)] | None = Field(
+        None, description="how many; none in a design that samples directions"
+    )
+    size: PositiveNumber | None = Field(
+        None, description="length of the horizontal part; that of the vector of the base deck unless given"
+    )
+
+
+class Sphere(Section):
+    """Directions over a sphere, or between two elevations, of equal share of its surface."""
+
+    start: Elevation = Field(-90.0, alias="from", description="least elevation above the horizon in degrees")
+    end: Elevation = Field(90.0, alias="to", description="greatest elevation")
+    points: Points | None = Field(None, description="how many, on a spiral; none in a design that samples directions")
+    size: PositiveNumber | None = Field(
+        None, description="length of the vector; that of the vector of the base deck unless given"
+    )
+
+
+class Parameter(Section):
+    """What changes from point to point: where it goes in the deck, and exactly one of the ways to say its values."""
+
+    key: str | list[str] | None = Field(
+        None,
+        description="key path in the deck, or several that get the same value; unless given, the name is that of a "
+        "parameter of the deck or, with full stops in it, itself a key path",
+    )
+    unit: Line = Field("", description="unit of the values, for tables and pictures; the deck's own is known by itself")
+    values: Annotated[list[Any], Field(min_length=1)] | None = Field(
+        None, description="a list: numbers, texts, truth values, or lists as the deck takes them"
+    )
+    linear: LinearRange | None = Field(None, description="a range in equal steps")
+    log: LogRange | None = Field(None, description="a range in equal ratios")
+    whole: WholeRange | None = Field(None, description="whole numbers, as seeds are")
+    normal: Normal | None = Field(None, description="random: normal")
+    lognormal: Lognormal | None = Field(None, description="random: lognormal")
+    uniform: Uniform | None = Field(None, description="random: uniform")
+    triangular: Triangular | None = Field(None, description="random: triangular")
+    horizon: Horizon | None = Field(None, description="load directions around the horizon")
+    sphere: Sphere | None = Field(None, description="load directions over a sphere")
+
+
+class Combined(Section):
+    """Parameters of a part of the design."""
+
+    of: Annotated[list[str], Field(min_length=1)] | None = Field(
+        None, description="parameters; all that no other part of the design names unless given"
+    )
+
+
+class Sampled(Combined):
+    """A sample of points that change several parameters together."""
+
+    points: Points = Field(description="how many")
+    seed: Seed = Field(1, description="another number, another sample")
+
+
+class DesignPart(Section):
+    """A part of the design; exactly one of its keys. Every point of it is combined with every point of the others."""
+
+    grid: Combined | None = Field(None, description="every value of each with every value of the others")
+    zip: Combined | None = Field(None, description="first with first, second with second: lists of one length")
+    random: Sampled | None = Field(None, description="drawn at random, each by its distribution")
+    latin_hypercube: Sampled | None = Field(None, description="each parameter's range divided evenly, one point a part")
+    sobol: Sampled | None = Field(None, description="scrambled Sobol sequence; a power of two is best")
+
+
+class LimitsSection(Section):
+    """What one point may take; one that takes more has failed."""
+
+    time: Time | None = Field(None, description="seconds by the clock")
+    memory: Annotated[float, Quantity("number", gt=0)] | None = Field(
+        None, description="MB above what the process holds with the base deck"
+    )
+
+
+class OutputSection(Section):
+    """What is written beside the table."""
+
+    files: Literal["none", "failed", "all"] = Field(
+        "none", description="result files of points, as `mbla run` writes them, in points/NUMBER/"
+    )
+    parquet: Switch = Field(False, description="the table as Parquet too; needs mbla[tables]")
+    hdf5: Switch = Field(False, description="the table as HDF5 too, along the axes of the design")
+
+
+class FragilitySection(Section):
+    """Probability that a result lies below a demand, from a random design."""
+
+    result: str = Field("load_factor", description="result column")
+    demand: Annotated[list[Number], Field(min_length=1)] = Field(description="demands")
+    confidence: Annotated[float, Quantity("number", gt=0, lt=1)] = Field(0.95, description="of the interval")
+
+
+class SweepContent(Section):
+    """A whole sweep file."""
+
+    mbla_sweep: Literal[1] = Field(description="version of the format of sweep files")
+    title: Line = Field("", description="shown in tables and pictures")
+    deck: str = Field(min_length=1, description="base deck, relative to this file")
+    cases: Annotated[list[Name], Field(min_length=1)] | None = Field(
+        None, description="load cases to solve; all of the deck unless given"
+    )
+    set: dict[str, Any] = Field(default_factory=dict, description="values by key path of the deck, for every point")
+    parameters: dict[str, Parameter] = Field(min_length=1, description="what changes, by name")
+    design: list[DesignPart] | None = Field(
+        None, min_length=1, description="parts of the design; a grid of all parameters unless given"
+    )
+    constraints: list[str] = Field(
+        default_factory=list,
+        description='comparisons such as "t < 0.2*radius"; points that break one are left out',
+    )
+    results: Annotated[list[str], Field(min_length=1)] = Field(
+        default_factory=lambda: [
+            "status",
+            "load_factor",
+            "static_bound",
+            "kinematic_bound",
+            "associative_load_factor",
+            "mechanism.class",
+        ],
+        description="columns: key paths in the JSON object of a load case, or of the run with model., settings., time.",
+    )
+    limits: LimitsSection = Field(default_factory=LimitsSection, description="what one point may take")
+    output: OutputSection = Field(default_factory=OutputSection, description="what is written beside the table")
+    fragility: FragilitySection | None = Field(None, description="probability of collapse below a demand")

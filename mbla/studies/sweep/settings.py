@@ -1,0 +1,13 @@
+"""Values of a point as ``key.path=value`` texts, as the reader of decks takes them."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+
+from mbla.studies.sweep.plan import Plain
+
+
+def override_texts(settings: Mapping[str, Plain]) -> tuple[str, ...]:
+    """One text for each key path; JSON is YAML, and writes floats so that they are read back to the same bits."""
+    return tuple(f"{key}={json.dumps(value, allow_nan=False)}" for key, value in settings.items())

@@ -1,0 +1,65 @@
+"""The table of a sweep: one row for each point in the order of the design, whatever order they were solved in."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from mbla.arrays import IntArray
+from mbla.results.tables.column import Values
+from mbla.studies.sweep.design.design import Dimension
+
+
+@dataclass(frozen=True)
+class SweepColumn:
+    """One column.
+
+    kind : ``float``, ``int``, ``bool`` or ``text``
+    role : ``number`` of the point; ``parameter``, ``azimuth``, ``elevation`` of the design; ``state``, ``exit_code``,
+           ``reason``; ``result``
+    case : load case of a result, empty for others
+    path : key path of a result in the JSON object of its case or run, empty for others
+    """
+
+    name: str
+    unit: str
+    words: str
+    kind: str
+    role: str
+    dimension: str = ""
+    random: bool = False
+    case: str = ""
+    path: str = ""
+
+
+@dataclass(frozen=True)
+class SweepTable:
+    """Points of a sweep with their results.
+
+    values     : an array (n_points,) for each column: float with nan, whole numbers masked where there is none, bool,
+                 text as objects with None
+    dimensions : axes of the design, slowest first
+    position   : (n_points, n_dimensions) of each point along them, from 0
+    samples, sampling : as of ``Design``
+    """
+
+    title: str
+    columns: tuple[SweepColumn, ...]
+    values: tuple[Values, ...]
+    dimensions: tuple[Dimension, ...]
+    position: IntArray
+    samples: str = ""
+    sampling: str = ""
+
+    def __len__(self) -> int:
+        return len(self.position)
+
+    def __getitem__(self, name: str) -> Values:
+        """The values of a column by its name; KeyError if there is none."""
+        for column, values in zip(self.columns, self.values, strict=True):
+            if column.name == name:
+                return values
+        raise KeyError(name)
+
+    def of_role(self, *roles: str) -> tuple[SweepColumn, ...]:
+        """Columns with one of these roles."""
+        return tuple(column for column in self.columns if column.role in roles)

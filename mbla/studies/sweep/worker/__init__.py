@@ -1,0 +1,1 @@
+"""What solves points: shared structure, a process of its own, limits."""

@@ -1,0 +1,49 @@
+"""Solve points in this process: what the process of a worker does with each task."""
+
+from __future__ import annotations
+
+import io
+import time
+from pathlib import Path
+
+from mbla.deck import read_deck
+from mbla.failures import words_of
+from mbla.results.records.json_record import results_json
+from mbla.results.sta import StatusFile
+from mbla.run_deck import solve_deck
+from mbla.run_options import RunOptions
+from mbla.studies.sweep.outcome import DONE, FAILED, Outcome
+from mbla.studies.sweep.plan import Plain, Plan, Task
+from mbla.studies.sweep.results import result_places, values_of
+from mbla.studies.sweep.settings import override_texts
+
+ANSWERED = (0, 5)
+"""exit codes with a verified answer for every case: 5 is that there is no load factor"""
+
+
+class PointRunner:
+    """Points of one plan, one after the other."""
+
+    def __init__(self, plan: Plan) -> None:
+        self.plan = plan
+        self._places = result_places(plan.results, plan.cases)
+
+    def run(self, task: Task) -> Outcome:
+        """Solve one point; what goes wrong with it is in the outcome."""
+        started = time.perf_counter()
+        results: dict[str, Plain] = {}
+        try:
+            code, reason, results = self._solve(task)
+        except Exception as error:
+            code, reason = words_of(error)
+        state = DONE if code in ANSWERED else FAILED
+        return Outcome(task.key, state, code, reason, results, 1, time.perf_counter() - started)
+
+    def _solve(self, task: Task) -> tuple[int, str, dict[str, Plain]]:
+        plan, started = self.plan, time.perf_counter()
+        deck = read_deck(Path(plan.deck), (*plan.fixed, *override_texts(task.settings)))
+        status_file = StatusFile(io.StringIO(), "")
+        results = solve_deck(deck, RunOptions(cases=plan.cases), status_file, None, started)
+        record = results_json(results)
+        reasons = [case["reason"] for case in record["cases"] if case["reason"]]
+        return results.exit_code, "; ".join(reasons), values_of(record, self._places)
