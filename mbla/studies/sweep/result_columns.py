@@ -31,7 +31,15 @@ def result_columns(results: Sequence[str], cases: Sequence[str], units: Units) -
         unit = "" if key.unit == "1" else unit_text(key.unit, units)
         path = ".".join(place.path)
         columns.append(
-            SweepColumn(place.name, unit, key.words, KINDS[_kind(key)], "result", case=place.case, path=path)
+            SweepColumn(
+                place.name,
+                unit,
+                key.words.replace("null", "empty"),
+                KINDS[_kind(key)],
+                "result",
+                case=place.case,
+                path=path,
+            )
         )
     return tuple(columns)
 
@@ -52,13 +60,12 @@ def _fault(path: str, cases: Sequence[str]) -> str:
     if key is None:
         if parts[0] in cases and _key_at(parts[1:]) is not None:
             return f"stands without its load case, as {'.'.join(parts[1:])}: each load case gets a column of it"
-        names = [name for name, _ in _named_keys()]
-        return f"is no result{did_you_mean(path, names)} see the keys of `cases[]` in schemas/results.md".replace(
-            "? see", "? See"
-        ).replace("result see", "result; see")
+        hint = did_you_mean(path, [name for name, _ in _named_keys()])
+        return f"is no result{hint or '; results are the keys of `cases[]` in schemas/results.md'}"
     if _kind(key) in KINDS:
         return ""
     inside = [name for name, _ in _named_keys() if name.startswith(f"{path}.")]
+    inside = [name for name in inside if name.count(".") == path.count(".") + 1] or inside
     return f"is {'an object' if _kind(key) == 'object' else 'a list'}, no single value; take {listed(inside)}"
 
 
