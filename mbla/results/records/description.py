@@ -163,7 +163,7 @@ MECHANISM = (
     Key(
         f"{_MECHANISM}.class",
         "string",
-        "in a word: sliding, twisting, overturning (parts turn on what is at rest), hinging (they hinge on each other), "
+        "in a word: sliding, twisting, overturning (parts turn on what rests), hinging (they hinge on each other), "
         "sliding and hinging, opening",
     ),
     Key(f"{_MECHANISM}.open", "integer", "contact points that open"),
