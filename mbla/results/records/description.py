@@ -231,7 +231,9 @@ def _position(owner: str) -> tuple[Key, ...]:
 
 
 POSITIONS = (*_position("series[].positions[]"), *_position("series[].worst"))
-RECORD: tuple[Key, ...] = (*RUN, *MODEL, *CASE, *VERIFICATION, *EFFORT, *MECHANISM, *SERIES, *POSITIONS, *CHECK)
+RUN_RECORD: tuple[Key, ...] = (*RUN, *MODEL, *CASE, *VERIFICATION, *EFFORT, *MECHANISM, *SERIES, *POSITIONS)
+"""keys of the record of a run"""
+RECORD: tuple[Key, ...] = (*RUN_RECORD, *CHECK)
 
 
 def record_page() -> str:
