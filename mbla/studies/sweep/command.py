@@ -20,7 +20,7 @@ from mbla.studies.sweep.file.read import read_sweep
 from mbla.studies.sweep.file.sweep import Sweep
 from mbla.studies.sweep.journal.header import JournalHeader
 from mbla.studies.sweep.journal.journal import Journal
-from mbla.studies.sweep.journal.shards import Shard, journal_name, shard_of
+from mbla.studies.sweep.journal.shards import WHOLE, journal_name, shard_of
 from mbla.studies.sweep.outcome import FAILED, Outcome
 from mbla.studies.sweep.plan import Plan, Task
 from mbla.studies.sweep.program import program_identity
@@ -45,7 +45,7 @@ class SweepOptions:
 
     folder       : of all files; the sweep's name with .out beside it if None
     overrides    : ``key.path=value`` texts for the deck, for every point
-    shard        : only these points, for job arrays
+    shard        : part and number of parts, counted from 1: only these points, for job arrays
     resume       : go on with the journal that is there
     force        : begin anew and replace earlier files
     retry_failed : on resuming, solve failed points again
@@ -54,7 +54,7 @@ class SweepOptions:
     folder: Path | None = None
     overrides: tuple[str, ...] = ()
     engine: EngineOptions = EngineOptions()
-    shard: Shard | None = None
+    shard: tuple[int, int] | None = None
     resume: bool = False
     force: bool = False
     retry_failed: bool = False
@@ -104,7 +104,7 @@ def prepare(path: Path, options: SweepOptions) -> Prepared:
     sweep = read_sweep(path, options.overrides)
     base = read_base(sweep)
     content = sweep.content
-    design = design_of(content, base.vectors, base.units, base.parameters, sweep.fault_at)
+    design = design_of(content, base.vectors, base.units, base.known, sweep.fault_at)
     keys = tuple(base.key_of(point.settings) for point in design.points)
     first: dict[str, Task] = {}
     for key, point in zip(keys, design.points, strict=True):
@@ -145,7 +145,7 @@ def run_sweep(prepared: Prepared, options: SweepOptions, report: Report | None =
         title=prepared.sweep.content.title,
         cases=prepared.plan.cases,
     )
-    path = folder / journal_name(options.shard)
+    path = folder / (WHOLE if options.shard is None else journal_name(*options.shard))
     with (
         engine_for(options.engine) as engine,
         Journal(
@@ -157,8 +157,8 @@ def run_sweep(prepared: Prepared, options: SweepOptions, report: Report | None =
         return _finish(prepared, options, journal, time.perf_counter() - started)
 
 
-def _asked(tasks: Sequence[Task], shard: Shard | None) -> Sequence[Task]:
-    return tasks if shard is None else shard_of(tasks, shard)
+def _asked(tasks: Sequence[Task], shard: tuple[int, int] | None) -> Sequence[Task]:
+    return tasks if shard is None else shard_of(tasks, *shard)
 
 
 def _solve(outcomes: Iterable[Outcome], tasks: Sequence[Task], journal: Journal, report: Report | None) -> None:
