@@ -10,6 +10,7 @@ from mbla.model.model import Model
 from mbla.results.outcome import associative_of, best_iterate, factor_unique, range_of, result_of
 from mbla.results.records.mechanism_json import mechanism_json
 from mbla.results.records.numbers import number
+from mbla.results.records.power_json import powers_json
 from mbla.results.records.reactions_json import reactions_json
 from mbla.results.records.reduction_json import reductions_json
 from mbla.results.results import CaseResult
@@ -75,6 +76,7 @@ def _load_factors(model: Model, case: CaseResult) -> dict[str, Any]:
         "asked": None if solution.asked is None else number(solution.asked),
         "associative_load_factor": None if associative is None else number(associative.load_factor),
         "bracket": _bracket(solution, associative),
+        "powers": powers_json(model, case),
     }
 
 

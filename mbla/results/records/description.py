@@ -106,6 +106,16 @@ CASE = (
     Key("cases[].bracket.inner", "number?", "with the inscribed one"),
     Key("cases[].bracket.outer", "number?", "with the circumscribed one"),
     Key("cases[].bracket.sides", "integer", "their sides"),
+    Key(
+        "cases[].powers",
+        "object?",
+        "power of live loads in the associative mechanism, by load case; that of its own is 1",
+    ),
+    Key(
+        "cases[].powers.*",
+        "number?",
+        "of factors acting together, the sum of each times this is at most kinematic_bound",
+    ),
     Key("cases[].certificate", "string?", "what proves that there is no load factor: motion or forces"),
     Key("cases[].standing", "object?", "assessment of the dead load alone"),
     Key("cases[].standing.verdict", "string", "yes, only by self-stress, no, doubtful"),
