@@ -35,7 +35,8 @@ def table_of(
     outside = [DesignColumn("t", "m", "thickness", "float", "parameter", "t")] if thickness else []
     columns = (*outside, DesignColumn("mu", "", "friction", "float", "parameter", "sample", random=True))
     dimensions = (*([Dimension("t", len(thick))] if thickness else []), Dimension("sample", len(points[0])))
-    design, outcomes = [], {}
+    design: list[Point] = []
+    outcomes: dict[str, Outcome] = {}
     for row, each in enumerate(points):
         for place, (state, status, factor) in enumerate(each):
             key = f"{row} {place}"

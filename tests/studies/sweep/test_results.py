@@ -83,7 +83,7 @@ def test_a_path_that_stands_twice_is_a_fault() -> None:
 
 
 def test_results_unless_others_are_asked_for() -> None:
-    assert result_faults(SweepContent.model_fields["results"].get_default(call_default_factory=True)) == ()  # type: ignore[call-arg]
+    assert result_faults(SweepContent.model_fields["results"].get_default(call_default_factory=True)) == ()
 
 
 def test_several_load_cases_have_a_column_each() -> None:
