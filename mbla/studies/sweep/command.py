@@ -148,9 +148,7 @@ def run_sweep(prepared: Prepared, options: SweepOptions, report: Report | None =
     path = folder / (WHOLE if options.shard is None else journal_name(*options.shard))
     with (
         engine_for(options.engine) as engine,
-        Journal(
-            path, header, resume=options.resume, force=options.force, retry_failed=options.retry_failed
-        ) as journal,
+        Journal(path, header, resume=options.resume, force=options.force, retry_failed=options.retry_failed) as journal,
     ):
         tasks = [task for task in _asked(prepared.tasks, options.shard) if task.key not in journal.finished]
         _solve(engine.run(prepared.plan, tasks), tasks, journal, report)
@@ -178,9 +176,7 @@ def _solve(outcomes: Iterable[Outcome], tasks: Sequence[Task], journal: Journal,
 def _finish(prepared: Prepared, options: SweepOptions, journal: Journal, seconds: float) -> Finished:
     """The table of all points, and its files; a shard writes them only where no other point is missing."""
     content, finished = prepared.sweep.content, journal.finished
-    table = sweep_table(
-        content.title, prepared.design, prepared.columns, finished, prepared.keys, unfinished=True
-    )
+    table = sweep_table(content.title, prepared.design, prepared.columns, finished, prepared.keys, unfinished=True)
     code = FAILED_POINTS if any(finished[key].state == FAILED for key in prepared.keys if key in finished) else 0
     notices = (*journal.notices, *(Notice("notice", "sweep-design", text) for text in prepared.design.remarks))
     run = SweepRun(

@@ -30,6 +30,10 @@ from mbla.studies.sweep.pictures.answers import Answer, Answers, answers_of
 from mbla.studies.sweep.plan import Plain
 from mbla.studies.sweep.tables.sweep_table import SweepColumn, SweepTable
 
+SAME = 1e-6
+"""relative distance below a demand up to which a value still bears it: load factors are found to that accuracy, and one
+that is the demand, as the slenderness of a block that rocks may be, must not be counted by its rounding"""
+
 
 @dataclass(frozen=True)
 class Fragility:
@@ -38,6 +42,7 @@ class Fragility:
     column     : of the result
     at, units  : value and unit of each parameter outside of the sample, by its name
     points     : sample points, at least one
+    left_out   : sample points that constraints leave out here: the probability is that of the others
     demands    : (n,) in the unit of the column
     below      : (n,) points certainly below each
     unknown    : points without a verified answer
@@ -50,6 +55,7 @@ class Fragility:
     at: Mapping[str, Plain]
     units: Mapping[str, str]
     points: int
+    left_out: int
     demands: FloatArray
     below: IntArray
     unknown: int
@@ -115,7 +121,7 @@ def _fragility(
 ) -> Fragility:
     fallen, unknown = _fallen(answers)[rows], _unknown(answers)[rows]
     values = answers.values[rows][answers.good[rows]]
-    below = (values[:, None] < demands).sum(axis=0) + int(fallen.sum())
+    below = (values[:, None] < demands - SAME * np.abs(demands)).sum(axis=0) + int(fallen.sum())
     count = int(unknown.sum())
     lower, upper = interval(below, count, len(rows), confidence)
     return Fragility(
@@ -123,6 +129,7 @@ def _fragility(
         at=at,
         units={column.name: column.unit for column in table.columns if column.name in at},
         points=len(rows),
+        left_out=_sample_size(table) - len(rows),
         demands=demands,
         below=below,
         unknown=count,
@@ -131,6 +138,10 @@ def _fragility(
         confidence=confidence,
         sampling=table.sampling,
     )
+
+
+def _sample_size(table: SweepTable) -> int:
+    return next(dimension.size for dimension in table.dimensions if dimension.name == table.samples)
 
 
 def _fallen(answers: Answers) -> BoolArray:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -11,9 +10,11 @@ import numpy as np
 from mbla.results.records.key import Key
 from mbla.results.records.numbers import number, numbers
 from mbla.results.tables.csv_file import csv_text
+from mbla.results.words.text import sentence, table
 from mbla.studies.sweep.fragility import Fragility
 from mbla.studies.sweep.plan import Plain
 from mbla.studies.sweep.tables.from_outcomes import as_text, column_values
+from mbla.studies.sweep.tables.sweep_table import header_of
 
 NOT_INDEPENDENT = (
     "the points of a {} are not independent: the interval is that of as many points drawn at random, mostly too wide "
@@ -27,45 +28,50 @@ SAMPLED = {
 """what is said of intervals of samples that are not drawn point by point"""
 
 
-def fragility_lines(found: Sequence[Fragility]) -> tuple[str, ...]:
-    """A table for each result, a line for each demand and combination, and what must be known of it."""
+def fragility_lines(found: Sequence[Fragility]) -> list[str]:
+    """A table for each result, a line for each demand and combination, and what must be known of them."""
     lines: list[str] = []
     for name in dict.fromkeys(one.column.name for one in found):
         own = [one for one in found if one.column.name == name]
-        unit = _with_space(own[0].column.unit)
-        lines.append(f"probability that {name} lies below a demand ({100 * own[0].confidence:g} % interval):")
-        lines += [_line(one, row, unit) for one in own for row in range(len(one.demands))]
-        lines += _remarks(own)
-    return tuple(lines)
+        lines += sentence(
+            f"probability that {name} lies below a demand, with its {100 * own[0].confidence:g} % interval:"
+        )
+        head = [
+            *(header_of(parameter, own[0].units[parameter]) for parameter in own[0].at),
+            header_of("demand", own[0].column.unit),
+            *("points", "below", "unknown", "probability", "interval"),
+        ]
+        lines += table(head, [_cells(one, row) for one in own for row in range(len(one.demands))], left=0)
+    return lines + [line for remark in _remarks(found) for line in sentence(remark)]
 
 
-def _line(one: Fragility, row: int, unit: str) -> str:
-    at = "".join(f", {name} = {_short(value)}{_with_space(one.units[name])}" for name, value in one.at.items())
-    interval = f"{one.lower[row]:.4f} to {one.upper[row]:.4f}"
+def _cells(one: Fragility, row: int) -> list[str]:
     least, greatest = one.least[row], one.greatest[row]
-    if one.unknown:
-        share = f"{least:.4f} to {greatest:.4f}, as {one.unknown} of {one.points} points are unknown"
-    else:
-        share = f"{least:.4f}"
-    count = f"{one.below[row]} of {one.points}"
-    return f"  {one.demands[row]:g}{unit}{at}: {share} ({count}), interval {interval}"
-
-
-def _with_space(unit: str) -> str:
-    return f" {unit}" if unit else ""
+    return [
+        *(_short(value) for value in one.at.values()),
+        f"{one.demands[row]:g}",
+        str(one.points),
+        str(one.below[row]),
+        str(one.unknown),
+        f"{least:.4f} to {greatest:.4f}" if one.unknown else f"{least:.4f}",
+        f"{one.lower[row]:.4f} to {one.upper[row]:.4f}",
+    ]
 
 
 def _short(value: Plain) -> str:
     return f"{value:g}" if isinstance(value, float) else as_text(value)
 
 
-def _remarks(own: Sequence[Fragility]) -> list[str]:
-    remarks = [SAMPLED[own[0].sampling]]
-    if any(one.unknown for one in own):
+def _remarks(found: Sequence[Fragility]) -> list[str]:
+    remarks = list(dict.fromkeys(SAMPLED[one.sampling] for one in found))
+    if any(one.unknown for one in found):
         remarks.append(
-            "points without a verified answer are counted both as below and as above a demand; the interval holds both"
+            "points without a verified answer are unknown: they are counted both as below and as above a demand, and "
+            "the interval holds both"
         )
-    return [f"  {remark}" for remark in remarks if remark]
+    if any(one.left_out for one in found):
+        remarks.append("constraints leave out points of the sample: the probabilities are those of the others")
+    return [remark for remark in remarks if remark]
 
 
 def fragility_json(found: Sequence[Fragility]) -> list[dict[str, Any]]:
@@ -78,6 +84,7 @@ def fragility_json(found: Sequence[Fragility]) -> list[dict[str, Any]]:
             "sampling": one.sampling,
             "confidence": one.confidence,
             "points": one.points,
+            "left_out": one.left_out,
             "unknown": one.unknown,
             "demands": [
                 {
@@ -107,6 +114,7 @@ def fragility_keys(place: str) -> tuple[Key, ...]:
         Key(f"{place}[].sampling", "string", "random, latin_hypercube or sobol; intervals are exact for random alone"),
         Key(f"{place}[].confidence", "number", "of the intervals"),
         Key(f"{place}[].points", "integer", "points of the sample"),
+        Key(f"{place}[].left_out", "integer", "more of it, left out by constraints"),
         Key(f"{place}[].unknown", "integer", "those without a verified answer"),
         Key(f"{place}[].demands", "list", "in the order of the sweep file"),
         Key(f"{place}[].demands[]", "object", "a demand"),
@@ -124,16 +132,15 @@ def fragility_csv(found: Sequence[Fragility]) -> str:
     if not found:
         return ""
     rows = [(one, row) for one in found for row in range(len(one.demands))]
-    demand = replace(found[0].column, name="demand").header
     columns = {
         "result": column_values("text", [one.column.name for one, _ in rows]),
         **{
-            f"{name} [{unit}]" if (unit := found[0].units[name]) else name: column_values(
+            header_of(name, found[0].units[name]): column_values(
                 _kind([one.at[name] for one in found]), [one.at[name] for one, _ in rows]
             )
             for name in found[0].at
         },
-        demand: np.array([one.demands[row] for one, row in rows]),
+        header_of("demand", found[0].column.unit): np.array([one.demands[row] for one, row in rows]),
         "points": np.array([one.points for one, _ in rows]),
         "below": np.array([one.below[row] for one, row in rows]),
         "unknown": np.array([one.unknown for one, _ in rows]),

@@ -126,9 +126,9 @@ def test_a_failed_point_is_counted_both_ways() -> None:
     assert (found.least[0], found.greatest[0]) == (0.4, 0.6)
     assert found.lower[0] == pytest.approx(binomtest(2, 5).proportion_ci(0.95, "exact").low)
     assert found.upper[0] == pytest.approx(binomtest(3, 5).proportion_ci(0.95, "exact").high)
-    text = "\n".join(fragility_lines([found]))
-    assert "0.4000 to 0.6000, as 1 of 5 points are unknown" in text
-    assert "counted both as below and as above" in text
+    text = " ".join(" ".join(fragility_lines([found])).split())
+    assert "0.3 5 2 1 0.4000 to 0.6000" in text
+    assert "counted both as below and as above a demand" in text
 
 
 def test_nothing_known_says_nothing() -> None:
@@ -160,14 +160,28 @@ def test_each_combination_of_what_is_not_sampled_stands_by_itself() -> None:
         (1 / 3, 0.35, 1),
     ]
     lines = fragility_lines(found)
-    assert lines[0] == "probability that load_factor lies below a demand (90 % interval):"
-    assert lines[1].startswith("  0.15, t = 0.25 m: 0.5000 (1 of 2), interval 0.0253 to 0.9747")
-    assert "Sobol" in lines[-1]
+    assert lines[0] == "  probability that load_factor lies below a demand, with its 90 % interval:"
+    assert lines[1].split() == ["t", "[m]", "demand", "points", "below", "unknown", "probability", "interval"]
+    assert lines[2].split() == ["0.25", "0.15", "2", "1", "0", "0.5000", "0.0253", "to", "0.9747"]
+    assert "Sobol" in " ".join(lines[6:])
 
 
 def test_points_drawn_at_random_need_no_remark() -> None:
     lines = fragility_lines(fragility_of(table_of([solved([0.1, 0.2])]), "load_factor", (0.15,), 0.95))
-    assert len(lines) == 2
+    assert len(lines) == 3
+
+
+def test_a_value_that_is_the_demand_but_for_rounding_bears_it() -> None:
+    table = table_of([solved([0.3 * (1 - 1e-9), 0.3 * (1 - 1e-5)])])
+    (found,) = fragility_of(table, "load_factor", (0.3,), 0.95)
+    assert found.below.tolist() == [1]
+
+
+def test_points_that_constraints_leave_out_are_told() -> None:
+    table = table_of([solved([0.1, 0.2])])
+    found = fragility_of(replace(table, dimensions=(Dimension("sample", 5),)), "load_factor", (0.15,), 0.95)
+    assert found[0].left_out == 3
+    assert "leave out points of the sample" in fragility_lines(found)[-1]
 
 
 @pytest.mark.parametrize(
