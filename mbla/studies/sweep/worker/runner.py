@@ -52,6 +52,6 @@ class PointRunner:
         deck = read_deck(Path(plan.deck), (*plan.fixed, *override_texts(task.settings)))
         status_file = StatusFile(io.StringIO(), "")
         results = solve_deck(deck, RunOptions(cases=plan.cases), status_file, None, started)
-        record = results_json(results)
+        record = results_json(results, on_demand=True)
         reasons = [case["reason"] for case in record["cases"] if case["reason"]]
         return results.exit_code, "; ".join(reasons), values_of(record, self._places)
