@@ -168,6 +168,7 @@ COMMANDS: dict[str, Callable[[argparse.Namespace], int]] = {
     "diff": result_commands.diff,
     "explain": result_commands.explain,
     "tradeoff": _tradeoff,
+    "sweep-plot": result_commands.sweep_plot,
     "schema": _schema,
     "new": _new,
 }

@@ -28,6 +28,16 @@ class Cells:
     answer: IntArray
     count: IntArray
 
+    def shaped(self, shape: tuple[int, ...]) -> Cells:
+        """The same cells in arrays of another shape."""
+        value, low, high = (array.reshape(shape) for array in (self.value, self.low, self.high))
+        return Cells(value, low, high, self.answer.reshape(shape), self.count.reshape(shape))
+
+    def part(self, *place: int) -> Cells:
+        """The cells at a place of the first axes."""
+        value, low, high = (array[place] for array in (self.value, self.low, self.high))
+        return Cells(value, low, high, self.answer[place], self.count[place])
+
     @property
     def several(self) -> bool:
         """Whether any cell has more than one point."""
@@ -55,7 +65,7 @@ def pooled(answers: Answers, axes: Sequence[Axis]) -> Cells:
     for first, cell in zip(np.cumsum(count)[count > 1] - count[count > 1], np.flatnonzero(count > 1), strict=True):
         own = order[first : first + count[cell]]
         answer[cell], value[cell], low[cell], high[cell] = _together(answers, own)
-    return Cells(*(array.reshape(shape) for array in (value, low, high, answer, count)))
+    return Cells(value, low, high, answer, count).shaped(shape)
 
 
 def _together(answers: Answers, own: IntArray) -> tuple[int, float, float, float]:

@@ -52,8 +52,7 @@ def draw(path: Path, view: View, options: PictureOptions) -> None:
     elif cells.several:
         notes.append(f"cell: class of up to {cells.count.max()} points of the other parameters where it is the same")
     count = len(panels.levels) if panels else 1
-    arrays = [getattr(cells, name).reshape(count, len(y.levels), len(x.levels)) for name in CELL_ARRAYS]
-    cells = Cells(*arrays)
+    cells = cells.shaped((count, len(y.levels), len(x.levels)))
 
     def handles(page: Any) -> list[Any]:
         return _class_handles(page, view, cells) + hatch_handles(page, cells.answer)
@@ -69,8 +68,7 @@ def draw(path: Path, view: View, options: PictureOptions) -> None:
                 axes.set_axis_off()
                 continue
             dress(sheet, axes, x.label, y.label, panel_title(panels, number))
-            own = Cells(*(array[number] for array in arrays))
-            image = _draw_cells(sheet, axes, view, (x, y), own, limits, count) or image
+            image = _draw_cells(sheet, axes, view, (x, y), cells.part(number), limits, count) or image
             scale_axis(sheet, axes, x, share=1 / columns)
             scale_axis(sheet, axes, y, "y", share=1 / rows)
             axes.grid(visible=False)
@@ -80,9 +78,6 @@ def draw(path: Path, view: View, options: PictureOptions) -> None:
             bar = sheet.figure.colorbar(image, ax=frames, fraction=0.04, pad=0.01, aspect=40)
             bar.ax.tick_params(labelsize=sheet.small)
             bar.set_label(view.answers.label, fontsize=sheet.small, parse_math=False)
-
-
-CELL_ARRAYS = ("value", "low", "high", "answer", "count")
 
 
 def cell_edges(axis: Axis) -> FloatArray:
@@ -111,8 +106,6 @@ def _draw_cells(
         many = good.size > 400
         image = axes.pcolormesh(x, y, np.ma.masked_array(cells.value, ~good), cmap=scale, vmin=low, vmax=high,
                                 rasterized=many)  # fmt: skip
-    if image is None and classes == () and limits is None:
-        axes.set_facecolor("white")
     _hatch(sheet, axes, x, y, cells)
     if classes:
         return image

@@ -59,7 +59,7 @@ def draw(path: Path, view: View, options: PictureOptions) -> None:
     chosen = [axis for axis in (panels, lines, turn) if axis is not None]
     cells = pooled(view.answers, chosen)
     shape = (len(panels.levels) if panels else 1, len(lines.levels) if lines else 1, len(turn.levels))
-    arrays = [getattr(cells, name).reshape(shape) for name in ("value", "low", "high", "answer", "count")]
+    cells = cells.shaped(shape)
     notes = [f"line: median of up to {cells.count.max()} points of the other parameters"] * cells.several
 
     def handles(page: Any) -> list[Any]:
@@ -82,8 +82,7 @@ def draw(path: Path, view: View, options: PictureOptions) -> None:
                 continue
             _dress(sheet, axes, panel_title(panels, number), _radii(cells))
             for line in range(shape[1]):
-                own = Cells(*(array[number, line] for array in arrays))
-                _draw_curve(sheet, axes, turn, own, line_style(sheet, line, shape[1]))
+                _draw_curve(sheet, axes, turn, cells.part(number, line), line_style(sheet, line, shape[1]))
         if lines is not None and not len(lines.levels) <= MOST_NAMED:
             add_scale(sheet, frames, lines)
 
@@ -96,7 +95,7 @@ def _azimuth(view: View) -> SweepColumn | None:
         if not over_sphere(view.table, column.dimension) and not is_sampled(view.table, column.dimension)
     ]
     chosen = [column for column in found if column.name == view.by]
-    return (chosen or found or [None])[0]
+    return next(iter((*chosen, *found)), None)
 
 
 def _radii(cells: Cells) -> tuple[float, float]:
@@ -111,7 +110,8 @@ def _radii(cells: Cells) -> tuple[float, float]:
 def _dress(sheet: Sheet, axes: Any, title: str, radii: tuple[float, float]) -> None:
     axes.set_rlim(*radii)
     axes.tick_params(labelsize=sheet.small, colors=INK)
-    axes.locator_params(axis="y", nbins=5)
+    rings = sheet.page.parts.MaxNLocator(5).tick_values(*radii)
+    axes.set_rgrids([ring for ring in rings if radii[0] < ring < radii[1]])
     axes.set_rlabel_position(22.5)
     axes.grid(visible=True, color="#CCCCCC", linewidth=0.6)
     axes.set_thetagrids(range(0, 360, 45), ["0° (+x)", "45°", "90° (+y)", "135°", "180°", "225°", "270°", "315°"])

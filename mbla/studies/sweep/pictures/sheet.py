@@ -90,7 +90,7 @@ def dress(sheet: Sheet, axes: Any, x: str = "", y: str = "", title: str = "") ->
 
 
 def scale_axis(sheet: Sheet, axes: Any, axis: Axis, which: str = "x", share: float = 1.0) -> None:
-    """Ticks and scale of an axis of the design along ``x`` or ``y``: at its values where they have short names and room.
+    """Ticks and scale of an axis of the design along ``x`` or ``y``: at its values where their names have room.
 
     share : of the side of the page that the diagram has: fewer names have room then
     """
