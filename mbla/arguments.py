@@ -270,8 +270,8 @@ def _add_sweep_plot(commands: Any) -> None:
         "sweep-plot",
         help="pictures of a sweep: curves, maps, scatter, distribution, tornado, polar (extra mbla[pictures])",
         description="Pictures of the table of a sweep, sweep_KIND_RESULT.png and so on; those that suit the table "
-        "unless kinds are named. Points without a verified value are marked as such. Earlier pictures of the same names are "
-        "replaced.",
+        "unless kinds are named. Points without a verified value are marked as such. Earlier pictures of the same "
+        "names are replaced.",
     )
     command.add_argument("sweep", type=Path, metavar="SWEEP.out|sweep.csv", help="folder of the sweep, or its table")
     command.add_argument(

@@ -18,7 +18,7 @@ class Cells:
 
     value : the point's, or the median of several; nan where there is none
     low, high : least and greatest value of several points; nan where there is none
-    answer : of ``Answer``; UNVERIFIED of several points where some have no verified answer. -1 where there is no point
+    answer : of ``Answer``; NO_POINT where there is none
     count : points
     """
 
@@ -86,4 +86,8 @@ def _together(answers: Answers, own: IntArray) -> tuple[int, float, float, float
     if not np.isfinite(lower):
         return (Answer.NO_EQUILIBRIUM if lower < 0 else Answer.UNBOUNDED), np.nan, low, high
     median = float((lower + upper) / 2) if np.isfinite(upper) else float(lower)
-    return (Answer.VALUE if len(ranked) == len(own) else Answer.UNVERIFIED), median, low, high
+    unknown = len(own) - len(ranked)
+    if not unknown:
+        return Answer.VALUE, median, low, high
+    ends = [np.sort(np.append(ranked, np.full(unknown, end)))[len(own) // 2] for end in (-np.inf, np.inf)]
+    return (Answer.PARTLY, median, low, high) if np.isfinite(ends).all() else (int(kinds.max()), np.nan, low, high)

@@ -81,6 +81,8 @@ def _draw_panels(
         if view.answers.is_factor and (cells.answer == Answer.NO_EQUILIBRIUM).any():
             axes.axhline(0.0, color="#555555", linewidth=0.8 * sheet.page.scale, zorder=1)
         scale_axis(sheet, axes, x, share=1 / columns)
+        if not np.isfinite(cells.value).any():
+            axes.set_yticks([])
     for axes in frames.flat:
         axes.label_outer()
     if lines is not None and len(lines.levels) > MOST_NAMED:
@@ -91,7 +93,7 @@ def draw_line(
     sheet: Sheet, axes: Any, view: View, x: Axis, cells: Cells, style: dict[str, Any], band: Any = None
 ) -> None:
     """One line over an axis: broken where a point has no value, its markers where points have none."""
-    good = cells.answer == Answer.VALUE
+    good = np.isin(cells.answer, (Answer.VALUE, Answer.PARTLY))
     value = np.where(good, cells.value, np.nan)
     low, high = band if band is not None else (cells.low, cells.high)
     if band is not None or cells.several:
@@ -161,7 +163,7 @@ def _notes(view: View, chosen: list[Axis], cells: Cells, bounds: Any) -> list[st
         others = [dimension.name for dimension in view.table.dimensions if dimension.name not in shown]
         notes.append(
             f"line: median of up to {cells.count.max()} points of {', '.join(others) or 'equal values'}; "
-            "band: least to greatest; hollow: not all of the points have an answer"
+            "band: least to greatest"
         )
     if bounds:
         notes.append("band: static to kinematic bound")

@@ -75,7 +75,7 @@ def draw(path: Path, view: View, options: PictureOptions) -> None:
     what = f"{view.answers.label} over {turn.label}" + (f", a curve for each {lines.label}" if lines else "")
     with open_sheet(path, view, what, options, handles, notes) as sheet:
         rows, columns = panel_places(shape[0], sheet)
-        frames = sheet.panels(rows, columns, subplot_kw={"projection": "polar"})
+        frames = sheet.panels(rows, columns, "compressed", subplot_kw={"projection": "polar"})
         for number, axes in enumerate(frames.flat):
             if number >= shape[0]:
                 axes.set_axis_off()
@@ -115,7 +115,7 @@ def _dress(sheet: Sheet, axes: Any, title: str, radii: tuple[float, float]) -> N
     axes.set_rlabel_position(22.5)
     axes.grid(visible=True, color="#CCCCCC", linewidth=0.6)
     axes.set_thetagrids(range(0, 360, 45), ["0° (+x)", "45°", "90° (+y)", "135°", "180°", "225°", "270°", "315°"])
-    axes.set_title(title, fontsize=sheet.small, color=INK, parse_math=False)
+    axes.set_title(title, fontsize=sheet.small, color=INK, parse_math=False, pad=1.2 * sheet.small)
     if radii[0] < 0:  # zero is a circle then, not the middle
         axes.plot(np.linspace(0, 2 * np.pi, 181), np.zeros(181), color=INK, linewidth=sheet.page.scale, zorder=2)
 
@@ -123,7 +123,7 @@ def _dress(sheet: Sheet, axes: Any, title: str, radii: tuple[float, float]) -> N
 def _draw_curve(sheet: Sheet, axes: Any, turn: Axis, cells: Cells, style: dict[str, Any]) -> None:
     """A curve, closed where the directions go around; broken where there is no value; markers of other answers."""
     angle = np.radians(turn.coordinates)
-    value = np.where(cells.answer == Answer.VALUE, cells.value, np.nan)
+    value = np.where(np.isin(cells.answer, (Answer.VALUE, Answer.PARTLY)), cells.value, np.nan)
     if closes(turn.coordinates):
         shown = np.append(angle, angle[0] + 2 * np.pi), np.append(value, value[0])
     else:
@@ -134,7 +134,7 @@ def _draw_curve(sheet: Sheet, axes: Any, turn: Axis, cells: Cells, style: dict[s
     least, most = axes.get_ylim()
     for kind, mark in MARKS.items():
         own = cells.answer == kind
-        radius = {Answer.UNVERIFIED: cells.value[own], Answer.NO_EQUILIBRIUM: 0.0, Answer.UNBOUNDED: most}
+        radius = {Answer.UNVERIFIED: cells.value[own], Answer.PARTLY: cells.value[own], Answer.NO_EQUILIBRIUM: 0.0}
         if own.any():
             axes.plot(angle[own], np.broadcast_to(radius.get(kind, most), own.sum()), linestyle="none",
                       marker=mark.marker, markerfacecolor="none", markeredgecolor=mark.colour,
