@@ -172,7 +172,8 @@ def _beyond_planes(
     most = beyond.argmax(axis=1)
     share = beyond[np.arange(len(places)), most]
     return [
-        Crossing(float(rays[most[row]]), safe[row][0], float(share[row])) for row in np.flatnonzero(share > CROSSED)
+        Crossing(float(rays[most[row]]), safe[row][0], float(share[row]))
+        for row in np.flatnonzero(share > CROSSED).tolist()
     ]
 
 
