@@ -42,6 +42,11 @@ def threads(text: str) -> int:
     return _number(text, int, lambda value: value >= 1, "a whole number of threads, at least 1")
 
 
+def processes(text: str) -> int:
+    """A number of processes."""
+    return _number(text, int, lambda value: value >= 1, "a whole number of processes, at least 1")
+
+
 def _number(text: str, kind: Callable[[str], Amount], allowed: Callable[[Amount], bool], wanted: str) -> Amount:
     try:
         value = kind(text)

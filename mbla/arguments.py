@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from mbla import __version__
-from mbla.argument_values import degrees, names, relative, relative_above_zero, seconds, threads
+from mbla.argument_values import degrees, names, processes, relative, relative_above_zero, seconds, threads
 
 EXIT_STATUS = """\
 exit status:
@@ -242,6 +242,14 @@ def _add_interact(commands: Any) -> None:
     command.add_argument("--from", dest="start", type=degrees, metavar="DEG", help="first angle of two loads (0)")
     command.add_argument(
         "--to", dest="end", type=degrees, metavar="DEG", help="last angle (90 on; 360: both loads with both signs)"
+    )
+    command.add_argument(
+        "-j",
+        dest="workers",
+        type=processes,
+        default=1,
+        metavar="N",
+        help="processes that solve points (default 1; more need the extra mbla[dask])",
     )
     _add_deck_options(command, "for every point")
     command.add_argument("--accuracy", choices=["draft", "standard", "reference"], help="instead of analysis.accuracy")

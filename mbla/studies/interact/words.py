@@ -84,8 +84,8 @@ def domain_words(study: Study) -> list[str]:
     text = "the safe domain of associative flow is convex, and so are the points within their bounds"
     if not math.isnan(domain.gap):
         text += (
-            f"; hull of the safe points and the half-planes of {counted(len(domain.planes), 'mechanism')} leave "
-            f"{percent(max(domain.gap, 0.0))} % of its area open"
+            f"; between the hull of the safe points and the half-planes of {counted(len(domain.planes), 'mechanism')} "
+            f"{percent(max(domain.gap, 0.0))} % of its area stay open"
         )
     least = everywhere(domain, closed=study.question.closed)
     words = [text]
