@@ -113,7 +113,7 @@ def _draw_domain(page: Page, axes: Any, study: Study, *, polar: bool) -> list[An
     if domain is None:
         return []
     handles: list[Any] = []
-    if len(domain.inner) > 2:
+    if len(domain.inner) > 2 and not domain.crossings:  # nothing is called safe on bounds that contradict each other
         x, y = _onto(domain.inner, polar=polar)
         axes.fill(x, y, facecolor=SKY, alpha=0.35, edgecolor="none", zorder=2)
         handles.append(page.parts.Patch(facecolor=SKY, alpha=0.35, label="safe by static bounds (associative flow)"))
