@@ -272,12 +272,7 @@ def _add_interact(commands: Any) -> None:
         "--to", dest="end", type=degrees, metavar="DEG", help="last angle (90 on; 360: both loads with both signs)"
     )
     command.add_argument(
-        "-j",
-        dest="workers",
-        type=workers,
-        default=1,
-        metavar="N",
-        help="processes that solve points (default 1; more need the extra mbla[dask])",
+        "-j", "--jobs", type=workers, default=1, metavar="N", help="processes of this machine (1; more: mbla[dask])"
     )
     _add_deck_options(command, "for every point")
     command.add_argument("--accuracy", choices=["draft", "standard", "reference"], help="instead of analysis.accuracy")

@@ -32,7 +32,7 @@ def interact(
     """Solve the points of a diagram and write the files; the study, its JSON record, and remarks.
 
     options : ``case`` or ``loads`` (two names), ``directions``, ``start`` and ``end`` in degrees, None unless given;
-              ``workers``, how many
+              ``jobs``, how many processes solve points
 
     Raises
     ------
@@ -41,7 +41,7 @@ def interact(
     FileError
         Files are in the way or cannot be written.
     """
-    engine = engine_for(EngineOptions(workers=options.workers))
+    engine = engine_for(EngineOptions(workers=options.jobs))
     question = question_of(deck, options)
     stem = f"{deck.path.stem}_interact"
     out = OutputFolder(run.folder_for(deck.path), stem, run.force, beside=True)
