@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Sequence
+from contextlib import closing
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -73,11 +74,12 @@ def study_points(
     tasks = tasks_of(question, plan.fingerprint)
     numbers = {task.key: task.number for task in tasks}
     points: dict[int, Point] = {}
-    for outcome in engine.run(plan, tasks):
-        number = numbers[outcome.key]
-        points[number] = point_of(question.angles[number - 1], outcome)
-        if report is not None:
-            report(len(points), len(tasks))
+    with closing(engine.run(plan, tasks)) as outcomes:
+        for outcome in outcomes:
+            number = numbers[outcome.key]
+            points[number] = point_of(question.angles[number - 1], outcome)
+            if report is not None:
+                report(len(points), len(tasks))
     ordered = tuple(points[number] for number in sorted(points))
     domain = domain_of(ordered, question.pair, closed=question.closed) if question.pair else None
     return Study(

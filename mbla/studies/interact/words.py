@@ -90,7 +90,7 @@ def domain_words(study: Study) -> list[str]:
     least = everywhere(domain, closed=study.question.closed)
     words = [text]
     if least is not None:
-        words.append(f"angles between the points among them, associative flow carries at least {number(least)}")
+        words.append(f"at angles between the points too, associative flow carries at least {number(least)}")
     if study.flow_rule != ASSOCIATIVE:
         words.append(f"load factors by {study.flow_rule} flow lie inside of it; their curve need not be convex")
     return words

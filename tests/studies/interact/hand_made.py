@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Generator, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -60,7 +60,7 @@ class Asked:
 class ThisProcess:
     """An engine that solves the points where it is."""
 
-    def run(self, plan: Plan, tasks: Sequence[Task]) -> Iterator[Outcome]:
+    def run(self, plan: Plan, tasks: Sequence[Task]) -> Generator[Outcome, None, None]:
         """Outcomes, the last task first: the order must not matter."""
         runner = PointRunner(plan)
         for task in reversed(tasks):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -73,7 +74,7 @@ def test_with_vertical_parts_there_is_no_plane_of_two_loads(tmp_path: Path) -> N
         ({"case": "push", "loads": ("push", "top")}, "--case and --loads"),
     ],
 )
-def test_refusals(tmp_path: Path, asked: dict[str, object], words: str) -> None:
+def test_refusals(tmp_path: Path, asked: dict[str, Any], words: str) -> None:
     with pytest.raises(UsageError, match=words):
         question(tmp_path, **asked)
 

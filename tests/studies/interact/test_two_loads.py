@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -26,7 +27,8 @@ def test_both_act_with_cosine_and_sine(tmp_path: Path) -> None:
 def test_a_load_without_a_share_is_left_out(tmp_path: Path) -> None:
     """A live load times 0 would be refused as one without effect."""
     asked = question(tmp_path, loads=("push", "top"), directions=3)
-    lives = [settings["load_cases.interact"]["live"] for settings in asked.settings]  # type: ignore[index, call-overload]
+    cases: list[Any] = [settings["load_cases.interact"] for settings in asked.settings]
+    lives = [case["live"] for case in cases]
     assert [len(live) for live in lives] == [1, 2, 1]
 
 
@@ -66,6 +68,6 @@ def test_a_table_named_by_an_included_file_is_found(tmp_path: Path) -> None:
         ({"loads": ("push", "top"), "directions": 1}, "--directions 1: 2 to 3600"),
     ],
 )
-def test_refusals(tmp_path: Path, asked: dict[str, object], words: str) -> None:
+def test_refusals(tmp_path: Path, asked: dict[str, Any], words: str) -> None:
     with pytest.raises(UsageError, match=words):
         question(tmp_path, **asked)
