@@ -276,6 +276,9 @@ def _add_interact(commands: Any) -> None:
     command.add_argument(
         "--to", dest="end", type=degrees, metavar="DEG", help="last angle (90 on; 360: both loads with both signs)"
     )
+    command.add_argument(
+        "-j", "--jobs", type=workers, default=1, metavar="N", help="processes of this machine (1; more: mbla[dask])"
+    )
     _add_deck_options(command, "for every point")
     command.add_argument("--accuracy", choices=["draft", "standard", "reference"], help="instead of analysis.accuracy")
     command.add_argument(
