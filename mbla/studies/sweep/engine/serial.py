@@ -1,0 +1,28 @@
+"""Points one after the other in one process beside this one; needs no extra."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from types import TracebackType
+
+from mbla.studies.sweep.outcome import Outcome
+from mbla.studies.sweep.plan import Plan, Task
+from mbla.studies.sweep.worker.supervised import SupervisedRunner
+
+
+class SerialEngine:
+    """Context manager; tasks are done in their order."""
+
+    def __enter__(self) -> SerialEngine:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, traceback: TracebackType | None
+    ) -> None:
+        """The process is gone with the iterator of ``run``."""
+
+    def run(self, plan: Plan, tasks: Sequence[Task]) -> Iterator[Outcome]:
+        """Outcomes in the order of the tasks; raises as ``Engine.run`` does."""
+        with SupervisedRunner(plan) as runner:
+            for task in tasks:
+                yield runner.run(task)

@@ -1,0 +1,43 @@
+"""A limit on the memory of this process while a point is solved.
+
+The limit is on what can be written (RLIMIT_DATA: heap and private mappings, Linux since 4.7; getrlimit(2)), above what
+the process holds with the base deck. An allocation beyond it fails: Python then raises MemoryError, some libraries
+abort. Addresses that are only reserved, and pages of files, do not count, as they do with RLIMIT_AS.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+STATUS = Path("/proc/self/status")
+
+
+def can_limit() -> bool:
+    """Whether this system holds a process to such a limit."""
+    return sys.platform == "linux" and STATUS.exists()
+
+
+def written() -> float:
+    """Bytes of this process that count towards the limit (VmData, proc(5))."""
+    lines = STATUS.read_text(encoding="utf-8").splitlines()
+    return next(1024.0 * float(line.split()[1]) for line in lines if line.startswith("VmData:"))
+
+
+@contextlib.contextmanager
+def limited(most: float | None) -> Iterator[None]:
+    """No more than so many bytes (of ``written``) in the block; None for no limit."""
+    if most is None:
+        yield
+        return
+    import resource
+
+    soft, hard = resource.getrlimit(resource.RLIMIT_DATA)
+    ends = [int(most)] + [limit for limit in (soft, hard) if limit != resource.RLIM_INFINITY]
+    resource.setrlimit(resource.RLIMIT_DATA, (min(ends), hard))
+    try:
+        yield
+    finally:
+        resource.setrlimit(resource.RLIMIT_DATA, (soft, hard))
