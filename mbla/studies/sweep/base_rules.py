@@ -19,6 +19,7 @@ from mbla.studies.sweep.base_keys import path_of_key, unit_at, value_at, vector_
 from mbla.studies.sweep.file.content import Parameter
 from mbla.studies.sweep.file.design_rules import key_places, parameter_columns
 from mbla.studies.sweep.file.ways import DIRECTIONS, way_of
+from mbla.studies.sweep.result_columns import result_faults
 from mbla.studies.sweep.results import result_places
 from mbla.studies.sweep.settings import override_texts
 
@@ -31,24 +32,22 @@ Given = tuple[KeyPath, Any]
 
 def base_faults(base: Base) -> list[Fault]:
     """Everything wrong with what a sweep does to its base deck, where each of its keys is known to exist."""
-    checks = (_nested_keys, _idle_values, _directions, _units, _columns, _fragility)
+    checks = (_nested_keys, _idle_values, _directions, _units, _results, _columns, _fragility)
     faults = [fault for check in checks for fault in check(base)]
     return faults or list(_values(base))
 
 
 def _nested_keys(base: Base) -> Iterator[Fault]:
     """No parameter sets what another one sets as a part of its own value."""
-    seen: list[tuple[str, KeyPath]] = []
+    seen: list[tuple[str, str, KeyPath]] = []
     for name, parameter in base.sweep.content.parameters.items():
         for (place, key), path in zip(key_places(name, parameter), base.paths[name], strict=True):
-            for other, outer in seen:
+            for other, other_key, outer in seen:
                 short, long = sorted((outer, path), key=len)
                 if long[: len(short)] == short:
-                    message = (
-                        f"parameter {name} sets {key}, parameter {other} {key_text(outer)}: one of them holds the other"
-                    )
+                    message = f"parameter {name} sets {key}, parameter {other} {other_key}: one of them holds the other"
                     yield base.sweep.fault_at(place, message)
-            seen.append((name, path))
+            seen.append((name, key, path))
 
 
 def _idle_values(base: Base) -> Iterator[Fault]:
@@ -104,6 +103,12 @@ def _units(base: Base) -> Iterator[Fault]:
         if own and own != parameter.unit:
             message = f"the deck takes this in {own}, and values here are not converted: write them in {own}"
             yield base.sweep.fault_at(("parameters", name, "unit"), message)
+
+
+def _results(base: Base) -> Iterator[Fault]:
+    """Every result is one that a run has."""
+    for index, message in result_faults(base.sweep.content.results, base.cases):
+        yield base.sweep.fault_at(("results", index), message)
 
 
 def _columns(base: Base) -> Iterator[Fault]:

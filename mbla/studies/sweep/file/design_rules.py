@@ -153,6 +153,15 @@ def _size(sweep: SweepContent, part: Part) -> int | None:
 
 
 @rule(SweepContent)
+def cases_once(sweep: SweepContent) -> Iterator[Finding]:
+    """Each load case is solved once."""
+    cases = sweep.cases or []
+    for index, name in enumerate(cases):
+        if name in cases[:index]:
+            yield ("cases", index), "is given twice"
+
+
+@rule(SweepContent)
 def results_once(sweep: SweepContent) -> Iterator[Finding]:
     """One column each."""
     for index, name in enumerate(sweep.results):
