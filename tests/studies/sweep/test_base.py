@@ -11,10 +11,13 @@ from mbla.deck import read_deck
 from mbla.deck.overrides import RefusedError
 from mbla.errors import DeckError
 from mbla.studies.sweep.base import Base, read_base, unit_of_key
+from mbla.studies.sweep.base_points import check_points
+from mbla.studies.sweep.design.build import design_of
+from mbla.studies.sweep.design.design import Point
 from mbla.studies.sweep.file.read import read_sweep
-from mbla.studies.sweep.fingerprint import fingerprint_of
+from mbla.studies.sweep.fingerprint import fingerprint_of, key_hash
 from mbla.studies.sweep.settings import override_texts
-from tests.deck.decks import write
+from tests.deck.decks import BLOCK, write
 from tests.studies.sweep.file.sweeps import ALL_WAYS, ARCH, GOOD, base_of
 
 
@@ -40,8 +43,8 @@ def test_paths_units_vectors(base: Base) -> None:
         "law": "",
     }
     assert base.vectors == {"d": (1.0, 0.0, 0.0), "g": (0.0, 0.0, -1.0)}
-    assert base.known == {"mu": 0.65, "radius": 1.0, "t": 0.15}
-    assert base.cases == ("push_x",)
+    assert base.known == {"mu": 0.65, "radius": 1.0, "t": 0.15, "spare": 1}
+    assert base.cases == ("down", "push_x")
     assert base.fixed == ("blocks.0.arch.width=0.4", 'analysis.accuracy="draft"')
     assert base.deck.content.blocks[0].arch is not None
     assert base.deck.content.blocks[0].arch.width == 0.4
@@ -120,7 +123,7 @@ def test_faults_of_the_deck_are_its_own(tmp_path: Path) -> None:
     with pytest.raises(DeckError) as caught:
         base_of(tmp_path, GOOD, ARCH.replace("width: 0.3", "width: 0"))
     assert [str(fault) for fault in caught.value.faults] == [
-        f"{tmp_path}/deck.yaml:16:14 blocks[0].arch.width = 0: must be > 0"
+        f"{tmp_path}/deck.yaml:17:14 blocks[0].arch.width = 0: must be > 0"
     ]
 
 
@@ -128,6 +131,45 @@ def test_the_deck_may_lie_anywhere(tmp_path: Path) -> None:
     write(tmp_path / "decks", ARCH)
     sweep = write(tmp_path / "sweeps", GOOD.replace("deck.yaml", "../decks/deck.yaml"), "sweep.yaml")
     assert read_base(read_sweep(sweep)).path == tmp_path.resolve() / "decks" / "deck.yaml"
+
+
+def test_what_another_parameter_brings_into_use_has_an_effect(tmp_path: Path) -> None:
+    """The joint law mortar alone changes nothing: tests/invalid_sweeps."""
+    text = """mbla_sweep: 1
+deck: deck.yaml
+parameters:
+  mortar: {key: joints.mortar.friction, values: [0.4, 0.5]}
+  law: {key: contacts.joint, values: [dry, mortar]}
+  spare: {values: [1, 2]}
+  w: {key: blocks.0.arch.width, values: [0.2, "=spare/2"]}
+"""
+    assert base_of(tmp_path, text).units["w"] == ""
+
+
+def points_of(base: Base) -> tuple[Point, ...]:
+    return design_of(base.sweep.content, base.vectors, base.units, base.known, base.sweep.fault_at).points
+
+
+def test_a_sweep_of_which_no_point_can_be_read_is_refused(tmp_path: Path) -> None:
+    """The joint law has a friction angle: a friction beside it breaks a rule at every point."""
+    text = GOOD.replace("  mu: {", "  mu: {key: joints.dry.friction, ")
+    base = base_of(tmp_path, text, ARCH.replace('dry: {friction: "=mu"}', "dry: {friction_angle: 30}"))
+    with pytest.raises(DeckError) as caught:
+        check_points(base, points_of(base))
+    assert [str(fault) for fault in caught.value.faults] == [
+        f"{tmp_path}/sweep.yaml:4:1 parameters: the deck is refused at the first, middle and last point: "
+        "joints.dry.friction_angle: only one of friction or friction_angle may be given, here are friction and "
+        "friction_angle"
+    ]
+
+
+def test_a_sweep_with_a_corner_that_cannot_be_read_begins(tmp_path: Path) -> None:
+    """An arch of radius 1 cannot be thicker than twice that; such points fail on their own, with their reason."""
+    base = base_of(tmp_path, GOOD.replace("[0.1, 0.15, 0.2]", "[3, 0.15, 0.2]"))
+    points = points_of(base)
+    check_points(base, points)
+    with pytest.raises(DeckError, match="the deck is refused at the only point: "):
+        check_points(base, points[:1])
 
 
 # --- fingerprint --------------------------------------------------------------------------------------------------
@@ -174,7 +216,7 @@ def test_a_fixed_value_is_as_if_the_deck_had_it(tmp_path: Path) -> None:
 
 
 def test_an_included_part_is_as_if_the_deck_had_it(tmp_path: Path) -> None:
-    joints = 'joints:\n  dry: {friction: "=mu"}\n'
+    joints = ARCH[ARCH.index("joints:") : ARCH.index("blocks:")]
     write(tmp_path / "two", joints, "joints.yaml")
     two = fingerprint(tmp_path / "two", ARCH.replace(joints, "include: [joints.yaml]\n"))
     assert two == fingerprint(tmp_path / "one", ARCH)
@@ -184,9 +226,9 @@ def test_fingerprint_of_the_base_is_what_workers_compute(base: Base) -> None:
     assert fingerprint_of(base.path, base.fixed) == base.fingerprint
 
 
-def test_the_arch_has_the_same_fingerprint_for_good(tmp_path: Path) -> None:
+def test_a_deck_has_the_same_fingerprint_for_good(tmp_path: Path) -> None:
     """A journal names it: another value here is another format of journals, to be said in the release notes."""
-    assert fingerprint(tmp_path, ARCH) == "e6b991fcaa7d0b5dc37d36f2311efcca2856c0f10d4c8370e7708afa43f82a46"
+    assert fingerprint(tmp_path, BLOCK) == "d8ee98c44b2103e6d825a239e2921eb677d4c780a913f510f9c85ff282ca98fe"
 
 
 # --- keys of points -----------------------------------------------------------------------------------------------
@@ -220,10 +262,10 @@ def test_keys_are_those_of_the_base(tmp_path: Path) -> None:
     assert one.key_of(settings) == again.key_of(settings)
 
 
-def test_the_key_of_a_point_is_the_same_for_good(tmp_path: Path) -> None:
+def test_the_key_of_a_point_is_the_same_for_good() -> None:
     """In every process and on every machine, as the fingerprint above."""
-    key = base_of(tmp_path).key_of({"parameters.t": 0.1, "parameters.mu": 0.3})
-    assert key == "cd0c32d3b3fb3cc447bb57cd0216a4b52de319578f37ff79b702865efd1635a6"
+    key = key_hash("0" * 64, {"parameters.t": 0.1, "parameters.mu": 1e-7, "a": [1, "\N{DEGREE SIGN}", True]}, ["b"])
+    assert key == "0de9e83a32792b65751b87c50e1c9fe672d67d496e30b0085b323d014e773f6a"
 
 
 TABLE = "group,index,fx,fy,fz\narch,10,0,0,{force}\n"

@@ -43,7 +43,12 @@ def parameter_columns(name: str, parameter: Parameter) -> tuple[str, ...]:
 @rule(SweepContent)
 def keys_once(sweep: SweepContent) -> Iterator[Finding]:
     """No key of the deck gets two values; keys inside of one another are found with the base deck at hand."""
-    owners = {spelt(key): f"set sets {key} too: one of them would have no effect" for key in sweep.set}
+    owners: dict[tuple[str, ...], str] = {}
+    for key in sweep.set:
+        for before in owners:
+            if before[: len(spelt(key))] == spelt(key):
+                yield ("set", key), f"replaces {'.'.join(before)}, which stands before it: put it first, or drop that"
+        owners[spelt(key)] = f"set sets {key} too: one of them would have no effect"
     for name, parameter in sweep.parameters.items():
         for path, key in key_places(name, parameter):
             if spelt(key) in owners:

@@ -23,7 +23,7 @@ parameters:
 ALL_WAYS = """mbla_sweep: 1
 title: Every key of a sweep file
 deck: deck.yaml
-cases: [push_x]
+cases: [down, push_x]
 set: {blocks.0.arch.width: 0.4, "analysis.accuracy": draft}
 parameters:
   mu: {linear: {from: 0.7, to: 0.3, points: 3}}
