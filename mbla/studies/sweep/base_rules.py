@@ -49,7 +49,8 @@ def _nested_keys(base: Base) -> Iterator[Fault]:
             for other, other_key, outer in seen:
                 short, long = sorted((outer, path), key=len)
                 if long[: len(short)] == short:
-                    message = f"parameter {name} sets {key}, parameter {other} {other_key}: one of them holds the other"
+                    both = f"parameter {name} sets {shorten(key)}, parameter {other} {shorten(other_key)}"
+                    message = f"{both}: one of them holds the other"
                     yield base.sweep.fault_at(place, message)
             seen.append((name, key, path))
 
@@ -83,10 +84,12 @@ def _without_effect(base: Base) -> Iterator[Fault]:
                 continue
             section, thing = str(path[0]), str(path[1])
             if section == "load_cases" and thing not in base.cases:
-                yield base.sweep.fault_at(place, f"has no effect: load case {thing} is not among the cases to solve")
+                yield base.sweep.fault_at(
+                    place, f"has no effect: load case {shorten(thing)} is not among the cases to solve"
+                )
             named = any(thing in text for text in texts)  # another parameter may bring it into use
             if (section, thing) in unused(base.deck.notices) and not named:
-                yield base.sweep.fault_at(place, f"has no effect: the deck does not use {section}.{thing}")
+                yield base.sweep.fault_at(place, f"has no effect: the deck does not use {section}.{shorten(thing)}")
 
 
 def unused(notices: Iterable[Notice]) -> set[tuple[str, str]]:
@@ -158,7 +161,7 @@ def _fragility(base: Base) -> Iterator[Fault]:
     wanted = content.fragility.result
     columns = [place.name for place in result_places(content.results, base.cases)]
     if wanted not in columns and wanted not in content.results:
-        message = f"there is no column {wanted}: the columns are {listed(columns, 'and')}"
+        message = f"there is no column {shorten(wanted)}: the columns are {listed(columns, 'and')}"
         yield base.sweep.fault_at(("fragility", "result"), message)
 
 
