@@ -363,8 +363,8 @@ def _add_sweep_plot(commands: Any) -> None:
 
 
 def _add_schema_and_new(commands: Any) -> None:
-    command = commands.add_parser("schema", help="print the JSON Schema of decks")
-    command.add_argument("kind", nargs="?", choices=["deck"], default="deck")
+    command = commands.add_parser("schema", help="print the JSON Schema of decks, or of sweep files")
+    command.add_argument("kind", nargs="?", choices=["deck", "sweep"], default="deck")
     command = commands.add_parser("new", help="write a commented starter deck")
     command.add_argument("name", metavar="NAME")
     command.add_argument("--force", action="store_true", help="replace an existing file")

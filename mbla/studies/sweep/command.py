@@ -13,6 +13,7 @@ from typing import Any
 from mbla import __version__
 from mbla.errors import Notice
 from mbla.studies.sweep.base import Base, read_base
+from mbla.studies.sweep.base_points import check_points
 from mbla.studies.sweep.design.build import design_of
 from mbla.studies.sweep.design.design import Design
 from mbla.studies.sweep.design.record import design_json
@@ -107,6 +108,7 @@ def prepare(sweep: Sweep, options: SweepOptions) -> Prepared:
     base = read_base(sweep)
     content = sweep.content
     design = design_of(content, base.vectors, base.units, base.known, sweep.fault_at)
+    check_points(base, design.points)
     keys = tuple(base.key_of(point.settings) for point in design.points)
     first: dict[str, Task] = {}
     for key, point in zip(keys, design.points, strict=True):
