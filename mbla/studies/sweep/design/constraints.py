@@ -14,13 +14,12 @@ from typing import TypeAlias
 
 import numpy as np
 
+from mbla.deck.comparisons import Comparison, read_comparison
 from mbla.deck.expressions import (
     CONSTANTS,
-    Comparison,
     ExpressionError,
     ParameterFaultError,
     Parameters,
-    read_comparison,
 )
 from mbla.deck.suggestions import unknown
 from mbla.errors import DeckError, Fault
@@ -138,7 +137,7 @@ def _holds_at(comparison: Comparison, fixed: Mapping[str, object], rows: Sequenc
         raw.update(row)
     parameters = Parameters(raw)
     try:
-        return parameters.holds(comparison)
+        return comparison.holds(parameters.value)
     except ParameterFaultError as error:
         told = [f"{name} {message}" for name, message in parameters.failures()] or [str(error)]
         raise ExpressionError(f"{'; '.join(told)}{_where(comparison, raw)}") from None
