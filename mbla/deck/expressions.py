@@ -100,7 +100,10 @@ class Parameters:
         ExpressionError
             if there is none; ParameterFaultError where the parameter itself is at fault
         """
-        if name in self._raw:
+        raw = self._raw.get(name)
+        if isinstance(raw, float):
+            return raw
+        if raw is not None:
             self._resolve(name)
         return self._value(name)
 
