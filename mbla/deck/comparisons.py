@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import ast
+import re
 from collections.abc import Callable
 from dataclasses import dataclass
 
 from mbla.deck.expressions import ExpressionError, evaluate, parse_source
 
+_KEY_PATH = re.compile(r"(?<![\w.])[A-Za-z_]\w*(?:\.\w+)+")
+_ASSIGNMENT = re.compile(r"(?<![<>=!])=(?!=)")
 EQUAL = 1e-9
 """relative: numbers that differ by less are equal in comparisons, as 3 x 1.1 is not 3.3 in binary"""
 _ORDER: dict[type[ast.cmpop], Callable[[float, float, bool], bool]] = {
@@ -50,7 +53,14 @@ def read_comparison(text: str) -> Comparison:
     ExpressionError
         with what is wrong; names are not looked up
     """
-    node = parse_source(text.strip().removeprefix("="))
+    source = text.strip().removeprefix("=")
+    if path := _KEY_PATH.search(source):
+        raise ExpressionError(
+            f"{path.group()} is no name of letters, digits and _: give that parameter one, with its key"
+        )
+    if _ASSIGNMENT.search(source):
+        raise ExpressionError("= compares nothing: write == for equal numbers")
+    node = parse_source(source)
     if isinstance(node, ast.BoolOp):
         raise ExpressionError("joins comparisons by and/or: write each as one of its own; all of them must hold")
     if not isinstance(node, ast.Compare):
@@ -58,10 +68,6 @@ def read_comparison(text: str) -> Comparison:
     for sign in node.ops:
         if type(sign) not in _ORDER:
             raise ExpressionError("compares by something other than < <= > >= ==")
-    for part in ast.walk(node):
-        if isinstance(part, ast.Attribute):
-            name = ast.unparse(part)
-            raise ExpressionError(f"{name} is no name of letters, digits and _: give that parameter one, with its key")
     called = {part.func for part in ast.walk(node) if isinstance(part, ast.Call)}
     named = [part for part in ast.walk(node) if isinstance(part, ast.Name) and part not in called]
     named.sort(key=lambda part: (part.lineno, part.col_offset))

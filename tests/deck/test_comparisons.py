@@ -20,6 +20,7 @@ from mbla.deck.expressions import ExpressionError, ParameterFaultError, Paramete
         ("3 < a < 4", False),
         ("max(a, b) <= 2*pi", True),
         (" = a < 3 ", True),
+        ("a < 2.5 == 5./2", True),
         ("3*1.1 == 3.3", True),
         ("3*1.1 > 3.3", False),
         ("3.3 < 3*1.1", False),
