@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import re
 from collections.abc import Callable
 from typing import TypeVar
 
@@ -35,6 +36,14 @@ def relative_above_zero(text: str) -> float:
 def threads(text: str) -> int:
     """A number of threads."""
     return _number(text, int, lambda value: value >= 1, "a whole number of threads, at least 1")
+
+
+def shard(text: str) -> tuple[int, int]:
+    """Part and number of parts, ``2/8``."""
+    match = re.fullmatch(r"([0-9]{1,6})/([0-9]{1,6})", text)
+    if not match or not 1 <= int(match[1]) <= int(match[2]):
+        raise argparse.ArgumentTypeError(f"{text!r} is not a shard, such as 2/8: part 1 to n of n parts")
+    return int(match[1]), int(match[2])
 
 
 def _number(text: str, kind: Callable[[str], Amount], allowed: Callable[[Amount], bool], wanted: str) -> Amount:
