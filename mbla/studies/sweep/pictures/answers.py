@@ -49,8 +49,8 @@ class Mark:
 
 MARKS = {
     Answer.UNVERIFIED: Mark("not verified", "o", WARNING, "xx"),
-    Answer.NO_EQUILIBRIUM: Mark("does not stand (no_equilibrium)", "v", INK, "///"),
-    Answer.UNBOUNDED: Mark("no collapse under any load (unbounded)", "^", PURPLE, "..."),
+    Answer.NO_EQUILIBRIUM: Mark("no equilibrium (does not stand)", "v", INK, "///"),
+    Answer.UNBOUNDED: Mark("unbounded (no collapse)", "^", PURPLE, r"\\\"),
     Answer.NONE: Mark("has no such value", "|", GHOST, "--"),
     Answer.FAILED: Mark("failed", "x", WARNING, "xx"),
     Answer.NOT_RUN: Mark("not solved yet", ".", GHOST, "oo"),
@@ -116,7 +116,7 @@ UNSURE = (Status.NOT_VERIFIED, Status.ITERATION_LIMIT, Status.TIME_LIMIT, Status
 
 
 def count_words(answers: Answers) -> str:
-    """``48 points: 40 with a verified value, 5 that do not stand (no_equilibrium), 3 failed``."""
+    """``48 points: 40 with a verified value, 5 no equilibrium (does not stand), 3 failed``."""
     total = len(answers.answer)
     counts = [(answers.of(answer).sum(), mark.words) for answer, mark in MARKS.items()]
     parts = [f"{answers.good.sum()} with a verified value", *(f"{count} {words}" for count, words in counts if count)]

@@ -14,7 +14,9 @@ from mbla.studies.sweep.tables.sweep_table import SweepColumn, SweepTable
 SAME_RATIO = 1e-6
 """relative: how equal the ratios of neighbouring values are in a range of equal ratios; tables hold full precision"""
 WIDE = 30.0
-"""greatest by least value from which three values of equal ratios, which a list may have too, are a logarithmic range"""
+"""greatest by least value from which three values of equal ratios, which a list may have too, are a log range"""
+ROUNDING = 1e-12
+"""relative: of values that a range makes, as 0.30000000000000004"""
 DIRECTIONS = ("azimuth", "elevation")
 
 
@@ -53,6 +55,14 @@ class Axis:
     def names(self) -> list[str]:
         """Each value in few letters."""
         return [value_words(level) for level in self.levels]
+
+    @property
+    def names_exact(self) -> bool:
+        """Whether the names of numbers are the numbers, not roundings of them."""
+        return self.categorical or all(
+            abs(float(name) - level) <= ROUNDING * abs(level)
+            for name, level in zip(self.names, self.levels, strict=True)
+        )
 
 
 def label_of(column: SweepColumn) -> str:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from mbla.results.pictures.options import PictureOptions
-from mbla.studies.sweep.pictures import curve, map
+from mbla.studies.sweep.pictures import curve, distribution, map, polar, scatter, tornado
 from mbla.studies.sweep.pictures.view import View
 
 
@@ -28,5 +28,9 @@ class Kind:
 KINDS = {
     "curve": Kind(curve.refusal, curve.usual, curve.draw),
     "map": Kind(map.refusal, map.usual, map.draw),
+    "polar": Kind(polar.refusal, polar.usual, polar.draw),
+    "scatter": Kind(scatter.refusal, scatter.usual, scatter.draw),
+    "distribution": Kind(distribution.refusal, distribution.usual, distribution.draw),
+    "tornado": Kind(tornado.refusal, tornado.usual, tornado.draw),
 }
 """by name, in the order in which they are made"""

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from mbla.arrays import FloatArray
+from mbla.arrays import FloatArray, IntArray
 from mbla.results.pictures.options import PictureOptions
 from mbla.results.pictures.palette import GROUPS, INK
 from mbla.studies.sweep.pictures.answers import MARKS, Answer
@@ -56,7 +56,7 @@ def draw(path: Path, view: View, options: PictureOptions) -> None:
     cells = Cells(*arrays)
 
     def handles(page: Any) -> list[Any]:
-        return _class_handles(page, view, cells) + _hatch_handles(page, cells)
+        return _class_handles(page, view, cells) + hatch_handles(page, cells.answer)
 
     what = f"{view.answers.label} over {x.label} and {y.label}"
     with open_sheet(path, view, what, options, handles, notes) as sheet:
@@ -164,13 +164,14 @@ def _hatch(sheet: Sheet, axes: Any, x: FloatArray, y: FloatArray, cells: Cells) 
             )
 
 
-def _hatch_handles(page: Any, cells: Cells) -> list[Any]:
+def hatch_handles(page: Any, answers: IntArray) -> list[Any]:
+    """Handles of a legend for the answers among these that are no values, as cells have them."""
     handles = [
         page.parts.Patch(facecolor="white", edgecolor=mark.colour, hatch=2 * mark.hatch, label=mark.words)
         for answer, mark in MARKS.items()
-        if (cells.answer == answer).any()
+        if (answers == answer).any()
     ]
-    if (cells.answer == NO_POINT).any():
+    if (answers == NO_POINT).any():
         handles.append(page.parts.Patch(facecolor=NO_POINT_COLOUR, edgecolor=INK, label=NO_POINT_WORDS, linewidth=0.5))
     return handles
 

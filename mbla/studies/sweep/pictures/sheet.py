@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from mbla.arrays import IntArray
-from mbla.results.pictures.options import PictureOptions
+from mbla.results.pictures.options import DOTS_PER_INCH, PictureOptions
 from mbla.results.pictures.page import LETTER, Page, add_legend, add_words, open_page
 from mbla.results.pictures.palette import INK
 from mbla.studies.sweep.pictures.answers import MARKS, Answer, Answers, count_words
@@ -26,8 +26,6 @@ SCALE = "viridis"
 """colours of values: the colour-blind tell them apart, and they darken evenly in grey"""
 DARK_END, LIGHT_END = 0.0, 0.88
 """part of the scale that lines use: its last colours are too light on white"""
-MOST_TICKS = 24
-"""names of categories or values that have room along one side of a page of the usual size"""
 
 
 @dataclass(frozen=True)
@@ -92,32 +90,39 @@ def dress(sheet: Sheet, axes: Any, x: str = "", y: str = "", title: str = "") ->
 
 
 def scale_axis(sheet: Sheet, axes: Any, axis: Axis, which: str = "x", share: float = 1.0) -> None:
-    """Ticks and scale of an axis of the design along ``x`` or ``y``.
+    """Ticks and scale of an axis of the design along ``x`` or ``y``: at its values where they have short names and room.
 
     share : of the side of the page that the diagram has: fewer names have room then
     """
     if axis.log:
         getattr(axes, f"set_{which}scale")("log")
-    long = max(len(name) for name in axis.names)
-    room = MOST_TICKS * share * min(1.0, LETTER * SMALL / sheet.small * sheet.page.scale)
-    most = max(2, int(room if which == "y" else room * min(1.0, 9 / long)))
-    if axis.categorical or len(axis.levels) <= min(most, 12):
-        turn = which == "x" and axis.categorical and len(axis.levels) > most
-        fits = which == "x" and turn
-        step = 1 if fits and len(axis.levels) <= 50 else -(-len(axis.levels) // most)
-        ticks = axis.coordinates[::step]
-        if not axis.categorical and not axis.log and _crowded(axis.coordinates, most):
-            return
-        getattr(axes, f"set_{which}ticks")(ticks, axis.names[::step], **({"rotation": 90} if turn else {}))
-        getattr(axes, f"set_{which}ticks")([], minor=True)
-        for text in getattr(axes, f"get_{which}ticklabels")():
-            text.set_parse_math(False)
+    width, height = sheet.page.options.size
+    side = (width if which == "x" else height * (sheet.top - sheet.bottom)) / DOTS_PER_INCH * 72.0 * share
+    if axis.column.role == "azimuth" and np.ptp(axis.coordinates) > QUARTER * 2:
+        limits = getattr(axes, f"get_{which}lim")()
+        getattr(axes, f"set_{which}ticks")(np.arange(-360, 361, QUARTER / 2))
+        getattr(axes, f"set_{which}lim")(limits)  # which the ticks widen
+        return
+    longest = max(len(name) for name in axis.names)
+    across = sheet.small * (1.5 if which == "y" else 0.7 * longest + 1.0)
+    most = max(2, int(0.85 * side / across))
+    if not axis.categorical and (_crowded(axis, most) or not axis.names_exact):
+        return
+    turn = which == "x" and axis.categorical and len(axis.levels) > most
+    if turn:
+        most = max(2, int(0.85 * side / (1.4 * sheet.small)))
+    step = -(-len(axis.levels) // most)
+    set_ticks = getattr(axes, f"set_{which}ticks")
+    set_ticks([], minor=True)
+    set_ticks(axis.coordinates[::step], axis.names[::step], **({"rotation": 90} if turn else {}))
+    for text in getattr(axes, f"get_{which}ticklabels")():
+        text.set_parse_math(False)
 
 
-def _crowded(values: Any, most: int) -> bool:
-    """Whether names at these values would lie over each other: a gap too small for the number that has room."""
-    span = float(np.ptp(values))
-    return bool(len(values) > 1 and np.diff(values).min() < span / most)
+def _crowded(axis: Axis, most: int) -> bool:
+    """Whether names at all values would lie over each other: a gap smaller than the share that a name needs."""
+    values = np.log(axis.coordinates) if axis.log else axis.coordinates
+    return bool(len(values) > 1 and np.diff(values).min() < np.ptp(values) / most)
 
 
 def mark_handles(page: Page, answers: IntArray) -> list[Any]:
@@ -144,7 +149,8 @@ def place_marks(sheet: Sheet, axes: Any, x: Any, answer: IntArray, values: Any, 
         if not own.any():
             continue
         style = {"marker": mark.marker, "linestyle": "none", "markerfacecolor": "none", "markeredgecolor": mark.colour,
-                 "markeredgewidth": 1.5 * scale, "markersize": 8 * scale, "zorder": 4, "clip_on": False,
+                 "markeredgewidth": (1.5 if own.sum() < CROWD else 0.8) * scale, "zorder": 4, "clip_on": False,
+                 "markersize": (8 if own.sum() < CROWD else 5) * scale,
                  "rasterized": own.sum() > MANY}  # fmt: skip
         if kind == Answer.UNVERIFIED:
             axes.plot(x[own], values[own], **style)
@@ -155,5 +161,9 @@ def place_marks(sheet: Sheet, axes: Any, x: Any, answer: IntArray, values: Any, 
             axes.plot(x[own], np.full(own.sum(), height), transform=axes.get_xaxis_transform(), **style)
 
 
+CROWD = 60
+"""markers from which on they are smaller"""
+QUARTER = 90.0
+"""degrees"""
 MANY = 2000
 """markers from which on they are one image in SVG and PDF"""
