@@ -51,6 +51,11 @@ def shard(text: str) -> tuple[int, int]:
     return int(match[1]), int(match[2])
 
 
+def workers(text: str) -> int:
+    """A number of processes."""
+    return _number(text, int, lambda value: value >= 1, "a whole number of processes, at least 1")
+
+
 def _number(text: str, kind: Callable[[str], Amount], allowed: Callable[[Amount], bool], wanted: str) -> Amount:
     try:
         value = kind(text)

@@ -5,6 +5,8 @@ from __future__ import annotations
 import csv
 import os
 import signal
+import subprocess
+import sys
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
@@ -12,8 +14,11 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from random import Random
 
+from mbla.cli import main
+from mbla.studies.line_process import PACKAGES
 from mbla.studies.sweep.command import Prepared, SweepOptions, prepare, run_sweep
 from mbla.studies.sweep.engine.options import EngineOptions
+from mbla.studies.sweep.file.read import read_sweep
 from mbla.studies.sweep.journal.shards import journals_in
 from tests.line import BLOCK
 from tests.studies.sweep.journal.forked import Forked, forked
@@ -21,7 +26,8 @@ from tests.studies.sweep.journal.forked import Forked, forked
 HOW_IT_WENT = ("tries", "seconds [s]")
 """columns that say how a point was solved, not what its answer is: time, and how often its process was begun"""
 GONE = 30.0
-"""seconds in which processes must have ended whose parent was killed; it takes hundredths"""
+"""seconds in which processes must have ended whose parent was killed, or be there; it takes hundredths, or one"""
+SCHEDULER = "scheduler"
 
 
 def written(folder: Path, points: int) -> Path:
@@ -72,7 +78,7 @@ class Scene:
 def scene(path: Path, folder: Path, engine: EngineOptions | None = None) -> Scene:
     """The sweep file's sweep with its files in the folder."""
     options = SweepOptions(folder=folder, engine=engine or EngineOptions())
-    return Scene(prepare(path, options), options)
+    return Scene(prepare(read_sweep(path, ()), options), options)
 
 
 def table_of(folder: Path) -> list[dict[str, str]]:
@@ -127,7 +133,7 @@ def kill_a_child(client: Forked, draw: Random) -> bool:
 def with_kills(scene: Scene, kills: int, draw: Random, wait: float, at_client: float) -> tuple[int, set[str]]:
     """Go on with a sweep until so many kills are done or it is finished; real kills, and points that were reported.
 
-    wait      : longest time from a report to the kill [s]
+    wait      : longest time from a report to the kill [s]; most are short, as most of the time goes into points
     at_client : share of the kills that hit the client; the others one of its processes
     """
     reported: list[str] = []
@@ -136,7 +142,7 @@ def with_kills(scene: Scene, kills: int, draw: Random, wait: float, at_client: f
         with forked(scene.goes_on()) as client:
             assert client.line() == "begun"
             while done < kills and len(set(reported)) < scene.n_points:
-                time.sleep(draw.random() * wait)
+                time.sleep(draw.random() ** 3 * wait)
                 if draw.random() < at_client:
                     with all_ending(client.pid):
                         client.kill()
@@ -149,6 +155,97 @@ def with_kills(scene: Scene, kills: int, draw: Random, wait: float, at_client: f
 
 
 def finish(scene: Scene) -> str:
-    """Go on to the end; the last report."""
-    with forked(scene.goes_on()) as client:
+    """Go on to the end as the command does, in one process; its exit status."""
+    command = ["sweep", str(scene.prepared.sweep.path), "-o", str(scene.folder), "--resume", "-q"]
+    with forked(lambda report: report(f"exit {main(command)}")) as client:
         return client.lines()[-1]
+
+
+class Cluster:
+    """Context manager: a Dask scheduler and workers on loopback, each of which is begun again where it has ended."""
+
+    def __init__(self, folder: Path, workers: int) -> None:
+        self.file = folder / "scheduler.json"
+        self._workers = workers
+        self._processes: dict[str, subprocess.Popen[bytes]] = {}
+        paths = [str(PACKAGES), os.environ.get("PYTHONPATH", "")]
+        self._environment = os.environ | {"PYTHONPATH": os.pathsep.join(path for path in paths if path)}
+
+    def __enter__(self) -> Cluster:
+        self.mend()
+        return self
+
+    def __exit__(self, *what: object) -> None:
+        for name in sorted(self._processes, reverse=True):  # workers first
+            self.end(name)
+
+    def mend(self) -> None:
+        """Begin what is not there; a scheduler is ready when this returns."""
+        ended = [name for name, process in self._processes.items() if process.poll() is not None]
+        if SCHEDULER in ended or not self._processes:
+            for name in sorted(self._processes, reverse=True):
+                self.end(name)  # workers of a scheduler that is gone are ended by whoever runs the cluster
+            self.file.unlink(missing_ok=True)
+            self._begin(SCHEDULER, "dask_scheduler", "--host", "127.0.0.1", "--port", "0", "--no-dashboard")
+            until = time.monotonic() + GONE
+            while not self.file.exists():
+                assert time.monotonic() < until, "no scheduler"
+                time.sleep(0.05)
+        for name in [f"worker {number}" for number in range(self._workers)]:
+            if name in ended or name not in self._processes:
+                self._begin(name, "dask_worker", "--nthreads", "1", "--no-dashboard", "--host", "127.0.0.1")
+
+    def _begin(self, name: str, module: str, *options: str) -> None:
+        command = [sys.executable, "-P", "-m", f"distributed.cli.{module}", "--scheduler-file", str(self.file)]
+        self._processes[name] = subprocess.Popen(
+            [*command, *options],
+            env=self._environment,
+            cwd=self.file.parent,
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL,
+        )
+
+    def end(self, name: str) -> None:
+        """Kill a process and all that it has begun."""
+        process = self._processes[name]
+        for pid in (process.pid, *descendants(process.pid)):
+            with suppress(ProcessLookupError):
+                os.kill(pid, signal.SIGKILL)
+        process.wait()
+
+    def kill_one(self, draw: Random) -> str:
+        """Kill one process: the scheduler, a nanny, a worker, or the process of its points; what it was."""
+        name = draw.choice(sorted(self._processes))
+        pid = self._processes[name].pid
+        with suppress(ProcessLookupError):
+            os.kill(draw.choice([pid, *descendants(pid)]), signal.SIGKILL)
+        return name
+
+
+def with_cluster_kills(scene: Scene, cluster: Cluster, kills: int, draw: Random, wait: float) -> list[str]:
+    """Go on with a sweep on a cluster while any process of it, or the client, is killed; what was killed.
+
+    What an earlier kill took is begun again before the next, and two more points are solved; a client that a kill
+    left without its scheduler ends by itself, and another one goes on.
+    """
+    killed: list[str] = []
+    while len(killed) < kills:
+        cluster.mend()
+        with forked(scene.goes_on()) as client:
+            line = client.line()
+            while len(killed) < kills and line and not line.startswith("finished"):
+                time.sleep(draw.random() ** 3 * wait)
+                if draw.random() < 0.3:
+                    killed.append("client")
+                    client.kill()
+                else:
+                    killed.append(cluster.kill_one(draw))
+                    if killed[-1] != SCHEDULER:
+                        cluster.mend()
+                for _ in range(3):
+                    line = client.line()
+            if line.startswith("finished"):
+                break
+            client.lines()
+    cluster.mend()
+    return killed

@@ -12,7 +12,7 @@ import queue
 import threading
 import time
 import uuid
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Generator, Iterator, Sequence
 from contextlib import ExitStack, contextmanager, suppress
 from dataclasses import dataclass, field
 from types import SimpleNamespace, TracebackType
@@ -87,7 +87,7 @@ class ClusterEngine:
         """Points that can be solved together, as last seen."""
         return self._threads
 
-    def run(self, plan: Plan, tasks: Sequence[Task]) -> Iterator[Outcome]:
+    def run(self, plan: Plan, tasks: Sequence[Task]) -> Generator[Outcome, None, None]:
         """Outcomes as they are done; raises as ``Engine.run`` does, and FileError where the scheduler is gone."""
         batches, window = Batches(tasks), Window()
         try:

@@ -14,7 +14,7 @@ from collections.abc import Iterable
 from pathlib import Path
 from types import TracebackType
 
-from mbla.errors import FileError, Notice
+from mbla.errors import FileError, Notice, UsageError
 from mbla.results.files import file_errors, flush_to_disk, missing_folders, temporary_path
 from mbla.studies.sweep.journal.header import BEGIN_ANEW, JournalHeader, header_text
 from mbla.studies.sweep.journal.lock import AT_WORK, holder, locked
@@ -49,6 +49,8 @@ class Journal:
 
     Raises
     ------
+    UsageError
+        Both ``resume`` and ``force``: one keeps what the other drops.
     FileError
         On entry: another run is at work; there is a journal and neither ``resume`` nor ``force`` is set; it is of
         another sweep or program, or has a broken row; it cannot be written.
@@ -57,6 +59,8 @@ class Journal:
     def __init__(
         self, path: Path, header: JournalHeader, *, resume: bool, force: bool, retry_failed: bool = False
     ) -> None:
+        if resume and force:
+            raise UsageError("--resume goes on with the journal and --force begins anew: one of them")
         self.path = path
         self.header = header
         self.finished: dict[str, Outcome] = {}
@@ -126,7 +130,7 @@ class Journal:
         others = [path for path in journals_in(self.path.parent) if path != self.path]
         replaced = [self.path] if is_of_shard(self.path) else [self.path, *others]  # by a run that begins anew
         earlier = [path for path in replaced if os.path.lexists(path)]
-        if self._resume and not self._force:
+        if self._resume:
             return self._go_on(others)
         if earlier and not self._force:
             raise FileError(f"{earlier[0]}: exists already; --resume goes on with it, {BEGIN_ANEW}")

@@ -50,7 +50,7 @@ class Mark:
 MARKS = {
     Answer.UNVERIFIED: Mark("not verified", "o", WARNING, "xx"),
     Answer.NO_EQUILIBRIUM: Mark("no equilibrium (does not stand)", "v", INK, "///"),
-    Answer.UNBOUNDED: Mark("unbounded (no collapse)", "^", PURPLE, r"\\\"),
+    Answer.UNBOUNDED: Mark("unbounded (no collapse)", "^", PURPLE, "\\" * 3),
     Answer.NONE: Mark("has no such value", "|", GHOST, "--"),
     Answer.FAILED: Mark("failed", "x", WARNING, "xx"),
     Answer.NOT_RUN: Mark("not solved yet", ".", GHOST, "oo"),

@@ -36,7 +36,7 @@ def held(path: Path) -> Callable[[Callable[[str], None]], None]:
 
 def refused(path: Path) -> str:
     with pytest.raises(FileError) as error:
-        Journal(path, HEADER, resume=True, force=True).__enter__()
+        Journal(path, HEADER, resume=False, force=True).__enter__()
     return str(error.value)
 
 
