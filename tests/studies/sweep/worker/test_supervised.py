@@ -180,7 +180,12 @@ def test_one_that_cannot_start_is_no_fault_of_the_point(tmp_path: Path) -> None:
 def test_stopped_from_another_thread(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     mark = tmp_path / "begun"
     with runner_that(monkeypatch, plan_over(tmp_path), f"open({str(mark)!r}, 'w'); time.sleep(60)") as runner:
-        thread = threading.Thread(target=lambda: (wait_for(mark.exists), runner.kill()))
+
+        def kill_when_begun() -> None:
+            wait_for(mark.exists)
+            runner.kill()
+
+        thread = threading.Thread(target=kill_when_begun)
         thread.start()
         with pytest.raises(StoppedError):
             runner.run(TASK)
