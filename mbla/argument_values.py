@@ -32,6 +32,11 @@ def relative_above_zero(text: str) -> float:
     return _number(text, float, lambda value: 0 < value < 1, "a relative error between 0 and 1")
 
 
+def degrees(text: str) -> float:
+    """An angle in degrees, within two turns."""
+    return _number(text, float, lambda value: -720 <= value <= 720, "an angle from -720 to 720 degrees")
+
+
 def threads(text: str) -> int:
     """A number of threads."""
     return _number(text, int, lambda value: value >= 1, "a whole number of threads, at least 1")

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from mbla import __version__
-from mbla.argument_values import names, relative, relative_above_zero, seconds, threads
+from mbla.argument_values import degrees, names, relative, relative_above_zero, seconds, threads
 
 EXIT_STATUS = """\
 exit status:
@@ -38,6 +38,7 @@ def build_parser() -> argparse.ArgumentParser:
     _add_report(commands)
     _add_export(commands)
     _add_diff(commands)
+    _add_interact(commands)
     _add_tradeoff(commands)
     _add_explain(commands)
     _add_schema_and_new(commands)
@@ -218,6 +219,38 @@ def _add_explain(commands: Any) -> None:
     )
     command.add_argument("identifier", nargs="*", metavar="ID", help="identifier, word or message")
     command.add_argument("--json", action="store_true", help="one JSON object on standard output")
+
+
+def _add_interact(commands: Any) -> None:
+    command = commands.add_parser(
+        "interact",
+        help="load factor over horizontal direction, or over two live loads: table and diagram",
+        description="Turn the live load of a load case around the horizon, or let the live loads of two load cases act "
+        "together in all proportions: table, STEM_interact.csv, .json, and a diagram (extra mbla[pictures]). Turned "
+        "are the horizontal parts of live accelerations and forces, all together; azimuth 0 pushes along +x, 90 along "
+        "+y. Two loads A and B act as A cos + B sin of an angle, with the one dead load that both must have.",
+        epilog="Exit status 0 where every point is answered and verified (also that the load never brings collapse "
+        "there); else that of the gravest point: 4 not solved or not verified, 7 time or memory limit; 4 also where "
+        "bounds of points contradict each other; 5 where no point has a load factor.",
+    )
+    command.add_argument("deck", type=Path, metavar="DECK")
+    command.add_argument("--case", metavar="NAME", help="the load case that is turned; needed if there are several")
+    command.add_argument("--loads", nargs=2, metavar=("A", "B"), help="two load cases whose live loads act together")
+    command.add_argument(
+        "--directions", type=int, metavar="N", help="points around the horizon (default 72), or of two loads (31)"
+    )
+    command.add_argument("--from", dest="start", type=degrees, metavar="DEG", help="first angle of two loads (0)")
+    command.add_argument(
+        "--to", dest="end", type=degrees, metavar="DEG", help="last angle (90 on; 360: both loads with both signs)"
+    )
+    _add_deck_options(command, "for every point")
+    command.add_argument("--accuracy", choices=["draft", "standard", "reference"], help="instead of analysis.accuracy")
+    command.add_argument(
+        "--flow-rule",
+        choices=["associative", "non_associative", "dilatancy", "livesley"],
+        help="instead of analysis.flow_rule",
+    )
+    command.add_argument("-q", "--quiet", action="store_true", help="say nothing but errors")
 
 
 def _add_tradeoff(commands: Any) -> None:

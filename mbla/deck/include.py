@@ -11,6 +11,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from mbla.deck.file_kind import DECK, FileKind
 from mbla.deck.reader import Document, read_yaml
 from mbla.deck.sources import SourceText, read_source, source_of_text
 from mbla.deck.tree import MappingMarks, Marks, SequenceMarks, Tree, key_text, own_mark
@@ -25,6 +26,7 @@ NAMED = frozenset({"parameters", "materials", "joints", "loads", "load_cases", "
 class Reading:
     """Everything read so far: texts, faults, and marks of what is reported already (see ``Document``)."""
 
+    kind: FileKind = DECK
     sources: list[SourceText] = field(default_factory=list)
     faults: list[Fault] = field(default_factory=list)
     reported: set[int] = field(default_factory=set)
@@ -33,7 +35,7 @@ class Reading:
     whole: bool = True
 
 
-def read_files(path: Path, text: str | None = None) -> tuple[Tree, Reading]:
+def read_files(path: Path, text: str | None = None, kind: FileKind = DECK) -> tuple[Tree, Reading]:
     """The deck of a file with everything it includes; of a text in its place if one is given.
 
     Raises
@@ -43,8 +45,8 @@ def read_files(path: Path, text: str | None = None) -> tuple[Tree, Reading]:
     DeckError
         if it is not a text
     """
-    reading = Reading()
-    source = read_source(path, str(path)) if text is None else source_of_text(text, path, str(path))
+    reading = Reading(kind)
+    source = read_source(path, str(path), kind) if text is None else source_of_text(text, path, str(path))
     tree = _read_file(reading, source)
     return tree, reading
 
@@ -53,13 +55,13 @@ def _read_file(reading: Reading, source: SourceText) -> Tree:
     """One file with the files it includes merged into it."""
     number = len(reading.sources)
     reading.sources.append(source)
-    document = read_yaml(source, number)
+    document = read_yaml(source, number, kind=reading.kind)
     reading.faults += document.faults
     reading.reported |= document.reported
     reading.damaged |= document.damaged
     reading.whole &= document.whole
     tree = _mapping_root(reading, document)
-    if source.path is not None:
+    if source.path is not None and reading.kind.includes:
         reading.active.append(source.path)
         tree = _with_included(reading, tree, source)
         reading.active.pop()
@@ -74,7 +76,8 @@ def _mapping_root(reading: Reading, document: Document) -> Tree:
     tree = Tree({}, MappingMarks(mark), reading.sources)
     if document.whole:
         found = "is empty" if document.data is None else "is not a mapping"
-        reading.faults.append(Fault(tree.place_of(mark), "", f"{found}: a deck is a mapping that begins with mbla: 1"))
+        words = f"{found}: a {reading.kind.name} is a mapping that begins with {reading.kind.begins}"
+        reading.faults.append(Fault(tree.place_of(mark), "", words))
     reading.whole = False
     return tree
 

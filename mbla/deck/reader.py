@@ -11,6 +11,7 @@ from typing import Any
 
 import yaml
 
+from mbla.deck.file_kind import DECK, FileKind
 from mbla.deck.scalars import plain_scalar
 from mbla.deck.sources import SourceText, has_control_character
 from mbla.deck.tree import FILE_SHIFT, OFFSET_MASK, KeyPath, MappingMarks, Marks, SequenceMarks, key_text, shorten
@@ -42,9 +43,9 @@ class Document:
     whole: bool = True
 
 
-def read_yaml(source: SourceText, file: int, offset: int = 0) -> Document:
+def read_yaml(source: SourceText, file: int, offset: int = 0, kind: FileKind = DECK) -> Document:
     """Read the one document in a text, from a character offset on; ``file`` goes into the marks."""
-    builder = _Builder(source, (file << FILE_SHIFT) + offset)
+    builder = _Builder(source, (file << FILE_SHIFT) + offset, kind)
     parser = _PARSER(source.text[offset:] if offset else source.text)
     try:
         next_event = parser.get_event
@@ -77,8 +78,9 @@ _DROPPED: Any = _Dropped
 class _Builder:
     """The container being filled, and the stack of those around it."""
 
-    def __init__(self, source: SourceText, base: int) -> None:
+    def __init__(self, source: SourceText, base: int, kind: FileKind) -> None:
         self.source = source
+        self.kind = kind
         self.base = base
         self.root: Any = None
         self.root_marks: Marks = base
@@ -128,7 +130,7 @@ class _Builder:
         elif kind is yaml.MappingStartEvent:
             self.open({}, MappingMarks(mark), event)
         elif kind is yaml.AliasEvent:
-            message = f"aliases (*{shorten(event.anchor)}) are not allowed: write the value out, or use a parameter"
+            message = f"aliases (*{shorten(event.anchor)}) are not allowed: {self.kind.alias}"
             self.fault(mark, message)
             self.reported.add(mark)
             self.put_value_or_key(None, mark)
@@ -138,7 +140,7 @@ class _Builder:
     def start_document(self, event: Any, mark: int) -> None:
         self.documents += 1
         if self.documents == 2:
-            self.fault(mark, "a second document begins here: a deck is one document", path=())
+            self.fault(mark, f"a second document begins here: a {self.kind.name} is one document", path=())
             raise _StopError
         if event.version == (1, 1) or event.tags:
             self.fault(mark, "directives other than %YAML 1.2 are not allowed", path=())
@@ -179,7 +181,7 @@ class _Builder:
     def take_key(self, value: Any, text: str, mark: int) -> None:
         if text == "<<":
             self.leave_out()
-            self.fault(mark, "merge keys (<<) are not allowed: use `include` or a parameter")
+            self.fault(mark, f"merge keys (<<) are not allowed: {self.kind.merge}")
         elif not isinstance(value, str):
             self.leave_out()
             self.fault(mark, f'a key must be text: write "{shorten(text)}" in quotes' if text else "a key is missing")

@@ -16,7 +16,7 @@ from mbla.deck.overrides import apply_override
 from mbla.deck.references import check_references
 from mbla.deck.sources import SourceText
 from mbla.deck.tree import KeyPath, Tree
-from mbla.deck.types import UnitsSection
+from mbla.deck.types import DeckContent, UnitsSection
 from mbla.deck.units import Units
 from mbla.deck.validation import validate
 from mbla.errors import DeckError, Fault, FileError
@@ -59,9 +59,13 @@ def _read(path: Path, overrides: Sequence[str], text: str | None = None) -> Deck
         reading.faults += apply_override(tree, text, number)
     if not reading.whole:  # what could not be read would be reported as missing
         raise DeckError(reading.faults)
+    if "mbla_sweep" in tree.data and "mbla" not in tree.data:
+        raise DeckError(
+            [tree.fault(("mbla_sweep",), "this is a sweep file, not a deck: mbla sweep runs it", at_key=True)]
+        )
     units = _units(tree.data)
     parameters = Parameters(_mapping(tree.data.get("parameters")))
-    content, faults = validate(tree, _converter(parameters, units), reading.reported, reading.damaged)
+    content, faults = validate(tree, DeckContent, _converter(parameters, units), reading.reported, reading.damaged)
     faults += [tree.fault(("parameters", name), message) for name, message in parameters.failures()]
     faults += reading.faults
     # What is no name at all is not looked up as well.

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 
+from mbla.deck.file_kind import DECK, FileKind
 from mbla.errors import DeckError, Fault, FileError, Place
 
 MAX_BYTES = 64 * 1024 * 1024
@@ -66,8 +67,8 @@ def read_bytes(path: Path, label: str) -> bytes:
             raise FileError(f"{label}: cannot be read: {error.strerror or error}") from error
 
 
-def read_source(path: Path, label: str) -> SourceText:
-    """Text of a deck file: strict UTF-8, a byte order mark allowed, no control characters.
+def read_source(path: Path, label: str, kind: FileKind = DECK) -> SourceText:
+    """Text of a deck or another file of its like: strict UTF-8, a byte order mark allowed, no control characters.
 
     Raises
     ------
@@ -77,19 +78,21 @@ def read_source(path: Path, label: str) -> SourceText:
         if its content is not such a text, or too large
     """
     content = read_bytes(path, label)
-    return SourceText(label, _decode(content, label), path.resolve())
+    return SourceText(label, _decode(content, label, kind), path.resolve())
 
 
 def source_of_text(text: str, path: Path, label: str) -> SourceText:
     """A text as that of a file; DeckError as ``read_source``."""
     content = text.encode("utf-8", "surrogatepass")  # a lone surrogate is no text: told like any bad byte
-    return SourceText(label, _decode(content, label), path.resolve())
+    return SourceText(label, _decode(content, label, DECK), path.resolve())
 
 
-def check_characters(source: SourceText) -> None:
+def check_characters(source: SourceText, kind: FileKind = DECK) -> None:
     """DeckError at the first control character."""
     if match := _CONTROL.search(source.text):
-        raise _refusal(source, match.start(), f"control character U+{ord(match.group()):04X} is not allowed in a deck")
+        raise _refusal(
+            source, match.start(), f"control character U+{ord(match.group()):04X} is not allowed in a {kind.name}"
+        )
 
 
 def has_control_character(text: str) -> bool:
@@ -97,13 +100,11 @@ def has_control_character(text: str) -> bool:
     return _CONTROL.search(text) is not None
 
 
-def _decode(content: bytes, label: str) -> str:
+def _decode(content: bytes, label: str, kind: FileKind) -> str:
     start = SourceText(label, "")
     if len(content) > MAX_BYTES:
         limit = MAX_BYTES // 1024**2
-        raise _refusal(
-            start, 0, f"is larger than {limit} MB: put large geometry in a mesh file (`mesh: {{file: ...}}`)"
-        )
+        raise _refusal(start, 0, f"is larger than {limit} MB: {kind.large}")
     if content[:2] in (b"\xff\xfe", b"\xfe\xff"):
         raise _refusal(start, 0, "is UTF-16 text: save it as UTF-8")
     try:
@@ -113,9 +114,9 @@ def _decode(content: bytes, label: str) -> str:
         before = content[: error.start].decode("utf-8-sig", "replace")
         byte = content[error.start]
         raise _refusal(
-            SourceText(label, before), len(before), f"byte 0x{byte:02X} is not UTF-8: save the deck as UTF-8"
+            SourceText(label, before), len(before), f"byte 0x{byte:02X} is not UTF-8: save the {kind.name} as UTF-8"
         ) from None
-    check_characters(SourceText(label, text))
+    check_characters(SourceText(label, text), kind)
     return text
 
 

@@ -84,7 +84,7 @@ from mbla.deck.supports import Turn as Turn
 from mbla.deck.symmetry import SymmetryPlane as SymmetryPlane
 
 
-def _no_boolean(value: Any) -> Any:
+def no_boolean(value: Any) -> Any:
     """Python takes True for 1; a deck does not."""
     return str(value) if isinstance(value, bool) else value
 
@@ -138,7 +138,7 @@ class Expectation(Section):
 class DeckContent(Section):
     """A whole deck."""
 
-    mbla: Annotated[Literal[1], BeforeValidator(_no_boolean)] = Field(description="version of the deck format")
+    mbla: Annotated[Literal[1], BeforeValidator(no_boolean)] = Field(description="version of the deck format")
     title: Line = Field("", description="shown in every result")
     units: UnitsSection = Field(default_factory=UnitsSection, description="units of numbers in deck and results")
     parameters: dict[ParameterName, Number] = Field(default_factory=dict, description='names for "=..." expressions')

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from typing import Any
+from typing import Any, TypeVar
 
-from pydantic import ValidationError
+from pydantic import BaseModel, ValidationError
 
 from mbla.deck import rules  # noqa: F401  registers the rules across keys
 from mbla.deck.fields import allowed_keys, description, sections_at
@@ -18,27 +18,31 @@ from mbla.deck.types import DeckContent
 from mbla.errors import Fault
 
 Convert = Callable[[str, str], float]
+Root = TypeVar("Root", bound=BaseModel)
 
 
 def validate(
-    tree: Tree, convert: Convert, reported: set[int], damaged: set[int]
-) -> tuple[DeckContent | None, list[Fault]]:
+    tree: Tree, root: type[Root], convert: Convert, reported: set[int], damaged: set[int]
+) -> tuple[Root | None, list[Fault]]:
     """Checked content, or everything wrong with it.
 
     tree     : the deck as read, with inclusions and overrides
+    root     : type of the whole content
     convert  : (text, dimension) -> number in the deck's units, ValueError otherwise
     reported : marks of values that the reader has complained of; they are not reported again
     damaged  : marks of mappings that lack something the reader has complained of
     """
     try:
-        return DeckContent.model_validate(tree.data, context={"convert": convert}), []
+        return root.model_validate(tree.data, context={"convert": convert}), []
     except ValidationError as error:
         errors = error.errors(include_url=False, include_context=True)
     around = damaged | {mark for path in _paths_of(tree, reported) for mark in tree.marks_along(path)[:-1]}
-    return None, list(_faults(tree, errors, reported, around))
+    return None, list(_faults(tree, root, errors, reported, around))
 
 
-def _faults(tree: Tree, errors: list[Any], reported: set[int], around: set[int]) -> Iterator[Fault]:
+def _faults(
+    tree: Tree, root: type[BaseModel], errors: list[Any], reported: set[int], around: set[int]
+) -> Iterator[Fault]:
     """Faults without those that only follow from others; ``around``: marks of what holds something reported."""
     by_path: dict[KeyPath, Any] = {}
     lengths: dict[KeyPath, int] = {}
@@ -63,7 +67,7 @@ def _faults(tree: Tree, errors: list[Any], reported: set[int], around: set[int])
             for below, message in error["ctx"]["findings"]:
                 yield tree.fault((*path, *below), message)
         else:
-            message, at_key = _words(tree.data, path, error)
+            message, at_key = _words(root, tree.data, path, error)
             yield tree.fault(path, message, at_key)
 
 
@@ -128,16 +132,16 @@ _BOUNDS = ("greater_than", "greater_than_equal", "less_than", "less_than_equal")
 _TYPES = {"float_type": "must be a number", "int_type": "must be a whole number", "string_type": "must be a text"}
 
 
-def _words(data: Any, path: KeyPath, error: Any) -> tuple[str, bool]:
+def _words(root: type[BaseModel], data: Any, path: KeyPath, error: Any) -> tuple[str, bool]:
     """Message of an error, and whether it is about the key rather than the value."""
     kind, context = error["type"], error.get("ctx", {})
     value = error["input"]
     is_key = bool(error["loc"]) and error["loc"][-1] == "[key]"
     if kind == "missing":
-        meaning = description(DeckContent, path)
+        meaning = description(root, path)
         return "is missing" + (f": {meaning}" if meaning else ""), False
     if kind == "extra_forbidden":
-        return refusal(path) or _unknown_key(path), True
+        return (refusal(path) if root is DeckContent else None) or _unknown_key(root, path), True
     if kind in ("too_long", "too_short"):
         return _length(context, _items(data, path)), False
     if kind in _TYPES:
@@ -158,10 +162,10 @@ def _comes_to(data: Any, path: KeyPath, value: Any) -> str:
     return f"; this is {value:.6g}" if computed else ""
 
 
-def _unknown_key(path: KeyPath) -> str:
+def _unknown_key(root: type[BaseModel], path: KeyPath) -> str:
     """With the keys that are allowed, or where to find them when they are too many for one line."""
-    key, allowed = str(path[-1]), allowed_keys(DeckContent, path[:-1])
-    kinds = [KINDS[section] for section in sections_at(DeckContent, path[:-1]) if section in KINDS]
+    key, allowed = str(path[-1]), allowed_keys(root, path[:-1])
+    kinds = [KINDS[section] for section in sections_at(root, path[:-1]) if section in KINDS]
     if not kinds:
         return unknown("key", key, allowed)
     return f"unknown key{did_you_mean(key, allowed) or ';'} the key reference lists every {kinds[0]}"

@@ -54,6 +54,30 @@ class PlainFile:
     links: Mapping[str, str]
 
 
+@dataclass(frozen=True)
+class Labelled:
+    """An array of a labelled file; text as objects.
+
+    dimensions : names of scales, one for each dimension
+    attributes : ``units``, ``long_name`` and others
+    missing    : the value of whole numbers that stands for none; None where there is no such
+    """
+
+    values: np.typing.NDArray[Any]
+    dimensions: tuple[str, ...]
+    attributes: Mapping[str, str]
+    missing: int | None = None
+
+
+@dataclass(frozen=True)
+class LabelledFile:
+    """Arrays by name along shared dimensions; the scale of each says what is along it."""
+
+    attributes: Mapping[str, str | int]
+    scales: Mapping[str, Labelled]
+    arrays: Mapping[str, Labelled]
+
+
 def write_results_hdf5(results: Results) -> bytes:
     """The result file as bytes; the same results give the same bytes.
 
@@ -124,6 +148,40 @@ def _fields(cases: list[str]) -> list[tuple[str, Field]]:
     """Every dataset that a file with these cases may hold, in the order of writing."""
     common = [(field.path, field) for field in COMMON_FIELDS]
     return common + [pair for name in cases for pair in fields_of_case(name)]
+
+
+def write_labelled_hdf5(content: LabelledFile) -> bytes:
+    """An HDF5 file of labelled arrays as bytes, as netCDF-4 has them; the same content gives the same bytes."""
+    import h5py
+
+    with h5py.File("labelled.h5", "w", driver="core", backing_store=False, libver=("v110", "v110")) as file:
+        for name, value in content.attributes.items():
+            _set_attribute(file, name, value)
+        scales = {name: _create_labelled(file, name, scale) for name, scale in content.scales.items()}
+        for name, scale in scales.items():
+            scale.make_scale(name)
+        for name, array in content.arrays.items():
+            dataset = _create_labelled(file, name, array)
+            for axis, dimension in enumerate(array.dimensions):
+                dataset.dims[axis].label = dimension
+                dataset.dims[axis].attach_scale(scales[dimension])
+        file.flush()
+        return bytes(file.id.get_file_image())
+
+
+def _create_labelled(file: h5py.File, name: str, content: Labelled) -> h5py.Dataset:
+    text = content.values.dtype.kind == "O"
+    values = content.values
+    if text:
+        values = np.reshape(_text_array([str(value) for value in values.ravel()]), values.shape)
+    dataset = _create(file, name, np.ascontiguousarray(values))
+    for attribute, value in content.attributes.items():
+        _set_attribute(dataset, attribute, value)
+    if text:
+        _set_attribute(dataset, "_Encoding", "utf-8")
+    if content.missing is not None:
+        dataset.attrs.create("_FillValue", np.array([content.missing], dtype=values.dtype))
+    return dataset
 
 
 def write_hdf5(content: PlainFile) -> bytes:

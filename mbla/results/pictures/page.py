@@ -38,17 +38,23 @@ def matplotlib_parts() -> Any:
     """What is used of matplotlib, by name; UsageError where the extra is not installed."""
     quiet_matplotlib()
     try:
-        from matplotlib import rc_context
+        from matplotlib import colormaps, rc_context
         from matplotlib.backends.backend_agg import FigureCanvasAgg
+        from matplotlib.cm import ScalarMappable
         from matplotlib.collections import LineCollection, PolyCollection
+        from matplotlib.colors import ListedColormap, Normalize
         from matplotlib.figure import Figure
         from matplotlib.lines import Line2D
         from matplotlib.patches import Patch, Rectangle
     except ImportError as error:
         raise UsageError("pictures need an extra that is not installed: pip install 'mbla[pictures]'") from error
     return SimpleNamespace(
+        colormaps=colormaps,
         rc_context=rc_context,
         FigureCanvasAgg=FigureCanvasAgg,
+        ScalarMappable=ScalarMappable,
+        ListedColormap=ListedColormap,
+        Normalize=Normalize,
         LineCollection=LineCollection,
         PolyCollection=PolyCollection,
         Figure=Figure,

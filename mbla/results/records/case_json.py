@@ -10,6 +10,8 @@ from mbla.model.model import Model
 from mbla.results.outcome import associative_of, best_iterate, factor_unique, range_of, result_of
 from mbla.results.records.mechanism_json import mechanism_json
 from mbla.results.records.numbers import number
+from mbla.results.records.power_json import powers_json
+from mbla.results.records.reactions_json import reactions_json
 from mbla.results.records.reduction_json import reductions_json
 from mbla.results.results import CaseResult
 from mbla.results.tilt_angle import angle_bounds, angle_of
@@ -44,6 +46,7 @@ def case_json(model: Model, contacts: Contacts, case: CaseResult) -> dict[str, A
         "reductions": reductions_json(solution.reductions),
         "path": [{name: finite(value) for name, value in asdict(point).items()} for point in solution.path],
         "mechanism": None if mechanics is None else _mechanism(model, contacts, case, mechanics),
+        "reactions": None if mechanics is None else reactions_json(model, contacts, case.load_case, mechanics),
         "time": {"total": number(solution.seconds), "solver": number(solver)},
     }
 
@@ -73,6 +76,7 @@ def _load_factors(model: Model, case: CaseResult) -> dict[str, Any]:
         "asked": None if solution.asked is None else number(solution.asked),
         "associative_load_factor": None if associative is None else number(associative.load_factor),
         "bracket": _bracket(solution, associative),
+        "powers": powers_json(model, case),
     }
 
 

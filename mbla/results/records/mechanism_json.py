@@ -13,6 +13,7 @@ from mbla.results.collapse.enough import Enough, enough_of
 from mbla.results.collapse.failure import failure_of
 from mbla.results.collapse.force_freedom import ForceFreedom, force_freedom
 from mbla.results.collapse.interface_modes import InterfaceMode
+from mbla.results.collapse.mechanism_class import mechanism_class
 from mbla.results.collapse.rigid_parts import moving_share, reach
 from mbla.results.collapse.work import dissipated_by_joint, loads_by_group
 from mbla.results.records.failure_json import failure_json, part_json
@@ -29,7 +30,9 @@ def mechanism_json(
     """Contact points by mode, interfaces by mode, parts and work; ``dimension``: in which the case was solved."""
     collapse = collapse_of(model, contacts, load_case, mechanics)
     share = moving_share(model, collapse.parts)
+    failure = failure_of(model, contacts, collapse, mechanics)
     return {
+        "class": mechanism_class(failure).value,
         **_points(mechanics),
         "interfaces": {mode.name.lower(): collapse.interfaces.count(mode) for mode in InterfaceMode},
         "hinges": collapse.interfaces.count(InterfaceMode.HINGE),
@@ -38,7 +41,7 @@ def mechanism_json(
         "moving_weight_share": number(share),
         "moving_parts": len(collapse.motions),
         "parts": [part_json(model, motion) for motion in collapse.motions[:MOST_PARTS]],
-        **failure_json(model, failure_of(model, contacts, collapse, mechanics)),
+        **failure_json(model, failure),
         "force_freedom": _force_freedom(force_freedom(model, contacts, mechanics, dimension)),
         "enough": _enough(enough_of(model, contacts, collapse.parts)),
         "work": _work(model, contacts, load_case, mechanics, collapse),

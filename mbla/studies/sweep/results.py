@@ -1,4 +1,9 @@
-"""Which values of a run become columns of the table, and where they are in its JSON."""
+"""Which values of a run become columns of the table, and where they are in its JSON.
+
+A travelling load is one load case of the deck and many of the record. Its values are those of the worst position, and
+those of the series itself (``worst.distance``, ``positions.3.load_factor``). Where the worst is not known there are
+none, and the status is that of the first position that leaves it unknown.
+"""
 
 from __future__ import annotations
 
@@ -10,6 +15,8 @@ from mbla.studies.sweep.plan import Plain
 
 OF_RUN = ("model", "settings", "time")
 """first keys of paths that lead into the record of the run rather than into that of a load case"""
+UNBOUNDED = "unbounded"
+"""status of a position that nothing brings down: others may still be the worst"""
 
 
 @dataclass(frozen=True)
@@ -37,17 +44,33 @@ def result_places(results: Sequence[str], cases: Sequence[str]) -> tuple[ResultP
 
 def values_of(record: Mapping[str, Any], places: Sequence[ResultPlace]) -> dict[str, Plain]:
     """Value of each column in the JSON record of a run; None where the run has none."""
-    cases = {case["name"]: case for case in (*record["cases"], *record["series"])}
+    cases = {case["name"]: case for case in record["cases"]}
+    cases |= {series["name"]: _of_series(series, cases) for series in record["series"]}
     return {place.name: _at(cases.get(place.case) if place.case else record, place.path) for place in places}
 
 
+def _of_series(series: Mapping[str, Any], cases: Mapping[str, Mapping[str, Any]]) -> dict[str, Any]:
+    """The keys of a travelling load, and those of the case that is its worst position."""
+    if series["worst"] is not None:
+        return {**cases[series["worst"]["case"]], **series}
+    statuses = [position["status"] for position in series["positions"]]
+    unknown = [
+        position["status"]
+        for position in series["positions"]
+        if position["load_factor"] is None and position["status"] != UNBOUNDED
+    ]
+    return {"status": (unknown or statuses or [None])[0], **series}
+
+
 def _at(record: Any, path: Sequence[str]) -> Plain:
-    for key in path:
-        if isinstance(record, Mapping):
-            record = record.get(key)
-        elif isinstance(record, list) and key.isdecimal() and int(key) < len(record):
-            record = record[int(key)]
-        else:
-            return None
-    value: Plain = record
-    return value
+    """The value at a path; keys of an object may have full stops in them, as ``ground z = 0.5`` does."""
+    if not path:
+        value: Plain = None if isinstance(record, Mapping | list) else record
+        return value
+    if isinstance(record, Mapping):
+        for count in range(1, len(path) + 1):
+            if (key := ".".join(path[:count])) in record:
+                return _at(record[key], path[count:])
+    if isinstance(record, list) and path[0].isdecimal() and int(path[0]) < len(record):
+        return _at(record[int(path[0])], path[1:])
+    return None

@@ -7,11 +7,12 @@ from __future__ import annotations
 
 from typing import Annotated, Any, Literal, TypeAlias
 
-from pydantic import Field
+from pydantic import BeforeValidator, Discriminator, Field, Tag
 
-from mbla.deck.names import Line, Name
+from mbla.deck.names import NAME_PATTERN, Line, Name
 from mbla.deck.quantities import Number, PositiveNumber, Quantity, Switch, Time, Whole
-from mbla.deck.section import Section
+from mbla.deck.section import Section, shape
+from mbla.deck.types import no_boolean
 
 MAX_POINTS = 1_000_000
 """points of one sweep; more would not end in a table that anybody reads"""
@@ -20,6 +21,12 @@ Degrees: TypeAlias = Annotated[float, Quantity("number", ge=-360, le=360)]
 Elevation: TypeAlias = Annotated[float, Quantity("number", ge=-90, le=90)]
 Points: TypeAlias = Annotated[int, Whole(ge=1, le=MAX_POINTS)]
 Seed: TypeAlias = Annotated[int, Whole(ge=0, le=2**32 - 1)]
+ParameterName: TypeAlias = Annotated[str, Field(pattern=NAME_PATTERN, max_length=200)]
+"""also a key path, which may be long"""
+KeyPaths: TypeAlias = Annotated[
+    Annotated[str, Tag("name")] | Annotated[list[str], Field(min_length=1), Tag("list")],
+    Discriminator(lambda value: "list" if shape(value) == "list" else "name"),
+]
 
 
 class LinearRange(Section):
@@ -109,7 +116,7 @@ class Sphere(Section):
 class Parameter(Section):
     """What changes from point to point: where it goes in the deck, and exactly one of the ways to say its values."""
 
-    key: str | list[str] | None = Field(
+    key: KeyPaths | None = Field(
         None,
         description="key path in the deck, or several that get the same value; unless given, the name is that of a "
         "parameter of the deck or, with full stops in it, itself a key path",
@@ -184,14 +191,16 @@ class FragilitySection(Section):
 class SweepContent(Section):
     """A whole sweep file."""
 
-    mbla_sweep: Literal[1] = Field(description="version of the format of sweep files")
+    mbla_sweep: Annotated[Literal[1], BeforeValidator(no_boolean)] = Field(
+        description="version of the format of sweep files"
+    )
     title: Line = Field("", description="shown in tables and pictures")
     deck: str = Field(min_length=1, description="base deck, relative to this file")
     cases: Annotated[list[Name], Field(min_length=1)] | None = Field(
         None, description="load cases to solve; all of the deck unless given"
     )
     set: dict[str, Any] = Field(default_factory=dict, description="values by key path of the deck, for every point")
-    parameters: dict[str, Parameter] = Field(min_length=1, description="what changes, by name")
+    parameters: dict[ParameterName, Parameter] = Field(min_length=1, description="what changes, by name")
     design: list[DesignPart] | None = Field(
         None, min_length=1, description="parts of the design; a grid of all parameters unless given"
     )

@@ -15,7 +15,7 @@ class SweepColumn:
 
     kind : ``float``, ``int``, ``bool`` or ``text``
     role : ``number`` of the point; ``parameter``, ``azimuth``, ``elevation`` of the design; ``state``, ``exit_code``,
-           ``reason``; ``result``
+           ``reason``, ``tries``, ``seconds``; ``result``
     case : load case of a result, empty for others
     path : key path of a result in the JSON object of its case or run, empty for others
     """
@@ -30,13 +30,18 @@ class SweepColumn:
     case: str = ""
     path: str = ""
 
+    @property
+    def header(self) -> str:
+        """``thickness [m]``; the name alone where there is no unit."""
+        return f"{self.name} [{self.unit}]" if self.unit else self.name
+
 
 @dataclass(frozen=True)
 class SweepTable:
     """Points of a sweep with their results.
 
-    values     : an array (n_points,) for each column: float with nan, whole numbers masked where there is none, bool,
-                 text as objects with None
+    values     : an array (n_points,) for each column: float with nan, whole numbers and truth values masked where there
+                 is none, text as objects with None
     dimensions : axes of the design, slowest first
     position   : (n_points, n_dimensions) of each point along them, from 0
     samples, sampling : as of ``Design``

@@ -12,20 +12,27 @@ from mbla.results.records.json_record import results_json
 from mbla.results.sta import StatusFile
 from mbla.run_deck import solve_deck
 from mbla.run_options import RunOptions
+from mbla.sharing import sharing
 from mbla.studies.sweep.outcome import DONE, FAILED, Outcome
 from mbla.studies.sweep.plan import Plain, Plan, Task
 from mbla.studies.sweep.results import result_places, values_of
 from mbla.studies.sweep.settings import override_texts
+from mbla.studies.sweep.worker.memory import Memory
 
 ANSWERED = (0, 5)
 """exit codes with a verified answer for every case: 5 is that there is no load factor"""
 
 
 class PointRunner:
-    """Points of one plan, one after the other."""
+    """Points of one plan, one after the other.
+
+    What points have in common is worked out once: ``memory``. Files that the deck names are taken as they were when
+    they were first read.
+    """
 
     def __init__(self, plan: Plan) -> None:
         self.plan = plan
+        self.memory = Memory()
         self._places = result_places(plan.results, plan.cases)
 
     def run(self, task: Task) -> Outcome:
@@ -33,7 +40,8 @@ class PointRunner:
         started = time.perf_counter()
         results: dict[str, Plain] = {}
         try:
-            code, reason, results = self._solve(task)
+            with sharing(self.memory):
+                code, reason, results = self._solve(task)
         except Exception as error:
             code, reason = words_of(error)
         state = DONE if code in ANSWERED else FAILED
