@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import queue
 import uuid
-from collections.abc import Iterator, Sequence
+from collections.abc import Generator, Iterator, Sequence
 from dataclasses import dataclass, field
 from types import TracebackType
 from typing import Any
@@ -48,6 +48,7 @@ class ClusterEngine:
     def __init__(self, options: EngineOptions) -> None:
         """UsageError where the extra is not installed."""
         self._connection = Connection(options)
+        self._outcomes: Generator[Outcome, None, None] | None = None
 
     def __enter__(self) -> ClusterEngine:
         """Start or connect; raises UsageError where there is no scheduler, no worker, or one with another mbla."""
@@ -57,10 +58,16 @@ class ClusterEngine:
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, traceback: TracebackType | None
     ) -> None:
+        if self._outcomes is not None:
+            self._outcomes.close()
         self._connection.__exit__(kind, error, traceback)
 
     def run(self, plan: Plan, tasks: Sequence[Task]) -> Iterator[Outcome]:
         """Outcomes as they are done; raises as ``Engine.run`` does, and FileError where the scheduler is gone."""
+        self._outcomes = self._solved(plan, tasks)
+        return self._outcomes
+
+    def _solved(self, plan: Plan, tasks: Sequence[Task]) -> Generator[Outcome, None, None]:
         batches, window = Batches(tasks), Window()
         try:
             while batches or window.running:

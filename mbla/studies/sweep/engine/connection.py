@@ -28,7 +28,7 @@ PARTING = 1.0
 """seconds for taking leave of a scheduler; one that does not answer is left without"""
 LOOPBACK = "127.0.0.1:0"
 """where the pages of local workers are that every worker of Dask serves; with none of them there is nothing to see"""
-NO_PAGES = {"distributed.scheduler.http.routes": [], "distributed.worker.http.routes": []}
+NO_PAGES: dict[str, list[str]] = {"distributed.scheduler.http.routes": [], "distributed.worker.http.routes": []}
 Answer = TypeVar("Answer")
 
 

@@ -5,9 +5,11 @@ from __future__ import annotations
 import shutil
 import threading
 from collections.abc import Iterable
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from distributed import Client
 
 from mbla.errors import FileError, UsageError
 from mbla.studies.line_process import PACKAGES
@@ -36,16 +38,29 @@ def check_answers(outcomes: Iterable[Outcome], tasks: Iterable[Task]) -> None:
 
 
 def test_two_workers_of_this_machine(tmp_path: Path) -> None:
-    """Each point once; a second plan in the same workers; nothing is left of them, nor of a run that was given up."""
+    """Each point once; their processes are gone when the last is done, before the workers are."""
     before, tasks = set(children()), frictions(6)
     with engine_for(EngineOptions(workers=2)) as engine:
         check_answers(engine.run(plan_over(tmp_path), tasks), tasks)
         wait_for(lambda: not set(children()) - before)
-        begun = engine.run(plan_over(tmp_path, fixed=("parameters.b=3",)), tasks)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("workers", [1, 2])
+def test_nothing_is_left_of_a_run_that_is_given_up(tmp_path: Path, workers: int) -> None:
+    """In the middle of large points; another plan in the same workers goes on from there."""
+    before, tasks = set(children()), frictions(6)
+    large = [Task(f"large{n}", n, {"parameters.n": 40}) for n in range(9)]
+    with engine_for(EngineOptions(workers=workers)) as engine:
+        begun = engine.run(plan_over(tmp_path, ROW), (Task("small", 1, {}), *large))
         next(begun)
-        assert len(set(children()) - before) <= 2
+        assert 0 < len(set(children()) - before) <= workers
         begun.close()  # type: ignore[attr-defined]
         wait_for(lambda: not set(children()) - before)
+        check_answers(engine.run(plan_over(tmp_path), tasks), tasks)
+        given_up = engine.run(plan_over(tmp_path), tasks)
+        next(given_up)
+    assert not set(children()) - before
 
 
 @pytest.mark.long
@@ -64,13 +79,15 @@ def test_over_tls(tmp_path: Path) -> None:
     options = [f"--tls-{name}={files[kind]}" for name, kind in (("ca-file", "ca"), ("cert", "cert"), ("key", "key"))]
     with real_cluster(tmp_path, options=options) as cluster:
         assert cluster.address.startswith("tls://")
-        tls = {"tls_ca_file": files["ca"], "tls_cert": files["cert"], "tls_key": files["key"]}
-        with engine_for(EngineOptions(scheduler=cluster.address, **tls)) as engine:
+        plain = EngineOptions(scheduler=cluster.address, patience=3.0)
+        with engine_for(
+            replace(plain, tls_ca_file=files["ca"], tls_cert=files["cert"], tls_key=files["key"])
+        ) as engine:
             check_answers(engine.run(plan_over(tmp_path), tasks), tasks)
         other = write_certificates(tmp_path / "other", "another authority")
-        strange = {"tls_ca_file": other["ca"], "tls_cert": other["cert"], "tls_key": other["key"]}
-        for wrong in (strange, {}):
-            engine = engine_for(EngineOptions(scheduler=cluster.address, patience=3.0, **wrong))
+        strange = replace(plain, tls_ca_file=other["ca"], tls_cert=other["cert"], tls_key=other["key"])
+        for wrong in (strange, plain):
+            engine = engine_for(wrong)
             with pytest.raises(UsageError, match=r"no connection to the scheduler tls://.*--tls-ca-file"), engine:
                 pass
 
@@ -159,21 +176,12 @@ def test_a_worker_with_another_mbla_or_other_libraries(tmp_path: Path) -> None:
     (fake / "METADATA").write_text("Metadata-Version: 2.1\nName: clarabel\nVersion: 0.0.1\n")
     with real_cluster(tmp_path, 1) as cluster:
         cluster.start_worker(PYTHONPATH=str(other))
-        with cluster_ready(cluster.address, 2):
-            pass
+        with Client(cluster.address, set_as_default=False) as client:  # type: ignore[no-untyped-call]
+            client.wait_for_workers(2, timeout=30)
         engine = engine_for(EngineOptions(scheduler=cluster.address))
         expected = r"^worker tcp://\S+ on \S+: its mbla is \S+, here it is \S+, its clarabel is 0\.0\.1, here it is"
         with pytest.raises(UsageError, match=expected), engine:
             pass
-
-
-def cluster_ready(address: str, workers: int) -> object:
-    """Context in which a scheduler has so many workers."""
-    from distributed import Client
-
-    client = Client(address, set_as_default=False)
-    client.wait_for_workers(workers, timeout=30)
-    return client
 
 
 def test_no_scheduler_there(tmp_path: Path) -> None:
