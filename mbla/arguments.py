@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from mbla import __version__
-from mbla.argument_values import degrees, names, relative, relative_above_zero, seconds, threads
+from mbla.argument_values import degrees, names, relative, relative_above_zero, seconds, shard, threads, workers
 
 EXIT_STATUS = """\
 exit status:
@@ -38,8 +38,10 @@ def build_parser() -> argparse.ArgumentParser:
     _add_report(commands)
     _add_export(commands)
     _add_diff(commands)
+    _add_sweep(commands)
     _add_interact(commands)
     _add_tradeoff(commands)
+    _add_sweep_plot(commands)
     _add_explain(commands)
     _add_schema_and_new(commands)
     return parser
@@ -79,8 +81,10 @@ def _add_check(commands: Any) -> None:
     command.add_argument("--vtu", action="store_true", help="write blocks and contacts for ParaView")
 
 
-def _add_deck_options(command: argparse.ArgumentParser, extent: str = "") -> None:
-    command.add_argument("-o", "--output", type=Path, metavar="DIR", help="folder of the results (default DECK.out)")
+def _add_deck_options(
+    command: argparse.ArgumentParser, extent: str = "", what: str = "deck", default: str = "DECK.out"
+) -> None:
+    command.add_argument("-o", "--output", type=Path, metavar="DIR", help=f"folder of the results (default {default})")
     command.add_argument(
         "--set",
         action="append",
@@ -90,7 +94,7 @@ def _add_deck_options(command: argparse.ArgumentParser, extent: str = "") -> Non
     )
     command.add_argument("--force", action="store_true", help="replace an earlier result")
     command.add_argument(
-        "--json", action="store_true", help="one JSON object per deck on standard output, nothing else"
+        "--json", action="store_true", help=f"one JSON object per {what} on standard output, nothing else"
     )
 
 
@@ -143,6 +147,10 @@ def _add_plot(commands: Any) -> None:
         default="auto",
         help="enlarge what moves beside the whole, where that is a small part of it (default auto)",
     )
+    _add_page_options(command)
+
+
+def _add_page_options(command: Any) -> None:
     command.add_argument("--size", default="1600x1000", metavar="WxH", help="pixels of a PNG at 100 dpi")
     command.add_argument("--dpi", type=int, default=100, help="dots per inch of a PNG (default 100)")
     command.add_argument(
@@ -221,6 +229,31 @@ def _add_explain(commands: Any) -> None:
     command.add_argument("--json", action="store_true", help="one JSON object on standard output")
 
 
+def _add_sweep(commands: Any) -> None:
+    command = commands.add_parser(
+        "sweep",
+        help="run a deck over a design of experiments: table, journal",
+        description="Solve a base deck at every point of a design of experiments. Each finished point is a row of the "
+        "journal at once; --resume goes on after an interruption. The table of all points is sweep.csv.",
+        epilog="Exit status 0 where every point has a verified answer; 8 with failed points, which the table names.",
+    )
+    command.add_argument("sweep", type=Path, metavar="SWEEP")
+    command.add_argument("-j", "--jobs", type=workers, default=1, metavar="N", help="processes of this machine (1)")
+    command.add_argument("--scheduler", metavar="ADDRESS", help="Dask scheduler, tcp://HOST:PORT or tls://HOST:PORT")
+    command.add_argument("--scheduler-file", type=Path, metavar="F", help="file in which a scheduler wrote its address")
+    command.add_argument("--tls-ca-file", type=Path, metavar="F", help="for tls://: certificate of the authority")
+    command.add_argument("--tls-cert", type=Path, metavar="F", help="for tls://: certificate of this program")
+    command.add_argument("--tls-key", type=Path, metavar="F", help="for tls://: its private key")
+    command.add_argument("--shard", type=shard, metavar="I/N", help="only the I-th of N parts, for job arrays")
+    command.add_argument("--resume", action="store_true", help="go on with the journal; solve what is missing")
+    command.add_argument("--retry-failed", action="store_true", help="go on, and solve failed points again")
+    command.add_argument("--dry-run", action="store_true", help="list the points and solve nothing")
+    command.add_argument("--parquet", action="store_true", help="the table as Parquet too (extra mbla[tables])")
+    command.add_argument("--hdf5", action="store_true", help="the table as HDF5 too, along the axes of the design")
+    _add_deck_options(command, "for every point", what="sweep", default="SWEEP.out")
+    command.add_argument("-q", "--quiet", action="store_true", help="say nothing but errors")
+
+
 def _add_interact(commands: Any) -> None:
     command = commands.add_parser(
         "interact",
@@ -291,6 +324,39 @@ def _add_tradeoff(commands: Any) -> None:
     command.add_argument("--run-limit", type=seconds, metavar="S", help="seconds for each setting")
     command.add_argument("--threads", type=threads, default=1, metavar="N", help="as of mbla run (default 1)")
     command.add_argument("-q", "--quiet", action="store_true", help="say nothing but errors")
+
+
+def _add_sweep_plot(commands: Any) -> None:
+    command = commands.add_parser(
+        "sweep-plot",
+        help="pictures of a sweep: curves, maps, scatter, distribution, tornado, polar (extra mbla[pictures])",
+        description="Pictures of the table of a sweep, sweep_KIND_RESULT.png and so on; those that suit the table "
+        "unless kinds are named. Points without a verified value are marked as such. Earlier pictures of the same "
+        "names are replaced.",
+    )
+    command.add_argument("sweep", type=Path, metavar="SWEEP.out|sweep.csv", help="folder of the sweep, or its table")
+    command.add_argument(
+        "-o",
+        "--output",
+        type=Path,
+        metavar="FILE|DIR",
+        help="PNG, SVG or PDF file, by its name, of one picture: the first that suits the table unless --kind "
+        "says which; or a folder (default: that of the sweep)",
+    )
+    command.add_argument(
+        "--kind",
+        metavar="KIND",
+        help="curve, map, polar, scatter, distribution, tornado, several with commas, or all that fit the table",
+    )
+    command.add_argument(
+        "--result", metavar="NAME", help="column, or key path for all load cases (default: load_factor)"
+    )
+    command.add_argument(
+        "--by",
+        metavar="PARAMETER",
+        help="parameter along the axis of curves and maps, of the curves of a distribution, or the only one of scatter",
+    )
+    _add_page_options(command)
 
 
 def _add_schema_and_new(commands: Any) -> None:

@@ -19,7 +19,7 @@ from pathlib import Path
 from types import FrameType
 from typing import TYPE_CHECKING, Any, NoReturn
 
-from mbla import result_commands
+from mbla import result_commands, sweep_commands
 from mbla.arguments import build_parser
 from mbla.collector import loading, no_collection
 from mbla.errors import DeckError, FileError, MblaError, UsageError
@@ -193,8 +193,10 @@ COMMANDS: dict[str, Callable[[argparse.Namespace], int]] = {
     "export": result_commands.export,
     "diff": result_commands.diff,
     "explain": result_commands.explain,
+    "sweep": sweep_commands.sweep,
     "interact": _interact,
     "tradeoff": _tradeoff,
+    "sweep-plot": result_commands.sweep_plot,
     "schema": _schema,
     "new": _new,
 }

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Generator, Sequence
 
 from mbla.studies.sweep.outcome import Outcome
 from mbla.studies.sweep.plan import Plan, Task
@@ -12,7 +12,7 @@ from mbla.studies.sweep.worker.runner import PointRunner
 class HereEngine:
     """An engine without workers."""
 
-    def run(self, plan: Plan, tasks: Sequence[Task]) -> Iterator[Outcome]:
+    def run(self, plan: Plan, tasks: Sequence[Task]) -> Generator[Outcome, None, None]:
         """Outcomes in the order of the tasks."""
         runner = PointRunner(plan)
         for task in tasks:

@@ -3,33 +3,35 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Generator, Mapping, Sequence
 from contextlib import closing
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
+from mbla import __version__
 from mbla.errors import Notice
 from mbla.studies.sweep.base import Base, read_base
 from mbla.studies.sweep.design.build import design_of
 from mbla.studies.sweep.design.design import Design
+from mbla.studies.sweep.design.record import design_json
 from mbla.studies.sweep.engine.choice import engine_for
 from mbla.studies.sweep.engine.options import EngineOptions
-from mbla.studies.sweep.file.read import read_sweep
 from mbla.studies.sweep.file.sweep import Sweep
 from mbla.studies.sweep.journal.header import JournalHeader
 from mbla.studies.sweep.journal.journal import Journal
-from mbla.studies.sweep.journal.shards import WHOLE, journal_name, shard_of
+from mbla.studies.sweep.journal.reading import merged
+from mbla.studies.sweep.journal.shards import WHOLE, journal_name, journals_in, shard_of
 from mbla.studies.sweep.outcome import FAILED, Outcome
 from mbla.studies.sweep.plan import Plan, Task
 from mbla.studies.sweep.program import program_identity
 from mbla.studies.sweep.progress import Progress
 from mbla.studies.sweep.result_columns import result_columns
 from mbla.studies.sweep.tables.from_outcomes import sweep_table
-from mbla.studies.sweep.tables.sweep_json import SweepRun
+from mbla.studies.sweep.tables.sweep_json import SweepRun, counts, sweep_json
 from mbla.studies.sweep.tables.sweep_table import SweepColumn, SweepTable
-from mbla.studies.sweep.tables.write_tables import TableFiles, write_tables
+from mbla.studies.sweep.tables.write_tables import TableFiles, refuse_tables, write_tables
 
 FAILED_POINTS = 8
 """exit status of a sweep some of whose points failed"""
@@ -44,7 +46,6 @@ class SweepOptions:
     """What the command line adds to a sweep file.
 
     folder       : of all files; the sweep's name with .out beside it if None
-    overrides    : ``key.path=value`` texts for the deck, for every point
     shard        : part and number of parts, counted from 1: only these points, for job arrays
     resume       : go on with the journal that is there
     force        : begin anew and replace earlier files
@@ -52,8 +53,7 @@ class SweepOptions:
     """
 
     folder: Path | None = None
-    overrides: tuple[str, ...] = ()
-    engine: EngineOptions = EngineOptions()
+    engine: EngineOptions = field(default_factory=EngineOptions)
     shard: tuple[int, int] | None = None
     resume: bool = False
     force: bool = False
@@ -93,15 +93,14 @@ class Finished:
     exit_code: int
 
 
-def prepare(path: Path, options: SweepOptions) -> Prepared:
-    """Read the sweep file and its base deck, and make the points.
+def prepare(sweep: Sweep, options: SweepOptions) -> Prepared:
+    """Read the base deck of a sweep file, and make the points.
 
     Raises
     ------
     DeckError, FileError
         with everything that is wrong with either file
     """
-    sweep = read_sweep(path, options.overrides)
     base = read_base(sweep)
     content = sweep.content
     design = design_of(content, base.vectors, base.units, base.known, sweep.fault_at)
@@ -117,7 +116,7 @@ def prepare(path: Path, options: SweepOptions) -> Prepared:
         cases=base.cases,
         results=tuple(content.results),
         keep=content.output.files,
-        folder=str(options.folder_for(path).absolute()),
+        folder=str(options.folder_for(sweep.path).absolute()),
         time_limit=limits.time,
         memory_limit=None if limits.memory is None else limits.memory * MEGABYTE,
         program=program_identity(),
@@ -137,7 +136,7 @@ def run_sweep(prepared: Prepared, options: SweepOptions, report: Report | None =
         another run is at work, files are in the way or cannot be written; what was solved is in the journal
     """
     started = time.perf_counter()
-    folder = options.folder_for(prepared.sweep.path)
+    folder, files = options.folder_for(prepared.sweep.path), _files(prepared, options)
     header = JournalHeader(
         program=prepared.plan.program,
         fingerprint=prepared.base.fingerprint,
@@ -145,53 +144,77 @@ def run_sweep(prepared: Prepared, options: SweepOptions, report: Report | None =
         title=prepared.sweep.content.title,
         cases=prepared.plan.cases,
     )
+    asked = prepared.tasks if options.shard is None else shard_of(prepared.tasks, *options.shard)
     path = folder / (WHOLE if options.shard is None else journal_name(*options.shard))
-    with (
-        engine_for(options.engine) as engine,
-        Journal(
-            path, header, resume=options.resume, force=options.force, retry_failed=options.retry_failed
-        ) as journal,
-    ):
-        tasks = [task for task in _asked(prepared.tasks, options.shard) if task.key not in journal.finished]
-        _solve(engine.run(prepared.plan, tasks), tasks, journal, report)
-        return _finish(prepared, options, journal, time.perf_counter() - started)
+    journal = Journal(path, header, resume=options.resume, force=options.force, retry_failed=options.retry_failed)
+    with engine_for(options.engine) as engine:
+        refuse_tables(folder, files, replace=options.force or options.resume)
+        with journal:
+            tasks = [task for task in asked if task.key not in journal.finished]
+            _solve(engine.run(prepared.plan, tasks), tasks, journal, report)
+        finished = journal.finished | ({} if options.shard is None else merged(journals_in(folder), header))
+        return _finish(prepared, options, finished, journal.notices, time.perf_counter() - started)
 
 
-def _asked(tasks: Sequence[Task], shard: tuple[int, int] | None) -> Sequence[Task]:
-    return tasks if shard is None else shard_of(tasks, *shard)
+def _files(prepared: Prepared, options: SweepOptions) -> TableFiles:
+    output = prepared.sweep.content.output
+    return TableFiles(output.parquet or options.parquet, output.hdf5 or options.hdf5)
 
 
-def _solve(outcomes: Iterable[Outcome], tasks: Sequence[Task], journal: Journal, report: Report | None) -> None:
+def _solve(
+    outcomes: Generator[Outcome, None, None], tasks: Sequence[Task], journal: Journal, report: Report | None
+) -> None:
     """Each outcome into the journal as it comes."""
     by_key: Mapping[str, Task] = {task.key: task for task in tasks}
     progress, started = Progress(len(tasks), len(journal.finished)), time.perf_counter()
     if report is not None:
         report(progress, None, None)
-    for outcome in outcomes:
-        task = by_key[outcome.key]
-        journal.add(task, outcome)
-        progress.add(outcome.state == FAILED, time.perf_counter() - started)
-        if report is not None:
-            report(progress, task, outcome)
+    with closing(outcomes):
+        for outcome in outcomes:
+            task = by_key[outcome.key]
+            journal.add(task, outcome)
+            progress.add(outcome.state == FAILED, time.perf_counter() - started)
+            if report is not None:
+                report(progress, task, outcome)
 
 
-def _finish(prepared: Prepared, options: SweepOptions, journal: Journal, seconds: float) -> Finished:
-    """The table of all points, and its files; a shard writes them only where no other point is missing."""
-    content, finished = prepared.sweep.content, journal.finished
-    table = sweep_table(
-        content.title, prepared.design, prepared.columns, finished, prepared.keys, unfinished=True
-    )
-    code = FAILED_POINTS if any(finished[key].state == FAILED for key in prepared.keys if key in finished) else 0
-    notices = (*journal.notices, *(Notice("notice", "sweep-design", text) for text in prepared.design.remarks))
+def _finish(
+    prepared: Prepared,
+    options: SweepOptions,
+    finished: Mapping[str, Outcome],
+    notices: Sequence[Notice],
+    seconds: float,
+) -> Finished:
+    """The table of all points, and its files once none is missing, which may be so in a shard."""
+    content, design = prepared.sweep.content, prepared.design
+    table = sweep_table(content.title, design, prepared.columns, finished, prepared.keys, unfinished=True)
+    failed = any(finished[key].state == FAILED for key in prepared.keys if key in finished)
     run = SweepRun(
         sweep=prepared.sweep.path.name,
         deck=content.deck,
         created=datetime.now(UTC).isoformat(timespec="seconds"),
-        exit_code=code,
-        left_out=prepared.design.left_out,
+        exit_code=FAILED_POINTS if failed else 0,
+        left_out=design.left_out,
         seconds=seconds,
-        notices=notices,
+        notices=(*notices, *(Notice("notice", "sweep-design", text) for text in design.remarks)),
     )
-    files = TableFiles(content.output.parquet or options.parquet, content.output.hdf5 or options.hdf5)
-    record = write_tables(options.folder_for(prepared.sweep.path), True, run, table, files)
-    return Finished(record, table, code)
+    if counts(table)["unfinished"]:
+        record = sweep_json(run, table)
+    else:
+        folder = options.folder_for(prepared.sweep.path)
+        record = write_tables(folder, True, run, table, _files(prepared, options))
+    return Finished(record, table, run.exit_code)
+
+
+def dry_run_json(prepared: Prepared) -> dict[str, Any]:
+    """The points of a sweep that is only listed, with their keys and the columns of its table."""
+    return {
+        "mbla": __version__,
+        "sweep": prepared.sweep.path.name,
+        "deck": prepared.sweep.content.deck,
+        "cases": list(prepared.plan.cases),
+        "design": design_json(prepared.design),
+        "keys": list(prepared.keys),
+        "different": len(prepared.tasks),
+        "results": [column.name for column in prepared.columns],
+    }

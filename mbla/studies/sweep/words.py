@@ -34,12 +34,12 @@ def sweep_lines(record: Mapping[str, Any], table: SweepTable) -> list[str]:
 
 
 def points_words(record: Mapping[str, Any]) -> str:
-    """``1000 points: 998 done, 2 failed; constraints left out 24 more``."""
+    """``1000: 998 done, 2 failed; constraints left out 24 more``."""
     points = record["points"]
     words = [f"{points['done']} done"]
     words += [f"{points[state]} {state}" for state in ("failed", "unfinished") if points[state]]
     left_out = f"; constraints left out {points['left_out']} more" if points["left_out"] else ""
-    return f"{counted(points['all'], 'point')}: {', '.join(words)}{left_out}"
+    return f"{points['all']}: {', '.join(words)}{left_out}"
 
 
 def result_lines(table: SweepTable, column: SweepColumn) -> list[str]:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import queue
 import uuid
-from collections.abc import Generator, Iterator, Sequence
+from collections.abc import Generator, Sequence
 from dataclasses import dataclass, field
 from types import TracebackType
 from typing import Any
@@ -62,7 +62,7 @@ class ClusterEngine:
             self._outcomes.close()
         self._connection.__exit__(kind, error, traceback)
 
-    def run(self, plan: Plan, tasks: Sequence[Task]) -> Iterator[Outcome]:
+    def run(self, plan: Plan, tasks: Sequence[Task]) -> Generator[Outcome, None, None]:
         """Outcomes as they are done; raises as ``Engine.run`` does, and FileError where the scheduler is gone."""
         self._outcomes = self._solved(plan, tasks)
         return self._outcomes

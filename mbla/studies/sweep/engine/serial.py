@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Generator, Iterator, Sequence
+from collections.abc import Generator, Sequence
 from types import TracebackType
 
 from mbla.studies.sweep.outcome import Outcome
@@ -26,7 +26,7 @@ class SerialEngine:
         if self._outcomes is not None:
             self._outcomes.close()
 
-    def run(self, plan: Plan, tasks: Sequence[Task]) -> Iterator[Outcome]:
+    def run(self, plan: Plan, tasks: Sequence[Task]) -> Generator[Outcome, None, None]:
         """Outcomes in the order of the tasks; raises as ``Engine.run`` does."""
         self._outcomes = _solved(plan, tasks)
         return self._outcomes

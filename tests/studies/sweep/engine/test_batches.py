@@ -6,6 +6,7 @@ import pytest
 
 from mbla.studies.sweep.engine.batches import MOST, Batches
 from mbla.studies.sweep.outcome import DONE, Outcome
+from mbla.studies.sweep.plan import Task
 from tests.studies.sweep.small_plan import frictions
 
 
@@ -24,7 +25,8 @@ def test_about_a_second(seconds: float, size: int) -> None:
 def test_each_task_once_and_in_order_with_small_portions_at_the_end() -> None:
     tasks, batches = frictions(100), Batches(frictions(100))
     batches.learn(took(0.0))
-    sizes, taken = [], []
+    sizes: list[int] = []
+    taken: list[Task] = []
     while batches:
         batch = batches.take(4)
         sizes.append(len(batch))

@@ -55,7 +55,7 @@ def test_nothing_is_left_of_a_run_that_is_given_up(tmp_path: Path, workers: int)
         begun = engine.run(plan_over(tmp_path, ROW), (Task("small", 1, {}), *large))
         next(begun)
         assert 0 < len(set(children()) - before) <= workers
-        begun.close()  # type: ignore[attr-defined]
+        begun.close()
         wait_for(lambda: not set(children()) - before)
         check_answers(engine.run(plan_over(tmp_path), tasks), tasks)
         given_up = engine.run(plan_over(tmp_path), tasks)

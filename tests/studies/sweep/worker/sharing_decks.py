@@ -91,7 +91,7 @@ def stated(value: Results | Any, place: str = "") -> Iterator[str]:
     """One line for every number, text and array, with its bits."""
     if isinstance(value, np.ndarray):
         yield f"{place} {value.dtype} {value.shape} {value.tobytes().hex()}"
-    elif sp.issparse(value):
+    elif isinstance(value, sp.csr_array):
         yield from stated([value.shape, value.data, value.indices, value.indptr], place)
     elif is_dataclass(value):
         for field in fields(value):

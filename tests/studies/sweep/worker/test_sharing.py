@@ -49,12 +49,13 @@ def test_with_room_for_two_results_too() -> None:
 
 
 def test_points_of_an_arch_are_answered_as_from_scratch() -> None:
-    friction_and_direction = [
+    friction_and_direction: list[tuple[str, Settings]] = [
         (ARCH, {**SMALL_ARCH, "parameters.mu": mu, "load_cases.push_x.live.0.acceleration": direction})
         for mu in (0.6, 0.5)
         for direction in ([1, 0, 0], [0.6, 0.8, 0])
     ]
-    points = [*friction_and_direction, (ARCH, {**SMALL_ARCH, "parameters.t": 0.02}), *reversed(friction_and_direction)]
+    too_thin = (ARCH, {**SMALL_ARCH, "parameters.t": 0.02})
+    points = [*friction_and_direction, too_thin, *reversed(friction_and_direction)]
     memory = Memory()
     assert not differing(points, memory)
     assert memory.found["structure"] >= 6, memory
