@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import signal
 import sys
@@ -16,7 +17,7 @@ from mbla.errors import UsageError
 from mbla.studies.sweep.outcome import DONE, FAILED, Outcome
 from mbla.studies.sweep.plan import Plan, Task
 from mbla.studies.sweep.worker.messages import record_of
-from mbla.studies.sweep.worker.supervised import GROWTH, StoppedError, SupervisedRunner
+from mbla.studies.sweep.worker.supervised import GROWTH, STARTS, StoppedError, SupervisedRunner
 from tests.studies.sweep.small_plan import ROW, frictions, plan_over
 from tests.studies.test_measuring import runs
 
@@ -31,14 +32,12 @@ SAYS = (
 """the start of a process that speaks as the real one does"""
 
 
-def runner_that(monkeypatch: pytest.MonkeyPatch, plan: Plan, code: str) -> SupervisedRunner:
-    """With a process that runs ``code`` at each point, then answers with ``outcome``."""
-    import json
-
+def runner_that(monkeypatch: pytest.MonkeyPatch, plan: Plan, code: str, before: str = "") -> SupervisedRunner:
+    """With a process that runs ``code`` at each point, then answers with ``outcome``; ``before`` when it starts."""
     done = Outcome("key", DONE, 0, "", {"load_factor": 0.5}, 1, 0.1)
     monkeypatch.setenv("OUTCOME", json.dumps(record_of(done)))
     answer = "    say({'outcome': outcome, 'held': held})\n"
-    return SupervisedRunner(plan, (sys.executable, "-c", SAYS + f"    {code}\n" + answer))
+    return SupervisedRunner(plan, (sys.executable, "-c", before + SAYS + f"    {code}\n" + answer))
 
 
 def children() -> list[int]:
@@ -156,6 +155,18 @@ def test_one_that_refuses_the_plan(tmp_path: Path) -> None:
         pytest.raises(UsageError, match=r"^another deck$"),
     ):
         runner.run(TASK)
+
+
+def test_killed_while_it_starts_is_no_fault_of_the_point(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Killed in each start but the last; the point is tried once."""
+    mark = tmp_path / "starts"
+    code = (
+        f"import os\nfile = open({str(mark)!r}, 'a'); file.write('+'); file.close()\n"
+        f"if os.path.getsize({str(mark)!r}) < {STARTS}: os.kill(os.getpid(), 9)\n"
+    )
+    with runner_that(monkeypatch, plan_over(tmp_path), "pass", before=code) as runner:
+        assert runner.run(TASK).tries == 1
+        assert runner.started == STARTS
 
 
 def test_one_that_cannot_start_is_no_fault_of_the_point(tmp_path: Path) -> None:
