@@ -32,9 +32,27 @@ def relative_above_zero(text: str) -> float:
     return _number(text, float, lambda value: 0 < value < 1, "a relative error between 0 and 1")
 
 
+def degrees(text: str) -> float:
+    """An angle in degrees, within two turns."""
+    return _number(text, float, lambda value: -720 <= value <= 720, "an angle from -720 to 720 degrees")
+
+
 def threads(text: str) -> int:
     """A number of threads."""
     return _number(text, int, lambda value: value >= 1, "a whole number of threads, at least 1")
+
+
+def shard(text: str) -> tuple[int, int]:
+    """``2/8``: the second of eight parts."""
+    part, slash, parts = text.partition("/")
+    if not (slash and part.isdecimal() and parts.isdecimal() and 1 <= int(part) <= int(parts)):
+        raise argparse.ArgumentTypeError(f"{text!r} is not a part and the number of parts, as 2/8")
+    return int(part), int(parts)
+
+
+def workers(text: str) -> int:
+    """A number of processes."""
+    return _number(text, int, lambda value: value >= 1, "a whole number of processes, at least 1")
 
 
 def _number(text: str, kind: Callable[[str], Amount], allowed: Callable[[Amount], bool], wanted: str) -> Amount:

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from mbla import __version__
-from mbla.argument_values import names, relative, relative_above_zero, seconds, threads
+from mbla.argument_values import degrees, names, relative, relative_above_zero, seconds, shard, threads, workers
 
 EXIT_STATUS = """\
 exit status:
@@ -38,6 +38,8 @@ def build_parser() -> argparse.ArgumentParser:
     _add_report(commands)
     _add_export(commands)
     _add_diff(commands)
+    _add_sweep(commands)
+    _add_interact(commands)
     _add_tradeoff(commands)
     _add_sweep_plot(commands)
     _add_explain(commands)
@@ -79,8 +81,10 @@ def _add_check(commands: Any) -> None:
     command.add_argument("--vtu", action="store_true", help="write blocks and contacts for ParaView")
 
 
-def _add_deck_options(command: argparse.ArgumentParser, extent: str = "") -> None:
-    command.add_argument("-o", "--output", type=Path, metavar="DIR", help="folder of the results (default DECK.out)")
+def _add_deck_options(
+    command: argparse.ArgumentParser, extent: str = "", what: str = "deck", default: str = "DECK.out"
+) -> None:
+    command.add_argument("-o", "--output", type=Path, metavar="DIR", help=f"folder of the results (default {default})")
     command.add_argument(
         "--set",
         action="append",
@@ -90,7 +94,7 @@ def _add_deck_options(command: argparse.ArgumentParser, extent: str = "") -> Non
     )
     command.add_argument("--force", action="store_true", help="replace an earlier result")
     command.add_argument(
-        "--json", action="store_true", help="one JSON object per deck on standard output, nothing else"
+        "--json", action="store_true", help=f"one JSON object per {what} on standard output, nothing else"
     )
 
 
@@ -223,6 +227,63 @@ def _add_explain(commands: Any) -> None:
     )
     command.add_argument("identifier", nargs="*", metavar="ID", help="identifier, word or message")
     command.add_argument("--json", action="store_true", help="one JSON object on standard output")
+
+
+def _add_sweep(commands: Any) -> None:
+    command = commands.add_parser(
+        "sweep",
+        help="run a deck over a design of experiments: table, journal",
+        description="Solve a base deck at every point of a design of experiments. Each finished point is a row of the "
+        "journal at once; --resume goes on after an interruption. The table of all points is sweep.csv.",
+        epilog="Exit status 0 where every point has a verified answer; 8 with failed points, which the table names.",
+    )
+    command.add_argument("sweep", type=Path, metavar="SWEEP")
+    command.add_argument("-j", "--jobs", type=workers, default=1, metavar="N", help="processes of this machine (1)")
+    command.add_argument("--scheduler", metavar="ADDRESS", help="Dask scheduler, tcp://HOST:PORT or tls://HOST:PORT")
+    command.add_argument("--scheduler-file", type=Path, metavar="F", help="file in which a scheduler wrote its address")
+    command.add_argument("--tls-ca-file", type=Path, metavar="F", help="for tls://: certificate of the authority")
+    command.add_argument("--tls-cert", type=Path, metavar="F", help="for tls://: certificate of this program")
+    command.add_argument("--tls-key", type=Path, metavar="F", help="for tls://: its private key")
+    command.add_argument("--shard", type=shard, metavar="I/N", help="only the I-th of N parts, for job arrays")
+    command.add_argument("--resume", action="store_true", help="go on with the journal; solve what is missing")
+    command.add_argument("--retry-failed", action="store_true", help="go on, and solve failed points again")
+    command.add_argument("--dry-run", action="store_true", help="list the points and solve nothing")
+    command.add_argument("--parquet", action="store_true", help="the table as Parquet too (extra mbla[tables])")
+    command.add_argument("--hdf5", action="store_true", help="the table as HDF5 too, along the axes of the design")
+    _add_deck_options(command, "for every point", what="sweep", default="SWEEP.out")
+    command.add_argument("-q", "--quiet", action="store_true", help="say nothing but errors")
+
+
+def _add_interact(commands: Any) -> None:
+    command = commands.add_parser(
+        "interact",
+        help="load factor over horizontal direction, or over two live loads: table and diagram",
+        description="Turn the live load of a load case around the horizon, or let the live loads of two load cases act "
+        "together in all proportions: table, STEM_interact.csv, .json, and a diagram (extra mbla[pictures]). Turned "
+        "are the horizontal parts of live accelerations and forces, all together; azimuth 0 pushes along +x, 90 along "
+        "+y. Two loads A and B act as A cos + B sin of an angle, with the one dead load that both must have.",
+        epilog="Exit status 0 where every point is answered and verified (also that the load never brings collapse "
+        "there); else that of the gravest point: 4 not solved or not verified, 7 time or memory limit; 4 also where "
+        "bounds of points contradict each other; 5 where no point has a load factor.",
+    )
+    command.add_argument("deck", type=Path, metavar="DECK")
+    command.add_argument("--case", metavar="NAME", help="the load case that is turned; needed if there are several")
+    command.add_argument("--loads", nargs=2, metavar=("A", "B"), help="two load cases whose live loads act together")
+    command.add_argument(
+        "--directions", type=int, metavar="N", help="points around the horizon (default 72), or of two loads (31)"
+    )
+    command.add_argument("--from", dest="start", type=degrees, metavar="DEG", help="first angle of two loads (0)")
+    command.add_argument(
+        "--to", dest="end", type=degrees, metavar="DEG", help="last angle (90 on; 360: both loads with both signs)"
+    )
+    _add_deck_options(command, "for every point")
+    command.add_argument("--accuracy", choices=["draft", "standard", "reference"], help="instead of analysis.accuracy")
+    command.add_argument(
+        "--flow-rule",
+        choices=["associative", "non_associative", "dilatancy", "livesley"],
+        help="instead of analysis.flow_rule",
+    )
+    command.add_argument("-q", "--quiet", action="store_true", help="say nothing but errors")
 
 
 def _add_tradeoff(commands: Any) -> None:

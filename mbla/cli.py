@@ -19,7 +19,7 @@ from pathlib import Path
 from types import FrameType
 from typing import TYPE_CHECKING, Any, NoReturn
 
-from mbla import result_commands
+from mbla import result_commands, sweep_commands
 from mbla.arguments import build_parser
 from mbla.collector import loading, no_collection
 from mbla.errors import DeckError, FileError, MblaError, UsageError
@@ -115,6 +115,32 @@ def _check(options: argparse.Namespace) -> int:
     return _each_deck(options, one, None)
 
 
+def _interact(options: argparse.Namespace) -> int:
+    """Solve the points of a diagram; the table goes to standard output, with ``--json`` the object alone."""
+    _refuse_unfit_name(options.deck)
+    run_options = _run_options(options)
+    content, _ = _read(options.deck, run_options)
+    from mbla.results.records.json_record import json_line
+    from mbla.results.words.text import sentence
+    from mbla.studies.interact.command import interact
+    from mbla.studies.interact.words import study_lines
+
+    report = None if options.quiet else _point_progress()
+    try:
+        study, record, remarks = interact(content, run_options, options, report)
+    finally:
+        _clear_progress(report)
+    for remark in remarks:
+        _say(f"mbla: {remark}", 0)
+    if options.json:
+        print(json_line(record), flush=True)
+    if not options.quiet:
+        files = f"files: {', '.join(record['files'])} in {run_options.folder_for(options.deck)}/"
+        lines = [*study_lines(study), *sentence(files)]
+        print("\n".join(lines), file=sys.stderr if options.json else sys.stdout, flush=True)
+    return study.exit_code
+
+
 def _tradeoff(options: argparse.Namespace) -> int:
     """Measure a deck under many settings; the table goes to standard output, with ``--json`` the object alone."""
     _refuse_unfit_name(options.deck)
@@ -167,6 +193,8 @@ COMMANDS: dict[str, Callable[[argparse.Namespace], int]] = {
     "export": result_commands.export,
     "diff": result_commands.diff,
     "explain": result_commands.explain,
+    "sweep": sweep_commands.sweep,
+    "interact": _interact,
     "tradeoff": _tradeoff,
     "sweep-plot": result_commands.sweep_plot,
     "schema": _schema,
@@ -196,11 +224,17 @@ def _run_options(options: argparse.Namespace, *, override: bool = True) -> RunOp
     return RunOptions(
         folder=options.output,
         overrides=tuple(overrides),
-        cases=tuple(getattr(options, "case", ())),
+        cases=_cases(options),
         force=options.force,
         threads=getattr(options, "threads", 1),
         expected=getattr(options, "expected", False),
     )
+
+
+def _cases(options: argparse.Namespace) -> tuple[str, ...]:
+    """Names of ``--case``, which some commands take once."""
+    given = getattr(options, "case", None) or ()
+    return (given,) if isinstance(given, str) else tuple(given)
 
 
 def _refuse_shared_folder(decks: Sequence[Path], options: RunOptions) -> None:
@@ -282,6 +316,17 @@ def _rung_progress() -> Callable[[int, int, str, str], None] | None:
     def show(number: int, count: int, name: str, case: str) -> None:
         text = f"setting {number} of {count}: {name}" + (f", {case} done" if case else "")
         print(f"\r{text[:78]:<78}", end="", file=sys.stderr, flush=True)
+
+    return show
+
+
+def _point_progress() -> Callable[[int, int], None] | None:
+    """The same for the points of a diagram."""
+    if not sys.stderr.isatty():
+        return None
+
+    def show(done: int, count: int) -> None:
+        print(f"\r{f'{done} of {count} points':<78}", end="", file=sys.stderr, flush=True)
 
     return show
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
@@ -22,7 +24,8 @@ from mbla.contacts.polygons import centroids
 from mbla.contacts.refine import InterfacePoints, point_starts
 from mbla.contacts.report import Findings, both_fixed, build_report
 from mbla.deck.types import ContactsSection
-from mbla.model.model import Model
+from mbla.model.model import Joint, Model
+from mbla.sharing import shared
 
 # Interfaces of one pair of bodies are sorted along a direction that no building is likely to be square to, so that
 # rounding does not turn their order.
@@ -34,8 +37,15 @@ def find_contacts(model: Model, section: ContactsSection) -> Contacts:
 
     Tolerances are relative to block size, the cube root of the volume of the smaller block of a pair. Contacts between
     two bodies that are both fixed are counted in the report and left out: nothing depends on their forces. So are open
-    interfaces, and those inside of the rigid bodies that glued ones make.
+    interfaces, and those inside of the rigid bodies that glued ones make. Of joint laws only the names count.
     """
+    laws = {name: Joint(name, 0.0) for name in model.joints}
+    return _found(replace(model, title="", load_cases=(), notices=(), joints=laws), section)
+
+
+@shared("contacts")
+def _found(model: Model, section: ContactsSection) -> Contacts:
+    """Contacts of a model without loads and joint laws."""
     facets = build_facets(model.blocks)
     pairs = find_block_pairs(model.blocks, section.tolerance)
     verdicts, held_apart = _verdicts(model, facets, pairs, section.tolerance)

@@ -1,4 +1,4 @@
-"""``"=..."`` strings: arithmetic over the deck's parameters, evaluated on a short list of Python's syntax nodes.
+"""``"=..."`` strings, and comparisons: arithmetic over the deck's parameters on a short list of Python's syntax nodes.
 
 Every number is a float; a result that is not finite, or an operation that Python refuses, is an error. Nothing but
 the names and nodes listed here is ever looked at, so that a deck from a stranger cannot do more than arithmetic.
@@ -10,7 +10,8 @@ import ast
 import math
 import operator
 import warnings
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
 from typing import Any
 
 from mbla.deck.suggestions import unknown
@@ -50,6 +51,15 @@ _BINARY: dict[type[ast.operator], Callable[[float, float], Any]] = {
     ast.Pow: operator.pow,
 }
 _UNARY: dict[type[ast.unaryop], Callable[[float], float]] = {ast.UAdd: operator.pos, ast.USub: operator.neg}
+EQUAL = 1e-9
+"""relative: numbers that differ by less are equal in comparisons, as 3 x 1.1 is not 3.3 in binary"""
+_ORDER: dict[type[ast.cmpop], Callable[[float, float, bool], bool]] = {
+    ast.Lt: lambda left, right, equal: left < right and not equal,
+    ast.LtE: lambda left, right, equal: left < right or equal,
+    ast.Gt: lambda left, right, equal: left > right and not equal,
+    ast.GtE: lambda left, right, equal: left > right or equal,
+    ast.Eq: lambda left, right, equal: equal,
+}
 
 
 class ExpressionError(ValueError):
@@ -63,6 +73,54 @@ class ParameterFaultError(ExpressionError):
 def is_expression(value: object) -> bool:
     """Whether a value of the deck is to be evaluated."""
     return isinstance(value, str) and value.startswith("=")
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """A comparison such as ``t < 0.2*radius``, or a chain of them, ``0.1 < t <= 0.5``.
+
+    names : of the parameters in it, in order
+    """
+
+    text: str
+    names: tuple[str, ...]
+    _node: ast.Compare
+
+    def holds(self, value_of: Callable[[str], float]) -> bool:
+        """Whether it is true of values by name; ExpressionError where it has no value."""
+        left = _evaluate(self._node.left, value_of, 1)
+        holds = True
+        for sign, node in zip(self._node.ops, self._node.comparators, strict=True):
+            right = _evaluate(node, value_of, 1)
+            equal = abs(left - right) <= EQUAL * max(abs(left), abs(right))
+            holds = holds and _ORDER[type(sign)](left, right, equal)
+            left = right
+        return holds
+
+
+def read_comparison(text: str) -> Comparison:
+    """A comparison from its text.
+
+    Raises
+    ------
+    ExpressionError
+        with what is wrong; names are not looked up
+    """
+    node = _parse_source(text.strip().removeprefix("="))
+    if isinstance(node, ast.BoolOp):
+        raise ExpressionError("joins comparisons by and/or: write each as one of its own; all of them must hold")
+    if not isinstance(node, ast.Compare):
+        raise ExpressionError('is no comparison: write one such as "t < 0.2*radius"')
+    for sign in node.ops:
+        if type(sign) not in _ORDER:
+            raise ExpressionError("compares by something other than < <= > >= ==")
+    for part in ast.walk(node):
+        if isinstance(part, ast.Attribute):
+            name = ast.unparse(part)
+            raise ExpressionError(f"{name} is no name of letters, digits and _: give that parameter one, with its key")
+    called = {part.func for part in ast.walk(node) if isinstance(part, ast.Call)}
+    named = [part.id for part in ast.walk(node) if isinstance(part, ast.Name) and part not in called]
+    return Comparison(text, tuple(dict.fromkeys(name for name in named if name not in CONSTANTS)), node)
 
 
 class Parameters:
@@ -91,6 +149,31 @@ class Parameters:
         for name in self._parameters_in(expression):
             self._resolve(name)
         return _evaluate(expression, self._value, 0)
+
+    def holds(self, comparison: Comparison) -> bool:
+        """Whether a comparison is true.
+
+        Raises
+        ------
+        ExpressionError
+            with what is wrong; ParameterFaultError where a parameter is, rather than this comparison
+        """
+        for name in comparison.names:
+            if name in self._raw:
+                self._resolve(name)
+        return comparison.holds(self._value)
+
+    def dependencies(self, names: Iterable[str]) -> set[str]:
+        """Parameters that these depend on, themselves among them; names of no parameter are left out."""
+        found: set[str] = set()
+        waiting = [name for name in names if name in self._raw]
+        while waiting:
+            name = waiting.pop()
+            if name not in found:
+                found.add(name)
+                expression = self._parsed(name)
+                waiting += [] if expression is None else self._parameters_in(expression)
+        return found
 
     def failures(self) -> list[tuple[str, str]]:
         """(name, message) of every parameter whose own expression is at fault."""
@@ -175,7 +258,12 @@ class Parameters:
 
 
 def _parse(text: str) -> ast.expr:
-    source = text[1:].strip()
+    """Expression of an ``"=..."`` string."""
+    return _parse_source(text[1:])
+
+
+def _parse_source(text: str) -> ast.expr:
+    source = text.strip()
     if not source:
         raise ExpressionError("is an expression without content: write a number or an expression after the =")
     if len(source) > MAX_LENGTH:

@@ -35,6 +35,27 @@ def takes_names(root: type[BaseModel], path: KeyPath) -> bool:
     return any(get_origin(each) is dict for each in _types_at(root, path))
 
 
+def annotations_at(root: type[BaseModel], path: KeyPath) -> list[Any]:
+    """What the types say of the value at a path, with units and bounds; several where it may have several shapes."""
+    found: list[Any] = [root]
+    for key in path:
+        found = [below for each in found for branch in branches(each) for below in _annotated_below(branch, key)]
+    return found
+
+
+def _annotated_below(annotation: Any, key: str | int) -> Iterator[Any]:
+    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
+        for name, field in annotation.model_fields.items():
+            if key == (field.alias or name):
+                yield Annotated[(field.annotation, *field.metadata)] if field.metadata else field.annotation
+        return
+    origin, arguments = get_origin(annotation), get_args(annotation)
+    if origin is dict and isinstance(key, str):
+        yield arguments[1]
+    elif origin in (list, tuple) and isinstance(key, int):
+        yield arguments[min(key, len(arguments) - 1)]
+
+
 def section_keys(section: type[BaseModel]) -> list[str]:
     """Keys of a section as the deck writes them."""
     return [field.alias or name for name, field in section.model_fields.items()]

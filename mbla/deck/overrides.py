@@ -15,7 +15,7 @@ from mbla.errors import Fault
 LABEL = "--set"
 
 
-class _RefusedError(Exception):
+class RefusedError(Exception):
     """The override cannot be applied; the message says why."""
 
 
@@ -44,7 +44,7 @@ def apply_override(tree: Tree, text: str, number: int) -> list[Fault]:
         return [Fault(source.place(offset), key.strip(), "has no value: write one after the =")]
     try:
         _put(tree, key.strip().split("."), document.data, document.marks, file << FILE_SHIFT)
-    except _RefusedError as refusal:
+    except RefusedError as refusal:
         written = shorten(text[offset:])
         return [Fault(source.place(0), key.strip(), str(refusal), written)]
     return []
@@ -56,11 +56,11 @@ def _put(tree: Tree, words: list[str], value: Any, value_marks: Marks, mark: int
     marks: Any = tree.marks
     path: KeyPath = ()
     while True:
-        key, words = _next_key(data, words)
+        key, words = next_key(data, words)
         data_key: str | int = key
         last = not words
         if isinstance(data, list):
-            data_key = _index(data, str(key))
+            data_key = item_index(data, str(key))
             marks_below = marks.items
         elif isinstance(data, dict):
             marks_below = marks.values
@@ -71,7 +71,7 @@ def _put(tree: Tree, words: list[str], value: Any, value_marks: Marks, mark: int
                 data[key] = {}
                 marks.values[key] = MappingMarks(mark)
         else:
-            raise _RefusedError("the deck has a single value there, with nothing below it")
+            raise RefusedError("the deck has a single value there, with nothing below it")
         if last:
             data[data_key] = value
             marks_below[data_key] = value_marks
@@ -81,7 +81,7 @@ def _put(tree: Tree, words: list[str], value: Any, value_marks: Marks, mark: int
             data = None
 
 
-def _next_key(data: Any, words: list[str]) -> tuple[str, list[str]]:
+def next_key(data: Any, words: list[str]) -> tuple[str, list[str]]:
     """First key of a path and the rest; names may hold dots themselves, so the longest that exists is taken."""
     if isinstance(data, dict):
         for length in range(len(words), 0, -1):
@@ -90,11 +90,12 @@ def _next_key(data: Any, words: list[str]) -> tuple[str, list[str]]:
     return words[0], words[1:]
 
 
-def _index(data: list[Any], key: str) -> int:
+def item_index(data: list[Any], key: str) -> int:
+    """Number of an item of a list; RefusedError where there is none."""
     if not key.isascii() or not key.isdecimal():
-        raise _RefusedError(f"{key or 'nothing'} is not a number of an item: 0 to {len(data) - 1} are allowed")
+        raise RefusedError(f"{key or 'nothing'} is not a number of an item: 0 to {len(data) - 1} are allowed")
     if len(key) > 9 or int(key) >= len(data):
-        raise _RefusedError(f"there is no item {shorten(key)}: 0 to {len(data) - 1} are allowed")
+        raise RefusedError(f"there is no item {shorten(key)}: 0 to {len(data) - 1} are allowed")
     return int(key)
 
 
@@ -104,4 +105,4 @@ def _check_name(data: dict[str, Any], path: KeyPath, key: str, value: Any) -> No
         return
     if path != ("parameters",) and isinstance(value, dict):
         return
-    raise _RefusedError(unknown(f"name {key} in {key_text(path)}", key, data, "known"))
+    raise RefusedError(unknown(f"name {key} in {key_text(path)}", key, data, "known"))

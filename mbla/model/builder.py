@@ -3,25 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 
 from mbla.deck.deck import Deck
 from mbla.deck.tree import KeyPath
 from mbla.deck.types import LoadCaseSection
 from mbla.errors import DeckError, Fault, Notice
-from mbla.model.added_masses import with_added_masses
-from mbla.model.build_blocks import build_blocks
-from mbla.model.collect_items import collect_items
-from mbla.model.far_coordinates import far_fault, far_notices
-from mbla.model.interfaces import read_interfaces
-from mbla.model.item_defects import defects_in_words
 from mbla.model.joint_laws import build_joints, joint_notices
 from mbla.model.loads import LoadSite, build_load_cases
 from mbla.model.model import LoadCase, Model
-from mbla.model.overrides import check_overrides
-from mbla.model.selectors import Roster, build_roster
+from mbla.model.selectors import Roster
 from mbla.model.settlement import build_settlement
-from mbla.model.supports import Supports, build_supports, does_nothing
+from mbla.model.structure import structure_of
+from mbla.model.supports import Supports, does_nothing
 from mbla.model.symmetry import symmetry_faults, with_images
 
 
@@ -34,37 +27,21 @@ def build_model(deck: Deck) -> Model:
         with every fault found: items that cannot be built, blocks that are no blocks, selectors without blocks,
         supports and loads that do nothing
     """
-    faults: list[Fault] = []
-    notices: list[Notice] = []
-    items = collect_items(deck, faults)
-    built = build_blocks(items.polyhedra, items.labels, deck.contacts.tolerance)
-    far = far_fault(items.polyhedra, deck.contacts.tolerance)
-    faults += defects_in_words(deck, items, built) if far is None else [deck.fault_at(("blocks",), far)]
-    partial = items.partial | {built.blocks.groups[defect.block] for defect in built.defects}
-    roster = build_roster(built.blocks, partial, deck.fault_at)
-    supports = build_supports(deck, Supports(items.fixed, items.grounds), roster, faults)
-    check_overrides(deck.contacts.overrides, roster, faults)
-    interfaces = read_interfaces(deck, roster, supports.grounds, faults)
-    if deck.content.masses:
-        roster = replace(roster, blocks=with_added_masses(deck.content.masses, roster, supports.fixed, faults, notices))
-    load_cases = _all_load_cases(deck, roster, supports, faults, notices)
+    structure = structure_of(deck)
+    faults, notices = list(structure.faults), list(structure.notices)
+    load_cases = _all_load_cases(deck, structure.roster, structure.supports, faults, notices)
     if faults:
         raise DeckError(faults)
+    supports, interfaces = structure.supports, structure.interfaces
     model = Model(
         title=deck.content.title,
         units=deck.units,
-        blocks=roster.blocks,
+        blocks=structure.roster.blocks,
         fixed=supports.fixed,
         grounds=supports.grounds,
         joints=build_joints(deck, supports.grounds, interfaces),
         load_cases=load_cases,
-        notices=(
-            *items.notices,
-            *built.notices,
-            *far_notices(items.polyhedra, items.labels.name),
-            *joint_notices(deck),
-            *notices,
-        ),
+        notices=(*structure.first_notices, *joint_notices(deck), *notices),
         guides=supports.guides,
         interfaces=interfaces,
     )

@@ -8,6 +8,7 @@ import scipy.sparse as sp
 from mbla.arrays import FloatArray, IntArray
 from mbla.contacts.contacts import Contacts
 from mbla.model.model import Model
+from mbla.sharing import shared
 
 
 def equilibrium_matrix(model: Model, contacts: Contacts, free: IntArray) -> sp.csr_array:
@@ -16,10 +17,18 @@ def equilibrium_matrix(model: Model, contacts: Contacts, free: IntArray) -> sp.c
     Columns 3 k + j belong to component j (N, T1, T2) of point k, which pushes body b along row j of its frame and
     body a against it; moments are (point − centroid) × force.
     """
-    n_blocks = len(model.blocks)
-    row_of_block = np.full(n_blocks + len(model.grounds), -1, dtype=np.int64)
-    row_of_block[free] = np.arange(len(free))
+    n_bodies = len(model.blocks) + len(model.grounds)
     bodies = contacts.bodies[contacts.interface_of_point]
+    return _matrix(n_bodies, model.blocks.centroids, bodies, contacts.points, contacts.frames, free)
+
+
+@shared("equilibrium")
+def _matrix(
+    n_bodies: int, centroids: FloatArray, bodies: IntArray, points: FloatArray, frames: FloatArray, free: IntArray
+) -> sp.csr_array:
+    """``equilibrium_matrix``; bodies (n_points, 2)."""
+    row_of_block = np.full(n_bodies, -1, dtype=np.int64)
+    row_of_block[free] = np.arange(len(free))
     n_points = len(bodies)
     columns = np.broadcast_to((3 * np.arange(n_points)[:, None] + np.arange(3))[:, :, None], (n_points, 3, 6))
 
@@ -27,8 +36,8 @@ def equilibrium_matrix(model: Model, contacts: Contacts, free: IntArray) -> sp.c
     for side, sign in ((0, -1.0), (1, 1.0)):
         here = row_of_block[bodies[:, side]] >= 0
         block = bodies[here, side]
-        force = sign * contacts.frames[here]
-        arm = contacts.points[here] - model.blocks.centroids[block]
+        force = sign * frames[here]
+        arm = points[here] - centroids[block]
         moment = np.cross(arm[:, None, :], force)
         values.append(np.concatenate([force, moment], axis=2).ravel())
         first_row = 6 * row_of_block[block]

@@ -28,6 +28,7 @@ from mbla.arrays import FloatArray, IntArray
 from mbla.program.program import Program
 from mbla.program.yield_conditions import Coulomb, Crushing, TensionCutOff
 from mbla.program.yield_conditions.limits import YieldLimits
+from mbla.sharing import shared
 
 
 @dataclass(frozen=True)
@@ -164,8 +165,34 @@ def _point_rows(limits: YieldLimits, reduce_dry: bool) -> PointRows:
 
 def _matrix(program: Program, limits: YieldLimits, rows: PointRows, facets: FloatArray | None) -> sp.csc_array:
     """Rows in the order of ``ConeProgram``; rows of cones and half-lines are −G where s = G x."""
-    velocity = sp.csr_array(program.equilibrium_matrix.T)  # rows v_N, v_T1, v_T2 (v_N, v_T) of each point
-    c, n_points = program.components, program.n_points
+    return _below(
+        program.live_load, _rows_of_points(program.equilibrium_matrix, program.components, limits, rows, facets)
+    )
+
+
+def _below(first: FloatArray, matrix: sp.csc_array) -> sp.csc_array:
+    """A row, as long as the matrix is wide or shorter, and the matrix below it; no zeros of the row are stored."""
+    stored = np.zeros(matrix.shape[1], dtype=bool)
+    stored[: len(first)] = first != 0.0
+    pointers = matrix.indptr + np.append(0, np.cumsum(stored)).astype(matrix.indptr.dtype)
+    top = pointers[:-1][stored]
+    rest = np.ones(matrix.nnz + len(top), dtype=bool)
+    rest[top] = False
+    entries, indices = np.empty(len(rest)), np.zeros(len(rest), dtype=matrix.indices.dtype)
+    entries[top], entries[rest] = first[first != 0.0], matrix.data
+    indices[rest] = matrix.indices + 1
+    whole = sp.csc_array((entries, indices, pointers), shape=(matrix.shape[0] + 1, matrix.shape[1]))
+    whole.sort_indices()
+    return whole
+
+
+@shared("kinematic form")
+def _rows_of_points(
+    equilibrium_matrix: sp.csr_array, c: int, limits: YieldLimits, rows: PointRows, facets: FloatArray | None
+) -> sp.csc_array:
+    """All rows but the first: what the contact points allow, whatever the loads; ``c`` components of force a point."""
+    velocity = sp.csr_array(equilibrium_matrix.T)  # rows v_N, v_T1, v_T2 (v_N, v_T) of each point
+    n_points = len(limits.friction)
     p_column, d_column = np.full(n_points, -1), np.full(n_points, -1)
     p_column[rows.frictional] = np.arange(len(rows.frictional))
     d_column[rows.crushing] = np.arange(len(rows.crushing))
@@ -184,7 +211,6 @@ def _matrix(program: Program, limits: YieldLimits, rows: PointRows, facets: Floa
     of_p = _shear_rows(sp.csr_array(sp.eye_array(n_p, format="csr")), no_velocity, rows.frictional, c, facets)
 
     blocks: list[list[sp.sparray | None]] = [
-        [sp.csr_array(program.live_load[None, :]), None, None],
         [-velocity[c * rows.cut_off], cut_off_p, -cut_off_d],
         [sp.csr_array((n_d, velocity.shape[1])), None, -identity_d],
         [-dry, sp.csr_array((dry.shape[0], n_p)), sp.csr_array((dry.shape[0], n_d))],

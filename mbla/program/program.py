@@ -11,7 +11,7 @@ x_k acts on body b along the frame of the point and on body a against it. Its du
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import scipy.sparse as sp
@@ -91,6 +91,16 @@ class Program:
     guided: bool = False
     halved: bool = False
     allowed: sp.csr_array | None = None
+
+    def without_live_load(self) -> Program:
+        """What of it is the same whatever the live load, down to the program of the whole model."""
+        way = self.reduction
+        return replace(
+            self,
+            live_load=np.zeros_like(self.live_load),
+            scaling=replace(self.scaling, live=1.0),
+            reduction=None if way is None else replace(way, full=way.full.without_live_load()),
+        )
 
     @property
     def n_points(self) -> int:

@@ -174,12 +174,12 @@ class OutputFolder:
         for name, stream in self._live.items():
             with file_errors(self.folder / name):
                 stream.close()
-                _flush_to_disk(self.folder / name)
+                flush_to_disk(self.folder / name)
         written = [name for name in self._names if name not in self._live]
         for name in written:
             self._refuse(name)
             with file_errors(self.folder / name):
-                _flush_to_disk(self._temporary("new", name))
+                flush_to_disk(self._temporary("new", name))
         replaced = {name for name in (*written, *self._stale) if os.path.lexists(self.folder / name)}
         for name in sorted(replaced - set(self._live)):
             with file_errors(self.folder / name):
@@ -189,7 +189,7 @@ class OutputFolder:
                 self._placed.add(name)
                 self._temporary("new", name).replace(self.folder / name)
         with file_errors(self.folder):
-            _flush_to_disk(self.folder)
+            flush_to_disk(self.folder)
             self._marker().unlink(missing_ok=True)  # from here on the new files are the valid ones
             for name in self._aside:
                 self._temporary("earlier", name).unlink(missing_ok=True)
@@ -265,7 +265,8 @@ def _try_writing(folder: Path, trial: Path) -> None:
         trial.unlink()
 
 
-def _flush_to_disk(path: Path) -> None:
+def flush_to_disk(path: Path) -> None:
+    """What was written to a file, or the names in a folder, outlasts a loss of power from here on."""
     descriptor = os.open(path, os.O_RDONLY)
     try:
         os.fsync(descriptor)

@@ -144,7 +144,7 @@ class ClarabelProgram:
 
     def _new_solver(self, clarabel: Any) -> Any:
         program = self.cone_program
-        quadratic = np.zeros(len(program.cost)) if program.quadratic is None else program.quadratic
+        n, quadratic = len(program.cost), program.quadratic
         cones = [clarabel.ZeroConeT(program.n_equations)]
         if program.n_half_lines:
             cones.append(clarabel.NonnegativeConeT(program.n_half_lines))
@@ -153,7 +153,7 @@ class ClarabelProgram:
             count = len(list(run))
             cones += [clarabel.NonnegativeConeT(count)] if size == 1 else [clarabel.SecondOrderConeT(size)] * count
         return clarabel.DefaultSolver(
-            sp.csc_matrix(sp.diags_array(quadratic)),
+            sp.csc_matrix((n, n)) if quadratic is None else sp.csc_matrix(sp.diags_array(quadratic)),
             program.cost,
             sp.csc_matrix(program.matrix),
             program.rhs,

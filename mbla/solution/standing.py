@@ -16,6 +16,7 @@ import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.program.program import Program
+from mbla.sharing import shared
 from mbla.solution.mechanics import motion_of
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Standing, StandingResult
@@ -56,6 +57,12 @@ def assess_standing(program: Program, settings: SolverSettings, carried: bool | 
 @timed("standing")
 def stress_free_state(program: Program, settings: SolverSettings) -> Weakening:
     """What becomes of the dead load on the stress-free assembly: the same whatever the live load and the flow rule."""
+    return _stress_free(program.without_live_load(), settings)
+
+
+@shared("standing")
+def _stress_free(program: Program, settings: SolverSettings) -> Weakening:
+    """``stress_free_state`` of a program that has no live load."""
     if not np.any(program.dead_load):
         forces = np.zeros((program.n_points, program.components))
         displacements = np.zeros_like(program.dead_load)

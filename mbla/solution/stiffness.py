@@ -23,6 +23,7 @@ from numpy.typing import NDArray
 
 from mbla.arrays import FloatArray, IntArray, distinct
 from mbla.program.program import Program
+from mbla.sharing import shared
 from mbla.solution.linear_algebra.elimination_order import elimination_order
 from mbla.solution.linear_algebra.general import GeneralFactorization, Solve
 
@@ -111,8 +112,39 @@ class Stiffness:
 
 def stiffness_of(program: Program) -> Stiffness:
     """Pattern, places and order of elimination of a program."""
-    n = len(program.dead_load)
-    sets = _point_sets(program)
+    matrix = program.equilibrium_matrix
+    found = _places(matrix, program.components, program.n_points)
+    return Stiffness(
+        program=program,
+        groups=found.groups,
+        indices=found.indices,
+        pointers=found.pointers,
+        order=found.order,
+        diagonal=found.diagonal,
+        border=found.border,
+        size=np.asarray(matrix.multiply(matrix).sum(axis=1)),
+        compatibility=sp.csr_array(matrix.T),
+        factorization=GeneralFactorization(found.pointers, found.indices),
+    )
+
+
+@dataclass(frozen=True)
+class _Places:
+    """What of the pattern does not depend on loads and joints; see ``Stiffness``."""
+
+    groups: tuple[PointGroup, ...]
+    indices: IntArray
+    pointers: IntArray
+    order: IntArray
+    diagonal: IntArray
+    border: tuple[IntArray, IntArray, int]
+
+
+@shared("stiffness")
+def _places(matrix: sp.csr_array, components: int, n_points: int) -> _Places:
+    """Of an equilibrium matrix, (n_rows, components n_points)."""
+    n = matrix.shape[0]
+    sets = _point_sets(matrix, components, n_points)
     pattern = _pattern(n, [(rows, blocks) for _, rows, blocks in sets])
     order = np.append(elimination_order(pattern), n)
     place_of = np.empty(n + 1, dtype=np.int64)
@@ -136,35 +168,28 @@ def stiffness_of(program: Program) -> Stiffness:
         for points, rows, blocks in sets
     )
     end = np.full(n, n)
-    indices = (keys % (n + 1)).astype(np.int32)
-    pointers = np.searchsorted(keys, np.arange(n + 2) * (n + 1)).astype(np.int32)
-    return Stiffness(
-        program=program,
+    return _Places(
         groups=groups,
-        indices=indices,
-        pointers=pointers,
+        indices=(keys % (n + 1)).astype(np.int32),
+        pointers=np.searchsorted(keys, np.arange(n + 2) * (n + 1)).astype(np.int32),
         order=order,
         diagonal=places(every, every),
         border=(places(every, end), places(end, every), int(places(end[:1], end[:1])[0])),
-        size=np.asarray(program.equilibrium_matrix.multiply(program.equilibrium_matrix).sum(axis=1)),
-        compatibility=sp.csr_array(program.equilibrium_matrix.T),
-        factorization=GeneralFactorization(pointers, indices),
     )
 
 
-def _point_sets(program: Program) -> list[tuple[IntArray, IntArray, FloatArray]]:
+def _point_sets(matrix: sp.csr_array, components: int, n_points: int) -> list[tuple[IntArray, IntArray, FloatArray]]:
     """Points, rows and columns of A of all sets, those of like shape together; see ``PointGroup``."""
-    components, n = program.components, len(program.dead_load)
-    entries = sp.coo_array(program.equilibrium_matrix)
+    n, entries = matrix.shape[0], sp.coo_array(matrix)
     point, component = np.divmod(entries.coords[1].astype(np.int64), components)
     keys, place = np.unique(point * n + entries.coords[0], return_inverse=True)
     point_of_key, row_of_key = np.divmod(keys, n)
-    n_rows_of_point = np.bincount(point_of_key, minlength=program.n_points)
+    n_rows_of_point = np.bincount(point_of_key, minlength=n_points)
     local_row = place - (np.cumsum(n_rows_of_point) - n_rows_of_point)[point]
     sets = []
     for n_rows in np.unique(n_rows_of_point[n_rows_of_point > 0]):
         here = np.flatnonzero(n_rows_of_point == n_rows)
-        index = np.full(program.n_points, -1)
+        index = np.full(n_points, -1)
         index[here] = np.arange(len(here))
         columns = np.zeros((len(here), n_rows, components))
         mine = index[point] >= 0

@@ -12,7 +12,10 @@ behind the other it is their sum. The least forces and equally stiff springs of 
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
+import scipy.sparse as sp
 
 from mbla.arrays import FloatArray, IntArray
 from mbla.program.program import Program
@@ -21,6 +24,7 @@ from mbla.program.reductions.mirror import SYMMETRIC, Mirror
 from mbla.program.reductions.restrict import block_matrix, restricted
 from mbla.program.reductions.scene import Scene
 from mbla.program.yield_conditions.limits import YieldLimits
+from mbla.sharing import once
 
 BEHIND = 1e-8
 """Relative to block size: points whose places in the plane differ by less are one behind the other."""
@@ -34,6 +38,25 @@ def is_planar(scene: Scene, mirror: Mirror) -> bool:
 
 def planar_program(scene: Scene, mirror: Mirror) -> Program:
     """The program of motions in the plane."""
+    places = (scene.centroids, scene.arms, scene.points, scene.frames, scene.areas, scene.bodies, scene.interfaces)
+    content = (*places, mirror.normal, mirror.point_of)
+    unknowns = once("planar", content, lambda: _unknowns(scene, mirror))
+    limits = _added(scene.program.limits, unknowns.group, unknowns.size)
+    return restricted(scene.program, unknowns.velocities, unknowns.forces, limits, components=2)
+
+
+@dataclass(frozen=True)
+class _Unknowns:
+    """Ways from the unknowns in the plane to motions and forces, of each point its group, and see ``_added``."""
+
+    velocities: sp.csr_array
+    forces: sp.csr_array
+    group: IntArray
+    size: FloatArray
+
+
+def _unknowns(scene: Scene, mirror: Mirror) -> _Unknowns:
+    """They follow from the places of blocks and points alone, whatever acts on them and whatever joints they have."""
     n = len(scene.centroids)
     motions = np.broadcast_to(in_plane_motions(mirror.normal), (n, 6, 3))
     velocities = block_matrix(motions, np.arange(n), np.arange(n), (n, n))
@@ -48,7 +71,7 @@ def planar_program(scene: Scene, mirror: Mirror) -> Program:
     maps[:, 0, 0] = share
     maps[:, 1:, 1] = share[:, None] * np.einsum("ptx,px->pt", scene.frames[:, 1:], shear)
     forces = block_matrix(maps, np.arange(len(group)), group, (len(group), n_groups))
-    return restricted(scene.program, velocities, forces, _added(scene.program.limits, group, size), components=2)
+    return _Unknowns(velocities, forces, group, size)
 
 
 def _one_behind_the_other(scene: Scene, mirror: Mirror, shear: FloatArray) -> IntArray:

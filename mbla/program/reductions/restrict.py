@@ -8,6 +8,7 @@ import scipy.sparse as sp
 from mbla.arrays import FloatArray, IntArray
 from mbla.program.program import Program, Reduction
 from mbla.program.yield_conditions.limits import YieldLimits
+from mbla.sharing import shared
 
 
 def restricted(
@@ -24,7 +25,7 @@ def restricted(
     limits     : of the new points
     """
     return Program(
-        equilibrium_matrix=tidy(velocities.T @ program.equilibrium_matrix @ forces),
+        equilibrium_matrix=_in_unknowns(program.equilibrium_matrix, velocities, forces),
         dead_load=np.asarray(velocities.T @ program.dead_load),
         live_load=np.asarray(velocities.T @ program.live_load),
         limits=limits,
@@ -34,6 +35,12 @@ def restricted(
         components=components or program.components,
         reduction=Reduction(program, sp.csr_array(velocities), sp.csr_array(forces)),
     )
+
+
+@shared("restricted")
+def _in_unknowns(matrix: sp.csr_array, velocities: sp.csr_array, forces: sp.csr_array) -> sp.csr_array:
+    """SᵀA P."""
+    return tidy(velocities.T @ matrix @ forces)
 
 
 def chosen_limits(limits: YieldLimits, points: IntArray) -> YieldLimits:

@@ -83,16 +83,18 @@ class Reaction:
     wrench: FloatArray
 
 
-def support_reactions(model: Model, contacts: Contacts, contact_forces: FloatArray) -> tuple[Reaction, ...]:
+def support_reactions(
+    model: Model, contacts: Contacts, contact_forces: FloatArray, *, by_group: bool = False
+) -> tuple[Reaction, ...]:
     """Reactions of ground planes, then of fixed blocks; supports that touch nothing free are left out.
 
-    Fixed blocks stand one by one where they are few, else their groups do.
+    Fixed blocks stand one by one where they are few, else, or ``by_group``, their groups do.
     """
     supports, _, onto_structure = _onto_structure(model, contacts, contact_forces)
     touched, row = np.unique(supports, return_inverse=True)
     total = np.zeros((len(touched), 6))
     np.add.at(total, row, onto_structure)
-    return _named_reactions(model, touched, total)
+    return _named_reactions(model, touched, total, by_group)
 
 
 def group_reactions(model: Model, contacts: Contacts, contact_forces: FloatArray) -> tuple[Reaction, ...]:
@@ -123,11 +125,11 @@ def _onto_structure(
 
 
 def guide_reactions(
-    model: Model, contacts: Contacts, load_case: LoadCase, mechanics: Mechanics
+    model: Model, contacts: Contacts, load_case: LoadCase, mechanics: Mechanics, *, by_group: bool = False
 ) -> tuple[Reaction, ...]:
     """What guides take: the forces and moments that leave guided blocks in balance.
 
-    They stand one by one where they are few, else their groups do.
+    They stand one by one where they are few, else, or ``by_group``, their groups do.
     """
     blocks = model.guides.blocks
     if not len(blocks):
@@ -138,16 +140,16 @@ def guide_reactions(
     taken[:, 3:] += np.cross(model.blocks.centroids[blocks], taken[:, :3])
     sums: dict[str, FloatArray] = {}
     for block, wrench in zip(blocks.tolist(), taken, strict=True):
-        few = len(blocks) <= MOST_SINGLE_SUPPORTS
+        few = len(blocks) <= MOST_SINGLE_SUPPORTS and not by_group
         name = f"guide of {model.body_name(block)}" if few else f"guides of {model.blocks.groups[block]}"
         sums[name] = sums.get(name, np.zeros(6)) + wrench
     return tuple(Reaction(name, wrench) for name, wrench in sums.items())
 
 
-def _named_reactions(model: Model, bodies: IntArray, wrenches: FloatArray) -> tuple[Reaction, ...]:
+def _named_reactions(model: Model, bodies: IntArray, wrenches: FloatArray, by_group: bool) -> tuple[Reaction, ...]:
     """Reactions by name, from the supporting bodies, (n,), and what each adds, (n, 6)."""
     n_blocks = len(model.blocks)
-    one_by_one = int(np.sum(bodies < n_blocks)) <= MOST_SINGLE_SUPPORTS
+    one_by_one = not by_group and int(np.sum(bodies < n_blocks)) <= MOST_SINGLE_SUPPORTS
     sums: dict[str, FloatArray] = {}
     for i in np.argsort(bodies < n_blocks, kind="stable"):
         body = int(bodies[i])

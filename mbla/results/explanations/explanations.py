@@ -13,6 +13,7 @@ from mbla.results.explanations.of_model import OF_MODEL
 from mbla.results.explanations.of_program import OF_PROGRAM
 from mbla.results.explanations.of_solver import OF_SOLVER
 from mbla.results.explanations.of_status import OF_MODES, OF_STANDING, OF_STATUS
+from mbla.results.explanations.of_sweep import OF_SWEEP
 from mbla.results.explanations.of_verification import OF_VERIFICATION
 
 SECTIONS = {
@@ -26,6 +27,7 @@ SECTIONS = {
     "Contact model": OF_PROGRAM,
     "Blocks, files and loads": OF_MODEL,
     "Deck": OF_DECK,
+    "Parameter sweeps": OF_SWEEP,
     "Errors": OF_ERRORS,
 }
 """Every explanation under the title of its section."""

@@ -8,8 +8,10 @@ from typing import Any
 from mbla.contacts.contacts import Contacts
 from mbla.model.model import Model
 from mbla.results.outcome import associative_of, best_iterate, factor_unique, range_of, result_of
-from mbla.results.records.mechanism_json import mechanism_json
+from mbla.results.records.mechanism_json import mechanism_json, mechanism_on_demand
 from mbla.results.records.numbers import number
+from mbla.results.records.power_json import powers_json
+from mbla.results.records.reactions_json import reactions_json
 from mbla.results.records.reduction_json import reductions_json
 from mbla.results.results import CaseResult
 from mbla.results.tilt_angle import angle_bounds, angle_of
@@ -18,8 +20,12 @@ from mbla.results.words.solver_words import solver_json
 from mbla.solution.solution import Checks, Mechanics, Solution
 
 
-def case_json(model: Model, contacts: Contacts, case: CaseResult) -> dict[str, Any]:
-    """Everything that is said of a case; ``load_factor`` and ``mechanism`` only where they are results."""
+def case_json(model: Model, contacts: Contacts, case: CaseResult, *, on_demand: bool = False) -> dict[str, Any]:
+    """Everything that is said of a case; ``load_factor`` and ``mechanism`` only where they are results.
+
+    on_demand : values of the mechanism, which take longer than all others, are found when they are asked for
+    """
+    mechanism = mechanism_on_demand if on_demand else mechanism_json
     solution, checks, model = case.solution, case.checks, model.of_case(case.load_case)
     mechanics = result_of(case)
     solver = float(sum(program.seconds for program in solution.programs))
@@ -43,14 +49,21 @@ def case_json(model: Model, contacts: Contacts, case: CaseResult) -> dict[str, A
         "size": None if solution.size is None else asdict(solution.size),
         "reductions": reductions_json(solution.reductions),
         "path": [{name: finite(value) for name, value in asdict(point).items()} for point in solution.path],
+<<<<<<< HEAD
         "mechanism": None if mechanics is None else _mechanism(model, contacts, case, mechanics),
+        "reactions": None if mechanics is None else reactions_json(model, contacts, case.load_case, mechanics),
+=======
+        "mechanism": None
+        if mechanics is None
+        else mechanism(model, contacts, case.load_case, mechanics, _dimension(case)),
+>>>>>>> b95a9b7cb94ed18fc33ce47832a07184eff5264d
         "time": {"total": number(solution.seconds), "solver": number(solver)},
     }
 
 
-def _mechanism(model: Model, contacts: Contacts, case: CaseResult, mechanics: Mechanics) -> dict[str, Any]:
-    size = case.solution.size
-    return mechanism_json(model, contacts, case.load_case, mechanics, 3 if size is None else size.dimension)
+def _dimension(case: CaseResult) -> int:
+    """In which it was solved."""
+    return 3 if case.solution.size is None else case.solution.size.dimension
 
 
 def _load_factors(model: Model, case: CaseResult) -> dict[str, Any]:
@@ -73,6 +86,7 @@ def _load_factors(model: Model, case: CaseResult) -> dict[str, Any]:
         "asked": None if solution.asked is None else number(solution.asked),
         "associative_load_factor": None if associative is None else number(associative.load_factor),
         "bracket": _bracket(solution, associative),
+        "powers": powers_json(model, case),
     }
 
 

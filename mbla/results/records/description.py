@@ -9,6 +9,7 @@ from __future__ import annotations
 from mbla.results.records.failure_description import FAILURE, part_keys
 from mbla.results.records.failure_description import MECHANISM as _MECHANISM
 from mbla.results.records.key import Key
+from mbla.results.records.reactions_json import reaction_keys
 from mbla.results.records.reduction_json import reduction_keys
 
 RUN = (
@@ -105,6 +106,16 @@ CASE = (
     Key("cases[].bracket.inner", "number?", "with the inscribed one"),
     Key("cases[].bracket.outer", "number?", "with the circumscribed one"),
     Key("cases[].bracket.sides", "integer", "their sides"),
+    Key(
+        "cases[].powers",
+        "object?",
+        "power of live loads in the associative mechanism, by load case; that of its own is 1",
+    ),
+    Key(
+        "cases[].powers.*",
+        "number?",
+        "of factors acting together, the sum of each times this is at most kinematic_bound",
+    ),
     Key("cases[].certificate", "string?", "what proves that there is no load factor: motion or forces"),
     Key("cases[].standing", "object?", "assessment of the dead load alone"),
     Key("cases[].standing.verdict", "string", "yes, only by self-stress, no, doubtful"),
@@ -159,6 +170,12 @@ EFFORT = (
 
 MECHANISM = (
     Key(_MECHANISM, "object?", "how it fails; null where the case has no result"),
+    Key(
+        f"{_MECHANISM}.class",
+        "string",
+        "in a word: sliding, twisting, overturning (parts turn on what is at rest), hinging (they hinge on each other), "
+        "sliding and hinging, opening",
+    ),
     Key(f"{_MECHANISM}.open", "integer", "contact points that open"),
     Key(f"{_MECHANISM}.slide", "integer", "contact points that slide"),
     Key(f"{_MECHANISM}.stick", "integer", "contact points that do neither"),
@@ -184,6 +201,7 @@ MECHANISM = (
     Key(f"{_MECHANISM}.work.groups.*", "object", "of a group"),
     Key(f"{_MECHANISM}.work.groups.*.live", "number", "of the live load on it"),
     Key(f"{_MECHANISM}.work.groups.*.dead", "number", "of the dead load on it"),
+    *reaction_keys("cases[].reactions"),
 )
 
 SERIES = (

@@ -13,6 +13,9 @@ from mbla.results.collapse.rigid_parts import PartMotion
 from mbla.results.collapse.sliding_planes import SlidingPlane
 from mbla.results.records.numbers import number, numbers
 
+FAILURE_KEYS = ("clusters_merged", "clusters", "hinge_lines", "sliding_planes", "cracks")
+"""of ``failure_json``"""
+
 MOST = 100
 """objects of each kind that the record holds, those that move most"""
 

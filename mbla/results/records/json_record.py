@@ -20,8 +20,11 @@ from mbla.results.results import Results
 from mbla.results.series import series_of
 
 
-def results_json(results: Results) -> dict[str, Any]:
-    """The record of a run; values that do not exist are None."""
+def results_json(results: Results, *, on_demand: bool = False) -> dict[str, Any]:
+    """The record of a run; values that do not exist are None.
+
+    on_demand : for who reads some values only: those of mechanisms are found when they are asked for
+    """
     return {
         "mbla": results.provenance.get("mbla", __version__),
         "deck": results.deck.name,
@@ -31,7 +34,7 @@ def results_json(results: Results) -> dict[str, Any]:
         "model": {"standing": standing_of(results.cases), "dimension": dimension_of(results.cases)}
         | model_json(results.model)
         | contacts_json(results),
-        "cases": [case_json(results.model, results.contacts, case) for case in results.cases],
+        "cases": [case_json(results.model, results.contacts, case, on_demand=on_demand) for case in results.cases],
         "series": [series_json(results.model, series) for series in series_of(results.cases)],
         "settings": results.settings,
         "notices": [notice_json(notice) for notice in notices_of(results)],

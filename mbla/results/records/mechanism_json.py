@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cache, partial
 from typing import Any
 
 import numpy as np
@@ -13,11 +14,15 @@ from mbla.results.collapse.enough import Enough, enough_of
 from mbla.results.collapse.failure import failure_of
 from mbla.results.collapse.force_freedom import ForceFreedom, force_freedom
 from mbla.results.collapse.interface_modes import InterfaceMode
+from mbla.results.collapse.mechanism_class import mechanism_class
 from mbla.results.collapse.rigid_parts import moving_share, reach
 from mbla.results.collapse.work import dissipated_by_joint, loads_by_group
-from mbla.results.records.failure_json import failure_json, part_json
+from mbla.results.records.failure_json import FAILURE_KEYS, failure_json, part_json
 from mbla.results.records.numbers import number
+from mbla.results.records.on_demand import OnDemand
 from mbla.solution.solution import ContactMode, Mechanics
+
+POINT_MODES = {mode.name.lower(): mode for mode in (ContactMode.OPEN, ContactMode.SLIDE, ContactMode.STICK)}
 
 MOST_PARTS = 100
 """parts that the record holds, the heaviest; ``moving_parts`` counts them all, the result file holds them all"""
@@ -27,9 +32,12 @@ def mechanism_json(
     model: Model, contacts: Contacts, load_case: LoadCase, mechanics: Mechanics, dimension: int
 ) -> dict[str, Any]:
     """Contact points by mode, interfaces by mode, parts and work; ``dimension``: in which the case was solved."""
+<<<<<<< HEAD
     collapse = collapse_of(model, contacts, load_case, mechanics)
     share = moving_share(model, collapse.parts)
+    failure = failure_of(model, contacts, collapse, mechanics)
     return {
+        "class": mechanism_class(failure).value,
         **_points(mechanics),
         "interfaces": {mode.name.lower(): collapse.interfaces.count(mode) for mode in InterfaceMode},
         "hinges": collapse.interfaces.count(InterfaceMode.HINGE),
@@ -38,17 +46,60 @@ def mechanism_json(
         "moving_weight_share": number(share),
         "moving_parts": len(collapse.motions),
         "parts": [part_json(model, motion) for motion in collapse.motions[:MOST_PARTS]],
-        **failure_json(model, failure_of(model, contacts, collapse, mechanics)),
+        **failure_json(model, failure),
         "force_freedom": _force_freedom(force_freedom(model, contacts, mechanics, dimension)),
         "enough": _enough(enough_of(model, contacts, collapse.parts)),
         "work": _work(model, contacts, load_case, mechanics, collapse),
     }
+=======
+    return dict(mechanism_on_demand(model, contacts, load_case, mechanics, dimension))
+
+
+def mechanism_on_demand(
+    model: Model, contacts: Contacts, load_case: LoadCase, mechanics: Mechanics, dimension: int
+) -> OnDemand:
+    """The same, each value found when it is asked for: all of them take as long as to verify a small model."""
+
+    @cache
+    def collapse() -> Collapse:
+        return collapse_of(model, contacts, load_case, mechanics)
+
+    @cache
+    def failure() -> dict[str, Any]:
+        return failure_json(model, failure_of(model, contacts, collapse(), mechanics))
+
+    @cache
+    def points() -> dict[str, int]:
+        return _points(mechanics)
+
+    @cache
+    def share() -> float:
+        return moving_share(model, collapse().parts)
+
+    return OnDemand(
+        {mode: partial(lambda mode: points()[mode], mode) for mode in POINT_MODES}
+        | {
+            "interfaces": lambda: {mode.name.lower(): collapse().interfaces.count(mode) for mode in InterfaceMode},
+            "hinges": lambda: collapse().interfaces.count(InterfaceMode.HINGE),
+            "reach": lambda: reach(share()),
+            "moving_blocks": lambda: int(np.sum(~model.fixed & (collapse().parts > 0))),
+            "moving_weight_share": lambda: number(share()),
+            "moving_parts": lambda: len(collapse().motions),
+            "parts": lambda: [part_json(model, motion) for motion in collapse().motions[:MOST_PARTS]],
+        }
+        | {key: partial(lambda key: failure()[key], key) for key in FAILURE_KEYS}
+        | {
+            "force_freedom": lambda: _force_freedom(force_freedom(model, contacts, mechanics, dimension)),
+            "enough": lambda: _enough(enough_of(model, contacts, collapse().parts)),
+            "work": lambda: _work(model, contacts, load_case, mechanics, collapse()),
+        }
+    )
+>>>>>>> b95a9b7cb94ed18fc33ce47832a07184eff5264d
 
 
 def _points(mechanics: Mechanics) -> dict[str, int]:
     """Contact points by mode."""
-    modes = (ContactMode.OPEN, ContactMode.SLIDE, ContactMode.STICK)
-    return {mode.name.lower(): int((mechanics.modes == mode).sum()) for mode in modes}
+    return {name: int((mechanics.modes == mode).sum()) for name, mode in POINT_MODES.items()}
 
 
 def _force_freedom(freedom: ForceFreedom | None) -> dict[str, int] | None:

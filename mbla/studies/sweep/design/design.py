@@ -43,6 +43,22 @@ class Dimension:
 
 
 @dataclass(frozen=True)
+class Part:
+    """A part of the design; every point of it is combined with every point of the others.
+
+    kind       : ``grid``, ``zip``, ``random``, ``latin_hypercube`` or ``sobol``
+    parameters : their names
+    dimensions : names of the axes that it makes: one for each parameter of a grid, one of any other part
+    seed       : of a part that is drawn
+    """
+
+    kind: str
+    parameters: tuple[str, ...]
+    dimensions: tuple[str, ...]
+    seed: int | None = None
+
+
+@dataclass(frozen=True, slots=True)
 class Point:
     """One point.
 
@@ -65,6 +81,9 @@ class Design:
     left_out : points that broke a constraint
     samples  : name of the dimension whose points are a random sample of distributions; empty where there is none
     sampling : ``random``, ``latin_hypercube`` or ``sobol`` for that; empty where there is none
+    parts    : what it is made of, slowest first
+    breaches : constraints with how many points break each; a point may break several
+    remarks  : what is worth knowing of it, in sentences
     """
 
     columns: tuple[DesignColumn, ...]
@@ -73,3 +92,6 @@ class Design:
     left_out: int = 0
     samples: str = ""
     sampling: str = ""
+    parts: tuple[Part, ...] = ()
+    breaches: tuple[tuple[str, int], ...] = ()
+    remarks: tuple[str, ...] = ()

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Generator, Sequence
 from typing import Protocol
 
 from mbla.studies.sweep.outcome import Outcome
@@ -12,7 +12,7 @@ from mbla.studies.sweep.plan import Plan, Task
 class Engine(Protocol):
     """Hands tasks to workers."""
 
-    def run(self, plan: Plan, tasks: Sequence[Task]) -> Iterator[Outcome]:
+    def run(self, plan: Plan, tasks: Sequence[Task]) -> Generator[Outcome, None, None]:
         """Outcomes in the order in which they are done; one for every task, also where its worker died.
 
         Closing the iterator stops what is under way.

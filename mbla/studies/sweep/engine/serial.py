@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Generator, Sequence
 from types import TracebackType
 
 from mbla.studies.sweep.outcome import Outcome
@@ -21,7 +21,7 @@ class SerialEngine:
     ) -> None:
         """The process is gone with the iterator of ``run``."""
 
-    def run(self, plan: Plan, tasks: Sequence[Task]) -> Iterator[Outcome]:
+    def run(self, plan: Plan, tasks: Sequence[Task]) -> Generator[Outcome, None, None]:
         """Outcomes in the order of the tasks; raises as ``Engine.run`` does."""
         with SupervisedRunner(plan) as runner:
             for task in tasks:

@@ -92,7 +92,8 @@ def _empty(column: SweepColumn, shape: tuple[int, ...]) -> Values:
         return np.full(shape, np.nan)
     if column.kind == "text":
         return np.full(shape, None, dtype=object)
-    return np.ma.masked_all(shape, dtype=np.int64 if column.kind == "int" else np.bool_)
+    kind = np.int64 if column.kind == "int" else np.bool_
+    return np.ma.masked_array(np.zeros(shape, dtype=kind), np.ones(shape, dtype=bool))
 
 
 def _plain(column: SweepColumn, values: Values) -> tuple[Values, int | None]:

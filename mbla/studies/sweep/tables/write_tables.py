@@ -37,6 +37,11 @@ def table_names(files: TableFiles, fragility: bool = False) -> tuple[str, ...]:
     return (CSV, JSON, *(name for name, wanted in asked if wanted))
 
 
+def refuse_tables(folder: Path, files: TableFiles, *, replace: bool, fragility: bool = False) -> None:
+    """FileError now, not after the work, where files of an earlier table are in the way."""
+    OutputFolder(folder, "sweep", replace, beside=True).refuse(*table_names(files, fragility))
+
+
 def write_tables(
     folder: Path,
     force: bool,

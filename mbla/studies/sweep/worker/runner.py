@@ -10,22 +10,30 @@ from mbla.deck import read_deck
 from mbla.failures import words_of
 from mbla.results.records.json_record import results_json
 from mbla.results.sta import StatusFile
-from mbla.run_deck import solve_deck
+from mbla.run_deck import solve_deck, title_of
 from mbla.run_options import RunOptions
+from mbla.sharing import sharing
 from mbla.studies.sweep.outcome import DONE, FAILED, Outcome
 from mbla.studies.sweep.plan import Plain, Plan, Task
 from mbla.studies.sweep.results import result_places, values_of
 from mbla.studies.sweep.settings import override_texts
+from mbla.studies.sweep.worker.kept import keep_files, wanted
+from mbla.studies.sweep.worker.memory import Memory
 
 ANSWERED = (0, 5)
 """exit codes with a verified answer for every case: 5 is that there is no load factor"""
 
 
 class PointRunner:
-    """Points of one plan, one after the other."""
+    """Points of one plan, one after the other.
+
+    What points have in common is worked out once: ``memory``. Files that the deck names are taken as they were when
+    they were first read.
+    """
 
     def __init__(self, plan: Plan) -> None:
         self.plan = plan
+        self.memory = Memory()
         self._places = result_places(plan.results, plan.cases)
 
     def run(self, task: Task) -> Outcome:
@@ -33,17 +41,24 @@ class PointRunner:
         started = time.perf_counter()
         results: dict[str, Plain] = {}
         try:
-            code, reason, results = self._solve(task)
+            with sharing(self.memory):
+                code, reason, results = self._solve(task)
         except Exception as error:
             code, reason = words_of(error)
-        state = DONE if code in ANSWERED else FAILED
-        return Outcome(task.key, state, code, reason, results, 1, time.perf_counter() - started)
+        return Outcome(task.key, state_of(code), code, reason, results, 1, time.perf_counter() - started)
 
     def _solve(self, task: Task) -> tuple[int, str, dict[str, Plain]]:
         plan, started = self.plan, time.perf_counter()
         deck = read_deck(Path(plan.deck), (*plan.fixed, *override_texts(task.settings)))
-        status_file = StatusFile(io.StringIO(), "")
-        results = solve_deck(deck, RunOptions(cases=plan.cases), status_file, None, started)
-        record = results_json(results)
+        status = io.StringIO()
+        results = solve_deck(deck, RunOptions(cases=plan.cases), StatusFile(status, title_of(deck)), None, started)
+        if wanted(plan, state_of(results.exit_code)):
+            keep_files(plan, task, results, status.getvalue(), deck.content.output)
+        record = results_json(results, on_demand=True)
         reasons = [case["reason"] for case in record["cases"] if case["reason"]]
         return results.exit_code, "; ".join(reasons), values_of(record, self._places)
+
+
+def state_of(exit_code: int) -> str:
+    """State of a point whose deck would end with this exit code."""
+    return DONE if exit_code in ANSWERED else FAILED

@@ -48,6 +48,7 @@ class SupervisedRunner:
     """Context manager; solves points of one plan, one after the other, in a process that is replaced when it must be.
 
     started : processes begun so far
+    stopped : ``kill`` was called
     """
 
     def __init__(self, plan: Plan, command: tuple[str, ...] = COMMAND) -> None:
@@ -57,7 +58,7 @@ class SupervisedRunner:
         self._process = LineProcess(command, ENVIRONMENT)
         self._fresh = True
         self._first = self._held = 0.0
-        self._stopped = False
+        self.stopped = False
 
     def __enter__(self) -> SupervisedRunner:
         return self
@@ -69,7 +70,7 @@ class SupervisedRunner:
 
     def kill(self) -> None:
         """End what is under way, from another thread; ``run`` raises StoppedError there, now and later."""
-        self._stopped = True
+        self.stopped = True
         self._process.kill()
 
     def run(self, task: Task) -> Outcome:
@@ -90,7 +91,7 @@ class SupervisedRunner:
             self._prepare()
             fresh, started = self._fresh, time.perf_counter()
             attempt = self._attempt(task)
-            if self._stopped:
+            if self.stopped:
                 raise StoppedError
             settled = fresh if attempt.memory else attempt.outcome is not None
             if settled or number == TRIES:
@@ -143,7 +144,7 @@ class SupervisedRunner:
             return
         words = ""
         for _ in range(TRIES):
-            if self._stopped:
+            if self.stopped:
                 raise StoppedError
             words = self._begin()
             if not words:

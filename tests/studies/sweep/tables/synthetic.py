@@ -1,8 +1,9 @@
-"""A sweep made by hand: friction in a grid with a sample of thickness and a seed, one point left out by a constraint."""
+"""A sweep made by hand: friction in a grid with a sample of thickness and a seed, one point of it left out."""
 
 from mbla.deck.units import Units
 from mbla.studies.sweep.design.design import Design, DesignColumn, Dimension, Point
 from mbla.studies.sweep.outcome import DONE, FAILED, Outcome
+from mbla.studies.sweep.plan import Plain
 from mbla.studies.sweep.result_columns import result_columns
 from mbla.studies.sweep.tables.from_outcomes import sweep_table
 from mbla.studies.sweep.tables.sweep_json import SweepRun
@@ -34,7 +35,7 @@ def keys() -> list[str]:
 
 def outcomes() -> dict[str, Outcome]:
     """Solved, without equilibrium, solved, failed; the fifth has what the fourth has not."""
-    solved = {
+    solved: dict[str, Plain] = {
         "status": "solved",
         "load_factor": 0.1 + 0.2,
         "verified": True,
@@ -42,8 +43,8 @@ def outcomes() -> dict[str, Outcome]:
         "model.total_weight": 65.0,
         "time.solve/standing": 0.25,
     }
-    none = dict.fromkeys(solved)
-    found = [
+    none: dict[str, Plain] = dict.fromkeys(solved)
+    found: list[tuple[str, int, str, dict[str, Plain]]] = [
         (DONE, 0, "", solved),
         (DONE, 5, 'a block, "the top", falls\nby itself', {**none, "status": "no_equilibrium", "verified": True}),
         (DONE, 0, "", {**solved, "load_factor": 1e-300, "mechanism.hinges": 0}),

@@ -1,0 +1,75 @@
+"""``mbla interact``: from its options to the diagram and its files."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from mbla.deck import Deck
+from mbla.errors import UsageError
+from mbla.model import build_model
+from mbla.results.files import OutputFolder
+from mbla.run_deck import contacts_of
+from mbla.run_options import RunOptions
+from mbla.studies.interact.angles import FULL
+from mbla.studies.interact.direction import direction_question
+from mbla.studies.interact.here import HereEngine
+from mbla.studies.interact.question import Question
+from mbla.studies.interact.records import study_json
+from mbla.studies.interact.study import Report, Study, plan_of, study_points
+from mbla.studies.interact.two_loads import two_loads_question
+from mbla.studies.interact.write import write_study
+
+DIRECTIONS, ANGLES = 72, 31
+"""points unless their number is given: every 5 degrees around, every 3 degrees of a quarter"""
+MOST_POINTS = 3600
+QUARTER = 90.0
+
+
+def interact(
+    deck: Deck, run: RunOptions, options: Any, report: Report | None
+) -> tuple[Study, dict[str, Any], list[str]]:
+    """Solve the points of a diagram and write the files; the study, its JSON record, and remarks.
+
+    options : ``case`` or ``loads`` (two names), ``directions``, ``start`` and ``end`` in degrees, None unless given
+
+    Raises
+    ------
+    DeckError, UsageError
+        The deck is not valid, or cannot be asked this; nothing is written then.
+    FileError
+        Files are in the way or cannot be written.
+    """
+    question = question_of(deck, options)
+    stem = f"{deck.path.stem}_interact"
+    out = OutputFolder(run.folder_for(deck.path), stem, run.force, beside=True)
+    out.refuse(*(f"{stem}.{ending}" for ending in ("csv", "json")))
+    with out:
+        plan = plan_of(deck.path, run.overrides, question, "", "")
+        study = study_points(deck, run.overrides, question, plan, HereEngine(), report)
+        remarks = write_study(study, out)
+    return study, study_json(study, out.names), remarks
+
+
+def question_of(deck: Deck, options: Any) -> Question:
+    """What is asked of a deck; building the model here finds whatever is wrong with it before a point is solved."""
+    model = build_model(deck)
+    contacts_of(deck, model)
+    if options.loads is None:
+        if options.start is not None or options.end is not None:
+            raise UsageError("--from and --to apply with --loads; directions go all around")
+        return direction_question(deck, options.case or "", _count(options.directions, DIRECTIONS, 1))
+    if options.case:
+        raise UsageError("--case and --loads: one or the other; --loads names the two load cases")
+    start = 0.0 if options.start is None else options.start
+    end = start + QUARTER if options.end is None else options.end
+    if not start < end <= start + FULL:
+        raise UsageError(f"--from {start:g} --to {end:g}: the end must lie above, by 360 degrees at most")
+    first, second = options.loads
+    return two_loads_question(deck, model, (first, second), start, end, _count(options.directions, ANGLES, 2))
+
+
+def _count(asked: int | None, usual: int, least: int) -> int:
+    count = usual if asked is None else asked
+    if not least <= count <= MOST_POINTS:
+        raise UsageError(f"--directions {count}: {least} to {MOST_POINTS} points")
+    return count

@@ -1,0 +1,113 @@
+"""The diagram of one deck: table of contents of ``mbla interact``."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from mbla.deck import Deck
+from mbla.deck.units import Units
+from mbla.results.provenance import collect_provenance
+from mbla.results.results import now
+from mbla.run_deck import title_of
+from mbla.studies.interact.domain import Domain, domain_of
+from mbla.studies.interact.point import RESULTS, Point, point_of
+from mbla.studies.interact.question import Question
+from mbla.studies.sweep.engine.engine import Engine
+from mbla.studies.sweep.plan import Plan, Task
+
+GRAVEST_FIRST = (1, 6, 7, 3, 4)
+"""exit codes of points that were not answered"""
+NO_FACTOR = 5
+Report = Callable[[int, int], None]
+"""called with the points done and all points"""
+
+
+@dataclass(frozen=True)
+class Study:
+    """Every point of the diagram, and what they say together.
+
+    overrides : of the command line
+    domain    : of associative flow; None where the points do not lie in the plane of two loads
+    seconds   : by the clock
+    """
+
+    deck: str
+    title: str
+    overrides: tuple[str, ...]
+    units: Units
+    flow_rule: str
+    question: Question
+    points: tuple[Point, ...]
+    domain: Domain | None
+    seconds: float
+    provenance: dict[str, str]
+    created: str = field(default_factory=now)
+
+    @property
+    def exit_code(self) -> int:
+        """The gravest of the points without a verified answer; 4 where bounds cross; 5 without any load factor; else 0.
+
+        A direction in which the load never brings collapse is an answer, as a position of a travelling load is.
+        """
+        codes = {point.exit_code for point in self.points if not point.answered}
+        if codes:
+            return next((code for code in GRAVEST_FIRST if code in codes), max(codes))
+        if self.domain is not None and self.domain.crossings:
+            return 4
+        return 0 if any(point.has_factor for point in self.points) else NO_FACTOR
+
+
+def study_points(
+    deck: Deck, fixed: Sequence[str], question: Question, plan: Plan, engine: Engine, report: Report | None
+) -> Study:
+    """Solve every point of a question; ``fixed`` are the overrides that the deck was read with.
+
+    Raises as the engine does.
+    """
+    started = time.perf_counter()
+    tasks = tasks_of(question)
+    numbers = {task.key: task.number for task in tasks}
+    points: dict[int, Point] = {}
+    for outcome in engine.run(plan, tasks):
+        number = numbers[outcome.key]
+        points[number] = point_of(question.angles[number - 1], outcome)
+        if report is not None:
+            report(len(points), len(tasks))
+    ordered = tuple(points[number] for number in sorted(points))
+    domain = domain_of(ordered, question.pair, closed=question.closed) if question.pair else None
+    return Study(
+        deck=deck.path.name,
+        title=title_of(deck),
+        overrides=tuple(fixed),
+        units=deck.units,
+        flow_rule=deck.analysis.flow_rule,
+        question=question,
+        points=ordered,
+        domain=domain,
+        seconds=time.perf_counter() - started,
+        provenance=collect_provenance(),
+    )
+
+
+def tasks_of(question: Question) -> list[Task]:
+    """One task for each angle; no two angles are one point."""
+    return [Task(str(number), number, settings) for number, settings in enumerate(question.settings, 1)]
+
+
+def plan_of(path: Path, fixed: Sequence[str], question: Question, fingerprint: str, program: str) -> Plan:
+    """What the points have in common."""
+    return Plan(
+        deck=str(path.resolve()),
+        fingerprint=fingerprint,
+        fixed=(*fixed, *question.fixed),
+        cases=(question.case,),
+        results=RESULTS,
+        keep="none",
+        folder=str(path.resolve().parent),
+        time_limit=None,
+        memory_limit=None,
+        program=program,
+    )

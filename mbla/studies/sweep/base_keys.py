@@ -1,0 +1,147 @@
+"""Key paths of a sweep in its base deck: whether there is such a key, its unit, its value."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from types import UnionType
+from typing import Annotated, Any, Union, get_args, get_origin
+
+from pydantic import BaseModel
+from pydantic.fields import FieldInfo
+
+from mbla.deck.deck import Deck
+from mbla.deck.fields import allowed_keys, annotations_at, sections_at, takes_names
+from mbla.deck.overrides import RefusedError, item_index, next_key
+from mbla.deck.quantities import Quantity
+from mbla.deck.suggestions import listed, unknown
+from mbla.deck.tree import KeyPath, key_text
+from mbla.deck.types import DeckContent
+from mbla.deck.units import Units
+
+FIXED = {
+    "include": "files are included before anything is set",
+    "mbla": "it is the version of the format",
+    "units": "the columns of the table have one unit",
+    "title": "it does not change what a point gives",
+    "output": "it does not change what a point gives; the sweep file says with output.files what is kept",
+    "expected": "it does not change what a point gives",
+}
+"""Sections of the deck that no parameter changes, and why"""
+
+
+def path_of_key(data: Mapping[str, Any], key: str) -> KeyPath:
+    """Path of the value that a key path of a parameter names in a deck; sections may be left to their defaults.
+
+    data : the deck as read
+
+    Raises
+    ------
+    RefusedError
+        with what is wrong with it
+    """
+    words = key.strip().split(".")
+    if words[0] in FIXED:
+        raise RefusedError(f"{words[0]} cannot change from point to point: {FIXED[words[0]]}")
+    path: KeyPath = ()
+    below: Any = data
+    while words:
+        word, words = next_key(below, words)
+        step = _step(below, path, word)
+        if isinstance(below, dict):
+            below = below.get(step)
+        else:
+            below = below[step] if isinstance(below, list) and isinstance(step, int) else None
+        path = (*path, step)
+    if sections_at(DeckContent, path) and (keys := allowed_keys(DeckContent, path)):
+        if not _takes_plain_values(path):
+            raise RefusedError(f"{key_text(path)} is a section of the deck: name one of its keys, {listed(keys)}")
+    elif takes_names(DeckContent, path):
+        names = listed(below) if below else "a name"
+        raise RefusedError(f"{key_text(path)} is a section of the deck: name what is in it, {names}")
+    return path
+
+
+def _step(data: Any, path: KeyPath, word: str) -> str | int:
+    """The next key or number of an item below a path."""
+    if isinstance(data, list):
+        return item_index(data, word)
+    if isinstance(data, dict) and word in data:
+        return word
+    if takes_names(DeckContent, path):
+        raise RefusedError(unknown(f"name {word} in {key_text(path)}", word, data or (), "known"))
+    keys = allowed_keys(DeckContent, path)
+    if data is None and not keys:
+        raise RefusedError(f"the deck has nothing at {key_text(path)}")
+    if not keys or not isinstance(data, dict | None):
+        raise RefusedError(f"the deck has a single value at {key_text(path)}, with nothing below it")
+    if word not in keys:
+        where = f"key {word} in {key_text(path)}" if path else f"section {word}"
+        raise RefusedError(unknown(where, word, keys))
+    return word
+
+
+def _takes_plain_values(path: KeyPath) -> bool:
+    """Whether a value that may be a section may be a number, text or list as well."""
+    return any(
+        not (isinstance(each, type) and issubclass(each, BaseModel))
+        for annotation in annotations_at(DeckContent, path)
+        for each in _plain_branches(annotation)
+    )
+
+
+def _plain_branches(annotation: Any) -> Iterator[Any]:
+    origin = get_origin(annotation)
+    if origin is Annotated:
+        yield from _plain_branches(get_args(annotation)[0])
+    elif origin in (Union, UnionType):
+        for each in get_args(annotation):
+            yield from _plain_branches(each)
+    elif annotation is not type(None):
+        yield annotation
+
+
+def unit_at(path: KeyPath, units: Units) -> str:
+    """The deck's unit of the value at a path; empty for plain numbers, for text, and where several are possible."""
+    dimensions = {
+        each.dimension for annotation in annotations_at(DeckContent, path) for each in _quantities(annotation)
+    }
+    return units.unit(dimensions.pop()) if len(dimensions) == 1 else ""
+
+
+def _quantities(annotation: Any) -> Iterator[Quantity]:
+    """Quantities of an annotation and of the items of a list."""
+    if get_origin(annotation) is Annotated:
+        below, *metadata = get_args(annotation)
+        for item in metadata:
+            if isinstance(item, Quantity):
+                yield item
+            elif isinstance(item, FieldInfo):
+                yield from (each for each in item.metadata if isinstance(each, Quantity))
+        yield from _quantities(below)
+    elif get_origin(annotation) in (Union, UnionType, list, tuple):
+        for each in get_args(annotation):
+            yield from _quantities(each)
+
+
+def value_at(deck: Deck, path: KeyPath) -> Any:
+    """Checked value at a path, in the deck's units; None where there is none."""
+    value: Any = deck.content
+    for key in path:
+        if isinstance(value, BaseModel):
+            fields = type(value).model_fields
+            name = next((name for name, field in fields.items() if key == (field.alias or name)), None)
+            value = None if name is None else getattr(value, name)
+        elif isinstance(value, dict):
+            value = value.get(key)
+        else:
+            value = value[key] if isinstance(value, (list, tuple)) and isinstance(key, int) else None
+    return value
+
+
+def vector_at(deck: Deck, path: KeyPath) -> tuple[float, float, float] | None:
+    """Vector of three numbers at a path; None where there is something else."""
+    value = value_at(deck, path)
+    if not isinstance(value, tuple) or len(value) != 3 or not all(isinstance(each, (int, float)) for each in value):
+        return None
+    x, y, z = (float(each) for each in value)
+    return x, y, z

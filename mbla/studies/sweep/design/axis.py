@@ -1,0 +1,204 @@
+"""Axes of a design: along each of them one parameter changes, or several change together."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import TypeAlias
+
+from mbla.deck.suggestions import listed
+from mbla.deck.tree import KeyPath
+from mbla.errors import DeckError, Fault
+from mbla.studies.sweep.design.design import DesignColumn, Dimension, Part
+from mbla.studies.sweep.design.sampling import quantiles
+from mbla.studies.sweep.design.ways import way
+from mbla.studies.sweep.design.ways.way import Filled, Form, Vector, WayError
+from mbla.studies.sweep.file.content import Combined, DesignPart, Parameter, Sampled, SweepContent
+from mbla.studies.sweep.plan import Plain
+
+FaultAt: TypeAlias = Callable[[KeyPath, str], Fault]
+ANGLES = ("azimuth", "elevation")
+
+
+@dataclass(frozen=True)
+class Axis:
+    """An axis with what the design has at each position along it.
+
+    columns  : those that change along it
+    values   : one for each position and column
+    settings : values by key path of the deck, one mapping for each position
+    sampling : kind of design whose points are a random sample of distributions; empty otherwise
+    """
+
+    dimension: Dimension
+    columns: tuple[DesignColumn, ...]
+    values: tuple[tuple[Plain, ...], ...]
+    settings: tuple[Mapping[str, Plain], ...]
+    sampling: str = ""
+
+
+@dataclass(frozen=True)
+class Sources:
+    """What parameters are made from.
+
+    vectors : by name of a parameter, the vector of the base deck that its directions turn
+    units   : by name of a parameter, the unit of its column
+    """
+
+    content: SweepContent
+    vectors: Mapping[str, Vector]
+    units: Mapping[str, str]
+    fault_at: FaultAt
+
+
+def setting_keys(name: str, parameter: Parameter) -> tuple[str, ...]:
+    """Key paths of the deck that get the value of a parameter."""
+    if parameter.key is None:
+        return (name if "." in name else f"parameters.{name}",)
+    return (parameter.key,) if isinstance(parameter.key, str) else tuple(parameter.key)
+
+
+def axes_of(sources: Sources) -> tuple[list[Part], list[Axis]]:
+    """Parts and axes of the design, slowest first.
+
+    Raises
+    ------
+    DeckError
+        with what is wrong with values of parameters
+    """
+    parts: list[Part] = []
+    axes: list[Axis] = []
+    faults: list[Fault] = []
+    taken = set(sources.content.parameters)
+    for number, (kind, combined, names) in enumerate(_parts(sources.content)):
+        try:
+            made = _axes_of_part(sources, ("design", number, kind), kind, combined, names)
+        except DeckError as error:
+            faults += error.faults
+            continue
+        if kind != "grid":
+            made = [_renamed(made[0], _free(kind, taken))]
+        taken.update(axis.dimension.name for axis in made)
+        axes += made
+        seed = combined.seed if isinstance(combined, Sampled) else None
+        parts.append(Part(kind, tuple(names), tuple(axis.dimension.name for axis in made), seed))
+    if faults:
+        raise DeckError(faults)
+    return parts, axes
+
+
+def _parts(content: SweepContent) -> list[tuple[str, Combined, list[str]]]:
+    """Kind, section and parameters of each part; a part that names none takes those that no other names."""
+    given = content.design or [DesignPart(grid=Combined(of=None))]
+    found: list[tuple[str, Combined]] = []
+    for part in given:
+        kind = next(kind for kind in DesignPart.model_fields if getattr(part, kind) is not None)
+        found.append((kind, getattr(part, kind)))
+    named = {name for _, combined in found for name in combined.of or ()}
+    rest = [name for name in content.parameters if name not in named]
+    return [(kind, combined, rest if combined.of is None else list(combined.of)) for kind, combined in found]
+
+
+def _axes_of_part(sources: Sources, path: KeyPath, kind: str, combined: Combined, names: Sequence[str]) -> list[Axis]:
+    """The axes of one part; that of parameters which change together has the name of the kind."""
+    if isinstance(combined, Sampled):
+        return [_drawn(sources, kind, combined, names)]
+    axes = _each(sources, names, lambda name: _levels(sources, name))
+    if kind == "grid":
+        return axes
+    sizes = [axis.dimension.size for axis in axes]
+    if len(set(sizes)) > 1:
+        told = listed([f"{name} {size}" for name, size in zip(names, sizes, strict=True)], "and")
+        raise DeckError([sources.fault_at(path, f"needs as many values of each parameter; there are: {told}")])
+    return [_joined(kind, axes)]
+
+
+def _drawn(sources: Sources, kind: str, sampled: Sampled, names: Sequence[str]) -> Axis:
+    """Parameters drawn together."""
+    owners: list[str] = []
+    streams: list[str] = []
+    for name in names:
+        _, how, section = way.way_of(sources.content.parameters[name])
+        forms = how.forms(section)
+        owners += [name] * len(forms)
+        streams += [name + form.suffix for form in forms]
+    u = quantiles(kind, sampled.points, sampled.seed, streams)
+    own = {name: [i for i, owner in enumerate(owners) if owner == name] for name in names}
+
+    def axis(name: str) -> Axis:
+        _, how, section = way.way_of(sources.content.parameters[name])
+        return _axis(sources, name, how.at(section, u[:, own[name]], sources.vectors.get(name)), how.random)
+
+    whole = _joined(kind, _each(sources, names, axis))
+    return replace(whole, sampling=kind if all(column.random for column in whole.columns) else "")
+
+
+def _each(sources: Sources, names: Sequence[str], axis_of: Callable[[str], Axis]) -> list[Axis]:
+    """An axis for each parameter, all faults told together."""
+    axes: list[Axis] = []
+    faults: list[Fault] = []
+    for name in names:
+        try:
+            axes.append(axis_of(name))
+        except WayError as error:
+            key = way.way_of(sources.content.parameters[name])[0]
+            faults.append(sources.fault_at(("parameters", name, key), str(error)))
+    if faults:
+        raise DeckError(faults)
+    return axes
+
+
+def _levels(sources: Sources, name: str) -> Axis:
+    _, how, section = way.way_of(sources.content.parameters[name])
+    return _axis(sources, name, how.levels(section, sources.vectors.get(name)), random=False)
+
+
+def _axis(sources: Sources, name: str, filled: Filled, random: bool) -> Axis:
+    """The axis of one parameter, under its name."""
+    parameter = sources.content.parameters[name]
+    _, how, section = way.way_of(parameter)
+    keys = setting_keys(name, parameter)
+    unit = parameter.unit or sources.units.get(name, "")
+    columns = tuple(_column(name, form, unit, keys, random) for form in how.forms(section))
+    return Axis(
+        Dimension(name, len(filled.settings)),
+        columns,
+        tuple(zip(*filled.columns, strict=True)),
+        tuple(dict.fromkeys(keys, value) for value in filled.settings),
+    )
+
+
+def _column(name: str, form: Form, unit: str, keys: Sequence[str], random: bool) -> DesignColumn:
+    of = listed(keys, "and")
+    words = {
+        "parameter": f"value of {of}",
+        "azimuth": f"azimuth of {of}, from +x towards +y",
+        "elevation": f"elevation of {of} above the horizon",
+    }[form.role]
+    shown = "degree" if form.role in ANGLES else "" if form.kind in ("text", "bool") else unit
+    return DesignColumn(name + form.suffix, shown, words, form.kind, form.role, name, random)
+
+
+def _joined(name: str, axes: Sequence[Axis]) -> Axis:
+    """One axis along which several change together."""
+    columns = tuple(column for axis in axes for column in axis.columns)
+    values = tuple(
+        tuple(value for row in rows for value in row) for rows in zip(*(axis.values for axis in axes), strict=True)
+    )
+    settings = tuple(
+        {key: value for row in rows for key, value in row.items()}
+        for rows in zip(*(axis.settings for axis in axes), strict=True)
+    )
+    return Axis(Dimension(name, len(values)), columns, values, settings)
+
+
+def _renamed(axis: Axis, name: str) -> Axis:
+    """An axis with its columns under another name."""
+    columns = tuple(replace(column, dimension=name) for column in axis.columns)
+    return replace(axis, dimension=Dimension(name, axis.dimension.size), columns=columns)
+
+
+def _free(kind: str, taken: set[str]) -> str:
+    """``sobol``, or ``sobol_2`` where there is one already."""
+    names = [kind, *(f"{kind}_{number}" for number in range(2, len(taken) + 3))]
+    return next(name for name in names if name not in taken)

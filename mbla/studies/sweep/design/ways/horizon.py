@@ -1,0 +1,41 @@
+"""Directions around the vertical: the horizontal part of a vector of the deck is turned, its vertical part stays."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+from mbla.arrays import FloatArray
+from mbla.studies.sweep.design.ways.directions import horizontal
+from mbla.studies.sweep.design.ways.linear import between, steps
+from mbla.studies.sweep.design.ways.way import Filled, Form, Vector, Way, WayError, points_of, register
+from mbla.studies.sweep.file.content import Horizon
+
+FULL_CIRCLE = 360.0
+
+
+def _levels(section: Horizon, vector: Vector | None) -> Filled:
+    """Equal angles; the last of a full circle, which is the first once more, is left out."""
+    points, turn = points_of(section), abs(section.end - section.start)
+    if turn > FULL_CIRCLE:
+        raise WayError(f"goes around {turn:g} degrees: a full circle of 360 holds every direction")
+    if points == 1 or turn == 0:
+        azimuths = [float(section.start)] * points
+    else:
+        azimuths = steps(section.start, section.end, points, points if turn == FULL_CIRCLE else points - 1)
+    return _turned(azimuths, section, vector)
+
+
+def _at(section: Horizon, u: FloatArray, vector: Vector | None) -> Filled:
+    return _turned(between(section.start, section.end, u[:, 0]), section, vector)
+
+
+def _turned(azimuths: Sequence[float], section: Horizon, vector: Vector | None) -> Filled:
+    along_x, along_y, vertical = map(float, vector or (0.0, 0.0, 0.0))
+    size = math.hypot(along_x, along_y) if section.size is None else section.size
+    if size == 0:
+        raise WayError("turns a vector without a horizontal part: give its size, or another vector in the deck")
+    return Filled((azimuths,), [[*horizontal(azimuth, size), vertical] for azimuth in azimuths])
+
+
+register("horizon", Way(_levels, _at, random=True, forms=lambda section: (Form(role="azimuth"),)))

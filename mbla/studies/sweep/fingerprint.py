@@ -1,0 +1,87 @@
+"""Hashes of decks by what they mean to a computation, the same on every machine and with every version of mbla."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Callable, Iterable, Sequence
+from pathlib import Path
+from typing import Any
+
+from mbla.deck.deck import Deck
+from mbla.deck.include import read_files
+from mbla.deck.overrides import apply_override
+from mbla.deck.reading import read_deck
+from mbla.deck.side_files import side_files
+from mbla.deck.tree import KeyPath, Tree, key_text
+from mbla.errors import DeckError
+from mbla.model.geometry.companions import companions
+
+WITHOUT_EFFECT = ("title", "output", "expected", "include")
+"""keys that do not change what a deck gives; what `include` names is merged in"""
+
+Resolve = Callable[[KeyPath, str], Path]
+
+
+def effective_tree(path: Path, overrides: Sequence[str]) -> Tree:
+    """A deck as read, with what it includes and with overrides in it, not evaluated.
+
+    Raises
+    ------
+    DeckError
+        where the text or an override is at fault; what only checks find is left to ``read_deck``
+    """
+    tree, reading = read_files(path)
+    for number, text in enumerate(overrides, start=1):
+        reading.faults += apply_override(tree, text, number)
+    if reading.faults:
+        raise DeckError(reading.faults)
+    return tree
+
+
+def fingerprint_of(path: Path, overrides: Sequence[str]) -> str:
+    """Fingerprint of a deck file with its overrides, as workers compare it; errors as of ``read_deck``."""
+    return deck_fingerprint(read_deck(path, overrides), effective_tree(path, overrides))
+
+
+def deck_fingerprint(deck: Deck, tree: Tree) -> str:
+    """Hash of the content of a deck and of the files that it names, 64 hex digits.
+
+    Comments, the order of keys, titles, expectations and what is written do not count; names of files do, as the
+    ending says how they are read.
+
+    Raises
+    ------
+    DeckError
+        where a file is missing or outside the deck's folder
+    """
+    content = {key: value for key, value in tree.data.items() if key not in WITHOUT_EFFECT}
+    return _hash([canonical(content), *file_hashes(side_files(content), deck.resolve_file)])
+
+
+def file_hashes(named: Iterable[tuple[KeyPath, str]], resolve_file: Resolve) -> list[str]:
+    """Place and hash of each file, with those that belong to it, in the order of places."""
+    lines = []
+    for path, name in named:
+        file = resolve_file(path, name)
+        lines += [f"{key_text(path)} {_file_hash(each)}" for each in (file, *companions(file))]
+    return sorted(lines)
+
+
+def canonical(value: Any) -> str:
+    """JSON with keys in order; floats so that no two of them are written alike."""
+    return json.dumps(value, sort_keys=True, separators=(",", ":"), allow_nan=False)
+
+
+def key_hash(fingerprint: str, settings: Any, files: Sequence[str]) -> str:
+    """Hash of an effective deck by its base and the values set in it."""
+    return _hash([fingerprint, canonical(settings), *files])
+
+
+def _hash(lines: Sequence[str]) -> str:
+    return hashlib.sha256("\n".join(lines).encode()).hexdigest()
+
+
+def _file_hash(path: Path) -> str:
+    with path.open("rb") as file:
+        return hashlib.file_digest(file, "sha256").hexdigest()

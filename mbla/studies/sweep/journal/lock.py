@@ -1,0 +1,120 @@
+"""Locks that keep two runs off one journal.
+
+A lock is one of the operating system (flock) on a file of its own beside the journal: it ends with the process that
+holds it, however that ends, so that none is ever left behind. The file says who holds it; it is removed at the end, and
+one that a killed process left is in nobody's way.
+
+Over NFS the lock holds between machines (Linux has it from the server since 2.6.12) unless the file system was mounted
+with ``local_lock``; Lustre has locks where it was mounted with ``flock``. Where there are none the run is refused.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import errno
+import fcntl
+import os
+import socket
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+from mbla.errors import FileError
+from mbla.results.files import file_errors
+
+_NONE_HERE = (errno.ENOSYS, errno.EOPNOTSUPP, errno.ENOLCK)
+"""errors of file systems without locks"""
+AT_WORK = "is at work on it; wait for its end or stop it"
+PATIENCE = 0.3
+"""seconds before a lock counts as held: a run that ends, or asks who holds it, has it for an instant"""
+_PAUSE = 0.02
+_WORDS = 200
+"""bytes that are read of who holds a lock"""
+
+
+def lock_path(path: Path) -> Path:
+    """The file that is locked for this one: hidden, beside it."""
+    return path.with_name(f".{path.name}.lock")
+
+
+@contextlib.contextmanager
+def locked(path: Path, *, shared: bool = False, busy: Callable[[], str] | None = None) -> Iterator[None]:
+    """Hold the lock of ``path`` inside the block.
+
+    shared : others may hold it shared at the same time
+    busy   : what is said where another process holds it; unless given, who that is
+
+    Raises
+    ------
+    FileError
+        another process holds it, or the file system has no locks
+    """
+    file = lock_path(path)
+    descriptor = _taken(path, file, shared, busy)
+    try:
+        if not shared:
+            with file_errors(file):
+                os.ftruncate(descriptor, 0)
+                os.pwrite(descriptor, f"process {os.getpid()} on {socket.gethostname()}".encode(), 0)
+        yield
+    finally:
+        _leave(file, descriptor)
+
+
+def holder(path: Path) -> str | None:
+    """Who holds the lock of a file alone, in words; None if nobody does."""
+    file = lock_path(path)
+    try:
+        descriptor = os.open(file, os.O_RDWR | os.O_CLOEXEC)
+    except OSError:
+        return None
+    try:
+        fcntl.flock(descriptor, fcntl.LOCK_SH | fcntl.LOCK_NB)
+    except OSError:
+        return os.pread(descriptor, _WORDS, 0).decode("utf-8", errors="replace") or "another process"
+    finally:
+        os.close(descriptor)
+    return None
+
+
+def _taken(path: Path, file: Path, shared: bool, busy: Callable[[], str] | None) -> int:
+    """Descriptor of the locked file; again where the one before removed the file in between."""
+    kind = fcntl.LOCK_SH if shared else fcntl.LOCK_EX
+    until = time.monotonic() + PATIENCE
+    while True:
+        with file_errors(file):
+            descriptor = os.open(file, os.O_RDWR | os.O_CREAT | os.O_CLOEXEC, 0o666)
+        try:
+            fcntl.flock(descriptor, kind | fcntl.LOCK_NB)
+            if _is_at(file, descriptor):
+                return descriptor
+        except BlockingIOError:
+            if time.monotonic() > until:
+                os.close(descriptor)
+                raise FileError(busy() if busy else f"{path}: {holder(path) or 'another process'} {AT_WORK}") from None
+            time.sleep(_PAUSE)
+        except OSError as error:
+            os.close(descriptor)
+            if error.errno in _NONE_HERE:
+                raise FileError(
+                    f"{path}: its file system has no locks to keep two runs apart; -o FOLDER writes elsewhere"
+                ) from error
+            raise FileError(f"{file}: {error.strerror}") from error
+        os.close(descriptor)
+
+
+def _is_at(file: Path, descriptor: int) -> bool:
+    """Whether the open file still is the one of that name."""
+    try:
+        return os.path.samestat(file.stat(), os.fstat(descriptor))
+    except FileNotFoundError:
+        return False
+
+
+def _leave(file: Path, descriptor: int) -> None:
+    """Remove the file where nobody else holds the lock as well, and let go."""
+    with contextlib.suppress(OSError):
+        fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        if _is_at(file, descriptor):
+            file.unlink()
+    os.close(descriptor)

@@ -1,0 +1,109 @@
+"""The commands on parameter sweeps: call what does the work, print, return the exit status; nothing else.
+
+They print as :mod:`mbla.cli` does, which calls them and says what went wrong. Everything of a command is imported when
+it is called, so that the program starts at once.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+import time
+from typing import TYPE_CHECKING
+
+from mbla.collector import loading, no_collection
+
+if TYPE_CHECKING:
+    from mbla.studies.sweep.command import SweepOptions
+    from mbla.studies.sweep.outcome import Outcome
+    from mbla.studies.sweep.plan import Task
+    from mbla.studies.sweep.progress import Progress
+
+BETWEEN_LINES = 10.0
+"""seconds between lines of progress where there is no terminal"""
+WIDTH = 100
+
+
+def sweep(options: argparse.Namespace) -> int:
+    """Solve the points of a sweep file, or list them; the summary goes to standard output, or the JSON object alone."""
+    with no_collection():
+        from mbla.studies.sweep.file.read import read_sweep
+
+    content = read_sweep(options.sweep, tuple(options.set))
+    with loading():
+        from mbla.results.records.json_record import json_line
+        from mbla.studies.sweep.command import dry_run_json, prepare, run_sweep
+        from mbla.studies.sweep.design.words import design_lines
+        from mbla.studies.sweep.words import sweep_lines
+
+    chosen = _sweep_options(options)
+    prepared = prepare(content, chosen)
+    if options.dry_run:
+        text = [json_line(dry_run_json(prepared))] if options.json else design_lines(prepared.design)
+        print("\n".join(text), flush=True)
+        return 0
+    report = None if options.quiet else _Reporter()
+    try:
+        finished = run_sweep(prepared, chosen, report)
+    finally:
+        if report is not None:
+            report.end()
+    if options.json:
+        print(json_line(finished.record), flush=True)
+    if not options.quiet:
+        lines = [*sweep_lines(finished.record, finished.table), f"  files: {chosen.folder_for(options.sweep)}/"]
+        print("\n".join(lines), file=sys.stderr if options.json else sys.stdout, flush=True)
+    return finished.exit_code
+
+
+def _sweep_options(options: argparse.Namespace) -> SweepOptions:
+    from mbla.studies.sweep.command import SweepOptions
+    from mbla.studies.sweep.engine.options import EngineOptions
+
+    return SweepOptions(
+        folder=options.output,
+        engine=EngineOptions(
+            workers=options.jobs,
+            scheduler=options.scheduler or "",
+            scheduler_file=options.scheduler_file,
+            tls_ca_file=options.tls_ca_file,
+            tls_cert=options.tls_cert,
+            tls_key=options.tls_key,
+        ),
+        shard=options.shard,
+        resume=options.resume or options.retry_failed,
+        force=options.force,
+        retry_failed=options.retry_failed,
+        parquet=options.parquet,
+        hdf5=options.hdf5,
+    )
+
+
+class _Reporter:
+    """Progress on standard error: a line that rewrites itself on a terminal, a line now and then elsewhere."""
+
+    def __init__(self) -> None:
+        self._terminal = sys.stderr.isatty()
+        self._last = time.monotonic()
+
+    def __call__(self, progress: Progress, task: Task | None, outcome: Outcome | None) -> None:
+        if outcome is not None and task is not None and outcome.state == "failed":
+            self.end()
+            self._line(f"point {task.number} failed: {outcome.reason}")
+        if self._terminal:
+            print(f"\r{progress.bar()[:WIDTH]:<{WIDTH}}", end="", file=sys.stderr, flush=True)
+            return
+        if outcome is None:
+            known = f", {progress.earlier} are in the journal" if progress.earlier else ""
+            self._line(f"{progress.total} points to solve{known}")
+        elif time.monotonic() - self._last >= BETWEEN_LINES:
+            self._last = time.monotonic()
+            self._line(progress.words())
+
+    def end(self) -> None:
+        """What is said next has a line of its own."""
+        if self._terminal:
+            print(f"\r{'':<{WIDTH}}\r", end="", file=sys.stderr, flush=True)
+
+    def _line(self, text: str) -> None:
+        print(f"mbla: {text}", file=sys.stderr, flush=True)
