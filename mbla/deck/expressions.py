@@ -79,7 +79,7 @@ def is_expression(value: object) -> bool:
 class Comparison:
     """A comparison such as ``t < 0.2*radius``, or a chain of them, ``0.1 < t <= 0.5``.
 
-    names : of the parameters in it, in order
+    names : in it, in order, without those of functions that it calls
     """
 
     text: str
@@ -119,8 +119,9 @@ def read_comparison(text: str) -> Comparison:
             name = ast.unparse(part)
             raise ExpressionError(f"{name} is no name of letters, digits and _: give that parameter one, with its key")
     called = {part.func for part in ast.walk(node) if isinstance(part, ast.Call)}
-    named = [part.id for part in ast.walk(node) if isinstance(part, ast.Name) and part not in called]
-    return Comparison(text, tuple(dict.fromkeys(name for name in named if name not in CONSTANTS)), node)
+    named = [part for part in ast.walk(node) if isinstance(part, ast.Name) and part not in called]
+    named.sort(key=lambda part: (part.lineno, part.col_offset))
+    return Comparison(text, tuple(dict.fromkeys(part.id for part in named)), node)
 
 
 class Parameters:

@@ -49,14 +49,10 @@ def case_json(model: Model, contacts: Contacts, case: CaseResult, *, on_demand: 
         "size": None if solution.size is None else asdict(solution.size),
         "reductions": reductions_json(solution.reductions),
         "path": [{name: finite(value) for name, value in asdict(point).items()} for point in solution.path],
-<<<<<<< HEAD
-        "mechanism": None if mechanics is None else _mechanism(model, contacts, case, mechanics),
-        "reactions": None if mechanics is None else reactions_json(model, contacts, case.load_case, mechanics),
-=======
         "mechanism": None
         if mechanics is None
         else mechanism(model, contacts, case.load_case, mechanics, _dimension(case)),
->>>>>>> b95a9b7cb94ed18fc33ce47832a07184eff5264d
+        "reactions": None if mechanics is None else reactions_json(model, contacts, case.load_case, mechanics),
         "time": {"total": number(solution.seconds), "solver": number(solver)},
     }
 

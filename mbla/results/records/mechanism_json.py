@@ -11,7 +11,7 @@ from mbla.contacts.contacts import Contacts
 from mbla.model.model import LoadCase, Model
 from mbla.results.collapse.collapse import Collapse, collapse_of
 from mbla.results.collapse.enough import Enough, enough_of
-from mbla.results.collapse.failure import failure_of
+from mbla.results.collapse.failure import Failure, failure_of
 from mbla.results.collapse.force_freedom import ForceFreedom, force_freedom
 from mbla.results.collapse.interface_modes import InterfaceMode
 from mbla.results.collapse.mechanism_class import mechanism_class
@@ -32,26 +32,6 @@ def mechanism_json(
     model: Model, contacts: Contacts, load_case: LoadCase, mechanics: Mechanics, dimension: int
 ) -> dict[str, Any]:
     """Contact points by mode, interfaces by mode, parts and work; ``dimension``: in which the case was solved."""
-<<<<<<< HEAD
-    collapse = collapse_of(model, contacts, load_case, mechanics)
-    share = moving_share(model, collapse.parts)
-    failure = failure_of(model, contacts, collapse, mechanics)
-    return {
-        "class": mechanism_class(failure).value,
-        **_points(mechanics),
-        "interfaces": {mode.name.lower(): collapse.interfaces.count(mode) for mode in InterfaceMode},
-        "hinges": collapse.interfaces.count(InterfaceMode.HINGE),
-        "reach": reach(share),
-        "moving_blocks": int(np.sum(~model.fixed & (collapse.parts > 0))),
-        "moving_weight_share": number(share),
-        "moving_parts": len(collapse.motions),
-        "parts": [part_json(model, motion) for motion in collapse.motions[:MOST_PARTS]],
-        **failure_json(model, failure),
-        "force_freedom": _force_freedom(force_freedom(model, contacts, mechanics, dimension)),
-        "enough": _enough(enough_of(model, contacts, collapse.parts)),
-        "work": _work(model, contacts, load_case, mechanics, collapse),
-    }
-=======
     return dict(mechanism_on_demand(model, contacts, load_case, mechanics, dimension))
 
 
@@ -65,8 +45,12 @@ def mechanism_on_demand(
         return collapse_of(model, contacts, load_case, mechanics)
 
     @cache
-    def failure() -> dict[str, Any]:
-        return failure_json(model, failure_of(model, contacts, collapse(), mechanics))
+    def failure() -> Failure:
+        return failure_of(model, contacts, collapse(), mechanics)
+
+    @cache
+    def failure_keys() -> dict[str, Any]:
+        return failure_json(model, failure())
 
     @cache
     def points() -> dict[str, int]:
@@ -77,7 +61,8 @@ def mechanism_on_demand(
         return moving_share(model, collapse().parts)
 
     return OnDemand(
-        {mode: partial(lambda mode: points()[mode], mode) for mode in POINT_MODES}
+        {"class": lambda: mechanism_class(failure()).value}
+        | {mode: partial(lambda mode: points()[mode], mode) for mode in POINT_MODES}
         | {
             "interfaces": lambda: {mode.name.lower(): collapse().interfaces.count(mode) for mode in InterfaceMode},
             "hinges": lambda: collapse().interfaces.count(InterfaceMode.HINGE),
@@ -87,14 +72,13 @@ def mechanism_on_demand(
             "moving_parts": lambda: len(collapse().motions),
             "parts": lambda: [part_json(model, motion) for motion in collapse().motions[:MOST_PARTS]],
         }
-        | {key: partial(lambda key: failure()[key], key) for key in FAILURE_KEYS}
+        | {key: partial(lambda key: failure_keys()[key], key) for key in FAILURE_KEYS}
         | {
             "force_freedom": lambda: _force_freedom(force_freedom(model, contacts, mechanics, dimension)),
             "enough": lambda: _enough(enough_of(model, contacts, collapse().parts)),
             "work": lambda: _work(model, contacts, load_case, mechanics, collapse()),
         }
     )
->>>>>>> b95a9b7cb94ed18fc33ce47832a07184eff5264d
 
 
 def _points(mechanics: Mechanics) -> dict[str, int]:

@@ -80,9 +80,11 @@ def _holds(comparison: Comparison, axes: Sequence[Axis], known: Mapping[str, obj
     raw = {**known, **{name: value for axis in axes for name, value in _deck_values(axis, 0).items()}}
     own = [name for name in comparison.names if name in columns and name not in raw]
     for name in comparison.names:
+        if name in columns and name in CONSTANTS:
+            raise ExpressionError(f"{name} is {CONSTANTS[name]:.6g} in expressions: give the parameter another name")
         if name in columns and name in known and not any(name in names for names in set_names):
             raise ExpressionError(f"{name} is a parameter of the sweep and another one of the deck: rename one of them")
-        if name not in columns and name not in raw:
+        if name not in columns and name not in raw and name not in CONSTANTS:
             raise ExpressionError(unknown(f"parameter {name}", name, [*columns, *raw, *CONSTANTS], "known"))
         if name in own and columns[name].kind in ("text", "bool"):
             raise ExpressionError(f"{name} has values that are no numbers, which cannot be compared")

@@ -14,6 +14,8 @@ def steps(start: float, end: float, count: int, whole: int) -> list[float]:
     Those between are rounded to 12 significant digits of the span.
     """
     places = decimals_of(start, end)
+    if places is None:
+        raise WayError("has ends that numbers do not tell apart, or lie too far apart for them")
     values = [round(start * (1 - i / whole) + end * (i / whole), places) for i in range(count)]
     values[0] = start
     if count > whole:

@@ -22,8 +22,13 @@ def rounded_within(values: Iterable[float], least: float, greatest: float) -> li
     return [min(max(rounded(float(value)), least), greatest) for value in values]
 
 
-def decimals_of(start: float, end: float) -> int:
-    """Decimal places that give DIGITS significant digits of the span, as far as numbers of that size have them."""
+def decimals_of(start: float, end: float) -> int | None:
+    """Decimal places that give DIGITS significant digits of the span, as far as numbers of that size have them.
+
+    None where the span is nothing, or more than a number holds.
+    """
+    if start == end or not math.isfinite(end - start):
+        return None
     of_span = DIGITS - 1 - math.floor(math.log10(abs(end - start)))
     of_size = EXACT_DIGITS - 1 - math.floor(math.log10(max(abs(start), abs(end))))
     return min(of_span, of_size)

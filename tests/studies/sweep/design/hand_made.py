@@ -1,0 +1,46 @@
+"""Designs from sweep files written as dicts."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from mbla.deck.tree import KeyPath, key_text
+from mbla.errors import Fault, Place
+from mbla.studies.sweep.design.build import design_of
+from mbla.studies.sweep.design.design import Design
+from mbla.studies.sweep.design.ways.way import Vector
+from mbla.studies.sweep.file.content import SweepContent
+
+
+def content_of(parameters: Mapping[str, Any], **keys: Any) -> SweepContent:
+    """Content of a sweep file with these parameters and further keys."""
+    return SweepContent.model_validate({"mbla_sweep": 1, "deck": "deck.yaml", "parameters": parameters, **keys})
+
+
+def fault_at(path: KeyPath, message: str) -> Fault:
+    return Fault(Place("sweep.yaml", 1, 1), key_text(path), message)
+
+
+def design(
+    parameters: Mapping[str, Any],
+    *,
+    vectors: Mapping[str, Vector] | None = None,
+    units: Mapping[str, str] | None = None,
+    known: Mapping[str, object] | None = None,
+    **keys: Any,
+) -> Design:
+    """The design of such a sweep over a deck with these vectors, units and parameters."""
+    return design_of(content_of(parameters, **keys), vectors or {}, units or {}, known or {}, fault_at)
+
+
+def column(design: Design, name: str) -> list[Any]:
+    """Values of a column at all points."""
+    place = [column.name for column in design.columns].index(name)
+    return [point.values[place] for point in design.points]
+
+
+def drawn(parameter: Mapping[str, Any], points: int = 2000, kind: str = "random", **keys: Any) -> Design:
+    """One parameter ``x`` drawn alone."""
+    vectors = {"x": (3.0, 4.0, -12.0)}
+    return design({"x": {"key": "a.x", **parameter}}, design=[{kind: {"points": points, **keys}}], vectors=vectors)
