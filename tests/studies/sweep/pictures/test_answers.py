@@ -1,14 +1,16 @@
+from typing import Any
+
 import numpy as np
 
 from mbla.studies.sweep.pictures.answers import Answer, answers_of, count_words
 from mbla.studies.sweep.pictures.view import chosen_results
 from tests.studies.sweep.pictures.hand_made import FAILED, FALLEN, UNBOUNDED, Row, grid
 
-STATES = {
+STATES: dict[str, dict[str, Any]] = {
     "solved": {"status": "solved", "load_factor": 0.5, "static_bound": 0.49},
-    "fallen": FALLEN | {"static_bound": None},
-    "unbounded": UNBOUNDED | {"static_bound": None},
-    "failed": FAILED | {"static_bound": None},
+    "fallen": {**FALLEN, "static_bound": None},
+    "unbounded": {**UNBOUNDED, "static_bound": None},
+    "failed": {**FAILED, "static_bound": None},
     "unsure": {"status": "not_verified", "load_factor": None, "static_bound": 0.3},
     "none": {"status": "solved", "load_factor": None, "static_bound": None},
     "not run": {"status": None, "load_factor": None, "static_bound": None},
@@ -56,7 +58,7 @@ def test_texts_are_places_among_categories() -> None:
 
 def test_of_other_results_nothing_lies_below_every_value() -> None:
     """A structure that does not stand has the load factor of none, but not the fewest hinges."""
-    table = grid({"state_of": list(STATES)}, lambda state_of: states(state_of) | {"hinges": None})
+    table = grid({"state_of": list(STATES)}, lambda state_of: {**states(state_of), "hinges": None})
     factor, hinges = (answers_of(table, chosen_results(table, name)[0]) for name in ("load_factor", "hinges"))
     assert (factor.below.sum(), factor.above.sum()) == (1, 1)
     assert not hinges.below.any()

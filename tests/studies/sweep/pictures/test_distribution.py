@@ -4,7 +4,7 @@ import pytest
 from mbla.studies.sweep.pictures.answers import answers_of
 from mbla.studies.sweep.pictures.distribution import cumulative
 from mbla.studies.sweep.pictures.view import chosen_results
-from tests.studies.sweep.pictures.hand_made import FAILED, FALLEN, UNBOUNDED, sample
+from tests.studies.sweep.pictures.hand_made import FAILED, FALLEN, UNBOUNDED, Row, sample
 
 
 def test_the_band_holds_the_whole_curve_as_often_as_it_says() -> None:
@@ -19,7 +19,7 @@ def test_the_band_holds_the_whole_curve_as_often_as_it_says() -> None:
 
 
 def test_what_does_not_stand_lies_below_and_what_nothing_brings_down_above() -> None:
-    answers = [FALLEN, 0.2, 0.4, UNBOUNDED]
+    answers: list[Row | float] = [FALLEN, 0.2, 0.4, UNBOUNDED]
     table = sample({"mu": [0.0, 1.0, 2.0, 3.0]}, lambda mu: answers[int(mu)])
     found = cumulative(answers_of(table, chosen_results(table, None)[0]), np.ones(4, dtype=bool), band=False)
     assert found.share.tolist() == pytest.approx([0.5, 0.75])
@@ -27,7 +27,7 @@ def test_what_does_not_stand_lies_below_and_what_nothing_brings_down_above() -> 
 
 
 def test_a_failed_point_may_lie_anywhere() -> None:
-    answers = [0.2, 0.4, FAILED, 0.6]
+    answers: list[Row | float] = [0.2, 0.4, FAILED, 0.6]
     table = sample({"mu": [0.0, 1.0, 2.0, 3.0]}, lambda mu: answers[int(mu)])
     found = cumulative(answers_of(table, chosen_results(table, None)[0]), np.ones(4, dtype=bool), band=False)
     assert found.low.tolist() == pytest.approx([0.25, 0.5, 0.75])
