@@ -41,6 +41,7 @@ def build_parser() -> argparse.ArgumentParser:
     _add_sweep(commands)
     _add_interact(commands)
     _add_tradeoff(commands)
+    _add_sweep_plot(commands)
     _add_explain(commands)
     _add_schema_and_new(commands)
     return parser
@@ -146,6 +147,10 @@ def _add_plot(commands: Any) -> None:
         default="auto",
         help="enlarge what moves beside the whole, where that is a small part of it (default auto)",
     )
+    _add_page_options(command)
+
+
+def _add_page_options(command: Any) -> None:
     command.add_argument("--size", default="1600x1000", metavar="WxH", help="pixels of a PNG at 100 dpi")
     command.add_argument("--dpi", type=int, default=100, help="dots per inch of a PNG (default 100)")
     command.add_argument(
@@ -319,6 +324,39 @@ def _add_tradeoff(commands: Any) -> None:
     command.add_argument("--run-limit", type=seconds, metavar="S", help="seconds for each setting")
     command.add_argument("--threads", type=threads, default=1, metavar="N", help="as of mbla run (default 1)")
     command.add_argument("-q", "--quiet", action="store_true", help="say nothing but errors")
+
+
+def _add_sweep_plot(commands: Any) -> None:
+    command = commands.add_parser(
+        "sweep-plot",
+        help="pictures of a sweep: curves, maps, scatter, distribution, tornado, polar (extra mbla[pictures])",
+        description="Pictures of the table of a sweep, sweep_KIND_RESULT.png and so on; those that suit the table "
+        "unless kinds are named. Points without a verified value are marked as such. Earlier pictures of the same "
+        "names are replaced.",
+    )
+    command.add_argument("sweep", type=Path, metavar="SWEEP.out|sweep.csv", help="folder of the sweep, or its table")
+    command.add_argument(
+        "-o",
+        "--output",
+        type=Path,
+        metavar="FILE|DIR",
+        help="PNG, SVG or PDF file, by its name, of one picture: the first that suits the table unless --kind "
+        "says which; or a folder (default: that of the sweep)",
+    )
+    command.add_argument(
+        "--kind",
+        metavar="KIND",
+        help="curve, map, polar, scatter, distribution, tornado, several with commas, or all that fit the table",
+    )
+    command.add_argument(
+        "--result", metavar="NAME", help="column, or key path for all load cases (default: load_factor)"
+    )
+    command.add_argument(
+        "--by",
+        metavar="PARAMETER",
+        help="parameter along the axis of curves and maps, of the curves of a distribution, or the only one of scatter",
+    )
+    _add_page_options(command)
 
 
 def _add_schema_and_new(commands: Any) -> None:

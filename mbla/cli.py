@@ -196,6 +196,7 @@ COMMANDS: dict[str, Callable[[argparse.Namespace], int]] = {
     "sweep": sweep_commands.sweep,
     "interact": _interact,
     "tradeoff": _tradeoff,
+    "sweep-plot": result_commands.sweep_plot,
     "schema": _schema,
     "new": _new,
 }

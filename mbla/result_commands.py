@@ -50,6 +50,19 @@ def plot(options: argparse.Namespace) -> int:
     return 0
 
 
+def sweep_plot(options: argparse.Namespace) -> int:
+    """Draw pictures of a sweep; their paths are printed."""
+    from mbla.studies.sweep.pictures.plot import plot_sweep, sweep_picture_options
+    from mbla.studies.sweep.tables.read_table import read_sweep_table
+
+    chosen = sweep_picture_options(options)
+    table = read_sweep_table(options.sweep)
+    folder = options.sweep if options.sweep.is_dir() else options.sweep.parent
+    for path in plot_sweep(table, options.output or folder, chosen):
+        print(path)
+    return 0
+
+
 def report(options: argparse.Namespace) -> int:
     """Write the HTML file; its path is printed, remarks on what it lacks go to standard error."""
     from mbla.results.hdf5.result_file import read_results_hdf5

@@ -46,6 +46,7 @@ def matplotlib_parts() -> Any:
         from matplotlib.figure import Figure
         from matplotlib.lines import Line2D
         from matplotlib.patches import Patch, Rectangle
+        from matplotlib.ticker import MaxNLocator
     except ImportError as error:
         raise UsageError("pictures need an extra that is not installed: pip install 'mbla[pictures]'") from error
     return SimpleNamespace(
@@ -60,6 +61,7 @@ def matplotlib_parts() -> Any:
         Figure=Figure,
         Line2D=Line2D,
         Patch=Patch,
+        MaxNLocator=MaxNLocator,
         Rectangle=Rectangle,
     )
 

@@ -21,11 +21,12 @@ FACTORS = ("load_factor", "static_bound", "kinematic_bound", "associative_load_f
 """results that are load factors: they have a place on their axis for a structure that does not stand, and for one that
 no load brings down"""
 STATUS = "status"
-MIXED_WORDS = "different answers"
 
 
 class Answer(IntEnum):
-    """Of a point, or of the points of a cell."""
+    """Of a point, or of the points of a cell (MIXED: texts that differ; PARTLY: a median that holds whatever the points
+    without a verified value would have).
+    """
 
     VALUE = 0
     UNVERIFIED = 1
@@ -35,6 +36,7 @@ class Answer(IntEnum):
     FAILED = 5
     NOT_RUN = 6
     MIXED = 7
+    PARTLY = 8
 
 
 @dataclass(frozen=True)
@@ -50,11 +52,12 @@ class Mark:
 MARKS = {
     Answer.UNVERIFIED: Mark("not verified", "o", WARNING, "xx"),
     Answer.NO_EQUILIBRIUM: Mark("no equilibrium (does not stand)", "v", INK, "///"),
-    Answer.UNBOUNDED: Mark("unbounded (no collapse)", "^", PURPLE, "\\" * 3),
+    Answer.UNBOUNDED: Mark("unbounded (no collapse)", "^", PURPLE, 3 * "\\"),
     Answer.NONE: Mark("has no such value", "|", GHOST, "--"),
     Answer.FAILED: Mark("failed", "x", WARNING, "xx"),
     Answer.NOT_RUN: Mark("not solved yet", ".", GHOST, "oo"),
-    Answer.MIXED: Mark(MIXED_WORDS, "d", GHOST, "++"),
+    Answer.MIXED: Mark("different from point to point", "d", GHOST, "++"),
+    Answer.PARTLY: Mark("some points without a verified value", "o", WARNING, "//"),
 }
 
 
@@ -119,7 +122,8 @@ def count_words(answers: Answers) -> str:
     """``48 points: 40 with a verified value, 5 no equilibrium (does not stand), 3 failed``."""
     total = len(answers.answer)
     counts = [(answers.of(answer).sum(), mark.words) for answer, mark in MARKS.items()]
-    parts = [f"{answers.good.sum()} with a verified value", *(f"{count} {words}" for count, words in counts if count)]
+    known = "with a value" if answers.column.path == STATUS else "with a verified value"
+    parts = [f"{answers.good.sum()} {known}", *(f"{count} {words}" for count, words in counts if count)]
     return f"{total} point{'s' * (total != 1)}: {', '.join(parts)}"
 
 

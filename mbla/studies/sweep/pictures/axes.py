@@ -104,8 +104,8 @@ def axis_of(table: SweepTable, column: SweepColumn) -> Axis:
     )
     if column.kind in ("text", "bool"):
         found: dict[Any, int] = {}
-        place = [found.setdefault(value, len(found)) for value in table[column.name].tolist()]
-        return Axis(column, tuple(found), np.array(place, dtype=np.int64), partners=partners)
+        numbers = [found.setdefault(value, len(found)) for value in table[column.name].tolist()]
+        return Axis(column, tuple(found), np.array(numbers, dtype=np.int64), partners=partners)
     levels, place = np.unique(numbers_of(column, table[column.name]), return_inverse=True)
     return Axis(column, tuple(levels.tolist()), place.reshape(-1).astype(np.int64), _is_log(levels), partners)
 

@@ -18,7 +18,7 @@ class Cells:
 
     value : the point's, or the median of several; nan where there is none
     low, high : least and greatest value of several points; nan where there is none
-    answer : of ``Answer``; UNVERIFIED of several points where some have no verified answer. -1 where there is no point
+    answer : of ``Answer``; NO_POINT where there is none
     count : points
     """
 
@@ -27,6 +27,16 @@ class Cells:
     high: FloatArray
     answer: IntArray
     count: IntArray
+
+    def shaped(self, shape: tuple[int, ...]) -> Cells:
+        """The same cells in arrays of another shape."""
+        value, low, high = (array.reshape(shape) for array in (self.value, self.low, self.high))
+        return Cells(value, low, high, self.answer.reshape(shape), self.count.reshape(shape))
+
+    def part(self, *place: int) -> Cells:
+        """The cells at a place of the first axes."""
+        value, low, high = (array[place] for array in (self.value, self.low, self.high))
+        return Cells(value, low, high, self.answer[place], self.count[place])
 
     @property
     def several(self) -> bool:
@@ -55,7 +65,7 @@ def pooled(answers: Answers, axes: Sequence[Axis]) -> Cells:
     for first, cell in zip(np.cumsum(count)[count > 1] - count[count > 1], np.flatnonzero(count > 1), strict=True):
         own = order[first : first + count[cell]]
         answer[cell], value[cell], low[cell], high[cell] = _together(answers, own)
-    return Cells(*(array.reshape(shape) for array in (value, low, high, answer, count)))
+    return Cells(value, low, high, answer, count).shaped(shape)
 
 
 def _together(answers: Answers, own: IntArray) -> tuple[int, float, float, float]:
@@ -76,4 +86,8 @@ def _together(answers: Answers, own: IntArray) -> tuple[int, float, float, float
     if not np.isfinite(lower):
         return (Answer.NO_EQUILIBRIUM if lower < 0 else Answer.UNBOUNDED), np.nan, low, high
     median = float((lower + upper) / 2) if np.isfinite(upper) else float(lower)
-    return (Answer.VALUE if len(ranked) == len(own) else Answer.UNVERIFIED), median, low, high
+    unknown = len(own) - len(ranked)
+    if not unknown:
+        return Answer.VALUE, median, low, high
+    ends = [np.sort(np.append(ranked, np.full(unknown, end)))[len(own) // 2] for end in (-np.inf, np.inf)]
+    return (Answer.PARTLY, median, low, high) if np.isfinite(ends).all() else (int(kinds.max()), np.nan, low, high)

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from mbla.arrays import FloatArray, IntArray
+from mbla.arrays import FloatArray
 from mbla.results.pictures.options import PictureOptions
 from mbla.studies.sweep.pictures.answers import Answer, answers_of
 from mbla.studies.sweep.pictures.axes import Axis
@@ -19,14 +19,13 @@ from mbla.studies.sweep.pictures.view import View
 MOST_NAMED = 10
 """lines that a legend names; more have a scale of colours beside them"""
 MARKERS = ("o", "s", "^", "D", "v", "P", "<", "X", ">", "p")
-NOT_REFUSED = ""
 
 
 def refusal(view: View) -> str:
     """Why there can be no curves, or nothing."""
     if view.answers.categories:
         return "the result is text; map and scatter show it"
-    return NOT_REFUSED if view.axes else "no parameter has two values of a grid; scatter shows samples"
+    return "" if view.axes else "no parameter has two values of a grid; scatter shows samples"
 
 
 def usual(view: View) -> bool:
@@ -45,7 +44,7 @@ def draw(path: Path, view: View, options: PictureOptions) -> None:
     """Write the picture; raises as ``open_page`` does."""
     x, lines, panels = curve_axes(view)
     chosen = [axis for axis in (panels, lines, x) if axis is not None]
-    cells = _with_three(pooled(view.answers, chosen), len(chosen))
+    cells = _with_three(pooled(view.answers, chosen))
     bounds = _bounds(view, chosen)
     notes = _notes(view, chosen, cells, bounds)
     what = f"{view.answers.label} over {x.label}" + (f", a line for each {lines.label}" if lines else "")
@@ -76,12 +75,14 @@ def _draw_panels(
             continue
         dress(sheet, axes, x.label, view.answers.label, panel_title(panels, number))
         for line in range(cells.value.shape[1]):
-            own = Cells(*(getattr(cells, name)[number, line] for name in ("value", "low", "high", "answer", "count")))
+            own = cells.part(number, line)
             band = (bounds[0][number, line], bounds[1][number, line]) if bounds else None
             draw_line(sheet, axes, view, x, own, line_style(sheet, line, cells.value.shape[1]), band)
         if view.answers.is_factor and (cells.answer == Answer.NO_EQUILIBRIUM).any():
             axes.axhline(0.0, color="#555555", linewidth=0.8 * sheet.page.scale, zorder=1)
         scale_axis(sheet, axes, x, share=1 / columns)
+        if not np.isfinite(cells.value).any():
+            axes.set_yticks([])
     for axes in frames.flat:
         axes.label_outer()
     if lines is not None and len(lines.levels) > MOST_NAMED:
@@ -92,7 +93,7 @@ def draw_line(
     sheet: Sheet, axes: Any, view: View, x: Axis, cells: Cells, style: dict[str, Any], band: Any = None
 ) -> None:
     """One line over an axis: broken where a point has no value, its markers where points have none."""
-    good = cells.answer == Answer.VALUE
+    good = np.isin(cells.answer, (Answer.VALUE, Answer.PARTLY))
     value = np.where(good, cells.value, np.nan)
     low, high = band if band is not None else (cells.low, cells.high)
     if band is not None or cells.several:
@@ -136,9 +137,9 @@ def _joined(good: Any) -> bool:
     return bool(np.all(beside[good]))
 
 
-def _with_three(cells: Cells, axes: int) -> Cells:
-    arrays: list[FloatArray | IntArray] = [cells.value, cells.low, cells.high, cells.answer, cells.count]
-    return Cells(*(array.reshape((1,) * (3 - axes) + array.shape) for array in arrays))  # type: ignore[arg-type]
+def _with_three(cells: Cells) -> Cells:
+    """With axes of one value before those that there are: panels, lines, abscissa."""
+    return cells.shaped((1,) * (3 - cells.value.ndim) + cells.value.shape)
 
 
 def _bounds(view: View, chosen: list[Axis]) -> tuple[FloatArray, FloatArray] | None:
@@ -151,7 +152,7 @@ def _bounds(view: View, chosen: list[Axis]) -> tuple[FloatArray, FloatArray] | N
     cells = [pooled(answers_of(view.table, found[name]), chosen) for name in ("static_bound", "kinematic_bound")]
     if cells[0].several:
         return None
-    low, high = (_with_three(each, len(chosen)).value for each in cells)
+    low, high = (_with_three(each).value for each in cells)
     return low, high
 
 
@@ -162,7 +163,7 @@ def _notes(view: View, chosen: list[Axis], cells: Cells, bounds: Any) -> list[st
         others = [dimension.name for dimension in view.table.dimensions if dimension.name not in shown]
         notes.append(
             f"line: median of up to {cells.count.max()} points of {', '.join(others) or 'equal values'}; "
-            "band: least to greatest; hollow: not all of the points have an answer"
+            "band: least to greatest"
         )
     if bounds:
         notes.append("band: static to kinematic bound")

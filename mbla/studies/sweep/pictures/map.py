@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
-from mbla.results.pictures.options import PictureOptions
+from mbla.results.pictures.options import DOTS_PER_INCH, PictureOptions
 from mbla.results.pictures.palette import GROUPS, INK
 from mbla.studies.sweep.pictures.answers import MARKS, Answer
 from mbla.studies.sweep.pictures.axes import Axis, value_words
@@ -19,8 +19,6 @@ from mbla.studies.sweep.pictures.view import View
 
 LEAST_CONTOURED = 5
 """values along each side from which contours tell more than the cells"""
-MOST_WRITTEN = 150
-"""cells on the page whose values have room to be written"""
 NO_POINT_COLOUR = "#F3F3F3"
 NO_POINT_WORDS = "no point"
 MOST_CLASSES = len(GROUPS)
@@ -52,8 +50,7 @@ def draw(path: Path, view: View, options: PictureOptions) -> None:
     elif cells.several:
         notes.append(f"cell: class of up to {cells.count.max()} points of the other parameters where it is the same")
     count = len(panels.levels) if panels else 1
-    arrays = [getattr(cells, name).reshape(count, len(y.levels), len(x.levels)) for name in CELL_ARRAYS]
-    cells = Cells(*arrays)
+    cells = cells.shaped((count, len(y.levels), len(x.levels)))
 
     def handles(page: Any) -> list[Any]:
         return _class_handles(page, view, cells) + hatch_handles(page, cells.answer)
@@ -69,8 +66,7 @@ def draw(path: Path, view: View, options: PictureOptions) -> None:
                 axes.set_axis_off()
                 continue
             dress(sheet, axes, x.label, y.label, panel_title(panels, number))
-            own = Cells(*(array[number] for array in arrays))
-            image = _draw_cells(sheet, axes, view, (x, y), own, limits, count) or image
+            image = _draw_cells(sheet, axes, view, (x, y), cells.part(number), limits, count) or image
             scale_axis(sheet, axes, x, share=1 / columns)
             scale_axis(sheet, axes, y, "y", share=1 / rows)
             axes.grid(visible=False)
@@ -80,9 +76,6 @@ def draw(path: Path, view: View, options: PictureOptions) -> None:
             bar = sheet.figure.colorbar(image, ax=frames, fraction=0.04, pad=0.01, aspect=40)
             bar.ax.tick_params(labelsize=sheet.small)
             bar.set_label(view.answers.label, fontsize=sheet.small, parse_math=False)
-
-
-CELL_ARRAYS = ("value", "low", "high", "answer", "count")
 
 
 def cell_edges(axis: Axis) -> FloatArray:
@@ -100,7 +93,7 @@ def _draw_cells(
 ) -> Any:
     """Colours, hatches, contours or numbers of one diagram; the image, None where no cell has a value."""
     x, y = (cell_edges(side) for side in sides)
-    good = cells.answer == Answer.VALUE
+    good = np.isin(cells.answer, (Answer.VALUE, Answer.PARTLY))
     axes.set_xlim(x[0], x[-1])
     axes.set_ylim(y[0], y[-1])
     classes = view.answers.categories
@@ -111,16 +104,28 @@ def _draw_cells(
         many = good.size > 400
         image = axes.pcolormesh(x, y, np.ma.masked_array(cells.value, ~good), cmap=scale, vmin=low, vmax=high,
                                 rasterized=many)  # fmt: skip
-    if image is None and classes == () and limits is None:
-        axes.set_facecolor("white")
     _hatch(sheet, axes, x, y, cells)
     if classes:
         return image
-    if good.size * panels <= MOST_WRITTEN:
+    if _written(sheet, sides, panels):
         _write_values(sheet, axes, sides, cells, limits)
     elif _contoured(sides) and good.any():
         _contour(sheet, axes, sides, np.ma.masked_array(cells.value, ~good), panels)
     return image
+
+
+def _written(sheet: Sheet, sides: tuple[Axis, Axis], panels: int) -> bool:
+    """Whether the cells are so large that their values can be written in them."""
+    width, height = (side * 72 / DOTS_PER_INCH for side in sheet.page.options.size)
+    across = panel_places(panels, sheet)
+    smallest = [np.diff(_even(axis)).min() / np.ptp(_even(axis)) for axis in sides]
+    wide = 0.8 * width / across[1] * smallest[0] >= 4.0 * sheet.small
+    return bool(wide and 0.85 * height * (sheet.top - sheet.bottom) / across[0] * smallest[1] >= 1.5 * sheet.small)
+
+
+def _even(axis: Axis) -> FloatArray:
+    """Edges of cells at their distances on the page."""
+    return np.log(cell_edges(axis)) if axis.log else cell_edges(axis)
 
 
 def _contoured(sides: tuple[Axis, Axis]) -> bool:
@@ -138,7 +143,7 @@ def _contour(sheet: Sheet, axes: Any, sides: tuple[Axis, Axis], values: Any, pan
 
 
 def _write_values(sheet: Sheet, axes: Any, sides: tuple[Axis, Axis], cells: Cells, limits: Any) -> None:
-    for row, column in zip(*np.nonzero(cells.answer == Answer.VALUE), strict=True):
+    for row, column in zip(*np.nonzero(np.isfinite(cells.value) & (cells.answer != Answer.UNVERIFIED)), strict=True):
         value = cells.value[row, column]
         share = (value - limits[0]) / (limits[1] - limits[0]) if limits[1] > limits[0] else 0.0
         axes.text(sides[0].coordinates[column], sides[1].coordinates[row], f"{value:.3g}", ha="center", va="center",
@@ -148,7 +153,10 @@ def _write_values(sheet: Sheet, axes: Any, sides: tuple[Axis, Axis], cells: Cell
 def _hatch(sheet: Sheet, axes: Any, x: FloatArray, y: FloatArray, cells: Cells) -> None:
     """Cells without a value, each kind with its own hatch; of several runs along a row one rectangle."""
     kinds = [(NO_POINT, NO_POINT_COLOUR, "", "")]
-    kinds += [(int(answer), "white", mark.colour, mark.hatch) for answer, mark in MARKS.items()]
+    kinds += [
+        (int(answer), "none" if answer == Answer.PARTLY else "white", mark.colour, mark.hatch)
+        for answer, mark in MARKS.items()
+    ]
     for answer, face, edge, hatch in kinds:
         corners = []
         for row, own in enumerate(cells.answer == answer):
@@ -186,5 +194,5 @@ def _class_handles(page: Any, view: View, cells: Cells) -> list[Any]:
 
 
 def _limits(cells: Cells) -> tuple[float, float] | None:
-    values = cells.value[cells.answer == Answer.VALUE]
+    values = cells.value[np.isin(cells.answer, (Answer.VALUE, Answer.PARTLY))]
     return (float(values.min()), float(values.max())) if len(values) else None

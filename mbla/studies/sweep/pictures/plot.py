@@ -125,7 +125,7 @@ def _fits(kind: str, view: View, every: bool) -> bool:
 
 
 def _nothing(views: Sequence[View]) -> str:
-    reasons = dict.fromkeys(f"{kind}: {KINDS[kind].refusal(views[0])}" for kind in KINDS)
+    reasons = [f"{kind}: {KINDS[kind].refusal(views[0]) or 'only where --kind asks for it'}" for kind in KINDS]
     return f"no kind of picture suits {views[0].answers.column.name} ({'; '.join(reasons)})"
 
 

@@ -59,7 +59,7 @@ def draw(path: Path, view: View, options: PictureOptions) -> None:
     chosen = [axis for axis in (panels, lines, turn) if axis is not None]
     cells = pooled(view.answers, chosen)
     shape = (len(panels.levels) if panels else 1, len(lines.levels) if lines else 1, len(turn.levels))
-    arrays = [getattr(cells, name).reshape(shape) for name in ("value", "low", "high", "answer", "count")]
+    cells = cells.shaped(shape)
     notes = [f"line: median of up to {cells.count.max()} points of the other parameters"] * cells.several
 
     def handles(page: Any) -> list[Any]:
@@ -75,15 +75,14 @@ def draw(path: Path, view: View, options: PictureOptions) -> None:
     what = f"{view.answers.label} over {turn.label}" + (f", a curve for each {lines.label}" if lines else "")
     with open_sheet(path, view, what, options, handles, notes) as sheet:
         rows, columns = panel_places(shape[0], sheet)
-        frames = sheet.panels(rows, columns, subplot_kw={"projection": "polar"})
+        frames = sheet.panels(rows, columns, "compressed", subplot_kw={"projection": "polar"})
         for number, axes in enumerate(frames.flat):
             if number >= shape[0]:
                 axes.set_axis_off()
                 continue
             _dress(sheet, axes, panel_title(panels, number), _radii(cells))
             for line in range(shape[1]):
-                own = Cells(*(array[number, line] for array in arrays))
-                _draw_curve(sheet, axes, turn, own, line_style(sheet, line, shape[1]))
+                _draw_curve(sheet, axes, turn, cells.part(number, line), line_style(sheet, line, shape[1]))
         if lines is not None and not len(lines.levels) <= MOST_NAMED:
             add_scale(sheet, frames, lines)
 
@@ -96,7 +95,7 @@ def _azimuth(view: View) -> SweepColumn | None:
         if not over_sphere(view.table, column.dimension) and not is_sampled(view.table, column.dimension)
     ]
     chosen = [column for column in found if column.name == view.by]
-    return (chosen or found or [None])[0]
+    return next(iter((*chosen, *found)), None)
 
 
 def _radii(cells: Cells) -> tuple[float, float]:
@@ -111,11 +110,12 @@ def _radii(cells: Cells) -> tuple[float, float]:
 def _dress(sheet: Sheet, axes: Any, title: str, radii: tuple[float, float]) -> None:
     axes.set_rlim(*radii)
     axes.tick_params(labelsize=sheet.small, colors=INK)
-    axes.locator_params(axis="y", nbins=5)
+    rings = sheet.page.parts.MaxNLocator(5).tick_values(*radii)
+    axes.set_rgrids([ring for ring in rings if radii[0] < ring < radii[1]])
     axes.set_rlabel_position(22.5)
     axes.grid(visible=True, color="#CCCCCC", linewidth=0.6)
     axes.set_thetagrids(range(0, 360, 45), ["0° (+x)", "45°", "90° (+y)", "135°", "180°", "225°", "270°", "315°"])
-    axes.set_title(title, fontsize=sheet.small, color=INK, parse_math=False)
+    axes.set_title(title, fontsize=sheet.small, color=INK, parse_math=False, pad=1.2 * sheet.small)
     if radii[0] < 0:  # zero is a circle then, not the middle
         axes.plot(np.linspace(0, 2 * np.pi, 181), np.zeros(181), color=INK, linewidth=sheet.page.scale, zorder=2)
 
@@ -123,7 +123,7 @@ def _dress(sheet: Sheet, axes: Any, title: str, radii: tuple[float, float]) -> N
 def _draw_curve(sheet: Sheet, axes: Any, turn: Axis, cells: Cells, style: dict[str, Any]) -> None:
     """A curve, closed where the directions go around; broken where there is no value; markers of other answers."""
     angle = np.radians(turn.coordinates)
-    value = np.where(cells.answer == Answer.VALUE, cells.value, np.nan)
+    value = np.where(np.isin(cells.answer, (Answer.VALUE, Answer.PARTLY)), cells.value, np.nan)
     if closes(turn.coordinates):
         shown = np.append(angle, angle[0] + 2 * np.pi), np.append(value, value[0])
     else:
@@ -134,7 +134,7 @@ def _draw_curve(sheet: Sheet, axes: Any, turn: Axis, cells: Cells, style: dict[s
     least, most = axes.get_ylim()
     for kind, mark in MARKS.items():
         own = cells.answer == kind
-        radius = {Answer.UNVERIFIED: cells.value[own], Answer.NO_EQUILIBRIUM: 0.0, Answer.UNBOUNDED: most}
+        radius = {Answer.UNVERIFIED: cells.value[own], Answer.PARTLY: cells.value[own], Answer.NO_EQUILIBRIUM: 0.0}
         if own.any():
             axes.plot(angle[own], np.broadcast_to(radius.get(kind, most), own.sum()), linestyle="none",
                       marker=mark.marker, markerfacecolor="none", markeredgecolor=mark.colour,

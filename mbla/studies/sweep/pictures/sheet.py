@@ -46,10 +46,10 @@ class Sheet:
         """The figure of matplotlib."""
         return self.page.figure
 
-    def panels(self, rows: int, columns: int, **options: Any) -> Any:
+    def panels(self, rows: int, columns: int, layout: str = "constrained", **options: Any) -> Any:
         """Axes in rows and columns, (rows, columns), that leave each other the room that their labels need."""
         rect = (0.01, self.bottom, 0.98, self.top - self.bottom)
-        self.figure.set_layout_engine("constrained", rect=rect, w_pad=0.06, h_pad=0.06)
+        self.figure.set_layout_engine(layout, rect=rect, w_pad=0.06, h_pad=0.06)
         return self.figure.subplots(rows, columns, squeeze=False, **options)
 
     def colour(self, share: float) -> Any:
@@ -90,7 +90,7 @@ def dress(sheet: Sheet, axes: Any, x: str = "", y: str = "", title: str = "") ->
 
 
 def scale_axis(sheet: Sheet, axes: Any, axis: Axis, which: str = "x", share: float = 1.0) -> None:
-    """Ticks and scale of an axis of the design along ``x`` or ``y``: at its values where they have short names and room.
+    """Ticks and scale of an axis of the design along ``x`` or ``y``: at its values where their names have room.
 
     share : of the side of the page that the diagram has: fewer names have room then
     """
@@ -152,7 +152,7 @@ def place_marks(sheet: Sheet, axes: Any, x: Any, answer: IntArray, values: Any, 
                  "markeredgewidth": (1.5 if own.sum() < CROWD else 0.8) * scale, "zorder": 4, "clip_on": False,
                  "markersize": (8 if own.sum() < CROWD else 5) * scale,
                  "rasterized": own.sum() > MANY}  # fmt: skip
-        if kind == Answer.UNVERIFIED:
+        if kind in (Answer.UNVERIFIED, Answer.PARTLY):
             axes.plot(x[own], values[own], **style)
         elif kind == Answer.NO_EQUILIBRIUM and answers.is_factor:
             axes.plot(x[own], np.zeros(own.sum()), **style)
