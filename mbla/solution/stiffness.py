@@ -144,8 +144,8 @@ class _Places:
     """What of the pattern does not depend on loads and joints; see ``Stiffness``."""
 
     groups: tuple[PointGroup, ...]
-    indices: IntArray
-    pointers: IntArray
+    indices: NDArray[np.int32]
+    pointers: NDArray[np.int32]
     order: IntArray
     diagonal: IntArray
     border: tuple[IntArray, IntArray, int]
