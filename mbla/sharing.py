@@ -9,6 +9,7 @@ is the same, bit for bit, with and without.
 from __future__ import annotations
 
 import contextlib
+import pickle
 from collections.abc import Callable, Iterator
 from contextvars import ContextVar
 from functools import wraps
@@ -46,6 +47,15 @@ def once(name: str, content: tuple[Any, ...], make: Callable[[], T], lasts: Call
     """Result of ``make``, which must depend on nothing but ``content``: plain data, arrays, records of these."""
     keeper = _open.get()
     return make() if keeper is None else keeper.once(name, content, make, lasts)
+
+
+def copied(name: str, content: tuple[Any, ...], make: Callable[[], T]) -> T:
+    """As ``once``, for what is changed by whoever gets it: each gets a copy of its own, by way of a pickle."""
+    if _open.get() is None:
+        return make()
+    kept = once(name, content, lambda: pickle.dumps(make(), protocol=pickle.HIGHEST_PROTOCOL))
+    result: T = pickle.loads(kept)
+    return result
 
 
 def shared(name: str) -> Callable[[Callable[P, T]], Callable[P, T]]:

@@ -10,7 +10,7 @@ from typing import Any
 from mbla.collector import no_collection
 from mbla.deck.deck import Deck, Source
 from mbla.deck.expressions import Parameters, is_expression
-from mbla.deck.include import confined, read_files
+from mbla.deck.include import Reading, confined, read_files
 from mbla.deck.notices import notices_of
 from mbla.deck.overrides import apply_override
 from mbla.deck.references import check_references
@@ -20,6 +20,7 @@ from mbla.deck.types import DeckContent, UnitsSection
 from mbla.deck.units import Units
 from mbla.deck.validation import validate
 from mbla.errors import DeckError, Fault, FileError
+from mbla.sharing import copied
 
 
 def read_deck(path: str | Path, overrides: Sequence[str] = ()) -> Deck:
@@ -54,7 +55,7 @@ def read_deck_text(text: str, path: Path, overrides: Sequence[str] = ()) -> Deck
 
 
 def _read(path: Path, overrides: Sequence[str], text: str | None = None) -> Deck:
-    tree, reading = read_files(path, text)
+    tree, reading = _files(path, text)
     for number, text in enumerate(overrides, start=1):
         reading.faults += apply_override(tree, text, number)
     if not reading.whole:  # what could not be read would be reported as missing
@@ -84,6 +85,13 @@ def _read(path: Path, overrides: Sequence[str], text: str | None = None) -> Deck
         fault_at=tree.fault,
         resolve_file=_resolver(tree, path),
     )
+
+
+def _files(path: Path, text: str | None) -> tuple[Tree, Reading]:
+    """As ``read_files``; where many decks share what they have in common a file is read once."""
+    if text is not None:
+        return read_files(path, text)
+    return copied("deck", (str(path), str(path.absolute())), lambda: read_files(path))
 
 
 def _units(data: dict[str, Any]) -> Units:

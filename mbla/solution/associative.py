@@ -21,6 +21,7 @@ import numpy as np
 from mbla.arrays import FloatArray
 from mbla.program.program import Program
 from mbla.program.static import gravity_form
+from mbla.sharing import shared
 from mbla.solution.associative_form import AssociativeForm, in_forces, in_velocities
 from mbla.solution.bounds import falling_motion
 from mbla.solution.cone_solution import ConeSolution, Log
@@ -121,7 +122,15 @@ def solve_associative(
 
 def _proves(run: AssociativeRun, state: Weakening) -> bool:
     """Whether the forces on the stress-free assembly, without springs, prove that the dead load alone is carried."""
-    return state.outcome is Outcome.CARRIED and state.forces is not None and _carries(run, state.forces, 0.0)
+    if state.outcome is not Outcome.CARRIED or state.forces is None:
+        return False
+    return _carried_alone(run.program.without_live_load(), state.forces) or _carries(run, state.forces, 0.0)
+
+
+@shared("carried")
+def _carried_alone(program: Program, forces: FloatArray) -> bool:
+    """Whether forces can be repaired to carry the dead load of a program without live load."""
+    return repaired_forces(program, forces, 0.0) is not None
 
 
 def _with_dead_load(

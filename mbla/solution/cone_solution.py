@@ -10,6 +10,7 @@ import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.program.kinematic import ConeProgram
+from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import IterationRecord, ProgramRecord, Status
 
 Log = Callable[[IterationRecord], None]
@@ -75,6 +76,11 @@ class ConeSolver(Protocol):
 
 class InteriorPointSolver(ConeSolver, Protocol):
     """A solver whose iterates are inside the cones and can be had early."""
+
+    @property
+    def settings(self) -> SolverSettings:
+        """Those of the next run."""
+        ...
 
     def solve_once(self, program_number: int, to_load_factor: float, enough: float = 0.0) -> ConeSolution:
         """Solve what is loaded once, for callers that judge the answer themselves.

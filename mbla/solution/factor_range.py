@@ -18,7 +18,7 @@ import numpy as np
 from mbla.arrays import FloatArray
 from mbla.program.fixed_mechanism import FixedMechanismForm, fixed_mechanism_form
 from mbla.program.program import Program
-from mbla.solution.cone_solution import ConeSolution, Log
+from mbla.solution.cone_solution import ConeSolution, InteriorPointSolver, Log
 from mbla.solution.cone_solver import interior_point_solver
 from mbla.solution.law_state import LawState, law_state
 from mbla.solution.point_motion import point_motion
@@ -77,13 +77,15 @@ def factor_range(
     for touching in TOUCHING:
         rest = max(touching, NOISE * state.residual)
         form = fixed_mechanism_form(program, point_motion(program, state, rest, slope))
+        solver: InteriorPointSolver | None = None
         for kind in tuple(search.pending):
             cone_program = replace(form.cone_program, cost=SIGNS[kind] * form.cone_program.cost)
             number = first_program + len(search.records)
-            solution = interior_point_solver(cone_program, settings, log, has_inside=False).solve(
-                number, SIGNS[kind] * program.scaling.live
-            )
-            search.add(kind, form, solution)
+            if solver is None or solver.settings != settings:  # one that fell back on easier settings keeps these
+                solver = interior_point_solver(cone_program, settings, log, has_inside=False)
+            else:
+                solver.update(cost=cone_program.cost)
+            search.add(kind, form, solver.solve(number, SIGNS[kind] * program.scaling.live))
         if not search.pending:
             break
     lower, upper = (search.ends.get(kind) for kind in SIGNS)

@@ -15,7 +15,9 @@ than a product of sparse matrices and a column ordering from scratch each time.
 
 from __future__ import annotations
 
+from copy import copy
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 import scipy.sparse as sp
@@ -91,7 +93,7 @@ class Stiffness:
 
         return solve
 
-    def _matrix(self, tangents: FloatArray, shift: FloatArray, fixed_load: bool) -> sp.csc_matrix:
+    def _matrix(self, tangents: FloatArray, shift: FloatArray, fixed_load: bool) -> sp.csc_array:
         entries = np.zeros(len(self.indices))
         components = self.program.components
         for group in self.groups:
@@ -106,8 +108,17 @@ class Stiffness:
         live = self.program.live_load
         entries[column], entries[row] = live, 0.0 if fixed_load else live
         entries[corner] = 1.0 if fixed_load else 0.0
+        matrix = copy(self._pattern)
+        matrix.data = entries
+        return matrix
+
+    @cached_property
+    def _pattern(self) -> sp.csc_array:
+        """The matrix with zeros stored: one is copied for each factorisation, for scipy takes longer to make one."""
         shape = (len(self.order), len(self.order))
-        return sp.csc_matrix((entries, self.indices, self.pointers), shape=shape)
+        pattern = sp.csc_array((np.zeros(len(self.indices)), self.indices, self.pointers), shape=shape)
+        assert pattern.has_canonical_format
+        return pattern
 
 
 def stiffness_of(program: Program) -> Stiffness:
@@ -133,8 +144,8 @@ class _Places:
     """What of the pattern does not depend on loads and joints; see ``Stiffness``."""
 
     groups: tuple[PointGroup, ...]
-    indices: IntArray
-    pointers: IntArray
+    indices: NDArray[np.int32]
+    pointers: NDArray[np.int32]
     order: IntArray
     diagonal: IntArray
     border: tuple[IntArray, IntArray, int]

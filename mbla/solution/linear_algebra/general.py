@@ -47,7 +47,7 @@ class GeneralFactorization:
             self._pardiso = Pardiso(runtime, n, pointers, indices, GENERAL)
             self._pardiso.analyse()
 
-    def factorize(self, matrix: sp.csc_matrix) -> Solve | None:
+    def factorize(self, matrix: sp.csc_matrix | sp.csc_array) -> Solve | None:
         """Solution for one right-hand side; it holds until the next factorisation. None where singular."""
         self._count += 1
         if not np.isfinite(matrix.data).all():

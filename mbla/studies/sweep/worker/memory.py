@@ -67,13 +67,15 @@ class Memory:
 
     def _keep(self, key: tuple[str, bytes], result: Any) -> None:
         arrays = arrays_in(result)
+        size = len(result) if isinstance(result, bytes) else sum(array.nbytes for array in arrays)
+        if size > self.most_bytes:
+            return
         for array in arrays:
             array.flags.writeable = False
-        size = sum(array.nbytes for array in arrays)
         self._kept[key] = _Kept(result, size)
         self.size += size
         while self._kept and (self.size > self.most_bytes or len(self._kept) > self.most_results):
-            self.size -= self._kept.popitem(last=False)[1].size
+            self.size -= self._kept.popitem(last=False)[1].size  # what was used longest ago
 
 
 class _Pickler(pickle.Pickler):

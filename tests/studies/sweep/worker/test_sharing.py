@@ -52,7 +52,7 @@ def test_points_of_an_arch_are_answered_as_from_scratch() -> None:
     friction_and_direction: list[tuple[str, Settings]] = [
         (ARCH, {**SMALL_ARCH, "parameters.mu": mu, "load_cases.push_x.live.0.acceleration": direction})
         for mu in (0.6, 0.5)
-        for direction in ([1, 0, 0], [0.6, 0.8, 0])
+        for direction in ([1.0, 0.0, 0.0], [0.6, 0.8, 0.0])
     ]
     too_thin = (ARCH, {**SMALL_ARCH, "parameters.t": 0.02})
     points = [*friction_and_direction, too_thin, *reversed(friction_and_direction)]
