@@ -112,8 +112,13 @@ def test_drawn_directions_are_uniform_over_the_sphere() -> None:
 @pytest.mark.parametrize(
     ("parameter", "vector", "message"),
     [
-        ({"horizon": {"points": 4}}, (0.0, 0.0, -1.0), "turns a vector without a horizontal part: give its size"),
-        ({"sphere": {"points": 4}}, (0.0, 0.0, 0.0), "turns a vector of no length: give its size"),
+        (
+            {"horizon": {"points": 4}},
+            (0.0, 0.0, -1.0),
+            "turns a vector that has no length in these directions: give its size",
+        ),
+        ({"sphere": {"points": 4}}, (0.0, 0.0, 0.0), "turns a vector that has no length in these directions"),
+        ({"sphere": {"points": 4}}, (1.7e308, 1.7e308, 0.0), "turns a vector that is longer than a number holds"),
     ],
 )
 def test_refusals(parameter: dict[str, Any], vector: Vector, message: str) -> None:

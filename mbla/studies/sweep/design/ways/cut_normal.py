@@ -19,6 +19,8 @@ def cut_normal(u: FloatArray, mean: float, deviation: float, least: float | None
 
     low = -math.inf if least is None else (least - mean) / deviation
     high = math.inf if greatest is None else (greatest - mean) / deviation
-    with np.errstate(over="ignore"):  # infinite values are told as what they are, with the place in the file
+    with np.errstate(
+        over="ignore", invalid="ignore"
+    ):  # infinite values are told as what they are, with the place in the file
         values: FloatArray = mean + deviation * np.asarray(truncnorm.ppf(u, low, high), dtype=float)
     return values

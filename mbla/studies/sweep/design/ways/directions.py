@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
+
+from mbla.studies.sweep.design.ways.way import WayError
 
 _QUARTER = 90.0
 _HALF_ROOT = math.sqrt(0.5)
@@ -20,6 +23,22 @@ def sine_cosine(degrees: float) -> tuple[float, float]:
         sine, cosine = math.sin(math.radians(rest)), math.cos(math.radians(rest))
     turned = [(sine, cosine), (cosine, -sine), (-sine, -cosine), (-cosine, sine)][quarters % 4]
     return turned[0] + 0.0, turned[1] + 0.0
+
+
+def length_to_turn(components: Iterable[float], given: float | None) -> float:
+    """Length of what is turned: as given, or that of a vector of the base deck.
+
+    Raises
+    ------
+    WayError
+        there is nothing to turn
+    """
+    size = math.hypot(*components) if given is None else given
+    if size == 0:
+        raise WayError("turns a vector that has no length in these directions: give its size, or change it in the deck")
+    if math.isinf(size):
+        raise WayError("turns a vector that is longer than a number holds")
+    return size
 
 
 def horizontal(azimuth: float, size: float) -> tuple[float, float]:

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 
 from mbla.arrays import FloatArray
-from mbla.studies.sweep.design.ways.directions import horizontal
+from mbla.studies.sweep.design.ways.directions import horizontal, length_to_turn
 from mbla.studies.sweep.design.ways.linear import between, steps
-from mbla.studies.sweep.design.ways.way import Filled, Form, Vector, Way, WayError, points_of, register
+from mbla.studies.sweep.design.ways.way import Filled, Form, Vector, Way, points_of, register
 from mbla.studies.sweep.file.content import Horizon
 from mbla.studies.sweep.file.rules import FULL_CIRCLE
 
@@ -29,9 +28,7 @@ def _at(section: Horizon, u: FloatArray, vector: Vector | None) -> Filled:
 
 def _turned(azimuths: Sequence[float], section: Horizon, vector: Vector | None) -> Filled:
     along_x, along_y, vertical = map(float, vector or (0.0, 0.0, 0.0))
-    size = math.hypot(along_x, along_y) if section.size is None else section.size
-    if size == 0:
-        raise WayError("turns a vector without a horizontal part: give its size, or another vector in the deck")
+    size = length_to_turn((along_x, along_y), section.size)
     return Filled((azimuths,), [[*horizontal(azimuth, size), vertical] for azimuth in azimuths])
 
 

@@ -21,7 +21,7 @@ def _at(section: Lognormal, u: FloatArray, vector: Vector | None) -> Filled:
     mean = math.log(section.mean) - variance / 2
     least = None if section.least is None else math.log(section.least)
     greatest = None if section.greatest is None else math.log(section.greatest)
-    with np.errstate(over="ignore"):  # told with the other values that are no numbers
+    with np.errstate(over="ignore", invalid="ignore"):  # told with the other values that are no numbers
         values = np.exp(cut_normal(u[:, 0], mean, math.sqrt(variance), least, greatest))
     high = math.inf if section.greatest is None else section.greatest
     return plain(rounded_within(values.tolist(), section.least or 0.0, high))

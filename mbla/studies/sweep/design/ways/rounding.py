@@ -27,10 +27,10 @@ def rounded_within(values: Iterable[float], least: float, greatest: float) -> li
     WayError
         a value that is larger than numbers are
     """
-    found = [min(max(rounded(float(value)), least), greatest) for value in values]
+    found = [rounded(float(value)) for value in values]
     if not all(map(math.isfinite, found)):
         raise WayError("has values beyond what a number holds")
-    return found
+    return [min(max(value, least), greatest) for value in found]
 
 
 def decimals_of(start: float, end: float) -> int | None:

@@ -13,9 +13,9 @@ from collections.abc import Sequence
 import numpy as np
 
 from mbla.arrays import FloatArray
-from mbla.studies.sweep.design.ways.directions import sine_cosine, spatial
+from mbla.studies.sweep.design.ways.directions import length_to_turn, sine_cosine, spatial
 from mbla.studies.sweep.design.ways.rounding import rounded, rounded_within
-from mbla.studies.sweep.design.ways.way import Filled, Form, Vector, Way, WayError, points_of, register
+from mbla.studies.sweep.design.ways.way import Filled, Form, Vector, Way, points_of, register
 from mbla.studies.sweep.file.content import Sphere
 
 TURN = (3 - math.sqrt(5)) / 2
@@ -38,9 +38,7 @@ def _pointed(section: Sphere, around: FloatArray, up: FloatArray, vector: Vector
     sines = np.clip(low * (1 - up) + high * up, -1.0, 1.0)
     elevations = rounded_within(np.degrees(np.arcsin(sines)).tolist(), section.start, section.end)
     azimuths: Sequence[float] = [rounded(value) for value in (360.0 * around).tolist()]
-    size = math.hypot(*(vector or (0.0,))) if section.size is None else section.size
-    if size == 0:
-        raise WayError("turns a vector of no length: give its size, or another vector in the deck")
+    size = length_to_turn(vector or (0.0,), section.size)
     both = zip(azimuths, elevations, strict=True)
     return Filled((azimuths, elevations), [list(spatial(azimuth, elevation, size)) for azimuth, elevation in both])
 

@@ -14,7 +14,8 @@ def _at(section: Triangular, u: FloatArray, vector: Vector | None) -> Filled:
     from scipy.stats import triang  # takes half a second to import, and is for drawn values only
 
     start, span = float(section.start), float(section.end) - float(section.start)
-    values = np.asarray(triang.ppf(u[:, 0], (section.mode - start) / span, loc=start, scale=span), dtype=float)
+    with np.errstate(over="ignore", invalid="ignore"):  # what is no number is told with its place in the file
+        values = np.asarray(triang.ppf(u[:, 0], (section.mode - start) / span, loc=start, scale=span), dtype=float)
     return plain(rounded_within(values.tolist(), start, float(section.end)))
 
 
