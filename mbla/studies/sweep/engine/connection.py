@@ -18,7 +18,7 @@ from typing import Any, TypeVar
 from mbla.errors import FileError, UsageError
 from mbla.studies.sweep.engine.options import EngineOptions
 from mbla.studies.sweep.program import library_versions, program_identity
-from mbla.studies.sweep.worker.batch import describe, difference
+from mbla.studies.sweep.worker.batch import describe, difference, end_processes
 
 LOOK = 1.0
 """seconds between looks at whether scheduler and workers are still there"""
@@ -129,6 +129,7 @@ class Connection:
             },
             silence_logs=logging.CRITICAL,
         )
+        self._stack.callback(end_processes)  # of a batch that a worker began while it was told to end
         self._stack.callback(_quietly, lambda: cluster.close(timeout=PARTING))
         client = dask.Client(cluster, set_as_default=False)
         self._stack.callback(_quietly, lambda: client.close(timeout=PARTING))

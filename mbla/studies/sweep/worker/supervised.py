@@ -164,6 +164,9 @@ class SupervisedRunner:
         try:
             process.start()
             self.started += 1
+            if self.stopped:  # ``kill`` may have come before there was anything to kill
+                process.stop()
+                raise StoppedError
             if process.next(until) is not None:
                 process.send(record_of(self.plan))
                 if (answer := process.next(until)) is not None:

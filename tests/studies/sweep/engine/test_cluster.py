@@ -60,7 +60,7 @@ def test_nothing_is_left_of_a_run_that_is_given_up(tmp_path: Path, workers: int)
         check_answers(engine.run(plan_over(tmp_path), tasks), tasks)
         given_up = engine.run(plan_over(tmp_path), tasks)
         next(given_up)
-    assert not set(children()) - before
+    wait_for(lambda: not set(children()) - before)
 
 
 @pytest.mark.long
