@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import re
 from collections.abc import Callable
 from typing import TypeVar
 
@@ -43,11 +44,11 @@ def threads(text: str) -> int:
 
 
 def shard(text: str) -> tuple[int, int]:
-    """``2/8``: the second of eight parts."""
-    part, slash, parts = text.partition("/")
-    if not (slash and part.isdecimal() and parts.isdecimal() and 1 <= int(part) <= int(parts)):
-        raise argparse.ArgumentTypeError(f"{text!r} is not a part and the number of parts, as 2/8")
-    return int(part), int(parts)
+    """Part and number of parts, ``2/8``."""
+    match = re.fullmatch(r"([0-9]{1,6})/([0-9]{1,6})", text)
+    if not match or not 1 <= int(match[1]) <= int(match[2]):
+        raise argparse.ArgumentTypeError(f"{text!r} is not a shard, such as 2/8: part 1 to n of n parts")
+    return int(match[1]), int(match[2])
 
 
 def workers(text: str) -> int:

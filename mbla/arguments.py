@@ -276,6 +276,9 @@ def _add_interact(commands: Any) -> None:
     command.add_argument(
         "--to", dest="end", type=degrees, metavar="DEG", help="last angle (90 on; 360: both loads with both signs)"
     )
+    command.add_argument(
+        "-j", "--jobs", type=workers, default=1, metavar="N", help="processes of this machine (1; more: mbla[dask])"
+    )
     _add_deck_options(command, "for every point")
     command.add_argument("--accuracy", choices=["draft", "standard", "reference"], help="instead of analysis.accuracy")
     command.add_argument(
@@ -360,8 +363,8 @@ def _add_sweep_plot(commands: Any) -> None:
 
 
 def _add_schema_and_new(commands: Any) -> None:
-    command = commands.add_parser("schema", help="print the JSON Schema of decks")
-    command.add_argument("kind", nargs="?", choices=["deck"], default="deck")
+    command = commands.add_parser("schema", help="print the JSON Schema of decks, or of sweep files")
+    command.add_argument("kind", nargs="?", choices=["deck", "sweep"], default="deck")
     command = commands.add_parser("new", help="write a commented starter deck")
     command.add_argument("name", metavar="NAME")
     command.add_argument("--force", action="store_true", help="replace an existing file")

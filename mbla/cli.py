@@ -169,9 +169,12 @@ def _tradeoff(options: argparse.Namespace) -> int:
 
 
 def _schema(options: argparse.Namespace) -> int:
-    from mbla.deck.schema import deck_schema
+    if options.kind == "sweep":
+        from mbla.studies.sweep.file.schema import sweep_schema as schema
+    else:
+        from mbla.deck.schema import deck_schema as schema
 
-    print(json.dumps(deck_schema(), indent=2))
+    print(json.dumps(schema(), indent=2))
     return 0
 
 

@@ -52,13 +52,9 @@ def plot(options: argparse.Namespace) -> int:
 
 def sweep_plot(options: argparse.Namespace) -> int:
     """Draw pictures of a sweep; their paths are printed."""
-    from mbla.studies.sweep.pictures.plot import plot_sweep, sweep_picture_options
-    from mbla.studies.sweep.tables.read_table import read_sweep_table
+    from mbla.studies.sweep.pictures.plot import plot_sweep_files
 
-    chosen = sweep_picture_options(options)
-    table = read_sweep_table(options.sweep)
-    folder = options.sweep if options.sweep.is_dir() else options.sweep.parent
-    for path in plot_sweep(table, options.output or folder, chosen):
+    for path in plot_sweep_files(options.sweep, options):
         print(path)
     return 0
 

@@ -34,6 +34,7 @@ def sweep(options: argparse.Namespace) -> int:
         from mbla.results.records.json_record import json_line
         from mbla.studies.sweep.command import dry_run_json, prepare, run_sweep
         from mbla.studies.sweep.design.words import design_lines
+        from mbla.studies.sweep.fragility_words import fragility_lines
         from mbla.studies.sweep.words import sweep_lines
 
     chosen = _sweep_options(options)
@@ -51,7 +52,12 @@ def sweep(options: argparse.Namespace) -> int:
     if options.json:
         print(json_line(finished.record), flush=True)
     if not options.quiet:
-        lines = [*sweep_lines(finished.record, finished.table), f"  files: {chosen.folder_for(options.sweep)}/"]
+        fragility = fragility_lines(finished.fragility)
+        lines = [
+            *sweep_lines(finished.record, finished.table),
+            *fragility,
+            f"  files: {chosen.folder_for(options.sweep)}/",
+        ]
         print("\n".join(lines), file=sys.stderr if options.json else sys.stdout, flush=True)
     return finished.exit_code
 

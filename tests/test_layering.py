@@ -35,7 +35,8 @@ DOORS = {
     "plotly": "results/view3d/view.py",
     "pandas": "results/tables/table.py",
     "pyarrow": "results/tables/parquet_file.py",
-    "distributed": "studies/sweep/engine/cluster.py",
+    "dask": "studies/sweep/engine/connection.py",
+    "distributed": "studies/sweep/engine/connection.py",
 }
 FILES = sorted(PACKAGE.rglob("*.py"))
 

@@ -1,4 +1,4 @@
-"""``"=..."`` strings, and comparisons: arithmetic over the deck's parameters on a short list of Python's syntax nodes.
+"""``"=..."`` strings: arithmetic over the deck's parameters, evaluated on a short list of Python's syntax nodes.
 
 Every number is a float; a result that is not finite, or an operation that Python refuses, is an error. Nothing but
 the names and nodes listed here is ever looked at, so that a deck from a stranger cannot do more than arithmetic.
@@ -11,7 +11,6 @@ import math
 import operator
 import warnings
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass
 from typing import Any
 
 from mbla.deck.suggestions import unknown
@@ -51,15 +50,6 @@ _BINARY: dict[type[ast.operator], Callable[[float, float], Any]] = {
     ast.Pow: operator.pow,
 }
 _UNARY: dict[type[ast.unaryop], Callable[[float], float]] = {ast.UAdd: operator.pos, ast.USub: operator.neg}
-EQUAL = 1e-9
-"""relative: numbers that differ by less are equal in comparisons, as 3 x 1.1 is not 3.3 in binary"""
-_ORDER: dict[type[ast.cmpop], Callable[[float, float, bool], bool]] = {
-    ast.Lt: lambda left, right, equal: left < right and not equal,
-    ast.LtE: lambda left, right, equal: left < right or equal,
-    ast.Gt: lambda left, right, equal: left > right and not equal,
-    ast.GtE: lambda left, right, equal: left > right or equal,
-    ast.Eq: lambda left, right, equal: equal,
-}
 
 
 class ExpressionError(ValueError):
@@ -73,55 +63,6 @@ class ParameterFaultError(ExpressionError):
 def is_expression(value: object) -> bool:
     """Whether a value of the deck is to be evaluated."""
     return isinstance(value, str) and value.startswith("=")
-
-
-@dataclass(frozen=True)
-class Comparison:
-    """A comparison such as ``t < 0.2*radius``, or a chain of them, ``0.1 < t <= 0.5``.
-
-    names : in it, in order, without those of functions that it calls
-    """
-
-    text: str
-    names: tuple[str, ...]
-    _node: ast.Compare
-
-    def holds(self, value_of: Callable[[str], float]) -> bool:
-        """Whether it is true of values by name; ExpressionError where it has no value."""
-        left = _evaluate(self._node.left, value_of, 1)
-        holds = True
-        for sign, node in zip(self._node.ops, self._node.comparators, strict=True):
-            right = _evaluate(node, value_of, 1)
-            equal = abs(left - right) <= EQUAL * max(abs(left), abs(right))
-            holds = holds and _ORDER[type(sign)](left, right, equal)
-            left = right
-        return holds
-
-
-def read_comparison(text: str) -> Comparison:
-    """A comparison from its text.
-
-    Raises
-    ------
-    ExpressionError
-        with what is wrong; names are not looked up
-    """
-    node = _parse_source(text.strip().removeprefix("="))
-    if isinstance(node, ast.BoolOp):
-        raise ExpressionError("joins comparisons by and/or: write each as one of its own; all of them must hold")
-    if not isinstance(node, ast.Compare):
-        raise ExpressionError('is no comparison: write one such as "t < 0.2*radius"')
-    for sign in node.ops:
-        if type(sign) not in _ORDER:
-            raise ExpressionError("compares by something other than < <= > >= ==")
-    for part in ast.walk(node):
-        if isinstance(part, ast.Attribute):
-            name = ast.unparse(part)
-            raise ExpressionError(f"{name} is no name of letters, digits and _: give that parameter one, with its key")
-    called = {part.func for part in ast.walk(node) if isinstance(part, ast.Call)}
-    named = [part for part in ast.walk(node) if isinstance(part, ast.Name) and part not in called]
-    named.sort(key=lambda part: (part.lineno, part.col_offset))
-    return Comparison(text, tuple(dict.fromkeys(part.id for part in named)), node)
 
 
 class Parameters:
@@ -149,20 +90,22 @@ class Parameters:
         expression = _parse(text)
         for name in self._parameters_in(expression):
             self._resolve(name)
-        return _evaluate(expression, self._value, 0)
+        return evaluate(expression, self._value, 0)
 
-    def holds(self, comparison: Comparison) -> bool:
-        """Whether a comparison is true.
+    def value(self, name: str) -> float:
+        """Value of a name: of a parameter or a constant.
 
         Raises
         ------
         ExpressionError
-            with what is wrong; ParameterFaultError where a parameter is, rather than this comparison
+            if there is none; ParameterFaultError where the parameter itself is at fault
         """
-        for name in comparison.names:
-            if name in self._raw:
-                self._resolve(name)
-        return comparison.holds(self._value)
+        raw = self._raw.get(name)
+        if isinstance(raw, float):
+            return raw
+        if raw is not None:
+            self._resolve(name)
+        return self._value(name)
 
     def dependencies(self, names: Iterable[str]) -> set[str]:
         """Parameters that these depend on, themselves among them; names of no parameter are left out."""
@@ -237,7 +180,7 @@ class Parameters:
         raw = self._raw[name]
         try:
             if expression is not None:
-                self._values[name] = _evaluate(expression, self._value, 0)
+                self._values[name] = evaluate(expression, self._value, 0)
                 return
             if isinstance(raw, (int, float)) and not isinstance(raw, bool):
                 self._values[name] = float(raw)
@@ -260,10 +203,11 @@ class Parameters:
 
 def _parse(text: str) -> ast.expr:
     """Expression of an ``"=..."`` string."""
-    return _parse_source(text[1:])
+    return parse_source(text[1:])
 
 
-def _parse_source(text: str) -> ast.expr:
+def parse_source(text: str) -> ast.expr:
+    """Syntax of an expression without its ``=``; ExpressionError if it cannot be read."""
     source = text.strip()
     if not source:
         raise ExpressionError("is an expression without content: write a number or an expression after the =")
@@ -280,7 +224,7 @@ def _parse_source(text: str) -> ast.expr:
         raise ExpressionError(f"cannot be read as an expression: {reason}") from None
 
 
-def _evaluate(node: ast.expr, value_of: Callable[[str], float], depth: int) -> float:
+def evaluate(node: ast.expr, value_of: Callable[[str], float], depth: int) -> float:
     """Value of a syntax node, by recursion; ``depth`` bounds it."""
     if depth > MAX_DEPTH:
         raise ExpressionError(f"is an expression nested more than {MAX_DEPTH} levels deep")
@@ -290,12 +234,12 @@ def _evaluate(node: ast.expr, value_of: Callable[[str], float], depth: int) -> f
         case ast.Name(id=name):
             return value_of(name)
         case ast.UnaryOp(op=sign, operand=operand) if type(sign) in _UNARY:
-            return _UNARY[type(sign)](_evaluate(operand, value_of, depth + 1))
+            return _UNARY[type(sign)](evaluate(operand, value_of, depth + 1))
         case ast.BinOp(left=left, op=sign, right=right) if type(sign) in _BINARY:
-            operands = (_evaluate(left, value_of, depth + 1), _evaluate(right, value_of, depth + 1))
+            operands = (evaluate(left, value_of, depth + 1), evaluate(right, value_of, depth + 1))
             return _number(_BINARY[type(sign)], operands, "operation")
         case ast.Call(func=ast.Name(id=name), args=args, keywords=[]):
-            return _call(name, [_evaluate(argument, value_of, depth + 1) for argument in args])
+            return _call(name, [evaluate(argument, value_of, depth + 1) for argument in args])
         case _:
             raise ExpressionError(
                 "holds something other than numbers, parameters, + - * / % **, parentheses and functions "

@@ -24,15 +24,17 @@ def key_reference() -> str:
         "Units: L, F and M stand for the deck's units of length, force and mass. Wherever a number is asked for, "
         'an expression `"=..."` may stand; where it has a unit, also a text such as `"18 kN/m^3"`.\n'
     )
-    return "\n".join([introduction, *(_table(title, section) for title, section in _sections())])
+    return "\n".join([introduction, *section_tables(DeckContent, "deck")])
 
 
-def _sections() -> Iterator[tuple[str, type[BaseModel]]]:
-    """Sections in the order of the deck, each once, titled with all the places where it stands."""
+def section_tables(root: type[BaseModel], name: str) -> Iterator[str]:
+    """A table for every section of a kind of file; ``name`` is the title of the whole."""
     places: dict[type[BaseModel], list[str]] = {}
-    _collect(DeckContent, "", places)
-    for section, titles in places.items():
-        yield _joined(titles) or "deck", section
+    _collect(root, "", places)
+    short = {section: _joined(titles) or name for section, titles in places.items()}
+    for section, titles in places.items():  # in the order of the file, each once, with all places where it stands
+        alike = list(short.values()).count(short[section]) > 1
+        yield _table(", ".join(dict.fromkeys(titles)) if alike else short[section], section)
 
 
 def _collect(section: type[BaseModel], title: str, places: dict[type[BaseModel], list[str]]) -> None:
@@ -93,6 +95,8 @@ def _default(field: FieldInfo) -> str:
     if field.is_required():
         return "required"
     value = field.get_default(call_default_factory=True, validated_data={})
+    if isinstance(value, list) and value and all(isinstance(each, str) for each in value):
+        return ", ".join(f"`{each}`" for each in value)
     if value is None or value is PydanticUndefined or value == "" or isinstance(value, (list, dict, BaseModel)):
         return "–"
     if isinstance(value, tuple):
@@ -129,14 +133,14 @@ def _value(annotation: Any, metadata: list[Any] | tuple[Any, ...] = ()) -> str:
         return f"{len(arguments)} {_plural(_value(arguments[0]))}"
     if isinstance(annotation, type) and issubclass(annotation, BaseModel):
         return "mapping"
-    return {bool: "`true`, `false`", str: "text"}[annotation]
+    return {bool: "`true`, `false`", str: "text", Any: "value"}[annotation]
 
 
 def _plural(words: str) -> str:
     """``numbers [L]``, ``lists of 3 numbers``, ``names or mappings``."""
     if words[0].isdecimal():
         return f"lists of {words}"
-    for noun in ("number", "name", "mapping", "list", "text"):
+    for noun in ("number", "name", "mapping", "list", "text", "value"):
         words = re.sub(rf"\b{noun}\b(?!:)", f"{noun}s", words)
     return words
 

@@ -93,7 +93,7 @@ def next_key(data: Any, words: list[str]) -> tuple[str, list[str]]:
 def item_index(data: list[Any], key: str) -> int:
     """Number of an item of a list; RefusedError where there is none."""
     if not key.isascii() or not key.isdecimal():
-        raise RefusedError(f"{key or 'nothing'} is not a number of an item: 0 to {len(data) - 1} are allowed")
+        raise RefusedError(f"{shorten(key) or 'nothing'} is not a number of an item: 0 to {len(data) - 1} are allowed")
     if len(key) > 9 or int(key) >= len(data):
         raise RefusedError(f"there is no item {shorten(key)}: 0 to {len(data) - 1} are allowed")
     return int(key)
@@ -105,4 +105,4 @@ def _check_name(data: dict[str, Any], path: KeyPath, key: str, value: Any) -> No
         return
     if path != ("parameters",) and isinstance(value, dict):
         return
-    raise RefusedError(unknown(f"name {key} in {key_text(path)}", key, data, "known"))
+    raise RefusedError(unknown(f"name {shorten(key)} in {key_text(path)}", key, data, "known"))

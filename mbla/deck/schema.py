@@ -22,12 +22,12 @@ MARKERS = ("<!-- keys:begin -->", "<!-- keys:end -->")
 def deck_schema() -> dict[str, Any]:
     """JSON Schema (draft 2020-12) of a whole deck."""
     schema = DeckContent.model_json_schema(by_alias=True)
-    definitions = {name: _tidy(definition) for name, definition in schema.pop("$defs").items()}
+    definitions = {name: tidy(definition) for name, definition in schema.pop("$defs").items()}
     for section, keys in EXACTLY_ONE.items():
         definitions[section.__name__]["oneOf"] = [{"required": [key]} for key in keys]
     for section, keys in AT_LEAST_ONE.items():
         definitions[section.__name__]["anyOf"] = [{"required": [key]} for key in keys]
-    schema = _tidy(schema)
+    schema = tidy(schema)
     # With an inclusion, what this file lacks may come from another.
     required = [key for key in schema.pop("required") if key != "mbla"]
     return {
@@ -47,13 +47,13 @@ def deck_schema_text() -> str:
     return json.dumps(deck_schema(), indent=1, ensure_ascii=False) + "\n"
 
 
-def _tidy(node: Any) -> Any:
+def tidy(node: Any) -> Any:
     """A schema without null values, which no deck has, and without titles that repeat the keys."""
     if isinstance(node, list):
-        return [_tidy(item) for item in node]
+        return [tidy(item) for item in node]
     if not isinstance(node, dict):
         return node
-    node = {key: value if key in ("default", "const", "enum") else _tidy(value) for key, value in node.items()}
+    node = {key: value if key in ("default", "const", "enum") else tidy(value) for key, value in node.items()}
     if isinstance(node.get("title"), str):
         del node["title"]
     if node.get("default", 0) is None:
@@ -83,9 +83,14 @@ def write_schema(folder: Path = REPOSITORY) -> list[Path]:
 
 def with_key_reference(text: str) -> str:
     """A text with the key reference between its two markers."""
-    before, rest = text.split(MARKERS[0], 1)
-    after = rest.split(MARKERS[1], 1)[1]
-    return f"{before}{MARKERS[0]}\n\n{key_reference()}\n{MARKERS[1]}{after}"
+    return between(text, MARKERS, key_reference())
+
+
+def between(text: str, markers: tuple[str, str], content: str) -> str:
+    """A text with other content between two markers."""
+    before, rest = text.split(markers[0], 1)
+    after = rest.split(markers[1], 1)[1]
+    return f"{before}{markers[0]}\n\n{content}\n{markers[1]}{after}"
 
 
 def main(arguments: Sequence[str] | None = None) -> None:

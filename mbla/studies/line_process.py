@@ -29,7 +29,10 @@ LAST_WORDS = 2000
 
 
 class LineProcess:
-    """One process after the other under one command; ``stop`` must be called in the end."""
+    """One process after the other under one command; ``stop`` must be called in the end.
+
+    status : exit status of the last one of which ``death`` was asked, negative for a signal
+    """
 
     def __init__(self, command: Sequence[str], environment: Mapping[str, str] | None = None) -> None:
         """Starts nothing yet.
@@ -41,6 +44,7 @@ class LineProcess:
         self._process: subprocess.Popen[str] | None = None
         self._errors: IO[bytes] | None = None
         self._lines: queue.Queue[str | None] = queue.Queue()
+        self.status = 0
 
     def runs(self) -> bool:
         """Whether a process is there and has not ended."""
@@ -84,10 +88,10 @@ class LineProcess:
         """How one ended that closed its output without a last answer; it is stopped then."""
         assert self._process is not None
         try:
-            code = self._process.wait(PATIENCE)
+            self.status = self._process.wait(PATIENCE)
         except subprocess.TimeoutExpired:
-            code = 0
-        words = self.words_of(code)
+            self.status = 0
+        words = self.words_of(self.status)
         self.stop()
         return words
 

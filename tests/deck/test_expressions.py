@@ -13,7 +13,6 @@ from mbla.deck.expressions import (
     ExpressionError,
     ParameterFaultError,
     Parameters,
-    read_comparison,
 )
 
 
@@ -183,52 +182,6 @@ def test_arithmetic_is_that_of_python(formula: str) -> None:
         return
     if math.isfinite(expected):
         assert value(f"={formula}") == expected
-
-
-@pytest.mark.parametrize(
-    ("text", "expected"),
-    [
-        ("1 < 2", True),
-        ("2 < 1", False),
-        ("2 <= 2", True),
-        ("2 > 2", False),
-        ("3 >= 2", True),
-        ("a == 2", True),
-        ("1 < a < 3", True),
-        ("1 < a < 2", False),
-        ("3 < a < 4", False),
-        ("max(a, b) <= 2*pi", True),
-        (" = a < 3 ", True),
-        ("3*1.1 == 3.3", True),
-        ("3*1.1 > 3.3", False),
-        ("3.3 < 3*1.1", False),
-        ("3.3 >= 3*1.1", True),
-        ("1 < 1 + 1e-8", True),
-        ("0 < 1e-300", True),
-    ],
-)
-def test_comparisons(text: str, expected: bool) -> None:
-    assert Parameters({"a": 2, "b": "=2*a"}).holds(read_comparison(text)) is expected
-
-
-def test_every_part_of_a_chain_has_a_value() -> None:
-    """A fault in the last of a chain is told also where the first is not true."""
-    with pytest.raises(ExpressionError, match="divides by zero"):
-        Parameters({}).holds(read_comparison("2 < 1 < 1/0"))
-
-
-def test_names_of_a_comparison_are_in_their_order_without_functions() -> None:
-    assert read_comparison("sqrt(z) + b*a < min(a, pi) < z").names == ("z", "b", "a", "pi")
-
-
-def test_a_comparison_of_an_unknown_name() -> None:
-    with pytest.raises(ExpressionError, match="unknown parameter thicknes; did you mean thickness"):
-        Parameters({"thickness": 1}).holds(read_comparison("thicknes < 1"))
-
-
-def test_a_comparison_of_a_parameter_at_fault() -> None:
-    with pytest.raises(ParameterFaultError):
-        Parameters({"a": "=1/0"}).holds(read_comparison("a < 1"))
 
 
 def test_parameters_depend_on_others() -> None:

@@ -1,6 +1,7 @@
 from __future__ import annotations
 
-from mbla.deck.fields import allowed_keys, description, takes_names
+from mbla.deck.fields import allowed_keys, annotations_at, description, takes_names
+from mbla.deck.quantities import PositiveLength, PositiveNumber
 from mbla.deck.types import DeckContent
 
 
@@ -26,3 +27,10 @@ def test_mappings_of_names() -> None:
 def test_description() -> None:
     assert description(DeckContent, ("output", "frames")) == "frames of the animation of the mechanism"
     assert description(DeckContent, ("output", "nothing")) == ""
+
+
+def test_annotations_with_units_and_bounds() -> None:
+    assert annotations_at(DeckContent, ("blocks", 0, "mesh", "scale")) == [PositiveNumber]
+    assert annotations_at(DeckContent, ("blocks", 0, "mesh", "extrude")) == [PositiveLength | None]
+    assert annotations_at(DeckContent, ("blocks", 0, "mesh", "nothing")) == []
+    assert annotations_at(DeckContent, ("title", 0)) == []

@@ -1,4 +1,4 @@
-"""What the journal of a sweep remarks and refuses."""
+"""What a sweep remarks on its design, and what its journal remarks and refuses."""
 
 from __future__ import annotations
 
@@ -7,6 +7,15 @@ from mbla.results.explanations.explanation import Explanation
 _POINTS = "None: a point is in the table with the answer that was verified for it, or is solved again."
 
 OF_SWEEP = (
+    Explanation(
+        "sweep-design",
+        "notice",
+        "Something worth knowing of the points of a sweep.",
+        "None for a single point. Shares of the points, as in a fragility curve, may be no probabilities.",
+        "A Sobol sequence whose length is no power of two; a sample in which a parameter has only a range, or that is "
+        "combined with another sample; constraints that leave out some of its points.",
+        "The message says what to change; nothing where the points are only to be looked at one by one.",
+    ),
     Explanation(
         "journal-repaired",
         "notice",

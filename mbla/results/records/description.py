@@ -109,12 +109,12 @@ CASE = (
     Key(
         "cases[].powers",
         "object?",
-        "power of live loads in the associative mechanism, by load case; that of its own is 1",
+        "powers of live loads in the associative mechanism, by load case; 1 of its own",
     ),
     Key(
         "cases[].powers.*",
         "number?",
-        "of factors acting together, the sum of each times this is at most kinematic_bound",
+        "factors acting together, each times this, add up to kinematic_bound at most",
     ),
     Key("cases[].certificate", "string?", "what proves that there is no load factor: motion or forces"),
     Key("cases[].standing", "object?", "assessment of the dead load alone"),
@@ -173,7 +173,7 @@ MECHANISM = (
     Key(
         f"{_MECHANISM}.class",
         "string",
-        "in a word: sliding, twisting, overturning (parts turn on what is at rest), hinging (they hinge on each other), "
+        "in a word: sliding, twisting, overturning (parts turn on what rests), hinging (they hinge on each other), "
         "sliding and hinging, opening",
     ),
     Key(f"{_MECHANISM}.open", "integer", "contact points that open"),

@@ -42,6 +42,14 @@ def table_parquet(table: Table, about: dict[str, str]) -> bytes:
     )
 
 
+def require_parquet() -> None:
+    """UsageError where pyarrow is not installed."""
+    try:
+        import pyarrow  # noqa: F401
+    except ImportError as error:
+        raise UsageError(f"--parquet: {NO_EXTRA}") from error
+
+
 def parquet_bytes(columns: Sequence[ParquetColumn], about: Mapping[str, str]) -> bytes:
     """The bytes of the file; nan stays nan in columns of floats, other values that are missing are null.
 
@@ -52,11 +60,10 @@ def parquet_bytes(columns: Sequence[ParquetColumn], about: Mapping[str, str]) ->
     UsageError
         pyarrow is not installed.
     """
-    try:
-        import pyarrow
-        from pyarrow import parquet
-    except ImportError as error:
-        raise UsageError(f"--parquet: {NO_EXTRA}") from error
+    require_parquet()
+    import pyarrow
+    from pyarrow import parquet
+
     types = {"float": pyarrow.float64(), "int": pyarrow.int64(), "bool": pyarrow.bool_(), "text": pyarrow.string()}
     fields, arrays = [], []
     for column in columns:

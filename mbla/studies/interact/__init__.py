@@ -4,5 +4,6 @@
              direction.py            domain.py
              two_loads.py
 
-The points go through the workers of parameter sweeps (:mod:`mbla.studies.sweep`); ``command.py`` puts the parts together.
+The points go through the workers of parameter sweeps (:mod:`mbla.studies.sweep`); ``command.py`` puts the parts
+together.
 """

@@ -12,12 +12,13 @@ from mbla.run_deck import contacts_of
 from mbla.run_options import RunOptions
 from mbla.studies.interact.angles import FULL
 from mbla.studies.interact.direction import direction_question
-from mbla.studies.interact.here import HereEngine
 from mbla.studies.interact.question import Question
 from mbla.studies.interact.records import study_json
 from mbla.studies.interact.study import Report, Study, plan_of, study_points
 from mbla.studies.interact.two_loads import two_loads_question
 from mbla.studies.interact.write import write_study
+from mbla.studies.sweep.engine.choice import engine_for
+from mbla.studies.sweep.engine.options import EngineOptions
 
 DIRECTIONS, ANGLES = 72, 31
 """points unless their number is given: every 5 degrees around, every 3 degrees of a quarter"""
@@ -30,7 +31,8 @@ def interact(
 ) -> tuple[Study, dict[str, Any], list[str]]:
     """Solve the points of a diagram and write the files; the study, its JSON record, and remarks.
 
-    options : ``case`` or ``loads`` (two names), ``directions``, ``start`` and ``end`` in degrees, None unless given
+    options : ``case`` or ``loads`` (two names), ``directions``, ``start`` and ``end`` in degrees, None unless given;
+              ``jobs``, how many processes solve points
 
     Raises
     ------
@@ -39,13 +41,15 @@ def interact(
     FileError
         Files are in the way or cannot be written.
     """
+    engine = engine_for(EngineOptions(workers=options.jobs))
     question = question_of(deck, options)
     stem = f"{deck.path.stem}_interact"
     out = OutputFolder(run.folder_for(deck.path), stem, run.force, beside=True)
     out.refuse(*(f"{stem}.{ending}" for ending in ("csv", "json")))
     with out:
-        plan = plan_of(deck.path, run.overrides, question, "", "")
-        study = study_points(deck, run.overrides, question, plan, HereEngine(), report)
+        plan = plan_of(deck.path, run.overrides, question)
+        with engine as workers:
+            study = study_points(deck, run.overrides, question, plan, workers, report)
         remarks = write_study(study, out)
     return study, study_json(study, out.names), remarks
 

@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import json
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -23,6 +24,7 @@ from mbla.results.words.text import counted
 from mbla.studies.interact.angles import angles_around, unit_vector
 from mbla.studies.interact.entries import live_entries, section_of, written
 from mbla.studies.interact.question import DIRECTION, Question
+from mbla.studies.sweep.plan import Plain
 
 TURNED = ("gravity", "acceleration", "force")
 """kinds of loads that are turned: those that are a vector"""
@@ -62,13 +64,17 @@ def direction_question(deck: Deck, case: str, count: int) -> Question:
     turnings, absolute = _turnings(deck, case)
     azimuths = angles_around(count)
     key = f"load_cases.{case}.live"
-    settings = tuple({key: [one.at(deck, azimuth) for one in turnings]} for azimuth in azimuths)
+    settings = tuple({key: _live(deck, turnings, azimuth)} for azimuth in azimuths)
     flat = all(one.vertical == 0.0 for one in turnings)
     pair, fixed = _axis_cases(deck, case, turnings) if flat else ((), ())
     axes = ("along x", "along y") if absolute else ("as the deck directs it", "a quarter turn on")
     words = _words(case, turnings, absolute=absolute, flat=flat)
     short = ("x", "y") if absolute else ("0", "90")
     return Question(DIRECTION, case, axes, short, pair, azimuths, settings, fixed, True, absolute, words)
+
+
+def _live(deck: Deck, turnings: Sequence[Turning], azimuth: float) -> list[Plain]:
+    return [one.at(deck, azimuth) for one in turnings]
 
 
 def _case(deck: Deck, case: str) -> str:
@@ -132,7 +138,7 @@ def _in_frame(part: complex, way: complex, *, absolute: bool) -> complex:
 def _axis_cases(deck: Deck, case: str, turnings: list[Turning]) -> tuple[tuple[str, str], tuple[str, ...]]:
     """Load cases at 0 and 90 degrees beside the deck's own, whose powers say what a mechanism bounds all around."""
     names = (free_name(deck, "interact_0"), free_name(deck, "interact_90"))
-    loads = [[one.at(deck, azimuth) for one in turnings] for azimuth in (0.0, 90.0)]
+    loads = [_live(deck, turnings, azimuth) for azimuth in (0.0, 90.0)]
     texts = [f"load_cases.{name}={json.dumps({'live': live})}" for name, live in zip(names, loads, strict=True)]
     return names, tuple(texts)
 

@@ -4,7 +4,8 @@ With associative flow the loads (x, y) that a structure carries are a convex set
 states, mixed, carry the mixed loads within convex yield conditions). So
 
 - the convex hull of points that static bounds prove safe is safe: the inner polygon. The dead load alone, at the
-  origin, is such a point where the structure stands under it;
+  origin, is such a point where the structure stands under it, and so is all of a ray on which no factor brings
+  collapse;
 - every mechanism bounds the whole set by a half-plane x p_x + y p_y ≤ k (:mod:`mbla.results.records.power_json`), with
   the powers p of the two loads: their intersection is the outer polygon.
 
@@ -82,14 +83,15 @@ def domain_of(points: Sequence[Point], pair: tuple[str, str], *, closed: bool) -
     corners = [place for _, place in safe]
     if any(point.standing == "yes" for point in points):
         corners.append((0.0, 0.0))
-    inner = convex_hull(np.array(corners))
     planes, rays = half_planes(points, pair)
     size = float(np.abs(np.array(corners)).max(initial=0.0))
+    corners += [point.at(FAR * size) for point in points if point.unbounded]
+    inner = convex_hull(np.array(corners))
     sector = _sector([point.angle for point in points], FAR * max(size, 1e-300), closed=closed)
     outer = sector
     for plane in planes:
         outer = clipped(outer, plane)
-    cut_off = bool(len(outer)) and bool((np.abs(outer).max(axis=0) > 0.99 * FAR * size).any())
+    cut_off = bool(len(outer)) and bool((np.abs(outer) > 0.99 * FAR * size).any())
     crossings = (*_beyond_planes(safe, planes, rays), *_hull_beyond(inner, points))
     worst = tuple(sorted(crossings, key=lambda one: -one.share))
     return Domain(inner, outer if len(planes) else np.zeros((0, 2)), cut_off, worst, planes)
@@ -172,7 +174,8 @@ def _beyond_planes(
     most = beyond.argmax(axis=1)
     share = beyond[np.arange(len(places)), most]
     return [
-        Crossing(float(rays[most[row]]), safe[row][0], float(share[row])) for row in np.flatnonzero(share > CROSSED)
+        Crossing(float(rays[most[row]]), safe[row][0], float(share[row]))
+        for row in np.flatnonzero(share > CROSSED).tolist()
     ]
 
 

@@ -25,7 +25,7 @@ from mbla.studies.interact.question import DIRECTION
 from mbla.studies.interact.study import Study
 from mbla.studies.interact.words import ASSOCIATIVE, conclusions
 
-SIZE = (1200, 1300)
+SIZE = (1200, 1240)
 """pixels: a square diagram, words above and a legend below"""
 ROOM = 1.12
 """edge of the diagram over the farthest point"""
@@ -67,10 +67,10 @@ def _edge(study: Study) -> float | None:
 
 
 def _polar_axes(page: Page, above: float, edge: float) -> Any:
-    axes = page.figure.add_axes((0.07, 0.12, 0.86, 0.86 - above), projection="polar")
+    axes = page.figure.add_axes((0.07, 0.08, 0.86, 0.87 - above), projection="polar")
     axes.set_rlim(0.0, edge)
     axes.set_thetagrids(range(0, 360, 30))
-    axes.set_rlabel_position(15.0)
+    axes.set_rlabel_position(22.5)
     axes.tick_params(labelsize=0.85 * page.letter, colors=INK)
     axes.grid(visible=True, color="#DDDDDD", linewidth=0.7 * page.scale)
     axes.set_axisbelow(True)
@@ -78,7 +78,7 @@ def _polar_axes(page: Page, above: float, edge: float) -> Any:
 
 
 def _plane_axes(page: Page, above: float, study: Study) -> Any:
-    axes = page.figure.add_axes((0.12, 0.17, 0.83, 0.80 - above))
+    axes = page.figure.add_axes((0.12, 0.12, 0.83, 0.85 - above))
     places = [place for point in study.points for place in _places(point)]
     reach = np.abs(np.array([*places, (0.0, 0.0)])).max(axis=0)
     reach = np.where(reach > OFF_RAY * reach.max(initial=0.0), reach, max(reach.max(initial=0.0), 1e-300))
@@ -113,7 +113,7 @@ def _draw_domain(page: Page, axes: Any, study: Study, *, polar: bool) -> list[An
     if domain is None:
         return []
     handles: list[Any] = []
-    if len(domain.inner) > 2:
+    if len(domain.inner) > 2 and not domain.crossings:  # nothing is called safe on bounds that contradict each other
         x, y = _onto(domain.inner, polar=polar)
         axes.fill(x, y, facecolor=SKY, alpha=0.35, edgecolor="none", zorder=2)
         handles.append(page.parts.Patch(facecolor=SKY, alpha=0.35, label="safe by static bounds (associative flow)"))
@@ -175,7 +175,7 @@ def rim_place(axes: Any, point: Point, edge: float, radius: float | None, *, pol
 def _draw_least(page: Page, axes: Any, study: Study, *, polar: bool) -> list[Any]:
     """The least load factor, ringed at its angles."""
     ends = extremes(study.points)
-    if ends is None:
+    if ends is None or study.question.kind != DIRECTION:
         return []
     chosen = [point for point in study.points if point.has_factor and point.angle in ends[0].angles]
     if len(chosen) == sum(point.has_factor for point in study.points):

@@ -20,9 +20,9 @@ RESULTS = (
     "kinematic_bound",
     "standing.verdict",
     "mechanism.class",
-    "powers",
 )
-"""what of the record of a load case a diagram is made from"""
+"""what of the record of a load case a diagram is made from, beside the powers of a pair of loads"""
+POWER = "powers."
 NAN = math.nan
 
 
@@ -90,7 +90,11 @@ def point_of(angle: float, outcome: Outcome) -> Point:
         kinematic_bound=figure("kinematic_bound"),
         standing=results.get("standing.verdict") or "",
         mechanism=results.get("mechanism.class") or "",
-        powers={name: value for name, value in (results.get("powers") or {}).items() if value is not None},
+        powers={
+            name.removeprefix(POWER): float(value)
+            for name, value in results.items()
+            if name.startswith(POWER) and value is not None
+        },
         reason=" ".join(outcome.reason.split()),
         seconds=outcome.seconds,
     )

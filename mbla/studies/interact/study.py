@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Sequence
+from contextlib import closing
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -13,10 +14,12 @@ from mbla.results.provenance import collect_provenance
 from mbla.results.results import now
 from mbla.run_deck import title_of
 from mbla.studies.interact.domain import Domain, domain_of
-from mbla.studies.interact.point import RESULTS, Point, point_of
+from mbla.studies.interact.point import POWER, RESULTS, Point, point_of
 from mbla.studies.interact.question import Question
 from mbla.studies.sweep.engine.engine import Engine
+from mbla.studies.sweep.fingerprint import fingerprint_of, key_hash
 from mbla.studies.sweep.plan import Plan, Task
+from mbla.studies.sweep.program import program_identity
 
 GRAVEST_FIRST = (1, 6, 7, 3, 4)
 """exit codes of points that were not answered"""
@@ -68,14 +71,15 @@ def study_points(
     Raises as the engine does.
     """
     started = time.perf_counter()
-    tasks = tasks_of(question)
+    tasks = tasks_of(question, plan.fingerprint)
     numbers = {task.key: task.number for task in tasks}
     points: dict[int, Point] = {}
-    for outcome in engine.run(plan, tasks):
-        number = numbers[outcome.key]
-        points[number] = point_of(question.angles[number - 1], outcome)
-        if report is not None:
-            report(len(points), len(tasks))
+    with closing(engine.run(plan, tasks)) as outcomes:
+        for outcome in outcomes:
+            number = numbers[outcome.key]
+            points[number] = point_of(question.angles[number - 1], outcome)
+            if report is not None:
+                report(len(points), len(tasks))
     ordered = tuple(points[number] for number in sorted(points))
     domain = domain_of(ordered, question.pair, closed=question.closed) if question.pair else None
     return Study(
@@ -92,22 +96,26 @@ def study_points(
     )
 
 
-def tasks_of(question: Question) -> list[Task]:
+def tasks_of(question: Question, fingerprint: str) -> list[Task]:
     """One task for each angle; no two angles are one point."""
-    return [Task(str(number), number, settings) for number, settings in enumerate(question.settings, 1)]
+    return [
+        Task(key_hash(fingerprint, settings, ()), number, settings)
+        for number, settings in enumerate(question.settings, 1)
+    ]
 
 
-def plan_of(path: Path, fixed: Sequence[str], question: Question, fingerprint: str, program: str) -> Plan:
-    """What the points have in common."""
+def plan_of(path: Path, overrides: Sequence[str], question: Question) -> Plan:
+    """What the points have in common; ``overrides`` are those of the command line."""
+    fixed = (*overrides, *question.fixed)
     return Plan(
         deck=str(path.resolve()),
-        fingerprint=fingerprint,
-        fixed=(*fixed, *question.fixed),
+        fingerprint=fingerprint_of(path, fixed),
+        fixed=fixed,
         cases=(question.case,),
-        results=RESULTS,
+        results=(*RESULTS, *(POWER + name for name in question.pair)),
         keep="none",
         folder=str(path.resolve().parent),
         time_limit=None,
         memory_limit=None,
-        program=program,
+        program=program_identity(),
     )

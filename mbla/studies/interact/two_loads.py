@@ -6,17 +6,17 @@ interaction curve. The two load cases must have one dead load, which belongs to 
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
 from mbla.deck import Deck
 from mbla.errors import UsageError
+from mbla.model.loads.named_loads import Entry
 from mbla.model.model import Model
 from mbla.studies.interact.angles import angles_between, closes, unit_vector
 from mbla.studies.interact.direction import free_name
 from mbla.studies.interact.entries import live_entries, section_of, written
 from mbla.studies.interact.question import TWO_LOADS, Question
+from mbla.studies.sweep.plan import Plain
 
 SAME = 1e-12
 """difference of two dead loads, relative to the larger, that is rounding of how the deck writes them"""
@@ -38,9 +38,11 @@ def two_loads_question(
     _refuse_other_dead_load(model, first, second)
     name = free_name(deck, "interact")
     dead = section.dead
-    own = {} if dead is None else {"dead": [_dead(deck, first, number) for number in range(len(dead))]}
+    own: dict[str, Plain] = {}
+    if dead is not None:
+        own["dead"] = [_dead(deck, first, number) for number in range(len(dead))]
     angles = angles_between(start, end, count)
-    settings = tuple({f"load_cases.{name}": own | {"live": _together(deck, names, angle)}} for angle in angles)
+    settings = tuple({f"load_cases.{name}": {**own, "live": _together(deck, names, angle)}} for angle in angles)
     words = (
         f"live loads of {first} times cos and of {second} times sin of the angle act together, with the dead load that "
         "both have; load factor times cos and sin are the factors of the two at collapse",
@@ -61,15 +63,13 @@ def _refuse_other_dead_load(model: Model, first: str, second: str) -> None:
         )
 
 
-def _dead(deck: Deck, case: str, number: int) -> dict[str, Any]:
+def _dead(deck: Deck, case: str, number: int) -> Plain:
     """A dead load as the deck writes it; what it names is looked for from the main file."""
-    from mbla.model.loads.named_loads import Entry
-
     load = (deck.content.load_cases[case].dead or [])[number]
     return written(deck, Entry(load, ("load_cases", case, "dead", number), load.factor), load.factor)
 
 
-def _together(deck: Deck, names: tuple[str, str], angle: float) -> list[dict[str, Any]]:
+def _together(deck: Deck, names: tuple[str, str], angle: float) -> list[Plain]:
     """Both live loads at an angle; one whose share is zero is left out."""
     return [
         written(deck, entry, share * entry.factor)

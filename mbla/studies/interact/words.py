@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from mbla.results.words.answer_words import status_name
 from mbla.results.words.text import INDENT, counted, number, percent, sentence, table
 from mbla.solution.solution import Status
+from mbla.studies.interact.angles import unit_vector
 from mbla.studies.interact.domain import Domain
 from mbla.studies.interact.extremes import Extreme, everywhere, extremes
 from mbla.studies.interact.point import Point
@@ -63,7 +64,10 @@ def mark_words(point: Point) -> str:
 def conclusions(study: Study) -> list[str]:
     """Extremes, the safe domain, points without an answer; a sentence each."""
     ends = extremes(study.points)
-    words = [] if ends is None else _extreme_words(study, *ends)
+    if study.question.kind == TWO_LOADS:
+        words = _alone_words(study)
+    else:
+        words = [] if ends is None else _extreme_words(study, *ends)
     words += domain_words(study)
     return [*words, *_unanswered(study.points), *_without_factor(study.points)]
 
@@ -80,26 +84,24 @@ def domain_words(study: Study) -> list[str]:
     text = "the safe domain of associative flow is convex, and so are the points within their bounds"
     if not math.isnan(domain.gap):
         text += (
-            f"; hull of the safe points and the half-planes of {counted(len(domain.planes), 'mechanism')} leave "
-            f"{percent(max(domain.gap, 0.0))} % of its area open"
+            f"; between the hull of the safe points and the half-planes of {counted(len(domain.planes), 'mechanism')} "
+            f"{percent(max(domain.gap, 0.0))} % of its area stay open"
         )
     least = everywhere(domain, closed=study.question.closed)
     words = [text]
     if least is not None:
-        words.append(f"angles between the points among them, associative flow carries at least {number(least)}")
+        words.append(f"at angles between the points too, associative flow carries at least {number(least)}")
     if study.flow_rule != ASSOCIATIVE:
-        words.append(
-            f"load factors by {study.flow_rule} flow lie inside of that domain; their curve need not be convex"
-        )
+        words.append(f"load factors by {study.flow_rule} flow lie inside of it; their curve need not be convex")
     return words
 
 
 def _crossing_words(domain: Domain) -> str:
     worst = domain.crossings[0]
     return (
-        f"ERROR OF VERIFICATION: the safe domain of associative flow must be convex, yet what is proved safe at "
-        f"{worst.safe:.6g} degrees lies beyond the kinematic bound of {worst.angle:.6g} degrees by {worst.share:.1e} of "
-        f"it ({counted(len(domain.crossings), 'crossing')}): a bound is wrong; please report it with the deck"
+        f"ERROR OF VERIFICATION: the safe domain of associative flow is convex, yet what is proved safe at "
+        f"{worst.safe:.6g} degrees lies beyond the kinematic bound of {worst.angle:.6g} degrees by {worst.share:.1e} "
+        f"of it ({counted(len(domain.crossings), 'crossing')}): a bound is wrong; please report it with the deck"
     )
 
 
@@ -112,6 +114,17 @@ def _extreme_words(study: Study, least: Extreme, greatest: Extreme) -> list[str]
         f"least load factor{which}: {number(least.load_factor)} at {angle_words(study.question, least.angles)}",
         f"greatest: {number(greatest.load_factor)} at {angle_words(study.question, greatest.angles)}",
     ]
+
+
+def _alone_words(study: Study) -> list[str]:
+    """Each of two loads by itself, where there is a point of it; the least factor over their shares says nothing."""
+    words = []
+    for point in study.points:
+        x, y = unit_vector(point.angle)
+        if point.has_factor and 0.0 in (x, y):
+            name = study.question.short[int(x == 0.0)]
+            words.append(f"{name} alone{', the other way' if x + y < 0.0 else ''}: {number(point.load_factor)}")
+    return ["; ".join(words)] if words else []
 
 
 def angle_words(question: Question, angles: Sequence[float]) -> str:

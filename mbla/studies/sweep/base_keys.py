@@ -14,7 +14,7 @@ from mbla.deck.fields import allowed_keys, annotations_at, sections_at, takes_na
 from mbla.deck.overrides import RefusedError, item_index, next_key
 from mbla.deck.quantities import Quantity
 from mbla.deck.suggestions import listed, unknown
-from mbla.deck.tree import KeyPath, key_text
+from mbla.deck.tree import KeyPath, key_text, shorten
 from mbla.deck.types import DeckContent
 from mbla.deck.units import Units
 
@@ -68,14 +68,14 @@ def _step(data: Any, path: KeyPath, word: str) -> str | int:
     if isinstance(data, dict) and word in data:
         return word
     if takes_names(DeckContent, path):
-        raise RefusedError(unknown(f"name {word} in {key_text(path)}", word, data or (), "known"))
+        raise RefusedError(unknown(f"name {shorten(word)} in {key_text(path)}", word, data or (), "known"))
     keys = allowed_keys(DeckContent, path)
     if data is None and not keys:
         raise RefusedError(f"the deck has nothing at {key_text(path)}")
     if not keys or not isinstance(data, dict | None):
         raise RefusedError(f"the deck has a single value at {key_text(path)}, with nothing below it")
     if word not in keys:
-        where = f"key {word} in {key_text(path)}" if path else f"section {word}"
+        where = f"key {shorten(word)} in {key_text(path)}" if path else f"section {shorten(word)}"
         raise RefusedError(unknown(where, word, keys))
     return word
 

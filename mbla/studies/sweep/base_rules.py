@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import re
+from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING, Any
 
 from pydantic import TypeAdapter, ValidationError
@@ -14,16 +15,20 @@ from mbla.deck.reading import read_deck
 from mbla.deck.suggestions import listed
 from mbla.deck.tree import KeyPath, key_text, shorten
 from mbla.deck.types import DeckContent
-from mbla.errors import DeckError, Fault, Place
+from mbla.errors import DeckError, Fault, Notice, Place
 from mbla.studies.sweep.base_keys import path_of_key, unit_at, value_at, vector_at
 from mbla.studies.sweep.file.content import Parameter
 from mbla.studies.sweep.file.design_rules import key_places, parameter_columns
 from mbla.studies.sweep.file.ways import DIRECTIONS, way_of
+from mbla.studies.sweep.result_columns import result_faults
 from mbla.studies.sweep.results import result_places
 from mbla.studies.sweep.settings import override_texts
 
 if TYPE_CHECKING:
     from mbla.studies.sweep.base import Base
+
+UNUSED = re.compile(r" (\w+)\.(\S+) is not used$")
+"""end of the notices on names that nothing uses"""
 
 Given = tuple[KeyPath, Any]
 """Place of a value in the sweep file, and the value"""
@@ -31,24 +36,23 @@ Given = tuple[KeyPath, Any]
 
 def base_faults(base: Base) -> list[Fault]:
     """Everything wrong with what a sweep does to its base deck, where each of its keys is known to exist."""
-    checks = (_nested_keys, _idle_values, _directions, _units, _columns, _fragility)
+    checks = (_nested_keys, _idle_values, _without_effect, _directions, _units, _results, _columns, _fragility)
     faults = [fault for check in checks for fault in check(base)]
     return faults or list(_values(base))
 
 
 def _nested_keys(base: Base) -> Iterator[Fault]:
     """No parameter sets what another one sets as a part of its own value."""
-    seen: list[tuple[str, KeyPath]] = []
+    seen: list[tuple[str, str, KeyPath]] = []
     for name, parameter in base.sweep.content.parameters.items():
         for (place, key), path in zip(key_places(name, parameter), base.paths[name], strict=True):
-            for other, outer in seen:
+            for other, other_key, outer in seen:
                 short, long = sorted((outer, path), key=len)
                 if long[: len(short)] == short:
-                    message = (
-                        f"parameter {name} sets {key}, parameter {other} {key_text(outer)}: one of them holds the other"
-                    )
+                    both = f"parameter {name} sets {shorten(key)}, parameter {other} {shorten(other_key)}"
+                    message = f"{both}: one of them holds the other"
                     yield base.sweep.fault_at(place, message)
-            seen.append((name, path))
+            seen.append((name, key, path))
 
 
 def _idle_values(base: Base) -> Iterator[Fault]:
@@ -68,6 +72,30 @@ def _idle_values(base: Base) -> Iterator[Fault]:
                     yield base.sweep.fault_at(("set", list(base.sweep.content.set)[number]), message)
                 else:
                     yield Fault(Place(LABEL, index + 1, 1), key, message)
+
+
+def _without_effect(base: Base) -> Iterator[Fault]:
+    """No parameter changes what nothing in the deck uses: every point would be the same."""
+    content = base.sweep.content
+    texts = [value for each in content.parameters.values() for value in each.values or () if isinstance(value, str)]
+    for name, parameter in content.parameters.items():
+        for (place, _), path in zip(key_places(name, parameter), base.paths[name], strict=True):
+            if len(path) < 2:
+                continue
+            section, thing = str(path[0]), str(path[1])
+            if section == "load_cases" and thing not in base.cases:
+                yield base.sweep.fault_at(
+                    place, f"has no effect: load case {shorten(thing)} is not among the cases to solve"
+                )
+            named = any(thing in text for text in texts)  # another parameter may bring it into use
+            if (section, thing) in unused(base.deck.notices) and not named:
+                yield base.sweep.fault_at(place, f"has no effect: the deck does not use {section}.{shorten(thing)}")
+
+
+def unused(notices: Iterable[Notice]) -> set[tuple[str, str]]:
+    """Section and name of what a deck gives and does not use, by its notices."""
+    found = (UNUSED.search(notice.message) for notice in notices if notice.identifier.endswith("-unused"))
+    return {(match[1], match[2]) for match in found if match}
 
 
 def _directions(base: Base) -> Iterator[Fault]:
@@ -106,6 +134,12 @@ def _units(base: Base) -> Iterator[Fault]:
             yield base.sweep.fault_at(("parameters", name, "unit"), message)
 
 
+def _results(base: Base) -> Iterator[Fault]:
+    """Every result is one that a run has."""
+    for index, message in result_faults(base.sweep.content.results, base.cases):
+        yield base.sweep.fault_at(("results", index), message)
+
+
 def _columns(base: Base) -> Iterator[Fault]:
     """No parameter is named as the result of a load case."""
     content = base.sweep.content
@@ -127,7 +161,7 @@ def _fragility(base: Base) -> Iterator[Fault]:
     wanted = content.fragility.result
     columns = [place.name for place in result_places(content.results, base.cases)]
     if wanted not in columns and wanted not in content.results:
-        message = f"there is no column {wanted}: the columns are {listed(columns, 'and')}"
+        message = f"there is no column {shorten(wanted)}: the columns are {listed(columns, 'and')}"
         yield base.sweep.fault_at(("fragility", "result"), message)
 
 

@@ -13,12 +13,15 @@ from typing import Any
 from mbla import __version__
 from mbla.errors import Notice
 from mbla.studies.sweep.base import Base, read_base
+from mbla.studies.sweep.base_points import check_points
 from mbla.studies.sweep.design.build import design_of
 from mbla.studies.sweep.design.design import Design
 from mbla.studies.sweep.design.record import design_json
 from mbla.studies.sweep.engine.choice import engine_for
 from mbla.studies.sweep.engine.options import EngineOptions
 from mbla.studies.sweep.file.sweep import Sweep
+from mbla.studies.sweep.fragility import Fragility, fragility_of
+from mbla.studies.sweep.fragility_words import fragility_json
 from mbla.studies.sweep.journal.header import JournalHeader
 from mbla.studies.sweep.journal.journal import Journal
 from mbla.studies.sweep.journal.reading import merged
@@ -91,6 +94,7 @@ class Finished:
     record: dict[str, Any]
     table: SweepTable
     exit_code: int
+    fragility: tuple[Fragility, ...] = ()
 
 
 def prepare(sweep: Sweep, options: SweepOptions) -> Prepared:
@@ -104,6 +108,7 @@ def prepare(sweep: Sweep, options: SweepOptions) -> Prepared:
     base = read_base(sweep)
     content = sweep.content
     design = design_of(content, base.vectors, base.units, base.known, sweep.fault_at)
+    check_points(base, design.points)
     keys = tuple(base.key_of(point.settings) for point in design.points)
     first: dict[str, Task] = {}
     for key, point in zip(keys, design.points, strict=True):
@@ -148,7 +153,8 @@ def run_sweep(prepared: Prepared, options: SweepOptions, report: Report | None =
     path = folder / (WHOLE if options.shard is None else journal_name(*options.shard))
     journal = Journal(path, header, resume=options.resume, force=options.force, retry_failed=options.retry_failed)
     with engine_for(options.engine) as engine:
-        refuse_tables(folder, files, replace=options.force or options.resume)
+        fragility = prepared.sweep.content.fragility is not None
+        refuse_tables(folder, files, replace=options.force or options.resume, fragility=fragility)
         with journal:
             tasks = [task for task in asked if task.key not in journal.finished]
             _solve(engine.run(prepared.plan, tasks), tasks, journal, report)
@@ -198,12 +204,14 @@ def _finish(
         seconds=seconds,
         notices=(*notices, *(Notice("notice", "sweep-design", text) for text in design.remarks)),
     )
+    asked = content.fragility
+    fragility = () if asked is None else fragility_of(table, asked.result, asked.demand, asked.confidence)
     if counts(table)["unfinished"]:
-        record = sweep_json(run, table)
+        record = sweep_json(run, table, fragility_json(fragility))
     else:
         folder = options.folder_for(prepared.sweep.path)
-        record = write_tables(folder, True, run, table, _files(prepared, options))
-    return Finished(record, table, run.exit_code)
+        record = write_tables(folder, True, run, table, _files(prepared, options), fragility)
+    return Finished(record, table, run.exit_code, fragility)
 
 
 def dry_run_json(prepared: Prepared) -> dict[str, Any]:

@@ -6,6 +6,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+from mbla.studies.sweep.fingerprint import fingerprint_of
 from mbla.studies.sweep.plan import Plan, Task
 from mbla.studies.sweep.program import program_identity
 from tests.line import BLOCK
@@ -29,7 +30,7 @@ def plan_over(folder: Path, text: str = BLOCK, **changes: Any) -> Plan:
     deck.write_text(text, encoding="utf-8")
     plan = Plan(
         deck=str(deck),
-        fingerprint="",
+        fingerprint=fingerprint_of(deck, changes.get("fixed", ())),
         fixed=(),
         cases=("push",),
         results=("load_factor",),

@@ -4,16 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
 from mbla.deck.suggestions import listed
 from mbla.deck.tree import KeyPath
 from mbla.errors import DeckError, Fault
 from mbla.studies.sweep.design.design import DesignColumn, Dimension, Part
 from mbla.studies.sweep.design.sampling import quantiles
-from mbla.studies.sweep.design.ways import way
-from mbla.studies.sweep.design.ways.way import Filled, Form, Vector, WayError
-from mbla.studies.sweep.file.content import Combined, DesignPart, Parameter, Sampled, SweepContent
+from mbla.studies.sweep.design.ways import WAYS
+from mbla.studies.sweep.design.ways.way import Filled, Form, Vector, Way, WayError
+from mbla.studies.sweep.file import parts
+from mbla.studies.sweep.file.content import SweepContent
+from mbla.studies.sweep.file.keys import key_paths
+from mbla.studies.sweep.file.ways import way_of
 from mbla.studies.sweep.plan import Plain
 
 FaultAt: TypeAlias = Callable[[KeyPath, str], Fault]
@@ -51,13 +54,6 @@ class Sources:
     fault_at: FaultAt
 
 
-def setting_keys(name: str, parameter: Parameter) -> tuple[str, ...]:
-    """Key paths of the deck that get the value of a parameter."""
-    if parameter.key is None:
-        return (name if "." in name else f"parameters.{name}",)
-    return (parameter.key,) if isinstance(parameter.key, str) else tuple(parameter.key)
-
-
 def axes_of(sources: Sources) -> tuple[list[Part], list[Axis]]:
     """Parts and axes of the design, slowest first.
 
@@ -66,71 +62,53 @@ def axes_of(sources: Sources) -> tuple[list[Part], list[Axis]]:
     DeckError
         with what is wrong with values of parameters
     """
-    parts: list[Part] = []
+    told: list[Part] = []
     axes: list[Axis] = []
     faults: list[Fault] = []
     taken = set(sources.content.parameters)
-    for number, (kind, combined, names) in enumerate(_parts(sources.content)):
+    for part in parts.design_parts(sources.content):
         try:
-            made = _axes_of_part(sources, ("design", number, kind), kind, combined, names)
+            made = _axes_of_part(sources, part)
         except DeckError as error:
             faults += error.faults
             continue
-        if kind != "grid":
-            made = [_renamed(made[0], _free(kind, taken))]
+        if part.kind != "grid":
+            made = [_renamed(made[0], _free(part.kind, taken))]
         taken.update(axis.dimension.name for axis in made)
         axes += made
-        seed = combined.seed if isinstance(combined, Sampled) else None
-        parts.append(Part(kind, tuple(names), tuple(axis.dimension.name for axis in made), seed))
+        seed = part.seed if part.kind in parts.SAMPLED else None
+        told.append(Part(part.kind, part.names, tuple(axis.dimension.name for axis in made), seed))
     if faults:
         raise DeckError(faults)
-    return parts, axes
+    return told, axes
 
 
-def _parts(content: SweepContent) -> list[tuple[str, Combined, list[str]]]:
-    """Kind, section and parameters of each part; a part that names none takes those that no other names."""
-    given = content.design or [DesignPart(grid=Combined(of=None))]
-    found: list[tuple[str, Combined]] = []
-    for part in given:
-        kind = next(kind for kind in DesignPart.model_fields if getattr(part, kind) is not None)
-        found.append((kind, getattr(part, kind)))
-    named = {name for _, combined in found for name in combined.of or ()}
-    rest = [name for name in content.parameters if name not in named]
-    return [(kind, combined, rest if combined.of is None else list(combined.of)) for kind, combined in found]
-
-
-def _axes_of_part(sources: Sources, path: KeyPath, kind: str, combined: Combined, names: Sequence[str]) -> list[Axis]:
+def _axes_of_part(sources: Sources, part: parts.Part) -> list[Axis]:
     """The axes of one part; that of parameters which change together has the name of the kind."""
-    if isinstance(combined, Sampled):
-        return [_drawn(sources, kind, combined, names)]
-    axes = _each(sources, names, lambda name: _levels(sources, name))
-    if kind == "grid":
-        return axes
-    sizes = [axis.dimension.size for axis in axes]
-    if len(set(sizes)) > 1:
-        told = listed([f"{name} {size}" for name, size in zip(names, sizes, strict=True)], "and")
-        raise DeckError([sources.fault_at(path, f"needs as many values of each parameter; there are: {told}")])
-    return [_joined(kind, axes)]
+    if part.kind in parts.SAMPLED:
+        return [_drawn(sources, part)]
+    axes = _each(sources, part.names, lambda name: _levels(sources, name))
+    return axes if part.kind == "grid" else [_joined(part.kind, axes)]
 
 
-def _drawn(sources: Sources, kind: str, sampled: Sampled, names: Sequence[str]) -> Axis:
+def _drawn(sources: Sources, part: parts.Part) -> Axis:
     """Parameters drawn together."""
     owners: list[str] = []
     streams: list[str] = []
-    for name in names:
-        _, how, section = way.way_of(sources.content.parameters[name])
+    for name in part.names:
+        how, section = _way(sources, name)
         forms = how.forms(section)
         owners += [name] * len(forms)
         streams += [name + form.suffix for form in forms]
-    u = quantiles(kind, sampled.points, sampled.seed, streams)
-    own = {name: [i for i, owner in enumerate(owners) if owner == name] for name in names}
+    u = quantiles(part.kind, part.points, part.seed, streams)
+    own = {name: [i for i, owner in enumerate(owners) if owner == name] for name in part.names}
 
     def axis(name: str) -> Axis:
-        _, how, section = way.way_of(sources.content.parameters[name])
+        how, section = _way(sources, name)
         return _axis(sources, name, how.at(section, u[:, own[name]], sources.vectors.get(name)), how.random)
 
-    whole = _joined(kind, _each(sources, names, axis))
-    return replace(whole, sampling=kind if all(column.random for column in whole.columns) else "")
+    whole = _joined(part.kind, _each(sources, part.names, axis))
+    return replace(whole, sampling=part.kind if all(column.random for column in whole.columns) else "")
 
 
 def _each(sources: Sources, names: Sequence[str], axis_of: Callable[[str], Axis]) -> list[Axis]:
@@ -141,24 +119,31 @@ def _each(sources: Sources, names: Sequence[str], axis_of: Callable[[str], Axis]
         try:
             axes.append(axis_of(name))
         except WayError as error:
-            key = way.way_of(sources.content.parameters[name])[0]
+            key = way_of(sources.content.parameters[name])
             faults.append(sources.fault_at(("parameters", name, key), str(error)))
     if faults:
         raise DeckError(faults)
     return axes
 
 
+def _way(sources: Sources, name: str) -> tuple[Way, Any]:
+    """The way in which a parameter says its values, and what it says."""
+    parameter = sources.content.parameters[name]
+    key = way_of(parameter)
+    return WAYS[key], getattr(parameter, key)
+
+
 def _levels(sources: Sources, name: str) -> Axis:
-    _, how, section = way.way_of(sources.content.parameters[name])
+    how, section = _way(sources, name)
     return _axis(sources, name, how.levels(section, sources.vectors.get(name)), random=False)
 
 
 def _axis(sources: Sources, name: str, filled: Filled, random: bool) -> Axis:
     """The axis of one parameter, under its name."""
     parameter = sources.content.parameters[name]
-    _, how, section = way.way_of(parameter)
-    keys = setting_keys(name, parameter)
-    unit = parameter.unit or sources.units.get(name, "")
+    how, section = _way(sources, name)
+    keys = key_paths(name, parameter)
+    unit = sources.units.get(name, parameter.unit)
     columns = tuple(_column(name, form, unit, keys, random) for form in how.forms(section))
     return Axis(
         Dimension(name, len(filled.settings)),

@@ -9,7 +9,7 @@ import numpy as np
 from mbla.errors import DeckError
 from mbla.results.words.text import counted
 from mbla.studies.sweep.design.axis import Axis, FaultAt, Sources, axes_of
-from mbla.studies.sweep.design.constraints import BoolArray, Constrained, constrained
+from mbla.studies.sweep.design.constraints import BoolArray, Constrained, constrained, read_constraints
 from mbla.studies.sweep.design.design import Design, Part, Point
 from mbla.studies.sweep.design.ways.way import Vector
 from mbla.studies.sweep.file.content import SweepContent
@@ -35,8 +35,14 @@ def design_of(
     DeckError
         values that cannot be had, constraints that cannot be read, and a design that leaves no point
     """
-    parts, axes = axes_of(Sources(content, vectors, units, fault_at))
-    found = constrained(content.constraints, axes, known, fault_at)
+    comparisons, unread = read_constraints(content.constraints, fault_at)
+    try:
+        parts, axes = axes_of(Sources(content, vectors, units, fault_at))
+        found = constrained(comparisons, axes, known, fault_at)
+    except DeckError as error:
+        raise DeckError([*unread, *error.faults]) from error
+    if unread:
+        raise DeckError(unread)
     points = _points(axes, np.argwhere(found.keep).tolist())
     if not points:
         message = f"leave none of {counted(found.keep.size, 'point')}: {_breaches(found)}"

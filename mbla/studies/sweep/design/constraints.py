@@ -14,13 +14,12 @@ from typing import TypeAlias
 
 import numpy as np
 
+from mbla.deck.comparisons import Comparison, read_comparison
 from mbla.deck.expressions import (
     CONSTANTS,
-    Comparison,
     ExpressionError,
     ParameterFaultError,
     Parameters,
-    read_comparison,
 )
 from mbla.deck.suggestions import unknown
 from mbla.errors import DeckError, Fault
@@ -45,28 +44,41 @@ class Constrained:
     breaches: tuple[tuple[str, int], ...]
 
 
+def read_constraints(texts: Sequence[str], fault_at: FaultAt) -> tuple[dict[int, Comparison], list[Fault]]:
+    """Comparisons by their number in the file, and what is wrong with those that cannot be read."""
+    comparisons: dict[int, Comparison] = {}
+    faults: list[Fault] = []
+    for number, text in enumerate(texts):
+        try:
+            comparisons[number] = read_comparison(text)
+        except ExpressionError as error:
+            faults.append(fault_at(("constraints", number), str(error)))
+    return comparisons, faults
+
+
 def constrained(
-    texts: Sequence[str], axes: Sequence[Axis], known: Mapping[str, object], fault_at: FaultAt
+    comparisons: Mapping[int, Comparison], axes: Sequence[Axis], known: Mapping[str, object], fault_at: FaultAt
 ) -> Constrained:
     """Work out every constraint at every point.
 
-    known : the deck's own parameters by name, as they are written
+    comparisons : by their number in the file
+    known       : the deck's own parameters by name, as they are written
 
     Raises
     ------
     DeckError
-        a constraint that cannot be read, names something else, or has no value at a point
+        a constraint that names something else, or has no value at a point
     """
     keep = np.ones([axis.dimension.size for axis in axes], dtype=bool)
     breaches: list[tuple[str, int]] = []
     faults: list[Fault] = []
-    for number, text in enumerate(texts):
+    for number, comparison in comparisons.items():
         try:
-            holds = np.broadcast_to(_holds(read_comparison(text), axes, known), keep.shape)
+            holds = np.broadcast_to(_holds(comparison, axes, known), keep.shape)
         except ExpressionError as error:
             faults.append(fault_at(("constraints", number), str(error)))
             continue
-        breaches.append((text, int(np.count_nonzero(~holds))))
+        breaches.append((comparison.text, int(np.count_nonzero(~holds))))
         keep &= holds
     if faults:
         raise DeckError(faults)
@@ -85,7 +97,9 @@ def _holds(comparison: Comparison, axes: Sequence[Axis], known: Mapping[str, obj
         if name in columns and name in known and not any(name in names for names in set_names):
             raise ExpressionError(f"{name} is a parameter of the sweep and another one of the deck: rename one of them")
         if name not in columns and name not in raw and name not in CONSTANTS:
-            raise ExpressionError(unknown(f"parameter {name}", name, [*columns, *raw, *CONSTANTS], "known"))
+            raise ExpressionError(
+                unknown(f"parameter {name}", name, dict.fromkeys([*columns, *raw, *CONSTANTS]), "known")
+            )
         if name in own and columns[name].kind in ("text", "bool"):
             raise ExpressionError(f"{name} has values that are no numbers, which cannot be compared")
     needed = _needed(comparison, axes, known)
@@ -138,7 +152,7 @@ def _holds_at(comparison: Comparison, fixed: Mapping[str, object], rows: Sequenc
         raw.update(row)
     parameters = Parameters(raw)
     try:
-        return parameters.holds(comparison)
+        return comparison.holds(parameters.value)
     except ParameterFaultError as error:
         told = [f"{name} {message}" for name, message in parameters.failures()] or [str(error)]
         raise ExpressionError(f"{'; '.join(told)}{_where(comparison, raw)}") from None

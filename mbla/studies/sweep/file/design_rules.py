@@ -7,6 +7,7 @@ from math import prod
 
 from mbla.deck.section import Finding, rule
 from mbla.deck.suggestions import did_you_mean, listed
+from mbla.deck.tree import shorten
 from mbla.studies.sweep.file.content import MAX_POINTS, Parameter, SweepContent
 from mbla.studies.sweep.file.keys import key_paths, spelt
 from mbla.studies.sweep.file.parts import SAMPLED, Part, design_parts, is_random
@@ -43,11 +44,19 @@ def parameter_columns(name: str, parameter: Parameter) -> tuple[str, ...]:
 @rule(SweepContent)
 def keys_once(sweep: SweepContent) -> Iterator[Finding]:
     """No key of the deck gets two values; keys inside of one another are found with the base deck at hand."""
-    owners = {spelt(key): f"set sets {key} too: one of them would have no effect" for key in sweep.set}
+    owners: dict[tuple[str, ...], str] = {}
+    for key in sweep.set:
+        for before in owners:
+            if before[: len(spelt(key))] == spelt(key):
+                yield (
+                    ("set", key),
+                    f"replaces {shorten('.'.join(before))}, which stands before it: put it first, or drop that",
+                )
+        owners[spelt(key)] = f"set sets {shorten(key)} too: one of them would have no effect"
     for name, parameter in sweep.parameters.items():
         for path, key in key_places(name, parameter):
             if spelt(key) in owners:
-                yield path, f"parameter {name} sets {key}, and {owners[spelt(key)]}"
+                yield path, f"parameter {name} sets {shorten(key)}, and {owners[spelt(key)]}"
             owners.setdefault(spelt(key), f"parameter {name} sets it too")
 
 
@@ -153,6 +162,15 @@ def _size(sweep: SweepContent, part: Part) -> int | None:
 
 
 @rule(SweepContent)
+def cases_once(sweep: SweepContent) -> Iterator[Finding]:
+    """Each load case is solved once."""
+    cases = sweep.cases or []
+    for index, name in enumerate(cases):
+        if name in cases[:index]:
+            yield ("cases", index), "is given twice"
+
+
+@rule(SweepContent)
 def results_once(sweep: SweepContent) -> Iterator[Finding]:
     """One column each."""
     for index, name in enumerate(sweep.results):
@@ -171,7 +189,10 @@ def fragility(sweep: SweepContent) -> Iterator[Finding]:
     # With several load cases the name of one may stand before it; whether there is one is seen with the base deck.
     if not any(wanted == name or wanted.endswith(f".{name}") for name in sweep.results):
         hint = did_you_mean(wanted, sweep.results) or ";"
-        yield ("fragility", "result"), f"{wanted} is not among results{hint} these are {listed(sweep.results, 'and')}"
+        yield (
+            ("fragility", "result"),
+            f"{shorten(wanted)} is not among results{hint} these are {listed(sweep.results, 'and')}",
+        )
     random = [part for part in design_parts(sweep) if is_random(part, sweep)]
     if not random:
         yield (

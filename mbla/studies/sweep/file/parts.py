@@ -33,13 +33,18 @@ class Part:
 def design_parts(content: SweepContent) -> tuple[Part, ...]:
     """Parts in their order; a grid of all parameters where the file gives none.
 
-    Names that are no parameters are left out here: they are reported where the file is read.
+    Names that are no parameters are left out here, and a second part without `of` is empty: both are reported where
+    the file is read.
     """
     if content.design is None:
         return (Part("grid", tuple(content.parameters), 0, 0, ("parameters",)),)
     named = {name for each in content.design for name in (getattr(each, _kind(each)).of or ())}
     rest = tuple(name for name in content.parameters if name not in named)
-    return tuple(_part(index, each, rest, content) for index, each in enumerate(content.design))
+    parts = []
+    for index, each in enumerate(content.design):
+        parts.append(_part(index, each, rest, content))
+        rest = () if getattr(each, _kind(each)).of is None else rest
+    return tuple(parts)
 
 
 def is_random(part: Part, content: SweepContent) -> bool:

@@ -10,10 +10,11 @@ from __future__ import annotations
 import contextlib
 import os
 import threading
+from collections.abc import Iterable
 from pathlib import Path
 from types import TracebackType
 
-from mbla.errors import FileError, Notice
+from mbla.errors import FileError, Notice, UsageError
 from mbla.results.files import file_errors, flush_to_disk, missing_folders, temporary_path
 from mbla.studies.sweep.journal.header import BEGIN_ANEW, JournalHeader, header_text
 from mbla.studies.sweep.journal.lock import AT_WORK, holder, locked
@@ -48,6 +49,8 @@ class Journal:
 
     Raises
     ------
+    UsageError
+        Both ``resume`` and ``force``: one keeps what the other drops.
     FileError
         On entry: another run is at work; there is a journal and neither ``resume`` nor ``force`` is set; it is of
         another sweep or program, or has a broken row; it cannot be written.
@@ -56,6 +59,8 @@ class Journal:
     def __init__(
         self, path: Path, header: JournalHeader, *, resume: bool, force: bool, retry_failed: bool = False
     ) -> None:
+        if resume and force:
+            raise UsageError("--resume goes on with the journal and --force begins anew: one of them")
         self.path = path
         self.header = header
         self.finished: dict[str, Outcome] = {}
@@ -123,16 +128,19 @@ class Journal:
     def _begin(self) -> None:
         """The file in place with a whole header, and what is finished already."""
         others = [path for path in journals_in(self.path.parent) if path != self.path]
-        if self._force:
-            self._create()
-            if not is_of_shard(self.path):
-                _remove(others)
-            return
-        in_the_way = [path for path in (self.path, *others) if os.path.lexists(path)]
-        if is_of_shard(self.path):
-            in_the_way = in_the_way[:1] if os.path.lexists(self.path) else []
-        if in_the_way and not self._resume:
-            raise FileError(f"{in_the_way[0]}: exists already; --resume goes on with it, {BEGIN_ANEW}")
+        replaced = [self.path] if is_of_shard(self.path) else [self.path, *others]  # by a run that begins anew
+        earlier = [path for path in replaced if os.path.lexists(path)]
+        if self._resume:
+            return self._go_on(others)
+        if earlier and not self._force:
+            raise FileError(f"{earlier[0]}: exists already; --resume goes on with it, {BEGIN_ANEW}")
+        self._create()
+        for path in earlier:
+            if path != self.path:
+                with file_errors(path):
+                    path.unlink()
+
+    def _go_on(self, others: Iterable[Path]) -> None:
         finished: dict[str, Outcome] = {}
         if os.path.lexists(self.path):
             rows = read_journal(self.path, self.header)
@@ -140,9 +148,8 @@ class Journal:
             self.notices = _repaired(self.path, rows.torn)
         for outcome in merged(others, self.header).values():
             keep(finished, outcome)
-        self.finished = {
-            key: outcome for key, outcome in finished.items() if not (self._retry and outcome.state == FAILED)
-        }
+        retried = {FAILED} if self._retry else set()
+        self.finished = {key: outcome for key, outcome in finished.items() if outcome.state not in retried}
         if not self._end:
             self._create()
 
@@ -200,12 +207,6 @@ def _who_is_in(folder: Path) -> str:
     holders = [(path, holder(path)) for path in journals_in(folder)]
     told = [f"{path}: {who} {AT_WORK}" for path, who in holders if who]
     return "\n".join(told) or f"{folder}: another sweep {AT_WORK}"
-
-
-def _remove(paths: list[Path]) -> None:
-    for path in paths:
-        with file_errors(path):
-            path.unlink()
 
 
 def _repaired(path: Path, torn: int) -> tuple[Notice, ...]:

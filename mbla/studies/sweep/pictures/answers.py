@@ -91,6 +91,16 @@ class Answers:
         name = self.column.name.replace("_", " ")
         return f"{name} [{self.column.unit}]" if self.column.unit else name
 
+    @property
+    def below(self) -> BoolArray:
+        """Points that lie below every value: load factors of what does not stand, (n_points,)."""
+        return self.of(Answer.NO_EQUILIBRIUM) & self.is_factor
+
+    @property
+    def above(self) -> BoolArray:
+        """Points that lie above every value: load factors of what no load brings down, (n_points,)."""
+        return self.of(Answer.UNBOUNDED) & self.is_factor
+
     def of(self, answer: Answer) -> BoolArray:
         """Points with this answer, (n_points,)."""
         return np.asarray(self.answer == answer)

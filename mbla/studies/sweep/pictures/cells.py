@@ -77,7 +77,7 @@ def _together(answers: Answers, own: IntArray) -> tuple[int, float, float, float
             return Answer.VALUE, float(good[0]), float(good[0]), float(good[0])
         same = bool(np.all(kinds == kinds[0]) and kinds[0] != Answer.VALUE)
         return (int(kinds[0]) if same else Answer.MIXED), np.nan, np.nan, np.nan
-    below, above = (int((kinds == kind).sum()) for kind in (Answer.NO_EQUILIBRIUM, Answer.UNBOUNDED))
+    below, above = int(answers.below[own].sum()), int(answers.above[own].sum())
     ranked = np.sort(np.concatenate([np.full(below, -np.inf), good, np.full(above, np.inf)]))
     if not len(ranked):
         return int(kinds.max()), np.nan, np.nan, np.nan

@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
-from dataclasses import dataclass, field
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
 from mbla.errors import UsageError
 from mbla.results.pictures.options import LEAST_DPI, MOST_DPI, PictureOptions, format_of, parse_size
 from mbla.results.whole_file import writing_whole
+from mbla.studies.sweep.pictures.demands import demands_of
 from mbla.studies.sweep.pictures.kinds import KINDS
 from mbla.studies.sweep.pictures.view import View, chosen_results, view_of
+from mbla.studies.sweep.tables.read_table import read_sweep_table
 from mbla.studies.sweep.tables.sweep_table import SweepTable
 
 CLASS = "mechanism.class"
@@ -27,7 +29,7 @@ class SweepPictures:
     every   : of the kinds those that the table does not fit are left out, rather than refused
     result  : name or key path of result columns; None for the load factors
     by      : parameter that comes first
-    demands : marked in distributions
+    demands : of result columns by their names, marked in distributions
     page    : size, dots per inch and format
     """
 
@@ -35,7 +37,7 @@ class SweepPictures:
     every: bool = False
     result: str | None = None
     by: str = ""
-    demands: tuple[float, ...] = ()
+    demands: Mapping[str, tuple[float, ...]] = field(default_factory=dict)
     page: PictureOptions = field(default_factory=PictureOptions)
 
 
@@ -50,6 +52,17 @@ class Chosen:
     def name(self) -> str:
         """``curve_load_factor``: what is no letter, number, full stop or hyphen becomes a low line."""
         return f"{self.kind}_{re.sub(r'[^A-Za-z0-9.-]+', '_', self.view.answers.column.name)}"
+
+
+def plot_sweep_files(path: Path, arguments: Any) -> list[Path]:
+    """Pictures of a sweep from its folder, sweep.csv or sweep.json, as the command line asks for them.
+
+    Raises as ``sweep_picture_options``, ``read_sweep_table`` and ``plot_sweep`` do.
+    """
+    chosen = sweep_picture_options(arguments)
+    table = read_sweep_table(path)
+    folder = path if path.is_dir() else path.parent
+    return plot_sweep(table, arguments.output or folder, replace(chosen, demands=demands_of(folder)))
 
 
 def sweep_picture_options(arguments: Any) -> SweepPictures:
@@ -98,7 +111,10 @@ def pictures_of(table: SweepTable, chosen: SweepPictures) -> list[Chosen]:
     """The pictures to make, kind by kind of each result; raises as ``plot_sweep`` does."""
     if not len(table):
         raise UsageError("the sweep has no points to draw")
-    views = [view_of(table, result, chosen.by, chosen.demands) for result in chosen_results(table, chosen.result)]
+    views = [
+        view_of(table, result, chosen.by, chosen.demands.get(result.name, ()))
+        for result in chosen_results(table, chosen.result)
+    ]
     if chosen.kinds:
         pictures = [Chosen(kind, view) for view in views for kind in chosen.kinds if _fits(kind, view, chosen.every)]
     else:

@@ -65,7 +65,7 @@ def draw(path: Path, view: View, options: PictureOptions) -> None:
         return of_classes + mark_handles(page, view.answers.answer)
 
     notes = ["above each diagram: Spearman rank correlation over the points with a verified value"]
-    if view.answers.categories:
+    if not any(_title(view, column) for column in columns):
         notes = []
     with open_sheet(path, view, f"{view.answers.label} against each parameter", options, handles, notes) as sheet:
         rows, across = panel_places(len(columns), sheet)

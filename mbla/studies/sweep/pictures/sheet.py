@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
@@ -11,6 +12,7 @@ from typing import Any
 import numpy as np
 
 from mbla.arrays import IntArray
+from mbla.errors import UsageError
 from mbla.results.pictures.options import DOTS_PER_INCH, PictureOptions
 from mbla.results.pictures.page import LETTER, Page, add_legend, add_words, open_page
 from mbla.results.pictures.palette import INK
@@ -20,6 +22,8 @@ from mbla.studies.sweep.pictures.view import View
 
 LEAST_LETTER = 8.0
 """points of the smallest letters"""
+LEAST_ROOM = 0.2
+"""share of the height that words and legend must leave"""
 SMALL = 0.8
 """letters at axes against those of the words"""
 SCALE = "viridis"
@@ -63,14 +67,33 @@ def open_sheet(
 ) -> Iterator[Sheet]:
     """A page with the title of the sweep, what is drawn, how many points, and notes.
 
-    handles : function of the parts of matplotlib that gives handles of a legend
-    Raises as ``open_page`` does.
+    handles : function of the page that gives handles of a legend
+
+    Raises as ``open_page`` does; UsageError where the page is too small.
     """
+    try:
+        with warnings.catch_warnings():
+            warnings.filterwarnings("error", message=NO_ROOM)
+            yield from _sheet(path, view, what, options, handles, notes)
+    except UserWarning as error:
+        width, height = options.size
+        raise UsageError(f"--size {width}x{height}: words and legend leave no room; choose a larger one") from error
+
+
+NO_ROOM = "constrained_layout not applied"
+"""how matplotlib begins to say that names and figures leave a diagram nothing"""
+
+
+def _sheet(
+    path: Path, view: View, what: str, options: PictureOptions, handles: Any, notes: Sequence[str]
+) -> Iterator[Sheet]:
     with open_page(path, options) as page:
         page = replace(page, scale=max(page.scale, LEAST_LETTER / LETTER))
         words = [view.table.title or "sweep", what, f"{count_words(view.answers)}", *notes]
         above = add_words(page, words)
         below = add_legend(page, handles(page) if handles else ())
+        if 1 - above - below < LEAST_ROOM:
+            raise UserWarning(NO_ROOM)
         yield Sheet(page, below + 0.01, 1 - above)
 
 

@@ -33,7 +33,12 @@ class SweepColumn:
     @property
     def header(self) -> str:
         """``thickness [m]``; the name alone where there is no unit."""
-        return f"{self.name} [{self.unit}]" if self.unit else self.name
+        return header_of(self.name, self.unit)
+
+
+def header_of(name: str, unit: str) -> str:
+    """A name with its unit, as headers of tables have it."""
+    return f"{name} [{unit}]" if unit else name
 
 
 @dataclass(frozen=True)

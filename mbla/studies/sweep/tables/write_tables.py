@@ -9,6 +9,9 @@ from pathlib import Path
 from typing import Any
 
 from mbla.results.files import OutputFolder
+from mbla.results.tables.parquet_file import require_parquet
+from mbla.studies.sweep.fragility import Fragility
+from mbla.studies.sweep.fragility_words import fragility_csv, fragility_json
 from mbla.studies.sweep.tables.read_table import CSV, JSON
 from mbla.studies.sweep.tables.sweep_json import SweepRun, sweep_json
 from mbla.studies.sweep.tables.sweep_table import SweepTable
@@ -38,7 +41,17 @@ def table_names(files: TableFiles, fragility: bool = False) -> tuple[str, ...]:
 
 
 def refuse_tables(folder: Path, files: TableFiles, *, replace: bool, fragility: bool = False) -> None:
-    """FileError now, not after the work, where files of an earlier table are in the way."""
+    """What ``write_tables`` would refuse, now and not after the work.
+
+    Raises
+    ------
+    FileError
+        files of an earlier table are in the way
+    UsageError
+        what Parquet needs is not installed
+    """
+    if files.parquet:
+        require_parquet()
     OutputFolder(folder, "sweep", replace, beside=True).refuse(*table_names(files, fragility))
 
 
@@ -48,12 +61,9 @@ def write_tables(
     run: SweepRun,
     table: SweepTable,
     files: TableFiles,
-    fragility: Sequence[dict[str, Any]] = (),
-    fragility_csv: str = "",
+    fragility: Sequence[Fragility] = (),
 ) -> dict[str, Any]:
     """Write the files; the record, as in sweep.json.
-
-    fragility, fragility_csv : as ``fragility_json`` and ``fragility_csv`` give them
 
     Raises
     ------
@@ -62,8 +72,8 @@ def write_tables(
     UsageError
         what Parquet needs is not installed
     """
-    names = table_names(files, bool(fragility_csv))
-    record = sweep_json(run, table, fragility, sorted({*names, *files.others}))
+    names = table_names(files, bool(fragility))
+    record = sweep_json(run, table, fragility_json(fragility), sorted({*names, *files.others}))
     with OutputFolder(folder, "sweep", force, beside=True) as out:
         out.write_text(CSV, sweep_csv(table))
         out.write_text(JSON, json.dumps(record, indent=1, ensure_ascii=False, allow_nan=False) + "\n")
@@ -71,6 +81,6 @@ def write_tables(
             out.write_bytes(PARQUET, sweep_parquet(run, table))
         if files.hdf5:
             out.write_bytes(HDF5, sweep_hdf5(run, table))
-        if fragility_csv:
-            out.write_text(FRAGILITY, fragility_csv)
+        if fragility:
+            out.write_text(FRAGILITY, fragility_csv(fragility))
     return record

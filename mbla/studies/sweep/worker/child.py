@@ -11,6 +11,7 @@ from __future__ import annotations
 import ctypes
 import json
 import os
+import platform
 import queue
 import signal
 import sys
@@ -19,11 +20,11 @@ import traceback
 from pathlib import Path
 from typing import IO, Any
 
-from mbla.deck import read_deck
 from mbla.errors import UsageError
 from mbla.failures import words_of
 from mbla.studies.measuring_process import import_everything
 from mbla.studies.peak_memory import resident
+from mbla.studies.sweep.fingerprint import fingerprint_of
 from mbla.studies.sweep.plan import Plan
 from mbla.studies.sweep.program import program_identity
 from mbla.studies.sweep.worker.memory_limit import can_limit, limited, written
@@ -59,12 +60,19 @@ def main() -> None:
 
 
 def prepared(plan: Plan) -> PointRunner:
-    """What solves the points, with the base deck read once; UsageError where this is not the one that was planned."""
+    """What solves the points; UsageError where program or base deck are not those of the plan.
+
+    The deck is read for that, so what reading takes is not charged to the first point.
+    """
     if plan.program != program_identity():
         raise UsageError(f"its mbla is {program_identity()}, the sweep was planned by {plan.program}")
     if plan.memory_limit is not None and not can_limit():
         raise UsageError(f"limits.memory: {sys.platform} has no limit on the memory of a process; leave it out")
-    read_deck(Path(plan.deck), plan.fixed)  # what it takes is not charged to the first point
+    if fingerprint_of(Path(plan.deck), plan.fixed) != plan.fingerprint:
+        where = f"{plan.deck} on {platform.node()}"
+        raise UsageError(
+            f"{where} is not the deck that was planned: it, or a file that it names, is another or changed"
+        )
     return PointRunner(plan)
 
 

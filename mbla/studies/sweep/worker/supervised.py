@@ -18,6 +18,9 @@ ENVIRONMENT = dict.fromkeys(("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM
 """one thread each, whatever the user's own variables say: with more of them the last digits may be others"""
 TRIES = 2
 """of a point whose process dies"""
+STARTS = 20
+"""of a process that is ended by a signal before it is ready: no point is to blame, and what sent it may be over soon;
+one that ends by itself then would do so again"""
 GROWTH = 3.0
 """a process that holds so many times what it held after its first point is replaced"""
 START = 120.0
@@ -143,12 +146,14 @@ class SupervisedRunner:
         if self._process.runs() and not self._held > GROWTH * self._first:
             return
         words = ""
-        for _ in range(TRIES):
+        for number in range(1, STARTS + 1):
             if self.stopped:
                 raise StoppedError
             words = self._begin()
             if not words:
                 return
+            if self._process.status >= 0 and number >= TRIES:
+                break
         raise UsageError(f"the process that solves points cannot be started: {words}")
 
     def _begin(self) -> str:
@@ -168,5 +173,6 @@ class SupervisedRunner:
                     return ""
         except OSError as error:  # a TimeoutError is one
             process.stop()
+            process.status = 0
             return str(error) or f"not ready after {START:g} s"
         return process.death()

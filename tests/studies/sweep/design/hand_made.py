@@ -10,7 +10,11 @@ from mbla.errors import Fault, Place
 from mbla.studies.sweep.design.build import design_of
 from mbla.studies.sweep.design.design import Design
 from mbla.studies.sweep.design.ways.way import Vector
+from mbla.studies.sweep.file import design_rules, rules
 from mbla.studies.sweep.file.content import SweepContent
+
+CHECKED_BY = (rules, design_rules)
+"""register the checks of sweep files, so that what is made here is what a file could hold"""
 
 
 def content_of(parameters: Mapping[str, Any], **keys: Any) -> SweepContent:

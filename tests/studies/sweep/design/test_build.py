@@ -33,16 +33,6 @@ def test_a_zip_takes_first_with_first() -> None:
     assert [dimension.name for dimension in found.dimensions] == ["zip"]
 
 
-def test_lists_of_a_zip_have_one_length() -> None:
-    with pytest.raises(DeckError) as caught:
-        design({"mu": MU, "t": T}, design=[{"zip": {}}])
-    [fault] = caught.value.faults
-    assert (fault.key, fault.message) == (
-        "design[0].zip",
-        "needs as many values of each parameter; there are: mu 3 and t 2",
-    )
-
-
 def test_parts_are_combined_and_the_rest_goes_to_the_part_that_names_none() -> None:
     parameters = {"mu": MU, "g": {"key": "g", "uniform": {"from": 1, "to": 2}}, "t": T}
     found = design(parameters, design=[{"random": {"of": ["g"], "points": 3, "seed": 7}}, {"grid": {}}])
@@ -71,12 +61,12 @@ def test_a_value_goes_to_every_key_and_to_the_parameter_of_the_deck_where_none_i
     assert point.settings == {"a.x": 1, "b.x": 1, "parameters.mu": 2, "joints.dry.cohesion": 3}
 
 
-def test_units_are_those_of_the_file_before_those_of_the_deck() -> None:
-    found = design({"a": {"key": "a", "values": [1.5], "unit": "mm"}, "b": {"key": "b", "values": [2]}}, units=UNITS)
-    assert [column.unit for column in found.columns] == ["mm", "Pa"]
+def test_units_are_those_of_the_deck_and_else_of_the_file() -> None:
+    a = {"key": "a", "values": [1.5], "unit": "mm"}
+    assert [column.unit for column in design({"a": a}, units={"a": "m"}).columns] == ["m"]
+    assert [column.unit for column in design({"a": a}).columns] == ["mm"]
 
 
-UNITS = {"a": "m", "b": "Pa"}
 NORMAL = {"key": "n", "normal": {"mean": 1, "deviation": 0.1}}
 LINEAR = {"key": "l", "linear": {"from": 0, "to": 1}}
 
@@ -123,9 +113,10 @@ def test_the_order_of_parameters_does_not_change_what_is_drawn() -> None:
 
 
 def test_faults_of_all_parameters_are_told_at_once() -> None:
+    close = {"key": "n", "linear": {"from": 1, "to": 1.000000000000001, "points": 9}}
     with pytest.raises(DeckError) as caught:
-        design({"n": NORMAL, "l": LINEAR, "t": T})
-    assert [fault.key for fault in caught.value.faults] == ["parameters.n.normal", "parameters.l.linear"]
+        design({"n": close, "t": T, "g": {"key": "g", "sphere": {"points": 2}}})
+    assert [fault.key for fault in caught.value.faults] == ["parameters.n.linear", "parameters.g.sphere"]
 
 
 def _part(kind: str, names: list[str], points: int) -> dict[str, Any]:

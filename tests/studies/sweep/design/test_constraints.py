@@ -122,7 +122,11 @@ def test_a_sample_of_which_constraints_leave_out_points_is_remarked_on() -> None
         ("shape < 3", "shape has values that are no numbers, which cannot be compared"),
         ("t < radius^2", "^ is not an operator of expressions: write ** for powers"),
         ("t <", "cannot be read as an expression: "),
-        ("t = 1", "cannot be read as an expression: "),
+        ("t = 1", "= compares nothing: write == for equal numbers"),
+        (
+            "blocks.0.arch.span > 3",
+            "blocks.0.arch.span is no name of letters, digits and _: give that parameter one, with its key",
+        ),
         ("", "is an expression without content: "),
         ("t < bad", "bad divides by zero, where t = 0.2 and bad = =1/0"),
         ("1/(radius - 3) < t", "divides by zero, where radius = 3 and t = 0.2"),
@@ -140,6 +144,8 @@ def test_refusals(text: str, message: str) -> None:
 
 def test_faults_of_all_constraints_are_told_at_once() -> None:
     assert [key for key, _ in message_of("t < 1", "t + 1", "x > 2")] == ["constraints[1]", "constraints[2]"]
+    lost: dict[str, Any] = {"key": "g", "sphere": {"points": 2}}
+    assert {key for key, _ in message_of("t + 1", g=lost)} == {"constraints[0]", "parameters.g.sphere"}
 
 
 def test_a_name_of_the_sweep_and_of_the_deck_is_ambiguous() -> None:

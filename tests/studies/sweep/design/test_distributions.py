@@ -16,16 +16,19 @@ from scipy import stats
 
 from mbla.arrays import FloatArray
 from mbla.errors import DeckError
-from mbla.studies.sweep.design.ways.way import way_of
+from mbla.studies.sweep.design.ways import WAYS
+from mbla.studies.sweep.design.ways.cut_normal import cut_normal
 from mbla.studies.sweep.file.content import Parameter
+from mbla.studies.sweep.file.ways import way_of
 from tests.studies.sweep.design.hand_made import column, drawn
 
 U = np.array([1e-12, 1e-6, 0.01, 0.2, 0.5, 0.8, 0.99, 1 - 1e-6])
 
 
 def at(parameter: dict[str, Any], u: FloatArray) -> FloatArray:
-    _, way, section = way_of(Parameter.model_validate(parameter))
-    return np.array(way.at(section, u[:, None], None).settings, dtype=float)
+    checked = Parameter.model_validate(parameter)
+    key = way_of(checked)
+    return np.array(WAYS[key].at(getattr(checked, key), u[:, None], None).settings, dtype=float)
 
 
 def share_of_normal(value: FloatArray, mean: float, deviation: float, least: float, greatest: float) -> FloatArray:
@@ -46,19 +49,22 @@ def test_normal(least: float, greatest: float) -> None:
     assert found.max() <= greatest
 
 
-def test_normal_cut_off_far_from_its_mean_keeps_the_shape_of_its_tail() -> None:
-    """Beyond ten deviations the distribution falls off as exp(-10 t): the mean distance is about a tenth of one."""
-    u = (np.arange(2000) + 0.5) / 2000
-    found = at({"normal": {"mean": 0, "deviation": 1, "min": 10}}, u)
+def test_a_tail_far_from_the_mean_keeps_its_shape() -> None:
+    """Ten deviations out, where the distribution function itself is 1 to all digits, the tail is as exp(-10 t)."""
+    found = cut_normal((np.arange(2000) + 0.5) / 2000, 0, 1, 10, None)
     assert found.min() >= 10
-    expected = stats.norm.pdf(10) / stats.norm.sf(10)
-    assert found.mean() == pytest.approx(expected, rel=1e-4)  # of the midpoint rule in the open end
+    assert found.mean() == pytest.approx(stats.norm.pdf(10) / stats.norm.sf(10), rel=1e-4)  # of the midpoint rule
     assert found.mean() - 10 == pytest.approx(0.0981, abs=2e-4)
 
 
-def test_a_normal_of_which_nothing_is_left_is_refused() -> None:
-    with pytest.raises(DeckError, match=r"x\.normal: is cut off so far from its mean"):
-        drawn({"normal": {"mean": 0, "deviation": 1, "min": 1e200, "max": 2e200}}, 4)
+def test_values_beyond_what_numbers_hold_are_refused() -> None:
+    with pytest.raises(DeckError, match=r"x\.normal: has values beyond what a number holds"):
+        drawn({"normal": {"mean": 1e308, "deviation": 1e308}}, 64)
+
+
+def test_a_lognormal_of_any_deviation_has_values() -> None:
+    """Its variance is worked out without the square of the deviation, which is no number here."""
+    assert min(column(drawn({"lognormal": {"mean": 1, "deviation": 1e200}}, 64), "x")) > 0
 
 
 def test_lognormal_has_the_mean_and_deviation_of_the_value() -> None:

@@ -8,9 +8,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from mbla.deck.section import Section
 from mbla.errors import DeckError
 from mbla.studies.sweep.design.ways import WAYS
-from mbla.studies.sweep.file.content import Parameter
+from mbla.studies.sweep.design.ways.way import WayError
+from mbla.studies.sweep.file import ways
+from mbla.studies.sweep.file.content import LinearRange, LogRange, Normal, Parameter
 from tests.studies.sweep.design.hand_made import column, design, drawn
 
 
@@ -19,7 +22,8 @@ def levels(parameter: dict[str, Any]) -> list[Any]:
 
 
 def test_every_way_of_the_sweep_file_is_registered() -> None:
-    assert set(WAYS) == set(Parameter.model_fields) - {"key", "unit"}
+    assert set(WAYS) == set(Parameter.model_fields) - {"key", "unit"} == set(ways.WAYS)
+    assert {key for key, way in WAYS.items() if way.random} == set(ways.RANDOM)
 
 
 def test_a_linear_range_is_as_a_person_would_write_it() -> None:
@@ -72,22 +76,27 @@ def test_levels_that_cannot_be_told_apart_are_refused(way: str) -> None:
     assert len(caught.value.faults) == 1
 
 
-@pytest.mark.parametrize("way", ["linear", "log"])
-def test_a_range_without_points_has_no_levels(way: str) -> None:
-    with pytest.raises(DeckError, match="needs points"):
-        levels({way: {"from": 1, "to": 2}})
+ENDS = {"from": 1, "to": 2}
+
+
+@pytest.mark.parametrize(
+    ("way", "section", "message"),
+    [
+        ("linear", LinearRange.model_validate(ENDS), "needs points"),
+        ("log", LogRange.model_validate(ENDS), "needs points"),
+        ("normal", Normal(mean=1, deviation=1), "draw it in a part random, latin_hypercube or sobol"),
+    ],
+)
+def test_what_has_no_levels_gives_none(way: str, section: Section, message: str) -> None:
+    """Sweep files with these are refused when they are read; nothing is made up here either."""
+    with pytest.raises(WayError, match=message):
+        WAYS[way].levels(section, None)
 
 
 def test_whole_numbers_are_each_of_them() -> None:
     found = design({"x": {"key": "a.x", "whole": {"from": -1, "to": 2}}})
     assert column(found, "x") == [-1, 0, 1, 2]
     assert found.columns[0].kind == "int"
-
-
-@pytest.mark.parametrize("way", ["normal", "lognormal"])
-def test_a_distribution_has_no_levels(way: str) -> None:
-    with pytest.raises(DeckError, match="draw it in a part random, latin_hypercube or sobol"):
-        levels({way: {"mean": 1, "deviation": 0.1}})
 
 
 @pytest.mark.parametrize(

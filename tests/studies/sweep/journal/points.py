@@ -10,12 +10,15 @@ from mbla.studies.sweep.plan import Plain, Task
 
 HEADER = JournalHeader("0.1.0+abc", "f00d", ("status", "load_factor", 'a,"b"#'), "Arch, #1", ("push",))
 
+LENGTHS = (0, 3, 3, 40, 40, 400, 4000)
+"""of the texts of a point"""
+
 
 def point(number: int) -> tuple[Task, Outcome]:
     """Point of this number, always the same one."""
     draw = Random(number)
     key = f"{draw.getrandbits(128):032x}"
-    text = "".join(draw.choice('aö",#\n\0\\[{ ') for _ in range(draw.choice((0, 3, 40, 4000))))
+    text = "".join(draw.choice('aö",#\n\0\\[{ ') for _ in range(draw.choice(LENGTHS)))
     values: list[Plain] = [None, True, 7, draw.gauss(0, 1), 1e300 * draw.random(), text, [1, 2.5, None], {"a": [text]}]
     failed = draw.random() < 0.2
     results = {} if failed else {name: draw.choice(values) for name in HEADER.columns}

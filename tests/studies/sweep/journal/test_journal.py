@@ -9,7 +9,7 @@ from pathlib import Path
 import pandas as pd
 import pytest
 
-from mbla.errors import FileError
+from mbla.errors import FileError, UsageError
 from mbla.results.explanations.explanations import EXPLANATIONS
 from mbla.studies.sweep.journal import Journal, JournalHeader
 from mbla.studies.sweep.journal.header import header_text
@@ -101,6 +101,13 @@ def test_an_earlier_journal_stays_where_the_new_one_cannot_be_made(path: Path, m
         Journal(path, HEADER, resume=False, force=True).__enter__()
     assert path.read_bytes() == before
     assert [file.name for file in path.parent.iterdir()] == ["journal.csv"]
+
+
+def test_to_go_on_and_to_begin_anew_is_no_choice(path: Path) -> None:
+    before = path.read_bytes()
+    with pytest.raises(UsageError, match="one of them"):
+        Journal(path, HEADER, resume=True, force=True)
+    assert path.read_bytes() == before
 
 
 def test_to_go_on_where_nothing_is_begins(tmp_path: Path) -> None:

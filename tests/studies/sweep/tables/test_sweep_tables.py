@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import json
+import sys
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -13,15 +14,16 @@ import pandas
 import pytest
 import xarray
 
-from mbla.errors import FileError
+from mbla.errors import FileError, UsageError
 from mbla.results.tables.column import Values
+from mbla.studies.sweep.fragility import fragility_of
 from mbla.studies.sweep.tables.from_outcomes import as_text, column_values, sweep_table
 from mbla.studies.sweep.tables.read_table import read_sweep_table
 from mbla.studies.sweep.tables.sweep_json import sweep_json
 from mbla.studies.sweep.tables.sweep_table import SweepTable
 from mbla.studies.sweep.tables.table_csv import sweep_csv
 from mbla.studies.sweep.tables.table_hdf5 import NO_NUMBER, sweep_hdf5
-from mbla.studies.sweep.tables.write_tables import TableFiles, table_names, write_tables
+from mbla.studies.sweep.tables.write_tables import TableFiles, refuse_tables, table_names, write_tables
 from tests.studies.sweep.tables.synthetic import FRICTION, LEFT_OUT, RUN, THICKNESS, design, keys, outcomes, table
 
 ALL = TableFiles(parquet=True, hdf5=True, others=("journal.csv",))
@@ -190,6 +192,34 @@ def test_files_appear_together_and_nothing_is_overwritten_unasked(folder: Path, 
     assert [path.name for path in tmp_path.iterdir()] == ["sweep.h5"]
     write_tables(tmp_path, True, RUN, table(), ALL)
     assert same_tables(read_sweep_table(tmp_path), table())
+
+
+def test_probabilities_stand_in_the_record_and_in_a_file_of_their_own(tmp_path: Path) -> None:
+    found = fragility_of(table(), "load_factor", (0.2,), 0.95)
+    record = write_tables(tmp_path, False, RUN, table(), TableFiles(), found)
+    assert [each["at"] for each in record["fragility"]] == [{"mu": 0.5}, {"mu": 0.7}]
+    assert "sweep_fragility.csv" in record["files"]
+    frame = pandas.read_csv(tmp_path / "sweep_fragility.csv")
+    assert frame["below"].tolist() == [2, 0]  # that which does not stand, and the tiny one
+    assert frame["unknown"].tolist() == [0, 1]
+    left = _only(tmp_path, "sweep_fragility.csv")
+    refuse_tables(left, TableFiles(), replace=False)
+    with pytest.raises(FileError, match=r"sweep_fragility\.csv: exists already"):
+        refuse_tables(left, TableFiles(), replace=False, fragility=True)
+
+
+def test_parquet_without_its_extra_is_refused_before_the_work(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "pyarrow", None)
+    with pytest.raises(UsageError, match=r"pip install 'mbla\[tables\]'"):
+        refuse_tables(tmp_path, TableFiles(parquet=True), replace=False)
+
+
+def _only(folder: Path, name: str) -> Path:
+    """The folder with that file alone."""
+    for path in folder.iterdir():
+        if path.name != name:
+            path.unlink()
+    return folder
 
 
 # --- files that are none ------------------------------------------------------------------------------------------

@@ -7,7 +7,13 @@ import subprocess
 import sys
 from pathlib import Path
 
+import pytest
+
+from mbla.errors import UsageError
 from mbla.studies.line_process import PACKAGES
+from mbla.studies.sweep.worker import child
+from mbla.studies.sweep.worker.child import prepared
+from tests.studies.sweep.small_plan import plan_over
 from tests.studies.sweep.worker.test_supervised import wait_for
 from tests.studies.test_measuring import runs
 
@@ -29,8 +35,29 @@ def test_it_ends_in_the_middle_of_a_point_when_its_parent_is_killed(tmp_path: Pa
     command = (sys.executable, "-c", PARENT, str(tmp_path))
     with subprocess.Popen(command, stdout=subprocess.PIPE, text=True, cwd=PACKAGES) as parent:
         assert parent.stdout is not None
-        child = int(parent.stdout.readline())
-        assert runs(child)
+        number = int(parent.stdout.readline())
+        assert runs(number)
         parent.send_signal(signal.SIGKILL)
         assert parent.stdout.read() == ""  # the large point was not solved yet
-    wait_for(lambda: not runs(child))
+    wait_for(lambda: not runs(number))
+
+
+def test_another_program_refuses(tmp_path: Path) -> None:
+    expected = r"^its mbla is .*\+.*, the sweep was planned by 0\.0\.9\+abc$"
+    with pytest.raises(UsageError, match=expected):
+        prepared(plan_over(tmp_path, program="0.0.9+abc"))
+
+
+def test_a_base_deck_that_was_changed_is_refused(tmp_path: Path) -> None:
+    plan = plan_over(tmp_path)
+    deck = Path(plan.deck)
+    deck.write_text(deck.read_text(encoding="utf-8").replace("2000", "2001"), encoding="utf-8")
+    with pytest.raises(UsageError, match=r"base\.yaml on .* is not the deck that was planned: it, or a file that it"):
+        prepared(plan)
+
+
+def test_a_memory_limit_where_the_system_has_none_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(child, "can_limit", lambda: False)
+    prepared(plan_over(tmp_path))
+    with pytest.raises(UsageError, match=r"^limits\.memory: .* has no limit on the memory of a process; leave it out$"):
+        prepared(plan_over(tmp_path, memory_limit=1e9))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import signal
 import sys
@@ -16,7 +17,7 @@ from mbla.errors import UsageError
 from mbla.studies.sweep.outcome import DONE, FAILED, Outcome
 from mbla.studies.sweep.plan import Plan, Task
 from mbla.studies.sweep.worker.messages import record_of
-from mbla.studies.sweep.worker.supervised import GROWTH, StoppedError, SupervisedRunner
+from mbla.studies.sweep.worker.supervised import GROWTH, STARTS, StoppedError, SupervisedRunner
 from tests.studies.sweep.small_plan import ROW, frictions, plan_over
 from tests.studies.test_measuring import runs
 
@@ -31,14 +32,12 @@ SAYS = (
 """the start of a process that speaks as the real one does"""
 
 
-def runner_that(monkeypatch: pytest.MonkeyPatch, plan: Plan, code: str) -> SupervisedRunner:
-    """With a process that runs ``code`` at each point, then answers with ``outcome``."""
-    import json
-
+def runner_that(monkeypatch: pytest.MonkeyPatch, plan: Plan, code: str, before: str = "") -> SupervisedRunner:
+    """With a process that runs ``code`` at each point, then answers with ``outcome``; ``before`` when it starts."""
     done = Outcome("key", DONE, 0, "", {"load_factor": 0.5}, 1, 0.1)
     monkeypatch.setenv("OUTCOME", json.dumps(record_of(done)))
     answer = "    say({'outcome': outcome, 'held': held})\n"
-    return SupervisedRunner(plan, (sys.executable, "-c", SAYS + f"    {code}\n" + answer))
+    return SupervisedRunner(plan, (sys.executable, "-c", before + SAYS + f"    {code}\n" + answer))
 
 
 def children() -> list[int]:
@@ -73,22 +72,15 @@ def test_points_are_solved_and_faulty_ones_told(tmp_path: Path) -> None:
     assert outcomes[3].results == outcomes[0].results
 
 
-def test_time_limit(tmp_path: Path) -> None:
-    """A thousandth of a second is less than any point takes."""
-    with SupervisedRunner(plan_over(tmp_path, time_limit=0.001)) as runner:
-        outcome = runner.run(*frictions(1))
-    assert (outcome.state, outcome.exit_code, outcome.tries) == (FAILED, 7, 1)
-    assert outcome.reason == "stopped at the limit of 0.001 s for a point"
-    assert outcome.results == {}
-
-
-def test_after_a_point_without_end_the_next_has_a_process_of_its_own(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_time_limit(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A point without end is stopped; the next has a process of its own."""
     code = "json.loads(line)['number'] == 1 and time.sleep(60)"
     with runner_that(monkeypatch, plan_over(tmp_path, time_limit=0.5), code) as runner:
-        assert [runner.run(task).exit_code for task in frictions(2)] == [7, 0]
+        stopped, done = (runner.run(task) for task in frictions(2))
         assert runner.started == 2
+    assert (stopped.state, stopped.exit_code, stopped.tries, stopped.results) == (FAILED, 7, 1, {})
+    assert stopped.reason == "stopped at the limit of 0.5 s for a point"
+    assert done.state == DONE
 
 
 def test_memory_limit(tmp_path: Path) -> None:
@@ -156,12 +148,25 @@ def test_a_process_that_grows_is_replaced(tmp_path: Path, monkeypatch: pytest.Mo
         assert runner.started == 2
 
 
-def test_another_program_refuses(tmp_path: Path) -> None:
+def test_one_that_refuses_the_plan(tmp_path: Path) -> None:
+    code = "import sys; print('{}'); sys.stdin.readline(); print('{\"refused\": \"another deck\"}', flush=True)"
     with (
-        SupervisedRunner(plan_over(tmp_path, program="0.0.9+abc")) as runner,
-        pytest.raises(UsageError, match=r"^its mbla is .*\+.*, the sweep was planned by 0\.0\.9\+abc$"),
+        SupervisedRunner(plan_over(tmp_path), (sys.executable, "-c", code)) as runner,
+        pytest.raises(UsageError, match=r"^another deck$"),
     ):
         runner.run(TASK)
+
+
+def test_killed_while_it_starts_is_no_fault_of_the_point(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Killed in each start but the last; the point is tried once."""
+    mark = tmp_path / "starts"
+    code = (
+        f"import os\nfile = open({str(mark)!r}, 'a'); file.write('+'); file.close()\n"
+        f"if os.path.getsize({str(mark)!r}) < {STARTS}: os.kill(os.getpid(), 9)\n"
+    )
+    with runner_that(monkeypatch, plan_over(tmp_path), "pass", before=code) as runner:
+        assert runner.run(TASK).tries == 1
+        assert runner.started == STARTS
 
 
 def test_one_that_cannot_start_is_no_fault_of_the_point(tmp_path: Path) -> None:
@@ -180,7 +185,12 @@ def test_one_that_cannot_start_is_no_fault_of_the_point(tmp_path: Path) -> None:
 def test_stopped_from_another_thread(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     mark = tmp_path / "begun"
     with runner_that(monkeypatch, plan_over(tmp_path), f"open({str(mark)!r}, 'w'); time.sleep(60)") as runner:
-        thread = threading.Thread(target=lambda: (wait_for(mark.exists), runner.kill()))
+
+        def kill_when_begun() -> None:
+            wait_for(mark.exists)
+            runner.kill()
+
+        thread = threading.Thread(target=kill_when_begun)
         thread.start()
         with pytest.raises(StoppedError):
             runner.run(TASK)

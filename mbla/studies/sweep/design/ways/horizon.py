@@ -10,17 +10,14 @@ from mbla.studies.sweep.design.ways.directions import horizontal
 from mbla.studies.sweep.design.ways.linear import between, steps
 from mbla.studies.sweep.design.ways.way import Filled, Form, Vector, Way, WayError, points_of, register
 from mbla.studies.sweep.file.content import Horizon
-
-FULL_CIRCLE = 360.0
+from mbla.studies.sweep.file.rules import FULL_CIRCLE
 
 
 def _levels(section: Horizon, vector: Vector | None) -> Filled:
     """Equal angles; the last of a full circle, which is the first once more, is left out."""
-    points, turn = points_of(section), abs(section.end - section.start)
-    if turn > FULL_CIRCLE:
-        raise WayError(f"goes around {turn:g} degrees: a full circle of 360 holds every direction")
-    if points == 1 or turn == 0:
-        azimuths = [float(section.start)] * points
+    points, turn = points_of(section), section.end - section.start
+    if points == 1:
+        azimuths = [float(section.start)]
     else:
         azimuths = steps(section.start, section.end, points, points if turn == FULL_CIRCLE else points - 1)
     return _turned(azimuths, section, vector)

@@ -17,11 +17,12 @@ from mbla.studies.sweep.file.content import Lognormal
 
 
 def _at(section: Lognormal, u: FloatArray, vector: Vector | None) -> Filled:
-    variance = math.log1p((section.deviation / section.mean) ** 2)
+    variance = 2 * math.log(math.hypot(1.0, section.deviation / section.mean))
     mean = math.log(section.mean) - variance / 2
     least = None if section.least is None else math.log(section.least)
     greatest = None if section.greatest is None else math.log(section.greatest)
-    values = np.exp(cut_normal(u[:, 0], mean, math.sqrt(variance), least, greatest))
+    with np.errstate(over="ignore"):  # told with the other values that are no numbers
+        values = np.exp(cut_normal(u[:, 0], mean, math.sqrt(variance), least, greatest))
     high = math.inf if section.greatest is None else section.greatest
     return plain(rounded_within(values.tolist(), section.least or 0.0, high))
 

@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 
+from mbla.studies.sweep.design.ways.way import WayError
+
 DIGITS = 12
 """significant digits that are kept: far more than anybody measures, few enough that the rounding of the arithmetic and
 the last digits of mathematical libraries, which differ from machine to machine, do not show"""
@@ -18,8 +20,17 @@ def rounded(value: float) -> float:
 
 
 def rounded_within(values: Iterable[float], least: float, greatest: float) -> list[float]:
-    """Each value rounded, and none thereby beyond its limits."""
-    return [min(max(rounded(float(value)), least), greatest) for value in values]
+    """Each value rounded, and none thereby beyond its limits.
+
+    Raises
+    ------
+    WayError
+        a value that is larger than numbers are
+    """
+    found = [min(max(rounded(float(value)), least), greatest) for value in values]
+    if not all(map(math.isfinite, found)):
+        raise WayError("has values beyond what a number holds")
+    return found
 
 
 def decimals_of(start: float, end: float) -> int | None:

@@ -7,7 +7,6 @@ from dataclasses import dataclass
 from typing import Any, TypeAlias
 
 from mbla.arrays import FloatArray
-from mbla.studies.sweep.file.content import Parameter
 from mbla.studies.sweep.plan import Plain
 
 Vector: TypeAlias = tuple[float, float, float]
@@ -68,12 +67,6 @@ WAYS: dict[str, Way] = {}
 def register(key: str, way: Way) -> None:
     """Make a way known under its key in the sweep file."""
     WAYS[key] = way
-
-
-def way_of(parameter: Parameter) -> tuple[str, Way, Any]:
-    """Key, way and section of a parameter, which has exactly one."""
-    key = next(key for key in WAYS if getattr(parameter, key) is not None)
-    return key, WAYS[key], getattr(parameter, key)
 
 
 def plain(values: Sequence[Plain]) -> Filled:

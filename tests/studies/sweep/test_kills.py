@@ -1,0 +1,71 @@
+"""Sweeps whose processes are killed at any moment end in the table of one that ran undisturbed."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from random import Random
+
+import pytest
+
+from mbla.studies.sweep.engine.options import EngineOptions
+from tests.studies.sweep.killed_sweeps import (
+    SCHEDULER,
+    Cluster,
+    Scene,
+    finish,
+    keys_in_journals,
+    scene,
+    table_of,
+    with_cluster_kills,
+    with_kills,
+    written,
+)
+
+
+def check_like_clean(killed: Scene, clean: Scene, reported: set[str]) -> None:
+    """The same table, no row lost that was reported, and no point solved again whose row was there."""
+    assert reported <= set(keys_in_journals(killed.folder))
+    assert finish(killed) == finish(clean) == "exit 8"
+    keys = keys_in_journals(killed.folder)
+    assert sorted(keys) == sorted(task.key for task in killed.prepared.tasks)
+    assert table_of(killed.folder) == table_of(clean.folder)
+    assert not [path for path in killed.folder.iterdir() if path.name.startswith(".")]
+
+
+def test_client_and_process_killed_a_few_times(tmp_path: Path) -> None:
+    path = written(tmp_path, 12)
+    killed, clean = scene(path, tmp_path / "killed"), scene(path, tmp_path / "clean")
+    kills, reported = with_kills(killed, 2, Random(1), 0.1, 0.5)
+    assert kills == 2
+    check_like_clean(killed, clean, reported)
+
+
+@pytest.mark.long
+def test_sixty_kills_of_client_and_process(tmp_path: Path) -> None:
+    path = written(tmp_path, 500)
+    killed, clean = scene(path, tmp_path / "killed"), scene(path, tmp_path / "clean")
+    kills, reported = with_kills(killed, 60, Random(2), 2.5, 0.6)
+    assert kills == 60
+    check_like_clean(killed, clean, reported)
+
+
+@pytest.mark.long
+def test_kills_with_two_workers(tmp_path: Path) -> None:
+    path = written(tmp_path, 300)
+    killed = scene(path, tmp_path / "killed", EngineOptions(workers=2))
+    kills, reported = with_kills(killed, 20, Random(3), 3.0, 0.5)
+    assert kills == 20
+    check_like_clean(killed, scene(path, tmp_path / "clean"), reported)
+
+
+@pytest.mark.long
+def test_kills_in_a_cluster(tmp_path: Path) -> None:
+    """Scheduler, nannies, workers, processes of points, client: whichever is hit."""
+    path = written(tmp_path, 600)
+    clean = scene(path, tmp_path / "clean")
+    with Cluster(tmp_path, 2) as cluster:
+        killed = scene(path, tmp_path / "killed", EngineOptions(scheduler_file=cluster.file))
+        kills = with_cluster_kills(killed, cluster, 20, Random(4), 3.0)
+        assert len(kills) == 20
+        assert {"client", SCHEDULER, "worker 0", "worker 1"} <= set(kills)
+        check_like_clean(killed, clean, set())
