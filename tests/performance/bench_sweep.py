@@ -54,7 +54,7 @@ def points_of(plane: str, count: int) -> Points:
         for angle in (2 * np.pi * np.arange(n_directions) / n_directions).tolist():
             direction = np.zeros(3)
             direction[places] = np.cos(angle), np.sin(angle)
-            points.append({FRICTION: friction, DIRECTION: direction.tolist()})
+            points.append({FRICTION: friction, DIRECTION: [float(part) for part in direction]})
     return points[:count]
 
 

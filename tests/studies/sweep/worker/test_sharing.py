@@ -8,13 +8,15 @@ from typing import Any
 import pytest
 
 from mbla.results.results import Results
+from mbla.run_deck import solve_deck
 from mbla.sharing import sharing
-from mbla.studies.sweep.plan import Plan, Task
+from mbla.studies.sweep.plan import Plain, Plan, Task
 from mbla.studies.sweep.worker import runner as runner_module
 from mbla.studies.sweep.worker.memory import Memory
 from mbla.studies.sweep.worker.runner import PointRunner
 from tests.studies.sweep.worker.sharing_decks import ARCH, DECKS, SMALL_ARCH, VARIED, Settings, solved
 
+DIRECTIONS: tuple[list[Plain], ...] = ([1, 0, 0], [0.6, 0.8, 0])
 POINTS = [(deck, settings) for deck, variants in VARIED.items() for settings in variants]
 
 
@@ -57,7 +59,7 @@ def test_points_of_an_arch_are_answered_as_from_scratch() -> None:
     friction_and_direction: list[tuple[str, Settings]] = [
         (ARCH, {**SMALL_ARCH, "parameters.mu": mu, "load_cases.push_x.live.0.acceleration": direction})
         for mu in (0.6, 0.5)
-        for direction in ([1.0, 0.0, 0.0], [0.6, 0.8, 0.0])
+        for direction in DIRECTIONS
     ]
     too_thin = (ARCH, {**SMALL_ARCH, "parameters.t": 0.02})
     points = [*friction_and_direction, too_thin, *reversed(friction_and_direction)]
@@ -77,12 +79,12 @@ def test_a_point_whose_memory_earlier_ones_took_is_solved_without_them(monkeypat
     task = Task("1", 1, SMALL_ARCH)
     runner = runner_of_an_arch()
     expected = runner.run(task)
-    solve, before = runner_module.solve_deck, runner.memory
+    before = runner.memory
 
     def scarce(*args: Any) -> Results:
         if runner.memory is before:
             raise MemoryError
-        return solve(*args)
+        return solve_deck(*args)
 
     monkeypatch.setattr(runner_module, "solve_deck", scarce)
     outcome = runner.run(task)
