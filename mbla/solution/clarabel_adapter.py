@@ -104,7 +104,10 @@ class ClarabelProgram:
         with signals_held() as signalled:
             callback = self._callback(program_number, to_load_factor, started, signalled)
             self._solver.set_termination_callback(callback)
-            result = self._solver.solve()
+            try:
+                result = self._solver.solve()
+            finally:  # the callback holds this object, and the solver in it the callback: no collector sees into that
+                self._solver.unset_termination_callback()
         if self._raised is not None:
             raised, self._raised = self._raised, None
             raise raised

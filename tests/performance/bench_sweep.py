@@ -24,6 +24,7 @@ import sys
 import tempfile
 import time
 from collections.abc import Callable
+from functools import partial
 from math import isqrt
 from pathlib import Path
 from resource import RUSAGE_CHILDREN, RUSAGE_SELF, getrusage
@@ -53,7 +54,7 @@ def points_of(plane: str, count: int) -> Points:
         for angle in (2 * np.pi * np.arange(n_directions) / n_directions).tolist():
             direction = np.zeros(3)
             direction[places] = np.cos(angle), np.sin(angle)
-            points.append({FRICTION: friction, DIRECTION: direction.tolist()})
+            points.append({FRICTION: friction, DIRECTION: [float(part) for part in direction]})
     return points[:count]
 
 
@@ -116,14 +117,16 @@ def main(count: int) -> None:
     """Both sweeps by all four ways, a row each."""
     for plane in PLANES:
         points = points_of(plane, count)
-        separate(points[:2]), shared(points[:2])  # imports count for neither
+        separate(points[:2])  # imports do not count
+        shared(points[:2])
         ways: dict[str, Callable[[], list[float | None]]] = {
-            "separate": lambda points=points: separate(points),
-            "shared": lambda points=points: shared(points),
-            "one worker": lambda points=points: by_command(points, 1),
-            "two workers": lambda points=points: by_command(points, 2),
+            "separate": partial(separate, points),
+            "shared": partial(shared, points),
+            "one worker": partial(by_command, points, 1),
+            "two workers": partial(by_command, points, 2),
         }
-        reference, longest = [], 0.0
+        reference: list[float | None] = []
+        longest = 0.0
         for way, run in ways.items():
             found, clock, processor = measured(run)
             if way == "separate":

@@ -41,11 +41,22 @@ class PointRunner:
         started = time.perf_counter()
         results: dict[str, Plain] = {}
         try:
-            with sharing(self.memory):
-                code, reason, results = self._solve(task)
+            code, reason, results = self._shared(task)
         except Exception as error:
             code, reason = words_of(error)
         return Outcome(task.key, state_of(code), code, reason, results, 1, time.perf_counter() - started)
+
+    def _shared(self, task: Task) -> tuple[int, str, dict[str, Plain]]:
+        """Solve it with what earlier points left; without, where that leaves too little memory for this one."""
+        try:
+            with sharing(self.memory):
+                return self._solve(task)
+        except MemoryError:
+            if not len(self.memory):
+                raise
+        self.memory = Memory()
+        with sharing(self.memory):
+            return self._solve(task)
 
     def _solve(self, task: Task) -> tuple[int, str, dict[str, Plain]]:
         plan, started = self.plan, time.perf_counter()

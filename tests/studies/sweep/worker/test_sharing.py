@@ -3,13 +3,20 @@
 from __future__ import annotations
 
 import random
+from typing import Any
 
 import pytest
 
+from mbla.results.results import Results
+from mbla.run_deck import solve_deck
 from mbla.sharing import sharing
+from mbla.studies.sweep.plan import Plain, Plan, Task
+from mbla.studies.sweep.worker import runner as runner_module
 from mbla.studies.sweep.worker.memory import Memory
-from tests.studies.sweep.worker.sharing_decks import ARCH, SMALL_ARCH, VARIED, Settings, solved
+from mbla.studies.sweep.worker.runner import PointRunner
+from tests.studies.sweep.worker.sharing_decks import ARCH, DECKS, SMALL_ARCH, VARIED, Settings, solved
 
+DIRECTIONS: tuple[list[Plain], ...] = ([1, 0, 0], [0.6, 0.8, 0])
 POINTS = [(deck, settings) for deck, variants in VARIED.items() for settings in variants]
 
 
@@ -52,7 +59,7 @@ def test_points_of_an_arch_are_answered_as_from_scratch() -> None:
     friction_and_direction: list[tuple[str, Settings]] = [
         (ARCH, {**SMALL_ARCH, "parameters.mu": mu, "load_cases.push_x.live.0.acceleration": direction})
         for mu in (0.6, 0.5)
-        for direction in ([1.0, 0.0, 0.0], [0.6, 0.8, 0.0])
+        for direction in DIRECTIONS
     ]
     too_thin = (ARCH, {**SMALL_ARCH, "parameters.t": 0.02})
     points = [*friction_and_direction, too_thin, *reversed(friction_and_direction)]
@@ -61,3 +68,47 @@ def test_points_of_an_arch_are_answered_as_from_scratch() -> None:
     assert memory.found["structure"] >= 6, memory
     assert memory.found["contacts"] >= 6, memory
     assert memory.found["standing"] >= 4, memory
+
+
+def runner_of_an_arch() -> PointRunner:
+    results = ("load_factor", "mechanism.hinges", "reason")
+    return PointRunner(Plan(str(DECKS / ARCH), "", (), ("push_x",), results, "none", "", None, None, ""))
+
+
+def test_a_point_whose_memory_earlier_ones_took_is_solved_without_them(monkeypatch: pytest.MonkeyPatch) -> None:
+    task = Task("1", 1, SMALL_ARCH)
+    runner = runner_of_an_arch()
+    expected = runner.run(task)
+    before = runner.memory
+
+    def scarce(*args: Any) -> Results:
+        if runner.memory is before:
+            raise MemoryError
+        return solve_deck(*args)
+
+    monkeypatch.setattr(runner_module, "solve_deck", scarce)
+    outcome = runner.run(task)
+    assert (outcome.state, outcome.results) == ("done", expected.results)
+    assert "structure" not in runner.memory.found, "it starts anew"
+
+
+def test_a_point_that_takes_too_much_memory_by_itself_fails(monkeypatch: pytest.MonkeyPatch) -> None:
+    asked = []
+
+    def too_large(*args: Any) -> Results:
+        asked.append(args)
+        raise MemoryError
+
+    monkeypatch.setattr(runner_module, "solve_deck", too_large)
+    outcome = runner_of_an_arch().run(Task("1", 1, SMALL_ARCH))
+    assert (outcome.state, outcome.exit_code) == ("failed", 7)
+    assert len(asked) <= 2
+
+
+def test_faults_name_the_settings_of_their_own_point() -> None:
+    runner = runner_of_an_arch()
+    assert runner.run(Task("1", 1, SMALL_ARCH)).state == "done"
+    outcome = runner.run(Task("2", 2, {**SMALL_ARCH, "parameters.mu": -1, "supports": [{"blocks": "pier"}]}))
+    assert (outcome.state, outcome.exit_code) == ("failed", 3)
+    assert "--set:2:1 parameters.mu = -1" in outcome.reason or "--set:3" in outcome.reason, outcome.reason
+    assert runner.run(Task("3", 3, SMALL_ARCH)).results["mechanism.hinges"] == 4
