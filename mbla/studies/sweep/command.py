@@ -152,12 +152,17 @@ def run_sweep(prepared: Prepared, options: SweepOptions, report: Report | None =
     asked = prepared.tasks if options.shard is None else shard_of(prepared.tasks, *options.shard)
     path = folder / (WHOLE if options.shard is None else journal_name(*options.shard))
     journal = Journal(path, header, resume=options.resume, force=options.force, retry_failed=options.retry_failed)
-    with engine_for(options.engine) as engine:
-        fragility = prepared.sweep.content.fragility is not None
-        refuse_tables(folder, files, replace=options.force or options.resume, fragility=fragility)
-        with journal:
-            tasks = [task for task in asked if task.key not in journal.finished]
-            _solve(engine.run(prepared.plan, tasks), tasks, journal, report)
+    engine = engine_for(options.engine)
+    fragility = prepared.sweep.content.fragility is not None
+    refuse_tables(folder, files, replace=options.force or options.resume, fragility=fragility)
+    with journal:
+        tasks = [task for task in asked if task.key not in journal.finished]
+        progress = Progress(len(tasks), len(journal.finished))
+        if report is not None:
+            report(progress, None, None)
+        if tasks:
+            with engine:
+                _solve(engine.run(prepared.plan, tasks), tasks, journal, progress, report)
         finished = journal.finished | ({} if options.shard is None else merged(journals_in(folder), header))
         return _finish(prepared, options, finished, journal.notices, time.perf_counter() - started)
 
@@ -168,13 +173,15 @@ def _files(prepared: Prepared, options: SweepOptions) -> TableFiles:
 
 
 def _solve(
-    outcomes: Generator[Outcome, None, None], tasks: Sequence[Task], journal: Journal, report: Report | None
+    outcomes: Generator[Outcome, None, None],
+    tasks: Sequence[Task],
+    journal: Journal,
+    progress: Progress,
+    report: Report | None,
 ) -> None:
     """Each outcome into the journal as it comes."""
     by_key: Mapping[str, Task] = {task.key: task for task in tasks}
-    progress, started = Progress(len(tasks), len(journal.finished)), time.perf_counter()
-    if report is not None:
-        report(progress, None, None)
+    started = time.perf_counter()
     with closing(outcomes):
         for outcome in outcomes:
             task = by_key[outcome.key]
