@@ -26,7 +26,7 @@ def with_notes(text: str, error: BaseException) -> str:
     return "; ".join([text, *getattr(error, "__notes__", ())])
 
 
-def failure_record(deck: Path, error: Exception, code: int) -> dict[str, Any]:
-    """The object that ``--json`` prints of a deck that could not be run."""
+def failure_record(path: Path, error: Exception, code: int, about: str = "deck") -> dict[str, Any]:
+    """The object that ``--json`` prints of a deck that could not be run, or of what else it is about."""
     messages = [str(fault) for fault in error.faults] if isinstance(error, DeckError) else [words_of(error)[1]]
-    return {"mbla": __version__, "deck": deck.name, "exit_code": code, "errors": messages}
+    return {"mbla": __version__, about: path.name, "exit_code": code, "errors": messages}
