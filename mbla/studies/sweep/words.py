@@ -53,9 +53,13 @@ def result_lines(table: SweepTable, column: SweepColumn) -> list[str]:
         return entry(column.name, "no value")
     least, greatest = known[np.argmin(finite[known])], known[np.argmax(finite[known])]
     unit = f" {column.unit}" if column.unit else ""
-    words = f"{number(finite[least])}{unit} ({point_words(table, int(least))})"
-    if greatest != least:
-        words += f" to {number(finite[greatest])}{unit} ({point_words(table, int(greatest))})"
+    first, last = f"{number(finite[least])}{unit}", f"{number(finite[greatest])}{unit}"
+    if known.size == 1:
+        words = f"{first} ({point_words(table, int(least))})"
+    elif first == last:  # which of them is the least is then a matter of the last digits of the solver
+        words = f"{first} at {'all' if known.size == len(table) else 'each of'} {counted(known.size, 'point')}"
+    else:
+        words = f"{first} ({point_words(table, int(least))}) to {last} ({point_words(table, int(greatest))})"
     missing = len(table) - known.size
     return entry(column.name, words + (f"; {counted(missing, 'point')} without" if missing else ""))
 
