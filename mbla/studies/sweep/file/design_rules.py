@@ -12,6 +12,7 @@ from mbla.studies.sweep.file.content import MAX_POINTS, Parameter, SweepContent
 from mbla.studies.sweep.file.keys import key_paths, spelt
 from mbla.studies.sweep.file.parts import SAMPLED, Part, design_parts, is_random
 from mbla.studies.sweep.file.ways import DISTRIBUTIONS, RANDOM, WITH_POINTS, level_count, way_of
+from mbla.studies.sweep.results import FACTORS, STATUS
 
 OWN_COLUMNS = ("point", "state", "exit_code", "reason", "tries", "seconds")
 """columns that every table of a sweep has beside those of parameters and results"""
@@ -192,6 +193,12 @@ def fragility(sweep: SweepContent) -> Iterator[Finding]:
         yield (
             ("fragility", "result"),
             f"{shorten(wanted)} is not among results{hint} these are {listed(sweep.results, 'and')}",
+        )
+    elif any(wanted == name or wanted.endswith(f".{name}") for name in FACTORS) and STATUS not in sweep.results:
+        yield (
+            ("results",),
+            f"must have {STATUS} too: for the probability of {shorten(wanted)} it tells what does not stand from what "
+            "no load brings down",
         )
     random = [part for part in design_parts(sweep) if is_random(part, sweep)]
     if not random:
