@@ -47,9 +47,10 @@ def table_of(
             outcomes[key] = Outcome(key, state, 0, "", results, 1, 0.1)
             at, values = ((row,), (thick[row],)) if thickness else ((), ())
             design.append(Point(len(design) + 1, (*at, place), (*values, 0.5), {}))
+    levels = (*([tuple(thick)] if thickness else []), (0.5,) * len(points[0]))
     return sweep_table(
         "",
-        Design(columns, dimensions, tuple(design), 0, "sample", sampling),
+        Design(columns, dimensions, tuple(design), levels, 0, "sample", sampling),
         result_columns(asked, ("push",), Units()),
         outcomes,
         list(outcomes),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Iterator
 from math import prod
 
@@ -119,6 +120,19 @@ def ways_fit_their_part(sweep: SweepContent) -> Iterator[Finding]:
                 yield path, f"is a distribution, which a {part.kind} cannot take: put {name} into {_samples()}"
             elif points is None:
                 yield path, f"needs points, how many values it has, in a {part.kind}; or put {name} into {_samples()}"
+
+
+@rule(SweepContent)
+def grid_values_once(sweep: SweepContent) -> Iterator[Finding]:
+    """No point of a grid twice; in a zip a value may come again beside others, and in a sample it has more weight."""
+    for part in design_parts(sweep):
+        for name in part.names if part.kind == "grid" else ():
+            values = sweep.parameters[name].values or []
+            written = [json.dumps(value) if isinstance(value, bool | str | list) else value for value in values]
+            for index, value in enumerate(written):
+                if value in written[:index]:
+                    message = "is given twice: the points of a grid differ in each value"
+                    yield ("parameters", name, "values", index), message
 
 
 def _samples() -> str:
