@@ -27,8 +27,8 @@ from tests.studies.sweep.killed_sweeps import (
 
 CLUSTER_KILLS = 15
 """by each way to a cluster; with those below there are 125 in all"""
-DASK_LOCKS = ("global.lock", "purge.lock")
-"""empty files by which workers of Dask agree on who removes folders of others that were killed"""
+DASK_LOCKS = ("global.lock", "purge.lock", "*.dirlock")
+"""files by which workers of Dask agree on who removes folders of others that were killed, which the next one does"""
 
 
 def check_like_clean(killed: Scene, clean: Scene, reported: set[str]) -> None:
