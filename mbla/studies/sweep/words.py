@@ -64,8 +64,9 @@ def result_lines(table: SweepTable) -> list[str]:
 class Range:
     """Least and greatest verified value of a result, nan where no point has one.
 
-    rows    : of the first points that have them
+    rows    : of the first points that have them; none where all are alike
     without : points that have none
+    alike   : all are the same as far as they are shown: which is the least is a matter of the solver's last digits
     """
 
     column: SweepColumn
@@ -73,6 +74,7 @@ class Range:
     greatest: float
     rows: tuple[int, ...]
     without: int
+    alike: bool = False
 
 
 def _range_of(table: SweepTable, column: SweepColumn) -> Range:
@@ -81,6 +83,8 @@ def _range_of(table: SweepTable, column: SweepColumn) -> Range:
     if not known.size:
         return Range(column, np.nan, np.nan, (), len(table))
     values = answers.values[known]
+    if known.size > 1 and number(values.min()) == number(values.max()):
+        return Range(column, float(values.min()), float(values.max()), (), len(table) - known.size, alike=True)
     rows = (int(known[np.argmin(values)]), int(known[np.argmax(values)]))
     return Range(column, float(values.min()), float(values.max()), rows, len(table) - known.size)
 
@@ -89,7 +93,7 @@ def _range_lines(table: SweepTable, ranges: Sequence[Range]) -> list[str]:
     missing = any(one.without for one in ranges)
     cells = []
     for one in ranges:
-        at = [str(table["point"][row]) for row in one.rows] or ["-", "-"]
+        at = [str(table["point"][row]) for row in one.rows] or (["all", "all"] if one.alike else ["-", "-"])
         shown = [one.column.header, number(one.least), at[0], number(one.greatest), at[1]]
         cells.append([*shown, *([str(one.without)] if missing else [])])
     head = ["result", "least", "point", "greatest", "point", *(["without"] if missing else [])]
