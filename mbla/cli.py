@@ -135,8 +135,9 @@ def _interact(options: argparse.Namespace) -> int:
     if options.json:
         print(json_line(record), flush=True)
     if not options.quiet:
-        files = f"files: {', '.join(record['files'])} in {run_options.folder_for(options.deck)}/"
-        lines = [*study_lines(study), *sentence(files)]
+        lines = study_lines(study)
+        if record["files"]:
+            lines += sentence(f"files: {', '.join(record['files'])} in {run_options.folder_for(options.deck)}/")
         print("\n".join(lines), file=sys.stderr if options.json else sys.stdout, flush=True)
     return study.exit_code
 
