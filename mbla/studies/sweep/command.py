@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Generator, Mapping, Sequence
-from contextlib import closing
+from collections.abc import Callable, Generator, Iterator, Mapping, Sequence
+from contextlib import closing, contextmanager
 from dataclasses import dataclass, field
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
 from mbla import __version__
-from mbla.errors import Notice
+from mbla.errors import Notice, UsageError
+from mbla.results.words.text import counted
 from mbla.studies.sweep.base import Base, read_base
 from mbla.studies.sweep.base_points import check_points
 from mbla.studies.sweep.design.build import design_of
@@ -40,6 +41,8 @@ from mbla.studies.sweep.tables.write_tables import TableFiles, refuse_tables, wr
 FAILED_POINTS = 8
 """exit status of a sweep some of whose points failed"""
 MEGABYTE = 1e6
+RESUME = "--resume"
+"""the option that goes on with a journal"""
 
 Report = Callable[[Progress, Task | None, Outcome | None], None]
 """called once before the first point, with None, and after each finished point"""
@@ -163,10 +166,21 @@ def run_sweep(prepared: Prepared, options: SweepOptions, report: Report | None =
         if report is not None:
             report(progress, None, None)
         if tasks:
-            with engine:
+            with _noted(journal), engine:
                 _solve(prepared, engine.run(prepared.plan, tasks), journal, progress, report)
         finished = journal.finished | ({} if options.shard is None else merged(journals_in(folder), header))
         return _finish(prepared, options, finished, journal.notices, time.perf_counter() - started)
+
+
+@contextmanager
+def _noted(journal: Journal) -> Iterator[None]:
+    """What breaks a sweep off says how much of it is kept, where its own words do not."""
+    try:
+        yield
+    except BaseException as error:
+        if not isinstance(error, UsageError) and RESUME not in str(error):
+            error.add_note(f"{counted(len(journal.finished), 'finished point')} in the journal, {RESUME} goes on")
+        raise
 
 
 def _files(prepared: Prepared, options: SweepOptions) -> TableFiles:
