@@ -20,6 +20,7 @@ from mbla.studies.sweep.engine.engine import Engine
 from mbla.studies.sweep.fingerprint import fingerprint_of, key_hash
 from mbla.studies.sweep.plan import Plan, Task
 from mbla.studies.sweep.program import program_identity
+from mbla.studies.sweep.reasons import shown_folders
 
 GRAVEST_FIRST = (1, 6, 7, 3, 4)
 """exit codes of points that were not answered"""
@@ -73,9 +74,10 @@ def study_points(
     started = time.perf_counter()
     tasks = tasks_of(question, plan.fingerprint)
     numbers = {task.key: task.number for task in tasks}
+    shown = shown_folders(plan, deck.path.name)
     points: dict[int, Point] = {}
     with closing(engine.run(plan, tasks)) as outcomes:
-        for outcome in outcomes:
+        for outcome in map(shown.in_outcome, outcomes):
             number = numbers[outcome.key]
             points[number] = point_of(question.angles[number - 1], outcome)
             if report is not None:

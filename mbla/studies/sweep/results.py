@@ -15,6 +15,10 @@ from mbla.studies.sweep.plan import Plain
 
 OF_RUN = ("model", "settings", "time")
 """first keys of paths that lead into the record of the run rather than into that of a load case"""
+STATUS = "status"
+FACTORS = ("load_factor", "static_bound", "kinematic_bound", "associative_load_factor")
+"""results that are load factors: they have a place on their axis for a structure that does not stand, and for one that
+no load brings down, which their status tells"""
 UNBOUNDED = "unbounded"
 """status of a position that nothing brings down: others may still be the worst"""
 

@@ -61,7 +61,7 @@ class PointRunner:
 
     def _solve(self, task: Task) -> tuple[int, str, dict[str, Plain]]:
         plan, started = self.plan, time.perf_counter()
-        deck = read_deck(Path(plan.deck), (*plan.fixed, *override_texts(task.settings)))
+        deck = read_deck(Path(plan.deck), (*plan.fixed, *override_texts(task.settings)), expected=False)
         deck = with_what_is_asked(deck, plan)
         status = io.StringIO()
         results = solve_deck(deck, RunOptions(cases=plan.cases), StatusFile(status, title_of(deck)), None, started)
