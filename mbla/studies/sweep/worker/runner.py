@@ -17,6 +17,7 @@ from mbla.studies.sweep.outcome import DONE, FAILED, Outcome
 from mbla.studies.sweep.plan import Plain, Plan, Task
 from mbla.studies.sweep.results import reason_of, result_places, values_of
 from mbla.studies.sweep.settings import override_texts
+from mbla.studies.sweep.worker.asked import with_what_is_asked
 from mbla.studies.sweep.worker.kept import keep_files, wanted
 from mbla.studies.sweep.worker.memory import Memory
 
@@ -61,6 +62,7 @@ class PointRunner:
     def _solve(self, task: Task) -> tuple[int, str, dict[str, Plain]]:
         plan, started = self.plan, time.perf_counter()
         deck = read_deck(Path(plan.deck), (*plan.fixed, *override_texts(task.settings)), expected=False)
+        deck = with_what_is_asked(deck, plan)
         status = io.StringIO()
         results = solve_deck(deck, RunOptions(cases=plan.cases), StatusFile(status, title_of(deck)), None, started)
         if wanted(plan, state_of(results.exit_code)):
