@@ -136,16 +136,3 @@ def rows_in_shard(folder: Path, part: int) -> int:
     """Rows in the journal of a shard of four."""
     journal = folder / journal_name(part, 4)
     return journal.read_bytes().count(b"\n") - HEADER if journal.exists() else 0
-
-
-@pytest.mark.long
-@pytest.mark.parametrize("second", [("-j", "2"), ("-j", "1")])
-def test_gone_on_with_by_another_engine(path: Path, clean: Path, tmp_path: Path, second: tuple[str, str]) -> None:
-    first = ("-j", "1") if second == ("-j", "2") else ("-j", "2")
-    folder = tmp_path / "other"
-    with Command(path, folder, *first) as command:
-        command.await_rows(2)
-        command.process.kill()
-        command.process.wait()
-    assert run(path, folder, "--resume", *second).status == 8
-    check_clean(folder, clean)
