@@ -38,7 +38,7 @@ def main() -> None:
             assert len(taken) in (0, GIGABYTE)
             return super()._solve(task)
 
-    child.PointRunner = Faulty  # type: ignore[misc]
+    vars(child)["PointRunner"] = Faulty
     child.main()
 
 

@@ -102,11 +102,12 @@ def check_cut(path: Path, clean: Path, folder: Path, length: int, after: bytes) 
 def test_two_runs_at_once(path: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """The second is told who has the journal, and takes nothing from the first."""
     folder = tmp_path / "two"
-    with forked(lambda _: main(["sweep", str(path), "-o", str(folder), "-q"]) and None) as first:
+    command = ["sweep", str(path), "-o", str(folder), "-q"]
+    with forked(lambda report: report(f"exit {main(command)}")) as first:
         while not rows_in(folder):
             pass
         for options in ("--resume",), ("--force",), ("--shard", "1/2"):
-            assert main(["sweep", str(path), "-o", str(folder), "-q", *options]) == 6
+            assert main([*command, *options]) == 6
             said = capsys.readouterr().err
             assert re.fullmatch(rf"mbla: \S+/journal\.csv: process {first.pid} on \S+ is at work on it; .*\n", said)
 
