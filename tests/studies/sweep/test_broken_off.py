@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import os
 import re
+import signal
+import time
 from collections.abc import Iterator
 from pathlib import Path
 from random import Random
@@ -14,6 +17,7 @@ from mbla.studies.sweep.journal.shards import journal_name
 from tests.studies.sweep.commands import Command, check_clean, rows_in, run
 from tests.studies.sweep.journal.forked import forked
 from tests.studies.sweep.killed_sweeps import written
+from tests.studies.sweep.worker.test_supervised import wait_for
 
 POINTS = 24
 HEADER = 2
@@ -104,8 +108,8 @@ def test_two_runs_at_once(path: Path, tmp_path: Path, capsys: pytest.CaptureFixt
     folder = tmp_path / "two"
     command = ["sweep", str(path), "-o", str(folder), "-q"]
     with forked(lambda report: report(f"exit {main(command)}")) as first:
-        while not rows_in(folder):
-            pass
+        wait_for(lambda: rows_in(folder))
+        os.kill(first.pid, signal.SIGSTOP)  # so that it is still at work when the others come
         for options in ("--resume",), ("--force",), ("--shard", "1/2"):
             assert main([*command, *options]) == 6
             said = capsys.readouterr().err
@@ -124,6 +128,7 @@ def test_a_job_array(path: Path, clean: Path, tmp_path: Path) -> None:
     ):
         while not rows_in_shard(folder, 2):
             assert second.process.poll() is None
+            time.sleep(0.001)
         second.process.kill()
         for job in (first, third, fourth):
             assert job.end().status in (0, 8)
