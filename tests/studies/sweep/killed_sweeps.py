@@ -265,24 +265,23 @@ def with_cluster_kills(scene: Scene, cluster: Cluster, times: int, draw: Random,
     """
     wanted = [CLIENT, *KINDS] * times
     draw.shuffle(wanted)
-    done = 0
-    while done < len(wanted):
+    done, said = 0, ""
+    while done < len(wanted) and not said.startswith("finished"):
         cluster.mend()
         with forked(scene.goes_on()) as client:
-            line = client.line()
-            while done < len(wanted) and line and not line.startswith("finished"):
+            said = client.line()
+            while done < len(wanted) and said and not said.startswith("finished"):
                 time.sleep(draw.random() ** 3 * wait)
-                if wanted[done] == CLIENT:
+                kind, done = wanted[done], done + 1
+                if kind == CLIENT:
                     client.kill()
                 else:
-                    cluster.kill_one(wanted[done], draw)
-                    if wanted[done] != SCHEDULER:
-                        cluster.mend()
-                done += 1
-                for _ in range(3):
-                    line = client.line()
-            if line.startswith("finished"):
-                break
-            client.lines()
+                    cluster.kill_one(kind, draw)
+                if kind in (CLIENT, SCHEDULER):  # what it had said before may still be read, but it will end
+                    client.lines()
+                    break
+                cluster.mend()
+                for _ in range(2):
+                    said = client.line()
     cluster.mend()
     return done
