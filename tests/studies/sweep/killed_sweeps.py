@@ -27,6 +27,9 @@ HOW_IT_WENT = b",tries,seconds [s]"
 """the last columns, which say how a point was solved, not what its answer is"""
 GONE = 30.0
 """seconds in which processes must have ended whose parent was killed, or be there; it takes hundredths, or one"""
+BEGUN = 180.0
+"""seconds in which a killed process of a cluster must have been begun again; importing Dask alone may take tens of them
+on a busy machine"""
 CLIENT, SCHEDULER = "client", "scheduler"
 KINDS = {
     SCHEDULER: "distributed.cli.dask_scheduler",
@@ -241,7 +244,7 @@ class Cluster:
 
     def kill_one(self, kind: str, draw: Random) -> None:
         """Kill one process of that kind, as soon as there is one."""
-        until = time.monotonic() + GONE
+        until = time.monotonic() + BEGUN
         while True:
             roots = [process.pid for process in self._processes.values()]
             found = [pid for root in roots for pid in (root, *descendants(root)) if kind_of(pid) == kind]
