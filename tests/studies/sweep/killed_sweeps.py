@@ -214,6 +214,7 @@ class Cluster:
         if SCHEDULER in ended or not self._processes:
             for name in sorted(self._processes, reverse=True):
                 self.end(name)  # workers of a scheduler that is gone are ended by whoever runs the cluster
+            self._processes.clear()
             self.file.unlink(missing_ok=True)
             self._begin(SCHEDULER, "dask_scheduler", *self._place)
             until = time.monotonic() + GONE
