@@ -48,6 +48,7 @@ def interact(
     out.refuse(*(f"{stem}.{ending}" for ending in ("csv", "json")))
     with out:
         plan = plan_of(deck.path, run.overrides, question)
+        engine.expect(plan, len(question.settings))
         with engine as workers:
             study = study_points(deck, run.overrides, question, plan, workers, report)
         remarks = write_study(study, out)
