@@ -23,8 +23,7 @@ from mbla.results.series import series_of
 def results_json(results: Results, *, on_demand: bool = False) -> dict[str, Any]:
     """The record of a run; values that do not exist are None.
 
-    on_demand : for who reads some values of load cases only: those of mechanisms are found when they are asked for,
-                and notices are left out
+    on_demand : for who reads some values only: those of mechanisms are found when they are asked for
     """
     return {
         "mbla": results.provenance.get("mbla", __version__),
@@ -38,7 +37,7 @@ def results_json(results: Results, *, on_demand: bool = False) -> dict[str, Any]
         "cases": [case_json(results.model, results.contacts, case, on_demand=on_demand) for case in results.cases],
         "series": [series_json(results.model, series) for series in series_of(results.cases)],
         "settings": results.settings,
-        "notices": [] if on_demand else [notice_json(notice) for notice in notices_of(results)],
+        "notices": [notice_json(notice) for notice in notices_of(results)],
         "time": {stage: number(seconds) for stage, seconds in results.time.items()},
         "files": list(results.files),
     }
