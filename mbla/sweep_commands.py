@@ -12,6 +12,7 @@ import time
 from typing import TYPE_CHECKING
 
 from mbla.collector import loading, no_collection
+from mbla.terminal import clear_line, rewrite_line, say
 
 if TYPE_CHECKING:
     from mbla.studies.sweep.command import SweepOptions
@@ -21,7 +22,6 @@ if TYPE_CHECKING:
 
 BETWEEN_LINES = 10.0
 """seconds between lines of progress where there is no terminal"""
-WIDTH = 100
 
 
 def sweep(options: argparse.Namespace) -> int:
@@ -97,7 +97,7 @@ class _Reporter:
             self.end()
             self._line(f"point {task.number} failed: {outcome.reason}")
         if self._terminal:
-            print(f"\r{progress.bar()[:WIDTH]:<{WIDTH}}", end="", file=sys.stderr, flush=True)
+            rewrite_line(progress.bar())
             return
         if outcome is None:
             known = f", {progress.earlier} are in the journal" if progress.earlier else ""
@@ -108,8 +108,7 @@ class _Reporter:
 
     def end(self) -> None:
         """What is said next has a line of its own."""
-        if self._terminal:
-            print(f"\r{'':<{WIDTH}}\r", end="", file=sys.stderr, flush=True)
+        clear_line(self._terminal or None)
 
     def _line(self, text: str) -> None:
-        print(f"mbla: {text}", file=sys.stderr, flush=True)
+        say(f"mbla: {text}", 0)
