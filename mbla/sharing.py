@@ -31,6 +31,7 @@ class Keeper(Protocol):
 
 
 _open: ContextVar[Keeper | None] = ContextVar("keeper", default=None)
+"""the only state of this module: the keeper of the ``with sharing`` block that runs, in this thread alone; none outside"""
 
 
 @contextlib.contextmanager
