@@ -6,11 +6,14 @@ import re
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from mbla.deck.overrides import LABEL
 from mbla.studies.sweep.outcome import Outcome
 from mbla.studies.sweep.plan import Plan
 
 BEGINS = r"""(?<![^\s'"(=:,;])"""
 """where a path may begin in a text"""
+SETTING = re.compile(rf"(?<!\S){re.escape(LABEL)}:[0-9]+:[0-9]+ ")
+"""place of a value that a point sets: the user did not write it; its key and value stand behind it"""
 
 
 @dataclass(frozen=True)
@@ -25,7 +28,7 @@ class ShownFolders:
 
     def in_outcome(self, outcome: Outcome) -> Outcome:
         """The same outcome with these folders shown so in its reason."""
-        reason = outcome.reason
+        reason = SETTING.sub("", outcome.reason)
         for folder, shown in self.folders:
             reason = shown.join(re.split(BEGINS + re.escape(folder), reason))
         return replace(outcome, reason=reason)

@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from mbla.arrays import BoolArray, FloatArray
 from mbla.results.words.text import INDENT, counted, entry, number, sentence
 from mbla.results.words.text import table as text_table
 from mbla.studies.sweep.answers import answers_of
@@ -25,6 +26,8 @@ NAMED = 6
 """points with a least or greatest value whose parameters are told"""
 TEXTS = ("text", "bool")
 """kinds of results that are counted; others have a least and a greatest value"""
+ALIKE = 1e-6
+"""relative; numbers are shown with six digits, and the accuracy of solvers decides upon the others"""
 DESIGN = ("parameter", "azimuth", "elevation")
 
 
@@ -64,8 +67,9 @@ def result_lines(table: SweepTable) -> list[str]:
 class Range:
     """Least and greatest verified value of a result, nan where no point has one.
 
-    rows    : of the first points that have them
+    rows    : of the first points that have them, as far as can be told; none where all are alike
     without : points that have none
+    alike   : all are the same as far as they are shown: which is the least is a matter of the solver's last digits
     """
 
     column: SweepColumn
@@ -73,6 +77,7 @@ class Range:
     greatest: float
     rows: tuple[int, ...]
     without: int
+    alike: bool = False
 
 
 def _range_of(table: SweepTable, column: SweepColumn) -> Range:
@@ -81,15 +86,22 @@ def _range_of(table: SweepTable, column: SweepColumn) -> Range:
     if not known.size:
         return Range(column, np.nan, np.nan, (), len(table))
     values = answers.values[known]
-    rows = (int(known[np.argmin(values)]), int(known[np.argmax(values)]))
-    return Range(column, float(values.min()), float(values.max()), rows, len(table) - known.size)
+    least, greatest = float(values.min()), float(values.max())
+    alike = known.size > 1 and bool(_near(values, least).all())
+    rows = () if alike else tuple(int(known[np.argmax(_near(values, end))]) for end in (least, greatest))
+    return Range(column, least, greatest, rows, len(table) - known.size, alike)
+
+
+def _near(values: FloatArray, end: float) -> BoolArray:
+    """Those that cannot be told from an end of the range."""
+    return np.abs(values - end) <= ALIKE * abs(end)
 
 
 def _range_lines(table: SweepTable, ranges: Sequence[Range]) -> list[str]:
     missing = any(one.without for one in ranges)
     cells = []
     for one in ranges:
-        at = [str(table["point"][row]) for row in one.rows] or ["-", "-"]
+        at = [str(table["point"][row]) for row in one.rows] or (["all", "all"] if one.alike else ["-", "-"])
         shown = [one.column.header, number(one.least), at[0], number(one.greatest), at[1]]
         cells.append([*shown, *([str(one.without)] if missing else [])])
     head = ["result", "least", "point", "greatest", "point", *(["without"] if missing else [])]

@@ -96,9 +96,10 @@ def check_clean(folder: Path, clean: Path) -> None:
 
 @contextlib.contextmanager
 def nothing_left(folder: Path, but: Sequence[str] = ()) -> Iterator[None]:
-    """After the block no process that it began is there, nor any temporary file, but some by name.
+    """After the block no process that it began is there, nor any temporary file.
 
     folder : for temporary files
+    but    : patterns of names of those that may be left
     """
     mark = uuid.uuid4().hex
     folder.mkdir()
@@ -113,7 +114,7 @@ def nothing_left(folder: Path, but: Sequence[str] = ()) -> Iterator[None]:
             for pid in _processes_with(mark):  # where the block or the test failed
                 with contextlib.suppress(ProcessLookupError):
                     os.kill(pid, signal.SIGKILL)
-    left = [path for path in folder.rglob("*") if path.is_file() and path.name not in but]
+    left = [path for path in folder.rglob("*") if path.is_file() and not any(map(path.match, but))]
     assert left == []
 
 

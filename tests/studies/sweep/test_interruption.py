@@ -42,14 +42,14 @@ def check_goes_on(path: Path, folder: Path, options: Sequence[str] = ()) -> None
 
 
 def test_interrupt_from_the_keyboard(tmp_path: Path) -> None:
-    interrupt(written(tmp_path, 400), signal.SIGINT)
+    interrupt(written(tmp_path, 200), signal.SIGINT)
 
 
 @pytest.mark.long
 @pytest.mark.parametrize("number", STATUS)
 @pytest.mark.parametrize("options", [("-j", "1"), ("-j", "2")])
 def test_signals(tmp_path: Path, number: signal.Signals, options: Sequence[str]) -> None:
-    path = written(tmp_path, 400)
+    path = written(tmp_path, 200)
     check_goes_on(path, interrupt(path, number, options), options)
 
 
@@ -58,7 +58,7 @@ def test_signals(tmp_path: Path, number: signal.Signals, options: Sequence[str])
 def test_signals_to_the_client_of_a_cluster(tmp_path: Path, number: signal.Signals) -> None:
     """Its workers go on without it, the processes of their points do not."""
     with real_cluster(tmp_path) as cluster:
-        path, options = written(tmp_path, 400), ("--scheduler", cluster.address)
+        path, options = written(tmp_path, 200), ("--scheduler", cluster.address)
         check_goes_on(path, interrupt(path, number, options), options)
 
 
@@ -66,7 +66,7 @@ def test_signals_to_the_client_of_a_cluster(tmp_path: Path, number: signal.Signa
 @pytest.mark.parametrize("workers", ["1", "2"])
 def test_interrupted_twice(tmp_path: Path, workers: str) -> None:
     """Somebody who does not want to wait: the second one meets the first one's end."""
-    path, folder = written(tmp_path, 400), tmp_path / "interrupted"
+    path, folder = written(tmp_path, 200), tmp_path / "interrupted"
     with nothing_left(tmp_path / "temporary", DASK_LOCKS):
         with Command(path, folder, "-j", workers) as command:
             command.await_rows(3)

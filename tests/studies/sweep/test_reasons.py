@@ -41,6 +41,7 @@ def plan_in(folder: str, deck: str) -> Plan:
         ("/a/b/base.yaml", "base.yaml", "other/a/b/base.yaml", "other/a/b/base.yaml"),
         ("/base.yaml", "base.yaml", "1/2 of it; /base.yaml:3:1 no", "1/2 of it; base.yaml:3:1 no"),
         ("/a/b/base.yaml", "/a/b/base.yaml", "/a/b/base.yaml:3:1 no", "/a/b/base.yaml:3:1 no"),
+        ("/base.yaml", "base.yaml", "--set:1:20 a.b = 1: no; --set:12:3 c: no", "a.b = 1: no; c: no"),
     ],
 )
 def test_files_have_the_names_that_the_sweep_file_gives_them(deck: str, named: str, reason: str, shown: str) -> None:

@@ -34,6 +34,20 @@ def test_a_line_for_each_result_and_each_point_told_once() -> None:
     ]
 
 
+def test_values_that_are_shown_alike_have_no_least_and_no_greatest_point() -> None:
+    """The last digits of the solver do not make one point the weakest."""
+    table = grid({"mu": [0.2, 0.3, 0.4]}, lambda mu: {"status": "solved", "load_factor": 0.25 + 1e-10 * mu})
+    lines = [" ".join(line.split()) for line in result_lines(table)]
+    assert "load_factor 0.25 all 0.25 all" in lines
+    assert not any(line.startswith("point ") for line in lines)
+
+
+def test_the_first_of_points_that_cannot_be_told_apart_is_named() -> None:
+    """So that two results that have their least value at the same point name the same one."""
+    table = grid({"mu": [0.2, 0.3, 0.4]}, lambda mu: {"status": "solved", "load_factor": max(0.3, mu) - 1e-9 * mu})
+    assert "load_factor 0.3 1 0.4 3" in [" ".join(line.split()) for line in result_lines(table)]
+
+
 def test_no_verified_value_at_all() -> None:
     table = grid({"mu": [0.8, 0.9]}, lambda mu: two_bounds(mu))
     lines = [" ".join(line.split()) for line in result_lines(table)]
