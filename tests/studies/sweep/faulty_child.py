@@ -38,7 +38,7 @@ def main() -> None:
             assert len(taken) in (0, GIGABYTE)
             return super()._solve(task)
 
-    child.PointRunner = Faulty  # type: ignore[misc]
+    setattr(child, "PointRunner", Faulty)  # noqa: B010 - a name that the module only imports
     child.main()
 
 

@@ -102,7 +102,11 @@ def check_cut(path: Path, clean: Path, folder: Path, length: int, after: bytes) 
 def test_two_runs_at_once(path: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """The second is told who has the journal, and takes nothing from the first."""
     folder = tmp_path / "two"
-    with forked(lambda _: main(["sweep", str(path), "-o", str(folder), "-q"]) and None) as first:
+
+    def sweep(_: object) -> None:
+        main(["sweep", str(path), "-o", str(folder), "-q"])
+
+    with forked(sweep) as first:
         while not rows_in(folder):
             pass
         for options in ("--resume",), ("--force",), ("--shard", "1/2"):
