@@ -49,9 +49,9 @@ def test_python_of_the_readme_runs(
 
 
 def test_commands_of_the_readme_are_those_of_the_program() -> None:
-    commands = re.findall(r"^mbla (\w+)", block("## Commands"), flags=re.MULTILINE)
+    commands = re.findall(r"^mbla ([\w-]+)", block("## Commands"), flags=re.MULTILINE)
     help_text = build_parser().format_help()
-    listed = re.findall(r"^    (\w+) ", help_text, flags=re.MULTILINE)
+    listed = re.findall(r"^    ([\w-]+)(?: |$)", help_text, flags=re.MULTILINE)
     assert commands == listed
 
 

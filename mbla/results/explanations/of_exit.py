@@ -38,10 +38,10 @@ OF_EXIT = (
     ),
     _status(
         3,
-        "The deck is not valid.",
+        "The deck, or the sweep file, is not valid.",
         f"{_NO_FACTOR} An earlier result stays as it was.",
         "Each fault has a line with file, line, column, value and what is allowed.",
-        "Correct them; mbla check reads the deck again without solving.",
+        "Correct them; mbla check reads the deck again without solving, mbla sweep --dry-run a sweep file.",
     ),
     _status(
         4,
@@ -74,17 +74,27 @@ OF_EXIT = (
         "Give more time, a smaller model, symmetry, or accuracy: draft.",
     ),
     _status(
+        8,
+        "A sweep came to its end, but some of its points failed.",
+        "All other points have verified answers. A failed point has no verified answer for one load case at least: its "
+        "state is failed, its reason stands in its row, and pictures and probabilities count it as unknown.",
+        "A case that is not solved or not verified at that point; a limit of time or memory in the sweep file; a "
+        "value that the deck cannot take; a point that ended its process twice.",
+        "Look at the column reason of sweep.csv. --retry-failed solves these points again, with the limits that the "
+        "sweep file has by then; the rest is kept.",
+    ),
+    _status(
         130,
         "Interrupted from the keyboard.",
         f"{_NO_FACTOR} An earlier result stays as it was.",
         "Ctrl-C (SIGINT).",
-        "Run again.",
+        "Run again; a sweep goes on with --resume, its finished points are in the journal.",
     ),
     _status(
         143,
         "Terminated by a signal.",
         f"{_NO_FACTOR} An earlier result stays as it was.",
         "SIGTERM, mostly of a batch system at its time limit.",
-        "Run again with more time, or give --time-limit below that of the batch system.",
+        "Run again with more time, or give --time-limit below that of the batch system; a sweep goes on with --resume.",
     ),
 )

@@ -20,6 +20,7 @@ from mbla.results.explanations.explanations import EXPLANATIONS, SECTIONS, find_
 from mbla.results.findings import FAILURES, REMARKS, UNKNOWN_FAILURE, UNKNOWN_REMARK, UNSETTLED
 from mbla.results.words.figure_words import residual_figures
 from mbla.solution.solution import Standing, Status
+from mbla.studies.sweep.command import FAILED_POINTS
 from tests.results.synthetic import tower_results
 
 PACKAGE = Path(mbla.__file__).parent
@@ -108,7 +109,7 @@ def test_statuses_verdicts_and_modes() -> None:
 
 def test_exit_statuses() -> None:
     errors = (MblaError, UsageError, DeckError, SolverError, FileError, LimitError)
-    known = {0, 130, 143, *EXIT_CODES.values(), *(error.exit_status for error in errors)}
+    known = {0, FAILED_POINTS, 130, 143, *EXIT_CODES.values(), *(error.exit_status for error in errors)}
     assert {entry.identifier for entry in SECTIONS["Exit statuses"]} == {f"exit-{number}" for number in known}
     in_help = {int(number) for number in re.findall(r"\b(\d{1,3})(?=  |, )", arguments.EXIT_STATUS)} | {143}
     assert known == in_help

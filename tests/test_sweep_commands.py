@@ -1,0 +1,77 @@
+"""The command line of parameter sweeps as scripts use it: standard output, exit status."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from mbla.cli import main
+from tests.line import BLOCK
+
+SWEEP = "mbla_sweep: 1\ndeck: block.yaml\nparameters: {mu: {values: [0.4, 0.5]}}\n"
+
+
+@pytest.fixture
+def sweep(tmp_path: Path) -> Path:
+    (tmp_path / "block.yaml").write_text(BLOCK, encoding="utf-8")
+    path = tmp_path / "friction.yaml"
+    path.write_text(SWEEP, encoding="utf-8")
+    return path
+
+
+def failure(capsys: pytest.CaptureFixture[str], *arguments: str | Path) -> tuple[int, dict[str, Any], list[str]]:
+    """Exit status, the one object on standard output, the lines on standard error."""
+    code = main([str(argument) for argument in arguments])
+    captured = capsys.readouterr()
+    return code, json.loads(captured.out), captured.err.splitlines()
+
+
+@pytest.mark.parametrize("option", ["--json", "--dry-run"])
+def test_a_faulty_sweep_file_is_told_as_an_object_too(
+    sweep: Path, capsys: pytest.CaptureFixture[str], option: str
+) -> None:
+    sweep.write_text(SWEEP.replace("values", "valves") + "surplus: 1\n", encoding="utf-8")
+    code, record, lines = failure(capsys, "sweep", sweep, option, "--json")
+    assert code == record["exit_code"] == 3
+    assert record["sweep"] == "friction.yaml"
+    assert record["errors"] == lines
+    assert len(lines) == 2
+    assert "valves" in lines[0]
+    assert "surplus" in lines[1]
+    assert not sweep.with_suffix(".out").exists()
+
+
+def test_a_faulty_base_deck_is_told_under_the_name_of_the_sweep(
+    sweep: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (sweep.parent / "block.yaml").write_text(BLOCK + "surplus: 1\n", encoding="utf-8")
+    code, record, lines = failure(capsys, "sweep", sweep, "--json")
+    assert code == record["exit_code"] == 3
+    assert record["sweep"] == "friction.yaml"
+    assert record["errors"] == lines
+    assert "block.yaml" in lines[0]
+
+
+def test_an_existing_sweep_is_a_failure_with_its_own_exit_status(
+    sweep: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (sweep.with_suffix(".out")).mkdir()
+    (sweep.with_suffix(".out") / "journal.csv").write_text("", encoding="utf-8")
+    code, record, lines = failure(capsys, "sweep", sweep, "--json")
+    assert code == record["exit_code"] == 6
+    assert lines == [f"mbla: {message}" for message in record["errors"]]
+
+
+@pytest.mark.parametrize("command", ["interact", "tradeoff"])
+def test_other_studies_of_a_faulty_deck_are_told_alike(
+    sweep: Path, capsys: pytest.CaptureFixture[str], command: str
+) -> None:
+    deck = sweep.parent / "block.yaml"
+    deck.write_text(BLOCK + "surplus: 1\n", encoding="utf-8")
+    code, record, lines = failure(capsys, command, deck, "--json")
+    assert code == record["exit_code"] == 3
+    assert record["deck"] == "block.yaml"
+    assert record["errors"] == lines
