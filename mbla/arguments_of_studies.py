@@ -100,12 +100,14 @@ def add_interact(commands: Any) -> None:
         "interact",
         help="load factor over horizontal direction, or over two live loads: table and diagram",
         description="Turn the live load of a load case around the horizon, or let the live loads of two load cases act "
-        "together in all proportions: table, STEM_interact.csv, .json, and a diagram (extra mbla[pictures]). Turned "
-        "are the horizontal parts of live accelerations and forces, all together; azimuth 0 pushes along +x, 90 along "
-        "+y. Two loads A and B act as A cos + B sin of an angle, with the one dead load that both must have.",
+        "together in all proportions: table, STEM_interact.csv (of two loads STEM_interact_A_B.csv), .json, and a "
+        "diagram (extra mbla[pictures]). Turned are the horizontal parts of live accelerations and forces, all "
+        "together; azimuth 0 pushes along +x, 90 along +y. Two loads A and B act as A cos + B sin of an angle, with "
+        "the one dead load that both must have.",
         epilog="Exit status 0 where every point is answered and verified (also that the load never brings collapse "
         "there); else that of the gravest point: 4 not solved or not verified, 7 time or memory limit; 4 also where "
-        "bounds of points contradict each other; 5 where no point has a load factor.",
+        "bounds of points contradict each other; 5 where no point has a load factor; 130 where it was interrupted: "
+        "points solved until then are written, unless there are earlier files.",
     )
     command.add_argument("deck", type=Path, metavar="DECK")
     command.add_argument("--case", metavar="NAME", help="the load case that is turned; needed if there are several")
@@ -121,6 +123,9 @@ def add_interact(commands: Any) -> None:
         "-j", "--jobs", type=workers, default=1, metavar="N", help="processes of this machine (1; more: mbla[dask])"
     )
     add_deck_options(command, "for every point")
+    command.add_argument(
+        "--time-limit", type=seconds, metavar="S", help="seconds for each point, instead of analysis.time_limit"
+    )
     add_analysis_options(command)
     command.add_argument("-q", "--quiet", action="store_true", help="say nothing but errors")
 

@@ -23,7 +23,7 @@ from mbla import result_commands, study_commands, sweep_commands
 from mbla.arguments import build_parser
 from mbla.collector import loading
 from mbla.errors import DeckError, FileError, MblaError, UsageError
-from mbla.failures import failure_record, words_of
+from mbla.failures import failure_record, with_notes, words_of
 from mbla.given_deck import read_given_deck, refuse_unfit_name, run_options
 from mbla.run_options import RunOptions
 from mbla.streams import drop_output, prepare_streams
@@ -54,10 +54,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
         status = COMMANDS[options.command](options)
         sys.stdout.flush()
         return status
-    except KeyboardInterrupt:
-        return say("interrupted", 130)
-    except Terminated:
-        return say("terminated", 143)
+    except KeyboardInterrupt as interruption:
+        return say(with_notes("mbla: interrupted", interruption), 130)
+    except Terminated as termination:
+        return say(with_notes("mbla: terminated", termination), 143)
     except BrokenPipeError:  # the reader of our output went away: not our error, but the output is not whole
         drop_output()
         return FileError.exit_status
@@ -189,6 +189,7 @@ def _each_deck(options: argparse.Namespace, one: Callable[[Path], int], progress
 def _failed(error: Exception) -> int:
     """Say what went wrong in one line per fault; the exit status."""
     status, text = words_of(error)
+    text = with_notes(text, error)
     if status == MblaError.exit_status and os.environ.get("MBLA_TRACEBACK"):
         traceback.print_exception(error)
     return say(text if isinstance(error, DeckError) else f"mbla: {text}", status)

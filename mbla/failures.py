@@ -21,6 +21,11 @@ def words_of(error: Exception) -> tuple[int, str]:
     return 1, f"internal error, please report it with the deck: {type(error).__name__}: {words}"
 
 
+def with_notes(text: str, error: BaseException) -> str:
+    """The text of an error, and behind it what was noted where it passed through (``add_note``), in one line."""
+    return "; ".join([text, *getattr(error, "__notes__", ())])
+
+
 def failure_record(path: Path, error: Exception, code: int, about: str = "deck") -> dict[str, Any]:
     """The object that ``--json`` prints of a deck that could not be run, or of what else it is about."""
     messages = [str(fault) for fault in error.faults] if isinstance(error, DeckError) else [words_of(error)[1]]

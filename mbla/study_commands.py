@@ -8,10 +8,14 @@ from __future__ import annotations
 
 import argparse
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
+from typing import TYPE_CHECKING, Any
 
 from mbla.given_deck import read_given_deck, refuse_unfit_name, run_options
 from mbla.terminal import clear_line, rewrite_line, say
+
+if TYPE_CHECKING:
+    from mbla.run_options import RunOptions
 
 
 def interact(options: argparse.Namespace) -> int:
@@ -19,8 +23,6 @@ def interact(options: argparse.Namespace) -> int:
     refuse_unfit_name(options.deck)
     run = run_options(options)
     content, _ = read_given_deck(options.deck, run)
-    from mbla.results.records.json_record import json_line
-    from mbla.results.words.text import sentence
     from mbla.studies.interact.command import interact
     from mbla.studies.interact.words import study_lines
 
@@ -29,14 +31,7 @@ def interact(options: argparse.Namespace) -> int:
         study, record, remarks = interact(content, run, options, report)
     finally:
         clear_line(report)
-    for remark in remarks:
-        say(f"mbla: {remark}", 0)
-    if options.json:
-        print(json_line(record), flush=True)
-    if not options.quiet:
-        files = f"files: {', '.join(record['files'])} in {run.folder_for(options.deck)}/"
-        lines = [*study_lines(study), *sentence(files)]
-        print("\n".join(lines), file=sys.stderr if options.json else sys.stdout, flush=True)
+    _tell(options, run, study_lines(study), record, remarks)
     return study.exit_code
 
 
@@ -45,8 +40,6 @@ def tradeoff(options: argparse.Namespace) -> int:
     refuse_unfit_name(options.deck)
     run = run_options(options, override=False)
     content, _ = read_given_deck(options.deck, run)
-    from mbla.results.records.json_record import json_line
-    from mbla.results.words.text import sentence
     from mbla.studies.tradeoff.command import tradeoff
     from mbla.studies.tradeoff.words import study_lines
 
@@ -55,16 +48,29 @@ def tradeoff(options: argparse.Namespace) -> int:
         study, record, remarks = tradeoff(content, run, options, report)
     finally:
         clear_line(report)  # what is said of an interruption has a line of its own
+    _tell(options, run, study_lines(study), record, remarks)
+    return study.exit_code
+
+
+def _tell(
+    options: argparse.Namespace,
+    run: RunOptions,
+    lines: Sequence[str],
+    record: Mapping[str, Any],
+    remarks: Sequence[str],
+) -> None:
+    """Remarks, the JSON object where it is asked for, what the study found in words, and its files."""
+    from mbla.results.records.json_record import json_line
+    from mbla.results.words.text import sentence
+
     for remark in remarks:
         say(f"mbla: {remark}", 0)
     if options.json:
-        print(json_line(record), flush=True)
+        print(json_line(dict(record)), flush=True)
     if not options.quiet:
-        lines = study_lines(study)
-        if record["files"]:
-            lines += sentence(f"files: {', '.join(record['files'])} in {run.folder_for(options.deck)}/")
-        print("\n".join(lines), file=sys.stderr if options.json else sys.stdout, flush=True)
-    return study.exit_code
+        named = f"files: {', '.join(record['files'])} in {run.folder_for(options.deck)}/"
+        text = [*lines, *(sentence(named) if record["files"] else [])]
+        print("\n".join(text), file=sys.stderr if options.json else sys.stdout, flush=True)
 
 
 def _point_progress() -> Callable[[int, int], None] | None:

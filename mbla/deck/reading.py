@@ -23,11 +23,13 @@ from mbla.errors import DeckError, Fault, FileError
 from mbla.sharing import copied
 
 
-def read_deck(path: str | Path, overrides: Sequence[str] = ()) -> Deck:
+def read_deck(path: str | Path, overrides: Sequence[str] = (), *, expected: bool = True) -> Deck:
     """Read and check a deck.
 
     path      : the deck file
     overrides : ``key.path=value`` texts, applied in order before anything is evaluated
+    expected  : whether its expectations are read; they are for the deck as written, and may have no value, or not be
+                defined at all, with what a study sets in it
 
     Raises
     ------
@@ -37,7 +39,7 @@ def read_deck(path: str | Path, overrides: Sequence[str] = ()) -> Deck:
         if the deck file itself cannot be opened
     """
     with no_collection():
-        return _read(Path(path), overrides)
+        return _read(Path(path), overrides, expected=expected)
 
 
 def read_deck_text(text: str, path: Path, overrides: Sequence[str] = ()) -> Deck:
@@ -54,7 +56,7 @@ def read_deck_text(text: str, path: Path, overrides: Sequence[str] = ()) -> Deck
         return _read(path, overrides, text)
 
 
-def _read(path: Path, overrides: Sequence[str], text: str | None = None) -> Deck:
+def _read(path: Path, overrides: Sequence[str], text: str | None = None, *, expected: bool = True) -> Deck:
     tree, reading = _files(path, text)
     for number, text in enumerate(overrides, start=1):
         reading.faults += apply_override(tree, text, number)
@@ -64,6 +66,8 @@ def _read(path: Path, overrides: Sequence[str], text: str | None = None) -> Deck
         raise DeckError(
             [tree.fault(("mbla_sweep",), "this is a sweep file, not a deck: mbla sweep runs it", at_key=True)]
         )
+    if not expected:
+        tree.data.pop("expected", None)
     units = _units(tree.data)
     parameters = Parameters(_mapping(tree.data.get("parameters")))
     content, faults = validate(tree, DeckContent, _converter(parameters, units), reading.reported, reading.damaged)

@@ -5,6 +5,7 @@ Each answers another question about one state, and none changes the load factor.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -39,6 +40,8 @@ NO_PEAK = (
     "examined"
 )
 
+BROKE_DOWN = "range and peak of the load factor are not both known: a system of equations broke down ({})"
+
 
 @dataclass(frozen=True)
 class Questions:
@@ -60,9 +63,17 @@ def with_answers(result: PartResult, questions: Questions) -> PartResult:
     if analysis.flow_rule == "associative":
         result = _with_least_forces(result, questions)
     if knobs.range:
-        result = _with_range(result, analysis, settings, log)
-    result = _with_peak(result, analysis, settings, log)
+        result = _unless_it_breaks_down(result, lambda found: _with_range(found, analysis, settings, log))
+    result = _unless_it_breaks_down(result, lambda found: _with_peak(found, analysis, settings, log))
     return _with_standing(result, settings) if knobs.standing else result
+
+
+def _unless_it_breaks_down(result: PartResult, answered: Callable[[PartResult], PartResult]) -> PartResult:
+    """The part with an answer, or a remark where its equations are singular: the load factor stays."""
+    try:
+        return answered(result)
+    except np.linalg.LinAlgError as error:
+        return result.with_remark(BROKE_DOWN.format(str(error).lower()), ())
 
 
 def _with_least_forces(result: PartResult, questions: Questions) -> PartResult:

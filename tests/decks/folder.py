@@ -19,7 +19,7 @@ from mbla.deck import Deck, read_deck
 
 ROOT = Path(__file__).parents[2]
 DECKS = ROOT / "decks"
-FOLDERS = ("tutorials", "benchmarks", "structures", "tradeoff")
+FOLDERS = ("tutorials", "benchmarks", "structures", "tradeoff", "sweeps/base")
 PATHS = tuple(sorted(path for folder in FOLDERS for path in DECKS.glob(f"{folder}/*.yaml")))
 LONG = (
     "structures/arch_bridge",
@@ -49,7 +49,7 @@ class Outcome:
 
 def name_of(path: Path) -> str:
     """``tutorials/arch``: how tests and tables call a deck."""
-    return f"{path.parent.name}/{path.stem}"
+    return path.relative_to(DECKS).with_suffix("").as_posix()
 
 
 def as_parameters() -> list[ParameterSet]:

@@ -23,7 +23,8 @@ def table() -> str:
 
 def _rows(path: Path) -> Iterator[str]:
     content = deck_of(path).content
-    name = f"[{path.parent.name}/{path.name}]({path.parent.name}/{path.name})"
+    place = path.relative_to(DECKS).as_posix()
+    name = f"[{place}]({place})"
     title = content.title
     for case, expectation in content.expected.items():
         source = expectation.source.replace("|", "/")

@@ -42,6 +42,7 @@ ESTIMATED = {
     "solver": 3.0,
     "structures": 0.5,
     "sweep": 7.0,
+    "sweep_memory": 6.0,
     "warm_start": 1.0,
 }
 """Minutes on an idle core, at most where there is a limit, before the first run by this command."""

@@ -28,6 +28,7 @@ COLUMNS = {
     "rivals": Columns(("structure", "rival"), ("processor", "clock", "solver")),
     "solver": Columns(("case", "dimension"), ("reducing", "associative", "first_program", "non_associative")),
     "sweep": Columns(("sweep", "way", "points"), ("seconds", "processor_seconds")),
+    "sweep_memory": Columns(("workers", "process", "points"), ("processor_seconds",)),
     "warm_start": Columns(("model", "sequence"), ("cold", "warm")),
 }
 """Benchmarks whose columns do not tell by their names, as those of the others do: see ``columns_of``."""

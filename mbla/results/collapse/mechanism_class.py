@@ -8,7 +8,7 @@ share of the largest:
 - overturning: parts turn about hinges on what is at rest, each by itself;
 - hinging: parts hinge on each other, as in an arch;
 - sliding and hinging: both;
-- opening: joints only open, as under a block that is lifted off.
+- opening: joints only open, as under a block that is lifted off, or above a support that gives way and is not missed.
 """
 
 from __future__ import annotations

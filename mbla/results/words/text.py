@@ -40,11 +40,14 @@ def full_sentence(text: str) -> str:
 
 
 def entry(name: str, value: str) -> list[str]:
-    """``name   value`` with the values in one column, wrapped inside it."""
+    """``name   value`` with the values in one column, wrapped inside it; below a name that reaches into the column."""
     column = 34
     label = f"{INDENT}{name}"
-    lead = f"{label:<{column}}" if len(label) < column else f"{label}  "
-    lines = textwrap.wrap(value, WIDTH, initial_indent=lead, subsequent_indent=" " * column) or [lead.rstrip()]
+    if len(label) + 1 < column:
+        lead = f"{label:<{column}}"
+        lines = textwrap.wrap(value, WIDTH, initial_indent=lead, subsequent_indent=" " * column) or [lead.rstrip()]
+    else:
+        lines = [label, *textwrap.wrap(value, WIDTH, initial_indent=" " * column, subsequent_indent=" " * column)]
     element = Entry(name, value)
     return [Line(line, element) for line in lines]
 

@@ -17,7 +17,7 @@ def work_lines(model: Model, contacts: Contacts, load_case: LoadCase, mechanics:
     if work.given <= 0:
         return []
     settles = load_case.settlement is not None  # whose dead load holds the reaction at rest
-    dead = "the reaction at rest, less what the weights give," if settles else "the dead load"
+    dead = "the reaction at rest less what the weights give" if settles else "the dead load"
     sinks = (
         (dead, -work.dead, work.dead <= 0),
         ("the live load", -work.live, False),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Any
 
 from mbla.deck import Deck
@@ -12,13 +13,14 @@ from mbla.run_deck import contacts_of
 from mbla.run_options import RunOptions
 from mbla.studies.interact.angles import FULL
 from mbla.studies.interact.direction import direction_question
-from mbla.studies.interact.question import Question
+from mbla.studies.interact.question import TWO_LOADS, Question
 from mbla.studies.interact.records import study_json
 from mbla.studies.interact.study import Report, Study, plan_of, study_points
 from mbla.studies.interact.two_loads import two_loads_question
 from mbla.studies.interact.write import write_study
 from mbla.studies.sweep.engine.choice import engine_for
 from mbla.studies.sweep.engine.options import EngineOptions
+from mbla.studies.words import INTERRUPTION, LEFT
 
 DIRECTIONS, ANGLES = 72, 31
 """points unless their number is given: every 5 degrees around, every 3 degrees of a quarter"""
@@ -34,6 +36,8 @@ def interact(
     options : ``case`` or ``loads`` (two names), ``directions``, ``start`` and ``end`` in degrees, None unless given;
               ``jobs``, how many processes solve points
 
+    One that was interrupted is written as far as it came, but never over an earlier one.
+
     Raises
     ------
     DeckError, UsageError
@@ -43,15 +47,26 @@ def interact(
     """
     engine = engine_for(EngineOptions(workers=options.jobs))
     question = question_of(deck, options)
-    stem = f"{deck.path.stem}_interact"
+    stem = file_name(deck.path, question)
     out = OutputFolder(run.folder_for(deck.path), stem, run.force, beside=True)
-    out.refuse(*(f"{stem}.{ending}" for ending in ("csv", "json")))
+    names = (f"{stem}.csv", f"{stem}.json")
+    out.refuse(*names)
     with out:
         plan = plan_of(deck.path, run.overrides, question)
         with engine as workers:
             study = study_points(deck, run.overrides, question, plan, workers, report)
-        remarks = write_study(study, out)
+        remarks = [INTERRUPTION] if study.interrupted else []
+        if study.interrupted and any((out.folder / name).exists() for name in names):
+            remarks.append(LEFT)
+        else:
+            remarks += write_study(study, out)
     return study, study_json(study, out.names), remarks
+
+
+def file_name(deck: Path, question: Question) -> str:
+    """``STEM_interact``, or ``STEM_interact_A_B`` of two loads; what the names of all files begin with."""
+    loads = question.pair if question.kind == TWO_LOADS else ()
+    return "_".join((deck.stem, "interact", *loads))
 
 
 def question_of(deck: Deck, options: Any) -> Question:

@@ -14,13 +14,17 @@ from mbla.results.provenance import collect_provenance
 from mbla.results.results import now
 from mbla.run_deck import title_of
 from mbla.studies.interact.domain import Domain, domain_of
-from mbla.studies.interact.point import POWER, RESULTS, Point, point_of
+from mbla.studies.interact.point import NAN, POWER, RESULTS, Point, point_of
 from mbla.studies.interact.question import Question
 from mbla.studies.sweep.engine.engine import Engine
 from mbla.studies.sweep.fingerprint import fingerprint_of, key_hash
 from mbla.studies.sweep.plan import Plan, Task
 from mbla.studies.sweep.program import program_identity
+from mbla.studies.sweep.reasons import shown_folders
 
+INTERRUPTED = 130
+NOT_SOLVED = "not solved: interrupted before"
+"""reason of points that were not reached"""
 GRAVEST_FIRST = (1, 6, 7, 3, 4)
 """exit codes of points that were not answered"""
 NO_FACTOR = 5
@@ -50,11 +54,19 @@ class Study:
     created: str = field(default_factory=now)
 
     @property
-    def exit_code(self) -> int:
-        """The gravest of the points without a verified answer; 4 where bounds cross; 5 without any load factor; else 0.
+    def interrupted(self) -> bool:
+        """Whether it ended before every point was solved."""
+        return any(point.exit_code == INTERRUPTED for point in self.points)
 
+    @property
+    def exit_code(self) -> int:
+        """130 where it was interrupted, 4 where bounds cross, 5 without any load factor.
+
+        Before the last two come points without a verified answer, with the gravest of their codes.
         A direction in which the load never brings collapse is an answer, as a position of a travelling load is.
         """
+        if self.interrupted:
+            return INTERRUPTED
         codes = {point.exit_code for point in self.points if not point.answered}
         if codes:
             return next((code for code in GRAVEST_FIRST if code in codes), max(codes))
@@ -68,19 +80,26 @@ def study_points(
 ) -> Study:
     """Solve every point of a question; ``fixed`` are the overrides that the deck was read with.
 
+    An interruption ends it with the points solved until then; one before the first is raised.
+
     Raises as the engine does.
     """
     started = time.perf_counter()
     tasks = tasks_of(question, plan.fingerprint)
     numbers = {task.key: task.number for task in tasks}
+    shown = shown_folders(plan, deck.path.name)
     points: dict[int, Point] = {}
     with closing(engine.run(plan, tasks)) as outcomes:
-        for outcome in outcomes:
-            number = numbers[outcome.key]
-            points[number] = point_of(question.angles[number - 1], outcome)
-            if report is not None:
-                report(len(points), len(tasks))
-    ordered = tuple(points[number] for number in sorted(points))
+        try:
+            for outcome in map(shown.in_outcome, outcomes):
+                number = numbers[outcome.key]
+                points[number] = point_of(question.angles[number - 1], outcome)
+                if report is not None:
+                    report(len(points), len(tasks))
+        except KeyboardInterrupt:
+            if not points:
+                raise
+    ordered = tuple(points.get(task.number) or _not_solved(question.angles[task.number - 1]) for task in tasks)
     domain = domain_of(ordered, question.pair, closed=question.closed) if question.pair else None
     return Study(
         deck=deck.path.name,
@@ -94,6 +113,10 @@ def study_points(
         seconds=time.perf_counter() - started,
         provenance=collect_provenance(),
     )
+
+
+def _not_solved(angle: float) -> Point:
+    return Point(angle, False, INTERRUPTED, "", NAN, NAN, NAN, NAN, reason=NOT_SOLVED)
 
 
 def tasks_of(question: Question, fingerprint: str) -> list[Task]:

@@ -25,7 +25,7 @@ def check_points(base: Base, points: Sequence[Point]) -> None:
     refused: list[DeckError] = []
     for point in tried:
         try:
-            read_deck(base.path, (*base.fixed, *override_texts(point.settings)))
+            read_deck(base.path, (*base.fixed, *override_texts(point.settings)), expected=False)
         except DeckError as error:
             refused.append(error)
         else:

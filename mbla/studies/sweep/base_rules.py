@@ -77,6 +77,7 @@ def _idle_values(base: Base) -> Iterator[Fault]:
 def _without_effect(base: Base) -> Iterator[Fault]:
     """No parameter changes what nothing in the deck uses: every point would be the same."""
     content = base.sweep.content
+    idle = unused(_notices(base))
     texts = [value for each in content.parameters.values() for value in each.values or () if isinstance(value, str)]
     for name, parameter in content.parameters.items():
         for (place, _), path in zip(key_places(name, parameter), base.paths[name], strict=True):
@@ -88,8 +89,15 @@ def _without_effect(base: Base) -> Iterator[Fault]:
                     place, f"has no effect: load case {shorten(thing)} is not among the cases to solve"
                 )
             named = any(thing in text for text in texts)  # another parameter may bring it into use
-            if (section, thing) in unused(base.deck.notices) and not named:
+            if (section, thing) in idle and not named:
                 yield base.sweep.fault_at(place, f"has no effect: the deck does not use {section}.{shorten(thing)}")
+
+
+def _notices(base: Base) -> tuple[Notice, ...]:
+    """Those of the deck without its expectations: what only they use does not change a point."""
+    if not base.deck.content.expected:
+        return base.deck.notices
+    return read_deck(base.path, base.fixed, expected=False).notices
 
 
 def unused(notices: Iterable[Notice]) -> set[tuple[str, str]]:
@@ -210,7 +218,7 @@ def _in_words(base: Base, place: KeyPath, key: str, value: Any) -> Iterator[Faul
     """Faults of the deck with a value that its types refuse, at the place of the value."""
     text = override_texts({key: value})
     try:
-        read_deck(base.path, (*base.fixed, *text))
+        read_deck(base.path, (*base.fixed, *text), expected=False)
     except DeckError as error:
         for fault in error.faults:
             if fault.place.file == LABEL and fault.place.line == len(base.fixed) + 1:

@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Generator, Mapping, Sequence
-from contextlib import closing
+from collections.abc import Callable, Generator, Iterator, Mapping, Sequence
+from contextlib import closing, contextmanager
 from dataclasses import dataclass, field
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
 from mbla import __version__
-from mbla.errors import Notice
+from mbla.errors import Notice, UsageError
+from mbla.results.words.text import counted
 from mbla.studies.sweep.base import Base, read_base
 from mbla.studies.sweep.base_points import check_points
 from mbla.studies.sweep.design.build import design_of
@@ -28,8 +29,9 @@ from mbla.studies.sweep.journal.reading import merged
 from mbla.studies.sweep.journal.shards import WHOLE, journal_name, journals_in, shard_of
 from mbla.studies.sweep.outcome import FAILED, Outcome
 from mbla.studies.sweep.plan import Plan, Task
-from mbla.studies.sweep.program import program_identity
+from mbla.studies.sweep.program import library_versions, program_identity
 from mbla.studies.sweep.progress import Progress
+from mbla.studies.sweep.reasons import shown_folders
 from mbla.studies.sweep.result_columns import result_columns
 from mbla.studies.sweep.tables.from_outcomes import sweep_table
 from mbla.studies.sweep.tables.sweep_json import SweepRun, counts, sweep_json
@@ -39,6 +41,8 @@ from mbla.studies.sweep.tables.write_tables import TableFiles, refuse_tables, wr
 FAILED_POINTS = 8
 """exit status of a sweep some of whose points failed"""
 MEGABYTE = 1e6
+RESUME = "--resume"
+"""the option that goes on with a journal"""
 
 Report = Callable[[Progress, Task | None, Outcome | None], None]
 """called once before the first point, with None, and after each finished point"""
@@ -148,6 +152,7 @@ def run_sweep(prepared: Prepared, options: SweepOptions, report: Report | None =
         columns=tuple(column.name for column in prepared.columns),
         title=prepared.sweep.content.title,
         cases=prepared.plan.cases,
+        libraries=library_versions(),
     )
     asked = prepared.tasks if options.shard is None else shard_of(prepared.tasks, *options.shard)
     path = folder / (WHOLE if options.shard is None else journal_name(*options.shard))
@@ -161,10 +166,21 @@ def run_sweep(prepared: Prepared, options: SweepOptions, report: Report | None =
         if report is not None:
             report(progress, None, None)
         if tasks:
-            with engine:
-                _solve(engine.run(prepared.plan, tasks), tasks, journal, progress, report)
+            with _noted(journal), engine:
+                _solve(prepared, engine.run(prepared.plan, tasks), journal, progress, report)
         finished = journal.finished | ({} if options.shard is None else merged(journals_in(folder), header))
         return _finish(prepared, options, finished, journal.notices, time.perf_counter() - started)
+
+
+@contextmanager
+def _noted(journal: Journal) -> Iterator[None]:
+    """What breaks a sweep off says how much of it is kept, where its own words do not."""
+    try:
+        yield
+    except BaseException as error:
+        if not isinstance(error, UsageError) and RESUME not in str(error):
+            error.add_note(f"{counted(len(journal.finished), 'finished point')} in the journal, {RESUME} goes on")
+        raise
 
 
 def _files(prepared: Prepared, options: SweepOptions) -> TableFiles:
@@ -173,17 +189,18 @@ def _files(prepared: Prepared, options: SweepOptions) -> TableFiles:
 
 
 def _solve(
+    prepared: Prepared,
     outcomes: Generator[Outcome, None, None],
-    tasks: Sequence[Task],
     journal: Journal,
     progress: Progress,
     report: Report | None,
 ) -> None:
     """Each outcome into the journal as it comes."""
-    by_key: Mapping[str, Task] = {task.key: task for task in tasks}
+    by_key: Mapping[str, Task] = {task.key: task for task in prepared.tasks}
+    shown = shown_folders(prepared.plan, prepared.sweep.content.deck)
     started = time.perf_counter()
     with closing(outcomes):
-        for outcome in outcomes:
+        for outcome in map(shown.in_outcome, outcomes):
             task = by_key[outcome.key]
             journal.add(task, outcome)
             progress.add(outcome.state == FAILED, time.perf_counter() - started)

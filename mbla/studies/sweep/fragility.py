@@ -23,11 +23,12 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.special import betaincinv
 
-from mbla.arrays import BoolArray, FloatArray, IntArray
+from mbla.arrays import FloatArray, IntArray
 from mbla.deck.suggestions import listed
 from mbla.errors import UsageError
-from mbla.studies.sweep.pictures.answers import Answer, Answers, answers_of
+from mbla.studies.sweep.answers import Answers, answers_of
 from mbla.studies.sweep.plan import Plain
+from mbla.studies.sweep.results import FACTORS, STATUS
 from mbla.studies.sweep.tables.sweep_table import SweepColumn, SweepTable
 
 SAME = 1e-6
@@ -90,6 +91,7 @@ def fragility_of(table: SweepTable, result: str, demands: Sequence[float], confi
         raise UsageError("fragility needs a random design: the points of this sweep are no random sample")
     found = []
     for column in _columns(table, result):
+        _refuse_without_status(table, column)
         answers = answers_of(table, column)
         for at, rows in _combinations(table):
             found.append(_fragility(table, answers, at, rows, np.array(demands, dtype=np.float64), confidence))
@@ -119,10 +121,9 @@ def _fragility(
     demands: FloatArray,
     confidence: float,
 ) -> Fragility:
-    fallen, unknown = _fallen(answers)[rows], _unknown(answers)[rows]
     values = answers.values[rows][answers.good[rows]]
-    below = (values[:, None] < demands - SAME * np.abs(demands)).sum(axis=0) + int(fallen.sum())
-    count = int(unknown.sum())
+    below = (values[:, None] < demands - SAME * np.abs(demands)).sum(axis=0) + int(answers.below[rows].sum())
+    count = int(answers.unknown[rows].sum())
     lower, upper = interval(below, count, len(rows), confidence)
     return Fragility(
         column=answers.column,
@@ -144,17 +145,6 @@ def _sample_size(table: SweepTable) -> int:
     return next(dimension.size for dimension in table.dimensions if dimension.name == table.samples)
 
 
-def _fallen(answers: Answers) -> BoolArray:
-    """Points that lie below every demand: the load factor of a structure that does not stand."""
-    none = np.zeros(len(answers.answer), dtype=bool)
-    return answers.of(Answer.NO_EQUILIBRIUM) if answers.is_factor else none
-
-
-def _unknown(answers: Answers) -> BoolArray:
-    above = answers.of(Answer.UNBOUNDED) if answers.is_factor else np.zeros(len(answers.answer), dtype=bool)
-    return np.asarray(~answers.good & ~_fallen(answers) & ~above)
-
-
 def _columns(table: SweepTable, result: str) -> tuple[SweepColumn, ...]:
     columns = table.of_role("result")
     chosen = [column for column in columns if column.name == result]
@@ -164,6 +154,13 @@ def _columns(table: SweepTable, result: str) -> tuple[SweepColumn, ...]:
     if any(column.kind not in ("float", "int") for column in chosen):
         raise UsageError(f"fragility: {result} is no number")
     return tuple(chosen)
+
+
+def _refuse_without_status(table: SweepTable, column: SweepColumn) -> None:
+    """Without it nobody knows of a missing load factor whether it lies below every demand or above."""
+    statuses = [each.case for each in table.of_role("result") if each.path == STATUS]
+    if column.path in FACTORS and column.case not in statuses:
+        raise UsageError(f"fragility: {column.name} needs {STATUS} among the results")
 
 
 def _combinations(table: SweepTable) -> Iterator[tuple[dict[str, Plain], IntArray]]:

@@ -69,8 +69,6 @@ def _remarks(found: Sequence[Fragility]) -> list[str]:
             "points without a verified answer are unknown: they are counted both as below and as above a demand, and "
             "the interval holds both"
         )
-    if any(one.left_out for one in found):
-        remarks.append("constraints leave out points of the sample: the probabilities are those of the others")
     return [remark for remark in remarks if remark]
 
 

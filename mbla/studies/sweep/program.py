@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+from collections.abc import Mapping
 from functools import cache
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
@@ -32,6 +33,13 @@ def library_versions() -> dict[str, str]:
     return {name: _version(name) for name in LIBRARIES}
 
 
+def difference(ours: Mapping[str, str], theirs: Mapping[str, str]) -> str:
+    """Versions that are not the same, in words; empty where all are."""
+    names = [name for name in ours if theirs.get(name) != ours[name]]
+    return ", ".join(f"its {name} is {theirs.get(name, 'none')}, here it is {ours[name]}" for name in names)
+
+
+@cache
 def _version(name: str) -> str:
     try:
         return version(name)

@@ -11,10 +11,15 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from mbla.deck.suggestions import listed
 from mbla.studies.sweep.plan import Plain
 
 OF_RUN = ("model", "settings", "time")
 """first keys of paths that lead into the record of the run rather than into that of a load case"""
+STATUS = "status"
+FACTORS = ("load_factor", "static_bound", "kinematic_bound", "associative_load_factor")
+"""results that are load factors: they have a place on their axis for a structure that does not stand, and for one that
+no load brings down, which their status tells"""
 UNBOUNDED = "unbounded"
 """status of a position that nothing brings down: others may still be the worst"""
 
@@ -47,6 +52,17 @@ def values_of(record: Mapping[str, Any], places: Sequence[ResultPlace]) -> dict[
     cases = {case["name"]: case for case in record["cases"]}
     cases |= {series["name"]: _of_series(series, cases) for series in record["series"]}
     return {place.name: _at(cases.get(place.case) if place.case else record, place.path) for place in places}
+
+
+def reason_of(record: Mapping[str, Any]) -> str:
+    """Why load cases have no load factor, each reason once; with the names of its cases where several were solved."""
+    names: dict[str, list[str]] = {}
+    for case in record["cases"]:
+        if case["reason"]:
+            names.setdefault(case["reason"], []).append(case["name"])
+    if len(record["cases"]) == 1:
+        return "; ".join(names)
+    return "; ".join(f"{listed(cases, 'and')}: {reason}" for reason, cases in names.items())
 
 
 def _of_series(series: Mapping[str, Any], cases: Mapping[str, Mapping[str, Any]]) -> dict[str, Any]:

@@ -3,20 +3,31 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
+from mbla.arrays import BoolArray, FloatArray
 from mbla.results.words.text import INDENT, counted, entry, number, sentence
+from mbla.results.words.text import table as text_table
+from mbla.studies.sweep.answers import answers_of
 from mbla.studies.sweep.outcome import FAILED
 from mbla.studies.sweep.progress import duration_words
+from mbla.studies.sweep.tables.from_outcomes import as_text
 from mbla.studies.sweep.tables.sweep_table import SweepColumn, SweepTable
 
 SHOWN = 5
 """failed points that are named one by one; the table has all of them"""
 COUNTED = 8
 """different texts of a result that are counted one by one"""
+NAMED = 6
+"""points with a least or greatest value whose parameters are told"""
+TEXTS = ("text", "bool")
+"""kinds of results that are counted; others have a least and a greatest value"""
+ALIKE = 1e-6
+"""relative; numbers are shown with six digits, and the accuracy of solvers decides upon the others"""
 DESIGN = ("parameter", "azimuth", "elevation")
 
 
@@ -24,9 +35,8 @@ def sweep_lines(record: Mapping[str, Any], table: SweepTable) -> list[str]:
     """Everything that the terminal shows of a finished sweep; ``record`` as of ``sweep_json``."""
     lines = [f"{record['sweep']}: {record['title'] or record['deck']}"]
     lines += entry("points", points_words(record))
-    for column in table.of_role("result"):
-        lines += result_lines(table, column)
-    lines += list(failure_lines(table))
+    lines += result_lines(table)
+    lines += failure_lines(table)
     for notice in record["notices"]:
         lines += sentence(f"{notice['severity']}: {notice['message']}")
     lines += entry("time", duration_words(record["time"]["total"]))
@@ -42,22 +52,66 @@ def points_words(record: Mapping[str, Any]) -> str:
     return f"{points['all']}: {', '.join(words)}{left_out}"
 
 
-def result_lines(table: SweepTable, column: SweepColumn) -> list[str]:
-    """Least and greatest value of a number with their points; how often each text is there."""
-    values = table[column.name]
-    if column.kind in ("text", "bool"):
-        return entry(column.name, _counts_words(column, values))
-    finite = np.ma.filled(np.ma.masked_invalid(np.ma.asarray(values, dtype=np.float64)), np.nan)
-    known = np.flatnonzero(np.isfinite(finite))
+def result_lines(table: SweepTable) -> list[str]:
+    """How often each text is there; a table of the least and greatest verified numbers, and their points."""
+    columns = table.of_role("result")
+    lines: list[str] = []
+    for column in columns:
+        if column.kind in TEXTS:
+            lines += entry(column.name, _counts_words(column, table[column.name]))
+    ranges = [_range_of(table, column) for column in columns if column.kind not in TEXTS]
+    return lines + (_range_lines(table, ranges) if ranges else [])
+
+
+@dataclass(frozen=True)
+class Range:
+    """Least and greatest verified value of a result, nan where no point has one.
+
+    rows    : of the first points that have them, as far as can be told; none where all are alike
+    without : points that have none
+    alike   : all are the same as far as they are shown: which is the least is a matter of the solver's last digits
+    """
+
+    column: SweepColumn
+    least: float
+    greatest: float
+    rows: tuple[int, ...]
+    without: int
+    alike: bool = False
+
+
+def _range_of(table: SweepTable, column: SweepColumn) -> Range:
+    answers = answers_of(table, column)
+    known = np.flatnonzero(answers.good)
     if not known.size:
-        return entry(column.name, "no value")
-    least, greatest = known[np.argmin(finite[known])], known[np.argmax(finite[known])]
-    unit = f" {column.unit}" if column.unit else ""
-    words = f"{number(finite[least])}{unit} ({point_words(table, int(least))})"
-    if greatest != least:
-        words += f" to {number(finite[greatest])}{unit} ({point_words(table, int(greatest))})"
-    missing = len(table) - known.size
-    return entry(column.name, words + (f"; {counted(missing, 'point')} without" if missing else ""))
+        return Range(column, np.nan, np.nan, (), len(table))
+    values = answers.values[known]
+    least, greatest = float(values.min()), float(values.max())
+    alike = known.size > 1 and bool(_near(values, least).all())
+    rows = () if alike else tuple(int(known[np.argmax(_near(values, end))]) for end in (least, greatest))
+    return Range(column, least, greatest, rows, len(table) - known.size, alike)
+
+
+def _near(values: FloatArray, end: float) -> BoolArray:
+    """Those that cannot be told from an end of the range."""
+    return np.abs(values - end) <= ALIKE * abs(end)
+
+
+def _range_lines(table: SweepTable, ranges: Sequence[Range]) -> list[str]:
+    missing = any(one.without for one in ranges)
+    cells = []
+    for one in ranges:
+        at = [str(table["point"][row]) for row in one.rows] or (["all", "all"] if one.alike else ["-", "-"])
+        shown = [one.column.header, number(one.least), at[0], number(one.greatest), at[1]]
+        cells.append([*shown, *([str(one.without)] if missing else [])])
+    head = ["result", "least", "point", "greatest", "point", *(["without"] if missing else [])]
+    lines = ["", *text_table(head, cells)]
+    named = list(dict.fromkeys(row for one in ranges for row in one.rows))
+    for row in named[:NAMED]:
+        lines += sentence(point_words(table, row))
+    if len(named) > NAMED:
+        lines += sentence(f"{counted(len(named) - NAMED, 'further point')}: see sweep.csv")
+    return [*lines, ""]
 
 
 def _counts_words(column: SweepColumn, values: Any) -> str:
@@ -74,7 +128,7 @@ def point_words(table: SweepTable, row: int) -> str:
     words = []
     for column in table.of_role(*DESIGN):
         value = table[column.name][row]
-        shown = number(float(value)) if column.kind == "float" else str(value)
+        shown = number(float(value)) if column.kind == "float" else as_text(value)
         words.append(f"{column.name} {shown}" + (f" {column.unit}" if column.unit else ""))
     return f"point {table['point'][row]}: {', '.join(words)}"
 

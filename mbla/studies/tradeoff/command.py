@@ -12,8 +12,7 @@ from mbla.studies.tradeoff.ladder_run import Limits, Report
 from mbla.studies.tradeoff.records import study_json
 from mbla.studies.tradeoff.study import Study, file_name, study_deck
 from mbla.studies.tradeoff.write import write_study
-
-INTERRUPTION = "interrupted: here is what was measured until then"
+from mbla.studies.words import INTERRUPTION, LEFT
 
 
 def tradeoff(
@@ -37,7 +36,7 @@ def tradeoff(
         study = study_deck(deck, run.overrides, run.cases, asked, options.wanted_error, limits, report)
         remarks = [INTERRUPTION] if study.interrupted else []
         if study.interrupted and any((out.folder / name).exists() for name in names):
-            remarks.append("the files of the earlier study are left as they are")
+            remarks.append(LEFT)
         else:
             remarks += write_study(study, out)
     return study, study_json(study, out.names), remarks

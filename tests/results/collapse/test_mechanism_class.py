@@ -60,6 +60,12 @@ def test_a_wall_in_bond_pushed_in_its_plane() -> None:
     assert classes_of(deck) == ["sliding and hinging"]
 
 
+def test_supports_that_give_way() -> None:
+    """The beam turns on the middle pad and follows the right one; the left one sinks and leaves the beam at rest."""
+    deck = (DECKS / "beam_on_three_supports.yaml").read_text(encoding="utf-8")
+    assert classes_of(deck) == ["hinging", "opening"]
+
+
 # --- put together by hand -----------------------------------------------------------------------------------------
 
 

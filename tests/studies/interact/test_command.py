@@ -4,13 +4,17 @@ from __future__ import annotations
 
 import csv
 import json
+from collections.abc import Generator, Sequence
 from pathlib import Path
 
 import pytest
 
 import mbla
 from mbla.cli import main
-from tests.studies.interact.hand_made import solved, written
+from mbla.studies.interact.command import file_name
+from mbla.studies.sweep.outcome import Outcome
+from mbla.studies.sweep.plan import Plan, Task
+from tests.studies.interact.hand_made import ThisProcess, question, solved, written
 
 
 def test_files_and_figures(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -47,6 +51,62 @@ def test_a_point_that_cannot_be_asked_fails_alone(tmp_path: Path) -> None:
     assert [point.answered for point in study.points] == [True, False, True]
     assert "cancel each other" in study.points[1].reason
     assert study.exit_code == 3
+
+
+def test_two_questions_of_one_deck_have_files_of_their_own(tmp_path: Path) -> None:
+    deck = tmp_path / "block.yaml"
+    assert file_name(deck, question(tmp_path, case="push")) == "block_interact"
+    assert file_name(deck, question(tmp_path, loads=("push", "top"))) == "block_interact_push_top"
+
+
+def test_a_point_over_the_time_limit_is_told(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    arguments = ["--case", "push", "--directions", "1", "--time-limit", "1e-9", "--json"]
+    assert main(["interact", str(written(tmp_path)), *arguments]) == 7
+    (point,) = json.loads(capsys.readouterr().out)["points"]
+    assert (point["status"], point["verified"], point["load_factor"]) == ("time_limit", False, None)
+
+
+class Interrupted(ThisProcess):
+    """Ctrl-C comes after the first points."""
+
+    def __init__(self, after: int) -> None:
+        self.after = after
+
+    def __enter__(self) -> Interrupted:
+        return self
+
+    def __exit__(self, *what: object) -> None:
+        pass
+
+    def run(self, plan: Plan, tasks: Sequence[Task]) -> Generator[Outcome, None, None]:
+        for number, outcome in enumerate(super().run(plan, tasks)):
+            if number == self.after:
+                raise KeyboardInterrupt
+            yield outcome
+
+
+@pytest.mark.parametrize("earlier", [False, True])
+def test_an_interrupted_study_is_shown_and_never_written_over_an_earlier_one(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, earlier: bool
+) -> None:
+    arguments = ["interact", str(written(tmp_path)), "--case", "push", "--directions", "4", "--force"]
+    table = tmp_path / "block.out" / "block_interact.csv"
+    if earlier:
+        assert main(arguments) == 0
+    before = table.read_bytes() if earlier else b""
+    monkeypatch.setattr("mbla.studies.interact.command.engine_for", lambda _: Interrupted(2))
+    assert main(arguments) == 130
+    out, err = capsys.readouterr()
+    assert "no verified answer at 0, 90 degrees: not solved: interrupted before" in " ".join(out.split())
+    assert "interrupted: here is what was found until then" in err
+    assert ("the files of the earlier study are left as they are" in err) == earlier
+    assert (table.read_bytes() == before) == earlier
+
+
+def test_an_interruption_before_the_first_point_writes_nothing(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("mbla.studies.interact.command.engine_for", lambda _: Interrupted(0))
+    assert main(["interact", str(written(tmp_path)), "--case", "push", "-q"]) == 130
+    assert not (tmp_path / "block.out").exists()
 
 
 @pytest.mark.parametrize(

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import csv
 import os
 import signal
+import socket
 import subprocess
 import sys
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -23,11 +23,18 @@ from mbla.studies.sweep.journal.shards import journals_in
 from tests.line import BLOCK
 from tests.studies.sweep.journal.forked import Forked, forked
 
-HOW_IT_WENT = ("tries", "seconds [s]")
-"""columns that say how a point was solved, not what its answer is: time, and how often its process was begun"""
+HOW_IT_WENT = b",tries,seconds [s]"
+"""the last columns, which say how a point was solved, not what its answer is"""
 GONE = 30.0
 """seconds in which processes must have ended whose parent was killed, or be there; it takes hundredths, or one"""
 SCHEDULER = "scheduler"
+KINDS = {
+    SCHEDULER: "distributed.cli.dask_scheduler",
+    "nanny": "distributed.cli.dask_worker",
+    "worker": "multiprocessing.spawn",
+    "points": "mbla.studies.sweep.worker.child",
+}
+"""kinds of processes of a cluster, and by what their command lines are known"""
 
 
 def written(folder: Path, points: int) -> Path:
@@ -81,10 +88,11 @@ def scene(path: Path, folder: Path, engine: EngineOptions | None = None) -> Scen
     return Scene(prepare(read_sweep(path, ()), options), options)
 
 
-def table_of(folder: Path) -> list[dict[str, str]]:
-    """Rows of sweep.csv as they stand in the file, without how it went."""
-    with (folder / "sweep.csv").open(newline="", encoding="utf-8") as file:
-        return [{name: cell for name, cell in row.items() if name not in HOW_IT_WENT} for row in csv.DictReader(file)]
+def table_of(folder: Path) -> list[bytes]:
+    """Lines of sweep.csv byte for byte, but for the last two columns: how often a point was begun, and its time."""
+    header, *rows = (folder / "sweep.csv").read_bytes().splitlines()
+    assert header.endswith(HOW_IT_WENT)
+    return [line.rsplit(b",", 2)[0] for line in (header, *rows)]
 
 
 def keys_in_journals(folder: Path) -> list[str]:
@@ -161,12 +169,30 @@ def finish(scene: Scene) -> str:
         return client.lines()[-1]
 
 
+def kind_of(pid: int) -> str:
+    """What a process of a cluster is: scheduler, nanny (which begins a worker anew), worker, or points."""
+    with suppress(OSError):
+        command = Path(f"/proc/{pid}/cmdline").read_bytes().decode().replace("\0", " ")
+        for kind, sign in KINDS.items():
+            if sign in command:
+                return kind
+    return ""
+
+
 class Cluster:
     """Context manager: a Dask scheduler and workers on loopback, each of which is begun again where it has ended."""
 
-    def __init__(self, folder: Path, workers: int) -> None:
+    def __init__(self, folder: Path, workers: int, tls: Mapping[str, Path] | None = None) -> None:
+        """
+        tls : files ``ca``, ``cert`` and ``key``, for encrypted connections
+        """
         self.file = folder / "scheduler.json"
+        protocol, port = "tls" if tls else "tcp", _free_port()
+        self.address = f"{protocol}://127.0.0.1:{port}"
         self._workers = workers
+        self._place = ("--host", "127.0.0.1", "--port", str(port), "--no-dashboard", "--protocol", protocol)
+        names = {"ca": "--tls-ca-file", "cert": "--tls-cert", "key": "--tls-key"}
+        self._tls = [part for kind, name in names.items() if tls for part in (name, str(tls[kind]))]
         self._processes: dict[str, subprocess.Popen[bytes]] = {}
         paths = [str(PACKAGES), os.environ.get("PYTHONPATH", "")]
         self._environment = os.environ | {"PYTHONPATH": os.pathsep.join(path for path in paths if path)}
@@ -186,7 +212,7 @@ class Cluster:
             for name in sorted(self._processes, reverse=True):
                 self.end(name)  # workers of a scheduler that is gone are ended by whoever runs the cluster
             self.file.unlink(missing_ok=True)
-            self._begin(SCHEDULER, "dask_scheduler", "--host", "127.0.0.1", "--port", "0", "--no-dashboard")
+            self._begin(SCHEDULER, "dask_scheduler", *self._place)
             until = time.monotonic() + GONE
             while not self.file.exists():
                 assert time.monotonic() < until, "no scheduler"
@@ -198,7 +224,7 @@ class Cluster:
     def _begin(self, name: str, module: str, *options: str) -> None:
         command = [sys.executable, "-P", "-m", f"distributed.cli.{module}", "--scheduler-file", str(self.file)]
         self._processes[name] = subprocess.Popen(
-            [*command, *options],
+            [*command, *options, *self._tls],
             env=self._environment,
             cwd=self.file.parent,
             stdout=subprocess.DEVNULL,
@@ -214,12 +240,22 @@ class Cluster:
         process.wait()
 
     def kill_one(self, draw: Random) -> str:
-        """Kill one process: the scheduler, a nanny, a worker, or the process of its points; what it was."""
-        name = draw.choice(sorted(self._processes))
-        pid = self._processes[name].pid
-        with suppress(ProcessLookupError):
-            os.kill(draw.choice([pid, *descendants(pid)]), signal.SIGKILL)
-        return name
+        """Kill one process, each kind as often as the others; what it was, empty where it had just ended."""
+        roots = [process.pid for process in self._processes.values()]
+        kinds: dict[str, list[int]] = {}
+        for pid in (each for root in roots for each in (root, *descendants(root))):
+            kinds.setdefault(kind_of(pid), []).append(pid)
+        kind = draw.choice(sorted(kinds.keys() - {""}))
+        try:
+            os.kill(draw.choice(kinds[kind]), signal.SIGKILL)
+        except ProcessLookupError:
+            return ""
+        return kind
+
+
+def _free_port() -> int:
+    with socket.create_server(("127.0.0.1", 0)) as server:
+        return int(server.getsockname()[1])
 
 
 def with_cluster_kills(scene: Scene, cluster: Cluster, kills: int, draw: Random, wait: float) -> list[str]:
@@ -235,12 +271,12 @@ def with_cluster_kills(scene: Scene, cluster: Cluster, kills: int, draw: Random,
             line = client.line()
             while len(killed) < kills and line and not line.startswith("finished"):
                 time.sleep(draw.random() ** 3 * wait)
-                if draw.random() < 0.3:
+                if draw.random() < 0.2:
                     killed.append("client")
                     client.kill()
-                else:
-                    killed.append(cluster.kill_one(draw))
-                    if killed[-1] != SCHEDULER:
+                elif kind := cluster.kill_one(draw):
+                    killed.append(kind)
+                    if kind != SCHEDULER:
                         cluster.mend()
                 for _ in range(3):
                     line = client.line()

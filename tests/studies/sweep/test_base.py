@@ -172,6 +172,22 @@ def test_a_sweep_with_a_corner_that_cannot_be_read_begins(tmp_path: Path) -> Non
         check_points(base, points[:1])
 
 
+EXPECTING = ARCH + 'expected: {push_x: {load_factor: "=sqrt(t - 0.12)/spare", source: "closed form", tolerance: 1.}}\n'
+
+
+def test_expectations_of_the_deck_are_not_those_of_its_points(tmp_path: Path) -> None:
+    """They are defined at the values of the deck, and need not be elsewhere: 0.1 - 0.12 has no root."""
+    base = base_of(tmp_path, GOOD.replace("[0.1, 0.15, 0.2]", "[0.1, 0.11]"), EXPECTING)
+    with pytest.raises(DeckError, match="is not defined"):
+        read_deck(base.path, ("parameters.t=0.1",))
+    check_points(base, points_of(base))
+
+
+def test_a_parameter_that_only_an_expectation_uses_has_no_effect(tmp_path: Path) -> None:
+    with pytest.raises(DeckError, match=r"parameters\.spare: has no effect: the deck does not use parameters\.spare"):
+        base_of(tmp_path, GOOD.replace("  t: {", "  spare: {"), EXPECTING)
+
+
 # --- fingerprint --------------------------------------------------------------------------------------------------
 
 

@@ -28,7 +28,10 @@ Found = tuple[str, str, float | None]
 
 
 def table_of(
-    points: Sequence[Sequence[Found]], sampling: str = "random", thickness: Sequence[float] = ()
+    points: Sequence[Sequence[Found]],
+    sampling: str = "random",
+    thickness: Sequence[float] = (),
+    asked: Sequence[str] = RESULTS,
 ) -> SweepTable:
     """A table of samples, one row of points for each thickness, or for none."""
     thick = list(thickness) or [0.0]
@@ -44,10 +47,11 @@ def table_of(
             outcomes[key] = Outcome(key, state, 0, "", results, 1, 0.1)
             at, values = ((row,), (thick[row],)) if thickness else ((), ())
             design.append(Point(len(design) + 1, (*at, place), (*values, 0.5), {}))
+    levels = (*([tuple(thick)] if thickness else []), (0.5,) * len(points[0]))
     return sweep_table(
         "",
-        Design(columns, dimensions, tuple(design), 0, "sample", sampling),
-        result_columns(RESULTS, ("push",), Units()),
+        Design(columns, dimensions, tuple(design), levels, 0, "sample", sampling),
+        result_columns(asked, ("push",), Units()),
         outcomes,
         list(outcomes),
     )
@@ -114,6 +118,13 @@ MIXED: list[Found] = [
 ]
 
 
+def test_without_status_nobody_knows_on_which_side_a_missing_load_factor_is() -> None:
+    with pytest.raises(UsageError, match="load_factor needs status among the results"):
+        fragility_of(table_of([MIXED], asked=RESULTS[1:]), "load_factor", (0.3,), 0.95)
+    (found,) = fragility_of(table_of([MIXED], asked=RESULTS[1:]), "mechanism.moving_weight_share", (0.3,), 0.95)
+    assert (found.below[0], found.unknown) == (1, 3)  # a share has no side for what does not stand
+
+
 def test_what_does_not_stand_is_below_and_what_never_falls_above() -> None:
     (found,) = fragility_of(table_of([MIXED[:4]]), "load_factor", (0.1, 0.2, 0.3, 9.0), 0.95)
     assert found.below.tolist() == [1, 1, 2, 3]  # a load factor equal to the demand bears it
@@ -177,11 +188,11 @@ def test_a_value_that_is_the_demand_but_for_rounding_bears_it() -> None:
     assert found.below.tolist() == [1]
 
 
-def test_points_that_constraints_leave_out_are_told() -> None:
+def test_points_that_constraints_leave_out_are_counted() -> None:
     table = table_of([solved([0.1, 0.2])])
     found = fragility_of(replace(table, dimensions=(Dimension("sample", 5),)), "load_factor", (0.15,), 0.95)
     assert found[0].left_out == 3
-    assert "leave out points of the sample" in fragility_lines(found)[-1]
+    assert fragility_json(found)[0]["left_out"] == 3  # in words it is a remark of the design
 
 
 @pytest.mark.parametrize(

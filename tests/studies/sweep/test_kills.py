@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from pathlib import Path
 from random import Random
 
 import pytest
 
 from mbla.studies.sweep.engine.options import EngineOptions
+from tests.studies.sweep.commands import nothing_left
+from tests.studies.sweep.engine.certificates import write_certificates
+from tests.studies.sweep.journal.forked import forked
 from tests.studies.sweep.killed_sweeps import (
-    SCHEDULER,
+    KINDS,
     Cluster,
     Scene,
     finish,
@@ -20,6 +24,11 @@ from tests.studies.sweep.killed_sweeps import (
     with_kills,
     written,
 )
+
+CLUSTER_KILLS = 15
+"""by each way to a cluster; with those below there are 125 in all"""
+DASK_LOCKS = ("global.lock", "purge.lock", "*.dirlock")
+"""files by which workers of Dask agree on who removes folders of others that were killed, which the next one does"""
 
 
 def check_like_clean(killed: Scene, clean: Scene, reported: set[str]) -> None:
@@ -59,13 +68,25 @@ def test_kills_with_two_workers(tmp_path: Path) -> None:
 
 
 @pytest.mark.long
-def test_kills_in_a_cluster(tmp_path: Path) -> None:
+@pytest.mark.parametrize("way", ["file", "tcp", "tls"])
+def test_kills_in_a_cluster(tmp_path: Path, way: str) -> None:
     """Scheduler, nannies, workers, processes of points, client: whichever is hit."""
-    path = written(tmp_path, 600)
+    path = written(tmp_path, 300)
     clean = scene(path, tmp_path / "clean")
-    with Cluster(tmp_path, 2) as cluster:
-        killed = scene(path, tmp_path / "killed", EngineOptions(scheduler_file=cluster.file))
-        kills = with_cluster_kills(killed, cluster, 20, Random(4), 3.0)
-        assert len(kills) == 20
-        assert {"client", SCHEDULER, "worker 0", "worker 1"} <= set(kills)
-        check_like_clean(killed, clean, set())
+    tls = write_certificates(tmp_path / "tls") if way == "tls" else None
+    with nothing_left(tmp_path / "temporary", DASK_LOCKS), Cluster(tmp_path, 2, tls) as cluster:
+        killed = scene(path, tmp_path / "killed", engine_of(cluster, way, tls))
+        kills = with_cluster_kills(killed, cluster, CLUSTER_KILLS, Random(way), 3.0)
+        assert len(kills) == CLUSTER_KILLS
+        assert {"client", *KINDS} == set(kills), Counter(kills)
+        with forked(killed.goes_on()) as client:  # to its end, by the cluster
+            assert client.lines()[-1] == "finished 8"
+    check_like_clean(killed, clean, set())
+
+
+def engine_of(cluster: Cluster, way: str, tls: dict[str, Path] | None) -> EngineOptions:
+    """How its scheduler is named."""
+    if way == "file":
+        return EngineOptions(scheduler_file=cluster.file)
+    files = {} if tls is None else {"tls_ca_file": tls["ca"], "tls_cert": tls["cert"], "tls_key": tls["key"]}
+    return EngineOptions(scheduler=cluster.address, **files)  # type: ignore[arg-type]

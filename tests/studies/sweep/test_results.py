@@ -13,7 +13,7 @@ from mbla.deck.units import Units
 from mbla.results.records.json_record import results_json
 from mbla.studies.sweep.file.content import SweepContent
 from mbla.studies.sweep.result_columns import result_columns, result_faults
-from mbla.studies.sweep.results import result_places, values_of
+from mbla.studies.sweep.results import reason_of, result_places, values_of
 from tests.results.synthetic import tower_results
 
 DECKS = Path(__file__).parents[3] / "decks" / "benchmarks"
@@ -158,3 +158,11 @@ def test_a_travelling_load_as_it_is_run() -> None:
         assert found["status"] == "solved"
         assert found["mechanism.class"] is not None
         assert found["worst.distance"] == travel["worst"]["distance"]
+
+
+def test_a_reason_names_its_load_cases_where_there_are_several() -> None:
+    falls, late = "the dead load alone is not carried", "the time limit was reached"
+    cases = [{"name": name, "reason": reason} for name, reason in zip("abcd", (falls, None, late, falls), strict=True)]
+    assert reason_of({"cases": cases}) == f"a and d: {falls}; c: {late}"
+    assert reason_of({"cases": cases[:1]}) == falls
+    assert reason_of({"cases": cases[1:2]}) == ""

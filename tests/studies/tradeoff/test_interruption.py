@@ -53,7 +53,7 @@ def test_what_was_measured_is_told_and_written(command: list[str], capsys: pytes
     ends = {setting["name"]: setting["end"] for setting in record["settings"]}
     assert list(ends.values()) == ["done", "interrupted", "interrupted", "interrupted"]
     assert record["exit_code"] == 130
-    assert "mbla: interrupted: here is what was measured until then" in told.err
+    assert "mbla: interrupted: here is what was found until then" in told.err
     words = " ".join(told.err.split())
     assert "tolerance: 1e-6: interrupted before its end" in words
     assert "tolerance: 1e-7, tolerance: 1e-8: not run: interrupted before" in words
@@ -79,7 +79,7 @@ def test_before_anything_was_measured_nothing_is_left(
 ) -> None:
     monkeypatch.setattr(LeftAfter, "answered", 0)
     assert main(command) == 130
-    assert capsys.readouterr().err == "interrupted\n"
+    assert capsys.readouterr().err == "mbla: interrupted\n"
     assert not Path(command[1]).with_suffix(".out").exists()
 
 

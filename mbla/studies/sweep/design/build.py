@@ -54,6 +54,7 @@ def design_of(
         columns=tuple(column for axis in axes for column in axis.columns),
         dimensions=tuple(axis.dimension for axis in axes),
         points=tuple(points),
+        levels=tuple(values for axis in axes for values in zip(*axis.values, strict=True)),
         left_out=left_out,
         samples="" if sample is None else sample.dimension.name,
         sampling="" if sample is None else sample.sampling,

@@ -78,6 +78,7 @@ class Point:
 class Design:
     """All points of a sweep; the last dimension changes fastest.
 
+    levels   : of each column, its values along its dimension, also those at which constraints leave no point
     left_out : points that broke a constraint
     samples  : name of the dimension whose points are a random sample of distributions; empty where there is none
     sampling : ``random``, ``latin_hypercube`` or ``sobol`` for that; empty where there is none
@@ -89,6 +90,7 @@ class Design:
     columns: tuple[DesignColumn, ...]
     dimensions: tuple[Dimension, ...]
     points: tuple[Point, ...]
+    levels: tuple[tuple[Plain, ...], ...]
     left_out: int = 0
     samples: str = ""
     sampling: str = ""

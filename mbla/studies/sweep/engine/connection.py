@@ -17,8 +17,8 @@ from typing import Any, TypeVar
 
 from mbla.errors import FileError, UsageError
 from mbla.studies.sweep.engine.options import EngineOptions
-from mbla.studies.sweep.program import library_versions, program_identity
-from mbla.studies.sweep.worker.batch import describe, difference, end_processes
+from mbla.studies.sweep.program import difference, library_versions, program_identity
+from mbla.studies.sweep.worker.batch import describe, end_processes
 
 LOOK = 1.0
 """seconds between looks at whether scheduler and workers are still there"""

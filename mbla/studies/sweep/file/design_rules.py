@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Iterator
 from math import prod
 
@@ -12,6 +13,7 @@ from mbla.studies.sweep.file.content import MAX_POINTS, Parameter, SweepContent
 from mbla.studies.sweep.file.keys import key_paths, spelt
 from mbla.studies.sweep.file.parts import SAMPLED, Part, design_parts, is_random
 from mbla.studies.sweep.file.ways import DISTRIBUTIONS, RANDOM, WITH_POINTS, level_count, way_of
+from mbla.studies.sweep.results import FACTORS, STATUS
 
 OWN_COLUMNS = ("point", "state", "exit_code", "reason", "tries", "seconds")
 """columns that every table of a sweep has beside those of parameters and results"""
@@ -120,6 +122,19 @@ def ways_fit_their_part(sweep: SweepContent) -> Iterator[Finding]:
                 yield path, f"needs points, how many values it has, in a {part.kind}; or put {name} into {_samples()}"
 
 
+@rule(SweepContent)
+def grid_values_once(sweep: SweepContent) -> Iterator[Finding]:
+    """No point of a grid twice; in a zip a value may come again beside others, and in a sample it has more weight."""
+    for part in design_parts(sweep):
+        for name in part.names if part.kind == "grid" else ():
+            values = sweep.parameters[name].values or []
+            written = [json.dumps(value) if isinstance(value, bool | str | list) else value for value in values]
+            for index, value in enumerate(written):
+                if value in written[:index]:
+                    message = "is given twice: the points of a grid differ in each value"
+                    yield ("parameters", name, "values", index), message
+
+
 def _samples() -> str:
     return f"{listed(f'a {kind}' for kind in SAMPLED)} part of the design"
 
@@ -192,6 +207,12 @@ def fragility(sweep: SweepContent) -> Iterator[Finding]:
         yield (
             ("fragility", "result"),
             f"{shorten(wanted)} is not among results{hint} these are {listed(sweep.results, 'and')}",
+        )
+    elif any(wanted == name or wanted.endswith(f".{name}") for name in FACTORS) and STATUS not in sweep.results:
+        yield (
+            ("results",),
+            f"must have {STATUS} too: for the probability of {shorten(wanted)} it tells what does not stand from what "
+            "no load brings down",
         )
     random = [part for part in design_parts(sweep) if is_random(part, sweep)]
     if not random:

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
-from dataclasses import asdict, dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, dataclass, field
 from typing import Any
 
 from mbla.studies.sweep.journal.cells import quoted
+from mbla.studies.sweep.program import difference as other_versions
 
 FORMAT = 1
 """of journals; a program with another one does not go on with them"""
@@ -27,6 +28,7 @@ class JournalHeader:
     columns     : names of the result columns, in order
     title       : of the sweep, for human readers
     cases       : load cases that are solved; all if empty
+    libraries   : versions of those on which the digits of answers depend, by name
     """
 
     program: str
@@ -34,6 +36,7 @@ class JournalHeader:
     columns: tuple[str, ...]
     title: str = ""
     cases: tuple[str, ...] = ()
+    libraries: Mapping[str, str] = field(default_factory=dict)
 
     @property
     def all_columns(self) -> tuple[str, ...]:
@@ -65,10 +68,11 @@ def read_header(line: str) -> JournalHeader:
         raise ValueError(f"is a journal of format {record['mbla_sweep_journal']}; this mbla has format {FORMAT}")
     try:
         lists = {name: tuple(map(str, record[name])) for name in ("columns", "cases")}
-        texts = {name: str(record[name]) for name in ("program", "fingerprint", "title")}
-    except (KeyError, TypeError):
+        program, fingerprint, title = (str(record[name]) for name in ("program", "fingerprint", "title"))
+        libraries = {str(name): str(version) for name, version in record["libraries"].items()}
+    except (KeyError, TypeError, AttributeError):
         raise ValueError("is no whole journal of a sweep") from None
-    return JournalHeader(**texts, **lists)  # type: ignore[arg-type]
+    return JournalHeader(program, fingerprint, lists["columns"], title, lists["cases"], libraries)
 
 
 def difference(found: JournalHeader, wanted: JournalHeader) -> str:
@@ -76,6 +80,8 @@ def difference(found: JournalHeader, wanted: JournalHeader) -> str:
     words: list[str] = []
     if found.program != wanted.program:
         words.append(f"was written by mbla {found.program}, this is {wanted.program}")
+    if other := other_versions(wanted.libraries, found.libraries):
+        words.append(f"was written with other libraries ({other})")
     if found.fingerprint != wanted.fingerprint:
         words.append("is of another base deck, or of one that has changed since")
     if found.cases != wanted.cases:

@@ -17,10 +17,10 @@ from types import TracebackType
 from mbla.errors import FileError, Notice, UsageError
 from mbla.results.files import file_errors, flush_to_disk, missing_folders, temporary_path
 from mbla.studies.sweep.journal.header import BEGIN_ANEW, JournalHeader, header_text
-from mbla.studies.sweep.journal.lock import AT_WORK, holder, locked
+from mbla.studies.sweep.journal.lock import AT_WORK, holder, lock_path, locked
 from mbla.studies.sweep.journal.reading import keep, merged, read_journal
 from mbla.studies.sweep.journal.rows import read_row, row_of
-from mbla.studies.sweep.journal.shards import is_of_shard, journals_in
+from mbla.studies.sweep.journal.shards import is_of_shard, journal_name, journals_in
 from mbla.studies.sweep.outcome import FAILED, Outcome
 from mbla.studies.sweep.plan import Task
 
@@ -124,6 +124,8 @@ class Journal:
         folder, shard = self.path.parent, is_of_shard(self.path)
         stack.enter_context(locked(folder / _SWEEP, shared=shard, busy=lambda: _who_is_in(folder)))
         stack.enter_context(locked(self.path))
+        if not shard:
+            _remove_locks_of_killed_shards(folder)
 
     def _begin(self) -> None:
         """The file in place with a whole header, and what is finished already."""
@@ -201,6 +203,13 @@ def _make_folder(folder: Path) -> None:
         folder.mkdir(parents=True, exist_ok=True)
         for path in missing:
             flush_to_disk(path.parent)
+
+
+def _remove_locks_of_killed_shards(folder: Path) -> None:
+    """Nobody holds one while a whole run is alone in the folder."""
+    for path in folder.glob(lock_path(folder / journal_name("*", "*")).name):
+        with contextlib.suppress(OSError):  # an empty file that stays does no harm
+            path.unlink()
 
 
 def _who_is_in(folder: Path) -> str:

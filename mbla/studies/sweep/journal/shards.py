@@ -22,8 +22,8 @@ def shard_of(tasks: Sequence[Task], part: int, parts: int) -> tuple[Task, ...]:
     return tuple(different[part - 1 :: parts])
 
 
-def journal_name(part: int, parts: int) -> str:
-    """Name of the journal of a shard."""
+def journal_name(part: int | str, parts: int | str) -> str:
+    """Name of the journal of a shard; with ``*`` for both a pattern of all such names."""
     return f"journal.{part}-of-{parts}.csv"
 
 

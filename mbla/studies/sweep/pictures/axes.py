@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
-from mbla.studies.sweep.pictures.answers import numbers_of
+from mbla.studies.sweep.answers import numbers_of
 from mbla.studies.sweep.tables.sweep_table import SweepColumn, SweepTable
 
 SAME_RATIO = 1e-6

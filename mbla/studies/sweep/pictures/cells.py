@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
-from mbla.studies.sweep.pictures.answers import Answer, Answers
+from mbla.studies.sweep.answers import Answer, Answers
 from mbla.studies.sweep.pictures.axes import Axis
 
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.results.pictures.options import PictureOptions
-from mbla.studies.sweep.pictures.answers import Answer, answers_of
+from mbla.studies.sweep.answers import Answer, answers_of
 from mbla.studies.sweep.pictures.axes import Axis
 from mbla.studies.sweep.pictures.cells import NO_POINT, Cells, pooled
 from mbla.studies.sweep.pictures.panels import MOST_PANELS, panel_places, panel_title

@@ -18,7 +18,7 @@ import numpy as np
 from mbla.arrays import BoolArray, FloatArray
 from mbla.results.pictures.options import PictureOptions
 from mbla.results.pictures.palette import VERMILION
-from mbla.studies.sweep.pictures.answers import Answers
+from mbla.studies.sweep.answers import Answers
 from mbla.studies.sweep.pictures.axes import axis_of, grid_axes, is_sampled
 from mbla.studies.sweep.pictures.sheet import Sheet, dress, open_sheet
 from mbla.studies.sweep.pictures.view import View, column_by_name
@@ -70,8 +70,8 @@ def usual(view: View) -> bool:
 def cumulative(answers: Answers, own: BoolArray, band: bool = True) -> Cumulative:
     """The curve of some points, (n_points,) true for those; without a band its edges tell only what is unknown."""
     values = np.sort(answers.values[own & answers.good])
-    below, above, points = (int(which.sum()) for which in (answers.below & own, answers.above & own, own))
-    unknown = points - len(values) - below - above
+    below, above, unknown = (int((which & own).sum()) for which in (answers.below, answers.above, answers.unknown))
+    points = int(own.sum())
     reach = float(np.sqrt(np.log(2 / (1 - CONFIDENCE)) / (2 * points))) if band else 0.0
     least = (below + np.searchsorted(values, values, side="right")) / points
     share = least * points / max(points - unknown, 1)

@@ -10,9 +10,10 @@ import numpy as np
 from mbla.arrays import FloatArray, IntArray
 from mbla.results.pictures.options import DOTS_PER_INCH, PictureOptions
 from mbla.results.pictures.palette import GROUPS, INK
-from mbla.studies.sweep.pictures.answers import MARKS, Answer
+from mbla.studies.sweep.answers import Answer
 from mbla.studies.sweep.pictures.axes import Axis, value_words
 from mbla.studies.sweep.pictures.cells import NO_POINT, Cells, pooled
+from mbla.studies.sweep.pictures.marks import MARKS
 from mbla.studies.sweep.pictures.panels import MOST_PANELS, panel_places, panel_title
 from mbla.studies.sweep.pictures.sheet import SCALE, Sheet, dress, open_sheet, scale_axis
 from mbla.studies.sweep.pictures.view import View

@@ -10,11 +10,12 @@ import numpy as np
 from mbla.arrays import FloatArray
 from mbla.results.pictures.options import PictureOptions
 from mbla.results.pictures.palette import INK
+from mbla.studies.sweep.answers import Answer
 from mbla.studies.sweep.pictures import sphere
-from mbla.studies.sweep.pictures.answers import MARKS, Answer
 from mbla.studies.sweep.pictures.axes import Axis, axis_of, is_sampled, over_sphere
 from mbla.studies.sweep.pictures.cells import Cells, pooled
 from mbla.studies.sweep.pictures.curve import MOST_NAMED, add_scale, line_style
+from mbla.studies.sweep.pictures.marks import MARKS
 from mbla.studies.sweep.pictures.panels import MOST_PANELS, panel_places, panel_title
 from mbla.studies.sweep.pictures.sheet import Sheet, mark_handles, open_sheet
 from mbla.studies.sweep.pictures.view import View

@@ -10,7 +10,7 @@ import numpy as np
 from mbla.arrays import FloatArray
 from mbla.results.pictures.options import PictureOptions
 from mbla.results.pictures.palette import BLUE, CASES
-from mbla.studies.sweep.pictures.answers import Answer, Answers, answers_of, numbers_of
+from mbla.studies.sweep.answers import Answer, Answers, answers_of, numbers_of
 from mbla.studies.sweep.pictures.axes import Axis, axis_of, design_columns, label_of
 from mbla.studies.sweep.pictures.panels import MOST_PANELS, panel_places
 from mbla.studies.sweep.pictures.sensitivities import LEAST_POINTS, correlation

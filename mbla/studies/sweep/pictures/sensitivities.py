@@ -14,7 +14,7 @@ import numpy as np
 from scipy.stats import rankdata
 
 from mbla.arrays import FloatArray
-from mbla.studies.sweep.pictures.answers import numbers_of
+from mbla.studies.sweep.answers import numbers_of
 from mbla.studies.sweep.pictures.axes import Axis
 from mbla.studies.sweep.pictures.view import View
 from mbla.studies.sweep.tables.sweep_table import SweepColumn

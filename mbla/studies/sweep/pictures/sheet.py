@@ -16,8 +16,9 @@ from mbla.errors import UsageError
 from mbla.results.pictures.options import DOTS_PER_INCH, PictureOptions
 from mbla.results.pictures.page import LETTER, Page, add_legend, add_words, open_page
 from mbla.results.pictures.palette import INK
-from mbla.studies.sweep.pictures.answers import MARKS, Answer, Answers, count_words
+from mbla.studies.sweep.answers import Answer, Answers
 from mbla.studies.sweep.pictures.axes import Axis
+from mbla.studies.sweep.pictures.marks import MARKS, count_words
 from mbla.studies.sweep.pictures.view import View
 
 LEAST_LETTER = 8.0

@@ -10,9 +10,10 @@ from scipy.spatial import cKDTree
 
 from mbla.arrays import FloatArray, IntArray
 from mbla.results.pictures.options import PictureOptions
-from mbla.studies.sweep.pictures.answers import MARKS, Answer, numbers_of
+from mbla.studies.sweep.answers import Answer, numbers_of
 from mbla.studies.sweep.pictures.axes import is_sampled
 from mbla.studies.sweep.pictures.map import hatch_handles
+from mbla.studies.sweep.pictures.marks import MARKS
 from mbla.studies.sweep.pictures.sheet import SCALE, Sheet, dress, open_sheet
 from mbla.studies.sweep.pictures.view import View
 

@@ -7,7 +7,7 @@ from functools import cached_property
 
 from mbla.deck.suggestions import unknown
 from mbla.errors import UsageError
-from mbla.studies.sweep.pictures.answers import Answers, answers_of
+from mbla.studies.sweep.answers import Answers, answers_of
 from mbla.studies.sweep.pictures.axes import Axis, axis_of, design_columns, grid_axes, is_sampled
 from mbla.studies.sweep.tables.sweep_table import SweepColumn, SweepTable
 

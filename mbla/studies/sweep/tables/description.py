@@ -10,7 +10,7 @@ SWEEP_RECORD: tuple[Key, ...] = (
     Key("mbla", "string", "version of the program"),
     Key("sweep", "string", "file name of the sweep file"),
     Key("version", "integer", "version of this record and of sweep.h5; a reader checks it first"),
-    Key("deck", "string", "file name of the base deck"),
+    Key("deck", "string", "base deck, as the sweep file names it"),
     Key("title", "string", "title of the sweep"),
     Key("created", "string", "date of the run, UTC, ISO 8601"),
     Key("exit_code", "integer", "exit status of the sweep: 0, or 8 where points failed"),

@@ -56,6 +56,10 @@ def sweep_table(
         values=tuple(values for _, values in parts),
         dimensions=design.dimensions,
         position=position.reshape(len(design.points), len(design.dimensions)),
+        levels={
+            column.name: column_values(column.kind, values)
+            for column, values in zip(design.columns, design.levels, strict=True)
+        },
         samples=design.samples,
         sampling=design.sampling,
     )

@@ -26,7 +26,7 @@ class SweepRun:
     """What is said of a sweep beside its table.
 
     sweep     : file name of the sweep file
-    deck      : of the base deck
+    deck      : the base deck as the sweep file names it
     created   : date of the run, UTC, ISO 8601
     exit_code : of the sweep
     left_out  : points of the design that broke a constraint

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 
 from mbla.arrays import IntArray
 from mbla.results.tables.column import Values
@@ -49,6 +50,8 @@ class SweepTable:
                  is none, text as objects with None
     dimensions : axes of the design, slowest first
     position   : (n_points, n_dimensions) of each point along them, from 0
+    levels     : of each column of the design, its values along its dimension, also those at which constraints leave no
+                 point; not known of a table that is read back from its files
     samples, sampling : as of ``Design``
     """
 
@@ -57,6 +60,7 @@ class SweepTable:
     values: tuple[Values, ...]
     dimensions: tuple[Dimension, ...]
     position: IntArray
+    levels: Mapping[str, Values] = field(default_factory=dict)
     samples: str = ""
     sampling: str = ""
 

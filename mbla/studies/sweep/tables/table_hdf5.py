@@ -30,9 +30,9 @@ def sweep_hdf5(run: SweepRun, table: SweepTable) -> bytes:
     """The bytes of sweep.h5; layout: schemas/results.md."""
     scales = {dimension.name: _scale(table, axis) for axis, dimension in enumerate(table.dimensions)}
     arrays: dict[str, Labelled] = {}
-    for column, values in zip(table.columns, table.values, strict=True):
-        if column.role in OF_DESIGN and column.name not in scales:
-            arrays[column.name] = _along_one(table, column, values)
+    for column in table.of_role(*OF_DESIGN):
+        if column.name not in scales:
+            arrays[column.name] = _along_one(table, column)
     coordinates = " ".join(arrays) if not any(" " in name for name in arrays) else ""
     for column, values in zip(table.columns, table.values, strict=True):
         if column.role not in OF_DESIGN:
@@ -58,24 +58,16 @@ def _name(column: str) -> str:
 
 def _scale(table: SweepTable, axis: int) -> Labelled:
     dimension = table.dimensions[axis]
-    for column, values in zip(table.columns, table.values, strict=True):
-        if column.name == dimension.name and column.role in OF_DESIGN:
-            return _labelled(column, *_plain(column, _of_positions(table, axis, column, values)), (dimension.name,))
+    for column in table.of_role(*OF_DESIGN):
+        if column.name == dimension.name:
+            return _along_one(table, column)
     words = {"units": "1", "long_name": f"position along {dimension.name}, from 0"}
     return Labelled(np.arange(dimension.size, dtype=np.int64), (dimension.name,), words)
 
 
-def _along_one(table: SweepTable, column: SweepColumn, values: Values) -> Labelled:
+def _along_one(table: SweepTable, column: SweepColumn) -> Labelled:
     """A parameter along its dimension."""
-    axis = [dimension.name for dimension in table.dimensions].index(column.dimension)
-    return _labelled(column, *_plain(column, _of_positions(table, axis, column, values)), (column.dimension,))
-
-
-def _of_positions(table: SweepTable, axis: int, column: SweepColumn, values: Values) -> Values:
-    """Values by position along a dimension; positions of which constraints left no point have none."""
-    spread = _empty(column, (table.dimensions[axis].size,))
-    spread[table.position[:, axis]] = values
-    return spread
+    return _labelled(column, *_plain(column, table.levels[column.name]), (column.dimension,))
 
 
 def _along_all(table: SweepTable, column: SweepColumn, values: Values, coordinates: str) -> Labelled:

@@ -15,7 +15,7 @@ from typing import Any
 
 from mbla.errors import UsageError
 from mbla.studies.sweep.plan import Plan
-from mbla.studies.sweep.program import library_versions, program_identity
+from mbla.studies.sweep.program import difference, library_versions, program_identity
 from mbla.studies.sweep.worker.messages import plan_of, record_of, task_of
 from mbla.studies.sweep.worker.supervised import StoppedError, SupervisedRunner
 
@@ -127,9 +127,3 @@ def run_batch(
 def end_processes() -> None:
     """End the processes of this worker."""
     PROCESSES.end()
-
-
-def difference(ours: Mapping[str, str], theirs: Mapping[str, str]) -> str:
-    """Libraries whose versions are not the same, in words; empty where all are."""
-    names = [name for name in ours if theirs.get(name) != ours[name]]
-    return ", ".join(f"its {name} is {theirs.get(name, 'none')}, here it is {ours[name]}" for name in names)

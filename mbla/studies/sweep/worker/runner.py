@@ -15,8 +15,9 @@ from mbla.run_options import RunOptions
 from mbla.sharing import sharing
 from mbla.studies.sweep.outcome import DONE, FAILED, Outcome
 from mbla.studies.sweep.plan import Plain, Plan, Task
-from mbla.studies.sweep.results import result_places, values_of
+from mbla.studies.sweep.results import reason_of, result_places, values_of
 from mbla.studies.sweep.settings import override_texts
+from mbla.studies.sweep.worker.asked import with_what_is_asked
 from mbla.studies.sweep.worker.kept import keep_files, wanted
 from mbla.studies.sweep.worker.memory import Memory
 
@@ -60,14 +61,14 @@ class PointRunner:
 
     def _solve(self, task: Task) -> tuple[int, str, dict[str, Plain]]:
         plan, started = self.plan, time.perf_counter()
-        deck = read_deck(Path(plan.deck), (*plan.fixed, *override_texts(task.settings)))
+        deck = read_deck(Path(plan.deck), (*plan.fixed, *override_texts(task.settings)), expected=False)
+        deck = with_what_is_asked(deck, plan)
         status = io.StringIO()
         results = solve_deck(deck, RunOptions(cases=plan.cases), StatusFile(status, title_of(deck)), None, started)
         if wanted(plan, state_of(results.exit_code)):
             keep_files(plan, task, results, status.getvalue(), deck.content.output)
         record = results_json(results, on_demand=True)
-        reasons = [case["reason"] for case in record["cases"] if case["reason"]]
-        return results.exit_code, "; ".join(reasons), values_of(record, self._places)
+        return results.exit_code, reason_of(record), values_of(record, self._places)
 
 
 def state_of(exit_code: int) -> str:

@@ -67,6 +67,12 @@ def test_units_are_those_of_the_deck_and_else_of_the_file() -> None:
     assert [column.unit for column in design({"a": a}).columns] == ["mm"]
 
 
+def test_levels_of_which_constraints_leave_no_point_are_told() -> None:
+    found = design({"a": {"values": [1, 2, 3]}, "b": {"values": [0.5, 7]}}, constraints=["a > 1", "b < a"])
+    assert [point.values for point in found.points] == [(2, 0.5), (3, 0.5)]
+    assert found.levels == ((1, 2, 3), (0.5, 7))
+
+
 NORMAL = {"key": "n", "normal": {"mean": 1, "deviation": 0.1}}
 LINEAR = {"key": "l", "linear": {"from": 0, "to": 1}}
 

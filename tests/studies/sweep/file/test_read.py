@@ -51,9 +51,9 @@ def test_every_way_is_read(tmp_path: Path) -> None:
 
 
 def test_values_keep_their_kinds(tmp_path: Path) -> None:
-    text = GOOD.replace("[0.1, 0.15, 0.2]", '[1, 1.0, 1e-3, "1", no, true, "=mu", [0, 1]]')
+    text = GOOD.replace("[0.1, 0.15, 0.2]", '[1, 2.0, 1e-3, "1", no, true, "=mu", [0, 1]]')
     values = sweep_of(tmp_path, text).content.parameters["t"].values
-    assert values == [1, 1.0, 0.001, "1", "no", True, "=mu", [0, 1]]
+    assert values == [1, 2.0, 0.001, "1", "no", True, "=mu", [0, 1]]
     assert [type(each) for each in values] == [int, float, float, str, str, bool, str, list]
 
 

@@ -8,7 +8,9 @@ from mbla.studies.sweep.journal import JournalHeader
 from mbla.studies.sweep.outcome import DONE, FAILED, Outcome
 from mbla.studies.sweep.plan import Plain, Task
 
-HEADER = JournalHeader("0.1.0+abc", "f00d", ("status", "load_factor", 'a,"b"#'), "Arch, #1", ("push",))
+HEADER = JournalHeader(
+    "0.1.0+abc", "f00d", ("status", "load_factor", 'a,"b"#'), "Arch, #1", ("push",), {"numpy": "2.3.0"}
+)
 
 LENGTHS = (0, 3, 3, 40, 40, 400, 4000)
 """of the texts of a point"""

@@ -122,6 +122,10 @@ def test_to_go_on_where_nothing_is_begins(tmp_path: Path) -> None:
     [
         (replace(HEADER, program="0.2.0+def"), r"was written by mbla 0\.1\.0\+abc, this is 0\.2\.0\+def"),
         (replace(HEADER, fingerprint="beef"), "is of another base deck, or of one that has changed since"),
+        (
+            replace(HEADER, libraries={"numpy": "2.4.0"}),
+            r"was written with other libraries \(its numpy is 2\.3\.0, here it is 2\.4\.0\)",
+        ),
         (replace(HEADER, cases=()), "is of load case push, not of all load cases"),
         (replace(HEADER, columns=("status", "gap")), r"has no result gap, has also load_factor, a,\"b\"#"),
         (replace(HEADER, columns=HEADER.columns[::-1]), "has its results in another order"),

@@ -8,8 +8,9 @@ import pytest
 
 from mbla.errors import FileError
 from mbla.studies.sweep.journal import Journal
+from mbla.studies.sweep.journal.lock import lock_path
 from mbla.studies.sweep.journal.reading import merged
-from mbla.studies.sweep.journal.shards import journal_name, journals_in, shard_of
+from mbla.studies.sweep.journal.shards import WHOLE, journal_name, journals_in, shard_of
 from mbla.studies.sweep.plan import Task
 from tests.studies.sweep.journal.points import HEADER, as_read, point
 
@@ -93,3 +94,14 @@ def test_to_begin_anew_removes_what_shards_left_and_a_shard_only_its_own(tmp_pat
     with Journal(tmp_path / "journal.csv", HEADER, resume=False, force=True) as journal:
         assert journal.finished == {}
     assert [path.name for path in journals_in(tmp_path)] == ["journal.csv"]
+
+
+def test_a_whole_run_removes_the_locks_of_shards_that_were_killed(tmp_path: Path) -> None:
+    """Their journals stay; a shard at work would have kept the whole run out."""
+    with Journal(tmp_path / journal_name(1, 2), HEADER, resume=False, force=False):
+        pass
+    lock_path(tmp_path / journal_name(1, 2)).touch()
+    lock_path(tmp_path / journal_name(2, 2)).touch()
+    with Journal(tmp_path / WHOLE, HEADER, resume=True, force=False):
+        pass
+    assert {path.name for path in tmp_path.iterdir()} == {WHOLE, journal_name(1, 2)}

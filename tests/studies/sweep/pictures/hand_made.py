@@ -66,7 +66,7 @@ def table_of(
     return SweepTable(
         title, tuple(column for column, _ in parts), tuple(values for _, values in parts),
         tuple(Dimension(*each) for each in dimensions), np.array(position).reshape(len(rows), len(dimensions)),
-        samples, sampling,
+        samples=samples, sampling=sampling,
     )  # fmt: skip
 
 

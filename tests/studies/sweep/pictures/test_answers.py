@@ -2,7 +2,8 @@ from typing import Any
 
 import numpy as np
 
-from mbla.studies.sweep.pictures.answers import Answer, answers_of, count_words
+from mbla.studies.sweep.answers import Answer, answers_of
+from mbla.studies.sweep.pictures.marks import count_words
 from mbla.studies.sweep.pictures.view import chosen_results
 from tests.studies.sweep.pictures.hand_made import FAILED, FALLEN, UNBOUNDED, Row, grid
 

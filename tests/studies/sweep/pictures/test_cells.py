@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from mbla.studies.sweep.pictures.answers import Answer
+from mbla.studies.sweep.answers import Answer
 from mbla.studies.sweep.pictures.cells import NO_POINT, Cells, pooled
 from mbla.studies.sweep.pictures.view import chosen_results, view_of
 from tests.studies.sweep.pictures.hand_made import FAILED, FALLEN, UNBOUNDED, Row, grid, table_of

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from mbla.studies.sweep.pictures.answers import answers_of
+from mbla.studies.sweep.answers import answers_of
 from mbla.studies.sweep.pictures.distribution import cumulative
 from mbla.studies.sweep.pictures.view import chosen_results
 from tests.studies.sweep.pictures.hand_made import FAILED, FALLEN, UNBOUNDED, Row, sample

@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 from mbla.results.pictures.options import PictureOptions
-from mbla.studies.sweep.pictures.answers import MARKS, Answer
+from mbla.studies.sweep.answers import Answer
+from mbla.studies.sweep.pictures.marks import MARKS
 from mbla.studies.sweep.pictures.plot import SweepPictures, plot_sweep
 from mbla.studies.sweep.pictures.polar import closes
 from mbla.studies.sweep.pictures.sphere import nearest_direction

@@ -10,6 +10,7 @@ import pytest
 from mbla.cli import main
 from mbla.errors import UsageError
 from mbla.results.pictures.options import PictureOptions
+from mbla.studies.sweep.fragility import Fragility
 from mbla.studies.sweep.pictures.kinds import KINDS
 from mbla.studies.sweep.pictures.plot import SweepPictures, pictures_of, plot_sweep
 from mbla.studies.sweep.tables.sweep_table import SweepTable
@@ -104,7 +105,9 @@ def test_one_file_is_the_first_that_suits(tmp_path: Path, figures: list[Any]) ->
 
 @pytest.fixture
 def folder(tmp_path: Path) -> Path:
-    fragility = [{"result": "load_factor", "demands": [{"demand": 0.2}]}]
+    (column,) = [each for each in table().columns if each.name == "load_factor"]
+    none = np.zeros(1)
+    fragility = [Fragility(column, {}, {}, 1, 0, np.array([0.2]), none.astype(int), 0, none, none, 0.95, "random")]
     write_tables(tmp_path / "wall.out", False, RUN, table(), TableFiles(), fragility)
     return tmp_path / "wall.out"
 

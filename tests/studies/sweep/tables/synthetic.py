@@ -26,7 +26,8 @@ def design() -> Design:
         Point(number, (i, j), (FRICTION[i], THICKNESS[j], j + 4), {"parameters.mu": FRICTION[i]})
         for number, (i, j) in enumerate(places, 1)
     )
-    return Design(columns, (Dimension("mu", 2), Dimension("sobol", 3)), points, 1, "sobol", "sobol")
+    levels: tuple[tuple[Plain, ...], ...] = (FRICTION, THICKNESS, (4, 5, 6))
+    return Design(columns, (Dimension("mu", 2), Dimension("sobol", 3)), points, levels, 1, "sobol", "sobol")
 
 
 def keys() -> list[str]:

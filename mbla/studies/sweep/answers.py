@@ -1,6 +1,6 @@
 """What each point of a sweep has of one result: a verified value, or which other answer, or none.
 
-Everything that draws asks here, so that a point without a verified answer looks so in every picture.
+Whatever draws, or says probabilities, asks here, so that a point without a verified answer looks so everywhere.
 """
 
 from __future__ import annotations
@@ -11,16 +11,11 @@ from enum import IntEnum
 import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
-from mbla.results.pictures.palette import GHOST, INK, PURPLE, WARNING
 from mbla.results.tables.column import Values
 from mbla.solution.solution import Status
 from mbla.studies.sweep.outcome import DONE
+from mbla.studies.sweep.results import FACTORS, OF_RUN, STATUS
 from mbla.studies.sweep.tables.sweep_table import SweepColumn, SweepTable
-
-FACTORS = ("load_factor", "static_bound", "kinematic_bound", "associative_load_factor")
-"""results that are load factors: they have a place on their axis for a structure that does not stand, and for one that
-no load brings down"""
-STATUS = "status"
 
 
 class Answer(IntEnum):
@@ -37,28 +32,6 @@ class Answer(IntEnum):
     NOT_RUN = 6
     MIXED = 7
     PARTLY = 8
-
-
-@dataclass(frozen=True)
-class Mark:
-    """How an answer that is no value is shown: words of legends and notes, marker, colour, hatch of cells."""
-
-    words: str
-    marker: str
-    colour: str
-    hatch: str
-
-
-MARKS = {
-    Answer.UNVERIFIED: Mark("not verified", "o", WARNING, "xx"),
-    Answer.NO_EQUILIBRIUM: Mark("no equilibrium (does not stand)", "v", INK, "///"),
-    Answer.UNBOUNDED: Mark("unbounded (no collapse)", "^", PURPLE, 3 * "\\"),
-    Answer.NONE: Mark("has no such value", "|", GHOST, "--"),
-    Answer.FAILED: Mark("failed", "x", WARNING, "xx"),
-    Answer.NOT_RUN: Mark("not solved yet", ".", GHOST, "oo"),
-    Answer.MIXED: Mark("different from point to point", "d", GHOST, "++"),
-    Answer.PARTLY: Mark("some points without a verified value", "o", WARNING, "//"),
-}
 
 
 @dataclass(frozen=True)
@@ -101,6 +74,11 @@ class Answers:
         """Points that lie above every value: load factors of what no load brings down, (n_points,)."""
         return self.of(Answer.UNBOUNDED) & self.is_factor
 
+    @property
+    def unknown(self) -> BoolArray:
+        """Points of which not even that is known, (n_points,)."""
+        return np.asarray(~self.good & ~self.below & ~self.above)
+
     def of(self, answer: Answer) -> BoolArray:
         """Points with this answer, (n_points,)."""
         return np.asarray(self.answer == answer)
@@ -128,15 +106,6 @@ UNSURE = (Status.NOT_VERIFIED, Status.ITERATION_LIMIT, Status.TIME_LIMIT, Status
 """states in which a value is not verified, whatever became of the other load cases"""
 
 
-def count_words(answers: Answers) -> str:
-    """``48 points: 40 with a verified value, 5 no equilibrium (does not stand), 3 failed``."""
-    total = len(answers.answer)
-    counts = [(answers.of(answer).sum(), mark.words) for answer, mark in MARKS.items()]
-    known = "with a value" if answers.column.path == STATUS else "with a verified value"
-    parts = [f"{answers.good.sum()} {known}", *(f"{count} {words}" for count, words in counts if count)]
-    return f"{total} point{'s' * (total != 1)}: {', '.join(parts)}"
-
-
 def numbers_of(column: SweepColumn, values: Values) -> FloatArray:
     """A numeric column as floats (n_points,), nan where there is none."""
     return np.ma.filled(np.ma.asarray(values).astype(float), np.nan)
@@ -162,7 +131,7 @@ def _done(table: SweepTable) -> tuple[BoolArray, BoolArray]:
 
 def _status(table: SweepTable, column: SweepColumn) -> Values | None:
     """Status of the load case of a column as texts, None where the table has no such column."""
-    if not column.path or (column.path.partition(".")[0] in ("model", "settings", "time") and not column.case):
+    if not column.path or (column.path.partition(".")[0] in OF_RUN and not column.case):
         return None
     own = [each for each in table.of_role("result") if each.path == STATUS and each.case == column.case]
     return table[own[0].name] if own else None
