@@ -52,7 +52,7 @@ def test_refusals(sweep: Path) -> None:
     (folder / "journal.csv").write_text("", encoding="utf-8")
     with pytest.raises(mbla.FileError, match="exists already"):
         mbla.sweep(sweep)
-    with pytest.raises(mbla.UsageError, match="jobs|-j"):
+    with pytest.raises(mbla.UsageError, match="-j 0"):
         mbla.sweep(sweep, jobs=0, force=True)
     with pytest.raises(mbla.FileError, match="no table of a sweep"):
         mbla.read_sweep(sweep)

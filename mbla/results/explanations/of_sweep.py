@@ -65,7 +65,13 @@ OF_SWEEP = (
         "that is the same for all points, such as units.",
         "Take the key path as it stands in the deck, as for --set; the message names what is there.",
         example="key: blocks.0.wall.unit.2",
-        says=("the deck has nothing at", "is a section of the deck: name", "cannot change from point to point"),
+        says=(
+            "unknown name",
+            "the deck has nothing at",
+            "the deck has a single value at",
+            "is a section of the deck: name",
+            "cannot change from point to point",
+        ),
     ),
     Explanation(
         "sweep-ranges",
@@ -80,6 +86,80 @@ OF_SWEEP = (
             "is a distribution, which",
             "needs points, how many values it has",
             "needs as many values of each parameter",
+        ),
+    ),
+    Explanation(
+        "sweep-file-and-deck",
+        "error",
+        "A deck stands where a sweep file belongs, or the other way round.",
+        _NOTHING,
+        "mbla run takes decks, mbla sweep takes sweep files, which name a deck of their own as their base.",
+        "Take the other command, or correct `deck` in the sweep file.",
+        says=("this is a deck, not a sweep file", "this is a sweep file, not a deck", "is the sweep file itself"),
+    ),
+    Explanation(
+        "sweep-without-effect",
+        "error",
+        "Something that a sweep sets changes nothing, or is set twice.",
+        _NOTHING,
+        "The deck does not use it, the load case is not among those to solve, or two parameters, or a parameter and "
+        "set, go to the same place.",
+        "Drop one of them, or let the deck use it; one parameter may set several key paths.",
+        says=(
+            "has no effect: the deck does not use",
+            "has no effect: load case",
+            "has no effect: parameter",
+            "one of them would have no effect",
+            "sets it too",
+        ),
+    ),
+    Explanation(
+        "sweep-parts",
+        "error",
+        "The parts of a design do not share the parameters between them.",
+        _NOTHING,
+        "Each parameter belongs to one part. One part may leave out `of`: it takes all that no other part names.",
+        "Name each parameter in one `of`.",
+        says=(
+            "stands in no part of the design",
+            "only one part of the design can take",
+            "the other parts name them all",
+        ),
+    ),
+    Explanation(
+        "sweep-directions",
+        "error",
+        "A parameter of directions has no vector to turn, or several that differ.",
+        _NOTHING,
+        "horizon and sphere turn a vector of three numbers of the deck and keep its size: horizon that of its "
+        "horizontal part. One that points straight down has none.",
+        "Give size; name the key of a vector, such as load_cases.push_x.live.0.acceleration; give vectors that differ "
+        "a parameter each, in a zip.",
+        says=("turns a vector of three numbers", "turns vectors that differ in the deck", "needs size: the vector"),
+    ),
+    Explanation(
+        "sweep-columns",
+        "error",
+        "Two columns of the table would have one name.",
+        _NOTHING,
+        "A parameter is called as a result, as an angle of another parameter, or as a column of every sweep is: "
+        "point, state, exit_code, reason, tries, seconds.",
+        "Give the parameter another name, and its key path with key.",
+        says=("of the table would be there twice", "of the table is a result"),
+    ),
+    Explanation(
+        "sweep-fragility",
+        "error",
+        "A probability is asked for where the points of the design are no random sample.",
+        _NOTHING,
+        "A grid, or a sample of plain ranges, says nothing of how likely its points are; two samples make no one "
+        "sample; status tells a structure that does not stand from one that no load brings down.",
+        "Give each parameter of one random, latin_hypercube or sobol part a distribution, and status among the "
+        "results.",
+        says=(
+            "needs a random design",
+            "needs one random part of the design",
+            "tells what does not stand from what no load brings down",
         ),
     ),
     Explanation(
