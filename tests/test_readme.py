@@ -157,7 +157,7 @@ def test_the_script_for_slurm_hands_a_sweep_to_the_workers(monkeypatch: pytest.M
         def wait_for_workers(self, count: int) -> None:
             asked.append(count)
 
-    monkeypatch.setitem(sys.modules, "dask_jobqueue", SimpleNamespace(SLURMCluster=Cluster))  # type: ignore[arg-type]
+    monkeypatch.setitem(sys.modules, "dask_jobqueue", SimpleNamespace(SLURMCluster=Cluster))
     commands: list[list[str]] = []
 
     def call(command: list[str]) -> int:
