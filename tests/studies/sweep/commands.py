@@ -22,6 +22,10 @@ from tests.studies.sweep.worker.test_supervised import wait_for
 
 MARK = "MBLA_TEST_MARK"
 """variable of the environment by which the processes of a test are known, whoever began them"""
+DASK_LOCKS = ("global.lock", "purge.lock")
+"""empty files by which workers of Dask agree on who removes folders of others that were killed"""
+DASK_KILLED = (*DASK_LOCKS, "*.dirlock")
+"""what workers of Dask that are killed leave as well, for the next one to remove"""
 IN_TIME = 30.0
 """seconds in which a command must have ended that was told to; it takes some tenths on an idle machine"""
 

@@ -38,7 +38,7 @@ def main() -> None:
             assert len(taken) in (0, GIGABYTE)
             return super()._solve(task)
 
-    setattr(child, "PointRunner", Faulty)  # noqa: B010 - a name that the module only imports
+    vars(child)["PointRunner"] = Faulty
     child.main()
 
 

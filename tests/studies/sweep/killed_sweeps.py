@@ -27,7 +27,10 @@ HOW_IT_WENT = b",tries,seconds [s]"
 """the last columns, which say how a point was solved, not what its answer is"""
 GONE = 30.0
 """seconds in which processes must have ended whose parent was killed, or be there; it takes hundredths, or one"""
-SCHEDULER = "scheduler"
+BEGUN = 180.0
+"""seconds in which a killed process of a cluster must have been begun again; importing Dask alone may take tens of them
+on a busy machine"""
+CLIENT, SCHEDULER = "client", "scheduler"
 KINDS = {
     SCHEDULER: "distributed.cli.dask_scheduler",
     "nanny": "distributed.cli.dask_worker",
@@ -239,18 +242,17 @@ class Cluster:
                 os.kill(pid, signal.SIGKILL)
         process.wait()
 
-    def kill_one(self, draw: Random) -> str:
-        """Kill one process, each kind as often as the others; what it was, empty where it had just ended."""
-        roots = [process.pid for process in self._processes.values()]
-        kinds: dict[str, list[int]] = {}
-        for pid in (each for root in roots for each in (root, *descendants(root))):
-            kinds.setdefault(kind_of(pid), []).append(pid)
-        kind = draw.choice(sorted(kinds.keys() - {""}))
-        try:
-            os.kill(draw.choice(kinds[kind]), signal.SIGKILL)
-        except ProcessLookupError:
-            return ""
-        return kind
+    def kill_one(self, kind: str, draw: Random) -> None:
+        """Kill one process of that kind, as soon as there is one."""
+        until = time.monotonic() + BEGUN
+        while True:
+            roots = [process.pid for process in self._processes.values()]
+            found = [pid for root in roots for pid in (root, *descendants(root)) if kind_of(pid) == kind]
+            with suppress(ProcessLookupError):
+                if found:
+                    return os.kill(draw.choice(found), signal.SIGKILL)
+            assert time.monotonic() < until, f"no process of kind {kind}"
+            time.sleep(0.01)
 
 
 def _free_port() -> int:
@@ -258,30 +260,31 @@ def _free_port() -> int:
         return int(server.getsockname()[1])
 
 
-def with_cluster_kills(scene: Scene, cluster: Cluster, kills: int, draw: Random, wait: float) -> list[str]:
-    """Go on with a sweep on a cluster while any process of it, or the client, is killed; what was killed.
+def with_cluster_kills(scene: Scene, cluster: Cluster, times: int, draw: Random, wait: float) -> int:
+    """Go on with a sweep on a cluster while its client and each kind of its processes is killed so many times.
 
     What an earlier kill took is begun again before the next, and two more points are solved; a client that a kill
-    left without its scheduler ends by itself, and another one goes on.
+    left without its scheduler ends by itself, and another one goes on. Returns the number of kills.
     """
-    killed: list[str] = []
-    while len(killed) < kills:
+    wanted = [CLIENT, *KINDS] * times
+    draw.shuffle(wanted)
+    done, said = 0, ""
+    while done < len(wanted) and not said.startswith("finished"):
         cluster.mend()
         with forked(scene.goes_on()) as client:
-            line = client.line()
-            while len(killed) < kills and line and not line.startswith("finished"):
+            said = client.line()
+            while done < len(wanted) and said and not said.startswith("finished"):
                 time.sleep(draw.random() ** 3 * wait)
-                if draw.random() < 0.2:
-                    killed.append("client")
+                kind, done = wanted[done], done + 1
+                if kind == CLIENT:
                     client.kill()
-                elif kind := cluster.kill_one(draw):
-                    killed.append(kind)
-                    if kind != SCHEDULER:
-                        cluster.mend()
-                for _ in range(3):
-                    line = client.line()
-            if line.startswith("finished"):
-                break
-            client.lines()
+                else:
+                    cluster.kill_one(kind, draw)
+                if kind in (CLIENT, SCHEDULER):  # what it had said before may still be read, but it will end
+                    client.lines()
+                    break
+                cluster.mend()
+                for _ in range(2):
+                    said = client.line()
     cluster.mend()
-    return killed
+    return done

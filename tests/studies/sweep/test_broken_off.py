@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import os
 import re
+import signal
+import time
 from collections.abc import Iterator
 from pathlib import Path
 from random import Random
@@ -14,6 +17,7 @@ from mbla.studies.sweep.journal.shards import journal_name
 from tests.studies.sweep.commands import Command, check_clean, rows_in, run
 from tests.studies.sweep.journal.forked import forked
 from tests.studies.sweep.killed_sweeps import written
+from tests.studies.sweep.worker.test_supervised import wait_for
 
 POINTS = 24
 HEADER = 2
@@ -102,15 +106,12 @@ def check_cut(path: Path, clean: Path, folder: Path, length: int, after: bytes) 
 def test_two_runs_at_once(path: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """The second is told who has the journal, and takes nothing from the first."""
     folder = tmp_path / "two"
-
-    def sweep(_: object) -> None:
-        main(["sweep", str(path), "-o", str(folder), "-q"])
-
-    with forked(sweep) as first:
-        while not rows_in(folder):
-            pass
+    command = ["sweep", str(path), "-o", str(folder), "-q"]
+    with forked(lambda report: report(f"exit {main(command)}")) as first:
+        wait_for(lambda: rows_in(folder))
+        os.kill(first.pid, signal.SIGSTOP)  # so that it is still at work when the others come
         for options in ("--resume",), ("--force",), ("--shard", "1/2"):
-            assert main(["sweep", str(path), "-o", str(folder), "-q", *options]) == 6
+            assert main([*command, *options]) == 6
             said = capsys.readouterr().err
             assert re.fullmatch(rf"mbla: \S+/journal\.csv: process {first.pid} on \S+ is at work on it; .*\n", said)
 
@@ -127,6 +128,7 @@ def test_a_job_array(path: Path, clean: Path, tmp_path: Path) -> None:
     ):
         while not rows_in_shard(folder, 2):
             assert second.process.poll() is None
+            time.sleep(0.001)
         second.process.kill()
         for job in (first, third, fourth):
             assert job.end().status in (0, 8)
@@ -140,16 +142,3 @@ def rows_in_shard(folder: Path, part: int) -> int:
     """Rows in the journal of a shard of four."""
     journal = folder / journal_name(part, 4)
     return journal.read_bytes().count(b"\n") - HEADER if journal.exists() else 0
-
-
-@pytest.mark.long
-@pytest.mark.parametrize("second", [("-j", "2"), ("-j", "1")])
-def test_gone_on_with_by_another_engine(path: Path, clean: Path, tmp_path: Path, second: tuple[str, str]) -> None:
-    first = ("-j", "1") if second == ("-j", "2") else ("-j", "2")
-    folder = tmp_path / "other"
-    with Command(path, folder, *first) as command:
-        command.await_rows(2)
-        command.process.kill()
-        command.process.wait()
-    assert run(path, folder, "--resume", *second).status == 8
-    check_clean(folder, clean)

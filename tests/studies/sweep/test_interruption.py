@@ -9,13 +9,11 @@ from pathlib import Path
 
 import pytest
 
-from tests.studies.sweep.commands import Command, check_clean, nothing_left, rows_in, run
+from tests.studies.sweep.commands import DASK_LOCKS, Command, check_clean, nothing_left, rows_in, run
 from tests.studies.sweep.engine.real_cluster import real_cluster
 from tests.studies.sweep.killed_sweeps import written
 
 STATUS = {signal.SIGINT: (130, "interrupted"), signal.SIGTERM: (143, "terminated")}
-DASK_LOCKS = ("global.lock", "purge.lock")
-"""empty files by which workers of Dask agree on who removes folders of others that were killed"""
 
 
 def interrupt(path: Path, number: signal.Signals, options: Sequence[str] = ()) -> Path:
