@@ -20,6 +20,8 @@ if TYPE_CHECKING:
     from mbla.studies.sweep.plan import Task
     from mbla.studies.sweep.progress import Progress
 
+NAMED_FAILURES = 20
+"""failed points that have a line of their own while the sweep goes on"""
 BETWEEN_LINES = 10.0
 """seconds between lines of progress where there is no terminal"""
 
@@ -91,11 +93,11 @@ class _Reporter:
     def __init__(self) -> None:
         self._terminal = sys.stderr.isatty()
         self._last = time.monotonic()
+        self._failures = 0
 
     def __call__(self, progress: Progress, task: Task | None, outcome: Outcome | None) -> None:
         if outcome is not None and task is not None and outcome.state == "failed":
-            self.end()
-            self._line(f"point {task.number} failed: {outcome.reason}")
+            self._failure(f"point {task.number} failed: {outcome.reason}")
         if self._terminal:
             rewrite_line(progress.bar())
             return
@@ -105,6 +107,13 @@ class _Reporter:
         elif time.monotonic() - self._last >= BETWEEN_LINES:
             self._last = time.monotonic()
             self._line(progress.words())
+
+    def _failure(self, words: str) -> None:
+        self._failures += 1
+        if self._failures > NAMED_FAILURES + 1:
+            return
+        self.end()
+        self._line(words if self._failures <= NAMED_FAILURES else "more points failed: the journal has their reasons")
 
     def end(self) -> None:
         """What is said next has a line of its own."""
