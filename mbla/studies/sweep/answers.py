@@ -17,7 +17,6 @@ from mbla.studies.sweep.outcome import DONE
 from mbla.studies.sweep.results import FACTORS, OF_RUN, STATUS
 from mbla.studies.sweep.tables.sweep_table import SweepColumn, SweepTable
 
-
 ALIKE = 1e-6
 """relative; numbers are shown with six digits, and the accuracy of solvers decides upon the others"""
 
