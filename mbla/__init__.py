@@ -25,12 +25,18 @@ if TYPE_CHECKING:
     from mbla.errors import UsageError as UsageError
     from mbla.results.notebook.case import Case as Case
     from mbla.results.notebook.run import Run as Run
+    from mbla.studies.sweep.tables.sweep_table import SweepTable as SweepTable
+    from mbla.sweep_api import read_sweep as read_sweep
+    from mbla.sweep_api import sweep as sweep
 
 _HOMES = {
     "run": "mbla.api",
     "read_results": "mbla.api",
+    "sweep": "mbla.sweep_api",
+    "read_sweep": "mbla.sweep_api",
     "Run": "mbla.results.notebook.run",
     "Case": "mbla.results.notebook.case",
+    "SweepTable": "mbla.studies.sweep.tables.sweep_table",
     "MblaError": "mbla.errors",
     "DeckError": "mbla.errors",
     "FileError": "mbla.errors",

@@ -71,7 +71,7 @@ def run(
         A solver broke. A case that is not solved or not verified raises nothing: its ``status`` says so.
     """
     started = time.perf_counter()
-    overrides = _overrides(set)
+    overrides = overrides_of(set)
     names = (cases,) if isinstance(cases, str) else tuple(cases)
     folder = None if output is None else Path(output)
     options = RunOptions(folder, overrides, names, force, threads, expected)
@@ -103,8 +103,8 @@ def _solved(deck: Deck, options: RunOptions, progress: Progress | None, started:
     return solve_deck(deck, options, StatusFile(io.StringIO(), title_of(deck)), progress, started)
 
 
-def _overrides(values: Mapping[str, object] | Sequence[str]) -> tuple[str, ...]:
-    """``key.path=value`` texts."""
+def overrides_of(values: Mapping[str, object] | Sequence[str]) -> tuple[str, ...]:
+    """``key.path=value`` texts; UsageError where a value cannot be written as one."""
     if isinstance(values, str):
         raise UsageError(f"set={values!r}: a mapping, or a list of key.path=value texts")
     if not isinstance(values, Mapping):

@@ -31,6 +31,7 @@ class Keeper(Protocol):
 
 
 _open: ContextVar[Keeper | None] = ContextVar("keeper", default=None)
+"""the only state here: the keeper of the ``with sharing`` block that runs, in this thread alone; None outside of it"""
 
 
 @contextlib.contextmanager

@@ -12,6 +12,7 @@ import time
 from typing import TYPE_CHECKING
 
 from mbla.collector import loading, no_collection
+from mbla.terminal import clear_line, rewrite_line, say
 
 if TYPE_CHECKING:
     from mbla.studies.sweep.command import SweepOptions
@@ -19,9 +20,10 @@ if TYPE_CHECKING:
     from mbla.studies.sweep.plan import Task
     from mbla.studies.sweep.progress import Progress
 
+NAMED_FAILURES = 20
+"""failed points that have a line of their own while the sweep goes on"""
 BETWEEN_LINES = 10.0
 """seconds between lines of progress where there is no terminal"""
-WIDTH = 100
 
 
 def sweep(options: argparse.Namespace) -> int:
@@ -91,13 +93,13 @@ class _Reporter:
     def __init__(self) -> None:
         self._terminal = sys.stderr.isatty()
         self._last = time.monotonic()
+        self._failures = 0
 
     def __call__(self, progress: Progress, task: Task | None, outcome: Outcome | None) -> None:
         if outcome is not None and task is not None and outcome.state == "failed":
-            self.end()
-            self._line(f"point {task.number} failed: {outcome.reason}")
+            self._failure(f"point {task.number} failed: {outcome.reason}")
         if self._terminal:
-            print(f"\r{progress.bar()[:WIDTH]:<{WIDTH}}", end="", file=sys.stderr, flush=True)
+            rewrite_line(progress.bar())
             return
         if outcome is None:
             known = f", {progress.earlier} are in the journal" if progress.earlier else ""
@@ -106,10 +108,16 @@ class _Reporter:
             self._last = time.monotonic()
             self._line(progress.words())
 
+    def _failure(self, words: str) -> None:
+        self._failures += 1
+        if self._failures > NAMED_FAILURES + 1:
+            return
+        self.end()
+        self._line(words if self._failures <= NAMED_FAILURES else "more points failed: the journal has their reasons")
+
     def end(self) -> None:
         """What is said next has a line of its own."""
-        if self._terminal:
-            print(f"\r{'':<{WIDTH}}\r", end="", file=sys.stderr, flush=True)
+        clear_line(self._terminal or None)
 
     def _line(self, text: str) -> None:
-        print(f"mbla: {text}", file=sys.stderr, flush=True)
+        say(f"mbla: {text}", 0)

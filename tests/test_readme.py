@@ -1,15 +1,25 @@
-"""The README tells the truth: its deck runs and prints what it says, its commands and pictures exist."""
+"""The README tells the truth: its deck and its sweep run and print what it says, its commands and pictures exist."""
 
 from __future__ import annotations
 
+import contextlib
+import io
+import os
 import re
+import shlex
+import subprocess
+import sys
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
+import numpy as np
 import pytest
 
+import mbla
 from mbla.arguments import build_parser
 from mbla.cli import main
+from tests.line import BLOCK
 
 ROOT = Path(__file__).parents[1]
 README = (ROOT / "README.md").read_text(encoding="utf-8")
@@ -46,6 +56,123 @@ def test_python_of_the_readme_runs(
     assert push.contact_forces.shape == (460, 3)
     assert capsys.readouterr().out.startswith("push_x: collapses at 0.581056 g, verified: 7 hinges")
     assert [path.name for path in tmp_path.iterdir()] == ["wall.yaml"]
+
+
+@pytest.fixture(scope="module")
+def swept(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, list[str]]:
+    """The folder in which the sweep of the README was run, and what it printed."""
+    folder = tmp_path_factory.mktemp("readme")
+    (folder / "wall.yaml").write_text(block("`wall.yaml`:"), encoding="utf-8")
+    (folder / "door.yaml").write_text(block("`door.yaml`, beside"), encoding="utf-8")
+    printed = io.StringIO()
+    with contextlib.chdir(folder), contextlib.redirect_stdout(printed):
+        assert main(["sweep", "door.yaml"]) == 0
+    return folder, printed.getvalue().splitlines()
+
+
+def but_times(lines: list[str]) -> list[str]:
+    return [line for line in lines if not line.startswith("  time ")]
+
+
+def test_the_sweep_of_the_readme_prints_what_it_says(swept: tuple[Path, list[str]]) -> None:
+    folder, printed = swept
+    assert but_times(printed) == but_times(block("`mbla sweep door.yaml` prints").splitlines())
+    written = {path.name for path in (folder / "door.out").iterdir() if not path.name.startswith(".")}
+    listed = set(re.findall(r"^\| `([\w.]+)` \|", README.split("| file in `door.out/`", 1)[1], flags=re.MULTILINE)[:6])
+    assert listed == written | {"sweep.parquet"}  # that one only where it is asked for
+
+
+def test_tables_of_the_sweep_are_read_as_the_readme_says(
+    swept: tuple[Path, list[str]], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    pytest.importorskip("pandas")
+    monkeypatch.chdir(swept[0])
+    names: dict[str, Any] = {}
+    exec(block("<!-- tables:begin -->"), names)
+    medians = names["table"].groupby("length [m]")["load_factor"].median()
+    assert f"# {', '.join(f'{value:.4f}' for value in medians)}\n" in README
+    data = names["sweep"]
+    assert data.load_factor.sel(length=2.4).shape == data.mu.shape == (8,)
+    assert data.load_factor.quantile(0.05, "random").shape == (3,)
+    data.close()
+
+
+def test_the_sweep_from_python_is_that_of_the_command(
+    swept: tuple[Path, list[str]], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """It goes on with the journal of the command, so that nothing is solved again."""
+    monkeypatch.chdir(swept[0])
+    names: dict[str, Any] = {"mbla": mbla}
+    exec(block("<!-- python sweep:begin -->"), names)
+    table = names["table"]
+    assert table["load_factor"].shape == table["length"].shape == (24,)
+    assert set(table["state"]) == {"done"}
+    assert np.array_equal(mbla.read_sweep("door.out")["load_factor"], table["load_factor"])
+
+
+def test_the_job_array_solves_every_point(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Each line of the script as Slurm would run it, in an array of two jobs; the second writes the table."""
+    (tmp_path / "wall.yaml").write_text(BLOCK, encoding="utf-8")
+    sweep = "mbla_sweep: 1\ndeck: wall.yaml\nparameters: {mu: {values: [0.3, 0.4, 0.6]}}\n"
+    (tmp_path / "door.yaml").write_text(sweep, encoding="utf-8")
+    monkeypatch.chdir(tmp_path)
+    script = block("<!-- sbatch:begin -->").splitlines()
+    assert script[0] == "#!/bin/bash"
+    (command,) = [line for line in script if not line.startswith("#")]
+    monkeypatch.setenv("SLURM_ARRAY_TASK_COUNT", "2")
+    for task in ("1", "2"):
+        monkeypatch.setenv("SLURM_ARRAY_TASK_ID", task)
+        program, *arguments = [os.path.expandvars(word) for word in shlex.split(command)]
+        assert program == ".venv/bin/mbla"
+        assert main(arguments) == 0
+        assert (tmp_path / "door.out" / "sweep.csv").exists() == (task == "2")
+    assert list(mbla.read_sweep("door.out")["load_factor"]) == pytest.approx([0.3, 0.4, 0.5], rel=1e-6)
+
+
+def test_commands_in_blocks_are_understood(monkeypatch: pytest.MonkeyPatch) -> None:
+    lines = [line.partition("  #")[0] for line in README.splitlines() if re.match(r"mbla (sweep|interact) .*-", line)]
+    assert lines
+    for line in lines:
+        build_parser().parse_args(shlex.split(line)[1:])
+
+
+def test_the_script_for_slurm_hands_a_sweep_to_the_workers(monkeypatch: pytest.MonkeyPatch) -> None:
+    """With a cluster that only says where it is; its own arguments were held against dask-jobqueue 0.9.0."""
+    asked: list[Any] = []
+
+    class Cluster(contextlib.nullcontext[Any]):
+        scheduler_address = "tcp://127.0.0.1:8786"
+
+        def __init__(self, **options: Any) -> None:
+            asked.append(options)
+
+        def __enter__(self) -> Any:
+            return self
+
+        def scale(self, jobs: int) -> None:
+            asked.append(jobs)
+
+        def wait_for_workers(self, count: int) -> None:
+            asked.append(count)
+
+    monkeypatch.setitem(sys.modules, "dask_jobqueue", SimpleNamespace(SLURMCluster=Cluster))
+    commands: list[list[str]] = []
+
+    def call(command: list[str]) -> int:
+        commands.append(command)
+        return 8
+
+    monkeypatch.setattr(subprocess, "call", call)
+    monkeypatch.setattr(sys, "argv", ["on_slurm.py", "door.yaml", "--resume"])
+    with pytest.raises(SystemExit) as ended:
+        exec(block("<!-- jobqueue:begin -->"), {"__name__": "__main__"})
+    assert ended.value.code == 8
+    options = build_parser().parse_args(commands[0][1:])
+    assert (options.command, options.sweep, options.resume) == ("sweep", Path("door.yaml"), True)
+    assert options.scheduler == Cluster.scheduler_address
+    assert asked[0]["cores"] == asked[0]["processes"]  # one thread each
 
 
 def test_commands_of_the_readme_are_those_of_the_program() -> None:

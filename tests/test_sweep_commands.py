@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import io
 import json
+import sys
 from pathlib import Path
 from typing import Any
 
@@ -75,3 +77,22 @@ def test_other_studies_of_a_faulty_deck_are_told_alike(
     assert code == record["exit_code"] == 3
     assert record["deck"] == "block.yaml"
     assert record["errors"] == lines
+
+
+@pytest.mark.parametrize("gone", ["closed", "broken"])
+def test_a_sweep_goes_on_where_nobody_reads_what_it_says(
+    sweep: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, gone: str
+) -> None:
+    """The window was closed, or the program that a log was piped into has ended; a point fails, of which it tells."""
+    sweep.write_text(SWEEP.replace("0.5]", "-1]"), encoding="utf-8")
+    monkeypatch.setattr("sys.stderr", None if gone == "closed" else Broken())
+    assert main(["sweep", str(sweep)]) == 8
+    sys.stderr.close()
+    assert "2: 1 done, 1 failed" in capsys.readouterr().out
+
+
+class Broken(io.StringIO):
+    """A stream whose reader has gone."""
+
+    def write(self, text: str) -> int:
+        raise BrokenPipeError

@@ -50,14 +50,20 @@ def _matrix(
 
 def lever_arms(model: Model, contacts: Contacts, free: IntArray) -> FloatArray:
     """Mean distance of contact points from the centroid of each free block, its size where it has none, (n_free,)."""
-    n_blocks = len(model.blocks)
     bodies = contacts.bodies[contacts.interface_of_point]
+    return _arms(model.blocks.centroids, model.blocks.sizes, bodies, contacts.points, free)
+
+
+@shared("lever arms")
+def _arms(centroids: FloatArray, sizes: FloatArray, bodies: IntArray, points: FloatArray, free: IntArray) -> FloatArray:
+    """``lever_arms`` of blocks with centroids (n_blocks, 3); bodies (n_points, 2)."""
+    n_blocks = len(centroids)
     total, count = np.zeros(n_blocks), np.zeros(n_blocks)
     for side in (0, 1):
         here = bodies[:, side] < n_blocks
         block = bodies[here, side]
-        arm = np.linalg.norm(contacts.points[here] - model.blocks.centroids[block], axis=1)
+        arm = np.linalg.norm(points[here] - centroids[block], axis=1)
         total += np.bincount(block, arm, n_blocks)
         count += np.bincount(block, minlength=n_blocks)
-    mean = np.divide(total, count, out=model.blocks.sizes.copy(), where=count > 0)
+    mean = np.divide(total, count, out=sizes.copy(), where=count > 0)
     return np.asarray(mean[free])

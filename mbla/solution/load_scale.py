@@ -10,10 +10,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mbla.arrays import FloatArray
+from mbla.arrays import FloatArray, IntArray
 from mbla.contacts.contacts import Contacts
 from mbla.model.model import LoadCase, Model
 from mbla.program.yield_conditions import YieldLimits
+from mbla.sharing import shared
 from mbla.solution.statics import bodies_of_points
 
 ZERO_FACTOR = 1e-3
@@ -96,12 +97,18 @@ def load_sizes(load: FloatArray, arms: FloatArray) -> FloatArray:
 
 def lever_arms(model: Model, contacts: Contacts) -> FloatArray:
     """Mean distance of each block's contact points from its centroid, its size where it has none, (n_blocks,)."""
-    n_blocks = len(model.blocks)
+    return _arms(model.blocks.centroids, model.blocks.sizes, bodies_of_points(contacts), contacts.points)
+
+
+@shared("lever arms of verification")
+def _arms(centroids: FloatArray, sizes: FloatArray, bodies_of_point: IntArray, points: FloatArray) -> FloatArray:
+    """``lever_arms`` of blocks with centroids (n_blocks, 3) and points (n_points, 3)."""
+    n_blocks = len(centroids)
     total, count = np.zeros(n_blocks), np.zeros(n_blocks)
-    for bodies in bodies_of_points(contacts).T:
+    for bodies in bodies_of_point.T:
         here = bodies < n_blocks
         block = bodies[here]
-        arm = np.linalg.norm(contacts.points[here] - model.blocks.centroids[block], axis=1)
+        arm = np.linalg.norm(points[here] - centroids[block], axis=1)
         total += np.bincount(block, arm, n_blocks)
         count += np.bincount(block, minlength=n_blocks)
-    return np.where(count > 0, total / np.maximum(count, 1.0), model.blocks.sizes)
+    return np.where(count > 0, total / np.maximum(count, 1.0), sizes)

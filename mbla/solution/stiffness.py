@@ -133,8 +133,8 @@ def stiffness_of(program: Program) -> Stiffness:
         order=found.order,
         diagonal=found.diagonal,
         border=found.border,
-        size=np.asarray(matrix.multiply(matrix).sum(axis=1)),
-        compatibility=sp.csr_array(matrix.T),
+        size=found.size,
+        compatibility=found.compatibility,
         factorization=GeneralFactorization(found.pointers, found.indices),
     )
 
@@ -149,6 +149,8 @@ class _Places:
     order: IntArray
     diagonal: IntArray
     border: tuple[IntArray, IntArray, int]
+    size: FloatArray
+    compatibility: sp.csr_array
 
 
 @shared("stiffness")
@@ -186,6 +188,8 @@ def _places(matrix: sp.csr_array, components: int, n_points: int) -> _Places:
         order=order,
         diagonal=places(every, every),
         border=(places(every, end), places(end, every), int(places(end[:1], end[:1])[0])),
+        size=np.asarray(matrix.multiply(matrix).sum(axis=1)),
+        compatibility=sp.csr_array(matrix.T),
     )
 
 

@@ -1,18 +1,20 @@
 """Least thickness of the semicircular arch with friction, joints everywhere and its weight on the centre line.
 
-Mean radius 1, weight 1 per length of the centre line, half of the arch, angles from the crown. The horizontal thrust H at
-the crown has to be
+Mean radius 1, weight 1 per length of the centre line, half of the arch, angles from the crown. The horizontal thrust H
+at the crown has to be
 
 - at least so large that the line of thrust, which then leaves the crown at the extrados, stays above the intrados: by
-  moments about the intrados at beta, H >= ((1 - t/2) beta sin(beta) - (1 - cos(beta))) / (1 + t/2 - (1 - t/2) cos(beta));
+  moments about the intrados at beta,
+  H >= ((1 - t/2) beta sin(beta) - (1 - cos(beta))) / (1 + t/2 - (1 - t/2) cos(beta));
 - at least so large that no voussoir slides inwards: H >= beta / tan(beta + atan(mu));
 - at most so large that the line of thrust stays inside the extrados of the springing: by moments about it,
   H (1 + t/2) <= (1 + t/2) pi/2 - 1;
 - at most what friction bears at the springing: H <= mu pi/2.
 
-The first and the third give the thickness that hinges alone need, the first and the last that of an arch whose springings
-slide, the second and the last the friction below which no thickness stands. The results are those of Cocchetti and Rizzi,
-Frattura ed Integrita Strutturale 51, 2020, 356-375, Tables 1 and 3, to every digit they print (``test_frictional_arch``).
+The first and the third give the thickness that hinges alone need, the first and the last that of an arch whose
+springings slide, the second and the last the friction below which no thickness stands. The results are those of
+Cocchetti and Rizzi, Frattura ed Integrita Strutturale 51, 2020, 356-375, Tables 1 and 3, to every digit they print
+(``test_frictional_arch``).
 """
 
 from __future__ import annotations

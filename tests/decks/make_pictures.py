@@ -1,4 +1,4 @@
-"""The pictures in decks/pictures, made by ``mbla run`` and ``mbla plot``.
+"""The pictures in decks/pictures, made by ``mbla run`` and ``mbla plot``; those of the README's sweep and its diagram.
 
 ``python -m tests.decks.make_pictures`` makes them all (some decks take minutes), with names those alone:
 ``python -m tests.decks.make_pictures wall_push_x``.
@@ -62,14 +62,25 @@ TABLE = (
 )
 
 
+STUDIES = ("door_sweep", "wall_interact")
+"""pictures of studies of the README's deck"""
+SAMPLE = ("points: 8,", "points: 200,")
+"""the sweep of the README is small, so that it runs at once; its picture is of more points"""
+
+
 def deck_path(picture: DeckPicture, folder: Path) -> Path:
     """The deck of a picture; that of the README is written to the folder."""
     if picture.deck != README:
         return DECKS / picture.deck
     path = folder / "wall.yaml"
-    text = (DECKS.parent / README).read_text(encoding="utf-8")
-    path.write_text(text.split("`wall.yaml`:", 1)[1].split("```", 2)[1].split("\n", 1)[1], encoding="utf-8")
+    path.write_text(readme_block("`wall.yaml`:"), encoding="utf-8")
     return path
+
+
+def readme_block(start: str) -> str:
+    """The first code block of the README after a piece of text."""
+    text = (DECKS.parent / README).read_text(encoding="utf-8")
+    return text.split(start, 1)[1].split("```", 2)[1].split("\n", 1)[1]
 
 
 def make_picture(picture: DeckPicture, folder: Path) -> Path:
@@ -89,15 +100,35 @@ def make_picture(picture: DeckPicture, folder: Path) -> Path:
     return target
 
 
+def make_study(name: str, folder: Path) -> Path:
+    """Solve a study of the README's deck and draw it; the path written."""
+    target = PICTURES / f"{name}.png"
+    deck = deck_path(TABLE[0], folder)
+    if name == "wall_interact":
+        assert main(["interact", str(deck), "--directions", "72", "-o", str(folder / "interact"), "-q"]) == 0
+        return (folder / "interact" / f"{name}.png").replace(target)
+    sweep, out = folder / "door.yaml", folder / "door.out"
+    text = readme_block("`door.yaml`, beside")
+    assert text.count(SAMPLE[0]) == 1
+    sweep.write_text(text.replace(*SAMPLE), encoding="utf-8")
+    assert main(["sweep", str(sweep), "-q"]) == 0
+    assert main(["sweep-plot", str(out), "--kind", "distribution", "-o", str(target), *SMALLER]) == 0
+    return target
+
+
 def make_pictures(names: list[str]) -> None:
     """The pictures of those names, all without any."""
-    unknown = sorted(set(names) - {picture.name for picture in TABLE})
+    known = [*(picture.name for picture in TABLE), *STUDIES]
+    unknown = sorted(set(names) - set(known))
     if unknown:
-        raise SystemExit(f"no picture {', '.join(unknown)}; there are {', '.join(each.name for each in TABLE)}")
+        raise SystemExit(f"no picture {', '.join(unknown)}; there are {', '.join(known)}")
     with tempfile.TemporaryDirectory() as folder:
         for picture in TABLE:
             if not names or picture.name in names:
                 make_picture(picture, Path(folder))
+        for name in STUDIES:
+            if not names or name in names:
+                make_study(name, Path(folder))
 
 
 if __name__ == "__main__":

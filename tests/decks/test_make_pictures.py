@@ -5,11 +5,20 @@ from pathlib import Path
 import pytest
 
 from mbla.deck import read_deck
-from tests.decks.make_pictures import PICTURES, TABLE, DeckPicture, deck_path, make_pictures
+from tests.decks.make_pictures import (
+    PICTURES,
+    SAMPLE,
+    STUDIES,
+    TABLE,
+    DeckPicture,
+    deck_path,
+    make_pictures,
+    readme_block,
+)
 
 
 def test_table_names_every_picture_once() -> None:
-    names = [picture.name for picture in TABLE]
+    names = [*(picture.name for picture in TABLE), *STUDIES]
     assert sorted(names) == sorted(set(names))
     assert set(names) == {path.stem for path in PICTURES.iterdir()}
 
@@ -18,6 +27,10 @@ def test_table_names_every_picture_once() -> None:
 def test_deck_has_the_load_case(picture: DeckPicture, tmp_path: Path) -> None:
     deck = read_deck(deck_path(picture, tmp_path))
     assert picture.case in deck.content.load_cases
+
+
+def test_the_sweep_of_the_readme_has_the_sample_that_its_picture_enlarges() -> None:
+    assert readme_block("`door.yaml`, beside").count(SAMPLE[0]) == 1
 
 
 def test_unknown_names_are_refused() -> None:

@@ -41,7 +41,7 @@ ESTIMATED = {
     "run": 0.5,
     "solver": 3.0,
     "structures": 0.5,
-    "sweep": 7.0,
+    "sweep": 10.0,
     "sweep_memory": 6.0,
     "warm_start": 1.0,
 }

@@ -1,4 +1,4 @@
-"""A sweep of 1,000 points, friction and direction of the 20-voussoir arch; appends to results/sweep.csv.
+"""A sweep of 1,000 points, 25 frictions and 40 directions of the 20-voussoir arch; appends to results/sweep.csv.
 
 ::
 
@@ -7,25 +7,29 @@
 Each of the two sweeps, with directions around the horizon, so that the arch is solved in space, and in its plane, by
 
 - ``separate``: ``mbla.run(deck, set=...)`` for every point, in one process, that imports nothing any more;
-- ``shared``: the points one after the other in one process, which shares what they have in common;
+- ``separate, record``: the same and the JSON record of each, which the columns of a table are taken from;
+- ``separate, files``: the same and the files of each, as ``mbla run`` writes them; every tenth point only;
+- ``shared``: the points one after the other in one process, which shares what they have in common, with the default
+  columns: range and peak of the load factor are none of them, so that points are solved without;
+- ``shared, range``: the same with the range of the load factor, so that every point does all that a separate run does;
 - ``one worker``, ``two workers``: the command ``mbla sweep -j 1`` and ``-j 2``, with start, journal and table.
 
 Seconds are by the clock, as somebody waits for them, and of the processor, of this process and its children. ``ratio``
-is the clock of ``separate`` over that of the row: three is wanted of two workers, and 1.8 of two workers over one. Load
-factors of all four must be the same, bit for bit.
+is the clock of a point by ``separate`` over that of the row: three is wanted of two workers. ``over_one`` is the clock
+of one worker over that of the row: 1.8 is wanted of two. Load factors of all ways must be the same, bit for bit.
 """
 
 from __future__ import annotations
 
 import csv
 import json
+import math
 import subprocess
 import sys
 import tempfile
 import time
 from collections.abc import Callable
 from functools import partial
-from math import isqrt
 from pathlib import Path
 from resource import RUSAGE_CHILDREN, RUSAGE_SELF, getrusage
 
@@ -33,24 +37,30 @@ import numpy as np
 import yaml
 
 import mbla
+from mbla.results.records.json_record import results_json
+from mbla.studies.sweep.file.content import SweepContent
 from mbla.studies.sweep.plan import Plain, Plan, Task
 from mbla.studies.sweep.worker.runner import PointRunner
 from tests.performance.recording import record
 
 DECK = Path(__file__).parents[2] / "decks" / "benchmarks" / "arch_20_voussoirs.yaml"
 CASE = "push_x"
+COLUMNS: tuple[str, ...] = SweepContent.model_fields["results"].get_default(call_default_factory=True)
+"""those of a sweep file that names none"""
 FRICTION, DIRECTION = "parameters.mu", f"load_cases.{CASE}.live.0.acceleration"
 PLANES: dict[str, tuple[str, str]] = {"around the horizon": ("x", "y"), "in its plane": ("x", "z")}
+FRICTIONS = 25
+TENTH = 10
 Points = list[dict[str, Plain]]
 
 
 def points_of(plane: str, count: int) -> Points:
-    """A grid of frictions and of directions of unit length, friction changing last."""
-    n_frictions = isqrt(count // 2) or 1
+    """A grid of frictions and of directions of unit length, friction changing last; 25 and 40 of 1,000."""
+    n_frictions = min(FRICTIONS, count)
     n_directions = -(-count // n_frictions)
     places = ["xyz".index(axis) for axis in PLANES[plane]]
     points: Points = []
-    for friction in np.linspace(0.5, 0.8, n_frictions).tolist():
+    for friction in np.linspace(0.4, 0.8, n_frictions).tolist():
         for angle in (2 * np.pi * np.arange(n_directions) / n_directions).tolist():
             direction = np.zeros(3)
             direction[places] = np.cos(angle), np.sin(angle)
@@ -60,12 +70,25 @@ def points_of(plane: str, count: int) -> Points:
 
 def separate(points: Points) -> list[float | None]:
     """Load factor of each point by a call of its own."""
-    return [mbla.run(DECK, set=point, cases=CASE)[CASE].load_factor for point in points]
+    return [_finite(mbla.run(DECK, set=point, cases=CASE)[CASE].load_factor) for point in points]
 
 
-def shared(points: Points) -> list[float | None]:
+def separate_with_record(points: Points) -> list[float | None]:
+    """The same, with the JSON record of each."""
+    records = (results_json(mbla.run(DECK, set=point, cases=CASE).records) for point in points)
+    return [_number(record["cases"][0]["load_factor"]) for record in records]
+
+
+def separate_with_files(points: Points) -> list[float | None]:
+    """The same, with the files of each."""
+    with tempfile.TemporaryDirectory() as folder:
+        runs = (mbla.run(DECK, set=point, cases=CASE, output=folder, force=True) for point in points)
+        return [_finite(run[CASE].load_factor) for run in runs]
+
+
+def shared(points: Points, columns: tuple[str, ...] = COLUMNS) -> list[float | None]:
     """Load factor of each point in one process."""
-    plan = Plan(str(DECK), "", (), (CASE,), ("load_factor",), "none", "", None, None, "")
+    plan = Plan(str(DECK), "", (), (CASE,), columns, "none", "", None, None, "")
     runner = PointRunner(plan)
     outcomes = [runner.run(Task(str(number), number, point)) for number, point in enumerate(points, start=1)]
     return [_number(outcome.results["load_factor"]) for outcome in outcomes]
@@ -94,8 +117,13 @@ def content_of(points: Points) -> dict[str, object]:
         "deck": str(DECK),
         "parameters": parameters,
         "design": [{"zip": {"of": list(parameters)}}],
-        "results": ["load_factor"],
+        "results": list(COLUMNS),
     }
+
+
+def _finite(value: float) -> float | None:
+    """None for the nan of a run that has no load factor."""
+    return value if math.isfinite(value) else None
 
 
 def _number(value: Plain) -> float | None:
@@ -114,26 +142,32 @@ def _processor() -> float:
 
 
 def main(count: int) -> None:
-    """Both sweeps by all four ways, a row each."""
+    """Both sweeps in every way, a row each."""
     for plane in PLANES:
         points = points_of(plane, count)
         separate(points[:2])  # imports do not count
         shared(points[:2])
         ways: dict[str, Callable[[], list[float | None]]] = {
             "separate": partial(separate, points),
+            "separate, record": partial(separate_with_record, points),
+            "separate, files": partial(separate_with_files, points[::TENTH]),
             "shared": partial(shared, points),
+            "shared, range": partial(shared, points, (*COLUMNS, "range.0", "range.1")),
             "one worker": partial(by_command, points, 1),
             "two workers": partial(by_command, points, 2),
         }
         reference: list[float | None] = []
-        longest = 0.0
+        clocks: dict[str, float] = {}
         for way, run in ways.items():
             found, clock, processor = measured(run)
             if way == "separate":
-                reference, longest = found, clock
-            assert json.dumps(found) == json.dumps(reference), f"{plane}, {way}: other load factors than separate runs"
-            row = {"sweep": plane, "way": way, "points": len(points), "seconds": clock, "processor_seconds": processor}
-            record("sweep", {**row, "ratio": longest / clock})
+                reference = found
+            clocks[way] = clock / len(found)
+            expected = reference if len(found) == len(points) else reference[::TENTH]
+            assert json.dumps(found) == json.dumps(expected), f"{plane}, {way}: other load factors than separate runs"
+            row = {"sweep": plane, "way": way, "points": len(found), "seconds": clock, "processor_seconds": processor}
+            one: float | str = clocks["one worker"] / clocks[way] if "one worker" in clocks else ""
+            record("sweep", {**row, "ratio": clocks["separate"] / clocks[way], "over_one": one})
 
 
 if __name__ == "__main__":

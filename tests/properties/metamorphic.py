@@ -51,7 +51,7 @@ def names() -> list[str]:
 
 def scene_named(name: str) -> Scene:
     """The scene of that name."""
-    folder, stem = name.split("/")
+    folder, _, stem = name.partition("/")
     if folder == "random":
         return random_scene(int(stem))
     return scene_of(next(path for path in PATHS if name_of(path) == name))

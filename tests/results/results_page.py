@@ -12,6 +12,7 @@ from mbla.results.hdf5.layout import layout_table
 from mbla.results.paraview.layout import arrays_table
 from mbla.results.records.description import record_page
 from mbla.results.tables.tables import tables_page
+from mbla.studies.interact.description import interact_record_page
 from mbla.studies.sweep.tables.description import sweep_columns_page, sweep_record_page
 
 PAGE = Path(__file__).parents[2] / "schemas" / "results.md"
@@ -26,6 +27,7 @@ def generated() -> dict[str, str]:
         "JSON record": record_page(),
         "Table of a sweep": sweep_columns_page(),
         "JSON record of a sweep": sweep_record_page(),
+        "JSON record of a diagram": interact_record_page(),
     }
 
 

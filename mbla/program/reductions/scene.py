@@ -12,6 +12,7 @@ from mbla.contacts.contacts import Contacts
 from mbla.model.model import Model
 from mbla.program.equilibrium import lever_arms
 from mbla.program.program import Program
+from mbla.sharing import shared
 
 COPLANAR = 1e-9
 """Relative to block size: distance up to which points count as in one plane or on one line."""
@@ -106,12 +107,18 @@ def _own(allowed: sp.csr_array, blocks: IntArray) -> sp.csr_array | None:
 
 def turns(scene: Scene) -> FloatArray:
     """Sine of the turn to the left at each point of an interface, in their order, (n_points,)."""
-    start = np.flatnonzero(np.diff(scene.interfaces, prepend=-1))
-    length = np.diff(np.append(start, len(scene.interfaces)))
-    place = np.arange(len(scene.interfaces)) - np.repeat(start, length)
+    return _turns(scene.interfaces, scene.points, scene.frames[:, 0])
+
+
+@shared("turns")
+def _turns(interfaces: IntArray, points: FloatArray, normals: FloatArray) -> FloatArray:
+    """``turns`` of points (n_points, 3) with normals (n_points, 3)."""
+    start = np.flatnonzero(np.diff(interfaces, prepend=-1))
+    length = np.diff(np.append(start, len(interfaces)))
+    place = np.arange(len(interfaces)) - np.repeat(start, length)
     after = np.repeat(start, length) + (place + 1) % np.repeat(length, length)
     before = np.repeat(start, length) + (place - 1) % np.repeat(length, length)
-    inward, outward = scene.points - scene.points[before], scene.points[after] - scene.points
-    turn = (np.cross(inward, outward) * scene.frames[:, 0]).sum(axis=1)
+    inward, outward = points - points[before], points[after] - points
+    turn = (np.cross(inward, outward) * normals).sum(axis=1)
     size = np.linalg.norm(inward, axis=1) * np.linalg.norm(outward, axis=1)
     return np.asarray(turn / np.maximum(size, 1e-300))

@@ -18,9 +18,9 @@ from mbla.studies.interact.records import study_json
 from mbla.studies.interact.study import Report, Study, plan_of, study_points
 from mbla.studies.interact.two_loads import two_loads_question
 from mbla.studies.interact.write import write_study
+from mbla.studies.study_files import written
 from mbla.studies.sweep.engine.choice import engine_for
 from mbla.studies.sweep.engine.options import EngineOptions
-from mbla.studies.words import INTERRUPTION, LEFT
 
 DIRECTIONS, ANGLES = 72, 31
 """points unless their number is given: every 5 degrees around, every 3 degrees of a quarter"""
@@ -53,13 +53,10 @@ def interact(
     out.refuse(*names)
     with out:
         plan = plan_of(deck.path, run.overrides, question)
+        engine.expect(plan, len(question.settings))
         with engine as workers:
             study = study_points(deck, run.overrides, question, plan, workers, report)
-        remarks = [INTERRUPTION] if study.interrupted else []
-        if study.interrupted and any((out.folder / name).exists() for name in names):
-            remarks.append(LEFT)
-        else:
-            remarks += write_study(study, out)
+        remarks = written(out, names, study.interrupted, lambda: write_study(study, out))
     return study, study_json(study, out.names), remarks
 
 

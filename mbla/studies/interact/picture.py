@@ -43,7 +43,7 @@ def draw_study(path: Path, study: Study, options: PictureOptions | None = None) 
         mark = f"NOT VERIFIED at {counted(left_out, 'point')} of {len(study.points)}" if left_out else ""
         if study.domain is not None and study.domain.crossings:
             mark = "ERROR OF VERIFICATION: bounds contradict each other" + (f"; {mark}" if mark else "")
-        title = f"{study.deck}: {study.title}"
+        title = study.heading
         above = add_words(page, [title, *study.question.words, *conclusions(study)[:2]], mark)
         polar = study.question.kind == DIRECTION
         edge = _edge(study)

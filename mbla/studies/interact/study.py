@@ -54,6 +54,11 @@ class Study:
     created: str = field(default_factory=now)
 
     @property
+    def heading(self) -> str:
+        """Deck and title; the deck alone where it has no title."""
+        return self.deck if self.title == self.deck else f"{self.deck}: {self.title}"
+
+    @property
     def interrupted(self) -> bool:
         """Whether it ended before every point was solved."""
         return any(point.exit_code == INTERRUPTED for point in self.points)

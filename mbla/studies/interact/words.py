@@ -22,7 +22,7 @@ ASSOCIATIVE = "associative"
 
 def study_lines(study: Study) -> list[str]:
     """Everything that the terminal shows."""
-    lines = [f"{study.deck}: {study.title}", f"{INDENT}flow rule {study.flow_rule}"]
+    lines = [study.heading, f"{INDENT}flow rule {study.flow_rule}"]
     for text in study.question.words:
         lines += sentence(text)
     lines += ["", *point_table(study), ""]

@@ -2,33 +2,20 @@
 
 from __future__ import annotations
 
-import json
-
-from mbla.errors import UsageError
 from mbla.results.files import OutputFolder
-from mbla.results.pictures.page import matplotlib_parts
 from mbla.studies.interact.picture import draw_study
 from mbla.studies.interact.records import study_csv, study_json
 from mbla.studies.interact.study import Study
-
-PICTURES = ("png", "svg")
+from mbla.studies.study_files import PICTURES, record_text, without_pictures
 
 
 def write_study(study: Study, out: OutputFolder) -> list[str]:
     """Write CSV, JSON and the diagram to a folder that is open; why there is no diagram, or nothing."""
     out.write_text(f"{out.stem}.csv", study_csv(study))
-    remark = _without_pictures()
+    remark = without_pictures()
     for ending in () if remark else PICTURES:
         with out.writing(f"{out.stem}.{ending}") as path:
             draw_study(path, study)
     record = study_json(study, tuple(sorted((*out.names, f"{out.stem}.json"))))
-    out.write_text(f"{out.stem}.json", json.dumps(record, indent=1, ensure_ascii=False, allow_nan=False) + "\n")
+    out.write_text(f"{out.stem}.json", record_text(record))
     return [remark] if remark else []
-
-
-def _without_pictures() -> str:
-    try:
-        matplotlib_parts()
-    except UsageError as error:
-        return f"no pictures: {error}"
-    return ""

@@ -17,6 +17,9 @@ from mbla.studies.sweep.outcome import DONE
 from mbla.studies.sweep.results import FACTORS, OF_RUN, STATUS
 from mbla.studies.sweep.tables.sweep_table import SweepColumn, SweepTable
 
+ALIKE = 1e-6
+"""relative; numbers are shown with six digits, and the accuracy of solvers decides upon the others"""
+
 
 class Answer(IntEnum):
     """Of a point, or of the points of a cell (MIXED: texts that differ; PARTLY: a median that holds whatever the points
@@ -60,8 +63,11 @@ class Answers:
 
     @property
     def label(self) -> str:
-        """``load factor [unit]`` with the load case where the table has several."""
-        name = self.column.name.replace("_", " ")
+        """``load factor [unit]``, with ``, push_x`` where the table has several load cases."""
+        case = self.column.case
+        several = bool(case) and self.column.name.startswith(f"{case}.")
+        name = self.column.name.removeprefix(f"{case}." if several else "").replace("_", " ")
+        name += f", {case}" if several else ""
         return f"{name} [{self.column.unit}]" if self.column.unit else name
 
     @property
@@ -104,6 +110,15 @@ def answers_of(table: SweepTable, column: SweepColumn) -> Answers:
 
 UNSURE = (Status.NOT_VERIFIED, Status.ITERATION_LIMIT, Status.TIME_LIMIT, Status.NUMERICAL_ERROR)
 """states in which a value is not verified, whatever became of the other load cases"""
+
+
+def told_apart(values: FloatArray) -> FloatArray:
+    """The values, with one value for those that differ by less than ``ALIKE`` of the largest size among them."""
+    if not values.size:
+        return values
+    ascending = np.sort(values, axis=None)
+    begins = np.diff(ascending, prepend=-np.inf) > ALIKE * np.abs(ascending).max()
+    return np.asarray(ascending[begins][np.searchsorted(ascending[begins], values, side="right") - 1])
 
 
 def numbers_of(column: SweepColumn, values: Values) -> FloatArray:

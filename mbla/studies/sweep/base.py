@@ -160,17 +160,6 @@ def read_base(sweep: Sweep) -> Base:
     return base
 
 
-def unit_of_key(base: Base, key: str) -> str:
-    """The deck's unit of the value at a key path, such as ``m``; empty for plain numbers, text and parameters.*.
-
-    Raises
-    ------
-    RefusedError
-        if the deck has no such key
-    """
-    return unit_at(path_of_key(base.tree.data, key), base.deck.units)
-
-
 def _deck_path(sweep: Sweep) -> Path:
     """Path of the base deck; DeckError at its name if it cannot be opened."""
     name = sweep.content.deck

@@ -166,6 +166,7 @@ def run_sweep(prepared: Prepared, options: SweepOptions, report: Report | None =
         if report is not None:
             report(progress, None, None)
         if tasks:
+            engine.expect(prepared.plan, len(tasks))
             with _noted(journal), engine:
                 _solve(prepared, engine.run(prepared.plan, tasks), journal, progress, report)
         finished = journal.finished | ({} if options.shard is None else merged(journals_in(folder), header))

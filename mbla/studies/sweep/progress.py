@@ -16,6 +16,8 @@ MINUTE, HOUR = 60.0, 3600.0
 class Progress:
     """Count of finished points; times are seconds since the first point was handed out.
 
+    The rate is that from the first finished point on: before it, processes begin.
+
     total   : points to be solved in this run
     earlier : points that the journal had already
     """
@@ -24,7 +26,7 @@ class Progress:
     earlier: int = 0
     done: int = 0
     failed: int = 0
-    _times: deque[float] = field(default_factory=lambda: deque([0.0], maxlen=WINDOW + 1))
+    _times: deque[float] = field(default_factory=lambda: deque(maxlen=WINDOW + 1))
 
     def add(self, failed: bool, seconds: float) -> None:
         """One more point is finished."""
@@ -35,7 +37,7 @@ class Progress:
     @property
     def rate(self) -> float:
         """Points a second over the last of them; 0 where nothing is known yet."""
-        passed = self._times[-1] - self._times[0]
+        passed = self._times[-1] - self._times[0] if self._times else 0.0
         return (len(self._times) - 1) / passed if passed > 0 else 0.0
 
     def words(self) -> str:

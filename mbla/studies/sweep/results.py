@@ -16,6 +16,8 @@ from mbla.studies.sweep.plan import Plain
 
 OF_RUN = ("model", "settings", "time")
 """first keys of paths that lead into the record of the run rather than into that of a load case"""
+OWN_COLUMNS = ("point", "state", "exit_code", "reason", "tries", "seconds")
+"""columns that every table of a sweep has beside those of parameters and results"""
 STATUS = "status"
 FACTORS = ("load_factor", "static_bound", "kinematic_bound", "associative_load_factor")
 """results that are load factors: they have a place on their axis for a structure that does not stand, and for one that

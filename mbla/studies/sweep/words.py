@@ -12,7 +12,7 @@ import numpy as np
 from mbla.arrays import BoolArray, FloatArray
 from mbla.results.words.text import INDENT, counted, entry, number, sentence
 from mbla.results.words.text import table as text_table
-from mbla.studies.sweep.answers import answers_of
+from mbla.studies.sweep.answers import ALIKE, answers_of
 from mbla.studies.sweep.outcome import FAILED
 from mbla.studies.sweep.progress import duration_words
 from mbla.studies.sweep.tables.from_outcomes import as_text
@@ -26,8 +26,6 @@ NAMED = 6
 """points with a least or greatest value whose parameters are told"""
 TEXTS = ("text", "bool")
 """kinds of results that are counted; others have a least and a greatest value"""
-ALIKE = 1e-6
-"""relative; numbers are shown with six digits, and the accuracy of solvers decides upon the others"""
 DESIGN = ("parameter", "azimuth", "elevation")
 
 

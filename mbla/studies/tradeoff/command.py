@@ -7,12 +7,12 @@ from typing import Any
 from mbla.deck import Deck
 from mbla.results.files import OutputFolder
 from mbla.run_options import RunOptions
+from mbla.studies.study_files import written
 from mbla.studies.tradeoff.knobs import asked_rungs
 from mbla.studies.tradeoff.ladder_run import Limits, Report
 from mbla.studies.tradeoff.records import study_json
 from mbla.studies.tradeoff.study import Study, file_name, study_deck
 from mbla.studies.tradeoff.write import write_study
-from mbla.studies.words import INTERRUPTION, LEFT
 
 
 def tradeoff(
@@ -34,9 +34,5 @@ def tradeoff(
     out.refuse(*names)
     with out:
         study = study_deck(deck, run.overrides, run.cases, asked, options.wanted_error, limits, report)
-        remarks = [INTERRUPTION] if study.interrupted else []
-        if study.interrupted and any((out.folder / name).exists() for name in names):
-            remarks.append(LEFT)
-        else:
-            remarks += write_study(study, out)
+        remarks = written(out, names, study.interrupted, lambda: write_study(study, out))
     return study, study_json(study, out.names), remarks

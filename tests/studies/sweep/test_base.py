@@ -10,7 +10,8 @@ import pytest
 from mbla.deck import read_deck
 from mbla.deck.overrides import RefusedError
 from mbla.errors import DeckError
-from mbla.studies.sweep.base import Base, read_base, unit_of_key
+from mbla.studies.sweep.base import Base, read_base
+from mbla.studies.sweep.base_keys import path_of_key, unit_at
 from mbla.studies.sweep.base_points import check_points
 from mbla.studies.sweep.design.build import design_of
 from mbla.studies.sweep.design.design import Point
@@ -76,12 +77,12 @@ def test_all_load_cases_unless_some_are_named(tmp_path: Path) -> None:
 )
 def test_unit_of_key(tmp_path: Path, key: str, unit: str) -> None:
     base = base_of(tmp_path, GOOD, ARCH + "units: {length: cm}\n")
-    assert unit_of_key(base, key) == unit
+    assert unit_at(path_of_key(base.tree.data, key), base.deck.units) == unit
 
 
-def test_unit_of_no_key(tmp_path: Path) -> None:
+def test_no_key(tmp_path: Path) -> None:
     with pytest.raises(RefusedError, match="unknown key thick in blocks"):
-        unit_of_key(base_of(tmp_path), "blocks.0.arch.thick")
+        path_of_key(base_of(tmp_path).tree.data, "blocks.0.arch.thick")
 
 
 def test_texts_with_units_of_their_own_have_no_unit_of_the_column(tmp_path: Path) -> None:

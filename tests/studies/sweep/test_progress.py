@@ -61,3 +61,11 @@ def test_slow_rates_are_told_by_the_minute_or_the_hour(rate: float, words: str) 
 )
 def test_durations_have_two_units_at_most(seconds: float, words: str) -> None:
     assert duration_words(seconds) == words
+
+
+def test_the_start_of_processes_is_not_charged_to_the_points() -> None:
+    progress = Progress(total=100)
+    progress.add(failed=False, seconds=4.0)
+    assert progress.words() == "1 of 100 points"
+    progress.add(failed=False, seconds=4.1)
+    assert progress.words() == "2 of 100 points, 10 points/s, 9 s left"

@@ -19,7 +19,7 @@ from mbla.studies.sweep.engine.connection import LOOK, REPLY, Connection
 from mbla.studies.sweep.engine.options import EngineOptions
 from mbla.studies.sweep.outcome import FAILED, Outcome
 from mbla.studies.sweep.plan import Plan, Task
-from mbla.studies.sweep.worker.batch import end_processes, run_batch
+from mbla.studies.sweep.worker.batch import end_processes, expect_processes, run_batch
 from mbla.studies.sweep.worker.messages import outcome_of, record_of
 
 WINDOW = 2
@@ -47,12 +47,22 @@ class ClusterEngine:
 
     def __init__(self, options: EngineOptions) -> None:
         """UsageError where the extra is not installed."""
+        self._options = options
         self._connection = Connection(options)
         self._outcomes: Generator[Outcome, None, None] | None = None
 
+    def expect(self, plan: Plan, points: int) -> None:
+        """Local processes begin, and import everything while this one imports Dask."""
+        if not self._options.cluster:
+            expect_processes(plan, min(self._options.workers, points))
+
     def __enter__(self) -> ClusterEngine:
         """Start or connect; raises UsageError where there is no scheduler, no worker, or one with another mbla."""
-        self._connection.__enter__()
+        try:
+            self._connection.__enter__()
+        except BaseException:
+            end_processes()  # those that were expected
+            raise
         return self
 
     def __exit__(

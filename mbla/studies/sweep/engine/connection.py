@@ -5,6 +5,7 @@ Nothing waits without end: a scheduler or workers that are gone are told in word
 
 from __future__ import annotations
 
+import importlib.util
 import json
 import logging
 import queue
@@ -49,7 +50,8 @@ class Connection:
 
     def __init__(self, options: EngineOptions) -> None:
         """UsageError where the extra is not installed."""
-        self.dask = dask_parts()
+        refuse_missing()
+        self.dask: Any = None
         self.client: Any = None
         self.threads = 0
         self.libraries = library_versions()
@@ -60,6 +62,7 @@ class Connection:
     def __enter__(self) -> Connection:
         """Start or connect; raises UsageError where there is no scheduler, no worker, or one with another mbla."""
         with self._stack:
+            self.dask = dask_parts()
             self._stack.enter_context(silenced())
             self.client = self._remote() if self._options.cluster else self._local()
             self._await_workers()
@@ -215,6 +218,15 @@ class Connection:
         return FileError(f"{self._name()} is gone; finished points are in the journal, --resume goes on with the rest")
 
 
+MISSING = "several processes and clusters need an extra that is not installed: pip install 'mbla[dask]'"
+
+
+def refuse_missing() -> None:
+    """UsageError where the extra is not installed; imports nothing, for that takes a second."""
+    if importlib.util.find_spec("distributed") is None:
+        raise UsageError(MISSING)
+
+
 def dask_parts() -> Any:
     """What is used of Dask, by name; UsageError where the extra is not installed."""
     try:
@@ -225,9 +237,7 @@ def dask_parts() -> Any:
         from distributed import Client, Scheduler, Security, SpecCluster, Worker
         from distributed.scheduler import KilledWorker
     except ImportError as error:
-        raise UsageError(
-            "several processes and clusters need an extra that is not installed: pip install 'mbla[dask]'"
-        ) from error
+        raise UsageError(MISSING) from error
     return SimpleNamespace(
         Client=Client,
         Scheduler=Scheduler,

@@ -12,6 +12,10 @@ from mbla.studies.sweep.plan import Plan, Task
 class Engine(Protocol):
     """Hands tasks to workers."""
 
+    def expect(self, plan: Plan, points: int) -> None:
+        """Say, before the context is entered, that so many points of a plan will come: what takes long may begin."""
+        ...
+
     def run(self, plan: Plan, tasks: Sequence[Task]) -> Generator[Outcome, None, None]:
         """Outcomes in the order in which they are done; one for every task, also where its worker died.
 

@@ -17,6 +17,9 @@ class SerialEngine:
         """Nothing begun."""
         self._outcomes: Generator[Outcome, None, None] | None = None
 
+    def expect(self, plan: Plan, points: int) -> None:
+        """Nothing: its process has nothing to wait for."""
+
     def __enter__(self) -> SerialEngine:
         return self
 

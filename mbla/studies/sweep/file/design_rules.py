@@ -13,11 +13,7 @@ from mbla.studies.sweep.file.content import MAX_POINTS, Parameter, SweepContent
 from mbla.studies.sweep.file.keys import key_paths, spelt
 from mbla.studies.sweep.file.parts import SAMPLED, Part, design_parts, is_random
 from mbla.studies.sweep.file.ways import DISTRIBUTIONS, RANDOM, WITH_POINTS, level_count, way_of
-from mbla.studies.sweep.results import FACTORS, STATUS
-
-OWN_COLUMNS = ("point", "state", "exit_code", "reason", "tries", "seconds")
-"""columns that every table of a sweep has beside those of parameters and results"""
-
+from mbla.studies.sweep.results import FACTORS, OWN_COLUMNS, STATUS
 
 # --- parameters ---------------------------------------------------------------------------------------------------
 

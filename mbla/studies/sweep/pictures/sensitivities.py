@@ -14,7 +14,7 @@ import numpy as np
 from scipy.stats import rankdata
 
 from mbla.arrays import FloatArray
-from mbla.studies.sweep.answers import numbers_of
+from mbla.studies.sweep.answers import numbers_of, told_apart
 from mbla.studies.sweep.pictures.axes import Axis
 from mbla.studies.sweep.pictures.view import View
 from mbla.studies.sweep.tables.sweep_table import SweepColumn
@@ -65,7 +65,7 @@ def correlation(view: View, column: SweepColumn) -> Correlation:
     x, y = numbers_of(column, view.table[column.name]), view.answers.values
     good = view.answers.good & np.isfinite(x)
     count = int(good.sum())
-    rho = rank_correlation(x[good], y[good])
+    rho = rank_correlation(x[good], told_apart(y[good]))
     if not np.isfinite(rho) or count <= 3:
         return Correlation(column.name, rho, np.nan, np.nan, count)
     reach = NormalDist().inv_cdf((1 + CONFIDENCE) / 2) * np.sqrt((1 + rho**2 / 2) / (count - 3))
@@ -88,7 +88,7 @@ def swing(view: View, axis: Axis) -> Swing:
     result = np.full((int(group.max()) + 1, len(axis.levels)), np.nan)
     result[group, axis.place] = np.where(view.answers.good, view.answers.values, np.nan)
     whole = np.isfinite(result).all(axis=1)
-    own = result[whole]
+    own = told_apart(result[whole])
     count = len(own)
     if not count:
         return Swing(axis.column.name, np.nan, np.nan, np.nan, np.nan, 0, len(result))

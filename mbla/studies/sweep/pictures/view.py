@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 
 from mbla.deck.suggestions import unknown
@@ -51,11 +51,6 @@ def view_of(table: SweepTable, result: SweepColumn, by: str = "", demands: tuple
     if by:
         column_by_name(table, by)
     return View(table, answers_of(table, result), by, demands)
-
-
-def of_answers(view: View, answers: Answers) -> View:
-    """The same with other answers."""
-    return replace(view, answers=answers)
 
 
 def column_by_name(table: SweepTable, name: str) -> SweepColumn:

@@ -56,13 +56,15 @@ def sweep_table(
         values=tuple(values for _, values in parts),
         dimensions=design.dimensions,
         position=position.reshape(len(design.points), len(design.dimensions)),
-        levels={
-            column.name: column_values(column.kind, values)
-            for column, values in zip(design.columns, design.levels, strict=True)
-        },
+        levels=_levels(design),
         samples=design.samples,
         sampling=design.sampling,
     )
+
+
+def _levels(design: Design) -> dict[str, Values]:
+    pairs = zip(design.columns, design.levels, strict=True)
+    return {column.name: column_values(column.kind, values) for column, values in pairs}
 
 
 def column_values(kind: str, values: Sequence[Plain]) -> Values:

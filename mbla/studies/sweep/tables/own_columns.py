@@ -13,5 +13,3 @@ AFTER = (
     SweepColumn("seconds", "s", "time by the clock, of the last try", "float", "seconds"),
 )
 """columns after the results"""
-OWN_NAMES = tuple(column.name for column in (POINT, STATE, *AFTER))
-"""names that no parameter may have"""

@@ -15,8 +15,8 @@ from mbla.results.files import file_errors
 from mbla.results.tables.column import Values
 from mbla.studies.sweep.design.design import Dimension
 from mbla.studies.sweep.plan import Plain
+from mbla.studies.sweep.results import OWN_COLUMNS
 from mbla.studies.sweep.tables.from_outcomes import column_values
-from mbla.studies.sweep.tables.own_columns import OWN_NAMES
 from mbla.studies.sweep.tables.sweep_json import VERSION, positions_at
 from mbla.studies.sweep.tables.sweep_table import SweepColumn, SweepTable
 
@@ -87,7 +87,7 @@ def _table(record: dict[str, Any], rows: Sequence[Sequence[str]]) -> SweepTable:
     if len(rows) - 1 != points:
         raise ValueError(f"{len(rows) - 1} rows, {points} points")
     position = positions_at(places, dimensions)
-    if not set(OWN_NAMES) <= {column.name for column in columns}:
+    if not set(OWN_COLUMNS) <= {column.name for column in columns}:
         raise ValueError("columns are missing")
     if wrong := next((number for number, row in enumerate(rows, 1) if len(row) != len(columns)), None):
         raise ValueError(f"row {wrong} has {len(rows[wrong - 1])} cells, {len(columns)} columns")

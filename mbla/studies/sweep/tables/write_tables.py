@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -10,6 +9,7 @@ from typing import Any
 
 from mbla.results.files import OutputFolder
 from mbla.results.tables.parquet_file import require_parquet
+from mbla.studies.study_files import record_text
 from mbla.studies.sweep.fragility import Fragility
 from mbla.studies.sweep.fragility_words import fragility_csv, fragility_json
 from mbla.studies.sweep.tables.read_table import CSV, JSON
@@ -76,7 +76,7 @@ def write_tables(
     record = sweep_json(run, table, fragility_json(fragility), sorted({*names, *files.others}))
     with OutputFolder(folder, "sweep", force, beside=True) as out:
         out.write_text(CSV, sweep_csv(table))
-        out.write_text(JSON, json.dumps(record, indent=1, ensure_ascii=False, allow_nan=False) + "\n")
+        out.write_text(JSON, record_text(record))
         if files.parquet:
             out.write_bytes(PARQUET, sweep_parquet(run, table))
         if files.hdf5:

@@ -37,6 +37,16 @@ class Processes:
         self._plan: Plan | None = None
         self._timer: threading.Timer | None = None
 
+    def expect(self, plan: Plan, count: int) -> None:
+        """Begin so many, which import everything until the first batches come."""
+        with self._lock:
+            self._end_free()
+            self._plan = plan
+            self._free = [SupervisedRunner(plan) for _ in range(count)]
+            for runner in self._free:
+                runner.expect()
+            self._start_timer()
+
     def lend(self, plan: Plan) -> SupervisedRunner:
         """One that no other thread has; those of another plan are ended."""
         with self._lock:
@@ -57,10 +67,7 @@ class Processes:
                 self._free.append(runner)
             else:
                 runner.__exit__(None, None, None)
-            self._stop_timer()
-            self._timer = threading.Timer(IDLE, self._end_idle)
-            self._timer.daemon = True
-            self._timer.start()
+            self._start_timer()
 
     def end(self) -> None:
         """End all of them, also in the middle of a point."""
@@ -79,6 +86,12 @@ class Processes:
         for runner in self._free:
             runner.__exit__(None, None, None)
         self._free.clear()
+
+    def _start_timer(self) -> None:
+        self._stop_timer()
+        self._timer = threading.Timer(IDLE, self._end_idle)
+        self._timer.daemon = True
+        self._timer.start()
 
     def _stop_timer(self) -> None:
         if self._timer is not None:
@@ -122,6 +135,11 @@ def run_batch(
     finally:
         PROCESSES.give_back(runner)
     return {"outcomes": outcomes}
+
+
+def expect_processes(plan: Plan, count: int) -> None:
+    """Begin processes in this one, whose batches of that plan come later; ``end_processes`` ends them in any case."""
+    PROCESSES.expect(plan, count)
 
 
 def end_processes() -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 import time
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from types import TracebackType
 
@@ -60,6 +61,7 @@ class SupervisedRunner:
         self.started = 0
         self._process = LineProcess(command, ENVIRONMENT)
         self._fresh = True
+        self._expected = False
         self._first = self._held = 0.0
         self.stopped = False
 
@@ -70,6 +72,15 @@ class SupervisedRunner:
         self, kind: type[BaseException] | None, error: BaseException | None, traceback: TracebackType | None
     ) -> None:
         self._process.stop()
+
+    def expect(self) -> None:
+        """Start the process, which takes a second to import everything, while others have something else to do.
+
+        Whether that came to something shows with the first point.
+        """
+        with suppress(OSError):
+            self._process.start()
+            self._expected = True
 
     def kill(self) -> None:
         """End what is under way, from another thread; ``run`` raises StoppedError there, now and later."""
@@ -143,7 +154,7 @@ class SupervisedRunner:
 
     def _prepare(self) -> None:
         """A process that is ready for a point; one that has grown too much is replaced."""
-        if self._process.runs() and not self._held > GROWTH * self._first:
+        if not self._expected and self._process.runs() and not self._held > GROWTH * self._first:
             return
         words = ""
         for number in range(1, STARTS + 1):
@@ -162,7 +173,9 @@ class SupervisedRunner:
         self._fresh, self._first, self._held = True, 0.0, 0.0
         until = time.monotonic() + START
         try:
-            process.start()
+            if not self._expected:
+                process.start()
+            self._expected = False
             self.started += 1
             if self.stopped:  # ``kill`` may have come before there was anything to kill
                 process.stop()

@@ -10,13 +10,13 @@ import pytest
 from mbla.deck import read_deck
 from mbla.errors import DeckError, FileError
 from mbla.studies.sweep.file.content import MAX_POINTS
-from mbla.studies.sweep.file.design_rules import OWN_COLUMNS
 from mbla.studies.sweep.file.keys import key_paths, spelt
 from mbla.studies.sweep.file.parts import design_parts, is_random
 from mbla.studies.sweep.file.read import read_sweep
 from mbla.studies.sweep.file.sweep import Sweep
 from mbla.studies.sweep.file.ways import WAYS, level_count, way_of
-from mbla.studies.sweep.tables.own_columns import OWN_NAMES
+from mbla.studies.sweep.results import OWN_COLUMNS
+from mbla.studies.sweep.tables.own_columns import AFTER, POINT, STATE
 from tests.deck.decks import BLOCK, write
 from tests.studies.sweep.file.sweeps import ALL_WAYS, GOOD
 
@@ -98,7 +98,7 @@ def test_levels_and_key_paths(tmp_path: Path) -> None:
 
 def test_own_columns_are_those_of_the_table() -> None:
     """They are written twice, so that a faulty sweep file is told before numpy is imported."""
-    assert set(OWN_COLUMNS) == set(OWN_NAMES)
+    assert tuple(column.name for column in (POINT, STATE, *AFTER)) == OWN_COLUMNS
 
 
 @pytest.mark.parametrize(

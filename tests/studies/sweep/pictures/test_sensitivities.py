@@ -66,3 +66,14 @@ def test_combinations_with_a_failed_point_are_left_out() -> None:
                  lambda mu, thickness: FAILED if mu == 2 and thickness == 3 else mu * thickness)  # fmt: skip
     found = swing(view(table), axis_of(table, column_by_name(table, "mu")))
     assert (found.change, found.combinations, found.left_out) == (1.0, 1, 1)
+
+
+def test_what_solvers_leave_open_is_no_effect() -> None:
+    """A wall that slides at 0.65 whatever its length is: results that differ in the ninth digit rank by chance."""
+    noise = iter(1e-9 * np.random.default_rng(3).normal(size=40))
+    table = sample({"length": list(np.linspace(1, 2, 40))}, lambda length: 0.65 + next(noise))
+    assert np.isnan(correlation(view(table), column_by_name(table, "length")).value)
+    noise = iter(1e-9 * np.random.default_rng(3).normal(size=6))
+    table = grid({"length": [1.0, 2.0, 3.0], "mu": [0.5, 0.6]}, lambda length, mu: mu + next(noise))
+    found = swing(view(table), axis_of(table, column_by_name(table, "length")))
+    assert (found.change, found.span) == (0.0, 0.0)

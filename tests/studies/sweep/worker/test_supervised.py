@@ -16,6 +16,7 @@ import pytest
 from mbla.errors import UsageError
 from mbla.studies.sweep.outcome import DONE, FAILED, Outcome
 from mbla.studies.sweep.plan import Plan, Task
+from mbla.studies.sweep.worker.batch import Processes
 from mbla.studies.sweep.worker.messages import record_of
 from mbla.studies.sweep.worker.supervised import GROWTH, STARTS, StoppedError, SupervisedRunner
 from tests.studies.sweep.small_plan import ROW, frictions, plan_over
@@ -130,6 +131,41 @@ def test_killed_in_the_middle_of_a_point_it_is_solved_again(tmp_path: Path) -> N
         again = runner.run(Task("large", 2, {"parameters.n": 7}))
     assert (found[0].state, found[0].tries) == (DONE, 2)
     assert found[0].results == again.results  # to the last bit, in whatever process and after whatever points
+
+
+def test_a_process_that_was_begun_early_is_the_one_that_solves(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    before = set(children())
+    with runner_that(monkeypatch, plan_over(tmp_path), "outcome['results'] = {'process': os.getpid()}") as runner:
+        runner.expect()
+        (child,) = set(children()) - before
+        assert runner.run(TASK).results == {"process": child}
+        assert runner.run(TASK).results == {"process": child}
+        assert runner.started == 1
+    wait_for(lambda: not runs(child))
+
+
+def test_a_process_that_was_begun_early_and_died_is_replaced(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    before = set(children())
+    with runner_that(monkeypatch, plan_over(tmp_path), "pass") as runner:
+        runner.expect()
+        (child,) = set(children()) - before
+        os.kill(child, signal.SIGKILL)
+        wait_for(lambda: not runs(child))
+        outcome = runner.run(TASK)
+    assert (outcome.state, outcome.tries) == (DONE, 1), "no point is to blame"
+
+
+def test_processes_of_a_worker_that_were_begun_early_are_lent_and_ended(tmp_path: Path) -> None:
+    before, plan = set(children()), plan_over(tmp_path, ROW)
+    processes = Processes()
+    processes.expect(plan, 2)
+    begun = set(children()) - before
+    assert len(begun) == 2
+    runner = processes.lend(plan)
+    processes.give_back(runner)
+    assert set(children()) - before == begun
+    processes.end()
+    wait_for(lambda: not set(children()) & begun)
 
 
 def test_a_point_that_kills_its_process_is_given_up(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
