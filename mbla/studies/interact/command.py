@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from copy import copy
 from pathlib import Path
 from typing import Any
 
@@ -20,6 +22,7 @@ from mbla.studies.interact.two_loads import two_loads_question
 from mbla.studies.interact.write import write_study
 from mbla.studies.study_files import written
 from mbla.studies.sweep.engine.choice import engine_for
+from mbla.studies.sweep.engine.engine import Engine
 from mbla.studies.sweep.engine.options import EngineOptions
 
 DIRECTIONS, ANGLES = 72, 31
@@ -55,6 +58,8 @@ def interact(
         plan = plan_of(deck.path, run.overrides, question)
         engine.expect(plan, len(question.settings))
         with engine as workers:
+            if question.kind == TWO_LOADS:
+                question = question_of(deck, options, factor_ratio(deck, run.overrides, options, workers))
             study = study_points(deck, run.overrides, question, plan, workers, report)
         remarks = written(out, names, study.interrupted, lambda: write_study(study, out))
     return study, study_json(study, out.names), remarks
@@ -66,8 +71,23 @@ def file_name(deck: Path, question: Question) -> str:
     return "_".join((deck.stem, "interact", *loads))
 
 
-def question_of(deck: Deck, options: Any) -> Question:
-    """What is asked of a deck; building the model here finds whatever is wrong with it before a point is solved."""
+def factor_ratio(deck: Deck, overrides: Sequence[str], options: Any, workers: Engine) -> float:
+    """Load factor of the second load alone over that of the first; 1 where either has none."""
+    alone = copy(options)
+    alone.start, alone.end, alone.directions = 0.0, QUARTER, 2
+    question = question_of(deck, alone)
+    study = study_points(deck, overrides, question, plan_of(deck.path, overrides, question), workers, None)
+    if study.interrupted:
+        raise KeyboardInterrupt
+    factors = [point.load_factor if point.has_factor else 0.0 for point in study.points]
+    return factors[1] / factors[0] if min(factors) > 0 else 1.0
+
+
+def question_of(deck: Deck, options: Any, ratio: float = 1.0) -> Question:
+    """What is asked of a deck; building the model here finds whatever is wrong with it before a point is solved.
+
+    ratio : of two loads, as ``factor_ratio`` gives it
+    """
     model = build_model(deck)
     contacts_of(deck, model)
     if options.loads is None:
@@ -81,7 +101,8 @@ def question_of(deck: Deck, options: Any) -> Question:
     if not start < end <= start + FULL:
         raise UsageError(f"--from {start:g} --to {end:g}: the end must lie above, by 360 degrees at most")
     first, second = options.loads
-    return two_loads_question(deck, model, (first, second), start, end, _count(options.directions, ANGLES, 2))
+    count = _count(options.directions, ANGLES, 2)
+    return two_loads_question(deck, model, (first, second), start, end, count, ratio)
 
 
 def _count(asked: int | None, usual: int, least: int) -> int:

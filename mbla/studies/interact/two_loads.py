@@ -24,9 +24,12 @@ WHAT = "an interaction of two loads"
 
 
 def two_loads_question(
-    deck: Deck, model: Model, names: tuple[str, str], start: float, end: float, count: int
+    deck: Deck, model: Model, names: tuple[str, str], start: float, end: float, count: int, ratio: float = 1.0
 ) -> Question:
     """Angles from ``start`` to ``end`` in degrees for two load cases.
+
+    ratio : of the load factor of the second alone to that of the first; the points lie evenly on a curve that is drawn
+            in units of the two
 
     Raises UsageError where they have no sum, or not the same dead load.
     """
@@ -41,7 +44,7 @@ def two_loads_question(
     own: dict[str, Plain] = {}
     if dead is not None:
         own["dead"] = [_dead(deck, first, number) for number in range(len(dead))]
-    angles = angles_between(start, end, count)
+    angles = angles_between(start, end, count, ratio)
     settings = tuple({f"load_cases.{name}": {**own, "live": _together(deck, names, angle)}} for angle in angles)
     words = (
         f"live loads of {first} times cos and of {second} times sin of the angle act together, with the dead load that "

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import json
+import math
 from collections.abc import Generator, Sequence
 from pathlib import Path
 
@@ -11,10 +12,11 @@ import pytest
 
 import mbla
 from mbla.cli import main
-from mbla.studies.interact.command import file_name
+from mbla.deck import read_deck
+from mbla.studies.interact.command import factor_ratio, file_name, question_of
 from mbla.studies.sweep.outcome import Outcome
 from mbla.studies.sweep.plan import Plan, Task
-from tests.studies.interact.hand_made import ThisProcess, question, solved, written
+from tests.studies.interact.hand_made import Asked, ThisProcess, question, solved, written
 
 
 def test_files_and_figures(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -139,3 +141,14 @@ def test_two_processes_give_the_same_table(tmp_path: Path) -> None:
         with (out / "block_interact.csv").open(newline="", encoding="utf-8") as file:
             tables.append([{k: v for k, v in row.items() if k != "time [s]"} for row in csv.DictReader(file)])
     assert tables[0] == tables[1]
+
+
+def test_points_of_two_loads_of_different_size_lie_evenly(tmp_path: Path) -> None:
+    """One load brings the block down at 0.4, the other at some multiple of it: the angles are those of that ratio."""
+    deck = read_deck(written(tmp_path), ["parameters.mu=0.4"])
+    asked = Asked(loads=("push", "top"), directions=3)
+    ratio = factor_ratio(deck, ["parameters.mu=0.4"], asked, ThisProcess())
+    alone = solved(tmp_path, ["parameters.mu=0.4"], loads=("push", "top"), directions=2)
+    assert ratio == pytest.approx(alone.points[1].load_factor / alone.points[0].load_factor, rel=1e-12)
+    angles = question_of(deck, asked, ratio).angles
+    assert angles == pytest.approx((0.0, math.degrees(math.atan(ratio)), 90.0), rel=1e-12)
