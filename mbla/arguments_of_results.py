@@ -19,6 +19,12 @@ def add_result_commands(commands: Any) -> None:
         command.add_argument("--json", action="store_true", help="one JSON object on standard output")
 
 
+def _add_result_and_output(command: Any, what: str) -> None:
+    """A result file, and where what is made of it goes."""
+    command.add_argument("result", type=Path, metavar="RESULT.h5")
+    command.add_argument("-o", "--output", type=Path, metavar="FILE|DIR", help=f"{what} (default: that of the result)")
+
+
 def add_plot(commands: Any) -> None:
     """``mbla plot``."""
     command = commands.add_parser(
@@ -26,14 +32,7 @@ def add_plot(commands: Any) -> None:
         help="pictures of model, mechanism and forces (extra mbla[pictures])",
         description="Pictures of model, mechanism and forces. Earlier pictures of the same names are replaced.",
     )
-    command.add_argument("result", type=Path, metavar="RESULT.h5")
-    command.add_argument(
-        "-o",
-        "--output",
-        type=Path,
-        metavar="FILE|DIR",
-        help="PNG, SVG or PDF file, by its name, of one picture; or a folder (default: that of the result)",
-    )
+    _add_result_and_output(command, "PNG, SVG or PDF file, by its name, of one picture; or a folder")
     command.add_argument(
         "--kind",
         metavar="KIND",
@@ -78,14 +77,7 @@ def add_report(commands: Any) -> None:
         help="one self-contained HTML file of a result (extra mbla[report])",
         description="One self-contained HTML file of a result. An earlier report of that name is replaced.",
     )
-    command.add_argument("result", type=Path, metavar="RESULT.h5")
-    command.add_argument(
-        "-o",
-        "--output",
-        type=Path,
-        metavar="FILE|DIR",
-        help="HTML file, or a folder for STEM.html (default: that of the result)",
-    )
+    _add_result_and_output(command, "HTML file, or a folder for STEM.html")
     command.add_argument("--case", metavar="NAME", help="only this load case")
     command.add_argument("--no-3d", action="store_true", help="leave out the views that can be turned, 5 MB less")
 

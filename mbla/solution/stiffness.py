@@ -45,18 +45,16 @@ class PointGroup:
 
 
 @dataclass(frozen=True)
-class Stiffness:
-    """Pattern of the bordered matrix of a program in the order of elimination, compressed by columns.
+class Places:
+    """Pattern of the bordered matrix of programs of one equilibrium matrix A in the order of elimination, by columns.
 
     order    : (n_rows + 1,) row of the program at each place, the load factor last
     diagonal : (n_rows,) place of the diagonal entries in the order of the program's rows
     border   : places of column and row of the live load, in the order of the program's rows, and of the corner
     size     : (n_rows,) diagonal of A Aᵀ: stiffness of every row when all joints stick with stiffness 1
     compatibility : Aᵀ, by rows
-    factorization : of matrices of this pattern, one at a time
     """
 
-    program: Program
     groups: tuple[PointGroup, ...]
     indices: NDArray[np.int32]
     pointers: NDArray[np.int32]
@@ -65,6 +63,16 @@ class Stiffness:
     border: tuple[IntArray, IntArray, int]
     size: FloatArray
     compatibility: sp.csr_array
+
+
+@dataclass(frozen=True)
+class Stiffness(Places):
+    """The bordered matrix of one program.
+
+    factorization : of matrices of its pattern, one at a time
+    """
+
+    program: Program
     factorization: GeneralFactorization
 
     def velocities(self, u: FloatArray) -> FloatArray:
@@ -125,36 +133,11 @@ def stiffness_of(program: Program) -> Stiffness:
     """Pattern, places and order of elimination of a program."""
     matrix = program.equilibrium_matrix
     found = _places(matrix, program.components, program.n_points)
-    return Stiffness(
-        program=program,
-        groups=found.groups,
-        indices=found.indices,
-        pointers=found.pointers,
-        order=found.order,
-        diagonal=found.diagonal,
-        border=found.border,
-        size=found.size,
-        compatibility=found.compatibility,
-        factorization=GeneralFactorization(found.pointers, found.indices),
-    )
-
-
-@dataclass(frozen=True)
-class _Places:
-    """What of the pattern does not depend on loads and joints; see ``Stiffness``."""
-
-    groups: tuple[PointGroup, ...]
-    indices: NDArray[np.int32]
-    pointers: NDArray[np.int32]
-    order: IntArray
-    diagonal: IntArray
-    border: tuple[IntArray, IntArray, int]
-    size: FloatArray
-    compatibility: sp.csr_array
+    return Stiffness(**vars(found), program=program, factorization=GeneralFactorization(found.pointers, found.indices))
 
 
 @shared("stiffness")
-def _places(matrix: sp.csr_array, components: int, n_points: int) -> _Places:
+def _places(matrix: sp.csr_array, components: int, n_points: int) -> Places:
     """Of an equilibrium matrix, (n_rows, components n_points)."""
     n = matrix.shape[0]
     sets = _point_sets(matrix, components, n_points)
@@ -181,7 +164,7 @@ def _places(matrix: sp.csr_array, components: int, n_points: int) -> _Places:
         for points, rows, blocks in sets
     )
     end = np.full(n, n)
-    return _Places(
+    return Places(
         groups=groups,
         indices=(keys % (n + 1)).astype(np.int32),
         pointers=np.searchsorted(keys, np.arange(n + 2) * (n + 1)).astype(np.int32),
