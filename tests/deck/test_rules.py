@@ -165,7 +165,8 @@ def test_long_lists_of_kinds_have_a_name() -> None:
 def test_every_rule_is_registered_and_broken_by_a_faulty_deck() -> None:
     folder = Path(__file__).parents[1] / "invalid_decks"
     expected = "\n".join(path.read_text(encoding="utf-8") for path in folder.glob("deck_*.yaml"))
-    assert set(WORDS) | set(rules.EXACTLY_ONE) | set(rules.AT_LEAST_ONE) == set(RULES)
+    of_decks = {section for section in RULES if section.__module__.startswith("mbla.deck.")}  # not of sweep files
+    assert set(WORDS) | set(rules.EXACTLY_ONE) | set(rules.AT_LEAST_ONE) == of_decks
     assert all(issubclass(section, Section) for section in RULES)
     missing = [message for messages in WORDS.values() for message in messages if message not in expected]
     assert missing == []

@@ -5,6 +5,7 @@ from pathlib import Path
 import pytest
 
 from mbla.deck import read_deck
+from tests.decks import sweep_pictures
 from tests.decks.make_pictures import (
     PICTURES,
     SAMPLE,
@@ -18,7 +19,8 @@ from tests.decks.make_pictures import (
 
 
 def test_table_names_every_picture_once() -> None:
-    names = [*(picture.name for picture in TABLE), *STUDIES]
+    of_sweeps = [f"sweep_{picture.sweep}" for picture in sweep_pictures.TABLE]
+    names = [*(picture.name for picture in TABLE), *STUDIES, *of_sweeps]
     assert sorted(names) == sorted(set(names))
     assert set(names) == {path.stem for path in PICTURES.iterdir()}
 
