@@ -47,7 +47,7 @@ def test_client_and_process_killed_a_few_times(tmp_path: Path) -> None:
 
 @pytest.mark.long
 def test_sixty_kills_of_client_and_process(tmp_path: Path) -> None:
-    path = written(tmp_path, 500)
+    path = written(tmp_path, 1500)  # so many that no fast machine is done before the last kill
     killed, clean = scene(path, tmp_path / "killed"), scene(path, tmp_path / "clean")
     kills, reported = with_kills(killed, 60, Random(2), 2.5, 0.6)
     assert kills == 60
@@ -56,7 +56,7 @@ def test_sixty_kills_of_client_and_process(tmp_path: Path) -> None:
 
 @pytest.mark.long
 def test_kills_with_two_workers(tmp_path: Path) -> None:
-    path = written(tmp_path, 300)
+    path = written(tmp_path, 1000)
     killed = scene(path, tmp_path / "killed", EngineOptions(workers=2))
     kills, reported = with_kills(killed, 20, Random(3), 3.0, 0.5)
     assert kills == 20
