@@ -38,6 +38,7 @@ import yaml
 
 import mbla
 from mbla.results.records.json_record import results_json
+from mbla.studies.sweep.command import FAILED_POINTS
 from mbla.studies.sweep.file.content import SweepContent
 from mbla.studies.sweep.plan import Plain, Plan, Task
 from mbla.studies.sweep.worker.runner import PointRunner
@@ -100,7 +101,9 @@ def by_command(points: Points, workers: int) -> list[float | None]:
         sweep = Path(folder) / "sweep.yaml"
         sweep.write_text(yaml.safe_dump(content_of(points)), encoding="utf-8")
         command = [sys.executable, "-m", "mbla", "sweep", str(sweep), "-q", "-j", str(workers)]
-        subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
+        ended = subprocess.run(command, stdout=subprocess.DEVNULL)
+        if ended.returncode not in (0, FAILED_POINTS):
+            raise SystemExit(f"{' '.join(command)} ended with exit status {ended.returncode}")
         with (Path(folder) / "sweep.out" / "sweep.csv").open(encoding="utf-8", newline="") as file:
             rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
     return [float(row["load_factor"]) if row["load_factor"] else None for row in rows]
