@@ -27,7 +27,7 @@ def interrupt(path: Path, number: signal.Signals, options: Sequence[str] = ()) -
         assert ended.status == status
         said = re.search(rf"^mbla: {word}; (\d+) finished points? in the journal, --resume goes on$", ended.said, re.M)
         assert said, ended.said
-        assert int(said[1]) == rows_in(folder)
+        assert rows_in(folder) - int(said[1]) in (0, 1)  # it may come between writing a row and counting it
         assert [each.name for each in folder.iterdir()] == ["journal.csv"]
     return folder
 

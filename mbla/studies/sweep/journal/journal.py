@@ -103,6 +103,7 @@ class Journal:
             the point is finished already, or of another sweep
         """
         row = row_of(self.header, task, outcome)
+        kept = read_row(self.header, row)  # before the row is written: an interruption then hardly ever comes between
         with self._one_at_a_time:
             if outcome.key in self.finished:
                 raise ValueError(f"point {task.number} is finished already")
@@ -116,7 +117,7 @@ class Journal:
                 self._cut_back()
                 raise
             self._end += len(row)
-            self.finished[outcome.key] = read_row(self.header, row)
+            self.finished[outcome.key] = kept
 
     # --- how it begins ----------------------------------------------------------------------------------------------
 
