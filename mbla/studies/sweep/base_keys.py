@@ -10,7 +10,7 @@ from pydantic import BaseModel
 from pydantic.fields import FieldInfo
 
 from mbla.deck.deck import Deck
-from mbla.deck.fields import allowed_keys, annotations_at, sections_at, takes_names
+from mbla.deck.fields import allowed_keys, annotations_at, branches, sections_at, takes_names
 from mbla.deck.overrides import RefusedError, item_index, next_key
 from mbla.deck.quantities import Quantity
 from mbla.deck.suggestions import listed, unknown
@@ -85,19 +85,8 @@ def _takes_plain_values(path: KeyPath) -> bool:
     return any(
         not (isinstance(each, type) and issubclass(each, BaseModel))
         for annotation in annotations_at(DeckContent, path)
-        for each in _plain_branches(annotation)
+        for each in branches(annotation)
     )
-
-
-def _plain_branches(annotation: Any) -> Iterator[Any]:
-    origin = get_origin(annotation)
-    if origin is Annotated:
-        yield from _plain_branches(get_args(annotation)[0])
-    elif origin in (Union, UnionType):
-        for each in get_args(annotation):
-            yield from _plain_branches(each)
-    elif annotation is not type(None):
-        yield annotation
 
 
 def unit_at(path: KeyPath, units: Units) -> str:
