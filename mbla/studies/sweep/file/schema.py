@@ -14,7 +14,7 @@ from typing import Any
 
 from mbla.deck.key_reference import section_tables
 from mbla.deck.quantities import EXPRESSION_PATTERN, QUANTITY_PATTERN
-from mbla.deck.schema import REPOSITORY, between, tidy
+from mbla.deck.schema import REPOSITORY, between, tidy, write_generated
 from mbla.studies.sweep.file.content import SweepContent
 from mbla.studies.sweep.file.rules import EXACTLY_ONE
 
@@ -76,14 +76,7 @@ def with_sweep_key_reference(text: str) -> str:
 
 def write_sweep_schema(folder: Path = REPOSITORY) -> list[Path]:
     """Write ``schemas/sweep.schema.json`` and, between its markers, the key reference of ``README.md``."""
-    schema_file = folder / "schemas" / "sweep.schema.json"
-    schema_file.write_text(sweep_schema_text(), encoding="utf-8")
-    readme = folder / "README.md"
-    text = readme.read_text(encoding="utf-8") if readme.is_file() else ""
-    if not all(marker in text for marker in MARKERS):
-        return [schema_file]
-    readme.write_text(with_sweep_key_reference(text), encoding="utf-8")
-    return [schema_file, readme]
+    return write_generated(folder, "sweep", sweep_schema_text(), MARKERS, with_sweep_key_reference)
 
 
 def main(arguments: Sequence[str] | None = None) -> None:
