@@ -54,7 +54,6 @@ def lever_arms(model: Model, contacts: Contacts, free: IntArray) -> FloatArray:
     return _arms(model.blocks.centroids, model.blocks.sizes, bodies, contacts.points, free)
 
 
-@shared("lever arms")
 def _arms(centroids: FloatArray, sizes: FloatArray, bodies: IntArray, points: FloatArray, free: IntArray) -> FloatArray:
     """``lever_arms`` of blocks with centroids (n_blocks, 3); bodies (n_points, 2)."""
     n_blocks = len(centroids)

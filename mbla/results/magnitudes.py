@@ -41,10 +41,11 @@ def magnitude_notices(model: Model, contacts: Contacts, case: CaseResult, *, dou
     """
     if not len(model.free) or not np.any(case.load_case.live_load[model.free]):
         return []
-    limits, name = yield_limits(model, contacts), case.load_case.name
-    scale = load_scale(model, contacts, case.load_case, limits)
+    name = case.load_case.name
     notices = []
     if case.status in NOT_SETTLED or doubtful:
+        limits = yield_limits(model, contacts)
+        scale = load_scale(model, contacts, case.load_case, limits)
         words = [*_loads(scale.own), *_strength(limits.cohesion + limits.tension, scale.mean)]
         words += [*_slender(contacts, limits.friction, scale.arms), *_scant(limits.friction)]
         text = f"{name}: {' and '.join(words)}: beyond what sixteen digits hold apart"

@@ -14,7 +14,6 @@ from mbla.arrays import FloatArray, IntArray
 from mbla.contacts.contacts import Contacts
 from mbla.model.model import LoadCase, Model
 from mbla.program.yield_conditions import YieldLimits
-from mbla.sharing import shared
 from mbla.solution.statics import bodies_of_points
 
 ZERO_FACTOR = 1e-3
@@ -100,7 +99,6 @@ def lever_arms(model: Model, contacts: Contacts) -> FloatArray:
     return _arms(model.blocks.centroids, model.blocks.sizes, bodies_of_points(contacts), contacts.points)
 
 
-@shared("lever arms of verification")
 def _arms(centroids: FloatArray, sizes: FloatArray, bodies_of_point: IntArray, points: FloatArray) -> FloatArray:
     """``lever_arms`` of blocks with centroids (n_blocks, 3) and points (n_points, 3)."""
     n_blocks = len(centroids)

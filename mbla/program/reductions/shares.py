@@ -51,7 +51,7 @@ def _shares(part: Scene, program: Program) -> FloatArray:
     With x = P y between the part and its reduction Σ ‖x‖²/a is Σ ‖y‖²/b: b from the normal components is the area that
     a point of the reduction stands for.
     """
-    if not part.program.n_points:
+    if not part.refined_points.any():
         return np.ones(program.n_points)
     to_part = sp.eye_array(3 * part.program.n_points, format="csr")
     maps, reduced = [], program

@@ -19,36 +19,53 @@ from mbla.solution.solution import Mechanics
 
 
 @dataclass(frozen=True)
-class Failure:
-    """What pictures, report and words say of a mechanism.
+class MovingJoints:
+    """Hinge lines and sliding planes between clusters: enough to name the class of a mechanism.
 
     clusters       : (n_blocks,) cluster of each block, 0 at rest
     merged         : share of the largest contact speed up to which rigid parts were taken for one, 0 where none were
-    motions        : of the clusters that move, the heaviest first
     hinge_lines    : the one that moves most first
     sliding_planes : the one that dissipates most first
-    cracks         : the one that opens most first
     """
 
     clusters: IntArray
     merged: float
-    motions: tuple[PartMotion, ...]
     hinge_lines: tuple[HingeLine, ...]
     sliding_planes: tuple[SlidingPlane, ...]
+
+
+@dataclass(frozen=True)
+class Failure(MovingJoints):
+    """What pictures, report and words say of a mechanism.
+
+    motions : of the clusters that move, the heaviest first
+    cracks  : the one that opens most first
+    """
+
+    motions: tuple[PartMotion, ...]
     cracks: tuple[Crack, ...]
 
 
 @kept
-def failure_of(model: Model, contacts: Contacts, collapse: Collapse, mechanics: Mechanics) -> Failure:
+def moving_joints(model: Model, contacts: Contacts, collapse: Collapse, mechanics: Mechanics) -> MovingJoints:
     """From the exact rigid parts and interfaces of a mechanism."""
     found = clusters_of(model, contacts, collapse.parts, mechanics.mechanism)
-    clusters = found.of_block
-    joints = cluster_joints(model, contacts, clusters, mechanics)
-    return Failure(
-        clusters=clusters,
+    joints = cluster_joints(model, contacts, found.of_block, mechanics)
+    return MovingJoints(
+        clusters=found.of_block,
         merged=found.merged,
-        motions=part_motions(model, clusters, mechanics.mechanism),
         hinge_lines=hinge_lines(contacts, collapse.interfaces, joints, collapse.work, found.merged),
         sliding_planes=sliding_planes(contacts, collapse.interfaces, joints, collapse.work, found.merged),
+    )
+
+
+@kept
+def failure_of(model: Model, contacts: Contacts, collapse: Collapse, mechanics: Mechanics) -> Failure:
+    """All of it, from the exact rigid parts and interfaces of a mechanism."""
+    moving = moving_joints(model, contacts, collapse, mechanics)
+    joints = cluster_joints(model, contacts, moving.clusters, mechanics)
+    return Failure(
+        **vars(moving),
+        motions=part_motions(model, moving.clusters, mechanics.mechanism),
         cracks=cracks(contacts, collapse.interfaces, joints, mechanics),
     )

@@ -17,7 +17,7 @@ from enum import StrEnum
 
 import numpy as np
 
-from mbla.results.collapse.failure import Failure
+from mbla.results.collapse.failure import MovingJoints
 from mbla.results.collapse.hinge_lines import HingeLine
 
 NOTABLE = 0.1
@@ -36,10 +36,10 @@ class MechanismClass(StrEnum):
     OPENING = "opening"
 
 
-def mechanism_class(failure: Failure) -> MechanismClass:
+def mechanism_class(joints: MovingJoints) -> MechanismClass:
     """The class of a mechanism."""
-    lines = [line for line in failure.hinge_lines if line.share >= NOTABLE]
-    planes = [plane for plane in failure.sliding_planes if plane.speed >= NOTABLE]
+    lines = [line for line in joints.hinge_lines if line.share >= NOTABLE]
+    planes = [plane for plane in joints.sliding_planes if plane.speed >= NOTABLE]
     slides = bool(planes) or any(_slides(line) for line in lines)
     if lines and slides:
         return MechanismClass.SLIDING_AND_HINGING

@@ -11,7 +11,7 @@ from mbla.contacts.contacts import Contacts
 from mbla.model.model import LoadCase, Model
 from mbla.results.collapse.collapse import Collapse, collapse_of
 from mbla.results.collapse.enough import Enough, enough_of
-from mbla.results.collapse.failure import Failure, failure_of
+from mbla.results.collapse.failure import Failure, failure_of, moving_joints
 from mbla.results.collapse.force_freedom import ForceFreedom, force_freedom
 from mbla.results.collapse.interface_modes import InterfaceMode
 from mbla.results.collapse.mechanism_class import mechanism_class
@@ -61,7 +61,7 @@ def mechanism_on_demand(
         return moving_share(model, collapse().parts)
 
     return OnDemand(
-        {"class": lambda: mechanism_class(failure()).value}
+        {"class": lambda: mechanism_class(moving_joints(model, contacts, collapse(), mechanics)).value}
         | {mode: partial(lambda mode: points()[mode], mode) for mode in POINT_MODES}
         | {
             "interfaces": lambda: {mode.name.lower(): collapse().interfaces.count(mode) for mode in InterfaceMode},

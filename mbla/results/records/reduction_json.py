@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import asdict
 from typing import Any
 
 from mbla.program.reductions.steps import ReductionStep
@@ -12,7 +11,12 @@ from mbla.results.records.key import Key
 
 def reductions_json(steps: Sequence[ReductionStep]) -> list[dict[str, Any]]:
     """An object for each reduction, in the order in which they are applied."""
-    return [asdict(step) | {"state": step.state.value} for step in steps]
+    return [_step(step) for step in steps]
+
+
+def _step(step: ReductionStep) -> dict[str, Any]:
+    sizes = {"before": dict(vars(step.before)), "after": dict(vars(step.after))}
+    return {"name": step.name, "state": step.state.value, "found": step.found, **sizes}
 
 
 def reduction_keys(place: str) -> tuple[Key, ...]:

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import mbla
-from mbla.results.collapse.failure import Failure
+from mbla.results.collapse.failure import MovingJoints
 from mbla.results.collapse.hinge_lines import HingeLine
 from mbla.results.collapse.mechanism_class import NOTABLE, mechanism_class
 from mbla.results.collapse.sliding_planes import SlidingPlane
@@ -81,10 +81,10 @@ def plane(**changes: Any) -> SlidingPlane:
     return replace(one, **changes)
 
 
-def failure(*joints: HingeLine | SlidingPlane) -> Failure:
+def moving(*joints: HingeLine | SlidingPlane) -> MovingJoints:
     lines = tuple(joint for joint in joints if isinstance(joint, HingeLine))
     planes = tuple(joint for joint in joints if isinstance(joint, SlidingPlane))
-    return Failure(np.array([1]), 0.0, (), lines, planes, ())
+    return MovingJoints(np.array([1]), 0.0, lines, planes)
 
 
 @pytest.mark.parametrize(
@@ -105,4 +105,4 @@ def failure(*joints: HingeLine | SlidingPlane) -> Failure:
     ],
 )
 def test_only_joints_that_move_notably_count(joints: tuple[HingeLine | SlidingPlane, ...], expected: str) -> None:
-    assert mechanism_class(failure(*joints)) == expected
+    assert mechanism_class(moving(*joints)) == expected
