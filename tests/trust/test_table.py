@@ -1,0 +1,24 @@
+"""The README shows the counts that were recorded, and each of them was made by a check that is there."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from tests.trust.counts import Record, recorded
+from tests.trust.table import README, section, table
+
+FOLDER = Path(__file__).parent
+
+
+def test_the_readme_has_the_table_of_the_records() -> None:
+    assert section(README.read_text(encoding="utf-8")) == table(), "python -m tests.trust.table writes it"
+
+
+@pytest.mark.parametrize("record", recorded(), ids=lambda record: record.check)
+def test_each_record_is_of_a_check_that_is_there(record: Record) -> None:
+    calls = [path for path in FOLDER.rglob("*.py") if f'record_counts("{record.check}"' in path.read_text("utf-8")]
+    assert len(calls) == 1, "the record of a check that is gone, or of several"
+    assert record.counts
+    assert all(number >= 0 for number in record.counts.values())
