@@ -78,9 +78,9 @@ def run(
     try:
         return Run(_solved(_read(deck, overrides), options, progress, started))
     except MemoryError as error:
-        raise LimitError("out of memory") from error
+        raise LimitError("out-of-memory", "out of memory") from error
     except OSError as error:
-        raise FileError(f"{error.filename or deck}: {error.strerror or error}") from error
+        raise FileError("file-system", f"{error.filename or deck}: {error.strerror or error}") from error
 
 
 def read_results(path: str | os.PathLike[str]) -> Run:
@@ -93,7 +93,7 @@ def _read(deck: str | os.PathLike[str], overrides: Sequence[str]) -> Deck:
         return read_deck_text(deck, Path(TEXT_NAME), overrides)
     path = Path(deck)
     if path.is_dir():
-        raise FileError(f"{path}: is a folder, not a deck")
+        raise FileError("folder-given", f"{path}: is a folder, not a deck")
     return read_deck(path, overrides)
 
 
@@ -106,13 +106,13 @@ def _solved(deck: Deck, options: RunOptions, progress: Progress | None, started:
 def overrides_of(values: Mapping[str, object] | Sequence[str]) -> tuple[str, ...]:
     """``key.path=value`` texts; UsageError where a value cannot be written as one."""
     if isinstance(values, str):
-        raise UsageError(f"set={values!r}: a mapping, or a list of key.path=value texts")
+        raise UsageError("set-refused", f"set={values!r}: a mapping, or a list of key.path=value texts")
     if not isinstance(values, Mapping):
         return tuple(values)
     try:
         return tuple(f"{key}={json.dumps(value, allow_nan=False, default=_plain)}" for key, value in values.items())
     except (TypeError, ValueError) as error:
-        raise UsageError(f"set: {error}") from error
+        raise UsageError("set-refused", f"set: {error}") from error
 
 
 def _plain(value: Any) -> object:

@@ -23,7 +23,7 @@ from mbla import result_commands, study_commands, sweep_commands
 from mbla.arguments import build_parser
 from mbla.collector import loading
 from mbla.errors import DeckError, FileError, MblaError, UsageError
-from mbla.failures import failure_record, with_notes, words_of
+from mbla.failures import failure_record, lines_of, with_notes, words_of
 from mbla.given_deck import read_given_deck, refuse_unfit_name, run_options
 from mbla.run_options import RunOptions
 from mbla.streams import drop_output, prepare_streams
@@ -166,7 +166,10 @@ def _refuse_shared_folder(decks: Sequence[Path], options: RunOptions) -> None:
     """Two decks of one name would write the same files."""
     targets = [(options.folder_for(deck).resolve(), deck.stem) for deck in decks if deck.name]
     if len(set(targets)) < len(targets):
-        raise UsageError("two of the decks would write the same result files: give them different names or folders")
+        raise UsageError(
+            "same-result-files",
+            "two of the decks would write the same result files: give them different names or folders",
+        )
 
 
 def _each_deck(options: argparse.Namespace, one: Callable[[Path], int], progress: Progress | None) -> int:
@@ -188,8 +191,8 @@ def _each_deck(options: argparse.Namespace, one: Callable[[Path], int], progress
 
 def _failed(error: Exception) -> int:
     """Say what went wrong in one line per fault; the exit status."""
-    status, text = words_of(error)
-    text = with_notes(text, error)
+    status, _ = words_of(error)
+    text = "\n".join(lines_of(error))
     if status == MblaError.exit_status and os.environ.get("MBLA_TRACEBACK"):
         traceback.print_exception(error)
     return say(text if isinstance(error, DeckError) else f"mbla: {text}", status)
@@ -199,7 +202,7 @@ def _refuse_vanished_folder() -> None:
     try:
         Path.cwd()
     except OSError:
-        raise FileError("the current folder does not exist any more") from None
+        raise FileError("current-folder-gone", "the current folder does not exist any more") from None
 
 
 def _terminate(number: int, frame: FrameType | None) -> NoReturn:

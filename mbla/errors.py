@@ -11,6 +11,17 @@
     └── LimitError                7   out of time or memory
 
 Anything else that reaches the command line is a defect of mbla (exit status 1).
+
+Every error has an identifier, one for each kind of error: what differs in cause and remedy, not in wording. It is
+stable and in kebab case; the command line prints it in brackets behind the message, JSON has it under ``identifiers``,
+and ``mbla explain`` tells what it means. A new error takes the identifier of its kind where there is one. Else
+
+1. it is written as a literal where the message is made: ``FileError("result-exists", f"{path}: exists already")``,
+   or ``Message("face-not-planar", "...")`` for what becomes a :class:`Fault` where its place is known; whoever hands
+   an error on keeps the identifier: ``FileError(error.identifier, ...)``, ``error.message.around(before=...)``;
+2. it gets an entry in ``mbla/results/explanations/of_errors`` (meaning, cause, remedy, example);
+3. it gets a test with its exact text: a file of ``tests/invalid_decks`` or ``tests/invalid_sweeps`` for what is
+   wrong in one, else a case in ``tests/trust/messages``, whose checks find what lacks any of the three.
 """
 
 from __future__ import annotations
@@ -20,10 +31,65 @@ from dataclasses import dataclass
 from typing import Literal
 
 
+class Message(str):
+    """What is wrong and what is allowed, in words, with the identifier of its kind.
+
+    It is a text like any other; what is made of it by formatting is a plain one, without identifier.
+    """
+
+    __slots__ = ("identifier",)
+    identifier: str
+
+    def __new__(cls, identifier: str, words: str) -> Message:
+        """A text of a kind."""
+        message = super().__new__(cls, words)
+        message.identifier = identifier
+        return message
+
+    def __getnewargs__(self) -> tuple[str, str]:  # type: ignore[override]  # of a text: its words alone
+        return self.identifier, self.words
+
+    @property
+    def words(self) -> str:
+        """The text alone."""
+        return str.__str__(self)
+
+    def around(self, *, before: str = "", after: str = "") -> Message:
+        """The same kind of message with more words."""
+        return Message(self.identifier, f"{before}{self}{after}")
+
+
+class Refusal(Exception):  # noqa: N818 - an answer, not a defect
+    """What a part of the program says no to; whoever knows the place makes a :class:`Fault` of its message."""
+
+    def __init__(self, identifier: str, words: str) -> None:
+        self.message = Message(identifier, words)
+        super().__init__(identifier, words)
+
+    def __str__(self) -> str:
+        return self.message.words
+
+
+class ValueRefused(Refusal, ValueError):  # noqa: N818 - an answer, not a defect
+    """A value that is none of those that belong there."""
+
+
 class MblaError(Exception):
-    """Root of the tree; ``exit_status`` is what the command line returns."""
+    """Root of the tree; ``exit_status`` is what the command line returns.
+
+    identifier : of its kind
+    words      : what is wrong and what is allowed, a line or several
+    """
 
     exit_status = 1
+
+    def __init__(self, identifier: str, words: str) -> None:
+        self.identifier = identifier
+        self.message = Message(identifier, words)
+        super().__init__(identifier, words)
+
+    def __str__(self) -> str:
+        return self.message.words
 
 
 class UsageError(MblaError):
@@ -72,8 +138,21 @@ class Fault:
 
     place: Place
     key: str
-    message: str
+    message: Message
     value: str | None = None
+
+    @property
+    def identifier(self) -> str:
+        """Of its kind."""
+        return self.message.identifier
+
+    def line(self) -> str:
+        """As it is printed: with the identifier in brackets behind it."""
+        return f"{self}  [{self.identifier}]"
+
+    def __post_init__(self) -> None:
+        if not isinstance(self.message, Message):
+            raise TypeError(f"a fault takes a Message, which has an identifier, not {self.message!r}")
 
     def __str__(self) -> str:
         subject = self.key if self.value is None else f"{self.key} = {self.value}"
@@ -87,7 +166,7 @@ class DeckError(MblaError):
 
     def __init__(self, faults: Sequence[Fault]) -> None:
         self.faults = tuple(sorted(faults, key=lambda f: (f.place.file, f.place.line, f.place.column)))
-        super().__init__("\n".join(str(fault) for fault in self.faults))
+        super().__init__("deck-invalid", "\n".join(str(fault) for fault in self.faults))
 
     def __reduce__(self) -> tuple[type[DeckError], tuple[tuple[Fault, ...]]]:
         return type(self), (self.faults,)  # what it was made of: a process hands it on with its places

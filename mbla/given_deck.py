@@ -50,8 +50,8 @@ def _cases(options: argparse.Namespace) -> tuple[str, ...]:
 def refuse_unfit_name(deck: Path) -> None:
     """A name that no result file can have, or that no text can hold."""
     if not deck.name or deck.is_dir():
-        raise FileError(f"{deck}: is a folder, not a deck")
+        raise FileError("folder-given", f"{deck}: is a folder, not a deck")
     try:
         str(deck.absolute()).encode("utf-8")
     except UnicodeEncodeError:
-        raise FileError(f"{deck}: the path is not UTF-8, results cannot name it; rename it") from None
+        raise FileError("path-not-utf-8", f"{deck}: the path is not UTF-8, results cannot name it; rename it") from None

@@ -13,7 +13,7 @@ from mbla.contacts.glue_findings import glue_findings
 from mbla.contacts.interface_points import PointsRefused
 from mbla.contacts.notices import overlap_messages
 from mbla.deck import Deck, read_deck
-from mbla.errors import DeckError, Notice, UsageError
+from mbla.errors import DeckError, Message, Notice, UsageError
 from mbla.exit_status import exit_code
 from mbla.expected import differences
 from mbla.model import Model, build_model
@@ -202,8 +202,11 @@ def contacts_of(deck: Deck, model: Model) -> Contacts:
     try:
         contacts = find_contacts(model, deck.contacts)
     except PointsRefused as refused:
-        raise DeckError([deck.fault_at(("contacts", "points", "spacing"), str(refused))]) from refused
-    faults = [deck.fault_at(("blocks",), message) for message in overlap_messages(model, contacts.report)]
+        raise DeckError([deck.fault_at(("contacts", "points", "spacing"), refused.message)]) from refused
+    faults = [
+        deck.fault_at(("blocks",), Message("blocks-overlap", message))
+        for message in overlap_messages(model, contacts.report)
+    ]
     faults += [deck.fault_at(path, message) for path, message in glue_findings(model, contacts)]
     if faults:
         raise DeckError(faults)
@@ -228,7 +231,7 @@ def select_cases(model: Model, names: Sequence[str]) -> tuple[LoadCase, ...]:
     known = dict.fromkeys(case.deck_name for case in model.load_cases)
     for name in names:
         if name not in known and name not in [case.name for case in model.load_cases]:
-            raise UsageError(f"no load case {name} in the deck; it has {', '.join(known)}")
+            raise UsageError("unknown-load-case", f"no load case {name} in the deck; it has {', '.join(known)}")
     return tuple(case for case in model.load_cases if not names or case.name in names or case.deck_name in names)
 
 
@@ -242,5 +245,5 @@ def differences_from_expected(deck: Deck, cases: Sequence[CaseResult]) -> list[N
     """Where the results are not what the deck expects; UsageError if it expects nothing."""
     expected = deck.content.expected
     if not expected:
-        raise UsageError(f"{deck.path}: has no expected section to compare with")
+        raise UsageError("no-expectations", f"{deck.path}: has no expected section to compare with")
     return [Notice("warning", "not-as-expected", difference) for difference in differences(cases, expected)]

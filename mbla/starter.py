@@ -11,15 +11,15 @@ def write_starter(name: str, *, replace: bool) -> Path:
     """Write the starting deck under a name, with or without its ending; the path. FileError where that cannot be."""
     path = Path(name if name.endswith((".yaml", ".yml")) else f"{name}.yaml")
     if not path.parent.is_dir():
-        raise FileError(f"{path}: there is no folder {path.parent}")
+        raise FileError("file-missing", f"{path}: there is no folder {path.parent}")
     text = starter_text(path)
     try:
         with path.open("w" if replace else "x", encoding="utf-8") as file:
             file.write(text)
     except FileExistsError:
-        raise FileError(f"{path}: exists already; --force replaces it") from None
+        raise FileError("result-exists", f"{path}: exists already; --force replaces it") from None
     except OSError as error:
-        raise FileError(f"{path}: {error.strerror or error}") from error
+        raise FileError("file-not-written", f"{path}: {error.strerror or error}") from error
     return path
 
 

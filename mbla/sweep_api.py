@@ -83,7 +83,7 @@ def sweep(
     try:
         return run_sweep(prepare(read_file(Path(path), overrides_of(set)), options), options, report).table
     except MemoryError as error:
-        raise LimitError("out of memory") from error
+        raise LimitError("out-of-memory", "out of memory") from error
 
 
 def read_sweep(path: str | os.PathLike[str]) -> SweepTable:

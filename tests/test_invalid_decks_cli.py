@@ -13,7 +13,7 @@ from mbla.cli import main
 
 FOLDER = Path(__file__).parent / "invalid_decks"
 DECKS = sorted(path.name for path in FOLDER.glob("*.yaml"))
-PLACED = re.compile(r"\S+\.(yaml|obj|step):[1-9]\d*:[1-9]\d* \S.*")
+PLACED = re.compile(r"\S+\.(yaml|obj|step):[1-9]\d*:[1-9]\d* \S.*  \[[a-z0-9-]+\]")
 
 
 @pytest.fixture(scope="module")

@@ -11,6 +11,7 @@ from mbla.contacts.contacts import Contacts
 from mbla.contacts.glue import Solids, held_model, solids_of
 from mbla.contacts.glued_guides import guides_at_odds
 from mbla.deck.tree import KeyPath
+from mbla.errors import Message
 from mbla.model.model import LoadCase, Model
 from mbla.model.wording import named
 
@@ -18,13 +19,13 @@ CANCELLED = 1e-12
 """sum of live loads on a solid, relative to the loads themselves, at which nothing is left of them"""
 
 
-def glue_findings(model: Model, contacts: Contacts) -> list[tuple[KeyPath, str]]:
+def glue_findings(model: Model, contacts: Contacts) -> list[tuple[KeyPath, Message]]:
     """Key path and words of each: nothing is left to move, loads that move nothing, supports that glue would hold."""
     if not len(contacts.report.glued):
         return []
     held = held_model(model, contacts)
     if held.fixed.all():
-        return [(("contacts",), "every block is glued to a support: nothing can move")]
+        return [(("contacts",), Message("nothing-can-move", "every block is glued to a support: nothing can move"))]
     found = [*_held_guides(model, contacts), *_guides_at_odds(held, contacts), *_glued_settlements(model, contacts)]
     if found:
         return found
@@ -32,20 +33,29 @@ def glue_findings(model: Model, contacts: Contacts) -> list[tuple[KeyPath, str]]
     return [
         (
             ("load_cases", case.name, "live"),
-            "the live loads have no effect: they act on blocks glued to a support, or cancel on glued blocks",
+            Message(
+                "live-load-without-effect",
+                "the live loads have no effect: they act on blocks glued to a support, or cancel on glued blocks",
+            ),
         )
         for case in model.load_cases
         if case.settlement is None and _without_effect(solids, case)
     ]
 
 
-def _held_guides(model: Model, contacts: Contacts) -> Iterator[tuple[KeyPath, str]]:
+def _held_guides(model: Model, contacts: Contacts) -> Iterator[tuple[KeyPath, Message]]:
     stuck = np.intersect1d(model.guides.blocks, contacts.report.held)
     if len(stuck):
-        yield ("supports",), f"{named(stuck, model.blocks.name)} may move in some way, but glue holds it to a support"
+        yield (
+            ("supports",),
+            Message(
+                "support-held-twice",
+                f"{named(stuck, model.blocks.name)} may move in some way, but glue holds it to a support",
+            ),
+        )
 
 
-def _guides_at_odds(model: Model, contacts: Contacts) -> Iterator[tuple[KeyPath, str]]:
+def _guides_at_odds(model: Model, contacts: Contacts) -> Iterator[tuple[KeyPath, Message]]:
     label = contacts.solid_of_block
     if label is None or not len(model.guides):
         return
@@ -56,10 +66,10 @@ def _guides_at_odds(model: Model, contacts: Contacts) -> Iterator[tuple[KeyPath,
     if pair is not None:
         first, second = (model.blocks.name(block) for block in pair)
         message = f"{first} and {second} are glued to one rigid body, but may move in different ways: guide one of them"
-        yield ("supports",), message
+        yield ("supports",), Message("support-held-twice", message)
 
 
-def _glued_settlements(model: Model, contacts: Contacts) -> Iterator[tuple[KeyPath, str]]:
+def _glued_settlements(model: Model, contacts: Contacts) -> Iterator[tuple[KeyPath, Message]]:
     """A support that gives way does not take along what is glued to it."""
     bodies = contacts.report.glued
     for case in model.load_cases:
@@ -70,7 +80,7 @@ def _glued_settlements(model: Model, contacts: Contacts) -> Iterator[tuple[KeyPa
         if len(others):
             names = ", ".join(model.body_name(int(body)) for body in others[:3])
             message = f"{names} held by glue on a support that gives way: fix that too, so that it settles along"
-            yield ("load_cases", case.name, "settlement", "on"), message
+            yield ("load_cases", case.name, "settlement", "on"), Message("support-held-twice", message)
 
 
 def _without_effect(solids: Solids, case: LoadCase) -> bool:

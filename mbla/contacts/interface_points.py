@@ -22,7 +22,7 @@ from mbla.contacts.corners import Corners, areas_and_centroids
 from mbla.contacts.loops import convex_loops
 from mbla.contacts.refine import InterfacePoints, divided, parallelograms
 from mbla.deck.types import ContactPoints
-from mbla.errors import Notice
+from mbla.errors import Notice, Refusal
 from mbla.model.ragged import next_item
 
 _SEEN = 1e-9
@@ -35,7 +35,7 @@ MOST_PARTS = 200
 """Of one edge: beyond, one rectangle would have 40,000 points."""
 
 
-class PointsRefused(Exception):  # noqa: N818 - an answer, not a defect
+class PointsRefused(Refusal):
     """There are interfaces that would get too many points; the message says which spacing would do."""
 
 
@@ -94,8 +94,9 @@ def _parts(corners: Corners, sizes: FloatArray, asked: ContactPoints) -> IntArra
     if edges.max(initial=0.0) > MOST_PARTS * asked.spacing:
         least = edges.max() / MOST_PARTS
         raise PointsRefused(
+            "too-many-points",
             f"divides the longest edge of an interface, {edges.max():.4g}, into more than {MOST_PARTS} parts: "
-            f"must be >= {least:.4g}"
+            f"must be >= {least:.4g}",
         )
     return np.asarray(np.maximum(np.ceil(edges / asked.spacing * (1 - _WHOLE)), 1), dtype=np.int64)
 

@@ -56,18 +56,21 @@ def read_comparison(text: str) -> Comparison:
     source = text.strip().removeprefix("=")
     if path := _KEY_PATH.search(source):
         raise ExpressionError(
-            f"{path.group()} is no name of letters, digits and _: give that parameter one, with its key"
+            "wrong-comparison",
+            f"{path.group()} is no name of letters, digits and _: give that parameter one, with its key",
         )
     if _ASSIGNMENT.search(source):
-        raise ExpressionError("= compares nothing: write == for equal numbers")
+        raise ExpressionError("wrong-comparison", "= compares nothing: write == for equal numbers")
     node = parse_source(source)
     if isinstance(node, ast.BoolOp):
-        raise ExpressionError("joins comparisons by and/or: write each as one of its own; all of them must hold")
+        raise ExpressionError(
+            "wrong-comparison", "joins comparisons by and/or: write each as one of its own; all of them must hold"
+        )
     if not isinstance(node, ast.Compare):
-        raise ExpressionError('is no comparison: write one such as "t < 0.2*radius"')
+        raise ExpressionError("wrong-comparison", 'is no comparison: write one such as "t < 0.2*radius"')
     for sign in node.ops:
         if type(sign) not in _ORDER:
-            raise ExpressionError("compares by something other than < <= > >= ==")
+            raise ExpressionError("wrong-comparison", "compares by something other than < <= > >= ==")
     called = {part.func for part in ast.walk(node) if isinstance(part, ast.Call)}
     named = [part for part in ast.walk(node) if isinstance(part, ast.Name) and part not in called]
     named.sort(key=lambda part: (part.lineno, part.col_offset))

@@ -9,7 +9,7 @@ from pathlib import Path
 from mbla.deck.tree import KeyPath
 from mbla.deck.types import AnalysisSection, ContactsSection, DeckContent
 from mbla.deck.units import Units
-from mbla.errors import Fault, Notice
+from mbla.errors import Fault, Message, Notice
 
 
 @dataclass(frozen=True)
@@ -35,7 +35,7 @@ class Deck:
     content: DeckContent
     units: Units
     notices: tuple[Notice, ...]
-    fault_at: Callable[[KeyPath, str], Fault]
+    fault_at: Callable[[KeyPath, Message], Fault]
     """Fault for a key path such as ("blocks", 3, "wall", "length") with a message; finds place and value itself."""
     resolve_file: Callable[[KeyPath, str], Path]
     """Path of a file named by the value at a key path; relative to the file that names it and confined to its folder

@@ -14,6 +14,7 @@ from collections.abc import Callable, Iterable, Mapping
 from typing import Any
 
 from mbla.deck.suggestions import unknown
+from mbla.errors import Message, ValueRefused
 
 MAX_LENGTH = 300
 MAX_DEPTH = 40
@@ -52,7 +53,7 @@ _BINARY: dict[type[ast.operator], Callable[[float, float], Any]] = {
 _UNARY: dict[type[ast.unaryop], Callable[[float], float]] = {ast.UAdd: operator.pos, ast.USub: operator.neg}
 
 
-class ExpressionError(ValueError):
+class ExpressionError(ValueRefused):
     """The expression cannot be evaluated; the message says why."""
 
 
@@ -75,7 +76,7 @@ class Parameters:
         """``raw`` maps names to numbers, ``"=..."`` strings, or whatever else the deck holds there."""
         self._raw = raw
         self._values: dict[str, float] = {}
-        self._failures: dict[str, str] = {}
+        self._failures: dict[str, Message] = {}
         self._without_value: set[str] = set()
         self.used: set[str] = set()
 
@@ -119,7 +120,7 @@ class Parameters:
                 waiting += [] if expression is None else self._parameters_in(expression)
         return found
 
-    def failures(self) -> list[tuple[str, str]]:
+    def failures(self) -> list[tuple[str, Message]]:
         """(name, message) of every parameter whose own expression is at fault."""
         for name in self._raw:
             self._resolve(name)
@@ -137,10 +138,10 @@ class Parameters:
         if name in self._values:
             return self._values[name]
         if name in self._raw:
-            raise ParameterFaultError(f"parameter {name} has no value")
+            raise ParameterFaultError("wrong-expression", f"parameter {name} has no value")
         if name in FUNCTIONS:
-            raise ExpressionError(f"{name} is a function: write {name}(...)")
-        raise ExpressionError(unknown(f"parameter {name}", name, [*self._raw, *CONSTANTS], "known"))
+            raise ExpressionError("wrong-expression", f"{name} is a function: write {name}(...)")
+        raise ExpressionError("unknown-name", unknown(f"parameter {name}", name, [*self._raw, *CONSTANTS], "known"))
 
     def _resolve(self, name: str) -> None:
         """Evaluate a parameter after those it depends on, by a stack of its own: chains may be long."""
@@ -172,7 +173,7 @@ class Parameters:
             try:
                 return _parse(raw)
             except ExpressionError as error:
-                self._failures[name] = str(error)
+                self._failures[name] = error.message
         return None
 
     def _settle(self, name: str, expression: ast.expr | None) -> None:
@@ -188,7 +189,7 @@ class Parameters:
         except ParameterFaultError:
             pass  # reported under the name of the other parameter
         except ExpressionError as error:
-            self._failures[name] = str(error)
+            self._failures[name] = error.message
         self._without_value.add(name)
 
     def _blame_cycle(self, names: list[str]) -> None:
@@ -197,7 +198,7 @@ class Parameters:
         first = names.index(min(names, key=order.__getitem__))
         cycle = [*names[first:], *names[:first], names[first]]
         shown = cycle if len(cycle) <= _LONGEST_CYCLE else [*cycle[: _LONGEST_CYCLE - 2], "...", cycle[-1]]
-        self._failures[cycle[0]] = f"refers to itself: {' -> '.join(shown)}"
+        self._failures[cycle[0]] = Message("wrong-expression", f"refers to itself: {' -> '.join(shown)}")
         self._without_value.update(names)
 
 
@@ -210,24 +211,26 @@ def parse_source(text: str) -> ast.expr:
     """Syntax of an expression without its ``=``; ExpressionError if it cannot be read."""
     source = text.strip()
     if not source:
-        raise ExpressionError("is an expression without content: write a number or an expression after the =")
+        raise ExpressionError(
+            "wrong-expression", "is an expression without content: write a number or an expression after the ="
+        )
     if len(source) > MAX_LENGTH:
-        raise ExpressionError(f"is an expression of more than {MAX_LENGTH} characters")
+        raise ExpressionError("wrong-expression", f"is an expression of more than {MAX_LENGTH} characters")
     if "^" in source:
-        raise ExpressionError("^ is not an operator of expressions: write ** for powers")
+        raise ExpressionError("wrong-expression", "^ is not an operator of expressions: write ** for powers")
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # Python's remarks on style ("1if") are not for the user of a deck
             return ast.parse(source, mode="eval").body
     except (SyntaxError, ValueError, MemoryError, RecursionError) as error:
         reason = getattr(error, "msg", None) or "too deeply nested"
-        raise ExpressionError(f"cannot be read as an expression: {reason}") from None
+        raise ExpressionError("wrong-expression", f"cannot be read as an expression: {reason}") from None
 
 
 def evaluate(node: ast.expr, value_of: Callable[[str], float], depth: int) -> float:
     """Value of a syntax node, by recursion; ``depth`` bounds it."""
     if depth > MAX_DEPTH:
-        raise ExpressionError(f"is an expression nested more than {MAX_DEPTH} levels deep")
+        raise ExpressionError("wrong-expression", f"is an expression nested more than {MAX_DEPTH} levels deep")
     match node:
         case ast.Constant(value=int() | float() as value) if not isinstance(value, bool):
             return _number(float, (value,), "number")
@@ -242,18 +245,21 @@ def evaluate(node: ast.expr, value_of: Callable[[str], float], depth: int) -> fl
             return _call(name, [evaluate(argument, value_of, depth + 1) for argument in args])
         case _:
             raise ExpressionError(
+                "wrong-expression",
                 "holds something other than numbers, parameters, + - * / % **, parentheses and functions "
-                f"({', '.join(FUNCTIONS)})"
+                f"({', '.join(FUNCTIONS)})",
             )
 
 
 def _call(name: str, arguments: list[float]) -> float:
     if name not in FUNCTIONS:
-        raise ExpressionError(unknown(f"function {name}", name, FUNCTIONS))
+        raise ExpressionError("wrong-expression", unknown(f"function {name}", name, FUNCTIONS))
     least, most = _ARGUMENTS.get(name, (1, 1))
     if not least <= len(arguments) <= most:
         wanted = str(least) if least == most else f"{least} to {most}"
-        raise ExpressionError(f"{name} takes {wanted} argument{'s' if most > 1 else ''}, has {len(arguments)}")
+        raise ExpressionError(
+            "wrong-expression", f"{name} takes {wanted} argument{'s' if most > 1 else ''}, has {len(arguments)}"
+        )
     return _number(FUNCTIONS[name], arguments, name)
 
 
@@ -262,14 +268,14 @@ def _number(function: Callable[..., Any], arguments: Any, name: str) -> float:
     try:
         result = function(*arguments)
     except ZeroDivisionError:
-        raise ExpressionError("divides by zero") from None
+        raise ExpressionError("wrong-expression", "divides by zero") from None
     except OverflowError:
-        raise ExpressionError("gives a number that is too large") from None
+        raise ExpressionError("wrong-expression", "gives a number that is too large") from None
     except ValueError:
         shown = ", ".join(f"{argument:g}" for argument in arguments)
-        raise ExpressionError(f"{name}({shown}) is not defined") from None
+        raise ExpressionError("wrong-expression", f"{name}({shown}) is not defined") from None
     if isinstance(result, complex):
-        raise ExpressionError("gives a root of a negative number")
+        raise ExpressionError("wrong-expression", "gives a root of a negative number")
     if not math.isfinite(result):
-        raise ExpressionError("gives a number that is too large")
+        raise ExpressionError("wrong-expression", "gives a number that is too large")
     return float(result)

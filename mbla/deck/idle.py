@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterator, Mapping
 from mbla.deck.analysis import AnalysisSection
 from mbla.deck.tree import KeyPath, Tree
 from mbla.deck.types import DeckContent
-from mbla.errors import Notice
+from mbla.errors import Message, Notice
 
 Applies = Callable[[AnalysisSection], bool]
 
@@ -83,4 +83,6 @@ def idle_keys(tree: Tree, content: DeckContent) -> Iterator[Notice]:
 
 
 def _notice(tree: Tree, path: KeyPath, where: str) -> Notice:
-    return Notice("warning", "key-idle", str(tree.fault(path, f"has no effect: it applies to {where}")))
+    return Notice(
+        "warning", "key-idle", str(tree.fault(path, Message("key-idle", f"has no effect: it applies to {where}")))
+    )

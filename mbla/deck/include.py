@@ -15,7 +15,7 @@ from mbla.deck.file_kind import DECK, FileKind
 from mbla.deck.reader import Document, read_yaml
 from mbla.deck.sources import SourceText, read_source, source_of_text
 from mbla.deck.tree import MappingMarks, Marks, SequenceMarks, Tree, key_text, own_mark
-from mbla.errors import DeckError, Fault, FileError
+from mbla.errors import DeckError, Fault, FileError, Message
 
 MAX_FILES = 100
 NAMED = frozenset({"parameters", "materials", "joints", "loads", "load_cases", "expected"})
@@ -77,7 +77,7 @@ def _mapping_root(reading: Reading, document: Document) -> Tree:
     if document.whole:
         found = "is empty" if document.data is None else "is not a mapping"
         words = f"{found}: a {reading.kind.name} is a mapping that begins with {reading.kind.begins}"
-        reading.faults.append(Fault(tree.place_of(mark), "", words))
+        reading.faults.append(Fault(tree.place_of(mark), "", Message("not-a-mapping", words)))
     reading.whole = False
     return tree
 
@@ -111,23 +111,25 @@ def _open(reading: Reading, source: SourceText, name: str) -> SourceText | None:
     path = confined(source.path.parent, name)
     label = os.path.normpath(Path(source.label).parent / name)
     if path in reading.active:
-        raise FileError("includes itself" if path == source.path else "includes a file that includes it in turn")
+        raise FileError(
+            "include-refused", "includes itself" if path == source.path else "includes a file that includes it in turn"
+        )
     if any(path == other.path for other in reading.sources):
         return None
     if len(reading.sources) >= MAX_FILES:
-        raise FileError(f"is one file too many: at most {MAX_FILES} are read")
+        raise FileError("include-refused", f"is one file too many: at most {MAX_FILES} are read")
     if path.suffix.lower() not in (".yaml", ".yml"):
-        raise FileError("must be a .yaml file")
+        raise FileError("include-refused", "must be a .yaml file")
     try:
         return read_source(path, label)
     except FileError as error:
-        raise FileError(str(error).removeprefix(f"{label}: ")) from error
+        raise FileError(error.identifier, str(error).removeprefix(f"{label}: ")) from error
 
 
 def _faults_of(error: FileError | DeckError, tree: Tree, index: int) -> list[Fault]:
     if isinstance(error, DeckError):
         return list(error.faults)
-    return [tree.fault(("include", index), str(error))]
+    return [tree.fault(("include", index), error.message)]
 
 
 def confined(folder: Path, name: str) -> Path:
@@ -139,16 +141,16 @@ def confined(folder: Path, name: str) -> Path:
         if the name is absolute, or leads out of the folder tree of the file that names it, links followed
     """
     if "\0" in name or len(name) > 1000:
-        raise FileError("is not a file name")
+        raise FileError("bad-file-name", "is not a file name")
     if Path(name).is_absolute() or name.startswith(("/", "\\")):
-        raise FileError("must be a path relative to the file that names it")
+        raise FileError("file-outside-folder", "must be a path relative to the file that names it")
     root = folder.resolve()
     try:
         path = (root / name).resolve()
     except (OSError, RuntimeError) as error:
-        raise FileError(f"cannot be found: {error}") from error
+        raise FileError("file-missing", f"cannot be found: {error}") from error
     if not path.is_relative_to(root):
-        raise FileError("leads out of the folder tree of the file that names it")
+        raise FileError("file-outside-folder", "leads out of the folder tree of the file that names it")
     return path
 
 
@@ -180,5 +182,5 @@ def _merge_values(reading: Reading, first: Tree, second: Tree, path: tuple[str, 
     if path != ("mbla",) or a != b:
         there = first.place_of(first.marks.keys[key])
         place = second.place_of(second.marks.keys[key])
-        reading.faults.append(Fault(place, key_text(path), f"is defined in {there} too"))
+        reading.faults.append(Fault(place, key_text(path), Message("duplicate-key", f"is defined in {there} too")))
     return b, b_marks

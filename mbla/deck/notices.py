@@ -11,7 +11,7 @@ from mbla.deck.references import unused_names
 from mbla.deck.tree import KeyPath, Tree, key_text
 from mbla.deck.types import DeckContent, Load
 from mbla.deck.units import METRES, STANDARD_GRAVITY, Units
-from mbla.errors import Notice
+from mbla.errors import Message, Notice
 
 GRAVITY_TOLERANCE = 0.02
 """Covers 9.8, 9.80665 and the variation over the earth."""
@@ -29,7 +29,7 @@ def _gravity(tree: Tree, content: DeckContent, units: Units) -> Iterator[Notice]
             continue
         size = math.hypot(*load.gravity) * METRES[units.length]
         if abs(size - STANDARD_GRAVITY) > GRAVITY_TOLERANCE * STANDARD_GRAVITY:
-            fault = tree.fault((*path, "gravity"), f"is {size:.4g} m/s^2, not 9.81")
+            fault = tree.fault((*path, "gravity"), Message("gravity-unusual", f"is {size:.4g} m/s^2, not 9.81"))
             yield Notice(
                 "warning",
                 "gravity-unusual",
@@ -50,8 +50,8 @@ def _unused(tree: Tree, content: DeckContent, parameters: Parameters) -> Iterato
     for name in content.parameters:
         if name not in parameters.used:
             path = ("parameters", name)
-            yield Notice("notice", "parameter-unused", f"{tree.fault(path, '').place} {key_text(path)} is not used")
+            yield Notice("notice", "parameter-unused", f"{tree.place_at(path)} {key_text(path)} is not used")
     for section, name in unused_names(tree.data):
         path = (section, name)
         identifier = f"{section.removesuffix('s')}-unused"
-        yield Notice("notice", identifier, f"{tree.fault(path, '').place} {key_text(path)} is not used")
+        yield Notice("notice", identifier, f"{tree.place_at(path)} {key_text(path)} is not used")

@@ -10,12 +10,12 @@ from mbla.deck.sources import SourceText
 from mbla.deck.suggestions import unknown
 from mbla.deck.tree import FILE_SHIFT, KeyPath, MappingMarks, Marks, SequenceMarks, Tree, key_text, shorten
 from mbla.deck.types import DeckContent
-from mbla.errors import Fault
+from mbla.errors import Fault, Message, Refusal
 
 LABEL = "--set"
 
 
-class RefusedError(Exception):
+class RefusedError(Refusal):
     """The override cannot be applied; the message says why."""
 
 
@@ -32,21 +32,21 @@ def apply_override(tree: Tree, text: str, number: int) -> list[Fault]:
     key, equals, _ = text.partition("=")
     if not equals or not key.strip() or "\n" in text or "\r" in text:
         message = "must be key.path=value, on one line" + ("" if equals else ": there is no =")
-        return [Fault(source.place(0), shorten(text), message)]
+        return [Fault(source.place(0), shorten(text), Message("set-refused", message))]
     offset = len(key) + 1
     document = read_yaml(source, file, offset)
     if document.faults:
         return [Fault(fault.place, key.strip(), fault.message, fault.value) for fault in document.faults]
     if key.strip().partition(".")[0] == "include":
         message = "cannot be set: files are included before anything is set"
-        return [Fault(source.place(0), key.strip(), message)]
+        return [Fault(source.place(0), key.strip(), Message("set-refused", message))]
     if document.data is None:
-        return [Fault(source.place(offset), key.strip(), "has no value: write one after the =")]
+        return [Fault(source.place(offset), key.strip(), Message("no-value", "has no value: write one after the ="))]
     try:
         _put(tree, key.strip().split("."), document.data, document.marks, file << FILE_SHIFT)
     except RefusedError as refusal:
         written = shorten(text[offset:])
-        return [Fault(source.place(0), key.strip(), str(refusal), written)]
+        return [Fault(source.place(0), key.strip(), refusal.message, written)]
     return []
 
 
@@ -71,7 +71,7 @@ def _put(tree: Tree, words: list[str], value: Any, value_marks: Marks, mark: int
                 data[key] = {}
                 marks.values[key] = MappingMarks(mark)
         else:
-            raise RefusedError("the deck has a single value there, with nothing below it")
+            raise RefusedError("set-refused", "the deck has a single value there, with nothing below it")
         if last:
             data[data_key] = value
             marks_below[data_key] = value_marks
@@ -93,9 +93,11 @@ def next_key(data: Any, words: list[str]) -> tuple[str, list[str]]:
 def item_index(data: list[Any], key: str) -> int:
     """Number of an item of a list; RefusedError where there is none."""
     if not key.isascii() or not key.isdecimal():
-        raise RefusedError(f"{shorten(key) or 'nothing'} is not a number of an item: 0 to {len(data) - 1} are allowed")
+        raise RefusedError(
+            "set-refused", f"{shorten(key) or 'nothing'} is not a number of an item: 0 to {len(data) - 1} are allowed"
+        )
     if len(key) > 9 or int(key) >= len(data):
-        raise RefusedError(f"there is no item {shorten(key)}: 0 to {len(data) - 1} are allowed")
+        raise RefusedError("set-refused", f"there is no item {shorten(key)}: 0 to {len(data) - 1} are allowed")
     return int(key)
 
 
@@ -105,4 +107,4 @@ def _check_name(data: dict[str, Any], path: KeyPath, key: str, value: Any) -> No
         return
     if path != ("parameters",) and isinstance(value, dict):
         return
-    raise RefusedError(unknown(f"name {shorten(key)} in {key_text(path)}", key, data, "known"))
+    raise RefusedError("unknown-name", unknown(f"name {shorten(key)} in {key_text(path)}", key, data, "known"))

@@ -16,6 +16,7 @@ from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
 from mbla.deck.expressions import ParameterFaultError
+from mbla.errors import ValueRefused
 
 EXPRESSION_PATTERN = "^="
 QUANTITY_PATTERN = r"^(=|\s*[-+]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][-+]?[0-9]+)? *[A-Za-zµμ°])"
@@ -76,8 +77,8 @@ def _from_text(dimension: str, accept: Callable[[Any], Any], then: CoreSchema) -
             return accept(function(value, dimension))
         except ParameterFaultError:
             raise PydanticCustomError("reported", "uses a parameter that is at fault itself") from None
-        except ValueError as error:
-            raise PydanticCustomError("quantity", "{reason}", {"reason": str(error)}) from None
+        except ValueRefused as error:
+            raise PydanticCustomError("quantity", "{reason}", {"reason": error.message}) from None
 
     return core_schema.chain_schema([core_schema.with_info_plain_validator_function(convert), then])
 

@@ -15,7 +15,7 @@ from mbla.deck.file_kind import DECK, FileKind
 from mbla.deck.scalars import plain_scalar
 from mbla.deck.sources import SourceText, has_control_character
 from mbla.deck.tree import FILE_SHIFT, OFFSET_MASK, KeyPath, MappingMarks, Marks, SequenceMarks, key_text, shorten
-from mbla.errors import Fault, Place
+from mbla.errors import Fault, Message, Place, ValueRefused
 
 MAX_DEPTH = 64
 """Nesting of brackets and indentation; the deck's own types need ten."""
@@ -103,7 +103,7 @@ class _Builder:
         if event.style:
             value = text
             if event.style == '"' and has_control_character(text):
-                self.fault(mark, "control characters are not allowed in a text")
+                self.fault(mark, Message("control-character", "control characters are not allowed in a text"))
         elif (value := self.plain.get(text)) is None:
             value = self.plain_value(text, mark)
         if event.anchor or event.tag:
@@ -131,7 +131,7 @@ class _Builder:
             self.open({}, MappingMarks(mark), event)
         elif kind is yaml.AliasEvent:
             message = f"aliases (*{shorten(event.anchor)}) are not allowed: {self.kind.alias}"
-            self.fault(mark, message)
+            self.fault(mark, Message("yaml-not-allowed", message))
             self.reported.add(mark)
             self.put_value_or_key(None, mark)
         elif kind is yaml.DocumentStartEvent:
@@ -140,10 +140,14 @@ class _Builder:
     def start_document(self, event: Any, mark: int) -> None:
         self.documents += 1
         if self.documents == 2:
-            self.fault(mark, f"a second document begins here: a {self.kind.name} is one document", path=())
+            self.fault(
+                mark,
+                Message("yaml-not-allowed", f"a second document begins here: a {self.kind.name} is one document"),
+                path=(),
+            )
             raise _StopError
         if event.version == (1, 1) or event.tags:
-            self.fault(mark, "directives other than %YAML 1.2 are not allowed", path=())
+            self.fault(mark, Message("yaml-not-allowed", "directives other than %YAML 1.2 are not allowed"), path=())
 
     # --- putting values where they belong ---
 
@@ -151,7 +155,7 @@ class _Builder:
         if event.anchor or event.tag:
             self.refuse_properties(event, marks.own)
         if len(self.stack) >= MAX_DEPTH:
-            self.fault(marks.own, f"is nested more than {MAX_DEPTH} levels deep", path=())
+            self.fault(marks.own, Message("nested-too-deeply", f"is nested more than {MAX_DEPTH} levels deep"), path=())
             raise _StopError
         key = self.key
         self.put_value_or_key(data, marks)
@@ -169,7 +173,7 @@ class _Builder:
             self.put_under_key(value, marks)
         else:
             if value is not None:  # an alias is already reported
-                self.fault(marks.own, "a key must be text")
+                self.fault(marks.own, Message("key-not-text", "a key must be text"))
             self.leave_out()
 
     def put_under_key(self, value: Any, marks: Any) -> None:
@@ -181,14 +185,24 @@ class _Builder:
     def take_key(self, value: Any, text: str, mark: int) -> None:
         if text == "<<":
             self.leave_out()
-            self.fault(mark, f"merge keys (<<) are not allowed: {self.kind.merge}")
+            self.fault(mark, Message("yaml-not-allowed", f"merge keys (<<) are not allowed: {self.kind.merge}"))
         elif not isinstance(value, str):
             self.leave_out()
-            self.fault(mark, f'a key must be text: write "{shorten(text)}" in quotes' if text else "a key is missing")
+            self.fault(
+                mark,
+                Message(
+                    "key-not-text",
+                    f'a key must be text: write "{shorten(text)}" in quotes' if text else "a key is missing",
+                ),
+            )
         elif value in self.data:
             self.key = _DROPPED
             first = self.place(self.marks.keys[value])
-            self.fault(mark, f"is given twice, first in line {first.line}", path=(*self.path(), value))
+            self.fault(
+                mark,
+                Message("duplicate-key", f"is given twice, first in line {first.line}"),
+                path=(*self.path(), value),
+            )
         else:
             self.key = value
             self.marks.keys[value] = mark
@@ -202,13 +216,13 @@ class _Builder:
         """Value of a plain scalar; None, and reported, for what no key of a deck takes."""
         try:
             value = plain_scalar(text)
-        except ValueError as error:
-            self.fault(mark, str(error), text)
+        except ValueRefused as error:
+            self.fault(mark, error.message, text)
             self.reported.add(mark)
             return None
         if value is None and not (type(self.data) is dict and self.key is _NO_KEY):
             if self.stack:  # an empty document has its own message
-                self.fault(mark, "has no value: give one, or leave the key out", text or None)
+                self.fault(mark, Message("no-value", "has no value: give one, or leave the key out"), text or None)
                 self.reported.add(mark)
         else:
             self.plain[text] = value
@@ -228,16 +242,16 @@ class _Builder:
             if type(data) is list or isinstance(key, str)
         )
 
-    def fault(self, mark: int, message: str, value: str | None = None, path: KeyPath | None = None) -> None:
+    def fault(self, mark: int, message: Message, value: str | None = None, path: KeyPath | None = None) -> None:
         key = key_text(self.path() if path is None else path)
         self.faults.append(Fault(self.place(mark), key, message, shorten(value) if value else None))
 
     def refuse_properties(self, event: Any, mark: int) -> None:
         if event.anchor:
-            self.fault(mark, f"anchors (&{shorten(event.anchor)}) are not allowed")
+            self.fault(mark, Message("yaml-not-allowed", f"anchors (&{shorten(event.anchor)}) are not allowed"))
         if event.tag:
             tag = event.tag.replace("tag:yaml.org,2002:", "!!")
-            self.fault(mark, f"tags ({shorten(tag)}) are not allowed")
+            self.fault(mark, Message("yaml-not-allowed", f"tags ({shorten(tag)}) are not allowed"))
 
     def syntax_fault(self, error: yaml.YAMLError) -> None:
         self.whole = False
@@ -254,4 +268,4 @@ class _Builder:
             words += f" (it began in line {line})"
         if self.source.text[offset : offset + 1] == "\t":
             words += " (indent with spaces, not with tabs)"
-        self.faults.append(Fault(self.source.place(offset), "", words))
+        self.faults.append(Fault(self.source.place(offset), "", Message("not-yaml", words)))

@@ -19,7 +19,7 @@ from mbla.deck.tree import KeyPath, Tree
 from mbla.deck.types import DeckContent, UnitsSection
 from mbla.deck.units import Units
 from mbla.deck.validation import validate
-from mbla.errors import DeckError, Fault, FileError
+from mbla.errors import DeckError, Fault, FileError, Message
 from mbla.sharing import copied
 
 
@@ -64,7 +64,13 @@ def _read(path: Path, overrides: Sequence[str], text: str | None = None, *, expe
         raise DeckError(reading.faults)
     if "mbla_sweep" in tree.data and "mbla" not in tree.data:
         raise DeckError(
-            [tree.fault(("mbla_sweep",), "this is a sweep file, not a deck: mbla sweep runs it", at_key=True)]
+            [
+                tree.fault(
+                    ("mbla_sweep",),
+                    Message("sweep-file-and-deck", "this is a sweep file, not a deck: mbla sweep runs it"),
+                    at_key=True,
+                )
+            ]
         )
     if not expected:
         tree.data.pop("expected", None)
@@ -143,7 +149,7 @@ def _resolver(tree: Tree, deck_path: Path) -> Callable[[KeyPath, str], Path]:
             found = confined(source.parent, name)
             check_regular(found)
         except FileError as error:
-            raise DeckError([tree.fault(path, str(error))]) from error
+            raise DeckError([tree.fault(path, error.message)]) from error
         return found
 
     return resolve_file
@@ -153,10 +159,10 @@ def check_regular(path: Path) -> None:
     """FileError unless a path is a regular file that can be opened."""
     try:
         if not path.exists():
-            raise FileError("does not exist")
+            raise FileError("file-missing", "does not exist")
         if not path.is_file():
-            raise FileError("is not a regular file")
+            raise FileError("not-a-regular-file", "is not a regular file")
         with path.open("rb"):
             pass
     except OSError as error:
-        raise FileError(f"cannot be opened: {error.strerror or error}") from error
+        raise FileError("file-unreadable", f"cannot be opened: {error.strerror or error}") from error

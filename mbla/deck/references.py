@@ -14,7 +14,7 @@ from mbla.deck.joints import BUILT_IN
 from mbla.deck.suggestions import unknown
 from mbla.deck.tree import KeyPath, Tree
 from mbla.deck.types import BlockItem
-from mbla.errors import Fault
+from mbla.errors import Fault, Message
 
 GROUND = "ground"
 """Name that stands for ground planes in `contacts.overrides`."""
@@ -75,18 +75,25 @@ def check_references(tree: Tree) -> Iterator[Fault]:
         names = [*known[reference.kind], *reference.also]
         for path, name in find(data, reference.path.split(".")):
             if isinstance(name, str) and name not in names:
-                yield tree.fault(path, unknown(reference.kind, name, names, "known"))
+                yield tree.fault(path, Message("unknown-name", unknown(reference.kind, name, names, "known")))
     cases = _keys(data.get("load_cases"))
     for case in _keys(data.get("expected")):
         if case not in cases:
-            yield tree.fault(("expected", case), unknown("load case", case, cases, "known"), at_key=True)
+            yield tree.fault(
+                ("expected", case), Message("unknown-name", unknown("load case", case, cases, "known")), at_key=True
+            )
     for law in _keys(data.get("joints")):
         if law in BUILT_IN:
             message = f"{law} is a joint law that every deck knows: choose another name, or use it without declaring it"
-            yield tree.fault(("joints", law), message, at_key=True)
+            yield tree.fault(("joints", law), Message("reserved-name", message), at_key=True)
     for path, group in find(data, ["blocks", "#", "*", "group"]):
         if group == GROUND:
-            yield tree.fault(path, f"{GROUND} stands for ground planes in contacts.overrides: choose another name")
+            yield tree.fault(
+                path,
+                Message(
+                    "reserved-name", f"{GROUND} stands for ground planes in contacts.overrides: choose another name"
+                ),
+            )
 
 
 def unused_names(data: dict[str, Any]) -> Iterator[tuple[str, str]]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from mbla.deck.tree import KeyPath
+from mbla.errors import Message
 
 FOREIGN: Mapping[tuple[str, str], str] = {
     ("supports", "stiffness"): "elastic supports are not taken: the collapse load of rigid blocks does not depend on "
@@ -19,8 +20,9 @@ REPLACED: Mapping[KeyPath, str] = {
 """Keys of earlier versions: path of the key -> the key that says the same now"""
 
 
-def refusal(path: KeyPath) -> str | None:
+def refusal(path: KeyPath) -> Message | None:
     """Why a deck cannot have the key at a path; None where there is no more to say than that it is unknown."""
     if path in REPLACED:
-        return f"is not a key any more: write {REPLACED[path]}"
-    return FOREIGN.get((str(path[0]), str(path[-1]))) if len(path) > 1 else None
+        return Message("replaced-key", f"is not a key any more: write {REPLACED[path]}")
+    why = FOREIGN.get((str(path[0]), str(path[-1]))) if len(path) > 1 else None
+    return None if why is None else Message("key-of-another-program", why)

@@ -8,6 +8,8 @@ from __future__ import annotations
 import re
 from typing import TypeAlias
 
+from mbla.errors import ValueRefused
+
 Scalar: TypeAlias = str | int | float | bool | None
 
 _NUMBER = re.compile(
@@ -29,7 +31,7 @@ def plain_scalar(text: str) -> Scalar:
 
     Raises
     ------
-    ValueError
+    ValueRefused
         for infinity, not-a-number, and numbers too large for double precision
     """
     if text[:1] not in _NUMBER_START or (match := _NUMBER.fullmatch(text)) is None:
@@ -38,22 +40,22 @@ def plain_scalar(text: str) -> Scalar:
     if kind == "float":
         return _finite(float(text))
     if kind == "nonfinite":
-        raise ValueError("must be a finite number")
+        raise ValueRefused("not-a-number", "must be a finite number")
     if kind == "int" and len(text) <= 15:
         return int(text)
     base = {"int": 10, "octal": 8, "hex": 16}[kind or "int"]
     if len(text) > 400:  # int() itself refuses more than 4300 digits; nothing finite has as many as 400
-        raise ValueError("is too large for a number")
+        raise ValueRefused("not-a-number", "is too large for a number")
     number = int(text, base if base == 10 else 0)
     if abs(number) <= _EXACT:
         return number
     try:
         return _finite(float(number))
     except OverflowError:
-        raise ValueError("is too large for a number") from None
+        raise ValueRefused("not-a-number", "is too large for a number") from None
 
 
 def _finite(number: float) -> float:
     if abs(number) == float("inf"):
-        raise ValueError("is too large for a number")
+        raise ValueRefused("not-a-number", "is too large for a number")
     return number

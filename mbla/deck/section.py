@@ -8,7 +8,9 @@ from typing import Any, TypeAlias, TypeVar
 from pydantic import BaseModel, ConfigDict, ValidationInfo, model_validator
 from pydantic_core import PydanticCustomError
 
-Finding: TypeAlias = tuple[tuple[str | int, ...], str]
+from mbla.errors import Message
+
+Finding: TypeAlias = tuple[tuple[str | int, ...], Message]
 """Key path below the section, and what is wrong there."""
 Rule: TypeAlias = Callable[[Any], Iterator[Finding]]
 

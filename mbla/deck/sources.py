@@ -11,7 +11,7 @@ from functools import cached_property
 from pathlib import Path
 
 from mbla.deck.file_kind import DECK, FileKind
-from mbla.errors import DeckError, Fault, FileError, Place
+from mbla.errors import DeckError, Fault, FileError, Message, Place
 
 MAX_BYTES = 64 * 1024 * 1024
 """Larger decks are refused: geometry of that size belongs in a mesh file."""
@@ -56,15 +56,17 @@ def read_bytes(path: Path, label: str) -> bytes:
     try:
         descriptor = os.open(path, os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0))
     except (OSError, ValueError) as error:
-        raise FileError(f"{label}: cannot be opened: {getattr(error, 'strerror', None) or error}") from error
+        raise FileError(
+            "file-unreadable", f"{label}: cannot be opened: {getattr(error, 'strerror', None) or error}"
+        ) from error
     if not stat.S_ISREG(os.fstat(descriptor).st_mode):
         os.close(descriptor)
-        raise FileError(f"{label}: is not a regular file")
+        raise FileError("not-a-regular-file", f"{label}: is not a regular file")
     with os.fdopen(descriptor, "rb") as file:
         try:
             return file.read(MAX_BYTES + 1)
         except OSError as error:
-            raise FileError(f"{label}: cannot be read: {error.strerror or error}") from error
+            raise FileError("file-unreadable", f"{label}: cannot be read: {error.strerror or error}") from error
 
 
 def read_source(path: Path, label: str, kind: FileKind = DECK) -> SourceText:
@@ -91,7 +93,11 @@ def check_characters(source: SourceText, kind: FileKind = DECK) -> None:
     """DeckError at the first control character."""
     if match := _CONTROL.search(source.text):
         raise _refusal(
-            source, match.start(), f"control character U+{ord(match.group()):04X} is not allowed in a {kind.name}"
+            source,
+            match.start(),
+            Message(
+                "control-character", f"control character U+{ord(match.group()):04X} is not allowed in a {kind.name}"
+            ),
         )
 
 
@@ -104,9 +110,9 @@ def _decode(content: bytes, label: str, kind: FileKind) -> str:
     start = SourceText(label, "")
     if len(content) > MAX_BYTES:
         limit = MAX_BYTES // 1024**2
-        raise _refusal(start, 0, f"is larger than {limit} MB: {kind.large}")
+        raise _refusal(start, 0, Message("file-too-large", f"is larger than {limit} MB: {kind.large}"))
     if content[:2] in (b"\xff\xfe", b"\xfe\xff"):
-        raise _refusal(start, 0, "is UTF-16 text: save it as UTF-8")
+        raise _refusal(start, 0, Message("not-utf-8", "is UTF-16 text: save it as UTF-8"))
     try:
         text = content.decode("utf-8-sig")
     except UnicodeDecodeError as error:
@@ -114,11 +120,13 @@ def _decode(content: bytes, label: str, kind: FileKind) -> str:
         before = content[: error.start].decode("utf-8-sig", "replace")
         byte = content[error.start]
         raise _refusal(
-            SourceText(label, before), len(before), f"byte 0x{byte:02X} is not UTF-8: save the {kind.name} as UTF-8"
+            SourceText(label, before),
+            len(before),
+            Message("not-utf-8", f"byte 0x{byte:02X} is not UTF-8: save the {kind.name} as UTF-8"),
         ) from None
     check_characters(SourceText(label, text), kind)
     return text
 
 
-def _refusal(source: SourceText, offset: int, message: str) -> DeckError:
+def _refusal(source: SourceText, offset: int, message: Message) -> DeckError:
     return DeckError([Fault(source.place(offset), "", message)])

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from typing import Any, TypeAlias
 
 from mbla.deck.sources import SourceText
-from mbla.errors import Fault, Place
+from mbla.errors import Fault, Message, Place
 
 KeyPath: TypeAlias = tuple[str | int, ...]
 
@@ -83,23 +83,31 @@ class Tree:
         """Mark of the value at a path, or of the nearest mapping or list around it."""
         return self.marks_along(path)[-1]
 
-    def fault(self, path: KeyPath, message: str, at_key: bool = False) -> Fault:
+    def fault(self, path: KeyPath, message: Message, at_key: bool = False) -> Fault:
         """Fault of the value at a path, or of its key; what does not exist is reported where its mapping begins."""
+        place, written = self._told(path, at_key)
+        return Fault(place, key_text(path), message, written)
+
+    def place_at(self, path: KeyPath) -> Place:
+        """Where a fault of the value at a path would be told."""
+        return self._told(path, at_key=False)[0]
+
+    def _told(self, path: KeyPath, at_key: bool) -> tuple[Place, str | None]:
+        """Place of a fault, and the value there as written."""
         marks: Marks = self.marks
         data: Any = self.data
         place = self.marks.own
         for depth, key in enumerate(path):
             below = _step(marks, key)
             if below is None:
-                return Fault(self.place_of(place), key_text(path), message)
+                return self.place_of(place), None
             data = data[key]
             # A mapping is announced by its key; its first character is already its first content.
             last_key = depth == len(path) - 1 and at_key
             by_key = isinstance(marks, MappingMarks) and (last_key or isinstance(below, MappingMarks))
             place = marks.keys[str(key)] if by_key and isinstance(marks, MappingMarks) else own_mark(below)
             marks = below
-        written = self._written(own_mark(marks), data) if path else None
-        return Fault(self.place_of(place), key_text(path), message, written)
+        return self.place_of(place), self._written(own_mark(marks), data) if path else None
 
     def _written(self, mark: int, value: Any) -> str | None:
         """A value as the deck has it, shortened; None for mappings and for lists over several lines."""

@@ -7,6 +7,8 @@ from dataclasses import dataclass
 from functools import cache
 from typing import Any
 
+from mbla.errors import ValueRefused
+
 METRES = {"m": 1.0, "mm": 1e-3, "cm": 1e-2, "ft": 0.3048, "in": 0.0254}
 NEWTONS = {"N": 1.0, "kN": 1e3, "MN": 1e6, "lbf": 4.4482216152605, "kip": 4448.2216152605}
 KILOGRAMS = {"kg": 1.0, "t": 1e3, "lb": 0.45359237}
@@ -95,12 +97,12 @@ class Units:
 
         Raises
         ------
-        ValueError
+        ValueRefused
             with what is wrong with the string and what to write instead
         """
         number, unit = _split(text, dimension)
         if dimension == "number":
-            raise ValueError("must be a number without a unit")
+            raise ValueRefused("wrong-unit", "must be a number without a unit")
         length, force, mass = DIMENSIONS[dimension].powers
         size = METRES[self.length] ** length * NEWTONS[self.force] ** force * KILOGRAMS[self.mass] ** mass
         return number * (_si_factor(unit, dimension) / size)
@@ -120,12 +122,12 @@ def _split(text: str, dimension: str) -> tuple[float, str]:
     remedy = f', or a text such as "{example}"' if example else ""
     match = _QUANTITY.fullmatch(text.strip()) if len(text) <= 100 else None
     if match is None:
-        raise ValueError(f"must be a number{remedy}")
+        raise ValueRefused("not-a-number", f"must be a number{remedy}")
     number = float(match[1])
     if abs(number) == float("inf"):
-        raise ValueError("is too large for a number")
+        raise ValueRefused("not-a-number", "is too large for a number")
     if match[2] is None:
-        raise ValueError(f"is a text: write the number without quotes{remedy}")
+        raise ValueRefused("not-a-number", f"is a text: write the number without quotes{remedy}")
     return number, match[2]
 
 
@@ -174,14 +176,20 @@ def _factor_by_pint(unit: str, dimension: str) -> float:
     try:
         parsed = registry.parse_units(unit.replace("·", "*").replace("°", "degree"))
     except Exception as error:  # pint raises its own, tokenize's and plain errors on what it does not know
-        raise ValueError(f'has an unknown unit "{unit}": write for example "{wanted.example}"') from error
+        raise ValueRefused(
+            "wrong-unit", f'has an unknown unit "{unit}": write for example "{wanted.example}"'
+        ) from error
     root = registry.Quantity(1.0, parsed).to_root_units()
     # To pint an angle is a plain ratio; `percent` must not pass for one.
     is_angle = "radian" in str(root.units)
     if parsed.dimensionality != registry.parse_units(wanted.si).dimensionality or is_angle != (dimension == "angle"):
         found = _measured(registry, parsed, is_angle)
-        raise ValueError(f'is not {_article(shown)} {shown} but {found}: write for example "{wanted.example}"')
+        raise ValueRefused(
+            "wrong-unit", f'is not {_article(shown)} {shown} but {found}: write for example "{wanted.example}"'
+        )
     try:
         return float(registry.Quantity(1.0, parsed).to(wanted.si).magnitude)
     except pint.errors.PintError as error:
-        raise ValueError(f'"{unit}" cannot be converted: write for example "{wanted.example}"') from error
+        raise ValueRefused(
+            "wrong-unit", f'"{unit}" cannot be converted: write for example "{wanted.example}"'
+        ) from error

@@ -15,7 +15,7 @@ from mbla.deck.rules.exactly_one import KINDS
 from mbla.deck.suggestions import did_you_mean, listed, unknown
 from mbla.deck.tree import KeyPath, MappingMarks, SequenceMarks, Tree, own_mark
 from mbla.deck.types import DeckContent
-from mbla.errors import Fault
+from mbla.errors import Fault, Message
 
 Convert = Callable[[str, str], float]
 Root = TypeVar("Root", bound=BaseModel)
@@ -56,7 +56,7 @@ def _faults(
             by_path[path] = error  # of the branches of a number, the last knows most
     for path, length in lengths.items():
         found = len(_value_at(tree.data, path))
-        yield tree.fault(path, f"needs {length} {_items(tree.data, path)}, has {found}")
+        yield tree.fault(path, Message("wrong-length", f"needs {length} {_items(tree.data, path)}, has {found}"))
     for path, error in by_path.items():
         marks = tree.marks_along(path)
         if error["type"] == "reported" or not reported.isdisjoint(marks):
@@ -110,50 +110,59 @@ def _value_at(data: Any, path: KeyPath) -> Any:
 # --- words --------------------------------------------------------------------------------------------------------
 
 _MESSAGES = {
-    "greater_than": "must be > {gt:g}",
-    "greater_than_equal": "must be >= {ge:g}",
-    "less_than": "must be < {lt:g}",
-    "less_than_equal": "must be <= {le:g}",
-    "bool_type": "must be true or false",
-    "bool_parsing": "must be true or false",
-    "list_type": "must be a list: [...]",
-    "tuple_type": "must be a list: [...]",
-    "dict_type": "must be a mapping: {{key: value}}",
-    "model_type": "must be a mapping: {{key: value}}",
-    "model_attributes_type": "must be a mapping: {{key: value}}",
-    "string_too_long": "has more than {max_length} characters",
-    "string_too_short": "must not be empty",
-    "finite_number": "must be a finite number",
-    "quantity": "{reason}",
-    "reserved": "means something else in expressions: choose another name",
-    "reported": "uses a parameter that is at fault itself",
+    "greater_than": Message("out-of-bounds", "must be > {gt:g}"),
+    "greater_than_equal": Message("out-of-bounds", "must be >= {ge:g}"),
+    "less_than": Message("out-of-bounds", "must be < {lt:g}"),
+    "less_than_equal": Message("out-of-bounds", "must be <= {le:g}"),
+    "bool_type": Message("wrong-type", "must be true or false"),
+    "bool_parsing": Message("wrong-type", "must be true or false"),
+    "list_type": Message("wrong-type", "must be a list: [...]"),
+    "tuple_type": Message("wrong-type", "must be a list: [...]"),
+    "dict_type": Message("wrong-type", "must be a mapping: {{key: value}}"),
+    "model_type": Message("wrong-type", "must be a mapping: {{key: value}}"),
+    "model_attributes_type": Message("wrong-type", "must be a mapping: {{key: value}}"),
+    "string_too_long": Message("wrong-text", "has more than {max_length} characters"),
+    "string_too_short": Message("wrong-text", "must not be empty"),
+    "finite_number": Message("not-a-number", "must be a finite number"),
+    "reserved": Message("reserved-name", "means something else in expressions: choose another name"),
 }
 _BOUNDS = ("greater_than", "greater_than_equal", "less_than", "less_than_equal")
-_TYPES = {"float_type": "must be a number", "int_type": "must be a whole number", "string_type": "must be a text"}
+_TYPES = {
+    "float_type": Message("not-a-number", "must be a number"),
+    "int_type": Message("not-a-number", "must be a whole number"),
+    "string_type": Message("wrong-type", "must be a text"),
+}
 
 
-def _words(root: type[BaseModel], data: Any, path: KeyPath, error: Any) -> tuple[str, bool]:
+def _words(root: type[BaseModel], data: Any, path: KeyPath, error: Any) -> tuple[Message, bool]:
     """Message of an error, and whether it is about the key rather than the value."""
     kind, context = error["type"], error.get("ctx", {})
     value = error["input"]
     is_key = bool(error["loc"]) and error["loc"][-1] == "[key]"
     if kind == "missing":
         meaning = description(root, path)
-        return "is missing" + (f": {meaning}" if meaning else ""), False
+        return Message("missing-key", "is missing" + (f": {meaning}" if meaning else "")), False
     if kind == "extra_forbidden":
-        return (refusal(path) if root is DeckContent else None) or _unknown_key(root, path), True
+        return (refusal(path) if root is DeckContent else None) or Message(
+            "unknown-key", _unknown_key(root, path)
+        ), True
     if kind in ("too_long", "too_short"):
-        return _length(context, _items(data, path)), False
+        return Message("wrong-length", _length(context, _items(data, path))), False
     if kind in _TYPES:
-        return _TYPES[kind] + _remedy(kind, value), is_key
+        return _TYPES[kind].around(after=_remedy(kind, value)), is_key
     if kind == "literal_error":
         allowed = [choice.strip("'") for choice in context["expected"].replace(" or ", ", ").split(", ")]
         hint = did_you_mean(value, allowed) if isinstance(value, str) and len(allowed) > 1 else ""
-        return f"must be {listed(allowed)}{hint}", False
+        return Message("unknown-choice", f"must be {listed(allowed)}{hint}"), False
     if kind == "string_pattern_mismatch":
-        return PATTERNS[context["pattern"]], is_key
-    message = _MESSAGES[kind].format(**context) if kind in _MESSAGES else error["msg"]
-    return message + (_comes_to(data, path, value) if kind in _BOUNDS else ""), is_key
+        return Message("wrong-text", PATTERNS[context["pattern"]]), is_key
+    if kind == "quantity":
+        return context["reason"], is_key
+    known = _MESSAGES.get(kind)
+    if known is None:
+        return Message("wrong-value", error["msg"]), is_key
+    comes_to = _comes_to(data, path, value) if kind in _BOUNDS else ""
+    return Message(known.identifier, known.format(**context) + comes_to), is_key
 
 
 def _comes_to(data: Any, path: KeyPath, value: Any) -> str:

@@ -10,7 +10,7 @@ import numpy as np
 from mbla.arrays import BoolArray
 from mbla.deck.tree import KeyPath
 from mbla.deck.types import AddedMass
-from mbla.errors import Fault, Notice
+from mbla.errors import Fault, Message, Notice
 from mbla.model.blocks import Blocks
 from mbla.model.outside import distance_outside
 from mbla.model.selectors import Roster, select_blocks
@@ -36,7 +36,7 @@ def with_added_masses(
             continue
         if added.at is not None and len(chosen) != 1:
             message = f"applies to a mass on one block, {len(chosen)} are selected: give an index, or one mass for each"
-            faults.append(roster.fault_at((*path, "at"), message))
+            faults.append(roster.fault_at((*path, "at"), Message("one-block-only", message)))
             continue
         shares = added.mass * blocks.volumes[chosen] / (blocks.volumes[chosen].sum() or 1.0)
         arms = np.zeros((len(chosen), 3)) if added.at is None else np.array([added.at]) - blocks.centroids[chosen]

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
-from mbla.errors import MblaError, Notice
+from mbla.errors import MblaError, Message, Notice
 from mbla.model.blocks import Blocks
 from mbla.model.convexity import find_convex
 from mbla.model.defects import (
@@ -87,7 +87,9 @@ def blocks_from_polyhedra(
         polyhedra, Labels(names, indices_in_groups(names), density, no_labels(len(polyhedra))), tolerance
     )
     if built.defects:
-        raise MblaError("\n".join(f"block {built.blocks.name(d.block)}: {d.message}" for d in built.defects))
+        raise MblaError(
+            "block-refused", "\n".join(f"block {built.blocks.name(d.block)}: {d.message}" for d in built.defects)
+        )
     return built.blocks
 
 
@@ -186,13 +188,18 @@ def _oriented(polyhedra: Polyhedra, edges: Edges) -> tuple[Polyhedra, BoolArray,
     pieces = count_pieces(polyhedra, edges)
     defects += _among_sound(
         defects,
-        [Defect(int(b), f"is {pieces[b]} separate pieces: each must be a block") for b in np.flatnonzero(pieces > 1)],
+        [
+            Defect(int(b), Message("bad-polyhedron", f"is {pieces[b]} separate pieces: each must be a block"))
+            for b in np.flatnonzero(pieces > 1)
+        ],
         len(polyhedra),
     )
     turned, one_sided = faces_to_turn(polyhedra, edges)
     message = "is one-sided: its faces cannot all be turned outwards"
     defects += _among_sound(
-        defects, [Defect(int(block), message) for block in np.flatnonzero(one_sided)], len(polyhedra)
+        defects,
+        [Defect(int(block), Message("bad-polyhedron", message)) for block in np.flatnonzero(one_sided)],
+        len(polyhedra),
     )
     volumes, _ = volumes_and_centroids(turn_faces(polyhedra, turned))
     turned = turned ^ (volumes < 0)[polyhedra.block_of_face]

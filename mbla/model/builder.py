@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from mbla.deck.deck import Deck
 from mbla.deck.tree import KeyPath
 from mbla.deck.types import LoadCaseSection
-from mbla.errors import DeckError, Fault, Notice
+from mbla.errors import DeckError, Fault, Message, Notice
 from mbla.model.joint_laws import build_joints, joint_notices
 from mbla.model.loads import LoadSite, build_load_cases
 from mbla.model.model import LoadCase, Model
@@ -84,6 +84,9 @@ def _load_cases(name: str, section: LoadCaseSection, site: LoadSite, supports: S
             where = "" if load_case.travel is None else f" at position {load_case.travel.number}"
             site.refuse(
                 (*path, "live"),
-                f"the supports take every live load{where}, for they act on guided blocks across what these may do",
+                Message(
+                    "live-load-without-effect",
+                    f"the supports take every live load{where}, for they act on guided blocks across what these may do",
+                ),
             )
     return load_cases

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
+from mbla.errors import Message
 from mbla.model.face_geometry import FaceGeometry
 from mbla.model.orientation import Edges
 from mbla.model.polyhedra import Polyhedra
@@ -29,7 +30,7 @@ class Defect:
     """One reason why a block is refused; ``face`` is the number of the face in its block, where it is about one."""
 
     block: int
-    message: str
+    message: Message
     face: int | None = None
 
 
@@ -59,8 +60,11 @@ def coordinate_defects(polyhedra: Polyhedra) -> list[Defect]:
     return [
         Defect(
             int(block),
-            f"vertex {row - polyhedra.vertex_start[block]} has a coordinate that is not finite "
-            f"or exceeds {LARGEST_COORDINATE:.0e}",
+            Message(
+                "coordinate-out-of-range",
+                f"vertex {row - polyhedra.vertex_start[block]} has a coordinate that is not finite "
+                f"or exceeds {LARGEST_COORDINATE:.0e}",
+            ),
         )
         for block, row in zip(blocks, rows, strict=True)
     ]
@@ -76,11 +80,15 @@ def corner_defects(polyhedra: Polyhedra, extents: Extents) -> list[Defect]:
         block = int(polyhedra.block_of_face[number])
         local = vertex - int(polyhedra.vertex_start[block])
         at = number - int(polyhedra.face_start[block])
-        defects.append(Defect(block, f"face {at} passes vertex {local} twice", at))
+        defects.append(Defect(block, Message("bad-polyhedron", f"face {at} passes vertex {local} twice"), at))
     for one, other in _coincident_vertices(polyhedra, extents):
         block = int(polyhedra.block_of_vertex[one])
         first = int(polyhedra.vertex_start[block])
-        defects.append(Defect(block, f"vertices {one - first} and {other - first} lie at the same place"))
+        defects.append(
+            Defect(
+                block, Message("bad-polyhedron", f"vertices {one - first} and {other - first} lie at the same place")
+            )
+        )
     return defects
 
 
@@ -117,13 +125,22 @@ def edge_defects(polyhedra: Polyhedra, edges: Edges) -> list[Defect]:
         twice = _face_listed_twice(polyhedra, block) if len(crowded) else None
         if twice is not None:
             message = f"faces {twice[0]} and {twice[1]} have the same corners: each face is listed once"
-            defects.append(Defect(block, message, twice[1]))
+            defects.append(Defect(block, Message("bad-polyhedron", message), twice[1]))
         elif len(crowded):
-            defects.append(Defect(block, f"{_edges_in_words(polyhedra, edges, block, crowded)} more than two faces"))
+            defects.append(
+                Defect(
+                    block,
+                    Message(
+                        "bad-polyhedron", f"{_edges_in_words(polyhedra, edges, block, crowded)} more than two faces"
+                    ),
+                )
+            )
         else:
             face = int(edges.any_face[lone[0]] - polyhedra.face_start[block])
             words = _edges_in_words(polyhedra, edges, block, lone)
-            defects.append(Defect(block, f"is not closed: {words} one face only, face {face}"))
+            defects.append(
+                Defect(block, Message("open-polyhedron", f"is not closed: {words} one face only, face {face}"))
+            )
     return defects
 
 
@@ -152,11 +169,13 @@ def size_defects(polyhedra: Polyhedra, faces: FaceGeometry, volumes: FloatArray,
     flat = np.flatnonzero(faces.areas <= least)
     blocks, first = np.unique(block[flat], return_index=True)
     for number, face in zip(blocks.tolist(), (flat[first] - polyhedra.face_start[blocks]).tolist(), strict=True):
-        defects.append(Defect(number, f"face {face} has no area", face))
+        defects.append(Defect(number, Message("bad-polyhedron", f"face {face} has no area"), face))
     surfaces = row_sums(faces.areas, polyhedra.face_start)
     least = np.maximum(NO_VOLUME * extents.diagonals**3, 2 * extents.rounding * surfaces)
     empty = (np.abs(volumes) <= least) & ~np.isin(np.arange(len(polyhedra)), blocks)
-    return defects + [Defect(int(number), "has no volume") for number in np.flatnonzero(empty)]
+    return defects + [
+        Defect(int(number), Message("bad-polyhedron", "has no volume")) for number in np.flatnonzero(empty)
+    ]
 
 
 def planarity_defects(polyhedra: Polyhedra, faces: FaceGeometry, sizes: FloatArray, tolerance: float) -> list[Defect]:
@@ -176,7 +195,7 @@ def planarity_defects(polyhedra: Polyhedra, faces: FaceGeometry, sizes: FloatArr
             f"{which} not planar: corners leave the plane by {deviation:.3g}, {deviation / sizes[block]:.2%} of the "
             f"block size; contacts.tolerance allows {tolerance:.2%}"
         )
-        defects.append(Defect(block, message, face))
+        defects.append(Defect(block, Message("face-not-planar", message), face))
     return defects
 
 

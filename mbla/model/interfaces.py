@@ -14,7 +14,7 @@ from mbla.deck.deck import Deck
 from mbla.deck.joints import BUILT_IN
 from mbla.deck.suggestions import did_you_mean, unknown
 from mbla.deck.tree import KeyPath
-from mbla.errors import DeckError, Fault
+from mbla.errors import DeckError, Fault, Message
 from mbla.model.blocks import Blocks
 from mbla.model.interface_overlaps import overlapping
 from mbla.model.model import GivenInterfaces, Ground
@@ -66,7 +66,7 @@ def given_interfaces(
     TableRefused
         with every fault, by file and line
     """
-    faults: list[str] = []
+    faults: list[Message] = []
     points = table.numbers("xyz", faults)
     bodies = np.array([_bodies(table, row, members, len(blocks), len(grounds), faults) for row in range(len(table))])
     start = _starts(table, bodies, joints, faults)
@@ -97,21 +97,24 @@ def _fitted(
         for row, last, pair in zip(first, start[1:], pairs, strict=True)
     ]
     faults = [
-        f"{_called(table, row)} {wrong}" for row, wrong in zip(first, found, strict=True) if isinstance(wrong, str)
+        Message("interface-misfit", f"{_called(table, row)} {wrong}")
+        for row, wrong in zip(first, found, strict=True)
+        if isinstance(wrong, str)
     ]
     fitting = [each for each in found if not isinstance(each, str)]
     normals, outlines = [normal for normal, _ in fitting], [outline for _, outline in fitting]
     if not faults:
         reach = tolerance * np.array([_size(pair, blocks) for pair in pairs])
         faults = [
-            _overlaps(table, first[one], first[other]) for one, other in overlapping(pairs, normals, outlines, reach)
+            Message("interface-misfit", _overlaps(table, first[one], first[other]))
+            for one, other in overlapping(pairs, normals, outlines, reach)
         ]
     if faults:
         raise TableRefused(faults)
     return normals, outlines
 
 
-def _starts(table: Table, bodies: IntArray, joints: Collection[str], faults: list[str]) -> IntArray:
+def _starts(table: Table, bodies: IntArray, joints: Collection[str], faults: list[Message]) -> IntArray:
     """First row of each interface, and the number of rows; rows of one interface agree and follow each other."""
     names, laws = table.columns["interface"], table.columns.get("joint", [""] * len(table))
     first = [row for row in range(len(table)) if row == 0 or names[row] != names[row - 1]]
@@ -119,14 +122,16 @@ def _starts(table: Table, bodies: IntArray, joints: Collection[str], faults: lis
     seen: set[str] = set()
     for row, last in zip(first, start[1:], strict=True):
         if names[row] in seen:
-            faults.append(f"{table.place(row)}: the rows of interface {names[row]} do not follow each other")
+            faults.append(
+                Message("table-row", f"{table.place(row)}: the rows of interface {names[row]} do not follow each other")
+            )
         seen.add(names[row])
         if (bodies[row:last] != bodies[row]).any():
-            faults.append(f"{_called(table, row)} is between different blocks in its rows")
+            faults.append(Message("table-row", f"{_called(table, row)} is between different blocks in its rows"))
         if len(set(laws[row:last])) > 1:
-            faults.append(f"{_called(table, row)} has different joint laws in its rows")
+            faults.append(Message("table-row", f"{_called(table, row)} has different joint laws in its rows"))
         elif laws[row] and laws[row] not in joints:
-            faults.append(f"{table.place(row)}: {unknown('joint', laws[row], joints, 'known')}")
+            faults.append(Message("table-row", f"{table.place(row)}: {unknown('joint', laws[row], joints, 'known')}"))
     return start
 
 
@@ -152,7 +157,7 @@ def _size(bodies: tuple[int, int], blocks: Blocks) -> float:
 
 
 def _bodies(
-    table: Table, row: int, members: dict[str, IntArray], n_blocks: int, n_grounds: int, faults: list[str]
+    table: Table, row: int, members: dict[str, IntArray], n_blocks: int, n_grounds: int, faults: list[Message]
 ) -> tuple[int, int]:
     """Both bodies of a row; -1 where there is a fault."""
     found = []
@@ -160,14 +165,20 @@ def _bodies(
         group, index = table.columns[f"group_{side}"][row], table.columns[f"index_{side}"][row]
         known = np.arange(n_blocks, n_blocks + n_grounds) if group == GROUND else members.get(group)
         if known is None:
-            faults.append(f"{table.place(row)}: unknown group {group}{did_you_mean(group, members)}")
+            faults.append(
+                Message("table-row", f"{table.place(row)}: unknown group {group}{did_you_mean(group, members)}")
+            )
         elif not index.isdecimal() or int(index) >= len(known):
             there = f"has 0 to {len(known) - 1}" if len(known) else "has none: give ground under supports"
-            faults.append(f"{table.place(row)}: index_{side} = {index or '(empty)'}: {group} {there}")
+            faults.append(
+                Message("table-row", f"{table.place(row)}: index_{side} = {index or '(empty)'}: {group} {there}")
+            )
         else:
             found.append(int(known[int(index)]))
     if len(found) == 2 and (found[0] == found[1] or min(found) >= n_blocks):
-        faults.append(f"{table.place(row)}: an interface is between two blocks, or a block and ground")
+        faults.append(
+            Message("table-row", f"{table.place(row)}: an interface is between two blocks, or a block and ground")
+        )
     return (found[0], found[1]) if len(found) == 2 else (-1, -1)
 
 

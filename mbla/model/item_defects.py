@@ -6,7 +6,7 @@ from collections import Counter
 
 from mbla.deck.deck import Deck
 from mbla.deck.tree import KeyPath
-from mbla.errors import Fault
+from mbla.errors import Fault, Message
 from mbla.model.build_blocks import BuiltBlocks
 from mbla.model.collect_items import CollectedItems, kind_of
 
@@ -25,11 +25,15 @@ def defects_in_words(deck: Deck, items: CollectedItems, built: BuiltBlocks) -> l
         told[number] += 1
         if told[number] <= MOST_FAULTS_PER_ITEM:
             path = _path(deck, defect.face, number)
-            faults.append(deck.fault_at(path, f"block {_called(deck, built, defect.block, number)}: {defect.message}"))
+            faults.append(
+                deck.fault_at(
+                    path, defect.message.around(before=f"block {_called(deck, built, defect.block, number)}: ")
+                )
+            )
     for number, count in told.items():
         if count > MOST_FAULTS_PER_ITEM:
             message = f"{count - MOST_FAULTS_PER_ITEM} more blocks of this item are refused"
-            faults.append(deck.fault_at(_path(deck, None, number), message))
+            faults.append(deck.fault_at(_path(deck, None, number), Message("more-faults", message)))
     return faults
 
 

@@ -10,7 +10,7 @@ from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.deck.deck import Deck
 from mbla.deck.tree import KeyPath
 from mbla.deck.types import SymmetryPlane
-from mbla.errors import Fault
+from mbla.errors import Fault, Message
 from mbla.model.model import Model
 from mbla.model.ragged import row_maxima
 from mbla.model.selectors import build_roster, select_blocks
@@ -72,7 +72,7 @@ def find_mirror(deck: Deck, model: Model, plane: SymmetryPlane, path: KeyPath) -
             f"{named(across, blocks.name)} {verb} across {label}: give the blocks on one side, and of a block that the "
             "plane cuts its half, named by halves"
         )
-        return None, [deck.fault_at(path, message)]
+        return None, [deck.fault_at(path, Message("symmetry-broken", message))]
     halves = np.zeros(len(blocks), dtype=bool)
     if plane.halves is not None:
         faults: list[Fault] = []
@@ -86,7 +86,7 @@ def find_mirror(deck: Deck, model: Model, plane: SymmetryPlane, path: KeyPath) -
         if len(loose):
             verb = "has" if len(loose) == 1 else "have"
             message = f"{named(loose, blocks.name)} {verb} no face on {label}, where the other half would join"
-            return None, [deck.fault_at((*path, "halves"), message)]
+            return None, [deck.fault_at((*path, "halves"), Message("symmetry-broken", message))]
         halves[chosen] = True
     image_of = np.arange(len(blocks))
     image_of[~halves] = len(blocks) + np.arange(int((~halves).sum()))

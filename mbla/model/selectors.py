@@ -11,7 +11,7 @@ from mbla.arrays import IntArray
 from mbla.deck.selectors import POSITIONS, Selector, SelectorTerm
 from mbla.deck.suggestions import unknown
 from mbla.deck.tree import KeyPath
-from mbla.errors import Fault
+from mbla.errors import Fault, Message
 from mbla.model.blocks import Blocks
 from mbla.model.wording import vector
 
@@ -28,10 +28,10 @@ class Roster:
     blocks: Blocks
     members: dict[str, IntArray]
     partial: frozenset[str]
-    fault_at: Callable[[KeyPath, str], Fault]
+    fault_at: Callable[[KeyPath, Message], Fault]
 
 
-def build_roster(blocks: Blocks, partial: frozenset[str], fault_at: Callable[[KeyPath, str], Fault]) -> Roster:
+def build_roster(blocks: Blocks, partial: frozenset[str], fault_at: Callable[[KeyPath, Message], Fault]) -> Roster:
     """Roster of all blocks by group."""
     names, codes = np.unique(np.array(blocks.groups, dtype=np.str_), return_inverse=True)
     order = np.argsort(codes, kind="stable")
@@ -73,7 +73,7 @@ class _Nothing:
     """No block is left: the key of the selector that excludes the last ones, and why."""
 
     key: str
-    message: str
+    message: Message
 
 
 def _with_index(term: SelectorTerm, blocks: IntArray, roster: Roster) -> IntArray | _Nothing:
@@ -81,7 +81,10 @@ def _with_index(term: SelectorTerm, blocks: IntArray, roster: Roster) -> IntArra
         return blocks
     if term.index >= len(blocks):
         allowed = f"0 to {len(blocks) - 1}" if len(blocks) > 1 else "0 only"
-        return _Nothing("index", f"there is no such block: {term.group} has {len(blocks)}, index {allowed}")
+        return _Nothing(
+            "index",
+            Message("empty-selector", f"there is no such block: {term.group} has {len(blocks)}, index {allowed}"),
+        )
     return blocks[term.index : term.index + 1]
 
 
@@ -94,8 +97,8 @@ def _of_member(term: SelectorTerm, blocks: IntArray, roster: Roster) -> IntArray
         return found
     known = sorted({str(member) for member in members if member})
     if not known:
-        return _Nothing("member", "these blocks have no members: leave it out")
-    return _Nothing("member", unknown("member", term.member, known, "these blocks have"))
+        return _Nothing("member", Message("empty-selector", "these blocks have no members: leave it out"))
+    return _Nothing("member", Message("unknown-name", unknown("member", term.member, known, "these blocks have")))
 
 
 def _at_positions(term: SelectorTerm, blocks: IntArray, roster: Roster) -> IntArray | _Nothing:
@@ -105,12 +108,17 @@ def _at_positions(term: SelectorTerm, blocks: IntArray, roster: Roster) -> IntAr
             continue
         positions = roster.blocks.labels.position(name)[blocks]
         if not (positions >= 0).any():
-            return _Nothing(name, f"these blocks have no {name}: leave it out")
+            return _Nothing(name, Message("empty-selector", f"these blocks have no {name}: leave it out"))
         count = int(positions.max()) + 1
         first, last = (at + count if at < 0 else at for at in (asked if isinstance(asked, tuple) else (asked, asked)))
         fits = (positions >= max(first, 0)) & (positions <= last)
         if not fits.any():
-            return _Nothing(name, f"there is none: they go from {positions[positions >= 0].min()} to {count - 1}")
+            return _Nothing(
+                name,
+                Message(
+                    "empty-selector", f"there is none: they go from {positions[positions >= 0].min()} to {count - 1}"
+                ),
+            )
         blocks = blocks[fits]
     return blocks
 
@@ -126,4 +134,9 @@ def _in_box(term: SelectorTerm, blocks: IntArray, roster: Roster) -> IntArray | 
         return found
     low, high = centroids.min(axis=0), centroids.max(axis=0)
     which = "a block" if term.group is None else "these blocks"
-    return _Nothing("box", f"no centroid of {which} lies in it; they lie between {vector(low)} and {vector(high)}")
+    return _Nothing(
+        "box",
+        Message(
+            "empty-selector", f"no centroid of {which} lies in it; they lie between {vector(low)} and {vector(high)}"
+        ),
+    )

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray, starts
+from mbla.errors import Message
 from mbla.model.defects import Defect, Extents
 from mbla.model.face_geometry import FaceGeometry
 from mbla.model.orientation import Edges
@@ -48,7 +49,7 @@ def intersection_defects(polyhedra: Polyhedra, edges: Edges, faces: FaceGeometry
         tail, head = edges.ends[one] - polyhedra.vertex_start[block]
         number = other - int(polyhedra.face_start[block])
         message = f"intersects itself: the edge between vertices {tail} and {head} meets face {number}"
-        defects.append(Defect(block, message, number))
+        defects.append(Defect(block, Message("bad-polyhedron", message), number))
     return defects
 
 

@@ -20,7 +20,7 @@ import numpy as np
 from mbla.arrays import FloatArray, IntArray
 from mbla.deck.tree import KeyPath
 from mbla.deck.types import SettlementSection
-from mbla.errors import Fault
+from mbla.errors import Fault, Message
 from mbla.model.blocks import Blocks
 from mbla.model.guides import slide, turn
 from mbla.model.model import LoadCase, Settlement
@@ -51,14 +51,14 @@ def build_settlement(
             f"{named(loose, roster.blocks.name)} {'is' if len(loose) == 1 else 'are'} not fixed: a support that gives "
             "way is made of blocks that `supports` fixes; in place of a ground plane give a block and fix it"
         )
-        faults.append(roster.fault_at((*path, "on"), message))
+        faults.append(roster.fault_at((*path, "on"), Message("settlement-not-fixed", message)))
         return load_case
     free = ~supports.fixed
     weights = np.linalg.norm(load_case.dead_load[free, :3], axis=1)
     if not weights.sum() > 0.0:
         if free.any() and not roster.partial:
             message = "there is no dead load on blocks that can move: no reaction is lost"
-            faults.append(roster.fault_at(path, message))
+            faults.append(roster.fault_at(path, Message("settlement-without-effect", message)))
         return load_case
     motions, words = _motion(section, chosen, roster.blocks)
     size = float(weights.sum())

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from mbla.deck.deck import Deck
 from mbla.deck.tree import KeyPath
 from mbla.deck.types import AnalysisSection, JointLaw, OutputSection
-from mbla.errors import Fault, Notice
+from mbla.errors import Fault, Message, Notice
 from mbla.model.added_masses import with_added_masses
 from mbla.model.build_blocks import build_blocks
 from mbla.model.collect_items import collect_items
@@ -67,7 +67,7 @@ def _bare(deck: Deck) -> Deck:
     return replace(deck, content=content)
 
 
-def _unplaced(path: KeyPath, message: str) -> Fault:
+def _unplaced(path: KeyPath, message: Message) -> Fault:
     raise AssertionError(f"no deck to find {path} in: {message}")
 
 
@@ -77,7 +77,11 @@ def _build(deck: Deck) -> Structure:
     items = collect_items(deck, faults)
     built = build_blocks(items.polyhedra, items.labels, deck.contacts.tolerance)
     far = far_fault(items.polyhedra, deck.contacts.tolerance)
-    faults += defects_in_words(deck, items, built) if far is None else [deck.fault_at(("blocks",), far)]
+    faults += (
+        defects_in_words(deck, items, built)
+        if far is None
+        else [deck.fault_at(("blocks",), Message("coordinate-out-of-range", far))]
+    )
     partial = items.partial | {built.blocks.groups[defect.block] for defect in built.defects}
     roster = build_roster(built.blocks, partial, deck.fault_at)
     supports = build_supports(deck, Supports(items.fixed, items.grounds), roster, faults)

@@ -18,7 +18,7 @@ from mbla.deck.rules.common import given
 from mbla.deck.rules.exactly_one import EXACTLY_ONE
 from mbla.deck.tree import KeyPath
 from mbla.deck.types import Load, LoadCaseSection
-from mbla.errors import Fault, Notice
+from mbla.errors import Fault, Message, Notice
 from mbla.model.blocks import Blocks
 from mbla.model.build_blocks import Labels, build_blocks
 from mbla.model.guides import Guides
@@ -90,7 +90,7 @@ def _loads_across(deck: Deck, section: LoadCaseSection, path: KeyPath, mirror: M
                     f"acts across the plane of symmetry {mirror.label}: the other half would have to be pushed the "
                     "other way; give the whole structure"
                 )
-            faults.append(deck.fault_at((*entry.path, kind), message))
+            faults.append(deck.fault_at((*entry.path, kind), Message("symmetry-broken", message)))
     return faults
 
 
@@ -101,13 +101,17 @@ def _cannot_mirror(deck: Deck, model: Model, mirror: Mirror, path: KeyPath) -> l
         if abs(float(ground.normal @ mirror.normal)) > 1.0 - ACROSS and abs(
             float((ground.point - mirror.point) @ mirror.normal)
         ) <= deck.contacts.tolerance * float(model.blocks.sizes.min()):
-            faults.append(deck.fault_at(path, f"{ground.label} lies in it: what is mirrored is not held there"))
+            faults.append(
+                deck.fault_at(
+                    path, Message("symmetry-broken", f"{ground.label} lies in it: what is mirrored is not held there")
+                )
+            )
     guided = model.guides.blocks[mirror.halves[model.guides.blocks]]
     if len(guided):
         message = (
             f"{named(guided, model.blocks.name)} cannot be guided and halved: by symmetry it moves in the plane only"
         )
-        faults.append(deck.fault_at((*path, "halves"), message))
+        faults.append(deck.fault_at((*path, "halves"), Message("symmetry-broken", message)))
     for case in model.load_cases:
         across = np.zeros_like(mirror.halves)
         for load in (case.dead_load, case.live_load):
@@ -117,7 +121,7 @@ def _cannot_mirror(deck: Deck, model: Model, mirror: Mirror, path: KeyPath) -> l
                 f"a load acts across {mirror.label} on {named(cut, model.blocks.name)}, which is cut by it: the other "
                 "half is loaded the other way, and nothing is left of it"
             )
-            faults.append(deck.fault_at(("load_cases", case.name), message))
+            faults.append(deck.fault_at(("load_cases", case.name), Message("symmetry-broken", message)))
         settlement = case.settlement
         if settlement is not None and mirror.halves[settlement.blocks].any():
             moved = settlement.motions[mirror.halves[settlement.blocks]]
@@ -125,7 +129,9 @@ def _cannot_mirror(deck: Deck, model: Model, mirror: Mirror, path: KeyPath) -> l
                 message = (
                     "a support that the plane of symmetry cuts can only give way along that plane, without turning"
                 )
-                faults.append(deck.fault_at(("load_cases", case.name, "settlement"), message))
+                faults.append(
+                    deck.fault_at(("load_cases", case.name, "settlement"), Message("symmetry-broken", message))
+                )
     return faults
 
 

@@ -17,6 +17,7 @@ import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.deck.suggestions import did_you_mean, listed
+from mbla.errors import Message
 
 MOST_FAULTS = 10
 """faults of one table that are told one by one"""
@@ -25,10 +26,10 @@ MOST_FAULTS = 10
 class TableRefused(Exception):  # noqa: N818 - an answer, not a defect
     """The table cannot be used; ``faults`` has a sentence with file and line for each reason."""
 
-    def __init__(self, faults: Sequence[str]) -> None:
+    def __init__(self, faults: Sequence[Message]) -> None:
         told = list(faults[:MOST_FAULTS])
         if len(faults) > MOST_FAULTS:
-            told.append(f"{len(faults) - MOST_FAULTS} more faults of this table")
+            told.append(Message("more-faults", f"{len(faults) - MOST_FAULTS} more faults of this table"))
         self.faults = tuple(told)
         super().__init__("; ".join(told))
 
@@ -55,14 +56,18 @@ class Table:
         """``stones.csv:7``."""
         return f"{self.file}:{self.lines[row]}"
 
-    def numbers(self, names: Sequence[str], faults: list[str]) -> FloatArray:
+    def numbers(self, names: Sequence[str], faults: list[Message]) -> FloatArray:
         """Columns as numbers, (n, k); what is no finite number is told in ``faults`` and left at zero."""
         values = np.zeros((len(self), len(names)))
         for column, name in enumerate(names):
             for row, text in enumerate(self.columns[name]):
                 number = _number(text, self.decimal_comma)
                 if number is None:
-                    faults.append(f"{self.place(row)}: {name} = {text or '(empty)'}: must be a finite number")
+                    faults.append(
+                        Message(
+                            "table-number", f"{self.place(row)}: {name} = {text or '(empty)'}: must be a finite number"
+                        )
+                    )
                 else:
                     values[row, column] = number
         return values
@@ -83,13 +88,22 @@ def read_table(path: Path, required: Sequence[str], optional: Sequence[str] = ()
     try:
         text = path.read_bytes().decode("utf-8-sig")
     except OSError as error:
-        raise TableRefused([f"{name}: cannot be read: {error.strerror or error}"]) from error
+        raise TableRefused(
+            [Message("table-unreadable", f"{name}: cannot be read: {error.strerror or error}")]
+        ) from error
     except UnicodeDecodeError as error:
-        raise TableRefused([f"{name}: is not UTF-8 text: save it as CSV UTF-8"]) from error
+        raise TableRefused([Message("table-unreadable", f"{name}: is not UTF-8 text: save it as CSV UTF-8")]) from error
     semicolons = ";" in next((line for line in text.splitlines() if _counts(line)), "")
     rows = _rows(name, text, ";" if semicolons else ",")
     if not rows:
-        raise TableRefused([f"{name}: is empty: its first line must name the columns {listed(required, 'and')}"])
+        raise TableRefused(
+            [
+                Message(
+                    "table-unreadable",
+                    f"{name}: is empty: its first line must name the columns {listed(required, 'and')}",
+                )
+            ]
+        )
     (line, header), *rows = rows
     header = [each.lower() for each in header]
     if faults := _header_faults(name, line, header, required, optional, with_rest):
@@ -99,7 +113,7 @@ def read_table(path: Path, required: Sequence[str], optional: Sequence[str] = ()
     if faults:
         raise TableRefused(faults)
     if not rows:
-        raise TableRefused([f"{name}: has no rows below its header"])
+        raise TableRefused([Message("table-unreadable", f"{name}: has no rows below its header")])
     columns = {each: [row[place] for _, row in rows] for place, each in enumerate(known)}
     rest = [[text for text in row[len(known) :] if text] for _, row in rows] if with_rest else []
     return Table(name, columns, rest, [number for number, _ in rows], semicolons)
@@ -118,19 +132,22 @@ def _rows(name: str, text: str, delimiter: str) -> list[tuple[int, list[str]]]:
             try:
                 fields = next(csv.reader(io.StringIO(line), delimiter=delimiter, strict=True))
             except csv.Error as error:
-                raise TableRefused([f"{name}:{number}: cannot be read: {error}"]) from error
+                raise TableRefused(
+                    [Message("table-unreadable", f"{name}:{number}: cannot be read: {error}")]
+                ) from error
             rows.append((number, [field.strip() for field in fields]))
     return rows
 
 
 def _header_faults(
     name: str, line: int, header: list[str], required: Sequence[str], optional: Sequence[str], with_rest: bool
-) -> list[str]:
+) -> list[Message]:
     place = f"{name}:{line}"
     if with_rest:
         if header[: len(required)] == list(required):
             return []
-        return [f"{place}: the header must begin with {','.join(required)}, not {','.join(header[: len(required)])}"]
+        begins = f"{place}: the header must begin with {','.join(required)}, not {','.join(header[: len(required)])}"
+        return [Message("table-columns", begins)]
     allowed = [*required, *optional]
     faults = [
         f"{place}: unknown column {each}{did_you_mean(each, allowed) or ';'} columns are {listed(allowed, 'and')}"
@@ -138,14 +155,17 @@ def _header_faults(
         if each and each not in allowed
     ]
     faults += [f"{place}: column {each} is missing" for each in required if each not in header]
-    return faults + [f"{place}: column {each} is there twice" for each in allowed if header.count(each) > 1]
+    faults += [f"{place}: column {each} is there twice" for each in allowed if header.count(each) > 1]
+    return [Message("table-columns", fault) for fault in faults]
 
 
-def _row_fault(name: str, number: int, row: list[str], known: list[str], with_rest: bool) -> str | None:
+def _row_fault(name: str, number: int, row: list[str], known: list[str], with_rest: bool) -> Message | None:
     if len(row) < len(known):
-        return f"{name}:{number}: has {len(row)} columns instead of {len(known)} ({', '.join(known)})"
+        return Message(
+            "table-columns", f"{name}:{number}: has {len(row)} columns instead of {len(known)} ({', '.join(known)})"
+        )
     if not with_rest and any(row[len(known) :]):
-        return f"{name}:{number}: has more columns than the header ({', '.join(known)})"
+        return Message("table-columns", f"{name}:{number}: has more columns than the header ({', '.join(known)})")
     return None
 
 

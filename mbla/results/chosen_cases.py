@@ -20,4 +20,4 @@ def chosen_cases(results: Results, names: Sequence[str] | None) -> tuple[CaseRes
 def no_such_case(results: Results, name: str) -> UsageError:
     """The error for a name that the result does not have."""
     known = ", ".join(case.load_case.name for case in results.cases) or "none"
-    return UsageError(f"no load case {name} in the result; it has {known}")
+    return UsageError("unknown-load-case", f"no load case {name} in the result; it has {known}")

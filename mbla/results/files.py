@@ -155,9 +155,11 @@ class OutputFolder:
     def _refuse(self, name: str) -> None:
         target = self.folder / name
         if target.is_dir():
-            raise FileError(f"{target}: is a folder")
+            raise FileError("folder-given", f"{target}: is a folder")
         if not self.force and os.path.lexists(target):
-            raise FileError(f"{target}: exists already; --force (in Python force=True) replaces an earlier result")
+            raise FileError(
+                "result-exists", f"{target}: exists already; --force (in Python force=True) replaces an earlier result"
+            )
 
     def _refuse_earlier_result(self) -> None:
         for suffix in RESULT_SUFFIXES:
@@ -237,10 +239,12 @@ def file_errors(path: Path) -> Iterator[None]:
     try:
         yield
     except OSError as error:
-        raise FileError(f"{path}: {error.strerror or error}") from error
+        raise FileError("file-not-written", f"{path}: {error.strerror or error}") from error
     except FileError as error:  # of what wrote it under a temporary name
         if isinstance(error.__cause__, OSError):
-            raise FileError(f"{path}: {error.__cause__.strerror or error.__cause__}") from error.__cause__
+            raise FileError(
+                "file-not-written", f"{path}: {error.__cause__.strerror or error.__cause__}"
+            ) from error.__cause__
         raise
 
 

@@ -46,4 +46,4 @@ class StatusFile:
             self._stream.write(" ".join(line.splitlines()) + "\n")
             self._stream.flush()
         except OSError as error:
-            raise FileError(f"{self._stream.name}: {error.strerror or error}") from error
+            raise FileError("file-not-written", f"{self._stream.name}: {error.strerror or error}") from error

@@ -27,7 +27,7 @@ def writing_whole(path: Path) -> Iterator[Path]:
         The folder cannot be made, the path is a folder, or the file cannot be written; the message names ``path``.
     """
     if path.is_dir():
-        raise FileError(f"{path}: is a folder")
+        raise FileError("folder-given", f"{path}: is a folder")
     temporary, created = temporary_path(path), missing_folders(path.parent)
     try:
         with file_errors(path.parent):

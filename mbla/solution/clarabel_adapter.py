@@ -115,7 +115,7 @@ class ClarabelProgram:
             self._log(self._solver.get_info(), program_number, to_load_factor, started)
         name = str(result.status)
         if name not in STATUS_MAP:
-            raise SolverError(f"clarabel returned a status that is not known: {name}")
+            raise SolverError("solver-status", f"clarabel returned a status that is not known: {name}")
         return ConeSolution(
             status=Status.APPROXIMATE if self._had_enough else STATUS_MAP[name],
             solver_status=name,
@@ -143,7 +143,7 @@ class ClarabelProgram:
     def _check_finite(self) -> None:
         program = self.cone_program
         if not all(np.isfinite(part).all() for part in (program.cost, program.matrix.data, program.rhs)):
-            raise SolverError("the cone program holds numbers that are not finite")
+            raise SolverError("program-not-finite", "the cone program holds numbers that are not finite")
 
     def _new_solver(self, clarabel: Any) -> Any:
         program = self.cone_program

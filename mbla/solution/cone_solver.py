@@ -41,8 +41,9 @@ def cone_solver(cone_program: ConeProgram, settings: SolverSettings, log: Log) -
         return interior_point_solver(cone_program, settings, log)
     if cone_program.n_cones:
         raise UnfitSolverError(
+            "solver-unfit",
             f"analysis.solver = highs solves linear programs only, and this load case has {cone_program.n_cones} "
-            "friction cones because it is not planar: use friction_cone: polyhedral, or solver: auto"
+            "friction cones because it is not planar: use friction_cone: polyhedral, or solver: auto",
         )
     return HighsProgram(cone_program, settings, log)
 
@@ -56,7 +57,9 @@ def interior_point_solver(
                  regularisation of clarabel gets closer there
     """
     if settings.solver not in SOLVERS:
-        raise SolverError(f"there is no cone solver {settings.solver}; there are {', '.join(SOLVERS)}")
+        raise SolverError(
+            "unknown-solver", f"there is no cone solver {settings.solver}; there are {', '.join(SOLVERS)}"
+        )
     if not has_inside or interior_point_method(cone_program, settings.solver) == "clarabel":
         return ClarabelProgram(cone_program, settings, log)
     own = CondensedProgram(cone_program, settings, log)

@@ -107,7 +107,9 @@ class HighsProgram:
 
     def __post_init__(self) -> None:
         if self.cone_program.n_cones or self.cone_program.quadratic is not None:
-            raise SolverError("HiGHS solves linear programs only, and this one has cones or a quadratic term")
+            raise SolverError(
+                "solver-unfit", "HiGHS solves linear programs only, and this one has cones or a quadratic term"
+            )
 
     def solve(self, program_number: int, to_load_factor: float) -> ConeSolution:
         """Solve what is loaded; a verdict without a load factor comes with the ray that proves it."""
@@ -115,7 +117,7 @@ class HighsProgram:
         self._started = time.perf_counter()
         run = self._run(_as_linear(self.cone_program))
         if run.status not in STATUS_MAP:
-            raise SolverError(f"HiGHS returned a status that is not known: {run.status}")
+            raise SolverError("solver-status", f"HiGHS returned a status that is not known: {run.status}")
         solution = self._solution(run, STATUS_MAP[run.status])
         if solution.status in WITHOUT_VALUE:
             solution = self._with_ray(solution)
@@ -133,7 +135,7 @@ class HighsProgram:
     def _check_finite(self) -> None:
         program = self.cone_program
         if not all(np.isfinite(part).all() for part in (program.cost, program.matrix.data, program.rhs)):
-            raise SolverError("the linear program holds numbers that are not finite")
+            raise SolverError("program-not-finite", "the linear program holds numbers that are not finite")
 
     def _run(self, linear: _LinearProgram) -> _Run:
         import highspy
@@ -178,7 +180,7 @@ class HighsProgram:
             options["time_limit"] = max(settings.deadline - time.monotonic(), 0.0)
         for name, value in options.items():
             if highs.setOptionValue(name, value).name != "kOk":
-                raise SolverError(f"HiGHS refuses the option {name} = {value}")
+                raise SolverError("solver-option", f"HiGHS refuses the option {name} = {value}")
 
     def _solution(self, run: _Run, status: Status) -> ConeSolution:
         rows, columns = self.cone_program.matrix.shape

@@ -6,6 +6,7 @@ from pathlib import Path
 import pytest
 
 from mbla.deck import read_deck
+from mbla.errors import Message
 from tests.deck.decks import BLOCK, changed, faults, write
 
 INCLUDING = changed("title: A block on the ground\n", "title: A block on the ground\ninclude: [more.yaml]\n")
@@ -25,10 +26,13 @@ def test_lists_are_joined_included_items_first(tmp_path: Path) -> None:
     write(tmp_path, f"blocks:\n  - box: {item}\n", "more.yaml")
     deck = read_deck(write(tmp_path, INCLUDING))
     assert [item.box.group for item in deck.content.blocks if item.box] == ["base", "block"]
-    assert str(deck.fault_at(("blocks", 0, "box", "min", 2), "no")) == (
+    assert str(deck.fault_at(("blocks", 0, "box", "min", 2), Message("not-a-number", "no"))) == (
         f"{tmp_path}/more.yaml:2:53 blocks[0].box.min[2] = -1: no"
     )
-    assert deck.fault_at(("blocks", 1, "box", "group"), "no").place.file == f"{tmp_path}/deck.yaml"
+    assert (
+        deck.fault_at(("blocks", 1, "box", "group"), Message("not-a-number", "no")).place.file
+        == f"{tmp_path}/deck.yaml"
+    )
 
 
 def test_faults_in_included_files_have_their_places(tmp_path: Path) -> None:

@@ -24,5 +24,5 @@ def test_messages(path: Path) -> None:
     expected = [line.removeprefix(MARK) for line in lines if line.startswith(MARK)]
     with pytest.raises(DeckError) as caught:
         read_deck(path)
-    assert [str(fault).removeprefix(f"{path}:") for fault in caught.value.faults] == expected
+    assert [fault.line().removeprefix(f"{path}:") for fault in caught.value.faults] == expected
     assert expected, "a faulty deck says what is expected of it"

@@ -5,6 +5,7 @@ from pathlib import Path
 import pytest
 
 from mbla.deck import Deck, read_deck
+from mbla.errors import Message
 from tests.deck.decks import BLOCK, changed, faults, write
 
 
@@ -59,7 +60,9 @@ def test_new_load_case_as_a_whole(path: Path) -> None:
 
 def test_place_is_the_override(path: Path) -> None:
     deck = read_deck(path, ["title=New", "parameters.mu=0.5"])
-    assert str(deck.fault_at(("parameters", "mu"), "no")) == "--set:2:15 parameters.mu = 0.5: no"
+    assert (
+        str(deck.fault_at(("parameters", "mu"), Message("not-a-number", "no"))) == "--set:2:15 parameters.mu = 0.5: no"
+    )
 
 
 @pytest.mark.parametrize(

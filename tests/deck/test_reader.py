@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 from mbla.deck.reader import MAX_DEPTH, read_yaml
 from mbla.deck.sources import SourceText
 from mbla.deck.tree import FILE_SHIFT, OFFSET_MASK, MappingMarks, SequenceMarks, Tree
+from mbla.errors import Message
 
 
 def read(text: str) -> tuple[object, list[str]]:
@@ -58,7 +59,7 @@ def test_place_of_a_value_deep_inside() -> None:
     document = read_yaml(source, 0)
     assert isinstance(document.marks, MappingMarks)
     tree = Tree(document.data, document.marks, [source])
-    assert str(tree.fault(("a", 1, "x", 1), "no")) == "deck:3:13 a[1].x[1] = -0.6: no"
+    assert str(tree.fault(("a", 1, "x", 1), Message("not-a-number", "no"))) == "deck:3:13 a[1].x[1] = -0.6: no"
 
 
 def test_depth_limit_is_exact() -> None:

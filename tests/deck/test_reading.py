@@ -8,7 +8,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from mbla.deck import read_deck
-from mbla.errors import DeckError, Fault, Place
+from mbla.errors import DeckError, Fault, Message, Place
 from tests.deck.decks import BLOCK, changed, faults, write
 
 COMPLETE = """mbla: 1                                  # deck format version, required
@@ -219,5 +219,5 @@ def _faults(path: Path) -> tuple[Fault, ...]:
     try:
         read_deck(path)
     except DeckError as error:
-        return error.faults or (Fault(Place("", 0, 0), "", ""),)
+        return error.faults or (Fault(Place("", 0, 0), "", Message("not-yaml", "")),)
     return ()

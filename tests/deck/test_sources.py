@@ -7,7 +7,7 @@ import pytest
 
 from mbla.deck import read_deck, sources
 from mbla.deck.sources import SourceText
-from mbla.errors import DeckError, FileError, Place
+from mbla.errors import DeckError, FileError, Message, Place
 from tests.deck.decks import BLOCK
 
 
@@ -30,13 +30,13 @@ def test_place_counts_lines_however_they_end() -> None:
 def test_byte_order_mark_is_accepted_and_not_counted(tmp_path: Path) -> None:
     path = tmp_path / "deck.yaml"
     path.write_bytes(b"\xef\xbb\xbf" + BLOCK.encode())
-    assert read_deck(path).fault_at(("mbla",), "").place == Place(str(path), 1, 7)
+    assert read_deck(path).fault_at(("mbla",), Message("not-a-number", "")).place == Place(str(path), 1, 7)
 
 
 def test_windows_line_ends(tmp_path: Path) -> None:
     path = tmp_path / "deck.yaml"
     path.write_bytes(BLOCK.replace("\n", "\r\n").encode())
-    assert read_deck(path).fault_at(("contacts", "joint"), "").place.line == 11
+    assert read_deck(path).fault_at(("contacts", "joint"), Message("not-a-number", "")).place.line == 11
 
 
 @pytest.mark.parametrize("encoding", ["utf-16", "utf-16-le", "utf-16-be", "utf-32"])

@@ -5,6 +5,7 @@ import pytest
 from mbla.deck.reader import read_yaml
 from mbla.deck.sources import SourceText
 from mbla.deck.tree import KeyPath, MappingMarks, Tree, key_text, shorten
+from mbla.errors import Message
 
 TEXT = """a:
   b: {c: -0.60, d: [1, [2,
@@ -45,11 +46,14 @@ def tree() -> Tree:
     ],
 )
 def test_place_path_and_value(tree: Tree, path: KeyPath, line: str) -> None:
-    assert str(tree.fault(path, "no")) == f"deck.yaml:{line}"
+    assert str(tree.fault(path, Message("not-a-number", "no"))) == f"deck.yaml:{line}"
 
 
 def test_place_of_key(tree: Tree) -> None:
-    assert str(tree.fault(("a", "e"), "no", at_key=True)) == "deck.yaml:4:3 a.e = some words, here: no"
+    assert (
+        str(tree.fault(("a", "e"), Message("not-a-number", "no"), at_key=True))
+        == "deck.yaml:4:3 a.e = some words, here: no"
+    )
 
 
 def test_long_values_are_cut() -> None:

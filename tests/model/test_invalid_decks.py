@@ -30,5 +30,5 @@ def test_messages(path: Path) -> None:
     deck = read_deck(path)
     with pytest.raises(DeckError) as caught:
         contacts_of(deck, build_model(deck))
-    assert [str(fault).removeprefix(f"{path}:") for fault in caught.value.faults] == expected
+    assert [fault.line().removeprefix(f"{path}:") for fault in caught.value.faults] == expected
     assert expected, "a faulty deck says what is expected of it"

@@ -4,6 +4,7 @@ from pathlib import Path
 
 import pytest
 
+from mbla.errors import Message
 from mbla.model.tables import MOST_FAULTS, TableRefused, read_table
 
 
@@ -88,6 +89,6 @@ def test_no_numbers(tmp_path: Path, text: str) -> None:
 
 
 def test_many_faults_are_counted() -> None:
-    faults = TableRefused([f"fault {number}" for number in range(25)]).faults
+    faults = TableRefused([Message("table-row", f"fault {number}") for number in range(25)]).faults
     assert len(faults) == MOST_FAULTS + 1
     assert faults[-1] == "15 more faults of this table"

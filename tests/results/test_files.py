@@ -193,7 +193,7 @@ def other_writer(out: OutputFolder) -> None:
         try:
             raise OSError(28, "No space left on device")
         except OSError as error:
-            raise FileError(f"{path}: full") from error
+            raise FileError("file-not-written", f"{path}: full") from error
 
 
 def test_error_of_another_writer_names_the_file_not_the_temporary(tmp_path: Path) -> None:

@@ -30,7 +30,9 @@ def fail_half_way(path: Path, error: BaseException) -> None:
         raise error
 
 
-@pytest.mark.parametrize("error", [KeyboardInterrupt(), UsageError(), ValueError()], ids=lambda error: repr(error))
+@pytest.mark.parametrize(
+    "error", [KeyboardInterrupt(), UsageError("extra-missing", ""), ValueError()], ids=lambda error: repr(error)
+)
 def test_a_failure_leaves_the_earlier_file(tmp_path: Path, error: BaseException) -> None:
     (tmp_path / "c.txt").write_text("earlier")
     with pytest.raises(type(error)):
@@ -50,7 +52,7 @@ def write_where_nothing_can_be(path: Path) -> None:
         try:
             (temporary / "no").touch()
         except OSError as error:
-            raise FileError(f"{temporary}: {error.strerror}") from error
+            raise FileError("file-not-written", f"{temporary}: {error.strerror}") from error
 
 
 def test_errors_name_the_file_and_not_the_temporary_one(tmp_path: Path) -> None:
@@ -67,7 +69,7 @@ def test_a_folder_is_refused(tmp_path: Path) -> None:
 
 def test_pictures_that_cannot_be_drawn_leave_no_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     def missing() -> None:
-        raise UsageError("pictures need an extra that is not installed")
+        raise UsageError("extra-missing", "pictures need an extra that is not installed")
 
     monkeypatch.setattr("mbla.results.pictures.page.matplotlib_parts", missing)
     with pytest.raises(UsageError, match="extra"):

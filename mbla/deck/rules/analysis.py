@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from mbla.deck import types
 from mbla.deck.section import Finding, rule
 from mbla.deck.suggestions import listed
+from mbla.errors import Message
 
 
 @rule(types.AnalysisSection)
@@ -22,10 +23,19 @@ def linear_programs(analysis: types.AnalysisSection) -> Iterator[Finding]:
         if not normality:
             yield (
                 (key,),
-                f"applies to flow_rule: associative or livesley only ({analysis.flow_rule} here): use {default}",
+                Message(
+                    "key-of-another-choice",
+                    f"applies to flow_rule: associative or livesley only ({analysis.flow_rule} here): use {default}",
+                ),
             )
         elif analysis.contact_model != "concave":
-            yield (key,), f"applies to contact_model: concave only ({analysis.contact_model} here): use {default}"
+            yield (
+                (key,),
+                Message(
+                    "key-of-another-choice",
+                    f"applies to contact_model: concave only ({analysis.contact_model} here): use {default}",
+                ),
+            )
 
 
 CONVEX_FLOW_RULES = ("associative", "non_associative")
@@ -39,11 +49,30 @@ def convex_contact_model(analysis: types.AnalysisSection) -> Iterator[Finding]:
         return
     if analysis.flow_rule not in CONVEX_FLOW_RULES:
         allowed = listed(CONVEX_FLOW_RULES)
-        yield ("flow_rule",), f"contact_model: convex allows {allowed} only ({analysis.flow_rule} here)"
+        yield (
+            ("flow_rule",),
+            Message(
+                "key-of-another-choice", f"contact_model: convex allows {allowed} only ({analysis.flow_rule} here)"
+            ),
+        )
     if analysis.flow_rule == "non_associative" and analysis.scheme not in ("auto", "proximal"):
-        yield ("scheme",), f"contact_model: convex allows auto or proximal only ({analysis.scheme} here)"
+        yield (
+            ("scheme",),
+            Message(
+                "key-of-another-choice", f"contact_model: convex allows auto or proximal only ({analysis.scheme} here)"
+            ),
+        )
     if analysis.solver == "mbla":
-        yield ("solver",), "applies to contact_model: concave only, whose cones have three dimensions: use auto"
+        yield (
+            ("solver",),
+            Message(
+                "key-of-another-choice",
+                "applies to contact_model: concave only, whose cones have three dimensions: use auto",
+            ),
+        )
     for key, default in NOT_CONVEX:
         if getattr(analysis, key) != default:
-            yield (key,), f"applies to contact_model: concave only: use {str(default).lower()}"
+            yield (
+                (key,),
+                Message("key-of-another-choice", f"applies to contact_model: concave only: use {str(default).lower()}"),
+            )

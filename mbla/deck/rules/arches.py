@@ -10,6 +10,7 @@ from mbla.deck import types
 from mbla.deck.rules.common import ROUNDING, exactly_one, given
 from mbla.deck.section import Finding, Section, rule
 from mbla.deck.suggestions import listed
+from mbla.errors import Message
 
 SIDE_ANGLE = 60.0
 """of a basket arch [degrees] unless given"""
@@ -33,9 +34,15 @@ def arch_shape(arch: types.ArchItem) -> Iterator[Finding]:
     if arch.span is not None and arch.rise is not None:
         yield from range_of_rise(arch.shape, arch.span, arch.rise, arch.side_angle, ("rise",))
     if arch.joint is not None and arch.springers != "ground":
-        yield ("joint",), "applies with springers: ground only"
+        yield ("joint",), Message("key-of-another-choice", "applies with springers: ground only")
     if arch.piers is not None and arch.springers != "none":
-        yield ("piers",), f"the springings have piers or springers: leave out one of them (springers: {arch.springers})"
+        yield (
+            ("piers",),
+            Message(
+                "key-of-another-choice",
+                f"the springings have piers or springers: leave out one of them (springers: {arch.springers})",
+            ),
+        )
 
 
 @rule(types.ArchItem)
@@ -45,11 +52,11 @@ def arch_points(arch: types.ArchItem) -> Iterator[Finding]:
     chords = [math.hypot(other[0] - one[0], other[1] - one[1]) for one, other in pairwise(points)]
     whole = math.fsum(chords) if all(map(math.isfinite, chords)) else math.inf
     if not math.isfinite(whole):
-        yield ("points",), "the points lie too far apart to be told by a number: use other units"
+        yield ("points",), Message("arch-shape", "the points lie too far apart to be told by a number: use other units")
         return
     for number, chord in enumerate(chords):
         if chord <= ROUNDING * whole:
-            yield ("points", number + 1), "is the same point as the one before"
+            yield ("points", number + 1), Message("arch-shape", "is the same point as the one before")
 
 
 def shape_keys(section: Section, shape: str, keys: tuple[str, ...]) -> Iterator[Finding]:
@@ -60,9 +67,15 @@ def shape_keys(section: Section, shape: str, keys: tuple[str, ...]) -> Iterator[
             if key == "rise" and shape == "segmental":
                 yield from exactly_one(section, ("rise", "embrace"), " for a segmental arch")
             elif key not in OPTIONAL and key != "embrace" and not given(section, (key,)):
-                yield (), f"needs {key} for shape: {shape}"
+                yield (), Message("missing-key", f"needs {key} for shape: {shape}")
         elif given(section, (key,)):
-            yield (key,), f"applies to shape: {listed(shapes)} only: leave it out, or change shape ({shape} given)"
+            yield (
+                (key,),
+                Message(
+                    "key-of-another-choice",
+                    f"applies to shape: {listed(shapes)} only: leave it out, or change shape ({shape} given)",
+                ),
+            )
 
 
 def range_of_rise(
@@ -70,15 +83,18 @@ def range_of_rise(
 ) -> Iterator[Finding]:
     """A pointed arch is more than a semicircle high, a basket arch less, and high enough for its side arcs."""
     if shape == "pointed" and rise <= span / 2 * (1 + ROUNDING):
-        yield path, f"must be > {span / 2:g}, half the span, for a pointed arch"
+        yield path, Message("out-of-bounds", f"must be > {span / 2:g}, half the span, for a pointed arch")
     if shape == "basket":
         angle = math.radians(SIDE_ANGLE if side_angle is None else side_angle)
         least = span / 2 * (1 - math.sin(angle)) / math.cos(angle)
         if rise > span / 2 * (1 + ROUNDING):
-            yield path, f"must be <= {span / 2:g}, half the span, for a basket arch"
+            yield path, Message("out-of-bounds", f"must be <= {span / 2:g}, half the span, for a basket arch")
         elif rise <= least * (1 + ROUNDING):
             degrees = math.degrees(angle)
             yield (
                 path,
-                f"must be > {least:g} for side arcs of {degrees:g} degrees: a larger side_angle allows a lower one",
+                Message(
+                    "out-of-bounds",
+                    f"must be > {least:g} for side arcs of {degrees:g} degrees: a larger side_angle allows a lower one",
+                ),
             )

@@ -8,6 +8,7 @@ from mbla.deck import types
 from mbla.deck.rules.common import exactly_one, given
 from mbla.deck.section import Finding, Section, rule
 from mbla.deck.suggestions import listed
+from mbla.errors import Message
 
 EXACTLY_ONE: dict[type[Section], tuple[str, ...]] = {
     types.Material: ("density", "unit_weight"),
@@ -37,7 +38,7 @@ def _register_at_least_one(section: type[Section], keys: tuple[str, ...]) -> Non
     @rule(section)
     def one_key(item: Section) -> Iterator[Finding]:
         if not given(item, keys):
-            yield (), f"needs one of {listed(keys)}"
+            yield (), Message("missing-key", f"needs one of {listed(keys)}")
 
 
 def _register_exactly_one(section: type[Section], keys: tuple[str, ...]) -> None:

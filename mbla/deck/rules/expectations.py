@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from mbla.deck import types
 from mbla.deck.rules.common import given
 from mbla.deck.section import Finding, rule
+from mbla.errors import Message
 
 FIGURES = ("load_factor", "angle", "position", "associative_load_factor", "reaction", "lower", "status")
 
@@ -15,7 +16,7 @@ FIGURES = ("load_factor", "angle", "position", "associative_load_factor", "react
 def expectation(item: types.Expectation) -> Iterator[Finding]:
     """Something must be expected."""
     if not given(item, FIGURES):
-        yield (), f"needs at least one of {', '.join(FIGURES[:-1])} or {FIGURES[-1]}"
+        yield (), Message("missing-key", f"needs at least one of {', '.join(FIGURES[:-1])} or {FIGURES[-1]}")
 
 
 @rule(types.DeckContent)
@@ -26,4 +27,7 @@ def expectations_of_kinds(deck: types.DeckContent) -> Iterator[Finding]:
         for key, kind in (("angle", "tilt"), ("position", "travel")):
             live = [] if case is None or getattr(item, key) is None else (case.live or [])
             if live and not any(getattr(load, kind) is not None for load in live):
-                yield ("expected", name, key), f"applies to load cases with {kind} only"
+                yield (
+                    ("expected", name, key),
+                    Message("key-of-another-choice", f"applies to load cases with {kind} only"),
+                )

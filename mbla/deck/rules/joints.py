@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from mbla.deck import types
 from mbla.deck.rules.common import ROUNDING, given
 from mbla.deck.section import Finding, rule
+from mbla.errors import Message
 
 
 @rule(types.JointLaw)
@@ -17,7 +18,7 @@ def joint_friction(joint: types.JointLaw) -> Iterator[Finding]:
         return
     angle = joint.friction_angle if joint.friction is None else math.degrees(math.atan(joint.friction))
     if angle is not None and joint.dilatancy > angle * (1 + ROUNDING):
-        yield ("dilatancy",), f"must be <= {angle:.6g} degrees, the friction angle"
+        yield ("dilatancy",), Message("out-of-bounds", f"must be <= {angle:.6g} degrees, the friction angle")
 
 
 @rule(types.JointLaw)
@@ -29,6 +30,9 @@ def joint_strengths(joint: types.JointLaw) -> Iterator[Finding]:
     if joint.cohesion < friction * joint.tensile_strength * (1 - ROUNDING):
         yield (
             ("tensile_strength",),
-            f"must be <= {joint.cohesion / friction:.6g}, cohesion / friction, where the friction cone ends: "
-            f"lower it, or raise cohesion to {friction * joint.tensile_strength:.6g}",
+            Message(
+                "out-of-bounds",
+                f"must be <= {joint.cohesion / friction:.6g}, cohesion / friction, where the friction cone ends: "
+                f"lower it, or raise cohesion to {friction * joint.tensile_strength:.6g}",
+            ),
         )

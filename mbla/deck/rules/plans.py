@@ -7,6 +7,7 @@ from collections.abc import Iterator, Sequence
 from mbla.deck import types
 from mbla.deck.rules.masonry import check_bond, check_buttress, check_gable, check_openings
 from mbla.deck.section import Finding, rule
+from mbla.errors import Message
 
 SQUARE = 1e-6
 """departure of a line from its axis, relative to its length, that is rounding"""
@@ -27,7 +28,7 @@ def walls(item: types.WallsItem) -> Iterator[Finding]:
             if part.segment >= len(lengths):
                 yield (
                     (key, number, "segment"),
-                    f"must be <= {len(lengths) - 1}: there are {len(lengths)} walls, from 0",
+                    Message("out-of-bounds", f"must be <= {len(lengths) - 1}: there are {len(lengths)} walls, from 0"),
                 )
                 continue
             length = lengths[part.segment]
@@ -43,7 +44,7 @@ def _one_gable_each(item: types.WallsItem) -> Iterator[Finding]:
     segments = [gable.segment for gable in item.gables]
     for number, segment in enumerate(segments):
         if segment in segments[:number]:
-            yield ("gables", number, "segment"), f"wall {segment} has a gable already"
+            yield ("gables", number, "segment"), Message("duplicate-key", f"wall {segment} has a gable already")
 
 
 def _lines(item: types.WallsItem) -> Iterator[tuple[tuple[str | int, ...], Sequence[float], Sequence[float]]]:
@@ -62,19 +63,22 @@ def _check_lines(
     for path, start, end in lines:
         short, long = sorted(abs(b - a) for a, b in zip(start, end, strict=True))
         if long == 0:
-            yield path, "is the point before it"
+            yield path, Message("wall-shape", "is the point before it")
         elif short > SQUARE * long:
             yield (
                 path,
-                "must lie along x or along y from the point before it, since only right angles can be bonded here; a "
-                "plan in another direction is turned by transform",
+                Message(
+                    "wall-shape",
+                    "must lie along x or along y from the point before it, since only right angles can be bonded here; "
+                    "a plan in another direction is turned by transform",
+                ),
             )
 
 
 def _check_turns(item: types.WallsItem) -> Iterator[Finding]:
     """The main line turns by a right angle at each corner."""
     if item.closed and len(item.plan) < 4:
-        yield ("closed",), f"needs 4 points of the plan or more, here are {len(item.plan)}"
+        yield ("closed",), Message("wall-shape", f"needs 4 points of the plan or more, here are {len(item.plan)}")
         return
     points = [*item.plan, item.plan[0], item.plan[1]] if item.closed else item.plan
     for number in range(1, len(points) - 1):
@@ -85,4 +89,4 @@ def _check_turns(item: types.WallsItem) -> Iterator[Finding]:
         size = max(map(abs, into)) * max(map(abs, out))
         if size > 0 and along > (1 - SQUARE) * size:
             message = "must be a corner: the line goes on along the same axis; leave the point out"
-            yield ("plan", number % len(item.plan)), message
+            yield ("plan", number % len(item.plan)), Message("wall-shape", message)

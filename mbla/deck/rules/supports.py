@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from mbla.deck import types
 from mbla.deck.rules.common import given, is_zero
 from mbla.deck.section import Finding, rule
+from mbla.errors import Message
 
 
 @rule(types.GroundPlane)
@@ -23,29 +24,53 @@ def symmetry_plane(plane: types.SymmetryPlane) -> Iterator[Finding]:
 
 def _plane_normal(ground: types.GroundPlane | types.SymmetryPlane) -> Iterator[Finding]:
     if ground.point is not None and ground.normal is None:
-        yield (), "needs a normal beside its point"
+        yield (), Message("missing-key", "needs a normal beside its point")
     if ground.normal is not None and ground.point is None:
-        yield ("normal",), "applies with point only"
+        yield ("normal",), Message("key-of-another-choice", "applies with point only")
     if ground.normal is not None and is_zero(ground.normal):
-        yield ("normal",), "must not be the zero vector"
+        yield ("normal",), Message("zero-vector", "must not be the zero vector")
 
 
 @rule(types.Support)
 def support(item: types.Support) -> Iterator[Finding]:
     """Ground, or blocks that do not move, or not as they like."""
     if item.ground is None and item.blocks is None:
-        yield (), "needs one of ground or blocks"
+        yield (), Message("missing-key", "needs one of ground or blocks")
     elif item.joint is not None and item.ground is None:
-        yield ("joint",), "applies with ground only: blocks that do not move have the joints of their contacts"
+        yield (
+            ("joint",),
+            Message(
+                "key-of-another-choice",
+                "applies with ground only: blocks that do not move have the joints of their contacts",
+            ),
+        )
     ways = given(item, ("fixed", "slide", "turn"))
     if item.ground is not None:
         for key in (*ways, *given(item, ("together",))):
-            yield (key,), "does not apply to ground, which does not move: say it of blocks in an item of their own"
+            yield (
+                (key,),
+                Message(
+                    "key-of-another-choice",
+                    "does not apply to ground, which does not move: say it of blocks in an item of their own",
+                ),
+            )
         return
     if item.fixed is not None and len(ways) > 1:
-        yield (ways[1],), "only one of fixed, and slide or turn, may be given: what may slide or turn is held otherwise"
+        yield (
+            (ways[1],),
+            Message(
+                "one-of-several",
+                "only one of fixed, and slide or turn, may be given: what may slide or turn is held otherwise",
+            ),
+        )
     if item.together and not ways:
-        yield ("together",), "applies with fixed, slide or turn only: blocks that do not move do so together anyway"
+        yield (
+            ("together",),
+            Message(
+                "key-of-another-choice",
+                "applies with fixed, slide or turn only: blocks that do not move do so together anyway",
+            ),
+        )
 
 
 @rule(types.Support)
@@ -54,13 +79,13 @@ def guide(item: types.Support) -> Iterator[Finding]:
     fixed = item.fixed or []
     for number, component in enumerate(fixed):
         if component in fixed[:number]:
-            yield ("fixed", number), f"{component} is listed already"
+            yield ("fixed", number), Message("duplicate-key", f"{component} is listed already")
     if item.slide is not None and is_zero(item.slide):
-        yield ("slide",), "must not be the zero vector"
+        yield ("slide",), Message("zero-vector", "must not be the zero vector")
 
 
 @rule(types.Turn)
 def turn_axis(turn: types.Turn) -> Iterator[Finding]:
     """A line has a direction."""
     if is_zero(turn.axis):
-        yield ("axis",), "must not be the zero vector"
+        yield ("axis",), Message("zero-vector", "must not be the zero vector")

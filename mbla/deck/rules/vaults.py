@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from mbla.deck import types
 from mbla.deck.rules.common import ROUNDING, exactly_one, given
 from mbla.deck.section import Finding, rule
+from mbla.errors import Message
 
 
 @rule(types.DomeItem)
@@ -16,16 +17,26 @@ def dome_shape(dome: types.DomeItem) -> Iterator[Finding]:
         yield from exactly_one(dome, ("rise", "embrace"), " for a segmental dome")
     else:
         for key in given(dome, ("rise", "embrace")):
-            yield (key,), "applies to segmental domes only: leave it out, or write shape: segmental"
+            yield (
+                (key,),
+                Message(
+                    "key-of-another-choice", "applies to segmental domes only: leave it out, or write shape: segmental"
+                ),
+            )
     if dome.oculus is not None and dome.keystone is not None:
-        yield ("keystone",), "only one of oculus or keystone may be given"
+        yield ("keystone",), Message("one-of-several", "only one of oculus or keystone may be given")
 
 
 @rule(types.DomeItem)
 def dome_bond(dome: types.DomeItem) -> Iterator[Finding]:
     """Half a block is a whole number of facets."""
     if dome.bond == "running" and dome.facets is not None and dome.facets % 2:
-        yield ("facets",), "must be even in running bond: rings are turned by half a block; or write bond: stack"
+        yield (
+            ("facets",),
+            Message(
+                "out-of-bounds", "must be even in running bond: rings are turned by half a block; or write bond: stack"
+            ),
+        )
 
 
 @rule(types.DomeItem)
@@ -34,12 +45,15 @@ def dome_springers(dome: types.DomeItem) -> Iterator[Finding]:
     if dome.springers == "ground" and dome.shape == "segmental" and dome.drum is None:
         yield (
             ("springers",),
-            "a springing on ground is level, that of a segmental dome is a cone: write blocks, or add a drum",
+            Message(
+                "vault-shape",
+                "a springing on ground is level, that of a segmental dome is a cone: write blocks, or add a drum",
+            ),
         )
     if dome.springers == "blocks" and dome.drum is not None:
-        yield ("springers",), "a drum carries the dome: write ground or none"
+        yield ("springers",), Message("key-of-another-choice", "a drum carries the dome: write ground or none")
     if dome.joint is not None and dome.springers != "ground":
-        yield ("joint",), "applies with springers: ground only"
+        yield ("joint",), Message("key-of-another-choice", "applies with springers: ground only")
 
 
 CURVED = (types.BarrelVaultItem, types.CrossVaultItem, types.PavilionVaultItem)
@@ -53,11 +67,20 @@ def vault_curve(vault: types.VaultItem) -> Iterator[Finding]:
         yield from exactly_one(vault, ("rise", "embrace"), " for a segmental vault")
         return
     if vault.embrace is not None:
-        yield ("embrace",), f"applies to shape: segmental only: leave it out, or change shape ({vault.shape} given)"
+        yield (
+            ("embrace",),
+            Message(
+                "key-of-another-choice",
+                f"applies to shape: segmental only: leave it out, or change shape ({vault.shape} given)",
+            ),
+        )
     if vault.shape == "semicircular" and vault.rise is not None:
-        yield ("rise",), "does not apply to shape: semicircular: leave it out, or change shape"
+        yield (
+            ("rise",),
+            Message("key-of-another-choice", "does not apply to shape: semicircular: leave it out, or change shape"),
+        )
     if vault.shape != "semicircular" and vault.rise is None:
-        yield (), f"needs rise for shape: {vault.shape}"
+        yield (), Message("missing-key", f"needs rise for shape: {vault.shape}")
 
 
 def vault_apex(vault: types.VaultItem) -> Iterator[Finding]:
@@ -65,15 +88,15 @@ def vault_apex(vault: types.VaultItem) -> Iterator[Finding]:
     span = vault.span if isinstance(vault, types.BarrelVaultItem) else vault.bay[0]  # type: ignore[attr-defined]
     if vault.shape == "pointed":
         if vault.rise is not None and vault.rise <= span / 2 * (1 + ROUNDING):
-            yield ("rise",), f"must be > {span / 2:g}, half the span, for a pointed vault"
+            yield ("rise",), Message("out-of-bounds", f"must be > {span / 2:g}, half the span, for a pointed vault")
         if vault.courses % 2 and not isinstance(vault, types.PavilionVaultItem):
-            yield ("courses",), "must be even for a pointed vault: its apex is a joint"
+            yield ("courses",), Message("out-of-bounds", "must be even for a pointed vault: its apex is a joint")
 
 
 def vault_springers(vault: types.VaultItem) -> Iterator[Finding]:
     """The joint law of a ground needs a ground."""
     if vault.joint is not None and vault.springers != "ground":
-        yield ("joint",), "applies with springers: ground only"
+        yield ("joint",), Message("key-of-another-choice", "applies with springers: ground only")
 
 
 for _vault in CURVED:
@@ -84,10 +107,15 @@ for _vault in CURVED:
 def at_most_semicircular(vault: types.VaultItem) -> Iterator[Finding]:
     """Webs that lean in below their widest place would cut each other there."""
     if vault.embrace is not None and vault.embrace > 180:
-        yield ("embrace",), "must be <= 180: two barrels meet in it"
+        yield ("embrace",), Message("out-of-bounds", "must be <= 180: two barrels meet in it")
     bay: float = vault.bay[0]  # type: ignore[attr-defined]
     if vault.shape == "segmental" and vault.rise is not None and vault.rise > bay / 2 * (1 + ROUNDING):
-        yield ("rise",), f"must be <= {bay / 2:g}, half the span, for a segmental vault: two barrels meet in it"
+        yield (
+            ("rise",),
+            Message(
+                "out-of-bounds", f"must be <= {bay / 2:g}, half the span, for a segmental vault: two barrels meet in it"
+            ),
+        )
 
 
 def level_springers(vault: types.VaultItem) -> Iterator[Finding]:
@@ -95,7 +123,10 @@ def level_springers(vault: types.VaultItem) -> Iterator[Finding]:
     if vault.springers == "ground" and vault.shape not in LEVEL:
         yield (
             ("springers",),
-            f"springings on ground are level, those of a {vault.shape} vault slope in each web: write blocks",
+            Message(
+                "vault-shape",
+                f"springings on ground are level, those of a {vault.shape} vault slope in each web: write blocks",
+            ),
         )
 
 
@@ -108,26 +139,31 @@ for _vault in (types.CrossVaultItem, types.PavilionVaultItem):
 def pavilion_keystone(vault: types.PavilionVaultItem) -> Iterator[Finding]:
     """Four webs end in a keystone, which is flat."""
     if vault.courses % 2 == 0:
-        yield ("courses",), "must be odd: a keystone closes the crown"
+        yield ("courses",), Message("out-of-bounds", "must be odd: a keystone closes the crown")
     if vault.shape == "pointed":
-        yield ("shape",), "must not be pointed: a keystone closes the crown, and the apex would be a kink in it"
+        yield (
+            ("shape",),
+            Message(
+                "vault-shape", "must not be pointed: a keystone closes the crown, and the apex would be a kink in it"
+            ),
+        )
 
 
 @rule(types.SpiralStairItem)
 def stair_extents(stair: types.SpiralStairItem) -> Iterator[Finding]:
     """Radii in order; a tread is longer than it overlaps the next, and higher than its rebate."""
     if stair.outer_radius <= stair.inner_radius:
-        yield ("outer_radius",), f"must be > {stair.inner_radius:g}, the inner radius"
+        yield ("outer_radius",), Message("out-of-bounds", f"must be > {stair.inner_radius:g}, the inner radius")
     if stair.overlap >= stair.angle:
-        yield ("overlap",), f"must be < {stair.angle:g}, the angle from tread to tread"
+        yield ("overlap",), Message("out-of-bounds", f"must be < {stair.angle:g}, the angle from tread to tread")
     if stair.rebate >= stair.rise:
-        yield ("rebate",), f"must be < {stair.rise:g}, the rise"
+        yield ("rebate",), Message("out-of-bounds", f"must be < {stair.rise:g}, the rise")
 
 
 @rule(types.SpiralStairItem)
 def stair_supports(stair: types.SpiralStairItem) -> Iterator[Finding]:
     """A wall holds what is built into it."""
     if stair.wall != "none" and stair.built_in == 0:
-        yield ("wall",), "needs built_in: the wall holds the ends of treads that reach into it"
+        yield ("wall",), Message("missing-key", "needs built_in: the wall holds the ends of treads that reach into it")
     if stair.joint is not None and stair.foot != "ground":
-        yield ("joint",), "applies with foot: ground only"
+        yield ("joint",), Message("key-of-another-choice", "applies with foot: ground only")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from mbla.deck.tree import KeyPath
+from mbla.errors import Message
 from mbla.model.generators.generator import ItemRefused
 
 MOST = 2_000_000
@@ -19,4 +20,6 @@ def refuse_too_many(amount: float, key: str | KeyPath, what: str = "units") -> N
     """
     if amount > MOST:
         path = (key,) if isinstance(key, str) else key
-        raise ItemRefused([(path, f"makes about {amount:.0e} {what}; at most {MOST:,} can be handled")])
+        raise ItemRefused(
+            [(path, Message("too-many-units", f"makes about {amount:.0e} {what}; at most {MOST:,} can be handled"))]
+        )

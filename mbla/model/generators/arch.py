@@ -10,6 +10,7 @@ import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
 from mbla.deck.types import ArchItem
+from mbla.errors import Message
 from mbla.model.generators.arches.piers import (
     LEVEL,
     SpringingJoint,
@@ -147,11 +148,15 @@ def _check_piers(item: ArchItem, joints: tuple[SpringingJoint, SpringingJoint]) 
     for joint in joints:
         unfit = unfit_rise(joint)
         if unfit is not None:
-            raise ItemRefused([(("piers",), unfit)])
+            raise ItemRefused([(("piers",), Message("arch-shape", unfit))])
     if item.piers.width < least * (1 - LEVEL):
-        raise ItemRefused([(("piers", "width"), f"must be >= {least:g}, the extent of the springing joint")])
+        raise ItemRefused(
+            [(("piers", "width"), Message("out-of-bounds", f"must be >= {least:g}, the extent of the springing joint"))]
+        )
     if joints[1].intrados[0] <= joints[0].intrados[0]:
-        raise ItemRefused([(("piers",), "the piers would overlap: nothing is left of the clear span")])
+        raise ItemRefused(
+            [(("piers",), Message("arch-shape", "the piers would overlap: nothing is left of the clear span"))]
+        )
 
 
 def _through(item: ArchItem, polygons: list[FloatArray], shear: float) -> Polyhedra:

@@ -15,6 +15,7 @@ import numpy as np
 from mbla.arrays import FloatArray, IntArray
 from mbla.deck.tree import KeyPath
 from mbla.deck.types import BridgeItem
+from mbla.errors import Message
 from mbla.model.generators.amounts import refuse_too_many
 from mbla.model.generators.arches.piers import (
     LEVEL,
@@ -105,20 +106,27 @@ def _section(item: BridgeItem, number: int, curve: Curve, voussoirs: int) -> Sec
 
 
 def _check_widths(item: BridgeItem, joints: tuple[tuple[SpringingJoint, SpringingJoint], ...]) -> None:
-    findings: list[tuple[KeyPath, str]] = []
+    findings: list[tuple[KeyPath, Message]] = []
     for number, both_sides in enumerate(joints):
         unfit = unfit_rise(both_sides[0])
         if unfit is not None:
-            raise ItemRefused([(("rise", number) if isinstance(item.rise, list) else ("rise",), unfit)])
+            raise ItemRefused(
+                [(("rise", number) if isinstance(item.rise, list) else ("rise",), Message("arch-shape", unfit))]
+            )
     least = max(joints[0][0].reach, joints[-1][1].reach)
     if item.abutments.width < least * (1 - LEVEL):
-        findings.append((("abutments", "width"), f"must be >= {least:g}, the extent of the springing joint"))
+        findings.append(
+            (
+                ("abutments", "width"),
+                Message("out-of-bounds", f"must be >= {least:g}, the extent of the springing joint"),
+            )
+        )
     for one, other in pairwise(joints):
         assert item.piers is not None  # a rule of the deck
         both = one[1].reach + other[0].reach
         if item.piers.width < both * (1 + LEVEL):
             message = f"must be > {both:g}, the extent of the springing joints on both sides"
-            findings.append((("piers", "width"), message))
+            findings.append((("piers", "width"), Message("out-of-bounds", message)))
             break
     if findings:
         raise ItemRefused(findings)

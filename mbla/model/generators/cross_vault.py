@@ -13,6 +13,7 @@ import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.deck.types import CrossVaultItem
+from mbla.errors import Message
 from mbla.model.generators.amounts import refuse_too_many
 from mbla.model.generators.generator import Generated, ItemRefused, Part, Site, level_ground
 from mbla.model.generators.mitres import (
@@ -92,7 +93,7 @@ def _ends(item: CrossVaultItem, section: HalfSection) -> FloatArray:
     edge = 2 * item.thickness * max(1.0, section.stretch) if item.edge is None else item.edge
     if edge < feet.max() + LEAST_EDGE * item.thickness:
         message = f"must be > {feet.max():g}: the webs end beyond the feet of the groins"
-        raise ItemRefused([(("edge",), message)])
+        raise ItemRefused([(("edge",), Message("out-of-bounds", message))])
     refuse_too_many(item.courses * 2 * (sum(item.bay) / 2 + 2 * edge) / item.unit, "unit")
     return np.array(item.bay) / 2 + edge
 

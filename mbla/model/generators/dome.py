@@ -18,6 +18,7 @@ import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.deck.types import DomeDrum, DomeItem
+from mbla.errors import Message
 from mbla.model.generators.amounts import refuse_too_many
 from mbla.model.generators.chains import chains
 from mbla.model.generators.curves import Circle, named_curve
@@ -98,7 +99,9 @@ def _top(item: DomeItem, circle: Circle) -> float:
         return circle.half_angle / (2 * item.rings + 1)
     widest = 2 * circle.radius * np.sin(min(circle.half_angle, np.pi / 2))
     if diameter >= widest:
-        raise ItemRefused([((key,), f"must be < {widest:g}, the greatest diameter of the intrados")])
+        raise ItemRefused(
+            [((key,), Message("out-of-bounds", f"must be < {widest:g}, the greatest diameter of the intrados"))]
+        )
     return float(np.arcsin(diameter / (2 * circle.radius)))
 
 
@@ -115,7 +118,9 @@ def _drum(dome: _Dome, drum: DomeDrum) -> Iterator[Polyhedra]:
     outside = inside + (dome.thickness if drum.thickness is None else drum.thickness)
     if foot[1, 0] > outside + FLUSH * dome.thickness:
         message = f"must be >= {foot[1, 0] - inside:g}, so that the dome stands on the drum"
-        raise ItemRefused([(("drum",) if drum.thickness is None else ("drum", "thickness"), message)])
+        raise ItemRefused(
+            [(("drum",) if drum.thickness is None else ("drum", "thickness"), Message("out-of-bounds", message))]
+        )
     heights = np.linspace(0.0, drum.height, drum.courses + 1)
     for course, (low, high) in enumerate(pairwise(heights)):
         profile = np.array([[inside, low], [inside, high], [outside, high], [outside, low]])
@@ -124,7 +129,14 @@ def _drum(dome: _Dome, drum: DomeDrum) -> Iterator[Polyhedra]:
             if outside - foot[1, 0] > FLUSH * dome.thickness:
                 profile = np.insert(profile, 2, foot[1], axis=0)
             if foot[1, 1] <= low:
-                raise ItemRefused([(("drum", "courses"), "too many: the springing joint cuts through the last course")])
+                raise ItemRefused(
+                    [
+                        (
+                            ("drum", "courses"),
+                            Message("vault-shape", "too many: the springing joint cuts through the last course"),
+                        )
+                    ]
+                )
         yield dome.ring(profile, course - drum.courses)
 
 

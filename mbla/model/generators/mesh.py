@@ -12,7 +12,7 @@ from mbla.deck.suggestions import unknown
 from mbla.deck.tree import KeyPath
 from mbla.deck.types import MeshItem
 from mbla.deck.units import METRES
-from mbla.errors import Notice
+from mbla.errors import Message, Notice
 from mbla.model.generators.generator import Generated, ItemRefused, Part, Site
 from mbla.model.geometry import read_geometry
 from mbla.model.geometry.cell_sets import join_cells
@@ -40,7 +40,7 @@ def generate_mesh(item: MeshItem, site: Site) -> Generated:
     try:
         geometry = _read(path, item)
     except GeometryFileError as error:
-        raise ItemRefused([(("file",), str(error))]) from error
+        raise ItemRefused([(("file",), error.message)]) from error
     if findings := _misfits(item, geometry):
         raise ItemRefused(findings)
     vertices = _placed(geometry, item, site)
@@ -59,7 +59,13 @@ def _read(path: Path, item: MeshItem) -> Geometry:
         names = [member_name(name) for name in geometry.names]
         known = sorted({name for name in names if name})
         wrong = [
-            (("members", number), unknown("member", name, known, "the file has") if known else "the file has no names")
+            (
+                ("members", number),
+                Message(
+                    "unknown-name",
+                    unknown("member", name, known, "the file has") if known else "the file has no names",
+                ),
+            )
             for number, name in enumerate(item.members)
             if member_name(name) not in known
         ]
@@ -70,19 +76,30 @@ def _read(path: Path, item: MeshItem) -> Geometry:
         kept = tuple(geometry.names[row] for row in rows)
         geometry = replace(geometry, polyhedra=take_polyhedra(geometry.polyhedra, rows), names=kept)
     if item.join_cells and not geometry.cells:
-        raise ItemRefused([(("join_cells",), "applies to files with volume cells only: leave it out")])
+        raise ItemRefused(
+            [
+                (
+                    ("join_cells",),
+                    Message("key-of-another-choice", "applies to files with volume cells only: leave it out"),
+                )
+            ]
+        )
     return join_cells(geometry) if item.join_cells else geometry
 
 
-def _misfits(item: MeshItem, geometry: Geometry) -> list[tuple[KeyPath, str]]:
+def _misfits(item: MeshItem, geometry: Geometry) -> list[tuple[KeyPath, Message]]:
     """Keys that the file has no use for, or lacks."""
-    found: list[tuple[KeyPath, str]] = []
+    found: list[tuple[KeyPath, Message]] = []
     if geometry.planar and item.extrude is None:
-        found.append((("file",), "is a drawing of outlines: give their thickness with extrude"))
+        found.append(
+            (("file",), Message("geometry-options", "is a drawing of outlines: give their thickness with extrude"))
+        )
     if geometry.planar and item.up is not None:
-        found.append((("up",), "does not apply to a drawing: its y points upwards in the deck"))
+        found.append(
+            (("up",), Message("key-of-another-choice", "does not apply to a drawing: its y points upwards in the deck"))
+        )
     if not geometry.planar and item.extrude is not None:
-        found.append((("extrude",), "applies to drawings (DXF) only: leave it out"))
+        found.append((("extrude",), Message("key-of-another-choice", "applies to drawings (DXF) only: leave it out")))
     return found
 
 

@@ -7,6 +7,7 @@ import numpy as np
 from mbla.arrays import IntArray, starts
 from mbla.deck.tree import KeyPath
 from mbla.deck.types import TableItem
+from mbla.errors import Message
 from mbla.model.generators.generator import Generated, ItemRefused, Part, Site
 from mbla.model.geometry.member_names import member_name
 from mbla.model.polyhedra import Polyhedra
@@ -23,7 +24,7 @@ def generate_table(item: TableItem, site: Site) -> Generated:
     DeckError
         for files that are missing or outside the deck's folder
     """
-    findings: list[tuple[KeyPath, str]] = []
+    findings: list[tuple[KeyPath, Message]] = []
     vertices, faces = (
         _read(item, site, key, columns, rest, findings)
         for key, columns, rest in (
@@ -33,7 +34,7 @@ def generate_table(item: TableItem, site: Site) -> Generated:
     )
     if vertices is None or faces is None:
         raise ItemRefused(findings)
-    faults: list[str] = []
+    faults: list[Message] = []
     points = vertices.numbers("xyz", faults)
     blocks, row_of_vertex = _vertices_by_name(vertices, faults)
     findings += [(("vertices",), fault) for fault in TableRefused(faults).faults]
@@ -49,7 +50,7 @@ def generate_table(item: TableItem, site: Site) -> Generated:
 
 
 def _read(
-    item: TableItem, site: Site, key: str, columns: tuple[str, ...], rest: bool, findings: list[tuple[KeyPath, str]]
+    item: TableItem, site: Site, key: str, columns: tuple[str, ...], rest: bool, findings: list[tuple[KeyPath, Message]]
 ) -> Table | None:
     try:
         return read_table(site.resolve_file((key,), getattr(item, key)), columns, with_rest=rest)
@@ -58,41 +59,50 @@ def _read(
         return None
 
 
-def _vertices_by_name(table: Table, faults: list[str]) -> tuple[dict[str, int], dict[tuple[str, str], int]]:
+def _vertices_by_name(table: Table, faults: list[Message]) -> tuple[dict[str, int], dict[tuple[str, str], int]]:
     """Number of each block by its name, and row of each vertex by the names of block and vertex."""
     blocks: dict[str, int] = {}
     rows: dict[tuple[str, str], int] = {}
     for row, key in enumerate(zip(table.columns["block"], table.columns["vertex"], strict=True)):
         block, vertex = key
         if not block or not vertex:
-            faults.append(f"{table.place(row)}: {'vertex' if block else 'block'} is empty")
+            faults.append(Message("table-row", f"{table.place(row)}: {'vertex' if block else 'block'} is empty"))
         elif key in rows:
-            faults.append(f"{table.place(row)}: block {block} has a vertex {vertex} in line {table.lines[rows[key]]}")
+            faults.append(
+                Message(
+                    "table-row",
+                    f"{table.place(row)}: block {block} has a vertex {vertex} in line {table.lines[rows[key]]}",
+                )
+            )
         blocks.setdefault(block, len(blocks))
         rows.setdefault(key, row)
     return blocks, rows
 
 
 def _faces(
-    table: Table, blocks: dict[str, int], row_of_vertex: dict[tuple[str, str], int], faults: list[str]
+    table: Table, blocks: dict[str, int], row_of_vertex: dict[tuple[str, str], int], faults: list[Message]
 ) -> tuple[list[int], list[list[int]]]:
     """Block of each face, and its corners as rows of the table of vertices."""
     owners, corners = [], []
     for row, (block, names) in enumerate(zip(table.columns["block"], table.rest, strict=True)):
         missing = [name for name in names if (block, name) not in row_of_vertex]
         if block not in blocks:
-            faults.append(f"{table.place(row)}: block {block or '(empty)'} has no vertices")
+            faults.append(Message("table-row", f"{table.place(row)}: block {block or '(empty)'} has no vertices"))
         elif missing:
-            faults.append(f"{table.place(row)}: block {block} has no vertex {missing[0]}")
+            faults.append(Message("table-row", f"{table.place(row)}: block {block} has no vertex {missing[0]}"))
         elif len(names) < 3:
-            faults.append(f"{table.place(row)}: a face has at least three corners, this one has {len(names)}")
+            faults.append(
+                Message(
+                    "table-row", f"{table.place(row)}: a face has at least three corners, this one has {len(names)}"
+                )
+            )
         else:
             owners.append(blocks[block])
             corners.append([row_of_vertex[block, name] for name in names])
     bare = set(blocks.values()) - set(owners)
     if bare and not faults:
         names_of_bare = [name for name, number in blocks.items() if number in bare]
-        faults.append(f"{table.file}: block {names_of_bare[0]} has no faces")
+        faults.append(Message("table-row", f"{table.file}: block {names_of_bare[0]} has no faces"))
     return owners, corners
 
 

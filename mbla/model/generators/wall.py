@@ -6,6 +6,7 @@ import numpy as np
 
 from mbla.deck.tree import KeyPath
 from mbla.deck.types import WallItem
+from mbla.errors import Message
 from mbla.model.generators.generator import Generated, ItemRefused, Site
 from mbla.model.generators.masonry.buttresses import check_buttresses, place_buttress
 from mbla.model.generators.masonry.irregular import random_levels
@@ -25,7 +26,7 @@ def generate_wall(item: WallItem, site: Site) -> Generated:
     """
     rises = [*([item.gable.rise] if item.gable else []), *(buttress.depth for buttress in item.buttresses)]
     check_number(item, item.length, ("length",), rises)
-    findings: list[tuple[KeyPath, str]] = []
+    findings: list[tuple[KeyPath, Message]] = []
     openings = []
     for number, opening in enumerate(item.openings):
         found = list(check_opening(item, opening, site.tolerance))

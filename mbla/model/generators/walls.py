@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from mbla.deck.section import Finding
 from mbla.deck.types import WallsItem
+from mbla.errors import Message
 from mbla.model.generators.generator import Generated, ItemRefused, Site
 from mbla.model.generators.masonry.buttresses import PlacedButtress, check_buttresses, place_buttress
 from mbla.model.generators.masonry.irregular import random_levels
@@ -121,11 +122,11 @@ def _check_meetings(item: WallsItem, wall: _Placed) -> Iterator[Finding]:
             for void in opening.voids:
                 reach = void.lean * (void.top - void.bottom) * item.unit[2]
                 if void.left - reach < passage.right - room and void.right + reach > passage.left + room:
-                    yield ("openings", opening.number), f"reaches into wall {other}"
+                    yield ("openings", opening.number), Message("wall-shape", f"reaches into wall {other}")
                     break
         for placed in wall.buttresses:
             if placed.buttress.bonded and placed.start < passage.right - room and placed.end > passage.left + room:
-                yield ("buttresses", placed.number), f"reaches into wall {other}"
+                yield ("buttresses", placed.number), Message("wall-shape", f"reaches into wall {other}")
 
 
 def _check_gables(item: WallsItem, meets: Sequence[tuple[tuple[int, Passage], ...]]) -> Iterator[Finding]:
@@ -133,4 +134,4 @@ def _check_gables(item: WallsItem, meets: Sequence[tuple[tuple[int, Passage], ..
     numbers = [gable.segment for gable in item.gables]
     for n, gable in enumerate(item.gables):
         if any(other in numbers[:n] for other, _ in meets[gable.segment]):
-            yield ("gables", n, "segment"), "meets a wall that has a gable too"
+            yield ("gables", n, "segment"), Message("wall-shape", "meets a wall that has a gable too")

@@ -41,10 +41,12 @@ def read_geometry(path: Path) -> Geometry:
     """
     reader = READERS.get(path.suffix.lower())
     if reader is None:
-        raise GeometryFileError(f"unknown kind of geometry file; known are {', '.join(READERS)}")
+        raise GeometryFileError("geometry-not-read", f"unknown kind of geometry file; known are {', '.join(READERS)}")
     geometry = reader(path)
     if not len(geometry.polyhedra):
-        raise GeometryFileError("the file holds no blocks: no surface and no volume cell was found")
+        raise GeometryFileError(
+            "geometry-without-blocks", "the file holds no blocks: no surface and no volume cell was found"
+        )
     if (np.diff(geometry.polyhedra.loop_start) < 3).any():
-        raise GeometryFileError("a face has fewer than three corners")
+        raise GeometryFileError("geometry-file", "a face has fewer than three corners")
     return geometry

@@ -64,15 +64,18 @@ def read_compas_json(path: Path) -> Geometry:
         found = _Found()
         _collect(document, _Context(), found)
     except OSError as error:
-        raise GeometryFileError(f"cannot be read: {error.strerror or error}") from error
+        raise GeometryFileError("file-unreadable", f"cannot be read: {error.strerror or error}") from error
     except RecursionError as error:
-        raise GeometryFileError("is not a COMPAS file: its JSON is nested too deeply") from error
+        raise GeometryFileError("geometry-file", "is not a COMPAS file: its JSON is nested too deeply") from error
     except (KeyError, IndexError, TypeError, ValueError, AttributeError) as error:
         reason = f"lacks {error}" if isinstance(error, KeyError) else str(error)
-        raise GeometryFileError(f"is not a well-formed COMPAS JSON file: {reason}"[:300]) from error
+        raise GeometryFileError("geometry-file", f"is not a well-formed COMPAS JSON file: {reason}"[:300]) from error
     if found.others and not found.surfaces:
         kinds = ", ".join(sorted(found.others))
-        raise GeometryFileError(f"holds no mesh, but objects of type {kinds}: convert them (Mesh.from_shape, to_mesh)")
+        raise GeometryFileError(
+            "geometry-without-blocks",
+            f"holds no mesh, but objects of type {kinds}: convert them (Mesh.from_shape, to_mesh)",
+        )
     names = tuple(found.names) if any(found.names) else ()
     return Geometry(join_polyhedra(found.surfaces), _notices(found), names)
 

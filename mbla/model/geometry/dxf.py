@@ -65,11 +65,11 @@ def read_dxf(path: Path) -> Geometry:
         raise
     except Exception as error:  # damaged files let all kinds of exceptions through, some when an entity is looked at
         reason = " ".join(str(getattr(error, "strerror", None) or error).split())
-        raise GeometryFileError(f"is not a well-formed DXF file: {reason}"[:300]) from error
+        raise GeometryFileError("geometry-file", f"is not a well-formed DXF file: {reason}"[:300]) from error
     notices = _close_networks(drawing)
     if not drawing.outlines:
         remarks = "; ".join(notice.message for notice in (*notices, *_left_out(drawing)))
-        raise GeometryFileError(f"has no closed outline{f': {remarks}' if remarks else ''}")
+        raise GeometryFileError("geometry-without-blocks", f"has no closed outline{f': {remarks}' if remarks else ''}")
     names = tuple(layer for layer, _ in drawing.outlines)
     polyhedra = join_polyhedra([prism(outline) for _, outline in drawing.outlines])
     unit = UNITS.get(document.header.get("$INSUNITS", 0))
@@ -96,7 +96,7 @@ def _entities(space: Any, inserted_on: str | None, depth: int) -> Iterator[tuple
             yield layer, entity
             continue
         if depth >= DEEPEST:
-            raise GeometryFileError("has a block that contains itself")
+            raise GeometryFileError("geometry-file", "has a block that contains itself")
         copies = entity.multi_insert() if entity.mcount > 1 else (entity,)
         for copy in copies:
             yield from _entities(copy.virtual_entities(), layer, depth + 1)
@@ -113,10 +113,12 @@ def _add(drawing: _Drawing, layer: str, entity: Any) -> None:
     if len(points) < 2:
         return
     if not np.isfinite(points).all():
-        raise GeometryFileError(f"a {kind} on layer {layer} has a coordinate that is not finite")
+        raise GeometryFileError("geometry-file", f"a {kind} on layer {layer} has a coordinate that is not finite")
     extent = float(np.ptp(points, axis=0).max())
     if np.ptp(points[:, 2]) > LEVEL * extent:
-        raise GeometryFileError(f"a {kind} on layer {layer} does not lie in the drawing's x-y plane")
+        raise GeometryFileError(
+            "geometry-not-read", f"a {kind} on layer {layer} does not lie in the drawing's x-y plane"
+        )
     if closed and len(points) > 2:
         drawing.outlines.append((layer, points[:, :2]))
     else:

@@ -5,11 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
-from mbla.errors import Notice
+from mbla.errors import Notice, Refusal
 from mbla.model.polyhedra import Polyhedra
 
 
-class GeometryFileError(Exception):
+class GeometryFileError(Refusal):
     """The file cannot be read, or holds no blocks; the message is for the user of the deck."""
 
 

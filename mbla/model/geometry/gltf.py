@@ -45,10 +45,10 @@ def read_gltf(path: Path) -> Geometry:
         _check_version(document)
         return _geometry(document, Buffers(document, binary, path.parent))
     except OSError as error:
-        raise GeometryFileError(f"cannot be read: {error.strerror or error}") from error
+        raise GeometryFileError("file-unreadable", f"cannot be read: {error.strerror or error}") from error
     except (KeyError, IndexError, TypeError, ValueError, AttributeError, struct.error) as error:
         reason = f"lacks {error}" if isinstance(error, KeyError) else str(error)
-        raise GeometryFileError(f"is not a well-formed glTF file: {reason}"[:300]) from error
+        raise GeometryFileError("geometry-file", f"is not a well-formed glTF file: {reason}"[:300]) from error
 
 
 def _parts(content: bytes) -> tuple[dict[str, Any], bytes | None]:
@@ -85,7 +85,8 @@ def _check_version(document: dict[str, Any]) -> None:
     unknown = [name for name in document.get("extensionsRequired", []) if not name.startswith(KNOWN_EXTENSIONS)]
     if unknown:
         raise GeometryFileError(
-            f"needs {', '.join(map(str, unknown))}: export it without compression and without that extension"
+            "geometry-not-read",
+            f"needs {', '.join(map(str, unknown))}: export it without compression and without that extension",
         )
 
 

@@ -45,9 +45,13 @@ class Buffers:
         root = self._folder.resolve()
         path = (root / name).resolve()
         if "://" in name or not path.is_relative_to(root):
-            raise GeometryFileError(f"its buffer {name[:100]} lies outside the folder of the file")
+            raise GeometryFileError(
+                "file-outside-folder", f"its buffer {name[:100]} lies outside the folder of the file"
+            )
         if not path.is_file():
-            raise GeometryFileError(f"its buffer {name[:100]} is missing: a .gltf needs the .bin written with it")
+            raise GeometryFileError(
+                "file-missing", f"its buffer {name[:100]} is missing: a .gltf needs the .bin written with it"
+            )
         return path.read_bytes()
 
 

@@ -77,10 +77,10 @@ def read_inp(path: Path) -> Geometry:
     try:
         text = path.read_text(encoding="utf-8", errors="replace")
     except OSError as error:
-        raise GeometryFileError(f"cannot be read: {error.strerror or error}") from error
+        raise GeometryFileError("file-unreadable", f"cannot be read: {error.strerror or error}") from error
     content = _read(text)
     if text.strip() and not content.nodes and not content.elements:
-        raise GeometryFileError("is not a well-formed Abaqus or CalculiX .inp file: it has no nodes")
+        raise GeometryFileError("geometry-file", "is not a well-formed Abaqus or CalculiX .inp file: it has no nodes")
     rows = {number: row for row, number in enumerate(content.nodes)}
     points = np.array(list(content.nodes.values()), dtype=np.float64).reshape(-1, 3)
     names = _set_of_elements(content)
@@ -95,14 +95,16 @@ def read_inp(path: Path) -> Geometry:
             return Geometry(cells, notices, named if any(named) else (), cells=True)
         return _surfaces(shells, rows, points, names, notices)
     except KeyError as error:
-        raise GeometryFileError(f"an element names node {error}, which does not exist") from error
+        raise GeometryFileError("geometry-file", f"an element names node {error}, which does not exist") from error
 
 
 def _read(text: str) -> _Content:
     content = _Content()
     for card in _cards(text):
         if card.keyword in REFUSED:
-            raise GeometryFileError(f"line {card.line}: *{card.keyword} is not followed: {REFUSED[card.keyword]}")
+            raise GeometryFileError(
+                "geometry-not-read", f"line {card.line}: *{card.keyword} is not followed: {REFUSED[card.keyword]}"
+            )
         read = {"NODE": _read_nodes, "ELEMENT": _read_elements, "ELSET": _read_set}.get(card.keyword)
         if read is not None:
             read(content, card)
@@ -132,7 +134,9 @@ def _read_elements(content: _Content, card: _Card) -> None:
             content.elements[numbers[0]] = (kind, numbers[1:], name)
             numbers = []
     if numbers:
-        raise GeometryFileError(f"line {card.line}: the last element has fewer than the {needed} nodes of a {kind}")
+        raise GeometryFileError(
+            "geometry-file", f"line {card.line}: the last element has fewer than the {needed} nodes of a {kind}"
+        )
 
 
 def _read_set(content: _Content, card: _Card) -> None:
@@ -151,7 +155,7 @@ def _read_set(content: _Content, card: _Card) -> None:
 
 
 def _unreadable(line: int, error: ValueError) -> GeometryFileError:
-    return GeometryFileError(f"line {line} cannot be read: {error}")
+    return GeometryFileError("geometry-file", f"line {line} cannot be read: {error}")
 
 
 def _cards(text: str) -> Iterator[_Card]:

@@ -45,9 +45,9 @@ def read_ply(path: Path) -> Geometry:
     try:
         header, end, body = path.read_bytes().partition(b"end_header")
     except OSError as error:
-        raise GeometryFileError(f"cannot be read: {error.strerror or error}") from error
+        raise GeometryFileError("file-unreadable", f"cannot be read: {error.strerror or error}") from error
     if not end:  # meshio would look for it for ever
-        raise GeometryFileError("is not a well-formed PLY file: its header has no end")
+        raise GeometryFileError("geometry-file", "is not a well-formed PLY file: its header has no end")
     # both names are in use, meshio knows one
     header = re.sub(rb"(property\s+list\s+\S+\s+\S+\s+)vertex_index\b", rb"\1vertex_indices", header)
     return _read(io.BytesIO(header + end + body), "ply")
@@ -112,11 +112,11 @@ def _mesh(source: str | io.BytesIO, file_format: str) -> tuple[Any, list[Notice]
             # the reader itself: meshio.read prints, and ends the program, where a file is malformed
             mesh = getattr(meshio, file_format).read(source)
     except OSError as error:
-        raise GeometryFileError(f"cannot be read: {error.strerror or error}") from error
+        raise GeometryFileError("file-unreadable", f"cannot be read: {error.strerror or error}") from error
     except (Exception, SystemExit) as error:  # the readers let all kinds of exceptions through
         reason = " ".join(f"{printed.getvalue()} {error}".split())
         reason = f": {reason[:200]}" if reason and reason != type(error).__name__ else ""
-        raise GeometryFileError(f"is not a well-formed {WORDS[file_format]} file{reason}") from error
+        raise GeometryFileError("geometry-file", f"is not a well-formed {WORDS[file_format]} file{reason}") from error
     words = " ".join(printed.getvalue().split())
     return mesh, [Notice("warning", "mesh-file-remarks", words[:500])] if words else []
 
@@ -138,7 +138,7 @@ def _points(mesh: Any) -> FloatArray:
     if not points.size:
         return np.empty((0, 3))
     if points.ndim != 2 or points.shape[1] not in (2, 3):
-        raise GeometryFileError("the points have neither two nor three coordinates")
+        raise GeometryFileError("geometry-file", "the points have neither two nor three coordinates")
     if points.shape[1] == 2:
         points = np.concatenate([points, np.zeros((len(points), 1))], axis=1)
     return points
@@ -155,7 +155,7 @@ def _volume_cells(points: FloatArray, block: Any) -> Polyhedra:
     count, faces = VOLUME_CELLS[_shape(block.type)]
     rows = np.asarray(block.data, dtype=np.int64)
     if rows.ndim != 2 or rows.shape[1] < count:
-        raise GeometryFileError(f"a cell of type {block.type} has fewer than {count} points")
+        raise GeometryFileError("geometry-file", f"a cell of type {block.type} has fewer than {count} points")
     rows = rows[:, :count]
     _check_rows(rows, points)
     return polyhedra_from_cells(points[rows], faces)
@@ -181,7 +181,7 @@ def _surface_cells(block: Any) -> Iterator[Sequence[int]]:
 
 def _check_rows(rows: np.typing.NDArray[np.int64], points: FloatArray) -> None:
     if rows.size and not (rows.min() >= 0 and rows.max() < len(points)):
-        raise GeometryFileError(f"a cell names a point that does not exist; there are {len(points)}")
+        raise GeometryFileError("geometry-file", f"a cell names a point that does not exist; there are {len(points)}")
 
 
 def _left_out(blocks: Sequence[Any], beside_volumes: bool) -> list[Notice]:
@@ -229,6 +229,6 @@ def write_mesh(
             )
             meshio.write(path, mesh, file_format=file_format)
     except OSError as error:
-        raise FileError(f"{path}: cannot be written: {error.strerror or error}") from error
+        raise FileError("file-not-written", f"{path}: cannot be written: {error.strerror or error}") from error
     if remarks := " ".join(printed.getvalue().split()):
         logging.getLogger(__name__).warning("%s: %s", path, remarks)

@@ -66,7 +66,7 @@ def _read(path: Path) -> _Content:
         try:
             _read_line(content, keyword, rest)
         except (ValueError, IndexError) as error:
-            raise GeometryFileError(f"line {number} cannot be read: {error}") from error
+            raise GeometryFileError("geometry-file", f"line {number} cannot be read: {error}") from error
     return content
 
 
@@ -75,7 +75,7 @@ def _lines(path: Path) -> Iterator[tuple[int, str]]:
     try:
         text = path.read_text(encoding="utf-8", errors="replace")
     except OSError as error:
-        raise GeometryFileError(f"cannot be read: {error.strerror}") from error
+        raise GeometryFileError("file-unreadable", f"cannot be read: {error.strerror}") from error
     pending = ""
     for number, raw in enumerate(text.splitlines(), start=1):
         line = pending + raw.split("#", 1)[0].strip().replace("\t", " ")

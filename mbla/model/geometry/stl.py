@@ -27,14 +27,14 @@ def read_stl(path: Path) -> Geometry:
     try:
         content = path.read_bytes()
     except OSError as error:
-        raise GeometryFileError(f"cannot be read: {error.strerror or error}") from error
+        raise GeometryFileError("file-unreadable", f"cannot be read: {error.strerror or error}") from error
     n_triangles = int.from_bytes(content[80:HEADER], "little") if len(content) >= HEADER else -1
     if len(content) == HEADER + TRIANGLE * n_triangles:  # binary headers may begin with "solid", too
         return _geometry([_triangles(content)], [""])
     if content.lstrip()[:5].lower() == b"solid":
         return _solids(content.decode("utf-8", errors="replace"))
     announced = f": {n_triangles} triangles are announced" if n_triangles >= 0 else ""
-    raise GeometryFileError(f"is not a well-formed STL file{announced}, it has {len(content)} bytes")
+    raise GeometryFileError("geometry-file", f"is not a well-formed STL file{announced}, it has {len(content)} bytes")
 
 
 def _triangles(content: bytes) -> np.typing.NDArray[np.float64]:
@@ -59,15 +59,17 @@ def _solids(text: str) -> Geometry:
             try:
                 corners[-1].append((float(fields[1]), float(fields[2]), float(fields[3])))
             except (ValueError, IndexError) as error:
-                raise GeometryFileError(f"is not a well-formed STL file: line {number} is no vertex") from error
+                raise GeometryFileError(
+                    "geometry-file", f"is not a well-formed STL file: line {number} is no vertex"
+                ) from error
         elif word == "endloop" and len(corners[-1]) % 3:
             raise GeometryFileError(
-                f"is not a well-formed STL file: the loop that ends in line {number} is no triangle"
+                "geometry-file", f"is not a well-formed STL file: the loop that ends in line {number} is no triangle"
             )
         elif word == "endsolid":
             complete = True
     if not complete:
-        raise GeometryFileError("is not a well-formed STL file: its last solid has no end")
+        raise GeometryFileError("geometry-file", "is not a well-formed STL file: its last solid has no end")
     return _geometry([np.array(each, dtype=np.float64).reshape(-1, 3, 3) for each in corners], names)
 
 

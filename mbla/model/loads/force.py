@@ -7,6 +7,7 @@ import numpy as np
 from mbla.arrays import IntArray
 from mbla.deck.tree import KeyPath
 from mbla.deck.types import Load
+from mbla.errors import Message
 from mbla.model.loads.load_kind import AppliedLoad, LoadSite, wrenches_of
 from mbla.model.outside import distance_outside
 from mbla.model.wording import vector
@@ -18,7 +19,7 @@ def force_load(load: Load, blocks: IntArray | None, path: KeyPath, site: LoadSit
     assert blocks is not None  # a rule of the deck: a force says on which block it acts
     if len(blocks) != 1:
         message = f"a force acts on one block, {len(blocks)} are selected: give an index, or one force for each"
-        site.refuse((*path, "on"), message)
+        site.refuse((*path, "on"), Message("one-block-only", message))
         return None
     block = int(blocks[0])
     words = f"force {vector(load.force)} {site.units.force} on {site.blocks.name(block)}"

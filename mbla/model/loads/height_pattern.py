@@ -14,6 +14,7 @@ import numpy as np
 from mbla.arrays import FloatArray, IntArray
 from mbla.deck.tree import KeyPath
 from mbla.deck.types import HeightPattern
+from mbla.errors import Message
 from mbla.model.loads.load_kind import LoadSite
 from mbla.model.loads.ramp_moments import ramp_moments
 from mbla.model.ragged import items_of_rows
@@ -47,7 +48,7 @@ def pattern_factors(pattern: HeightPattern, blocks: IntArray, path: KeyPath, sit
         base = heights_of_vertices.min() if pattern.base is None else pattern.base
         top = heights_of_vertices.max() if pattern.top is None else pattern.top
         if not base < top:
-            site.refuse(path, f"its base, {base:g}, must be below its top, {top:g}")
+            site.refuse(path, Message("out-of-bounds", f"its base, {base:g}, must be below its top, {top:g}"))
             return None
         heights, factors = np.array([base, top]), np.array([0.0, 1.0])
     means, levers = _over_volumes(heights, factors, along, heights_of_vertices, blocks, site)

@@ -12,6 +12,7 @@ import numpy as np
 from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.deck.tree import KeyPath
 from mbla.deck.types import LineLoad, Load
+from mbla.errors import Message
 from mbla.model.loads.blocks_under import stretches_under, unit
 from mbla.model.loads.load_kind import AppliedLoad, LoadSite, sum_on_blocks, wrenches_of
 from mbla.model.wording import counted, vector
@@ -81,7 +82,7 @@ def _refuse_bare(line: LineLoad, ends: FloatArray, bare: BoolArray, path: KeyPat
         f"{lost:.6g} of its {length:.6g} {site.units.length} lie over no block, from {vector(first)} on; "
         "shorten the line, or look for blocks in another direction with towards"
     )
-    site.refuse((*path, "line"), message)
+    site.refuse((*path, "line"), Message("load-beside-structure", message))
 
 
 def _remark_above(line: LineLoad, above: FloatArray, loaded: IntArray, words: str, site: LoadSite) -> None:

@@ -12,7 +12,7 @@ from mbla.deck.rules.common import given
 from mbla.deck.rules.loads import LIVE_ONLY
 from mbla.deck.tree import KeyPath
 from mbla.deck.types import Load, LoadCaseSection
-from mbla.errors import Fault
+from mbla.errors import Fault, Message
 from mbla.model.loads.kinds import LOAD_KINDS
 from mbla.model.loads.load_kind import AppliedLoad, LoadSite
 from mbla.model.loads.named_loads import Entry, entries_of
@@ -118,9 +118,12 @@ def _judge_case(
     elif position is not None and site.fixed[position.applied.blocks].all():
         them = "the block does" if len(position.applied.blocks) == 1 else "the blocks do"
         words = f"{position.applied.words} has no effect: {them} not move; change the path"
-        site.refuse((*path, "live"), words)
+        site.refuse((*path, "live"), Message("live-load-without-effect", words))
     else:
-        site.refuse((*path, "live"), "the live loads cancel each other: they have no effect")
+        site.refuse(
+            (*path, "live"),
+            Message("live-load-without-effect", "the live loads cancel each other: they have no effect"),
+        )
 
 
 def _beyond_computing(path: KeyPath, loads: FloatArray, site: LoadSite) -> list[Fault]:
@@ -130,7 +133,12 @@ def _beyond_computing(path: KeyPath, loads: FloatArray, site: LoadSite) -> list[
     if largest == 0.0 or least <= largest <= most:
         return []
     size = f"{largest:.1e} {site.units.force}"
-    return [site.roster.fault_at(path, f"the loads reach {size}: {least:.0e} to {most:.0e} can be computed with")]
+    return [
+        site.roster.fault_at(
+            path,
+            Message("load-beyond-computing", f"the loads reach {size}: {least:.0e} to {most:.0e} can be computed with"),
+        )
+    ]
 
 
 def _add_up(loads: Sequence[Load], path: KeyPath, site: LoadSite, live: bool) -> _Sum:
@@ -173,11 +181,14 @@ def _judge_effect(entry: Entry, applied: AppliedLoad, site: LoadSite, live: bool
     # what weighs nothing is refused as such, and rows of a table that cancel each other as live loads that do
     weightless = kind == "table" or (kind in ("gravity", "acceleration") and not site.blocks.masses[blocks].any())
     if live and not applied.wrenches.any() and not weightless:
-        site.refuse((*entry.path, kind), "is a live load with no effect")
+        site.refuse((*entry.path, kind), Message("live-load-without-effect", "is a live load with no effect"))
     if not site.fixed[blocks].all() or site.fixed.all():  # a structure that is fixed altogether is refused as such
         return
     if live:
-        site.refuse((*entry.path, key), "every block it acts on is fixed: the live load has no effect")
+        site.refuse(
+            (*entry.path, key),
+            Message("live-load-without-effect", "every block it acts on is fixed: the live load has no effect"),
+        )
     elif kind not in ("gravity", "acceleration"):
         name = named(blocks, site.blocks.name)
         moves = "does not move" if len(blocks) == 1 else "do not move"

@@ -17,7 +17,7 @@ from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.deck.tree import KeyPath
 from mbla.deck.types import Load
 from mbla.deck.units import Units
-from mbla.errors import Fault, Notice
+from mbla.errors import Fault, Message, Notice
 from mbla.model.blocks import Blocks
 from mbla.model.model import Ground
 from mbla.model.selectors import Roster
@@ -51,7 +51,7 @@ class LoadSite:
         """All blocks of the model."""
         return self.roster.blocks
 
-    def refuse(self, path: KeyPath, message: str) -> None:
+    def refuse(self, path: KeyPath, message: Message) -> None:
         """Add a fault, once: several load cases may have the same named load."""
         fault = self.roster.fault_at(path, message)
         if fault not in self.faults:

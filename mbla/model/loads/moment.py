@@ -7,6 +7,7 @@ import numpy as np
 from mbla.arrays import IntArray
 from mbla.deck.tree import KeyPath
 from mbla.deck.types import Load
+from mbla.errors import Message
 from mbla.model.loads.load_kind import AppliedLoad, LoadSite
 from mbla.model.wording import vector
 
@@ -17,7 +18,7 @@ def moment_load(load: Load, blocks: IntArray | None, path: KeyPath, site: LoadSi
     assert blocks is not None  # a rule of the deck: a moment says on which block it acts
     if len(blocks) != 1:
         message = f"a moment acts on one block, {len(blocks)} are selected: give an index, or one moment for each"
-        site.refuse((*path, "on"), message)
+        site.refuse((*path, "on"), Message("one-block-only", message))
         return None
     words = f"moment {vector(load.moment)} {site.units.force} {site.units.length} on {site.blocks.name(int(blocks[0]))}"
     return AppliedLoad(blocks, np.array([[0.0, 0.0, 0.0, *load.moment]]), words)

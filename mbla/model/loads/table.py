@@ -8,7 +8,7 @@ from mbla.arrays import FloatArray, IntArray
 from mbla.deck.suggestions import did_you_mean, listed
 from mbla.deck.tree import KeyPath
 from mbla.deck.types import Load
-from mbla.errors import DeckError
+from mbla.errors import DeckError, Message
 from mbla.model.loads.load_kind import AppliedLoad, LoadSite, wrenches_of
 from mbla.model.tables import Table, TableRefused, read_table
 from mbla.model.wording import counted
@@ -45,11 +45,17 @@ def table_load(load: Load, blocks: IntArray | None, path: KeyPath, site: LoadSit
 
 def _wrenches(table: Table, site: LoadSite) -> tuple[FloatArray, IntArray | None]:
     """Force and moment of each row about the centroid of its block, (n, 6), and the blocks; None if not built."""
-    faults: list[str] = []
+    faults: list[Message] = []
     forces = table.numbers(FORCE, faults)
     given = [name for name in POINT if name in table.columns]
     if given and len(given) < len(POINT):
-        raise TableRefused([f"{table.file}: columns x, y, z go together, only {listed(given, 'and')} is there"])
+        raise TableRefused(
+            [
+                Message(
+                    "table-columns", f"{table.file}: columns x, y, z go together, only {listed(given, 'and')} is there"
+                )
+            ]
+        )
     given_moments = [name for name in MOMENT if name in table.columns]
     moments = np.zeros((len(table), 3))
     moments[:, [MOMENT.index(name) for name in given_moments]] = table.numbers(given_moments, faults)
@@ -65,7 +71,7 @@ def _wrenches(table: Table, site: LoadSite) -> tuple[FloatArray, IntArray | None
     return wrenches, rows
 
 
-def _blocks(table: Table, site: LoadSite, faults: list[str]) -> IntArray | None:
+def _blocks(table: Table, site: LoadSite, faults: list[Message]) -> IntArray | None:
     """Block of each row; None where a group could not be built."""
     found = np.zeros(len(table), dtype=np.int64)
     built = True
@@ -74,10 +80,16 @@ def _blocks(table: Table, site: LoadSite, faults: list[str]) -> IntArray | None:
         if group in site.roster.partial:
             built = False
         elif group not in groups:
-            faults.append(f"{table.place(row)}: unknown group {group}{did_you_mean(group, groups)}")
+            faults.append(
+                Message("table-row", f"{table.place(row)}: unknown group {group}{did_you_mean(group, groups)}")
+            )
         elif not index.isdecimal() or int(index) >= len(groups[group]):
             last = len(groups[group]) - 1
-            faults.append(f"{table.place(row)}: index = {index or '(empty)'}: {group} has blocks 0 to {last}")
+            faults.append(
+                Message(
+                    "table-row", f"{table.place(row)}: index = {index or '(empty)'}: {group} has blocks 0 to {last}"
+                )
+            )
         else:
             found[row] = groups[group][int(index)]
     return found if built else None

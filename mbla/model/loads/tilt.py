@@ -17,6 +17,7 @@ import numpy as np
 from mbla.arrays import FloatArray
 from mbla.deck.tree import KeyPath
 from mbla.deck.types import Tilt as TiltSection
+from mbla.errors import Message
 from mbla.model.loads.blocks_under import unit
 from mbla.model.loads.load_kind import LoadSite
 from mbla.model.loads.mass_forces import mass_forces
@@ -43,7 +44,7 @@ def tilt_loads(load: TiltSection, dead: Sequence[Entry], dead_total: FloatArray,
     across = mass_forces(everywhere, -np.cross(axis, gravity), site)
     if np.linalg.norm(level) <= ALONG * np.linalg.norm(gravity):
         what = "gravity lies along the axis" if gravity.any() else "there is no gravity among the dead loads"
-        site.refuse((*path, "live", 0, "tilt"), f"nothing turns: {what}")
+        site.refuse((*path, "live", 0, "tilt"), Message("live-load-without-effect", f"nothing turns: {what}"))
     if others:
         name = path[-1]
         message = f"{name}: only gravity turns; the other dead loads keep their direction in the structure"

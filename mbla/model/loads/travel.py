@@ -15,6 +15,7 @@ import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
 from mbla.deck.types import Load, Travel
+from mbla.errors import Message
 from mbla.model.loads.blocks_under import block_under
 from mbla.model.loads.load_kind import AppliedLoad, LoadSite, sum_on_blocks, wrenches_of
 from mbla.model.loads.named_loads import Entry
@@ -54,14 +55,16 @@ def travel_loads(name: str, entry: Entry, site: LoadSite) -> list[PositionLoad] 
         words = (
             f"at position {empty[0]} of {len(axles)} no force is on the path: make it longer than the gaps between them"
         )
-        site.refuse((*entry.path, "travel", "axles"), words)
+        site.refuse((*entry.path, "travel", "axles"), Message("load-beside-structure", words))
         return None
     towards = np.array(travel.towards)
     found = [[block_under(point, towards, chosen, site.blocks)[0] for point in points] for points, _, _ in axles]
     bare = [(number, axles[number - 1][0][row.index(-1)]) for number, row in enumerate(found, start=1) if -1 in row]
     if bare:
         if not site.roster.partial:
-            site.refuse((*entry.path, "travel"), _bare_in_words(bare, len(axles), site))
+            site.refuse(
+                (*entry.path, "travel"), Message("load-beside-structure", _bare_in_words(bare, len(axles), site))
+            )
         return None
     forces = entry.factor * np.array([travel.force, *(axle.force for axle in travel.axles or [])])
     loads = []

@@ -10,7 +10,7 @@ import numpy as np
 from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.deck.deck import Deck
 from mbla.deck.tree import KeyPath
-from mbla.errors import Fault
+from mbla.errors import Fault, Message
 from mbla.model.guides import NO_GUIDES, Guides, joined
 from mbla.model.model import Ground
 from mbla.model.selectors import Roster, select_blocks
@@ -73,9 +73,15 @@ def build_supports(deck: Deck, brought_along: Supports, roster: Roster, faults: 
 def _check_hold(supports: Supports, roster: Roster, faults: list[Fault]) -> None:
     """Something holds the structure, and something can move."""
     if not supports.fixed.any() and not supports.grounds and not len(supports.guides):
-        faults.append(roster.fault_at(("supports",), "nothing holds the structure: give ground or fixed blocks"))
+        faults.append(
+            roster.fault_at(
+                ("supports",), Message("no-support", "nothing holds the structure: give ground or fixed blocks")
+            )
+        )
     if supports.fixed.all():
-        faults.append(roster.fault_at(("supports",), "every block is fixed: nothing can move"))
+        faults.append(
+            roster.fault_at(("supports",), Message("nothing-can-move", "every block is fixed: nothing can move"))
+        )
 
 
 def _joined_guides(
@@ -89,7 +95,7 @@ def _joined_guides(
             if len(twice):
                 verb = "is" if len(twice) == 1 else "are"
                 message = f"{named(twice, roster.blocks.name)} {verb} {words}: say how a block is held in one item"
-                faults.append(roster.fault_at((*path, "blocks"), message))
+                faults.append(roster.fault_at((*path, "blocks"), Message("support-held-twice", message)))
         held[own.blocks] = True
         result = joined(result, own)
     return result

@@ -7,7 +7,7 @@ import numpy as np
 from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.deck.tree import KeyPath
 from mbla.deck.types import GroundPlane
-from mbla.errors import Fault
+from mbla.errors import Fault, Message
 from mbla.model.blocks import Blocks
 from mbla.model.model import Ground
 from mbla.model.ragged import row_maxima
@@ -45,11 +45,13 @@ def check_ground(
     depths = row_maxima(-heights, blocks.vertex_start)
     sunk = np.flatnonzero(may_carry & (depths > tolerance * blocks.sizes))
     if len(sunk):
-        faults.append(roster.fault_at(path, _sunk_in_words(sunk, depths, blocks)))
+        faults.append(roster.fault_at(path, Message("ground-misplaced", _sunk_in_words(sunk, depths, blocks))))
     elif not _faces_on(ground, heights, may_carry, blocks, tolerance) and not roster.partial:
         lowest = -depths[may_carry].max() if may_carry.any() else np.nan
         nearest = f"; the nearest block begins {lowest:.4g} above it" if lowest > 0 else ""
-        faults.append(roster.fault_at(path, f"no face of a block that can move lies on it{nearest}"))
+        faults.append(
+            roster.fault_at(path, Message("ground-misplaced", f"no face of a block that can move lies on it{nearest}"))
+        )
 
 
 def _sunk_in_words(sunk: IntArray, depths: FloatArray, blocks: Blocks) -> str:

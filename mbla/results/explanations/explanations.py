@@ -55,7 +55,7 @@ def find_explanations(asked: str) -> tuple[Explanation, ...]:
     if not found:
         names = [*EXPLANATIONS, *(alias for entry in EXPLANATIONS.values() for alias in entry.aliases)]
         near = did_you_mean_of(name, names) or "; mbla explain lists every identifier"
-        raise UsageError(f"explain {asked}: nothing is known by that name{near}")
+        raise UsageError("explain-unknown", f"explain {asked}: nothing is known by that name{near}")
     return found
 
 

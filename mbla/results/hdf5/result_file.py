@@ -119,21 +119,21 @@ def read_results_hdf5(path: Path) -> Results:
         raise
     except OSError as error:
         what = "not an HDF5 file" if "signature not found" in str(error) else f"damaged: {_short(error)}"
-        raise FileError(f"{path}: {what}") from error
+        raise FileError("damaged-result-file", f"{path}: {what}") from error
     except DAMAGE as error:
-        raise FileError(f"{path}: damaged: {_short(error)}") from error
+        raise FileError("damaged-result-file", f"{path}: damaged: {_short(error)}") from error
 
 
 def _try_opening(path: Path) -> None:
     """What the operating system refuses, in its own words: those of HDF5 are long and name addresses in memory."""
     try:
         if path.is_dir():
-            raise FileError(f"{path}: is a folder, not a result file")
+            raise FileError("folder-given", f"{path}: is a folder, not a result file")
         if path.exists() and not path.is_file():  # opening a pipe would wait for ever
-            raise FileError(f"{path}: is not a regular file")
+            raise FileError("not-a-regular-file", f"{path}: is not a regular file")
         path.open("rb").close()
     except OSError as error:
-        raise FileError(f"{path}: {error.strerror or error}") from error
+        raise FileError("file-unreadable", f"{path}: {error.strerror or error}") from error
 
 
 def _short(error: BaseException) -> str:
@@ -301,16 +301,17 @@ def _scale(file: h5py.File, scales: dict[str, h5py.Dataset], path: str, name: st
 def _read_attributes(file: h5py.File, path: Path) -> dict[str, str | int]:
     """Root attributes; what the file is and its version come first."""
     if "filetype" not in file.attrs or text_of(file.attrs["filetype"]) != FILETYPE:
-        raise FileError(f"{path}: not an mbla result file")
+        raise FileError("damaged-result-file", f"{path}: not an mbla result file")
     version = int(file.attrs["version"])
     if version != VERSION:
         wrote = text_of(file.attrs.get("mbla_version", "of unknown version"))
         remedy = "run the deck again; its text is in /deck/source_texts" if version < VERSION else "use a newer mbla"
         raise FileError(
-            f"{path}: layout version {version}, written by mbla {wrote}; this mbla reads version {VERSION}: {remedy}"
+            "old-result-file",
+            f"{path}: layout version {version}, written by mbla {wrote}; this mbla reads version {VERSION}: {remedy}",
         )
     if int(file.attrs["complete"]) != 1:
-        raise FileError(f"{path}: incomplete")
+        raise FileError("damaged-result-file", f"{path}: incomplete")
     return {
         name: int(file.attrs[name]) if name in ("version", "complete") else text_of(file.attrs[name])
         for name in ATTRIBUTES

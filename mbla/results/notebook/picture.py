@@ -25,7 +25,7 @@ class Picture:
         """Write it; the suffix must be that of its format. FileError if that fails, UsageError for another suffix."""
         path = Path(path)
         if path.suffix.lower() != f".{self.format}":
-            raise UsageError(f"{path}: the picture is {self.format}; ask picture() for another format")
+            raise UsageError("output-format", f"{path}: the picture is {self.format}; ask picture() for another format")
         write_whole(path, self.content)
         return path
 
@@ -50,7 +50,9 @@ def case_picture(results: Results, case: CaseResult, kind: str, path: Path | Non
     else:
         ending = format_of(path)
         if format not in (None, ending):
-            raise UsageError(f"{path}: its suffix says {ending}, the format {format}: give one of them")
+            raise UsageError(
+                "output-format", f"{path}: its suffix says {ending}, the format {format}: give one of them"
+            )
     with tempfile.TemporaryDirectory(prefix="mbla-") as folder:
         drawn = Path(folder) / f"picture.{ending}"
         plot_case(results, case, drawn, kind)

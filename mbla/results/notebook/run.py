@@ -154,11 +154,16 @@ class Run:
         if len(series) == 1 and len(series[0].cases) == len(self):
             worst = series[0].worst
             if worst is None:
-                raise UsageError(f"{series[0].name}: no least load factor is known; ask load_factors for each position")
+                raise UsageError(
+                    "no-least-load-factor",
+                    f"{series[0].name}: no least load factor is known; ask load_factors for each position",
+                )
             return Case(self.records, worst)
         if len(self) != 1:
             names = ", ".join(case.name for case in self.cases) or "none"
-            raise UsageError(f"the result has {len(self)} load cases; name one with case(): {names}")
+            raise UsageError(
+                "load-case-not-chosen", f"the result has {len(self)} load cases; name one with case(): {names}"
+            )
         return self.cases[0]
 
     def __repr__(self) -> str:

@@ -41,7 +41,7 @@ def format_of_film(path: Path) -> str:
     """``gif`` or ``mp4`` by the name of a file; UsageError for any other."""
     suffix = path.suffix.lower().removeprefix(".")
     if suffix not in FORMATS:
-        raise UsageError(f"{path}: animations are written as GIF or MP4, by the name of the file")
+        raise UsageError("output-format", f"{path}: animations are written as GIF or MP4, by the name of the file")
     return suffix
 
 
@@ -60,18 +60,20 @@ def write_animation(results: Results, case: CaseResult, path: Path, options: Pic
     """
     kind = format_of_film(path)
     if not path.parent.is_dir():
-        raise FileError(f"{path.parent}: no such folder")  # said before the frames are drawn
+        raise FileError("file-missing", f"{path.parent}: no such folder")  # said before the frames are drawn
     options = fitted_options(options or PictureOptions(), kind)
     widest = scene_of(results, case, options, "mechanism")
     if not widest.motion.any():
-        raise UsageError(f"load case {case.load_case.name}: there is no mechanism, so there is nothing to animate")
+        raise UsageError(
+            "no-mechanism", f"load case {case.load_case.name}: there is no mechanism, so there is nothing to animate"
+        )
     forth = list(_frames(widest, options))
     film = [*forth, *forth[-2:0:-1]]
     image = _gif(film) if kind == "gif" else _mp4(film)
     try:
         path.write_bytes(image)
     except OSError as error:
-        raise FileError(f"{path}: {error.strerror or error}") from error
+        raise FileError("file-not-written", f"{path}: {error.strerror or error}") from error
 
 
 def fitted_options(options: PictureOptions, kind: str) -> PictureOptions:
@@ -128,7 +130,9 @@ def _mp4(film: list[Any]) -> bytes:
     try:
         import imageio_ffmpeg
     except ImportError as error:
-        raise UsageError("MP4 needs an extra that is not installed: pip install 'mbla[pictures]'") from error
+        raise UsageError(
+            "extra-missing", "MP4 needs an extra that is not installed: pip install 'mbla[pictures]'"
+        ) from error
     height, width = film[0].shape[:2]
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "film.mp4"

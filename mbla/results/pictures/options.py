@@ -76,7 +76,7 @@ def picture_options(arguments: Any) -> PictureOptions:
     single = output is not None and output.suffix and not output.is_dir()
     dpi = texts["dpi"]
     if not LEAST_DPI <= dpi <= MOST_DPI:
-        raise UsageError(f"--dpi {dpi}: {LEAST_DPI} to {MOST_DPI} dots per inch")
+        raise UsageError("picture-option", f"--dpi {dpi}: {LEAST_DPI} to {MOST_DPI} dots per inch")
     return PictureOptions(
         kinds=parse_kinds(texts["kind"]) if texts["kind"] else ("mechanism",) if single else USUAL_KINDS,
         animate=texts["animate"],
@@ -97,7 +97,9 @@ def parse_kinds(text: str) -> tuple[str, ...]:
         return KINDS
     unknown = [part for part in asked if part not in KINDS]
     if unknown or not asked:
-        raise UsageError(f"--kind {text}: there are {', '.join(KINDS)}, or all; several with commas between them")
+        raise UsageError(
+            "picture-option", f"--kind {text}: there are {', '.join(KINDS)}, or all; several with commas between them"
+        )
     return tuple(kind for kind in KINDS if kind in asked)
 
 
@@ -113,7 +115,9 @@ def parse_view(text: str) -> tuple[float, float] | None:
         azimuth = elevation = math.nan
     if not (math.isfinite(azimuth) and -90 <= elevation <= 90):
         names = ", ".join((*VIEWS, "auto"))
-        raise UsageError(f"--view {text}: there are {names}, or AZIMUTH,ELEVATION in degrees, as -60,25")
+        raise UsageError(
+            "picture-option", f"--view {text}: there are {names}, or AZIMUTH,ELEVATION in degrees, as -60,25"
+        )
     return azimuth, elevation
 
 
@@ -124,7 +128,9 @@ def parse_scale(text: str) -> float:
     except ValueError:
         value = math.nan
     if not 0 <= value < math.inf:
-        raise UsageError(f"--scale {text}: auto, or a multiple of the displacements that auto draws, as 0.5")
+        raise UsageError(
+            "picture-option", f"--scale {text}: auto, or a multiple of the displacements that auto draws, as 0.5"
+        )
     return value
 
 
@@ -135,7 +141,9 @@ def parse_size(text: str) -> tuple[int, int]:
     except ValueError:
         width = height = 0
     if not all(LEAST_SIDE <= side <= MOST_SIDE for side in (width, height)):
-        raise UsageError(f"--size {text}: width x height in pixels, {LEAST_SIDE} to {MOST_SIDE} each, as 1600x1000")
+        raise UsageError(
+            "picture-option", f"--size {text}: width x height in pixels, {LEAST_SIDE} to {MOST_SIDE} each, as 1600x1000"
+        )
     return width, height
 
 
@@ -143,5 +151,5 @@ def format_of(path: Path) -> str:
     """``png``, ``svg`` or ``pdf`` by the name of a file; UsageError for any other."""
     suffix = path.suffix.lower().removeprefix(".")
     if suffix not in FORMATS:
-        raise UsageError(f"{path}: pictures are written as PNG, SVG or PDF, by the name of the file")
+        raise UsageError("output-format", f"{path}: pictures are written as PNG, SVG or PDF, by the name of the file")
     return suffix

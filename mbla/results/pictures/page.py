@@ -48,7 +48,9 @@ def matplotlib_parts() -> Any:
         from matplotlib.patches import Patch, Rectangle
         from matplotlib.ticker import MaxNLocator
     except ImportError as error:
-        raise UsageError("pictures need an extra that is not installed: pip install 'mbla[pictures]'") from error
+        raise UsageError(
+            "extra-missing", "pictures need an extra that is not installed: pip install 'mbla[pictures]'"
+        ) from error
     return SimpleNamespace(
         colormaps=colormaps,
         rc_context=rc_context,
@@ -114,7 +116,7 @@ def open_page(path: Path, options: PictureOptions) -> Iterator[Page]:
         try:
             page.figure.savefig(path, format=kind, metadata=METADATA[kind])
         except OSError as error:
-            raise FileError(f"{path}: {error.strerror or error}") from error
+            raise FileError("file-not-written", f"{path}: {error.strerror or error}") from error
 
 
 @contextmanager

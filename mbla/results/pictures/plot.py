@@ -54,7 +54,8 @@ def plot_results(results: Results, target: Path, stem: str, options: PictureOpti
         _check_name(target, options)
         if len(pictures) > 1:
             raise UsageError(
-                f"{target}: one file for {len(pictures)} pictures; name one with --case and --kind, or a folder"
+                "several-pictures-one-file",
+                f"{target}: one file for {len(pictures)} pictures; name one with --case and --kind, or a folder",
             )
         paths = [target]
     else:
@@ -118,7 +119,9 @@ def _films(results: Results, cases: list[CaseResult], options: PictureOptions) -
     moving = [each for each in cases if scene_of(results, each, options, "mechanism").motion.any()]
     if not moving:
         names = ", ".join(each.load_case.name for each in cases)
-        raise UsageError(f"--animate {options.animate}: there is no mechanism in {names}, so nothing moves")
+        raise UsageError(
+            "no-mechanism", f"--animate {options.animate}: there is no mechanism in {names}, so nothing moves"
+        )
     return [Picture(f"_{each.load_case.name}", of(each)) for each in moving]
 
 
@@ -127,7 +130,9 @@ def _check_name(target: Path, options: PictureOptions) -> None:
     if not options.animate:
         format_of(target)
     elif format_of_film(target) != options.animate:
-        raise UsageError(f"{target}: --animate {options.animate} writes a file that ends in .{options.animate}")
+        raise UsageError(
+            "output-format", f"{target}: --animate {options.animate} writes a file that ends in .{options.animate}"
+        )
 
 
 def draw_picture(path: Path, scene: Scene, kind: str, options: PictureOptions) -> None:
@@ -161,7 +166,7 @@ def plot_case(
         The file cannot be written.
     """
     if kind not in KINDS:
-        raise UsageError(f"kind {kind}: there are {', '.join(KINDS)}")
+        raise UsageError("picture-option", f"kind {kind}: there are {', '.join(KINDS)}")
     options = options or PictureOptions()
     if kind == "model":  # the loads of this case alone
         options = replace(options, case=case.load_case.name)

@@ -44,7 +44,9 @@ def library() -> Any:
     try:
         import jinja2
     except ImportError as error:
-        raise UsageError("reports need an extra that is not installed: pip install 'mbla[report]'") from error
+        raise UsageError(
+            "extra-missing", "reports need an extra that is not installed: pip install 'mbla[report]'"
+        ) from error
     return jinja2
 
 

@@ -47,9 +47,9 @@ def write_report(results: Results, path: Path, case: str | None = None, *, view:
         The file cannot be written.
     """
     if path.suffix.lower() not in SUFFIXES:
-        raise UsageError(f"{path}: a report is an HTML file, its name ends in .html")
+        raise UsageError("output-format", f"{path}: a report is an HTML file, its name ends in .html")
     if path.is_dir():  # said before anything is drawn
-        raise FileError(f"{path}: is a folder")
+        raise FileError("folder-given", f"{path}: is a folder")
     text, remarks = report_html(results, case, view=view)
     write_whole(path, text.encode("utf-8", "backslashreplace"))
     return remarks

@@ -52,7 +52,7 @@ def export_results(
     """
     as_tables = formats.csv or formats.parquet or not formats.vtkhdf
     if tables and not as_tables:
-        raise UsageError("--table chooses what --csv and --parquet write, and neither is asked for")
+        raise UsageError("table-option", "--table chooses what --csv and --parquet write, and neither is asked for")
     chosen = tables_of(results, tables or None, cases or None) if as_tables else {}
     with OutputFolder(folder, stem, force, beside=True) as out:
         if formats.csv or not (formats.parquet or formats.vtkhdf):

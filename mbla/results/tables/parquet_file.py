@@ -47,7 +47,7 @@ def require_parquet() -> None:
     try:
         import pyarrow  # noqa: F401
     except ImportError as error:
-        raise UsageError(f"--parquet: {NO_EXTRA}") from error
+        raise UsageError("extra-missing", f"--parquet: {NO_EXTRA}") from error
 
 
 def parquet_bytes(columns: Sequence[ParquetColumn], about: Mapping[str, str]) -> bytes:

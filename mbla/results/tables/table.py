@@ -88,7 +88,7 @@ class Table:
         try:
             import pandas
         except ImportError as error:
-            raise UsageError(f"tables for pandas: {NO_EXTRA}") from error
+            raise UsageError("extra-missing", f"tables for pandas: {NO_EXTRA}") from error
         frame = pandas.DataFrame(
             {
                 column.name: _series(pandas, column, values)

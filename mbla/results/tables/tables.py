@@ -37,7 +37,7 @@ def tables_of(
     chosen = chosen_cases(results, cases)
     for name in names or ():
         if name not in TABLES:
-            raise UsageError(f"no table {name}; there are {', '.join(TABLES)}")
+            raise UsageError("unknown-table", f"no table {name}; there are {', '.join(TABLES)}")
     return {name: table_of(TABLES[name], results, chosen) for name in (TABLES if names is None else names)}
 
 

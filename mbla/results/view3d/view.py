@@ -77,7 +77,9 @@ def _plotly_js() -> str:
     try:
         from plotly.offline import get_plotlyjs
     except ImportError as error:
-        raise UsageError("reports need an extra that is not installed: pip install 'mbla[report]'") from error
+        raise UsageError(
+            "extra-missing", "reports need an extra that is not installed: pip install 'mbla[report]'"
+        ) from error
     # an inline script ends at the first end tag, wherever it stands
     return str(get_plotlyjs()).replace("</script", "<\\/script")
 

@@ -148,7 +148,7 @@ class CondensedProgram:
         program = self.cone_program
         quadratic = np.zeros(0) if program.quadratic is None else program.quadratic
         if not all(np.isfinite(part).all() for part in (program.cost, program.matrix.data, program.rhs, quadratic)):
-            raise SolverError("the cone program holds numbers that are not finite")
+            raise SolverError("program-not-finite", "the cone program holds numbers that are not finite")
 
     def _progress(self, program: int, to_load_factor: float, started: float) -> Callable[[int, Measures, float], None]:
         def progress(number: int, measures: Measures, length: float) -> None:

@@ -68,10 +68,12 @@ def factorization(pattern: SymmetricPattern, library: str | None = None, threads
     if library is None:
         return _made(best_library(pattern.n), pattern)
     if library not in LIBRARIES:
-        raise SolverError(f"there is no factorisation {library}: it is one of {', '.join(LIBRARIES)}")
+        raise SolverError(
+            "factorisation-missing", f"there is no factorisation {library}: it is one of {', '.join(LIBRARIES)}"
+        )
     fault = _fault(library)
     if fault is not None:
-        raise SolverError(f"the factorisation {library} does not work here: {fault}")
+        raise SolverError("factorisation-missing", f"the factorisation {library} does not work here: {fault}")
     return _made(library, pattern)
 
 

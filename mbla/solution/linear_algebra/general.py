@@ -43,7 +43,9 @@ class GeneralFactorization:
         if library == "pardiso":
             runtime = mkl_library()
             if runtime is None or not mkl_works():
-                raise SolverError("the factorisation pardiso does not work here: MKL is not installed")
+                raise SolverError(
+                    "factorisation-missing", "the factorisation pardiso does not work here: MKL is not installed"
+                )
             self._pardiso = Pardiso(runtime, n, pointers, indices, GENERAL)
             self._pardiso.analyse()
 

@@ -92,14 +92,16 @@ def question_of(deck: Deck, options: Any, ratio: float = 1.0) -> Question:
     contacts_of(deck, model)
     if options.loads is None:
         if options.start is not None or options.end is not None:
-            raise UsageError("--from and --to apply with --loads; directions go all around")
+            raise UsageError("interact-option", "--from and --to apply with --loads; directions go all around")
         return direction_question(deck, options.case or "", _count(options.directions, DIRECTIONS, 1))
     if options.case:
-        raise UsageError("--case and --loads: one or the other; --loads names the two load cases")
+        raise UsageError("interact-option", "--case and --loads: one or the other; --loads names the two load cases")
     start = 0.0 if options.start is None else options.start
     end = start + QUARTER if options.end is None else options.end
     if not start < end <= start + FULL:
-        raise UsageError(f"--from {start:g} --to {end:g}: the end must lie above, by 360 degrees at most")
+        raise UsageError(
+            "interact-option", f"--from {start:g} --to {end:g}: the end must lie above, by 360 degrees at most"
+        )
     first, second = options.loads
     count = _count(options.directions, ANGLES, 2)
     return two_loads_question(deck, model, (first, second), start, end, count, ratio)
@@ -108,5 +110,5 @@ def question_of(deck: Deck, options: Any, ratio: float = 1.0) -> Question:
 def _count(asked: int | None, usual: int, least: int) -> int:
     count = usual if asked is None else asked
     if not least <= count <= MOST_POINTS:
-        raise UsageError(f"--directions {count}: {least} to {MOST_POINTS} points")
+        raise UsageError("interact-option", f"--directions {count}: {least} to {MOST_POINTS} points")
     return count

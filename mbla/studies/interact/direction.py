@@ -82,7 +82,9 @@ def _case(deck: Deck, case: str) -> str:
         return case
     cases = list(deck.content.load_cases)
     if len(cases) > 1:
-        raise UsageError(f"the deck has several load cases: choose one with --case, of {', '.join(cases)}")
+        raise UsageError(
+            "load-case-not-chosen", f"the deck has several load cases: choose one with --case, of {', '.join(cases)}"
+        )
     return cases[0]
 
 
@@ -90,8 +92,9 @@ def _refuse_halves(deck: Deck) -> None:
     for number, plane in enumerate(deck.content.symmetry):
         if plane.z is None:
             raise UsageError(
+                "interact-load",
                 f"symmetry.{number}: the deck gives half of the structure, and what pushes one half out of the plane "
-                f"would push its image the other way; {WHAT} needs the whole structure"
+                f"would push its image the other way; {WHAT} needs the whole structure",
             )
 
 
@@ -103,15 +106,16 @@ def _turnings(deck: Deck, case: str) -> tuple[list[Turning], bool]:
         kind = kind_of(entry.load)
         if kind not in TURNED:
             raise UsageError(
+                "interact-load",
                 f"load case {case}: its live load {'.'.join(map(str, entry.path))} is a {kind}, which is not turned; "
-                f"{WHAT} takes acceleration, gravity and force"
+                f"{WHAT} takes acceleration, gravity and force",
             )
         x, y, z = getattr(entry.load, kind)
         horizontal.append(complex(x, y))
         vertical.append(z)
     way, absolute = _way(entries, horizontal)
     if way == 0.0:
-        raise UsageError(f"load case {case}: no live load has a horizontal part that could be turned")
+        raise UsageError("interact-load", f"load case {case}: no live load has a horizontal part that could be turned")
     parts = [_in_frame(part, way, absolute=absolute) for part in horizontal]
     kinds = [kind_of(entry.load) for entry in entries]
     found = [Turning(*one) for one in zip(entries, kinds, parts, vertical, strict=True)]

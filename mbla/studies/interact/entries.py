@@ -22,14 +22,18 @@ def section_of(deck: Deck, case: str, what: str) -> LoadCaseSection:
     """A load case whose live loads are a sum of loads; UsageError for any other, where ``what`` cannot be asked."""
     cases = deck.content.load_cases
     if case not in cases:
-        raise UsageError(f"no load case {case} in the deck; it has {', '.join(cases)}")
+        raise UsageError("unknown-load-case", f"no load case {case} in the deck; it has {', '.join(cases)}")
     section = cases[case]
     if section.settlement is not None:
-        raise UsageError(f"load case {case}: a support gives way, there is no live load; {what} needs one")
+        raise UsageError(
+            "interact-load", f"load case {case}: a support gives way, there is no live load; {what} needs one"
+        )
     for entry in live_entries(deck, case):
         for kind, words in NO_SUM.items():
             if getattr(entry.load, kind) is not None:
-                raise UsageError(f"load case {case}: its live load {words}; {what} takes other kinds of load")
+                raise UsageError(
+                    "interact-load", f"load case {case}: its live load {words}; {what} takes other kinds of load"
+                )
     return section
 
 

@@ -35,7 +35,7 @@ def two_loads_question(
     """
     first, second = names
     if first == second:
-        raise UsageError(f"--loads {first} {second}: name two different load cases")
+        raise UsageError("interact-option", f"--loads {first} {second}: name two different load cases")
     section = section_of(deck, first, WHAT)
     section_of(deck, second, WHAT)
     _refuse_other_dead_load(model, first, second)
@@ -61,8 +61,9 @@ def _refuse_other_dead_load(model: Model, first: str, second: str) -> None:
     largest = max(float(np.abs(one).max(initial=0.0)), float(np.abs(other).max(initial=0.0)))
     if float(np.abs(one - other).max(initial=0.0)) > SAME * largest:
         raise UsageError(
+            "interact-load",
             f"load cases {first} and {second} have different dead loads: their live loads act together only on one; "
-            "give both the same dead load"
+            "give both the same dead load",
         )
 
 

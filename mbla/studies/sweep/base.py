@@ -14,7 +14,7 @@ from mbla.deck.reading import check_regular, read_deck
 from mbla.deck.side_files import SIDE_FILES, side_files
 from mbla.deck.suggestions import unknown
 from mbla.deck.tree import KeyPath, Tree, key_text
-from mbla.errors import DeckError, Fault, FileError, Place
+from mbla.errors import DeckError, Fault, FileError, Message, Place
 from mbla.studies.sweep.base_keys import path_of_key, unit_at, vector_at
 from mbla.studies.sweep.base_rules import base_faults
 from mbla.studies.sweep.file.design_rules import key_places
@@ -122,7 +122,7 @@ def set_file(deck: Path, path: KeyPath, name: str) -> Path:
         found = confined(deck.parent, name)
         check_regular(found)
     except FileError as error:
-        raise DeckError([Fault(Place(LABEL, 1, 1), key_text(path), str(error), name)]) from error
+        raise DeckError([Fault(Place(LABEL, 1, 1), key_text(path), error.message, name)]) from error
     return found
 
 
@@ -147,7 +147,9 @@ def read_base(sweep: Sweep) -> Base:
     tree = effective_tree(path, fixed)
     cases = tuple(sweep.content.cases or deck.content.load_cases)
     faults = [
-        sweep.fault_at(("cases", index), unknown("load case", case, deck.content.load_cases, "known"))
+        sweep.fault_at(
+            ("cases", index), Message("unknown-name", unknown("load case", case, deck.content.load_cases, "known"))
+        )
         for index, case in enumerate(sweep.content.cases or ())
         if case not in deck.content.load_cases
     ]
@@ -165,13 +167,13 @@ def _deck_path(sweep: Sweep) -> Path:
     name = sweep.content.deck
     try:
         if "\0" in name or len(name) > 4000:
-            raise FileError("is not a file name")
+            raise FileError("bad-file-name", "is not a file name")
         path = sweep.path.parent / name
         check_regular(path)
         if path.resolve() == sweep.path.resolve():
-            raise FileError("is the sweep file itself: name the deck that it varies")
+            raise FileError("sweep-file-and-deck", "is the sweep file itself: name the deck that it varies")
     except FileError as error:
-        raise DeckError([sweep.fault_at(("deck",), str(error))]) from error
+        raise DeckError([sweep.fault_at(("deck",), error.message)]) from error
     return path
 
 
@@ -193,7 +195,7 @@ def _at_its_place(sweep: Sweep, fault: Fault) -> Fault:
     key = keys[fault.place.line - 1]
     here = sweep.fault_at(("set", key), fault.message)
     below = fault.key.replace("[", ".").replace("]", "")
-    return here if below == key.strip() else sweep.fault_at(("set", key), f"{fault.key}: {fault.message}")
+    return here if below == key.strip() else sweep.fault_at(("set", key), fault.message.around(before=f"{fault.key}: "))
 
 
 def _paths(sweep: Sweep, tree: Tree, faults: list[Fault]) -> dict[str, tuple[KeyPath, ...]]:
@@ -205,7 +207,7 @@ def _paths(sweep: Sweep, tree: Tree, faults: list[Fault]) -> dict[str, tuple[Key
                 found[name] = (*found.get(name, ()), path_of_key(tree.data, key))
             except RefusedError as refusal:
                 remedy = "" if parameter.key is not None else _remedy(name)
-                faults.append(sweep.fault_at(place, f"{refusal}{remedy}"))
+                faults.append(sweep.fault_at(place, refusal.message.around(after=remedy)))
     return found
 
 

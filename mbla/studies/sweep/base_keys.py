@@ -41,7 +41,7 @@ def path_of_key(data: Mapping[str, Any], key: str) -> KeyPath:
     """
     words = key.strip().split(".")
     if words[0] in FIXED:
-        raise RefusedError(f"{words[0]} cannot change from point to point: {FIXED[words[0]]}")
+        raise RefusedError("sweep-key", f"{words[0]} cannot change from point to point: {FIXED[words[0]]}")
     path: KeyPath = ()
     below: Any = data
     while words:
@@ -54,10 +54,12 @@ def path_of_key(data: Mapping[str, Any], key: str) -> KeyPath:
         path = (*path, step)
     if sections_at(DeckContent, path) and (keys := allowed_keys(DeckContent, path)):
         if not _takes_plain_values(path):
-            raise RefusedError(f"{key_text(path)} is a section of the deck: name one of its keys, {listed(keys)}")
+            raise RefusedError(
+                "sweep-key", f"{key_text(path)} is a section of the deck: name one of its keys, {listed(keys)}"
+            )
     elif takes_names(DeckContent, path):
         names = listed(below) if below else "a name"
-        raise RefusedError(f"{key_text(path)} is a section of the deck: name what is in it, {names}")
+        raise RefusedError("sweep-key", f"{key_text(path)} is a section of the deck: name what is in it, {names}")
     return path
 
 
@@ -68,15 +70,15 @@ def _step(data: Any, path: KeyPath, word: str) -> str | int:
     if isinstance(data, dict) and word in data:
         return word
     if takes_names(DeckContent, path):
-        raise RefusedError(unknown(f"name {shorten(word)} in {key_text(path)}", word, data or (), "known"))
+        raise RefusedError("sweep-key", unknown(f"name {shorten(word)} in {key_text(path)}", word, data or (), "known"))
     keys = allowed_keys(DeckContent, path)
     if data is None and not keys:
-        raise RefusedError(f"the deck has nothing at {key_text(path)}")
+        raise RefusedError("sweep-key", f"the deck has nothing at {key_text(path)}")
     if not keys or not isinstance(data, dict | None):
-        raise RefusedError(f"the deck has a single value at {key_text(path)}, with nothing below it")
+        raise RefusedError("sweep-key", f"the deck has a single value at {key_text(path)}, with nothing below it")
     if word not in keys:
         where = f"key {shorten(word)} in {key_text(path)}" if path else f"section {shorten(word)}"
-        raise RefusedError(unknown(where, word, keys))
+        raise RefusedError("sweep-key", unknown(where, word, keys))
     return word
 
 

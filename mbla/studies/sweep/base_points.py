@@ -30,7 +30,13 @@ def check_points(base: Base, points: Sequence[Point]) -> None:
             refused.append(error)
         else:
             return
-    words = [f"{fault.key}: {fault.message}" if fault.key else fault.message for fault in refused[0].faults]
     where = "first, middle and last point" if len(tried) > 1 else "only point"
-    faults = [base.sweep.fault_at(("parameters",), f"the deck is refused at the {where}: {each}") for each in words]
-    raise DeckError(faults)
+    said = f"the deck is refused at the {where}: "
+    raise DeckError(
+        [
+            base.sweep.fault_at(
+                ("parameters",), fault.message.around(before=f"{said}{fault.key}: " if fault.key else said)
+            )
+            for fault in refused[0].faults
+        ]
+    )

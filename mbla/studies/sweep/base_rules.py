@@ -15,7 +15,7 @@ from mbla.deck.reading import read_deck
 from mbla.deck.suggestions import listed
 from mbla.deck.tree import KeyPath, key_text, shorten
 from mbla.deck.types import DeckContent
-from mbla.errors import DeckError, Fault, Notice, Place
+from mbla.errors import DeckError, Fault, Message, Notice, Place
 from mbla.studies.sweep.base_keys import path_of_key, unit_at, value_at, vector_at
 from mbla.studies.sweep.file.content import Parameter
 from mbla.studies.sweep.file.design_rules import key_places, parameter_columns
@@ -51,7 +51,7 @@ def _nested_keys(base: Base) -> Iterator[Fault]:
                 if long[: len(short)] == short:
                     both = f"parameter {name} sets {shorten(key)}, parameter {other} {shorten(other_key)}"
                     message = f"{both}: one of them holds the other"
-                    yield base.sweep.fault_at(place, message)
+                    yield base.sweep.fault_at(place, Message("sweep-without-effect", message))
             seen.append((name, key, path))
 
 
@@ -69,9 +69,11 @@ def _idle_values(base: Base) -> Iterator[Fault]:
                 message = f"has no effect: parameter {name} of the sweep sets it in every point"
                 index = number - len(base.sweep.content.set)
                 if index < 0:
-                    yield base.sweep.fault_at(("set", list(base.sweep.content.set)[number]), message)
+                    yield base.sweep.fault_at(
+                        ("set", list(base.sweep.content.set)[number]), Message("sweep-without-effect", message)
+                    )
                 else:
-                    yield Fault(Place(LABEL, index + 1, 1), key, message)
+                    yield Fault(Place(LABEL, index + 1, 1), key, Message("sweep-without-effect", message))
 
 
 def _without_effect(base: Base) -> Iterator[Fault]:
@@ -86,11 +88,18 @@ def _without_effect(base: Base) -> Iterator[Fault]:
             section, thing = str(path[0]), str(path[1])
             if section == "load_cases" and thing not in base.cases:
                 yield base.sweep.fault_at(
-                    place, f"has no effect: load case {shorten(thing)} is not among the cases to solve"
+                    place,
+                    Message(
+                        "sweep-without-effect",
+                        f"has no effect: load case {shorten(thing)} is not among the cases to solve",
+                    ),
                 )
             named = any(thing in text for text in texts)  # another parameter may bring it into use
             if (section, thing) in idle and not named:
-                yield base.sweep.fault_at(place, f"has no effect: the deck does not use {section}.{shorten(thing)}")
+                yield base.sweep.fault_at(
+                    place,
+                    Message("sweep-without-effect", f"has no effect: the deck does not use {section}.{shorten(thing)}"),
+                )
 
 
 def _notices(base: Base) -> tuple[Notice, ...]:
@@ -118,16 +127,22 @@ def _directions(base: Base) -> Iterator[Fault]:
             if vector is None:
                 found = "nothing" if value_at(base.deck, path) is None else "something else"
                 message = f"turns a vector of three numbers; the deck has {found} at {key_text(path)}"
-                yield base.sweep.fault_at(place, message)
+                yield base.sweep.fault_at(place, Message("sweep-directions", message))
         if None in vectors:
             continue
         if len(set(vectors)) > 1:
-            yield base.sweep.fault_at(place, "turns vectors that differ in the deck: give each a parameter, in a zip")
+            yield base.sweep.fault_at(
+                place,
+                Message("sweep-directions", "turns vectors that differ in the deck: give each a parameter, in a zip"),
+            )
             continue
         x, y, z = vectors[0] or (0.0, 0.0, 0.0)
         if getattr(parameter, way).size is None and not (x or y or (z and way == "sphere")):
             part = "length" if way == "sphere" else "horizontal part"
-            yield base.sweep.fault_at(place, f"needs size: the vector in the deck has no {part} that it could keep")
+            yield base.sweep.fault_at(
+                place,
+                Message("sweep-directions", f"needs size: the vector in the deck has no {part} that it could keep"),
+            )
 
 
 def _units(base: Base) -> Iterator[Fault]:
@@ -139,13 +154,13 @@ def _units(base: Base) -> Iterator[Fault]:
         own = units.pop() if len(units) == 1 else ""
         if own and own != parameter.unit:
             message = f"the deck takes this in {own}, and values here are not converted: write them in {own}"
-            yield base.sweep.fault_at(("parameters", name, "unit"), message)
+            yield base.sweep.fault_at(("parameters", name, "unit"), Message("sweep-unit", message))
 
 
 def _results(base: Base) -> Iterator[Fault]:
     """Every result is one that a run has."""
     for index, message in result_faults(base.sweep.content.results, base.cases):
-        yield base.sweep.fault_at(("results", index), message)
+        yield base.sweep.fault_at(("results", index), Message("sweep-result", message))
 
 
 def _columns(base: Base) -> Iterator[Fault]:
@@ -158,7 +173,7 @@ def _columns(base: Base) -> Iterator[Fault]:
                 message = (
                     f"column {column} of the table is a result: choose another name, and give the key path with key"
                 )
-                yield base.sweep.fault_at(("parameters", name), message)
+                yield base.sweep.fault_at(("parameters", name), Message("sweep-columns", message))
 
 
 def _fragility(base: Base) -> Iterator[Fault]:
@@ -170,7 +185,7 @@ def _fragility(base: Base) -> Iterator[Fault]:
     columns = [place.name for place in result_places(content.results, base.cases)]
     if wanted not in columns and wanted not in content.results:
         message = f"there is no column {shorten(wanted)}: the columns are {listed(columns, 'and')}"
-        yield base.sweep.fault_at(("fragility", "result"), message)
+        yield base.sweep.fault_at(("fragility", "result"), Message("sweep-fragility", message))
 
 
 # --- values -------------------------------------------------------------------------------------------------------
@@ -222,4 +237,4 @@ def _in_words(base: Base, place: KeyPath, key: str, value: Any) -> Iterator[Faul
     except DeckError as error:
         for fault in error.faults:
             if fault.place.file == LABEL and fault.place.line == len(base.fixed) + 1:
-                yield base.sweep.fault_at(place, f"as {shorten(key)} of the deck: {fault.message}")
+                yield base.sweep.fault_at(place, fault.message.around(before=f"as {shorten(key)} of the deck: "))

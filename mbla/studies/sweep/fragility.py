@@ -88,7 +88,9 @@ def fragility_of(table: SweepTable, result: str, demands: Sequence[float], confi
         the design has no random sample, or there is no such column of numbers
     """
     if not table.samples:
-        raise UsageError("fragility needs a random design: the points of this sweep are no random sample")
+        raise UsageError(
+            "sweep-fragility", "fragility needs a random design: the points of this sweep are no random sample"
+        )
     found = []
     for column in _columns(table, result):
         _refuse_without_status(table, column)
@@ -150,9 +152,11 @@ def _columns(table: SweepTable, result: str) -> tuple[SweepColumn, ...]:
     chosen = [column for column in columns if column.name == result]
     chosen = chosen or [column for column in columns if column.path == result]
     if not chosen:
-        raise UsageError(f"fragility: no result {result}; the table has {listed(c.name for c in columns)}")
+        raise UsageError(
+            "sweep-fragility", f"fragility: no result {result}; the table has {listed(c.name for c in columns)}"
+        )
     if any(column.kind not in ("float", "int") for column in chosen):
-        raise UsageError(f"fragility: {result} is no number")
+        raise UsageError("sweep-fragility", f"fragility: {result} is no number")
     return tuple(chosen)
 
 
@@ -160,7 +164,7 @@ def _refuse_without_status(table: SweepTable, column: SweepColumn) -> None:
     """Without it nobody knows of a missing load factor whether it lies below every demand or above."""
     statuses = [each.case for each in table.of_role("result") if each.path == STATUS]
     if column.path in FACTORS and column.case not in statuses:
-        raise UsageError(f"fragility: {column.name} needs {STATUS} among the results")
+        raise UsageError("sweep-fragility", f"fragility: {column.name} needs {STATUS} among the results")
 
 
 def _combinations(table: SweepTable) -> Iterator[tuple[dict[str, Plain], IntArray]]:

@@ -26,7 +26,7 @@ def asked_rungs(knobs: Sequence[str], settings: Sequence[str]) -> list[Rung]:
     for choice in choices:
         size *= len(choice)
     if (count := count + (size if knobs else 0)) > MOST:
-        raise UsageError(f"--knob: {count} settings, more than {MOST}; name fewer values")
+        raise UsageError("tradeoff-option", f"--knob: {count} settings, more than {MOST}; name fewer values")
     rungs = [_combination(values) for values in product(*choices)] if knobs else []
     return rungs + [_named(text) for text in settings]
 
@@ -43,7 +43,7 @@ def _values(text: str) -> list[str]:
             parts[-1] += letter
     values = [part.strip() for part in parts]
     if not equals or not key.strip() or not all(values):
-        raise UsageError(f"--knob {text}: must be KEY.PATH=VALUE,VALUE,...")
+        raise UsageError("tradeoff-option", f"--knob {text}: must be KEY.PATH=VALUE,VALUE,...")
     return [f"{key.strip()}={value}" for value in values]
 
 
@@ -56,5 +56,8 @@ def _named(text: str) -> Rung:
     name, colon, rest = text.partition(":")
     overrides = rest.split()
     if not colon or not name.strip() or not overrides or not all("=" in override for override in overrides):
-        raise UsageError(f"--setting {text}: must be 'NAME: KEY.PATH=VALUE KEY.PATH=VALUE ...', values without spaces")
+        raise UsageError(
+            "tradeoff-option",
+            f"--setting {text}: must be 'NAME: KEY.PATH=VALUE KEY.PATH=VALUE ...', values without spaces",
+        )
     return Rung(" ".join(name.split()), Setting(tuple(overrides)))

@@ -51,7 +51,7 @@ def fitted(path: Path, fixed: Sequence[str], deck: Deck, rungs: Sequence[Rung]) 
     seen: dict[str, str] = {}
     for rung in rungs:
         if rung.name in [other.name for other in ready]:
-            raise UsageError(f"{rung.name}: two settings of that name")
+            raise UsageError("tradeoff-option", f"{rung.name}: two settings of that name")
         if rung.unfit:
             ready.append(rung)
             continue

@@ -64,7 +64,7 @@ def test_what_is_not_verified_stands_out(drawn: list[str]) -> None:
 
 def test_without_pictures_the_table_is_there_with_the_reason(monkeypatch: pytest.MonkeyPatch) -> None:
     def refuse(*_: object) -> None:
-        raise UsageError("pictures need an extra that is not installed")
+        raise UsageError("extra-missing", "pictures need an extra that is not installed")
 
     monkeypatch.setattr("mbla.results.pictures.plot.plot_case", refuse)
     html = shown(Run(tower_results()))["text/html"]

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
+from mbla.errors import Message
 from mbla.model.generators.curves import Curve
 from mbla.model.generators.generator import ItemRefused
 
@@ -112,7 +113,7 @@ def _check_count(curve: Curve, voussoirs: int) -> None:
     least = int((turned + 1e-9) // 180) + 1  # a semicircle up to rounding is one
     if voussoirs < least:
         message = f"too few: at least {least}, so that each spans less than 180 degrees"
-        raise ItemRefused([(("voussoirs",), message)])
+        raise ItemRefused([(("voussoirs",), Message("arch-shape", message))])
 
 
 def _check_joints(section: Section) -> None:
@@ -130,4 +131,4 @@ def _check_joints(section: Section) -> None:
                 f"too many for this curve and thickness: the joints of voussoir {number} cross within the arch; "
                 "use fewer voussoirs, a thinner arch, or a curve that turns less sharply there"
             )
-            raise ItemRefused([(("voussoirs",), message)])
+            raise ItemRefused([(("voussoirs",), Message("arch-shape", message))])

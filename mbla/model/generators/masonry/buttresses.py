@@ -9,6 +9,7 @@ import numpy as np
 
 from mbla.deck.items.masonry import Buttress, Masonry
 from mbla.deck.section import Finding
+from mbla.errors import Message
 from mbla.model.generators.masonry.leg import NO_UNIT, Leg, Passage, Slopes
 from mbla.model.generators.masonry.openings import PlacedOpening
 from mbla.model.generators.masonry.tops import levels_with_top
@@ -62,10 +63,13 @@ def check_buttresses(
                 for void in opening.voids
             ):
                 message = f"meets openings[{opening.number}]: move it, or write bonded: false"
-                yield ("buttresses", each.number), message
+                yield ("buttresses", each.number), Message("wall-shape", message)
         for other in placed[: placed.index(each)]:
             if other.buttress.bonded and other.start < each.end - room and other.end > each.start + room:
-                yield ("buttresses", each.number), f"runs through the wall where buttresses[{other.number}] does"
+                yield (
+                    ("buttresses", each.number),
+                    Message("wall-shape", f"runs through the wall where buttresses[{other.number}] does"),
+                )
 
 
 def buttress_leg(host: Leg, placed: PlacedButtress) -> Leg:

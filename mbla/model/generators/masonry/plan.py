@@ -17,6 +17,7 @@ from mbla.arrays import FloatArray
 from mbla.deck.items.walls import WallsItem
 from mbla.deck.section import Finding
 from mbla.deck.tree import KeyPath
+from mbla.errors import Message
 from mbla.model.generators.masonry.leg import Passage
 
 SAME_PLACE = 1e-6
@@ -136,10 +137,10 @@ def check_plan(lines: Sequence[Line]) -> Iterator[Finding]:
     for first, second, box in _shared(lines):
         room = SAME_PLACE * lines[first].thickness
         if lines[first].along_x == lines[second].along_x:
-            yield lines[second].key, f"the wall that ends here lies on wall {first}"
+            yield lines[second].key, Message("wall-shape", f"the wall that ends here lies on wall {first}")
         elif (np.ptp(box, axis=0) < lines[first].thickness - room).any():
             message = f"meets wall {first} over a part of its thickness only: let it end on its line, or clear of it"
-            yield lines[second].key, message
+            yield lines[second].key, Message("wall-shape", message)
 
 
 def _shared(lines: Sequence[Line]) -> Iterator[tuple[int, int, FloatArray]]:

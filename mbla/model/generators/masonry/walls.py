@@ -10,6 +10,7 @@ import numpy as np
 from mbla.arrays import FloatArray
 from mbla.deck.items.masonry import Gable, Masonry
 from mbla.deck.tree import KeyPath
+from mbla.errors import Message
 from mbla.model.generators.amounts import refuse_too_many
 from mbla.model.generators.generator import ItemRefused, Part
 from mbla.model.generators.masonry.buttresses import PlacedButtress, buttress_leg
@@ -72,7 +73,7 @@ def parts_of(walls: Sequence[Wall], numbered: bool) -> Iterator[Part]:
     """
     parts = [(units_of(wall.leg), wall.leg) for wall in walls]
     if not any(len(part.polyhedra) for part, _ in parts):
-        raise ItemRefused([(("openings",), "nothing is left of the wall")])
+        raise ItemRefused([(("openings",), Message("wall-shape", "nothing is left of the wall"))])
     parts += [(part, wall.leg) for wall in walls for part in spans_of(wall.leg, wall.openings)]
     parts += [(units_of(buttress_leg(wall.leg, placed)), wall.leg) for wall in walls for placed in wall.buttresses]
     for part, leg in parts:

@@ -55,10 +55,13 @@ def pyvista() -> Any:
         import pyvista as vista
         from vtkmodules.vtkCommonCore import vtkLogger
     except ImportError as error:
-        raise UsageError("pictures need an extra that is not installed: pip install 'mbla[pictures]'") from error
+        raise UsageError(
+            "extra-missing", "pictures need an extra that is not installed: pip install 'mbla[pictures]'"
+        ) from error
     if not can_draw():
         raise UsageError(
-            "pictures need OpenGL, with or without a display: install libEGL (Debian: apt install libegl1) or OSMesa"
+            "no-opengl",
+            "pictures need OpenGL, with or without a display: install libEGL (Debian: apt install libegl1) or OSMesa",
         )
     # without a display vtk says so on standard error before it goes on without one
     vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_ERROR)

@@ -8,7 +8,7 @@ from typing import Any, TypeAlias
 
 from mbla.deck.suggestions import listed
 from mbla.deck.tree import KeyPath
-from mbla.errors import DeckError, Fault
+from mbla.errors import DeckError, Fault, Message
 from mbla.studies.sweep.design.design import DesignColumn, Dimension, Part
 from mbla.studies.sweep.design.sampling import quantiles
 from mbla.studies.sweep.design.ways import WAYS
@@ -19,7 +19,7 @@ from mbla.studies.sweep.file.keys import key_paths
 from mbla.studies.sweep.file.ways import way_of
 from mbla.studies.sweep.plan import Plain
 
-FaultAt: TypeAlias = Callable[[KeyPath, str], Fault]
+FaultAt: TypeAlias = Callable[[KeyPath, Message], Fault]
 ANGLES = ("azimuth", "elevation")
 
 
@@ -120,7 +120,7 @@ def _each(sources: Sources, names: Sequence[str], axis_of: Callable[[str], Axis]
             axes.append(axis_of(name))
         except WayError as error:
             key = way_of(sources.content.parameters[name])
-            faults.append(sources.fault_at(("parameters", name, key), str(error)))
+            faults.append(sources.fault_at(("parameters", name, key), error.message))
     if faults:
         raise DeckError(faults)
     return axes

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from mbla.errors import DeckError
+from mbla.errors import DeckError, Message
 from mbla.results.words.text import counted
 from mbla.studies.sweep.design.axis import Axis, FaultAt, Sources, axes_of
 from mbla.studies.sweep.design.constraints import BoolArray, Constrained, constrained, read_constraints
@@ -46,7 +46,7 @@ def design_of(
     points = _points(axes, np.argwhere(found.keep).tolist())
     if not points:
         message = f"leave none of {counted(found.keep.size, 'point')}: {_breaches(found)}"
-        raise DeckError([fault_at(("constraints",), message)])
+        raise DeckError([fault_at(("constraints",), Message("sweep-no-point", message))])
     samples = [axis for axis in axes if axis.sampling]
     sample = samples[0] if len(samples) == 1 else None
     left_out = found.keep.size - len(points)

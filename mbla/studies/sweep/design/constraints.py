@@ -52,7 +52,7 @@ def read_constraints(texts: Sequence[str], fault_at: FaultAt) -> tuple[dict[int,
         try:
             comparisons[number] = read_comparison(text)
         except ExpressionError as error:
-            faults.append(fault_at(("constraints", number), str(error)))
+            faults.append(fault_at(("constraints", number), error.message))
     return comparisons, faults
 
 
@@ -76,7 +76,7 @@ def constrained(
         try:
             holds = np.broadcast_to(_holds(comparison, axes, known), keep.shape)
         except ExpressionError as error:
-            faults.append(fault_at(("constraints", number), str(error)))
+            faults.append(fault_at(("constraints", number), error.message))
             continue
         breaches.append((comparison.text, int(np.count_nonzero(~holds))))
         keep &= holds
@@ -93,15 +93,22 @@ def _holds(comparison: Comparison, axes: Sequence[Axis], known: Mapping[str, obj
     own = [name for name in comparison.names if name in columns and name not in raw]
     for name in comparison.names:
         if name in columns and name in CONSTANTS:
-            raise ExpressionError(f"{name} is {CONSTANTS[name]:.6g} in expressions: give the parameter another name")
+            raise ExpressionError(
+                "wrong-comparison", f"{name} is {CONSTANTS[name]:.6g} in expressions: give the parameter another name"
+            )
         if name in columns and name in known and not any(name in names for names in set_names):
-            raise ExpressionError(f"{name} is a parameter of the sweep and another one of the deck: rename one of them")
+            raise ExpressionError(
+                "wrong-comparison",
+                f"{name} is a parameter of the sweep and another one of the deck: rename one of them",
+            )
         if name not in columns and name not in raw and name not in CONSTANTS:
             raise ExpressionError(
-                unknown(f"parameter {name}", name, dict.fromkeys([*columns, *raw, *CONSTANTS]), "known")
+                "unknown-name", unknown(f"parameter {name}", name, dict.fromkeys([*columns, *raw, *CONSTANTS]), "known")
             )
         if name in own and columns[name].kind in ("text", "bool"):
-            raise ExpressionError(f"{name} has values that are no numbers, which cannot be compared")
+            raise ExpressionError(
+                "wrong-comparison", f"{name} has values that are no numbers, which cannot be compared"
+            )
     needed = _needed(comparison, axes, known)
 
     def matters(axis: Axis) -> bool:
@@ -155,9 +162,9 @@ def _holds_at(comparison: Comparison, fixed: Mapping[str, object], rows: Sequenc
         return comparison.holds(parameters.value)
     except ParameterFaultError as error:
         told = [f"{name} {message}" for name, message in parameters.failures()] or [str(error)]
-        raise ExpressionError(f"{'; '.join(told)}{_where(comparison, raw)}") from None
+        raise ExpressionError("wrong-comparison", f"{'; '.join(told)}{_where(comparison, raw)}") from None
     except ExpressionError as error:
-        raise ExpressionError(f"{error}{_where(comparison, raw)}") from None
+        raise ExpressionError("wrong-comparison", f"{error}{_where(comparison, raw)}") from None
 
 
 def _where(comparison: Comparison, raw: Mapping[str, object]) -> str:

@@ -117,9 +117,9 @@ class ClusterEngine:
             return []
         except Exception as error:
             words = f"{type(error).__name__}: {' '.join(str(error).split())}"
-            raise UsageError(f"a worker cannot solve points: {words}") from error
+            raise UsageError("worker-refused", f"a worker cannot solve points: {words}") from error
         if "refused" in answer:
-            raise UsageError(f"a worker cannot solve points of this sweep: {answer['refused']}")
+            raise UsageError("worker-refused", f"a worker cannot solve points of this sweep: {answer['refused']}")
         outcomes = [outcome_of(record) for record in answer["outcomes"]]
         batches.give_back(batch.tasks[len(outcomes) :])
         return outcomes

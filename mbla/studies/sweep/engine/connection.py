@@ -97,7 +97,7 @@ class Connection:
         if self.threads or not self._seen:
             self._seen = now
         elif now - self._seen > self._options.patience:
-            raise UsageError(self._no_worker())
+            raise UsageError("scheduler-lost", self._no_worker())
 
     def refuse_lost(self, cause: BaseException | None = None) -> None:
         """FileError where the scheduler is gone."""
@@ -154,7 +154,7 @@ class Connection:
             said = str(error.__cause__ or error) or type(error).__name__
             message = f"no connection to the scheduler {address}: {' '.join(said.split())}"
             remedy = "; a tls:// address needs --tls-ca-file, --tls-cert and --tls-key" if address[:3] == "tls" else ""
-            raise UsageError(message + remedy) from error
+            raise UsageError("scheduler-lost", message + remedy) from error
         self._stack.callback(_quietly, lambda: client.close(timeout=PARTING))
         return client
 
@@ -168,11 +168,11 @@ class Connection:
             except FileNotFoundError:
                 words = "there is no such file; `dask scheduler --scheduler-file` writes it"
             except OSError as error:
-                raise UsageError(f"--scheduler-file {path}: {error.strerror}") from error
+                raise UsageError("scheduler-file", f"--scheduler-file {path}: {error.strerror}") from error
             except (ValueError, KeyError, TypeError):
                 words = "not a file that `dask scheduler --scheduler-file` wrote"  # or not yet the whole of it
             if time.monotonic() > until:
-                raise UsageError(f"--scheduler-file {path}: {words}")
+                raise UsageError("scheduler-file", f"--scheduler-file {path}: {words}")
             time.sleep(LOOK / 10)
 
     def _await_workers(self) -> None:
@@ -182,7 +182,7 @@ class Connection:
             if self.threads:
                 return
             if time.monotonic() > until:
-                raise UsageError(self._no_worker())
+                raise UsageError("scheduler-lost", self._no_worker())
             time.sleep(LOOK / 10)
 
     def _check_workers(self) -> None:
@@ -191,7 +191,9 @@ class Connection:
         try:
             answers = within(REPLY, lambda: client.run(describe, on_error="return"))
         except TimeoutError:
-            raise UsageError(f"a worker of {self._name()} does not answer within {REPLY:g} s: restart it") from None
+            raise UsageError(
+                "scheduler-lost", f"a worker of {self._name()} does not answer within {REPLY:g} s: restart it"
+            ) from None
         faults = []
         for worker, answer in sorted(answers.items()):
             if isinstance(answer, ImportError):
@@ -202,7 +204,9 @@ class Connection:
             elif words := difference({"mbla": program_identity()} | self.libraries, _versions(answer)):
                 faults.append(f"worker {worker} on {answer['machine']}: {words}")
         if faults:
-            raise UsageError("\n".join([*faults, "install the same versions in the workers' environment"]))
+            raise UsageError(
+                "workers-differ", "\n".join([*faults, "install the same versions in the workers' environment"])
+            )
 
     def _no_worker(self) -> str:
         return (
@@ -215,7 +219,10 @@ class Connection:
         return f"the scheduler {named}" if named else "this machine"
 
     def _lost(self) -> FileError:
-        return FileError(f"{self._name()} is gone; finished points are in the journal, --resume goes on with the rest")
+        return FileError(
+            "scheduler-lost",
+            f"{self._name()} is gone; finished points are in the journal, --resume goes on with the rest",
+        )
 
 
 MISSING = "several processes and clusters need an extra that is not installed: pip install 'mbla[dask]'"
@@ -224,7 +231,7 @@ MISSING = "several processes and clusters need an extra that is not installed: p
 def refuse_missing() -> None:
     """UsageError where the extra is not installed; imports nothing, for that takes a second."""
     if importlib.util.find_spec("distributed") is None:
-        raise UsageError(MISSING)
+        raise UsageError("extra-missing", MISSING)
 
 
 def dask_parts() -> Any:
@@ -237,7 +244,7 @@ def dask_parts() -> Any:
         from distributed import Client, Scheduler, Security, SpecCluster, Worker
         from distributed.scheduler import KilledWorker
     except ImportError as error:
-        raise UsageError(MISSING) from error
+        raise UsageError("extra-missing", MISSING) from error
     return SimpleNamespace(
         Client=Client,
         Scheduler=Scheduler,

@@ -62,4 +62,4 @@ def check_options(options: EngineOptions) -> None:
         wrong.append("--tls-cert and --tls-key belong together")
     wrong += [f"{option} {path}: there is no such file" for option, path in files.items() if not path.is_file()]
     if wrong:
-        raise UsageError("\n".join(wrong))
+        raise UsageError("sweep-option", "\n".join(wrong))

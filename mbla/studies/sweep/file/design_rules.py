@@ -9,6 +9,7 @@ from math import prod
 from mbla.deck.section import Finding, rule
 from mbla.deck.suggestions import did_you_mean, listed
 from mbla.deck.tree import shorten
+from mbla.errors import Message
 from mbla.studies.sweep.file.content import MAX_POINTS, Parameter, SweepContent
 from mbla.studies.sweep.file.keys import key_paths, spelt
 from mbla.studies.sweep.file.parts import SAMPLED, Part, design_parts, is_random
@@ -28,8 +29,11 @@ def column_names(sweep: SweepContent) -> Iterator[Finding]:
             if column in owners:
                 yield (
                     ("parameters", name),
-                    f"column {column} of the table would be there twice, it is {owners[column]}: "
-                    "choose another name, and give the key path with key",
+                    Message(
+                        "sweep-columns",
+                        f"column {column} of the table would be there twice, it is {owners[column]}: "
+                        "choose another name, and give the key path with key",
+                    ),
                 )
             owners.setdefault(column, f"that of parameter {name}")
 
@@ -48,13 +52,19 @@ def keys_once(sweep: SweepContent) -> Iterator[Finding]:
             if before[: len(spelt(key))] == spelt(key):
                 yield (
                     ("set", key),
-                    f"replaces {shorten('.'.join(before))}, which stands before it: put it first, or drop that",
+                    Message(
+                        "sweep-without-effect",
+                        f"replaces {shorten('.'.join(before))}, which stands before it: put it first, or drop that",
+                    ),
                 )
         owners[spelt(key)] = f"set sets {shorten(key)} too: one of them would have no effect"
     for name, parameter in sweep.parameters.items():
         for path, key in key_places(name, parameter):
             if spelt(key) in owners:
-                yield path, f"parameter {name} sets {shorten(key)}, and {owners[spelt(key)]}"
+                yield (
+                    path,
+                    Message("sweep-without-effect", f"parameter {name} sets {shorten(key)}, and {owners[spelt(key)]}"),
+                )
             owners.setdefault(spelt(key), f"parameter {name} sets it too")
 
 
@@ -76,21 +86,29 @@ def every_parameter_in_one_part(sweep: SweepContent) -> Iterator[Finding]:
     parts = design_parts(sweep)
     open_parts = [part for part in parts if sweep.design and _names_given(sweep, part) is None]
     for part in open_parts[1:]:
-        yield part.path, "needs `of`: only one part of the design can take all parameters that no other names"
+        yield (
+            part.path,
+            Message(
+                "sweep-parts", "needs `of`: only one part of the design can take all parameters that no other names"
+            ),
+        )
     for part in open_parts[:1]:
         if not part.names:
-            yield part.path, "has no parameters: the other parts name them all"
+            yield part.path, Message("sweep-parts", "has no parameters: the other parts name them all")
     owners: dict[str, int] = {}
     for number, part in enumerate(parts):
         for index, name in enumerate(_names_given(sweep, part) or ()):
             if name in owners:
                 where = "this part" if owners[name] == number else f"part {owners[name] + 1} of the design"
-                yield (*part.path, "of", index), f"{name} stands in {where} already"
+                yield (*part.path, "of", index), Message("sweep-parts", f"{name} stands in {where} already")
             owners.setdefault(name, number)
     if sweep.design and not open_parts:
         for name in sweep.parameters:
             if name not in owners:
-                yield ("parameters", name), "stands in no part of the design: name it in one of its `of`, or drop it"
+                yield (
+                    ("parameters", name),
+                    Message("sweep-parts", "stands in no part of the design: name it in one of its `of`, or drop it"),
+                )
 
 
 def _names_given(sweep: SweepContent, part: Part) -> list[str] | None:
@@ -111,11 +129,28 @@ def ways_fit_their_part(sweep: SweepContent) -> Iterator[Finding]:
             points = level_count(parameter)
             if part.kind in SAMPLED:
                 if way in WITH_POINTS and points is not None:
-                    yield (*path, "points"), f"has no meaning in a {part.kind} design, which has its own: leave it out"
+                    yield (
+                        (*path, "points"),
+                        Message(
+                            "sweep-ranges", f"has no meaning in a {part.kind} design, which has its own: leave it out"
+                        ),
+                    )
             elif way in DISTRIBUTIONS:
-                yield path, f"is a distribution, which a {part.kind} cannot take: put {name} into {_samples()}"
+                yield (
+                    path,
+                    Message(
+                        "sweep-ranges",
+                        f"is a distribution, which a {part.kind} cannot take: put {name} into {_samples()}",
+                    ),
+                )
             elif points is None:
-                yield path, f"needs points, how many values it has, in a {part.kind}; or put {name} into {_samples()}"
+                yield (
+                    path,
+                    Message(
+                        "sweep-ranges",
+                        f"needs points, how many values it has, in a {part.kind}; or put {name} into {_samples()}",
+                    ),
+                )
 
 
 @rule(SweepContent)
@@ -128,7 +163,7 @@ def grid_values_once(sweep: SweepContent) -> Iterator[Finding]:
             for index, value in enumerate(written):
                 if value in written[:index]:
                     message = "is given twice: the points of a grid differ in each value"
-                    yield ("parameters", name, "values", index), message
+                    yield ("parameters", name, "values", index), Message("duplicate-key", message)
 
 
 def _samples() -> str:
@@ -143,7 +178,7 @@ def zipped_lists(sweep: SweepContent) -> Iterator[Finding]:
         if part.kind != "zip" or None in counts.values() or len(set(counts.values())) < 2:
             continue
         shown = listed((f"{name} {count}" for name, count in counts.items()), "and")
-        yield part.path, f"needs as many values of each parameter; here are: {shown}"
+        yield part.path, Message("sweep-ranges", f"needs as many values of each parameter; here are: {shown}")
 
 
 @rule(SweepContent)
@@ -155,7 +190,13 @@ def number_of_points(sweep: SweepContent) -> Iterator[Finding]:
     if len(known) == len(sizes) and prod(known) > MAX_POINTS:
         path = ("design",) if sweep.design else ("parameters",)
         factors = " x ".join(str(size) for size in known) + " = " if len(known) > 1 else ""
-        yield path, f"makes {factors}{prod(known)} points, at most {MAX_POINTS} are taken: a sample needs fewer"
+        yield (
+            path,
+            Message(
+                "sweep-too-many-points",
+                f"makes {factors}{prod(known)} points, at most {MAX_POINTS} are taken: a sample needs fewer",
+            ),
+        )
 
 
 def _size(sweep: SweepContent, part: Part) -> int | None:
@@ -178,7 +219,7 @@ def cases_once(sweep: SweepContent) -> Iterator[Finding]:
     cases = sweep.cases or []
     for index, name in enumerate(cases):
         if name in cases[:index]:
-            yield ("cases", index), "is given twice"
+            yield ("cases", index), Message("duplicate-key", "is given twice")
 
 
 @rule(SweepContent)
@@ -186,9 +227,9 @@ def results_once(sweep: SweepContent) -> Iterator[Finding]:
     """One column each."""
     for index, name in enumerate(sweep.results):
         if name in sweep.results[:index]:
-            yield ("results", index), "is given twice"
+            yield ("results", index), Message("duplicate-key", "is given twice")
         elif not name.strip():
-            yield ("results", index), "must not be empty: write a key path such as load_factor"
+            yield ("results", index), Message("sweep-result", "must not be empty: write a key path such as load_factor")
 
 
 @rule(SweepContent)
@@ -202,19 +243,32 @@ def fragility(sweep: SweepContent) -> Iterator[Finding]:
         hint = did_you_mean(wanted, sweep.results) or ";"
         yield (
             ("fragility", "result"),
-            f"{shorten(wanted)} is not among results{hint} these are {listed(sweep.results, 'and')}",
+            Message(
+                "sweep-fragility",
+                f"{shorten(wanted)} is not among results{hint} these are {listed(sweep.results, 'and')}",
+            ),
         )
     elif any(wanted == name or wanted.endswith(f".{name}") for name in FACTORS) and STATUS not in sweep.results:
         yield (
             ("results",),
-            f"must have {STATUS} too: for the probability of {shorten(wanted)} it tells what does not stand from what "
-            "no load brings down",
+            Message(
+                "sweep-fragility",
+                f"must have {STATUS} too: for the probability of {shorten(wanted)} it tells what does not stand from "
+                "what no load brings down",
+            ),
         )
     random = [part for part in design_parts(sweep) if is_random(part, sweep)]
     if not random:
         yield (
             ("fragility",),
-            f"needs a random design: {_samples()} in which every parameter is {listed(RANDOM)}",
+            Message(
+                "sweep-fragility", f"needs a random design: {_samples()} in which every parameter is {listed(RANDOM)}"
+            ),
         )
     elif len(random) > 1:
-        yield ("fragility",), "needs one random part of the design, not several: put their parameters into one"
+        yield (
+            ("fragility",),
+            Message(
+                "sweep-fragility", "needs one random part of the design, not several: put their parameters into one"
+            ),
+        )

@@ -15,7 +15,7 @@ from mbla.deck.suggestions import unknown
 from mbla.deck.tree import Tree
 from mbla.deck.units import Units
 from mbla.deck.validation import validate
-from mbla.errors import DeckError, Fault
+from mbla.errors import DeckError, Fault, Message, ValueRefused
 from mbla.studies.sweep.file import design_rules as design_rules
 from mbla.studies.sweep.file import rules as rules
 from mbla.studies.sweep.file.content import SweepContent
@@ -55,7 +55,7 @@ def _read(path: Path, overrides: Sequence[str]) -> Sweep:
         raise DeckError(reading.faults)
     if "mbla" in tree.data and "mbla_sweep" not in tree.data:
         message = "this is a deck, not a sweep file: mbla run solves it; a sweep file names it as its deck"
-        raise DeckError([tree.fault(("mbla",), message, at_key=True)])
+        raise DeckError([tree.fault(("mbla",), Message("sweep-file-and-deck", message), at_key=True)])
     content, faults = validate(tree, SweepContent, _number, reading.reported, reading.damaged)
     faults += reading.faults
     seen = {(fault.place, fault.key) for fault in faults}
@@ -70,7 +70,9 @@ def _read(path: Path, overrides: Sequence[str]) -> Sweep:
 def _number(text: str, dimension: str) -> float:
     """Number of a text, where a sweep file takes one: a time with its unit."""
     if is_expression(text):
-        raise ValueError("expressions belong to decks: write the number, or vary a parameter that the deck uses")
+        raise ValueRefused(
+            "sweep-values", "expressions belong to decks: write the number, or vary a parameter that the deck uses"
+        )
     return Units().convert(text, dimension)
 
 
@@ -81,4 +83,4 @@ def _unknown_parameters(tree: Tree) -> Iterator[Fault]:
     for kind in KINDS:
         for path, name in find(tree.data, ["design", "#", kind, "of", "#"]):
             if isinstance(name, str) and name not in known:
-                yield tree.fault(path, unknown("parameter", name, known, "known"))
+                yield tree.fault(path, Message("unknown-name", unknown("parameter", name, known, "known")))

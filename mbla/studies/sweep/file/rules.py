@@ -7,6 +7,7 @@ from typing import Any
 
 from mbla.deck.rules.common import exactly_one
 from mbla.deck.section import Finding, Section, rule
+from mbla.errors import Message
 from mbla.studies.sweep.file import content as types
 from mbla.studies.sweep.file.parts import KINDS
 from mbla.studies.sweep.file.ways import WAYS
@@ -35,7 +36,9 @@ def plain_values(item: types.Parameter) -> Iterator[Finding]:
         if isinstance(value, dict):
             yield (
                 ("values", index),
-                "must be a number, text, true, false or a list: give each key a parameter, in a zip",
+                Message(
+                    "sweep-values", "must be a number, text, true, false or a list: give each key a parameter, in a zip"
+                ),
             )
 
 
@@ -48,21 +51,21 @@ def key_paths_of_text(item: types.Parameter) -> Iterator[Finding]:
         keys = [(("key", index), key) for index, key in enumerate(item.key or ())]
     for path, key in keys:
         if not key.strip():
-            yield path, "must not be empty: write a key path such as joints.dry.friction"
+            yield path, Message("sweep-key", "must not be empty: write a key path such as joints.dry.friction")
 
 
 @rule(types.LinearRange)
 def linear_range(item: types.LinearRange) -> Iterator[Finding]:
     """Upwards or downwards."""
     if item.start == item.end:
-        yield ("to",), "must differ from the value of from"
+        yield ("to",), Message("out-of-bounds", "must differ from the value of from")
 
 
 def _upwards(section: type[Section]) -> None:
     @rule(section)
     def upwards(item: Any) -> Iterator[Finding]:
         if not item.start < item.end:
-            yield ("to",), f"must be > {item.start:g}, the value of from"
+            yield ("to",), Message("out-of-bounds", f"must be > {item.start:g}, the value of from")
 
 
 for _section in (types.LogRange, types.WholeRange, types.Uniform, types.Triangular, types.Horizon, types.Sphere):
@@ -73,23 +76,29 @@ for _section in (types.LogRange, types.WholeRange, types.Uniform, types.Triangul
 def horizon(item: types.Horizon) -> Iterator[Finding]:
     """No direction twice."""
     if item.end - item.start > FULL_CIRCLE:
-        yield ("to",), f"must be at most {item.start + FULL_CIRCLE:g}, a full circle beyond from"
+        yield (
+            ("to",),
+            Message("out-of-bounds", f"must be at most {item.start + FULL_CIRCLE:g}, a full circle beyond from"),
+        )
 
 
 @rule(types.Triangular)
 def triangular(item: types.Triangular) -> Iterator[Finding]:
     """The most likely value is one of them."""
     if item.start < item.end and not item.start <= item.mode <= item.end:
-        yield ("mode",), f"must lie between {item.start:g} and {item.end:g}, the values of from and to"
+        yield (
+            ("mode",),
+            Message("out-of-bounds", f"must lie between {item.start:g} and {item.end:g}, the values of from and to"),
+        )
 
 
 def _cut_around_the_mean(section: type[Section]) -> None:
     @rule(section)
     def cut(item: Any) -> Iterator[Finding]:
         if item.least is not None and not item.least < item.mean:
-            yield ("min",), f"must be < {item.mean:g}, the mean"
+            yield ("min",), Message("out-of-bounds", f"must be < {item.mean:g}, the mean")
         if item.greatest is not None and not item.greatest > item.mean:
-            yield ("max",), f"must be > {item.mean:g}, the mean"
+            yield ("max",), Message("out-of-bounds", f"must be > {item.mean:g}, the mean")
 
 
 _cut_around_the_mean(types.Normal)

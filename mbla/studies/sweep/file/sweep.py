@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from mbla.deck.tree import KeyPath
-from mbla.errors import Fault
+from mbla.errors import Fault, Message
 from mbla.studies.sweep.file.content import SweepContent
 
 
@@ -27,5 +27,5 @@ class Sweep:
     text: str
     sha256: str
     overrides: tuple[str, ...]
-    fault_at: Callable[[KeyPath, str], Fault]
+    fault_at: Callable[[KeyPath, Message], Fault]
     """Fault for a key path such as ("parameters", "mu", "linear") with a message; finds place and value itself."""

@@ -60,7 +60,7 @@ class Journal:
         self, path: Path, header: JournalHeader, *, resume: bool, force: bool, retry_failed: bool = False
     ) -> None:
         if resume and force:
-            raise UsageError("--resume goes on with the journal and --force begins anew: one of them")
+            raise UsageError("sweep-option", "--resume goes on with the journal and --force begins anew: one of them")
         self.path = path
         self.header = header
         self.finished: dict[str, Outcome] = {}
@@ -108,7 +108,7 @@ class Journal:
             if outcome.key in self.finished:
                 raise ValueError(f"point {task.number} is finished already")
             if self._broken:
-                raise FileError(self._broken)
+                raise FileError("journal-changed", self._broken)
             self._check_nobody_else_wrote()
             try:
                 with file_errors(self.path):
@@ -136,7 +136,7 @@ class Journal:
         if self._resume:
             return self._go_on(others)
         if earlier and not self._force:
-            raise FileError(f"{earlier[0]}: exists already; --resume goes on with it, {BEGIN_ANEW}")
+            raise FileError("sweep-exists", f"{earlier[0]}: exists already; --resume goes on with it, {BEGIN_ANEW}")
         self._create()
         for path in earlier:
             if path != self.path:
@@ -177,7 +177,9 @@ class Journal:
         with file_errors(self.path):
             there, ours = self.path.stat(), os.fstat(self._descriptor)
         if not os.path.samestat(there, ours) or ours.st_size != self._end:
-            raise FileError(f"{self.path}: was changed by another program while this one was writing it")
+            raise FileError(
+                "journal-changed", f"{self.path}: was changed by another program while this one was writing it"
+            )
 
     def _write(self, row: bytes) -> None:
         left = memoryview(row)

@@ -91,15 +91,18 @@ def _taken(path: Path, file: Path, shared: bool, busy: Callable[[], str] | None)
         except BlockingIOError:
             if time.monotonic() > until:
                 os.close(descriptor)
-                raise FileError(busy() if busy else f"{path}: {holder(path) or 'another process'} {AT_WORK}") from None
+                raise FileError(
+                    "sweep-at-work", busy() if busy else f"{path}: {holder(path) or 'another process'} {AT_WORK}"
+                ) from None
             time.sleep(_PAUSE)
         except OSError as error:
             os.close(descriptor)
             if error.errno in _NONE_HERE:
                 raise FileError(
-                    f"{path}: its file system has no locks to keep two runs apart; -o FOLDER writes elsewhere"
+                    "journal-not-locked",
+                    f"{path}: its file system has no locks to keep two runs apart; -o FOLDER writes elsewhere",
                 ) from error
-            raise FileError(f"{file}: {error.strerror}") from error
+            raise FileError("journal-not-locked", f"{file}: {error.strerror}") from error
         os.close(descriptor)
 
 

@@ -58,7 +58,7 @@ def read_journal(path: Path, header: JournalHeader) -> JournalRows:
             whole += len(line)
         size = os.fstat(stream.fileno()).st_size
     if faults:
-        raise FileError(_told(faults))
+        raise FileError("journal-damaged", _told(faults))
     return JournalRows(finished, whole, size - whole)
 
 
@@ -92,11 +92,11 @@ def _check_header(path: Path, header: JournalHeader, first: bytes, second: bytes
         found = read_header(first.decode("utf-8"))
     except ValueError as error:
         words = "is no journal of a sweep" if isinstance(error, UnicodeDecodeError) else str(error)
-        raise FileError(f"{path}: {words}; {BEGIN_ANEW}") from error
+        raise FileError("journal-damaged", f"{path}: {words}; {BEGIN_ANEW}") from error
     if words := difference(found, header):
-        raise FileError(f"{path}: {words}: it cannot be gone on with; {BEGIN_ANEW}")
+        raise FileError("journal-of-another-sweep", f"{path}: {words}: it cannot be gone on with; {BEGIN_ANEW}")
     if second != header_text(found).encode("utf-8").partition(b"\n")[2]:
-        raise FileError(f"{path}:2: the names of the columns were changed; {BEGIN_ANEW}")
+        raise FileError("journal-damaged", f"{path}:2: the names of the columns were changed; {BEGIN_ANEW}")
     return len(first) + len(second)
 
 

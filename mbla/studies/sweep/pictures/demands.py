@@ -23,5 +23,5 @@ def demands_of(folder: Path) -> dict[str, tuple[float, ...]]:
         for one in json.loads(text)["fragility"]:
             found.setdefault(str(one["result"]), set()).update(float(each["demand"]) for each in one["demands"])
     except (KeyError, TypeError, ValueError, RecursionError) as error:
-        raise FileError(f"{path}: its fragility cannot be read") from error
+        raise FileError("sweep-table-damaged", f"{path}: its fragility cannot be read") from error
     return {name: tuple(sorted(demands)) for name, demands in found.items()}

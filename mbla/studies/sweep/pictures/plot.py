@@ -68,7 +68,7 @@ def plot_sweep_files(path: Path, arguments: Any) -> list[Path]:
 def sweep_picture_options(arguments: Any) -> SweepPictures:
     """Choices from the texts of the command line; UsageError for what is none."""
     if not LEAST_DPI <= arguments.dpi <= MOST_DPI:
-        raise UsageError(f"--dpi {arguments.dpi}: {LEAST_DPI} to {MOST_DPI} dots per inch")
+        raise UsageError("picture-option", f"--dpi {arguments.dpi}: {LEAST_DPI} to {MOST_DPI} dots per inch")
     kinds, every = _parse_kinds(arguments.kind) if arguments.kind is not None else ((), False)
     page = PictureOptions(size=parse_size(arguments.size), dpi=arguments.dpi, format=arguments.format)
     return SweepPictures(kinds, every, arguments.result, arguments.by or "", page=page)
@@ -97,7 +97,10 @@ def plot_sweep(table: SweepTable, target: Path, chosen: SweepPictures | None = N
         pictures = pictures if chosen.kinds else pictures[:1]
         if len(pictures) > 1:
             names = ", ".join(picture.name for picture in pictures)
-            raise UsageError(f"{target}: one file for {len(pictures)} pictures ({names}); choose one, or name a folder")
+            raise UsageError(
+                "several-pictures-one-file",
+                f"{target}: one file for {len(pictures)} pictures ({names}); choose one, or name a folder",
+            )
         paths = [target]
     else:
         paths = [target / f"sweep_{picture.name}.{chosen.page.format}" for picture in pictures]
@@ -110,7 +113,7 @@ def plot_sweep(table: SweepTable, target: Path, chosen: SweepPictures | None = N
 def pictures_of(table: SweepTable, chosen: SweepPictures) -> list[Chosen]:
     """The pictures to make, kind by kind of each result; raises as ``plot_sweep`` does."""
     if not len(table):
-        raise UsageError("the sweep has no points to draw")
+        raise UsageError("nothing-to-draw", "the sweep has no points to draw")
     views = [
         view_of(table, result, chosen.by, chosen.demands.get(result.name, ()))
         for result in chosen_results(table, chosen.result)
@@ -122,7 +125,7 @@ def pictures_of(table: SweepTable, chosen: SweepPictures) -> list[Chosen]:
         if chosen.result is None:
             pictures += _class_maps(table, chosen)
     if not pictures:
-        raise UsageError(_nothing(views))
+        raise UsageError("nothing-to-draw", _nothing(views))
     return pictures
 
 
@@ -136,7 +139,7 @@ def _class_maps(table: SweepTable, chosen: SweepPictures) -> list[Chosen]:
 def _fits(kind: str, view: View, every: bool) -> bool:
     reason = KINDS[kind].refusal(view)
     if reason and not every:
-        raise UsageError(f"--kind {kind} of {view.answers.column.name}: {reason}")
+        raise UsageError("nothing-to-draw", f"--kind {kind} of {view.answers.column.name}: {reason}")
     return not reason
 
 
@@ -151,5 +154,7 @@ def _parse_kinds(text: str) -> tuple[tuple[str, ...], bool]:
     if asked == ["all"]:
         return tuple(KINDS), True
     if not asked or set(asked) - set(KINDS):
-        raise UsageError(f"--kind {text}: there are {', '.join(KINDS)}, or all; several with commas between them")
+        raise UsageError(
+            "picture-option", f"--kind {text}: there are {', '.join(KINDS)}, or all; several with commas between them"
+        )
     return tuple(kind for kind in KINDS if kind in asked), False

@@ -78,7 +78,9 @@ def open_sheet(
             yield from _sheet(path, view, what, options, handles, notes)
     except UserWarning as error:
         width, height = options.size
-        raise UsageError(f"--size {width}x{height}: words and legend leave no room; choose a larger one") from error
+        raise UsageError(
+            "picture-option", f"--size {width}x{height}: words and legend leave no room; choose a larger one"
+        ) from error
 
 
 NO_ROOM = "constrained_layout not applied"

@@ -57,7 +57,7 @@ def column_by_name(table: SweepTable, name: str) -> SweepColumn:
     """A parameter by its name; UsageError for none."""
     names = {column.name: column for column in design_columns(table)}
     if name not in names:
-        raise UsageError(f"--by {name}: {unknown('parameter', name, names, 'the sweep has')}")
+        raise UsageError("unknown-column", f"--by {name}: {unknown('parameter', name, names, 'the sweep has')}")
     return names[name]
 
 
@@ -72,7 +72,7 @@ def chosen_results(table: SweepTable, name: str | None) -> tuple[SweepColumn, ..
         chosen = chosen or [column for column in results if column.path == name]
         if not chosen:
             names = [column.name for column in results]
-            raise UsageError(f"--result {name}: {unknown('result', name, names, 'the sweep has')}")
+            raise UsageError("unknown-column", f"--result {name}: {unknown('result', name, names, 'the sweep has')}")
         return tuple(chosen)
     for path in ("load_factor", *dict.fromkeys(column.path for column in results if column.kind in ("float", "int"))):
         chosen = [column for column in results if column.path == path]
@@ -80,4 +80,4 @@ def chosen_results(table: SweepTable, name: str | None) -> tuple[SweepColumn, ..
             return tuple(chosen)
     if results:
         return (results[0],)
-    raise UsageError("the sweep has no result columns to draw")
+    raise UsageError("nothing-to-draw", "the sweep has no result columns to draw")

@@ -36,17 +36,22 @@ def read_sweep_table(path: Path) -> SweepTable:
     """
     folder = path if path.is_dir() else path.parent
     if path != folder and path.name not in (CSV, JSON):
-        raise FileError(f"{path}: is no table of a sweep; name its folder, {CSV} or {JSON}")
+        raise FileError("sweep-table-damaged", f"{path}: is no table of a sweep; name its folder, {CSV} or {JSON}")
     if not (folder / JSON).is_file() or not (folder / CSV).is_file():
         missing = JSON if not (folder / JSON).is_file() else CSV
-        raise FileError(f"{folder / missing}: there is none; mbla sweep writes {CSV} and {JSON} into one folder")
+        raise FileError(
+            "sweep-table-damaged",
+            f"{folder / missing}: there is none; mbla sweep writes {CSV} and {JSON} into one folder",
+        )
     record = _record(folder / JSON)
     rows = _rows(folder / CSV)
     try:
         return _table(record, rows)
     except (KeyError, TypeError, ValueError, IndexError, AttributeError) as error:
         what = str(error.args[0]) if error.args else type(error).__name__
-        raise FileError(f"{folder / CSV}: is not the table that {JSON} describes: {what}") from error
+        raise FileError(
+            "sweep-table-damaged", f"{folder / CSV}: is not the table that {JSON} describes: {what}"
+        ) from error
 
 
 def _record(path: Path) -> dict[str, Any]:
@@ -55,13 +60,14 @@ def _record(path: Path) -> dict[str, Any]:
     try:
         record = json.loads(data.decode("utf-8"))
     except (ValueError, RecursionError) as error:
-        raise FileError(f"{path}: is no JSON: {str(error).splitlines()[0]}") from error
+        raise FileError("sweep-table-damaged", f"{path}: is no JSON: {str(error).splitlines()[0]}") from error
     if not isinstance(record, dict) or not {"sweep", "version", "columns", "design"} <= set(record):
-        raise FileError(f"{path}: is no record of a sweep")
+        raise FileError("sweep-table-damaged", f"{path}: is no record of a sweep")
     if record["version"] != VERSION:
         raise FileError(
+            "sweep-table-damaged",
             f"{path}: version {record['version']} of the record, written by mbla {record.get('mbla')}; "
-            f"this mbla reads version {VERSION}"
+            f"this mbla reads version {VERSION}",
         )
     return record
 
@@ -73,7 +79,7 @@ def _rows(path: Path) -> list[list[str]]:
         text = data.decode("utf-8")
         return list(csv.reader(io.StringIO(text, newline=""), strict=True))
     except (ValueError, csv.Error) as error:
-        raise FileError(f"{path}: is no CSV: {error}") from error
+        raise FileError("sweep-table-damaged", f"{path}: is no CSV: {error}") from error
 
 
 def _table(record: dict[str, Any], rows: Sequence[Sequence[str]]) -> SweepTable:

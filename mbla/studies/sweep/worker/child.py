@@ -65,13 +65,17 @@ def prepared(plan: Plan) -> PointRunner:
     The deck is read for that, so what reading takes is not charged to the first point.
     """
     if plan.program != program_identity():
-        raise UsageError(f"its mbla is {program_identity()}, the sweep was planned by {plan.program}")
+        raise UsageError("workers-differ", f"its mbla is {program_identity()}, the sweep was planned by {plan.program}")
     if plan.memory_limit is not None and not can_limit():
-        raise UsageError(f"limits.memory: {sys.platform} has no limit on the memory of a process; leave it out")
+        raise UsageError(
+            "memory-limit-unknown",
+            f"limits.memory: {sys.platform} has no limit on the memory of a process; leave it out",
+        )
     if fingerprint_of(Path(plan.deck), plan.fixed) != plan.fingerprint:
         where = f"{plan.deck} on {platform.node()}"
         raise UsageError(
-            f"{where} is not the deck that was planned: it, or a file that it names, is another or changed"
+            "deck-changed",
+            f"{where} is not the deck that was planned: it, or a file that it names, is another or changed",
         )
     return PointRunner(plan)
 

@@ -165,7 +165,7 @@ class SupervisedRunner:
                 return
             if self._process.status >= 0 and number >= TRIES:
                 break
-        raise UsageError(f"the process that solves points cannot be started: {words}")
+        raise UsageError("worker-refused", f"the process that solves points cannot be started: {words}")
 
     def _begin(self) -> str:
         """Start a process; what went wrong in words. Raises UsageError where it refuses the plan."""
@@ -185,7 +185,7 @@ class SupervisedRunner:
                 if (answer := process.next(until)) is not None:
                     if "refused" in answer:
                         process.stop()
-                        raise UsageError(answer["refused"])
+                        raise UsageError("worker-refused", answer["refused"])
                     return ""
         except OSError as error:  # a TimeoutError is one
             process.stop()

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from mbla.deck.tree import KeyPath, key_text
-from mbla.errors import Fault, Place
+from mbla.errors import Fault, Message, Place
 from mbla.studies.sweep.design.build import design_of
 from mbla.studies.sweep.design.design import Design
 from mbla.studies.sweep.design.ways.way import Vector
@@ -22,7 +22,7 @@ def content_of(parameters: Mapping[str, Any], **keys: Any) -> SweepContent:
     return SweepContent.model_validate({"mbla_sweep": 1, "deck": "deck.yaml", "parameters": parameters, **keys})
 
 
-def fault_at(path: KeyPath, message: str) -> Fault:
+def fault_at(path: KeyPath, message: Message) -> Fault:
     return Fault(Place("sweep.yaml", 1, 1), key_text(path), message)
 
 

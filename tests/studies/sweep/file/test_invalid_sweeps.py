@@ -24,6 +24,6 @@ def test_messages(path: Path) -> None:
     expected = [line.removeprefix(MARK) for line in lines if line.startswith(MARK)]
     with pytest.raises(DeckError) as caught:
         read_base(read_sweep(path))
-    found = [str(fault).removeprefix(f"{path}:").removeprefix(f"{path.parent}/") for fault in caught.value.faults]
+    found = [fault.line().removeprefix(f"{path}:").removeprefix(f"{path.parent}/") for fault in caught.value.faults]
     assert found == expected
     assert expected, "a faulty sweep file says what is expected of it"

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from mbla.deck import read_deck
-from mbla.errors import DeckError, FileError
+from mbla.errors import DeckError, FileError, Message
 from mbla.studies.sweep.file.content import MAX_POINTS
 from mbla.studies.sweep.file.keys import key_paths, spelt
 from mbla.studies.sweep.file.parts import design_parts, is_random
@@ -40,7 +40,7 @@ def test_content_text_and_places(tmp_path: Path) -> None:
     assert sweep.text == GOOD
     assert sweep.sha256 == hashlib.sha256(GOOD.encode()).hexdigest()
     assert sweep.overrides == ("title=x",)
-    fault = sweep.fault_at(("parameters", "mu", "linear", "to"), "no")
+    fault = sweep.fault_at(("parameters", "mu", "linear", "to"), Message("not-a-number", "no"))
     assert str(fault) == f"{tmp_path}/sweep.yaml:5:32 parameters.mu.linear.to = 0.7: no"
 
 

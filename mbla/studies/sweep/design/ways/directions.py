@@ -35,9 +35,12 @@ def length_to_turn(components: Iterable[float], given: float | None) -> float:
     """
     size = math.hypot(*components) if given is None else given
     if size == 0:
-        raise WayError("turns a vector that has no length in these directions: give its size, or change it in the deck")
+        raise WayError(
+            "sweep-directions",
+            "turns a vector that has no length in these directions: give its size, or change it in the deck",
+        )
     if math.isinf(size):
-        raise WayError("turns a vector that is longer than a number holds")
+        raise WayError("sweep-directions", "turns a vector that is longer than a number holds")
     return size
 
 

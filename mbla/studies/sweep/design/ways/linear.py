@@ -15,13 +15,15 @@ def steps(start: float, end: float, count: int, whole: int) -> list[float]:
     """
     places = decimals_of(start, end)
     if places is None:
-        raise WayError("has ends that numbers do not tell apart, or lie too far apart for them")
+        raise WayError("sweep-values", "has ends that numbers do not tell apart, or lie too far apart for them")
     values = [round(start * (1 - i / whole) + end * (i / whole), places) for i in range(count)]
     values[0] = start
     if count > whole:
         values[-1] = end
     if len(set(values)) < count:
-        raise WayError(f"has {count} points that numbers do not tell apart: widen the range, or take fewer")
+        raise WayError(
+            "sweep-values", f"has {count} points that numbers do not tell apart: widen the range, or take fewer"
+        )
     return values
 
 

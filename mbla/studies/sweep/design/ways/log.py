@@ -18,7 +18,9 @@ def _levels(section: LogRange, vector: Vector | None) -> Filled:
     values = _between(section, np.arange(points) / (points - 1))
     values[0], values[-1] = float(section.start), float(section.end)
     if len(set(values)) < points:
-        raise WayError(f"has {points} points that numbers do not tell apart: widen the range, or take fewer")
+        raise WayError(
+            "sweep-values", f"has {points} points that numbers do not tell apart: widen the range, or take fewer"
+        )
     return plain(values)
 
 

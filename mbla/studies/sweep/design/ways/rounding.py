@@ -29,7 +29,7 @@ def rounded_within(values: Iterable[float], least: float, greatest: float) -> li
     """
     found = [rounded(float(value)) for value in values]
     if not all(map(math.isfinite, found)):
-        raise WayError("has values beyond what a number holds")
+        raise WayError("sweep-values", "has values beyond what a number holds")
     return [min(max(value, least), greatest) for value in found]
 
 

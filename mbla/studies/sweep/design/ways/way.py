@@ -7,12 +7,13 @@ from dataclasses import dataclass
 from typing import Any, TypeAlias
 
 from mbla.arrays import FloatArray
+from mbla.errors import ValueRefused
 from mbla.studies.sweep.plan import Plain
 
 Vector: TypeAlias = tuple[float, float, float]
 
 
-class WayError(ValueError):
+class WayError(ValueRefused):
     """The values cannot be had in this design; the message says why and what helps."""
 
 
@@ -76,11 +77,13 @@ def plain(values: Sequence[Plain]) -> Filled:
 
 def no_levels(section: Any, vector: Vector | None) -> Filled:
     """A distribution has no levels."""
-    raise WayError("is a distribution, which has no levels: draw it in a part random, latin_hypercube or sobol")
+    raise WayError(
+        "sweep-ranges", "is a distribution, which has no levels: draw it in a part random, latin_hypercube or sobol"
+    )
 
 
 def points_of(section: Any) -> int:
     """How many levels a range has."""
     if section.points is None:
-        raise WayError("needs points: how many values there are")
+        raise WayError("sweep-ranges", "needs points: how many values there are")
     return int(section.points)
