@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import argparse
-from typing import Any
+from typing import Any, NoReturn
 
 from mbla import __version__
 from mbla.arguments_of_decks import add_check, add_run
@@ -23,9 +23,16 @@ MBLA_TRACEBACK=1 in the environment shows where an internal error arose.
 """
 
 
+class _Parser(argparse.ArgumentParser):
+    """Tells what is wrong with the identifier that ``mbla explain`` knows."""
+
+    def error(self, message: str) -> NoReturn:
+        super().error(f"{message}  [command-line]")
+
+
 def build_parser() -> argparse.ArgumentParser:
     """The commands and their options; ``command`` of the result is the name of the command."""
-    parser = argparse.ArgumentParser(
+    parser = _Parser(
         prog="mbla",
         description="Limit analysis of masonry: load factor, mechanism and verified bounds of rigid-block assemblies.",
         epilog=EXIT_STATUS,

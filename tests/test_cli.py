@@ -278,10 +278,8 @@ def test_an_internal_error_is_one_line(
     for extra in ([], ["-v"], ["-q"]):
         assert main(["run", str(deck), *extra]) == 1
         err = capsys.readouterr().err
-        assert (
-            err
-            == "mbla: internal error, please report it with the deck: ZeroDivisionError: first second  [internal-error]\n"
-        )
+        words = "internal error, please report it with the deck: ZeroDivisionError: first second"
+        assert err == f"mbla: {words}  [internal-error]\n"
     monkeypatch.setenv("MBLA_TRACEBACK", "1")
     assert main(["run", str(deck)]) == 1
     assert "Traceback" in capsys.readouterr().err

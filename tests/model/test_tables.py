@@ -30,7 +30,7 @@ def refused(path: Path, **keys: bool) -> tuple[str, ...]:
 )
 def test_columns_in_any_order_comments_and_decimal_commas(tmp_path: Path, text: str) -> None:
     read = read_table(table(tmp_path, text), ("block", "x"), ("y",))
-    faults: list[str] = []
+    faults: list[Message] = []
     assert read.numbers("xy", faults).tolist() == [[1.5, 2], [-300, 0]]
     assert read.columns["block"] == ["a", "b"]
     assert faults == []
@@ -83,7 +83,7 @@ def test_header_of_a_table_whose_rows_go_on(tmp_path: Path) -> None:
 def test_no_numbers(tmp_path: Path, text: str) -> None:
     quoted = f'"{text}"' if "," in text else text
     read = read_table(table(tmp_path, f"block,x\na,{quoted}\n"), ("block", "x"))
-    faults: list[str] = []
+    faults: list[Message] = []
     read.numbers("x", faults)
     assert faults == [f"t.csv:2: x = {text or '(empty)'}: must be a finite number"]
 

@@ -5,10 +5,12 @@ from __future__ import annotations
 from mbla.deck.suggestions import did_you_mean
 from mbla.errors import UsageError
 from mbla.results.explanations.explanation import Explanation
+from mbla.results.explanations.of_commands import OF_COMMANDS
 from mbla.results.explanations.of_contacts import OF_CONTACTS
 from mbla.results.explanations.of_deck import OF_DECK
 from mbla.results.explanations.of_errors import OF_ERRORS
 from mbla.results.explanations.of_exit import OF_EXIT
+from mbla.results.explanations.of_faults import OF_FAULTS
 from mbla.results.explanations.of_model import OF_MODEL
 from mbla.results.explanations.of_program import OF_PROGRAM
 from mbla.results.explanations.of_solver import OF_SOLVER
@@ -29,6 +31,8 @@ SECTIONS = {
     "Deck": OF_DECK,
     "Parameter sweeps": OF_SWEEP,
     "Errors": OF_ERRORS,
+    "Faults of decks and sweep files": OF_FAULTS,
+    "Errors of commands, files and solvers": OF_COMMANDS,
 }
 """Every explanation under the title of its section."""
 

@@ -7,7 +7,7 @@ from mbla.results.explanations.explanation import Explanation, Kind
 _NONE = "Nothing was computed and nothing written; an earlier result stays as it was."
 
 
-def _fault(
+def refused(
     identifier: str,
     title: str,
     cause: str,
@@ -16,18 +16,19 @@ def _fault(
     example: str = "",
     kind: Kind = "error in a deck",
 ) -> Explanation:
+    """An entry of an error; ``says``: parts of its messages by which a pasted one is recognised."""
     return Explanation(identifier, kind, title, _NONE, cause, remedy, example=example, says=says)
 
 
 OF_DECKS = (
-    _fault(
+    refused(
         "not-yaml",
         "The file cannot be read as YAML.",
         "An unclosed bracket or quote, a tab, wrong indentation; the place given is where reading failed.",
         "Correct it there or in the lines before.",
         "not YAML:",
     ),
-    _fault(
+    refused(
         "yaml-not-allowed",
         "YAML features that decks do not have.",
         "Anchors, aliases, merge keys, tags, a second document.",
@@ -35,14 +36,14 @@ OF_DECKS = (
         "are not allowed",
         "a second document begins here",
     ),
-    _fault(
+    refused(
         "duplicate-key",
         "A key is given twice.",
         "YAML itself would silently take the last one.",
         "Leave one of them out.",
         "is given twice",
     ),
-    _fault(
+    refused(
         "unknown-key",
         "A key that decks do not have.",
         "A misspelt key, or one at the wrong level; nothing is ignored.",
@@ -50,7 +51,7 @@ OF_DECKS = (
         "unknown key",
         example="joints.dry.fricton: unknown key; did you mean friction?",
     ),
-    _fault(
+    refused(
         "unknown-name",
         "A material, joint law, group, load case or member that the deck does not have.",
         "A misspelt name; a group that no item makes.",
@@ -61,7 +62,7 @@ OF_DECKS = (
         "unknown load case",
         "unknown member",
     ),
-    _fault(
+    refused(
         "missing-key",
         "A key that must be given is missing.",
         "A required key was left out; or one of several of which exactly one is needed.",
@@ -69,7 +70,7 @@ OF_DECKS = (
         "is missing:",
         "needs one of",
     ),
-    _fault(
+    refused(
         "not-a-number",
         "A value is no finite number, or outside of what is allowed.",
         "Words, booleans, lists, infinite values; a negative or zero value where that means nothing.",
@@ -78,7 +79,7 @@ OF_DECKS = (
         "must be a finite number",
         "write the number without quotes",
     ),
-    _fault(
+    refused(
         "wrong-unit",
         "A text with a unit that measures something else, or an unknown unit.",
         "Mass for force, a stress for a force, a typing error.",
@@ -86,7 +87,7 @@ OF_DECKS = (
         "has an unknown unit",
         "must be a number without a unit",
     ),
-    _fault(
+    refused(
         "wrong-expression",
         'An expression "=..." cannot be computed.',
         "Unknown parameters or functions, a division by zero, parameters that refer to themselves.",
@@ -96,14 +97,14 @@ OF_DECKS = (
         "refers to itself",
         "cannot be read as an expression",
     ),
-    _fault(
+    refused(
         "key-of-another-choice",
         "A key that applies to another choice only.",
         "Keys that exclude each other, such as a rise of a semicircular arch.",
         "Leave it out or change the choice that the message names.",
         "applies to",
     ),
-    _fault(
+    refused(
         "file-outside-folder",
         "A file outside of the deck's folder.",
         "A deck reads files of its own folder tree only, so that decks of others can be run safely.",
@@ -111,7 +112,7 @@ OF_DECKS = (
         "leads out of the folder tree",
         "must be a path relative to the file",
     ),
-    _fault(
+    refused(
         "geometry-file",
         "A geometry file cannot be read.",
         "It does not exist, is of an unknown kind, not well-formed, or holds no blocks.",
@@ -124,7 +125,7 @@ OF_DECKS = (
 )
 
 OF_STRUCTURES = (
-    _fault(
+    refused(
         "open-polyhedron",
         "A block is not closed.",
         "A face is missing, or neighbouring faces miss each other by more than the tolerance.",
@@ -132,7 +133,7 @@ OF_STRUCTURES = (
         "is not closed",
         example="block vault[1] (open): is not closed: 3 edges have one face only",
     ),
-    _fault(
+    refused(
         "bad-polyhedron",
         "A block is no simple solid.",
         "It intersects itself, has no volume, faces without area or listed twice, or is several pieces.",
@@ -143,14 +144,14 @@ OF_STRUCTURES = (
         "more than two faces",
         "have the same corners",
     ),
-    _fault(
+    refused(
         "face-not-planar",
         "A face of a block is not planar.",
         "Corners leave the plane by more than contacts.tolerance of the block size.",
         "Split the face, or raise contacts.tolerance for rounded coordinates.",
         "is not planar:",
     ),
-    _fault(
+    refused(
         "no-support",
         "Nothing holds the structure.",
         "supports is empty or missing.",
@@ -158,14 +159,14 @@ OF_STRUCTURES = (
         "nothing holds the structure",
         example="supports: [{ground: {z: 0}}]",
     ),
-    _fault(
+    refused(
         "nothing-can-move",
         "Every block is fixed or glued to a support.",
         "A selector of supports that takes all blocks; glue everywhere.",
         "Let blocks be free.",
         "nothing can move",
     ),
-    _fault(
+    refused(
         "ground-misplaced",
         "A ground plane lies off the structure, or through it.",
         "A wrong height or direction of the plane, or units of a file.",
@@ -173,7 +174,7 @@ OF_STRUCTURES = (
         "move the plane, or name the blocks",
         "no face of a block that can move lies on it",
     ),
-    _fault(
+    refused(
         "empty-selector",
         "A selector selects no block.",
         "An index that does not exist, an empty box, a position that the blocks do not have.",
@@ -182,7 +183,7 @@ OF_STRUCTURES = (
         "lies in it; they lie between",
         "these blocks have no",
     ),
-    _fault(
+    refused(
         "live-load-without-effect",
         "A live load does nothing.",
         "It is zero, cancels another, or acts on blocks that cannot move.",
@@ -193,7 +194,7 @@ OF_STRUCTURES = (
         "the live loads cancel each other",
         "the supports take every live load",
     ),
-    _fault(
+    refused(
         "load-beside-structure",
         "A line, path or pressure misses the blocks.",
         "It lies over no block, or on no free face.",
@@ -201,14 +202,14 @@ OF_STRUCTURES = (
         "lie over no block",
         "no face of these blocks lies so",
     ),
-    _fault(
+    refused(
         "too-many-units",
         "An item makes more than can be handled.",
         "Mostly a length in another unit than the unit size.",
         "Check the units of the deck and of the item.",
         "can be handled",
     ),
-    _fault(
+    refused(
         "symmetry-broken",
         "What is given does not fit the plane of symmetry.",
         "Blocks across the plane, loads across it, supports in it.",
@@ -219,7 +220,7 @@ OF_STRUCTURES = (
 )
 
 OF_RUNS = (
-    _fault(
+    refused(
         "result-exists",
         "An earlier result is not overwritten.",
         "The folder of the results holds some already.",
@@ -227,7 +228,7 @@ OF_RUNS = (
         "--force",
         kind="error",
     ),
-    _fault(
+    refused(
         "old-result-file",
         "A result file was written with another layout.",
         "Its version differs from that of this program.",
@@ -235,7 +236,7 @@ OF_RUNS = (
         "layout version",
         kind="error",
     ),
-    _fault(
+    refused(
         "damaged-result-file",
         "A result file is damaged or not one of mbla.",
         "An incomplete copy, another program's file, a failing disk: checksums do not fit.",

@@ -1,0 +1,500 @@
+"""Errors outside of faulty decks and sweep files: what brings each about, in a folder of its own.
+
+The exact lines are in ``expected.py``, by the name of the function.
+"""
+
+from __future__ import annotations
+
+import errno
+import importlib.util
+import sys
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from pathlib import Path
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from mbla import api
+from mbla.cli import main
+from mbla.deck import read_deck, sources, validation
+from mbla.deck.include import confined
+from mbla.deck.types import DeckContent
+from mbla.errors import DeckError, Fault, Place
+from mbla.given_deck import refuse_unfit_name
+from mbla.model import build_model
+from mbla.model.build_blocks import blocks_from_polyhedra
+from mbla.results.hdf5.result_file import write_results_hdf5
+from mbla.results.notebook import run
+from mbla.results.notebook.run import Run
+from mbla.results.pictures import animation
+from mbla.results.pictures.space import renderer
+from mbla.results.series import Series
+from mbla.results.tables.tables import tables_of
+from mbla.run_deck import contacts_of
+from mbla.solution.clarabel_adapter import ClarabelProgram
+from mbla.solution.cone_solver import cone_solver
+from mbla.solution.highs_adapter import HighsProgram
+from mbla.solution.linear_algebra.cholesky import factorization
+from mbla.solution.linear_algebra.pattern import SymmetricPattern
+from mbla.solution.settings import SolverSettings
+from mbla.studies.sweep.engine.connection import Connection, refuse_missing
+from mbla.studies.sweep.engine.options import EngineOptions
+from mbla.studies.sweep.journal import Journal
+from mbla.studies.sweep.journal import lock as journal_lock
+from mbla.studies.sweep.pictures.plot import SweepPictures, plot_sweep
+from mbla.studies.sweep.worker import child
+from mbla.studies.sweep.worker.supervised import SupervisedRunner
+from tests.deck.decks import BLOCK, changed, write
+from tests.results.synthetic import tower_results
+from tests.solution.test_highs_adapter import ignored, linear_program
+from tests.studies.sweep.journal.points import HEADER, point
+from tests.studies.sweep.pictures.hand_made import grid
+from tests.studies.sweep.small_plan import plan_over
+
+Patch = pytest.MonkeyPatch
+Bring = Callable[[Path, Patch], object]
+
+
+@dataclass(frozen=True)
+class Case:
+    """An error by its identifier, and a function of an empty folder that raises it, or prints it and returns."""
+
+    identifier: str
+    bring: Bring
+
+
+CASES: dict[str, Case] = {}
+"""by the name of the function"""
+
+
+def brings(identifier: str) -> Callable[[Bring], Bring]:
+    """Register what brings an error about."""
+
+    def register(function: Bring) -> Bring:
+        CASES[function.__name__] = Case(identifier, function)
+        return function
+
+    return register
+
+
+def command(*arguments: str) -> None:
+    """Run the program; what it prints is the error."""
+    main(arguments)
+
+
+# --- files ----------------------------------------------------------------------------------------------------------
+
+
+@brings("bad-file-name")
+def name_with_a_zero_byte(folder: Path, patch: Patch) -> object:
+    return confined(folder, "a\0.obj")
+
+
+@brings("file-too-large")
+def deck_beyond_all_size(folder: Path, patch: Patch) -> object:
+    patch.setattr(sources, "MAX_BYTES", 1024**2)
+    return read_deck(write(folder, "#" * (1024**2 + 1)))
+
+
+@brings("not-utf-8")
+def deck_in_latin_1(folder: Path, patch: Patch) -> object:
+    (folder / "deck.yaml").write_bytes("mbla: 1\ntitle: Bögen\n".encode("latin-1"))
+    return read_deck(folder / "deck.yaml")
+
+
+@brings("folder-given")
+def folder_for_a_deck(folder: Path, patch: Patch) -> object:
+    return command("run", str(folder))
+
+
+@brings("file-missing")
+def deck_for_a_folder_that_is_not_there(folder: Path, patch: Patch) -> object:
+    return command("new", str(folder / "none" / "deck"))
+
+
+@brings("file-unreadable")
+def deck_that_is_not_there(folder: Path, patch: Patch) -> object:
+    return command("run", str(folder / "none.yaml"))
+
+
+@brings("not-a-regular-file")
+def deck_that_is_a_device(folder: Path, patch: Patch) -> object:
+    return command("check", "/dev/null")
+
+
+@brings("file-not-written")
+def starter_below_a_file(folder: Path, patch: Patch) -> object:
+    return command("new", str(folder / ("n" * 300)))
+
+
+@brings("file-system")
+def disk_that_fails(folder: Path, patch: Patch) -> object:
+    def fails(*arguments: object) -> None:
+        raise OSError(errno.EIO, "Input/output error", "deck.yaml")
+
+    patch.setattr(api, "_read", fails)
+    return api.run("deck.yaml")
+
+
+@brings("out-of-memory")
+def memory_that_is_used_up(folder: Path, patch: Patch) -> object:
+    def fails(*arguments: object) -> None:
+        raise MemoryError
+
+    patch.setattr(api, "_read", fails)
+    return api.run("deck.yaml")
+
+
+@brings("internal-error")
+def defect_of_the_program(folder: Path, patch: Patch) -> object:
+    def fails(*arguments: object) -> None:
+        raise ZeroDivisionError("first second")
+
+    patch.setattr("mbla.cli.refuse_unfit_name", fails)
+    return command("run", "deck.yaml")
+
+
+@brings("path-not-utf-8")
+def deck_with_a_name_of_bytes(folder: Path, patch: Patch) -> object:
+    return refuse_unfit_name(Path("/decks/a\udcff.yaml"))
+
+
+@brings("current-folder-gone")
+def folder_that_was_removed(folder: Path, patch: Patch) -> object:
+    (folder / "here").mkdir()
+    patch.chdir(folder / "here")
+    (folder / "here").rmdir()
+    return command("schema")
+
+
+@brings("result-exists")
+def starter_over_an_earlier_deck(folder: Path, patch: Patch) -> object:
+    return command("new", str(write(folder, BLOCK)))
+
+
+@brings("damaged-result-file")
+def result_of_zeros(folder: Path, patch: Patch) -> object:
+    (folder / "a.h5").write_bytes(bytes(1000))
+    return command("show", str(folder / "a.h5"))
+
+
+@brings("old-result-file")
+def result_of_an_earlier_layout(folder: Path, patch: Patch) -> object:
+    import h5py
+
+    path = result(folder)
+    with h5py.File(path, "r+") as file:
+        file.attrs["version"] = 1
+    return command("show", str(path))
+
+
+def result(folder: Path) -> Path:
+    """A result file."""
+    path = folder / "tower.h5"
+    path.write_bytes(write_results_hdf5(tower_results()))
+    return path
+
+
+# --- the command line -----------------------------------------------------------------------------------------------
+
+
+@brings("command-line")
+def command_without_a_deck(folder: Path, patch: Patch) -> object:
+    return command("run")
+
+
+@brings("same-result-files")
+def two_decks_of_one_name(folder: Path, patch: Patch) -> object:
+    return command("run", str(write(folder, BLOCK)), str(write(folder, BLOCK, "b/deck.yaml")), "-o", str(folder))
+
+
+@brings("explain-unknown")
+def identifier_that_nothing_has(folder: Path, patch: Patch) -> object:
+    return command("explain", "xyzzy")
+
+
+@brings("unknown-load-case")
+def load_case_that_the_deck_lacks(folder: Path, patch: Patch) -> object:
+    return command("run", str(write(folder, BLOCK)), "--case", "pull")
+
+
+@brings("no-expectations")
+def nothing_expected(folder: Path, patch: Patch) -> object:
+    return command("run", str(write(folder, BLOCK)), "--expected", "-q")
+
+
+@brings("load-case-not-chosen")
+def result_of_several_load_cases(folder: Path, patch: Patch) -> object:
+    one = tower_results()
+    other = replace(one.cases[0], load_case=replace(one.cases[0].load_case, name="pull"))
+    return Run(replace(one, cases=(one.cases[0], other))).load_factor
+
+
+@brings("extra-missing")
+def cluster_without_dask(folder: Path, patch: Patch) -> object:
+    patch.setattr(importlib.util, "find_spec", lambda name: None)
+    return refuse_missing()
+
+
+@brings("output-format")
+def picture_as_a_text(folder: Path, patch: Patch) -> object:
+    return command("plot", str(result(folder)), "-o", str(folder / "a.bmp"))
+
+
+@brings("picture-option")
+def picture_of_an_unknown_kind(folder: Path, patch: Patch) -> object:
+    return command("plot", str(result(folder)), "--dpi", "9")
+
+
+@brings("several-pictures-one-file")
+def pictures_in_one_file(folder: Path, patch: Patch) -> object:
+    return command("plot", str(result(folder)), "--kind", "model,forces", "-o", str(folder / "a.png"))
+
+
+@brings("no-mechanism")
+def film_of_what_stands_still(folder: Path, patch: Patch) -> object:
+    patch.setattr(animation, "scene_of", lambda *arguments: SimpleNamespace(motion=np.zeros(3)))
+    return animation.write_animation(tower_results(), tower_results().cases[0], folder / "a.gif")
+
+
+@brings("table-option")
+def table_for_vtkhdf(folder: Path, patch: Patch) -> object:
+    return command("export", str(result(folder)), "--vtkhdf", "--table", "cases")
+
+
+@brings("unknown-table")
+def table_that_is_none(folder: Path, patch: Patch) -> object:
+    return tables_of(tower_results(), ["walls"], None)
+
+
+@brings("interact-option")
+def angles_of_directions(folder: Path, patch: Patch) -> object:
+    return command("interact", str(write(folder, BLOCK)), "--from", "10")
+
+
+@brings("interact-load")
+def load_without_a_horizontal_part(folder: Path, patch: Patch) -> object:
+    return command("interact", str(write(folder, changed("[1, 0, 0]", "[0, 0, 1]"))))
+
+
+@brings("tradeoff-option")
+def knob_without_a_value(folder: Path, patch: Patch) -> object:
+    return command("tradeoff", str(write(folder, BLOCK)), "--knob", "analysis.accuracy")
+
+
+# --- models ---------------------------------------------------------------------------------------------------------
+
+
+@brings("block-refused")
+def open_block_in_python(folder: Path, patch: Patch) -> object:
+    return blocks_from_polyhedra([[[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]], [[[0, 1, 2], [0, 1, 3], [0, 2, 3]]])
+
+
+@brings("blocks-overlap")
+def blocks_in_one_place(folder: Path, patch: Patch) -> object:
+    other = "  - box: {group: block, material: stone, min: [0, 0, 0.9], max: [1, 1, 2]}\ncontacts: {joint: dry}"
+    deck = read_deck(write(folder, changed("contacts: {joint: dry}", other)))
+    return contacts_of(deck, build_model(deck))
+
+
+@brings("more-faults")
+def table_full_of_words(folder: Path, patch: Patch) -> object:
+    write(folder, "group,index,fx,fy,fz\n" + "block,0,word,0,0\n" * 12, "loads.csv")
+    return build_model(read_deck(write(folder, changed("{acceleration: [1, 0, 0]}", "{table: loads.csv}"))))
+
+
+@brings("table-unreadable")
+def table_that_is_empty(folder: Path, patch: Patch) -> object:
+    write(folder, "", "loads.csv")
+    return build_model(read_deck(write(folder, changed("{acceleration: [1, 0, 0]}", "{table: loads.csv}"))))
+
+
+# --- solvers --------------------------------------------------------------------------------------------------------
+
+
+@brings("solver-status")
+def status_of_another_version(folder: Path, patch: Patch) -> object:
+    patch.setattr("mbla.solution.highs_adapter.STATUS_MAP", {})
+    return HighsProgram(linear_program(), SolverSettings(1e-8), ignored).solve(1, 1.0)
+
+
+@brings("solver-unfit")
+def quadratic_program_for_highs(folder: Path, patch: Patch) -> object:
+    return HighsProgram(replace(linear_program(), quadratic=np.ones(162)), SolverSettings(1e-8), ignored)
+
+
+@brings("unknown-solver")
+def solver_that_is_none(folder: Path, patch: Patch) -> object:
+    return cone_solver(linear_program(), SolverSettings(1e-8, solver="simplex"), ignored)
+
+
+@brings("solver-option")
+def limit_below_zero(folder: Path, patch: Patch) -> object:
+    return HighsProgram(linear_program(), SolverSettings(1e-8, max_iterations=-5), ignored).solve(1, 1.0)
+
+
+@brings("program-not-finite")
+def program_with_an_infinite_cost(folder: Path, patch: Patch) -> object:
+    program = linear_program()
+    return ClarabelProgram(
+        replace(program, cost=np.full_like(program.cost, np.inf)), SolverSettings(1e-8), ignored
+    ).solve(1, 1.0)
+
+
+@brings("factorisation-missing")
+def factorisation_that_is_none(folder: Path, patch: Patch) -> object:
+    pattern = SymmetricPattern(1, np.zeros(1, dtype=np.int32), np.array([0, 1], dtype=np.int32))
+    return factorization(pattern, "mumps")
+
+
+# --- sweeps ---------------------------------------------------------------------------------------------------------
+
+
+@brings("sweep-option")
+def resume_and_force(folder: Path, patch: Patch) -> object:
+    return Journal(folder / "journal.csv", HEADER, resume=True, force=True)
+
+
+def journal(folder: Path, resume: bool = False) -> Journal:
+    """The journal of a sweep, to be opened."""
+    return Journal(folder / "journal.csv", HEADER, resume=resume, force=False)
+
+
+@brings("sweep-exists")
+def sweep_that_was_run(folder: Path, patch: Patch) -> object:
+    with journal(folder):
+        pass
+    return journal(folder).__enter__()
+
+
+@brings("journal-damaged")
+def journal_of_something_else(folder: Path, patch: Patch) -> object:
+    (folder / "journal.csv").write_text("point,state\n1,done\n")
+    return journal(folder, resume=True).__enter__()
+
+
+@brings("journal-of-another-sweep")
+def journal_of_another_deck(folder: Path, patch: Patch) -> object:
+    with Journal(folder / "journal.csv", replace(HEADER, fingerprint="beef"), resume=False, force=False):
+        pass
+    return journal(folder, resume=True).__enter__()
+
+
+@brings("journal-changed")
+def journal_that_was_edited(folder: Path, patch: Patch) -> object:
+    with journal(folder) as opened:
+        with (folder / "journal.csv").open("a") as file:
+            file.write("1\n")
+        opened.add(*point(1))
+    return None
+
+
+@brings("journal-not-locked")
+def file_system_without_locks(folder: Path, patch: Patch) -> object:
+    def none_here(*arguments: object) -> None:
+        raise OSError(errno.ENOSYS, "Function not implemented")
+
+    patch.setattr(journal_lock.fcntl, "flock", none_here)
+    return journal(folder).__enter__()
+
+
+@brings("sweep-at-work")
+def sweep_that_is_running(folder: Path, patch: Patch) -> object:
+    def busy(*arguments: object) -> None:
+        raise BlockingIOError
+
+    patch.setattr(journal_lock, "PATIENCE", 0.0)
+    patch.setattr(journal_lock.fcntl, "flock", busy)
+    return journal_lock._taken(folder / "journal.csv", folder / "lock", False, None)
+
+
+@brings("sweep-table-damaged")
+def folder_without_a_table(folder: Path, patch: Patch) -> object:
+    return command("sweep-plot", str(folder))
+
+
+@brings("nothing-to-draw")
+def map_of_one_parameter(folder: Path, patch: Patch) -> object:
+    return plot_sweep(grid({"mu": [0.5, 0.6]}, lambda mu: mu), folder, SweepPictures(kinds=("map",)))
+
+
+@brings("unknown-column")
+def column_of_another_sweep(folder: Path, patch: Patch) -> object:
+    return plot_sweep(grid({"mu": [0.5, 0.6]}, lambda mu: mu), folder, SweepPictures(by="nu"))
+
+
+@brings("sweep-no-point")
+def constraints_that_leave_nothing(folder: Path, patch: Patch) -> object:
+    text = "mbla_sweep: 1\ndeck: deck.yaml\nparameters: {mu: {values: [0.5]}}\nconstraints: [mu > 1]\n"
+    write(folder, BLOCK)
+    return command("sweep", str(write(folder, text, "sweep.yaml")), "--dry-run")
+
+
+@brings("wrong-comparison")
+def constraint_that_compares_nothing(folder: Path, patch: Patch) -> object:
+    text = "mbla_sweep: 1\ndeck: deck.yaml\nparameters: {mu: {values: [0.5]}}\nconstraints: [mu]\n"
+    write(folder, BLOCK)
+    return command("sweep", str(write(folder, text, "sweep.yaml")), "--dry-run")
+
+
+@brings("workers-differ")
+def plan_of_another_program(folder: Path, patch: Patch) -> object:
+    patch.setattr(child, "program_identity", lambda: "0.2.0+fedcba")
+    return child.prepared(plan_over(folder, BLOCK, program="0.1.0+abcdef"))
+
+
+@brings("deck-changed")
+def plan_of_another_deck(folder: Path, patch: Patch) -> object:
+    patch.setattr(child.platform, "node", lambda: "stone")
+    return child.prepared(plan_over(folder, BLOCK, fingerprint="f00d"))
+
+
+@brings("memory-limit-unknown")
+def machine_without_limits(folder: Path, patch: Patch) -> object:
+    patch.setattr(child, "can_limit", lambda: False)
+    patch.setattr(child.sys, "platform", "plan9")
+    return child.prepared(plan_over(folder, BLOCK, memory_limit=1e9))
+
+
+@brings("scheduler-lost")
+def scheduler_without_workers(folder: Path, patch: Patch) -> object:
+    raise connection(EngineOptions(scheduler="tcp://stone:8786"))._lost()
+
+
+@brings("scheduler-file")
+def scheduler_file_that_is_not_there(folder: Path, patch: Patch) -> object:
+    return connection(EngineOptions(scheduler_file=folder / "s.json", patience=0.0))._address_in_file()
+
+
+def connection(options: EngineOptions) -> Connection:
+    """One that was not opened."""
+    made = object.__new__(Connection)
+    made._options = options
+    return made
+
+
+@brings("no-opengl")
+def machine_without_opengl(folder: Path, patch: Patch) -> object:
+    pytest.importorskip("pyvista")
+    patch.setattr(renderer, "can_draw", lambda: False)
+    return renderer.pyvista()
+
+
+@brings("no-least-load-factor")
+def load_that_travels_without_an_answer(folder: Path, patch: Patch) -> object:
+    patch.setattr(run, "series_of", lambda cases: (Series("truck", tuple(cases), None),))
+    return Run(tower_results()).load_factor
+
+
+@brings("worker-refused")
+def worker_that_does_not_start(folder: Path, patch: Patch) -> object:
+    return SupervisedRunner(plan_over(folder, BLOCK), (sys.executable, "-c", "raise SystemExit(3)"))._prepare()
+
+
+@brings("wrong-value")
+def value_that_no_type_describes(folder: Path, patch: Patch) -> object:
+    found = {"type": "of_a_later_version", "msg": "is not as it should be", "input": 1, "loc": ("title",)}
+    message, _ = validation._words(DeckContent, {"title": 1}, ("title",), found)
+    raise DeckError([Fault(Place("deck.yaml", 2, 8), "title", message, "1")])

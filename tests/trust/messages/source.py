@@ -1,0 +1,74 @@
+"""Where the program makes messages and errors, found in its syntax, and the identifiers that they have there."""
+
+from __future__ import annotations
+
+import ast
+import inspect
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import mbla
+from mbla import errors
+from mbla.errors import DeckError, MblaError, Refusal
+
+PACKAGE = Path(mbla.__file__).parent
+SOURCES = {path: ast.parse(path.read_text(encoding="utf-8")) for path in sorted(PACKAGE.rglob("*.py"))}
+BUILDERS = {"Message"} | {
+    name
+    for name, kind in inspect.getmembers(errors, inspect.isclass)
+    if issubclass(kind, (MblaError, Refusal)) and kind is not DeckError
+}
+NOT_PRINTED = frozenset({"key-idle", "gravity-unusual"})
+"""messages from which remarks are made, which have identifiers of their own kind"""
+PRINTED_BY = {"internal-error": "failures.py", "command-line": "arguments.py", "deck-invalid": "errors.py"}
+"""identifiers of what is no error of the program's own making, and the module that has each"""
+
+
+@dataclass(frozen=True)
+class Site:
+    """A call that makes a message or an error; ``identifier`` is None where it is no literal."""
+
+    file: str
+    line: int
+    identifier: str | None
+    handed_on: bool
+
+
+def builders() -> set[str]:
+    """Names of all classes that take an identifier, those derived in other modules too."""
+    known = set(BUILDERS)
+    while True:
+        found = {
+            node.name
+            for tree in SOURCES.values()
+            for node in ast.walk(tree)
+            if isinstance(node, ast.ClassDef) and any(_name(base) in known for base in node.bases)
+        } - {"DeckError"}
+        if found <= known:
+            return known
+        known |= found
+
+
+def sites() -> Iterator[Site]:
+    """Every place at which a message or an error is made."""
+    names = builders()
+    for path, tree in SOURCES.items():
+        if path.name == "errors.py" and path.parent == PACKAGE:
+            continue  # it has the classes themselves
+        for node in ast.walk(tree):
+            if isinstance(node, ast.Call) and _name(node.func) in names:
+                given = node.args[0] if node.args else None
+                literal = given.value if isinstance(given, ast.Constant) and isinstance(given.value, str) else None
+                handed_on = isinstance(given, ast.Attribute) and given.attr == "identifier"
+                yield Site(str(path.relative_to(PACKAGE)), node.lineno, literal, handed_on)
+
+
+def _name(node: Any) -> str:
+    return node.id if isinstance(node, ast.Name) else node.attr if isinstance(node, ast.Attribute) else ""
+
+
+def identifiers() -> set[str]:
+    """Every identifier that an error can have."""
+    return {site.identifier for site in sites() if site.identifier is not None} | set(PRINTED_BY)

@@ -1,0 +1,169 @@
+"""Errors cannot be made without an identifier; each identifier has a test of the exact text, and an entry.
+
+The full form brings about every error, deck, sweep file and command alike, and asks ``mbla explain`` for what was
+printed.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from mbla.deck import read_deck
+from mbla.errors import DeckError
+from mbla.failures import lines_of
+from mbla.model import build_model
+from mbla.results.explanations.explanations import EXPLANATIONS, find_explanations
+from mbla.run_deck import contacts_of
+from mbla.studies.sweep.base import read_base
+from mbla.studies.sweep.file.read import read_sweep
+from tests.trust.counts import record_counts
+from tests.trust.messages.cases import CASES
+from tests.trust.messages.expected import EXPECTED
+from tests.trust.messages.source import NOT_PRINTED, PRINTED_BY, identifiers, sites
+
+TESTS = Path(__file__).parents[2]
+FILES = sorted([*(TESTS / "invalid_decks").glob("*.yaml"), *(TESTS / "invalid_sweeps").glob("sweep_*.yaml")])
+MARK = "# expect: "
+BRACKETED = re.compile(r"  \[([a-z]+(?:-[a-z0-9]+)*)\]$")
+LONG = frozenset(
+    {
+        "result_of_zeros",
+        "result_of_an_earlier_layout",
+        "nothing_expected",
+        "load_case_that_the_deck_lacks",
+        "picture_as_a_text",
+        "picture_of_an_unknown_kind",
+        "pictures_in_one_file",
+        "table_for_vtkhdf",
+        "status_of_another_version",
+        "machine_without_opengl",
+    }
+)
+"""cases that solve, draw or open much: in the full form only"""
+
+
+def expected_of(path: Path) -> list[str]:
+    """The lines that a faulty file expects."""
+    lines = path.read_text(encoding="utf-8").splitlines()
+    return [line.removeprefix(MARK) for line in lines if line.startswith(MARK)]
+
+
+def identifier_of(line: str) -> str:
+    """What stands in brackets at the end of a line."""
+    found = BRACKETED.search(line)
+    assert found, line
+    return found[1]
+
+
+def exercised() -> Iterator[str]:
+    """Identifiers of all lines that tests expect."""
+    for path in FILES:
+        yield from map(identifier_of, expected_of(path))
+    for lines in EXPECTED.values():
+        yield identifier_of(lines[-1])
+
+
+def told(name: str, folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> list[str]:
+    """The lines that a case brings about, the help of argparse left out."""
+    capsys.readouterr()
+    try:
+        CASES[name].bring(folder, monkeypatch)
+    except SystemExit:
+        pass
+    except Exception as error:
+        return [line for lines in lines_of(error) for line in lines.splitlines()]
+    return [line for line in capsys.readouterr().err.splitlines() if not line.startswith(("usage:", " "))]
+
+
+def check_case(
+    name: str, folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> list[str]:
+    """The lines of a case, which are those expected."""
+    with monkeypatch.context() as patch:
+        lines = told(name, folder, patch, capsys)
+    assert [line.replace(str(folder), "{folder}") for line in lines] == list(EXPECTED[name])
+    assert identifier_of(lines[-1]) == CASES[name].identifier
+    return lines
+
+
+def refusal_of(path: Path) -> DeckError:
+    """The error of a faulty deck or sweep file."""
+    try:
+        if path.name.startswith("sweep_"):
+            read_base(read_sweep(path))
+        else:
+            deck = read_deck(path)
+            contacts_of(deck, build_model(deck))
+    except DeckError as error:
+        return error
+    raise AssertionError(f"{path.name} is not refused")
+
+
+def test_no_error_is_made_without_an_identifier() -> None:
+    made = list(sites())
+    assert len(made) > 400  # the walk finds them
+    without = [site for site in made if site.identifier is None and not site.handed_on]
+    # a table of messages by the names of pydantic gives their identifiers on
+    assert [(site.file, site.line) for site in without] == []
+    package = Path(__file__).parents[3] / "mbla"
+    for identifier, file in PRINTED_BY.items():
+        assert identifier in (package / file).read_text(encoding="utf-8")
+
+
+def test_every_identifier_is_explained() -> None:
+    assert {name for name in identifiers() if name not in EXPLANATIONS} == set()
+
+
+def test_no_error_is_explained_that_cannot_occur() -> None:
+    errors = {name for name, entry in EXPLANATIONS.items() if entry.kind in ("error", "error in a deck")}
+    told_in_rows = {"point-beyond-limit", "point-given-up"}  # reasons of points of a sweep
+    assert errors - told_in_rows <= identifiers()
+
+
+def test_every_identifier_has_a_test_of_its_exact_text() -> None:
+    assert identifiers() - NOT_PRINTED - {"deck-invalid"} - set(exercised()) == set()
+    assert CASES.keys() == EXPECTED.keys()
+
+
+@pytest.mark.parametrize("name", [name for name in CASES if name not in LONG])
+def test_exact_text(
+    name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    check_case(name, tmp_path, monkeypatch, capsys)
+
+
+@pytest.mark.trust
+def test_every_error_as_it_is_printed(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    lines: list[str] = []
+    for name in CASES:
+        folder = tmp_path / name
+        folder.mkdir()
+        lines.append("\n".join(check_case(name, folder, monkeypatch, capsys)))
+    for path in FILES:
+        found = [fault.line() for fault in refusal_of(path).faults]
+        assert [line.removeprefix(f"{path}:").removeprefix(f"{path.parent}/") for line in found] == expected_of(path), (
+            path.name
+        )
+        lines += found
+    for line in lines:
+        assert identifier_of(line) in [entry.identifier for entry in find_explanations(line)], line
+    kinds = {identifier_of(line) for line in lines}
+    assert kinds == identifiers() - NOT_PRINTED - {"deck-invalid"}
+    record_counts(
+        "messages",
+        80,
+        "Every error that the program makes has a stable identifier, a test of its exact text (with its place, where "
+        "it is about a file), and an entry in `mbla explain`, which finds it by the printed line",
+        {
+            "places in the program that make an error": len(list(sites())),
+            "identifiers": len(kinds),
+            "identifiers with an entry": len(kinds & EXPLANATIONS.keys()),
+            "lines compared": len(lines),
+        },
+    )
