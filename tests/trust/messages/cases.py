@@ -6,7 +6,9 @@ The exact lines are in ``expected.py``, by the name of the function.
 from __future__ import annotations
 
 import errno
+import fcntl
 import importlib.util
+import platform
 import sys
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -79,9 +81,9 @@ def brings(identifier: str) -> Callable[[Bring], Bring]:
     return register
 
 
-def command(*arguments: str) -> None:
+def command(*arguments: str) -> int:
     """Run the program; what it prints is the error."""
-    main(arguments)
+    return main(arguments)
 
 
 # --- files ----------------------------------------------------------------------------------------------------------
@@ -157,8 +159,8 @@ def defect_of_the_program(folder: Path, patch: Patch) -> object:
 
 
 @brings("path-not-utf-8")
-def deck_with_a_name_of_bytes(folder: Path, patch: Patch) -> object:
-    return refuse_unfit_name(Path("/decks/a\udcff.yaml"))
+def deck_with_a_name_of_bytes(folder: Path, patch: Patch) -> None:
+    refuse_unfit_name(Path("/decks/a\udcff.yaml"))
 
 
 @brings("current-folder-gone")
@@ -233,9 +235,9 @@ def result_of_several_load_cases(folder: Path, patch: Patch) -> object:
 
 
 @brings("extra-missing")
-def cluster_without_dask(folder: Path, patch: Patch) -> object:
+def cluster_without_dask(folder: Path, patch: Patch) -> None:
     patch.setattr(importlib.util, "find_spec", lambda name: None)
-    return refuse_missing()
+    refuse_missing()
 
 
 @brings("output-format")
@@ -254,9 +256,9 @@ def pictures_in_one_file(folder: Path, patch: Patch) -> object:
 
 
 @brings("no-mechanism")
-def film_of_what_stands_still(folder: Path, patch: Patch) -> object:
+def film_of_what_stands_still(folder: Path, patch: Patch) -> None:
     patch.setattr(animation, "scene_of", lambda *arguments: SimpleNamespace(motion=np.zeros(3)))
-    return animation.write_animation(tower_results(), tower_results().cases[0], folder / "a.gif")
+    animation.write_animation(tower_results(), tower_results().cases[0], folder / "a.gif")
 
 
 @brings("table-option")
@@ -396,7 +398,7 @@ def file_system_without_locks(folder: Path, patch: Patch) -> object:
     def none_here(*arguments: object) -> None:
         raise OSError(errno.ENOSYS, "Function not implemented")
 
-    patch.setattr(journal_lock.fcntl, "flock", none_here)
+    patch.setattr(fcntl, "flock", none_here)
     return journal(folder).__enter__()
 
 
@@ -406,7 +408,7 @@ def sweep_that_is_running(folder: Path, patch: Patch) -> object:
         raise BlockingIOError
 
     patch.setattr(journal_lock, "PATIENCE", 0.0)
-    patch.setattr(journal_lock.fcntl, "flock", busy)
+    patch.setattr(fcntl, "flock", busy)
     return journal_lock._taken(folder / "journal.csv", folder / "lock", False, None)
 
 
@@ -447,14 +449,14 @@ def plan_of_another_program(folder: Path, patch: Patch) -> object:
 
 @brings("deck-changed")
 def plan_of_another_deck(folder: Path, patch: Patch) -> object:
-    patch.setattr(child.platform, "node", lambda: "stone")
+    patch.setattr(platform, "node", lambda: "stone")
     return child.prepared(plan_over(folder, BLOCK, fingerprint="f00d"))
 
 
 @brings("memory-limit-unknown")
 def machine_without_limits(folder: Path, patch: Patch) -> object:
     patch.setattr(child, "can_limit", lambda: False)
-    patch.setattr(child.sys, "platform", "plan9")
+    patch.setattr(sys, "platform", "plan9")
     return child.prepared(plan_over(folder, BLOCK, memory_limit=1e9))
 
 
@@ -489,8 +491,8 @@ def load_that_travels_without_an_answer(folder: Path, patch: Patch) -> object:
 
 
 @brings("worker-refused")
-def worker_that_does_not_start(folder: Path, patch: Patch) -> object:
-    return SupervisedRunner(plan_over(folder, BLOCK), (sys.executable, "-c", "raise SystemExit(3)"))._prepare()
+def worker_that_does_not_start(folder: Path, patch: Patch) -> None:
+    SupervisedRunner(plan_over(folder, BLOCK), (sys.executable, "-c", "raise SystemExit(3)"))._prepare()
 
 
 @brings("wrong-value")
