@@ -11,7 +11,8 @@ from typing import Any
 import pytest
 
 from mbla.errors import FileError
-from mbla.results.files import PREFIX, OutputFolder, earlier_files
+from mbla.results.files import OutputFolder, earlier_files
+from mbla.results.leftovers import PREFIX
 
 
 def run(folder: Path, force: bool = False, text: str = "new", extra: Sequence[str] = (), stem: str = "arch") -> None:
