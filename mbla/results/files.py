@@ -23,7 +23,7 @@ from typing import TextIO
 from mbla.errors import FileError
 from mbla.results.disk import file_errors, flush_to_disk, missing_folders, remove_folders
 from mbla.results.held_signals import held_signals
-from mbla.results.leftovers import PREFIX, clear_leftovers, mark_as_new, marker_path, remove_new, temporary_path
+from mbla.results.leftovers import PREFIX, clear_leftovers, mark_as_new, remove_new, temporary_path
 from mbla.results.lock import locked
 
 RESULT_SUFFIXES = (".h5", ".lst", ".json", ".sta")
@@ -65,6 +65,7 @@ class OutputFolder:
         self._created: list[Path] = []
         self._stale: tuple[str, ...] = ()
         self._process = 0
+        self._marked = False
         self._locks = contextlib.ExitStack()
 
     @property
@@ -73,21 +74,9 @@ class OutputFolder:
         return tuple(sorted(self._names))
 
     def __enter__(self) -> OutputFolder:
-        with held_signals(), file_errors(self.folder):
-            self._created = missing_folders(self.folder)
-            self._process = os.getpid()
-            atexit.register(self._discard)  # for an interruption in the very step from the block to __exit__
         try:
-            with file_errors(self.folder):
-                self.folder.mkdir(parents=True, exist_ok=True)
-            _try_writing(self.folder, self._temporary("new", "trial"))
-            if not self.beside:
-                self._locks.enter_context(locked(self.folder / f"{self.stem}.h5", required=False))
-            with held_signals(), file_errors(self.folder):
-                clear_leftovers(self.folder)
-            if not self.beside:
-                self._refuse_earlier_result()
-                self._stale = earlier_files(self.folder, self.stem)
+            with held_signals():
+                self._begin()
         except BaseException:
             self._discard()
             raise
@@ -150,11 +139,26 @@ class OutputFolder:
 
     # --- how it begins and ends ---------------------------------------------------------------------------------
 
+    def _begin(self) -> None:
+        with file_errors(self.folder):
+            self._created = missing_folders(self.folder)
+            self._process = os.getpid()
+            atexit.register(self._discard)  # for an interruption in the very step from the block to __exit__
+            self.folder.mkdir(parents=True, exist_ok=True)
+        _try_writing(self.folder, self._temporary("new", "trial"))
+        if not self.beside:
+            self._locks.enter_context(locked(self.folder / f"{self.stem}.h5", required=False))
+        with file_errors(self.folder):
+            clear_leftovers(self.folder)
+        if not self.beside:
+            self._refuse_earlier_result()
+            self._stale = earlier_files(self.folder, self.stem)
+
     def _temporary(self, kind: str, name: str) -> Path:
         return temporary_path(self.folder / name, kind)
 
     def _marker(self) -> Path:
-        return marker_path(self.folder, self._process)
+        return self._temporary("open", self.stem)
 
     def _refuse(self, name: str) -> None:
         target = self.folder / name
@@ -181,6 +185,7 @@ class OutputFolder:
                 if not os.path.lexists(self.folder / name):
                     inodes[name] = self._temporary("new", name).stat().st_ino
         with file_errors(self.folder):
+            self._marked = True
             mark_as_new(self._marker(), inodes)
         for name in names:
             if name not in inodes:
@@ -228,16 +233,20 @@ class OutputFolder:
                 with contextlib.suppress(OSError):
                     self._temporary("new", name).unlink(missing_ok=True)
             try:
-                remove_new(self.folder, self._marker())
-                for name in self._aside:
-                    with contextlib.suppress(FileNotFoundError):  # never moved
-                        self._temporary("earlier", name).replace(self.folder / name)
-                self._marker().unlink(missing_ok=True)
+                if self._marked:
+                    self._put_back()
             except OSError:
                 if error is not None:
                     error.add_note(f"{self.folder}: is not as it was before; the next run into it puts that right")
             self._end()
             remove_folders(self._created)
+
+    def _put_back(self) -> None:
+        remove_new(self.folder, self._marker())
+        for name in self._aside:
+            with contextlib.suppress(FileNotFoundError):  # never moved
+                self._temporary("earlier", name).replace(self.folder / name)
+        self._marker().unlink(missing_ok=True)
 
     def _end(self) -> None:
         self._process = 0

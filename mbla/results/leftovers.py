@@ -2,7 +2,7 @@
 
     ``.mbla-HOST-PID-new-NAME``       a file that is being written
     ``.mbla-HOST-PID-earlier-NAME``   the file that NAME replaces, until the run is complete
-    ``.mbla-HOST-PID-open``           there while a run puts files in place: the earlier ones still are the valid ones
+    ``.mbla-HOST-PID-open-STEM``      there while a run puts files in place: the earlier ones still are the valid ones
 
 The last one has a line ``INODE NAME`` for every file that is put where there was none. A killed run cannot undo what it
 began; the next one in the folder does it then, for every process of this machine that no longer exists.
@@ -24,13 +24,8 @@ _TEMPORARY = re.compile(
 
 
 def temporary_path(path: Path, kind: str = "new") -> Path:
-    """Where a file is while it is written, or the earlier one while it waits (``kind`` "earlier")."""
+    """Where a file is while it is written, the earlier one while it waits (``kind`` "earlier"), or a mark ("open")."""
     return path.with_name(f"{PREFIX}{_host()}-{os.getpid()}-{kind}-{path.name}")
-
-
-def marker_path(folder: Path, process: int) -> Path:
-    """The mark of a process of this machine that is putting files in place."""
-    return folder / f"{PREFIX}{_host()}-{process}-open"
 
 
 def mark_as_new(marker: Path, inodes: Mapping[str, int]) -> None:
@@ -48,18 +43,19 @@ def clear_leftovers(folder: Path) -> None:
     found = [(path, _TEMPORARY.fullmatch(path.name)) for path in sorted(folder.glob(f"{PREFIX}*"))]
     left = [(path, match) for path, match in found if match and match["host"] == _host()]
     dead = {match["process"] for _, match in left if not _process_exists(int(match["process"]))}
-    unfinished = {match["process"]: path for path, match in left if match["kind"] == "open"}
-    for process in unfinished.keys() & dead:
-        remove_new(folder, unfinished[process])
+    markers = [path for path, match in left if match["kind"] == "open" and match["process"] in dead]
+    unfinished = {match["process"] for path, match in left if path in markers}
+    for marker in markers:
+        remove_new(folder, marker)
     for path, match in left:
-        if match["process"] not in dead or match["kind"] == "open":
+        if match["process"] not in dead or path in markers:
             continue
         if match["kind"] == "earlier" and match["process"] in unfinished and match["name"]:
             path.replace(folder / match["name"])
         else:
             path.unlink(missing_ok=True)
-    for process in unfinished.keys() & dead:  # last: until then everything can be done again
-        unfinished[process].unlink(missing_ok=True)
+    for marker in markers:  # last: until then everything can be done again
+        marker.unlink(missing_ok=True)
 
 
 def remove_new(folder: Path, marker: Path) -> None:
