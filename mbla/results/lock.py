@@ -5,8 +5,8 @@ holds it, however that ends, so that none is ever left behind. The file says who
 one that a killed process left is in nobody's way.
 
 Over NFS the lock holds between machines (Linux has it from the server since 2.6.12) unless the file system was mounted
-with ``local_lock``; Lustre has locks where it was mounted with ``flock``. Where there are none a sweep is refused; a run of
-one deck goes on without.
+with ``local_lock``; Lustre has locks where it was mounted with ``flock``. Where there are none a sweep is refused; a
+run of one deck goes on without.
 """
 
 from __future__ import annotations
