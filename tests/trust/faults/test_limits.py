@@ -29,7 +29,8 @@ CLAIM = (
 )
 DISKS, FILES, MEMORIES = 50, 50, 20
 MEGABYTE = 1 << 20
-BIG = ("--set", "blocks.0.box.max=[1,1,2]")
+WORDS = 400
+"""bytes that the error itself takes, which goes to a file as well"""
 
 
 class Limited:
@@ -107,7 +108,7 @@ def limited(commands: Commands, tmp_path_factory: pytest.TempPathFactory) -> Lim
 
 
 def test_files_too_large(limited: Limited) -> None:
-    assert limited.with_files_up_to(100)
+    assert limited.with_files_up_to(WORDS)
     assert limited.with_files_up_to(max(map(len, limited.earlier.values())) - 2000)
 
 
@@ -118,7 +119,8 @@ def test_a_full_disk(limited: Limited, tmp_path: Path) -> None:
 @pytest.mark.trust
 def test_disks_files_and_memories_of_many_sizes(limited: Limited, tmp_path: Path) -> None:
     largest = max(map(len, limited.earlier.values()))
-    files = sum(limited.with_files_up_to(largest * part // (FILES + 2)) for part in range(FILES))
+    step = (largest - WORDS) // (FILES + 2)
+    files = sum(limited.with_files_up_to(WORDS + step * part) for part in range(FILES))
     assert files == FILES
     room = sum(-(-len(data) // PAGE) * PAGE for data in limited.earlier.values())
     sizes = range(0, room, max(PAGE, room // (DISKS + 2)))
