@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 
 from mbla.errors import FileError
+from mbla.results.whole_file import write_whole
 
 
 def write_starter(name: str, *, replace: bool) -> Path:
@@ -12,14 +14,9 @@ def write_starter(name: str, *, replace: bool) -> Path:
     path = Path(name if name.endswith((".yaml", ".yml")) else f"{name}.yaml")
     if not path.parent.is_dir():
         raise FileError("file-missing", f"{path}: there is no folder {path.parent}")
-    text = starter_text(path)
-    try:
-        with path.open("w" if replace else "x", encoding="utf-8") as file:
-            file.write(text)
-    except FileExistsError:
-        raise FileError("result-exists", f"{path}: exists already; --force replaces it") from None
-    except OSError as error:
-        raise FileError("file-not-written", f"{path}: {error.strerror or error}") from error
+    if not replace and os.path.lexists(path):
+        raise FileError("result-exists", f"{path}: exists already; --force replaces it")
+    write_whole(path, starter_text(path).encode("utf-8"))
     return path
 
 

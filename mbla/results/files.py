@@ -1,38 +1,35 @@
 """The output folder of a run: all of its files appear together at the end, or none does.
 
 Every file is written under a temporary name in the folder itself (a rename is atomic only inside one file system),
-flushed to the disk and renamed into place when the run has succeeded. Temporary names are
+flushed to the disk and renamed into place when the run has succeeded.
 
-    ``.mbla-HOST-PID-new-NAME``       a file that is being written
-    ``.mbla-HOST-PID-earlier-NAME``   the file that NAME replaces, until the run is complete
-    ``.mbla-HOST-PID-open``           there while earlier files are aside: they still are the valid ones
-
-A run that fails or is interrupted puts the earlier files back. One that is killed outright cannot; the next run in the
-folder does it then, for every process of this machine that no longer exists.
+A run that fails or is interrupted puts the earlier files back; signals wait while it does that, and while it puts the
+new ones in place. One that is killed outright cannot; the next run in the folder does it then
+(:mod:`mbla.results.leftovers`). Two runs of one deck into one folder exclude each other (:mod:`mbla.results.lock`).
 """
 
 from __future__ import annotations
 
+import atexit
 import contextlib
 import json
 import os
 import re
-import socket
 from collections.abc import Iterator
 from pathlib import Path
 from types import TracebackType
 from typing import TextIO
 
 from mbla.errors import FileError
+from mbla.results.disk import file_errors, flush_to_disk, missing_folders, remove_folders
+from mbla.results.held_signals import held_signals
+from mbla.results.leftovers import PREFIX, clear_leftovers, mark_as_new, remove_new, temporary_path
+from mbla.results.lock import locked
 
-PREFIX = ".mbla-"
 RESULT_SUFFIXES = (".h5", ".lst", ".json", ".sta")
 """files STEM + suffix that make an earlier result"""
 OWN_FILES = r"(\.(h5|lst|json|sta|html|svg|pdf|png|gif|mp4)|_[A-Za-z0-9_.-]+\.(vtu|pvd|py|html|svg|pdf|png|gif|mp4))"
 """what may follow the stem in the name of a file that a result lists as its own"""
-_TEMPORARY = re.compile(
-    re.escape(PREFIX) + r"(?P<host>.+)-(?P<process>\d+)-(?P<kind>new|earlier|open)(?:-(?P<name>.+))?"
-)
 
 
 class OutputFolder:
@@ -53,8 +50,8 @@ class OutputFolder:
     Raises
     ------
     FileError
-        On entry: there is a result already and ``force`` is not set, or the folder cannot be written to. Anywhere
-        else: what the operating system refused, with the name of the file.
+        On entry: there is a result already and ``force`` is not set, another run is at work on it, or the folder cannot
+        be written to. Anywhere else: what the operating system refused, with the name of the file.
     """
 
     def __init__(self, folder: Path, stem: str, force: bool = False, *, beside: bool = False) -> None:
@@ -65,9 +62,11 @@ class OutputFolder:
         self._names: list[str] = []
         self._live: dict[str, TextIO] = {}
         self._aside: set[str] = set()
-        self._placed: set[str] = set()
         self._created: list[Path] = []
         self._stale: tuple[str, ...] = ()
+        self._process = 0
+        self._marked = False
+        self._locks = contextlib.ExitStack()
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -75,31 +74,28 @@ class OutputFolder:
         return tuple(sorted(self._names))
 
     def __enter__(self) -> OutputFolder:
-        with file_errors(self.folder):
-            self._created = missing_folders(self.folder)
-            self.folder.mkdir(parents=True, exist_ok=True)
-            _clear_leftovers(self.folder)
         try:
-            if not self.beside:
-                self._refuse_earlier_result()
-                self._stale = earlier_files(self.folder, self.stem)
-            _try_writing(self.folder, self._temporary("new", "trial"))
+            with held_signals():
+                self._begin()
         except BaseException:
-            self._remove_created_folders()
+            self._discard()
             raise
         return self
 
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, traceback: TracebackType | None
     ) -> None:
-        if kind is None:
-            try:
+        if kind is not None:
+            self._discard(error)
+            return
+        try:
+            self._flush()
+            with held_signals():
                 self._commit()
-            except BaseException:
-                self._discard()
-                raise
-        else:
-            self._discard()
+                self._end()
+        except BaseException as refused:
+            self._discard(refused)
+            raise
 
     def refuse(self, *names: str) -> None:
         """Raise FileError now where files of these names are in the way, not after the work that would make them."""
@@ -134,23 +130,35 @@ class OutputFolder:
 
     def open_live(self, name: str) -> TextIO:
         """Open a text file under its final name, to be watched while it grows; the earlier one waits aside."""
-        self.path(name)
-        target = self.folder / name
-        with file_errors(target):
-            if os.path.lexists(target):
-                self._set_aside(name)
-            self._placed.add(name)
-            stream = target.open("w", encoding="utf-8", newline="\n")
-        self._live[name] = stream
-        return stream
+        temporary, target = self.path(name), self.folder / name
+        with held_signals(), file_errors(target):
+            temporary.touch()
+            self._place([name])
+            self._live[name] = target.open("w", encoding="utf-8", newline="\n")
+        return self._live[name]
 
     # --- how it begins and ends ---------------------------------------------------------------------------------
+
+    def _begin(self) -> None:
+        with file_errors(self.folder):
+            self._created = missing_folders(self.folder)
+            self._process = os.getpid()
+            atexit.register(self._discard)  # for an interruption in the very step from the block to __exit__
+            self.folder.mkdir(parents=True, exist_ok=True)
+        _try_writing(self.folder, self._temporary("new", "trial"))
+        if not self.beside:
+            self._locks.enter_context(locked(self.folder / f"{self.stem}.h5", required=False))
+        with file_errors(self.folder):
+            clear_leftovers(self.folder)
+        if not self.beside:
+            self._refuse_earlier_result()
+            self._stale = earlier_files(self.folder, self.stem)
 
     def _temporary(self, kind: str, name: str) -> Path:
         return temporary_path(self.folder / name, kind)
 
     def _marker(self) -> Path:
-        return self.folder / f"{PREFIX}{_host()}-{os.getpid()}-open"
+        return self._temporary("open", self.stem)
 
     def _refuse(self, name: str) -> None:
         target = self.folder / name
@@ -166,65 +174,96 @@ class OutputFolder:
             self._refuse(self.stem + suffix)
 
     def _set_aside(self, name: str) -> None:
-        """Move the earlier file away, after the mark that says it is still the valid one."""
-        if not self._aside:
-            self._marker().touch()
-        (self.folder / name).replace(self._temporary("earlier", name))
+        """Move the earlier file away; the mark is there, which says that it still is the valid one."""
         self._aside.add(name)
+        with file_errors(self.folder / name):
+            (self.folder / name).replace(self._temporary("earlier", name))
 
-    def _commit(self) -> None:
+    def _place(self, names: list[str]) -> None:
+        """Put written files under their names, the earlier ones aside; all is marked before it is done."""
+        inodes = {}
+        for name in names:
+            with file_errors(self.folder / name):
+                if not os.path.lexists(self.folder / name):
+                    inodes[name] = self._temporary("new", name).stat().st_ino
+        with file_errors(self.folder):
+            self._marked = True
+            mark_as_new(self._marker(), inodes)
+        for name in names:
+            if name not in inodes:
+                self._set_aside(name)
+        for name in names:
+            with file_errors(self.folder / name):
+                self._temporary("new", name).replace(self.folder / name)
+
+    def _flush(self) -> None:
+        """All contents on the disk, before any name changes."""
         for name, stream in self._live.items():
             with file_errors(self.folder / name):
                 stream.close()
                 flush_to_disk(self.folder / name)
-        written = [name for name in self._names if name not in self._live]
-        for name in written:
-            self._refuse(name)
-            with file_errors(self.folder / name):
-                flush_to_disk(self._temporary("new", name))
-        replaced = {name for name in (*written, *self._stale) if os.path.lexists(self.folder / name)}
-        for name in sorted(replaced - set(self._live)):
-            with file_errors(self.folder / name):
+        for name in self._names:
+            if name not in self._live:
+                self._refuse(name)
+                with file_errors(self.folder / name):
+                    flush_to_disk(self._temporary("new", name))
+
+    def _commit(self) -> None:
+        self._place([name for name in self._names if name not in self._live])
+        for name in self._stale:
+            if name not in self._names and os.path.lexists(self.folder / name):
                 self._set_aside(name)
-        for name in written:
-            with file_errors(self.folder / name):
-                self._placed.add(name)
-                self._temporary("new", name).replace(self.folder / name)
         with file_errors(self.folder):
             flush_to_disk(self.folder)
             self._marker().unlink(missing_ok=True)  # from here on the new files are the valid ones
-            for name in self._aside:
+        for name in self._aside:
+            with contextlib.suppress(OSError):  # the next run removes it
                 self._temporary("earlier", name).unlink(missing_ok=True)
 
-    def _discard(self) -> None:
-        """Back to how it was; what cannot be undone must not hide the error that led here."""
-        for stream in self._live.values():
-            with contextlib.suppress(OSError, ValueError):
-                stream.close()
-        for name in self._names:
-            with contextlib.suppress(OSError):
-                self._temporary("new", name).unlink(missing_ok=True)
-        for name in self._placed - self._aside:
-            with contextlib.suppress(OSError):
-                (self.folder / name).unlink(missing_ok=True)
-        for name in self._aside:
-            with contextlib.suppress(OSError):
-                self._temporary("earlier", name).replace(self.folder / name)
-        with contextlib.suppress(OSError):
-            self._marker().unlink(missing_ok=True)
-        self._remove_created_folders()
+    def _discard(self, error: BaseException | None = None) -> None:
+        """Back to how it was, once; what cannot be undone must not hide the error that led here, but is noted in it.
 
-    def _remove_created_folders(self) -> None:
-        for folder in self._created:
-            with contextlib.suppress(OSError):
-                folder.rmdir()
+        What is left stays marked then, and the next run in the folder puts it back.
+        """
+        if self._process != os.getpid():  # ended already, or a copy of the process
+            return
+        with held_signals():
+            for stream in self._live.values():
+                with contextlib.suppress(OSError, ValueError):
+                    stream.close()
+            for name in self._names:
+                with contextlib.suppress(OSError):
+                    self._temporary("new", name).unlink(missing_ok=True)
+            try:
+                if self._marked:
+                    self._put_back()
+            except OSError:
+                if error is not None:
+                    error.add_note(f"{self.folder}: is not as it was before; the next run into it puts that right")
+            self._end()
+            remove_folders(self._created)
+
+    def _put_back(self) -> None:
+        remove_new(self.folder, self._marker())
+        for name in self._aside:
+            with contextlib.suppress(FileNotFoundError):  # never moved
+                self._temporary("earlier", name).replace(self.folder / name)
+        self._marker().unlink(missing_ok=True)
+
+    def _end(self) -> None:
+        self._process = 0
+        atexit.unregister(self._discard)
+        self._locks.close()
 
 
 def earlier_files(folder: Path, stem: str) -> tuple[str, ...]:
     """Files that an earlier result of this deck lists as its own: plain names that start with the stem, no others."""
+    record = folder / f"{stem}.json"
     try:
-        listed = json.loads((folder / f"{stem}.json").read_text(encoding="utf-8"))["files"]
-    except (OSError, ValueError, KeyError, TypeError):
+        with file_errors(record):
+            text = record.read_bytes() if os.path.lexists(record) else b""
+        listed = json.loads(text)["files"]
+    except (ValueError, KeyError, TypeError, RecursionError):
         return ()
     own = re.compile(re.escape(stem) + OWN_FILES)
     names = (
@@ -233,73 +272,11 @@ def earlier_files(folder: Path, stem: str) -> tuple[str, ...]:
     return tuple(name for name in names if (folder / name).is_file() and not (folder / name).is_symlink())
 
 
-@contextlib.contextmanager
-def file_errors(path: Path) -> Iterator[None]:
-    """An error of the operating system becomes a FileError that names the file, as one of a temporary name does."""
-    try:
-        yield
-    except OSError as error:
-        raise FileError("file-not-written", f"{path}: {error.strerror or error}") from error
-    except FileError as error:  # of what wrote it under a temporary name
-        if isinstance(error.__cause__, OSError):
-            raise FileError(
-                "file-not-written", f"{path}: {error.__cause__.strerror or error.__cause__}"
-            ) from error.__cause__
-        raise
-
-
-def temporary_path(path: Path, kind: str = "new") -> Path:
-    """Where a file is while it is written, or the earlier one while it waits (``kind`` "earlier")."""
-    return path.with_name(f"{PREFIX}{_host()}-{os.getpid()}-{kind}-{path.name}")
-
-
-def _host() -> str:
-    return re.sub(r"[^A-Za-z0-9.]", "_", socket.gethostname()) or "host"
-
-
-def missing_folders(folder: Path) -> list[Path]:
-    """Folders that ``mkdir`` will create, innermost first."""
-    return [path for path in (folder, *folder.parents) if not path.exists()]
-
-
 def _try_writing(folder: Path, trial: Path) -> None:
     """Find out before the analysis, not after it, that the folder is read-only or full."""
     with file_errors(folder):
-        trial.write_bytes(b"mbla")
-        trial.unlink()
-
-
-def flush_to_disk(path: Path) -> None:
-    """What was written to a file, or the names in a folder, outlasts a loss of power from here on."""
-    descriptor = os.open(path, os.O_RDONLY)
-    try:
-        os.fsync(descriptor)
-    finally:
-        os.close(descriptor)
-
-
-def _process_exists(process: int) -> bool:
-    try:
-        os.kill(process, 0)
-    except ProcessLookupError:
-        return False
-    except (PermissionError, OverflowError):
-        return True
-    return True
-
-
-def _clear_leftovers(folder: Path) -> None:
-    """Undo what killed runs of this machine left: earlier files back in place if their run never became complete."""
-    found = [(path, _TEMPORARY.fullmatch(path.name)) for path in sorted(folder.glob(f"{PREFIX}*"))]
-    left = [(path, match) for path, match in found if match and match["host"] == _host()]
-    dead = {match["process"] for _, match in left if not _process_exists(int(match["process"]))}
-    unfinished = {match["process"] for _, match in left if match["kind"] == "open"} & dead
-    for path, match in left:
-        if match["process"] not in dead or match["kind"] == "open":
-            continue
-        if match["kind"] == "earlier" and match["process"] in unfinished and match["name"]:
-            path.replace(folder / match["name"])
-        else:
-            path.unlink(missing_ok=True)
-    for process in unfinished:  # last, so that being killed here changes nothing
-        (folder / f"{PREFIX}{_host()}-{process}-open").unlink(missing_ok=True)
+        try:
+            trial.write_bytes(b"mbla")
+        finally:
+            with contextlib.suppress(OSError):
+                trial.unlink(missing_ok=True)

@@ -1,7 +1,7 @@
 """A single file beside results, such as a picture or a report: there as a whole, or the earlier one still is.
 
-It is written under a temporary name of :mod:`mbla.results.files` in the same folder, and renamed into place. What kills
-leave behind, the next run in that folder clears away.
+It is written under a temporary name in the same folder, flushed to the disk and renamed into place. What kills leave
+behind, the next command that writes to that folder clears away (:mod:`mbla.results.leftovers`).
 """
 
 from __future__ import annotations
@@ -11,7 +11,9 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from mbla.errors import FileError
-from mbla.results.files import file_errors, missing_folders, temporary_path
+from mbla.results.disk import file_errors, flush_to_disk, missing_folders, remove_folders
+from mbla.results.held_signals import held_signals
+from mbla.results.leftovers import clear_leftovers, temporary_path
 
 
 @contextlib.contextmanager
@@ -32,15 +34,17 @@ def writing_whole(path: Path) -> Iterator[Path]:
     try:
         with file_errors(path.parent):
             path.parent.mkdir(parents=True, exist_ok=True)
+            with held_signals():
+                clear_leftovers(path.parent)
         with file_errors(path):
             yield temporary
+            flush_to_disk(temporary)
             temporary.replace(path)
     except BaseException:
-        with contextlib.suppress(OSError):
-            temporary.unlink(missing_ok=True)
-        for folder in created:
+        with held_signals():
             with contextlib.suppress(OSError):
-                folder.rmdir()
+                temporary.unlink(missing_ok=True)
+            remove_folders(created)
         raise
 
 

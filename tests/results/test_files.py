@@ -11,7 +11,8 @@ from typing import Any
 import pytest
 
 from mbla.errors import FileError
-from mbla.results.files import PREFIX, OutputFolder, earlier_files
+from mbla.results.files import OutputFolder, earlier_files
+from mbla.results.leftovers import PREFIX
 
 
 def run(folder: Path, force: bool = False, text: str = "new", extra: Sequence[str] = (), stem: str = "arch") -> None:
@@ -280,3 +281,131 @@ def test_temporaries_of_living_processes_and_other_machines_are_left_alone(tmp_p
         run(tmp_path, stem="wall")
     assert other.exists()
     assert (tmp_path / "arch.h5").exists()
+
+
+@pytest.mark.skipif(not hasattr(signal, "SIGKILL"), reason="needs a process that can be killed")
+@pytest.mark.parametrize("moment", [2, 3])
+def test_first_run_that_was_killed_is_in_nobodys_way(tmp_path: Path, moment: int) -> None:
+    subprocess.run([sys.executable, "-c", textwrap.dedent(KILLED), str(tmp_path), str(moment)], check=False)
+    assert (tmp_path / "arch.sta").exists()
+    run(tmp_path)
+    assert set(content(tmp_path)) == {"arch.h5", "arch.json", "arch.sta"}
+
+
+@pytest.mark.skipif(not hasattr(signal, "SIGKILL"), reason="needs a process that can be killed")
+def test_a_file_that_replaced_one_of_a_killed_run_stays(tmp_path: Path) -> None:
+    subprocess.run([sys.executable, "-c", textwrap.dedent(KILLED), str(tmp_path), "2"], check=False)
+    (tmp_path / "mine").write_text("mine")
+    (tmp_path / "mine").replace(tmp_path / "arch.sta")
+    with pytest.raises(FileError, match="--force"):
+        run(tmp_path)
+    assert content(tmp_path) == {"arch.sta": "mine"}
+
+
+# --- what comes between ---------------------------------------------------------------------------------------------
+
+
+def interrupt_at(monkeypatch: pytest.MonkeyPatch, function: str, call: int) -> None:
+    """SIGINT arrives while this method of paths is at work for that many a time."""
+    whole, calls = getattr(Path, function), []
+
+    def interrupted(self: Path, *arguments: Any, **options: Any) -> Any:
+        done = whole(self, *arguments, **options)
+        if self.name.startswith(PREFIX) or PREFIX in str(arguments):
+            calls.append(self)
+            if len(calls) == call:
+                signal.raise_signal(signal.SIGINT)
+        return done
+
+    monkeypatch.setattr(Path, function, interrupted)
+
+
+@pytest.mark.parametrize("call", range(1, 9))
+@pytest.mark.parametrize("function", ["replace", "unlink"])
+def test_an_interruption_leaves_the_earlier_result_or_the_new_one(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, function: str, call: int
+) -> None:
+    run(tmp_path, text="old", extra=["arch_y.pvd"])
+    before = content(tmp_path)
+    interrupt_at(monkeypatch, function, call)
+    try:
+        run(tmp_path, force=True, text="new")
+    except KeyboardInterrupt:
+        monkeypatch.undo()
+        now = content(tmp_path)
+        assert now == before or (now["arch.h5"], now["arch.sta"], len(now)) == ("new", "new", 3)
+
+
+def test_what_cannot_be_removed_after_the_end_does_not_undo_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    run(tmp_path, text="old")
+    unlink = Path.unlink
+
+    def refused(self: Path, missing_ok: bool = False) -> None:
+        if "-earlier-" in self.name:
+            raise OSError(5, "Input/output error")
+        unlink(self, missing_ok)
+
+    monkeypatch.setattr(Path, "unlink", refused)
+    run(tmp_path, force=True, text="new")
+    monkeypatch.undo()
+    assert (content(tmp_path)["arch.h5"], content(tmp_path)["arch.sta"]) == ("new", "new")
+
+
+def test_earlier_files_that_cannot_be_put_back_wait_for_the_next_run(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    run(tmp_path, text="old")
+    before = content(tmp_path)
+    replace = Path.replace
+
+    def refused(self: Path, target: Path) -> Any:
+        if "-new-arch.h5" in self.name or "-earlier-" in self.name:
+            raise OSError(5, "Input/output error")
+        return replace(self, target)
+
+    monkeypatch.setattr(Path, "replace", refused)
+    with pytest.raises(FileError) as caught:
+        run(tmp_path, force=True, text="new")
+    monkeypatch.undo()
+    assert caught.value.__notes__ == [f"{tmp_path}: is not as it was before; the next run into it puts that right"]
+    monkeypatch.setattr("mbla.results.leftovers._process_exists", lambda _: False)
+    with pytest.raises(FileError, match="--force"):
+        run(tmp_path)
+    assert content(tmp_path) == before
+
+
+def test_a_list_of_earlier_files_that_cannot_be_read_is_an_error(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    run(tmp_path)
+
+    def refused(self: Path) -> bytes:
+        raise OSError(5, "Input/output error")
+
+    monkeypatch.setattr(Path, "read_bytes", refused)
+    with pytest.raises(FileError, match=r"arch\.json: Input/output error"):
+        run(tmp_path, force=True)
+
+
+# --- two at once ----------------------------------------------------------------------------------------------------
+
+
+def test_a_second_run_of_the_same_deck_is_refused(tmp_path: Path) -> None:
+    with OutputFolder(tmp_path, "arch") as first:
+        first.open_live("arch.sta").write("first")
+        with pytest.raises(FileError, match=rf"arch\.h5: process {os.getpid()} on .* is at work on it"):
+            run(tmp_path, force=True)
+        run(tmp_path, stem="wall")
+    assert content(tmp_path)["arch.sta"] == "first"
+    assert set(content(tmp_path)) == {"arch.sta", "wall.h5", "wall.json", "wall.sta"}
+
+
+def test_where_there_are_no_locks_runs_go_on(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    fcntl = pytest.importorskip("fcntl")
+
+    def none(descriptor: int, operation: int) -> None:
+        raise OSError(38, "Function not implemented")
+
+    monkeypatch.setattr(fcntl, "flock", none)
+    run(tmp_path)
+    assert set(content(tmp_path)) == {"arch.h5", "arch.json", "arch.sta"}

@@ -196,8 +196,8 @@ OF_SWEEPS = (
         "Leave the journal alone while a sweep runs, then go on with --resume.",
     ),
     _error(
-        "journal-not-locked",
-        "The journal of a sweep cannot be protected against a second run.",
+        "locks-missing",
+        "The journal of a sweep, or a folder of results, cannot be protected against a second run.",
         "A file system without locks, or a lock file that cannot be written.",
         "Write elsewhere with -o FOLDER.",
     ),

@@ -47,11 +47,11 @@ OF_SWEEP = (
         says=("does not match its check sum",),
     ),
     Explanation(
-        "sweep-at-work",
+        "another-run-at-work",
         "error",
-        "Another run is at work on the same sweep.",
+        "Another run is at work on the same sweep, or writes results of the same deck into the same folder.",
         _POINTS,
-        "Two runs on one journal would solve points twice; shards of one sweep run side by side, a whole run and a "
+        "Two runs of one deck into one folder would mix their files, two on one journal solve points twice; shards of one sweep run side by side, a whole run and a "
         "shard do not.",
         "Wait for its end, or end the process named on the machine named. A run that was killed holds nothing.",
         says=("is at work on it",),

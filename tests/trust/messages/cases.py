@@ -393,7 +393,7 @@ def journal_that_was_edited(folder: Path, patch: Patch) -> object:
     return None
 
 
-@brings("journal-not-locked")
+@brings("locks-missing")
 def file_system_without_locks(folder: Path, patch: Patch) -> object:
     def none_here(*arguments: object) -> None:
         raise OSError(errno.ENOSYS, "Function not implemented")
@@ -402,7 +402,7 @@ def file_system_without_locks(folder: Path, patch: Patch) -> object:
     return journal(folder).__enter__()
 
 
-@brings("sweep-at-work")
+@brings("another-run-at-work")
 def sweep_that_is_running(folder: Path, patch: Patch) -> object:
     def busy(*arguments: object) -> None:
         raise BlockingIOError

@@ -144,10 +144,10 @@ EXPECTED: dict[str, tuple[str, ...]] = {
     ),
     "file_system_without_locks": (
         "{folder}/sweep: its file system has no locks to keep two runs apart; -o FOLDER writes elsewhere "
-        " [journal-not-locked]",
+        " [locks-missing]",
     ),
     "sweep_that_is_running": (
-        "{folder}/journal.csv: another process is at work on it; wait for its end or stop it  [sweep-at-work]",
+        "{folder}/journal.csv: another process is at work on it; wait for its end or stop it  [another-run-at-work]",
     ),
     "folder_without_a_table": (
         "mbla: {folder}/sweep.json: there is none; mbla sweep writes sweep.csv and sweep.json into one "

@@ -15,9 +15,11 @@ from pathlib import Path
 from types import TracebackType
 
 from mbla.errors import FileError, Notice, UsageError
-from mbla.results.files import file_errors, flush_to_disk, missing_folders, temporary_path
+from mbla.results.disk import file_errors, flush_to_disk, missing_folders
+from mbla.results.held_signals import held_signals
+from mbla.results.leftovers import temporary_path
+from mbla.results.lock import AT_WORK, holder, lock_path, locked
 from mbla.studies.sweep.journal.header import BEGIN_ANEW, JournalHeader, header_text
-from mbla.studies.sweep.journal.lock import AT_WORK, holder, lock_path, locked
 from mbla.studies.sweep.journal.reading import keep, merged, read_journal
 from mbla.studies.sweep.journal.rows import read_row, row_of
 from mbla.studies.sweep.journal.shards import is_of_shard, journal_name, journals_in
@@ -75,7 +77,8 @@ class Journal:
     def __enter__(self) -> Journal:
         with contextlib.ExitStack() as stack:
             _make_folder(self.path.parent)
-            self._take_locks(stack)
+            with held_signals():
+                self._take_locks(stack)
             self._begin()
             with file_errors(self.path):
                 self._descriptor = os.open(self.path, os.O_RDWR | os.O_APPEND | os.O_CLOEXEC)

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from mbla.errors import FileError
-from mbla.results.files import file_errors
+from mbla.results.disk import file_errors
 from mbla.studies.sweep.journal.header import BEGIN_ANEW, JournalHeader, difference, header_text, read_header
 from mbla.studies.sweep.journal.rows import read_row
 from mbla.studies.sweep.outcome import FAILED, Outcome

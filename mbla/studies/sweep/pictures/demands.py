@@ -6,7 +6,7 @@ import json
 from pathlib import Path
 
 from mbla.errors import FileError
-from mbla.results.files import file_errors
+from mbla.results.disk import file_errors
 from mbla.studies.sweep.tables.read_table import JSON
 
 

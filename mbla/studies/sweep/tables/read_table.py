@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from mbla.errors import FileError
-from mbla.results.files import file_errors
+from mbla.results.disk import file_errors
 from mbla.results.tables.column import Values
 from mbla.studies.sweep.design.design import Dimension
 from mbla.studies.sweep.plan import Plain

@@ -14,8 +14,8 @@ from pathlib import Path
 import pytest
 
 from mbla.errors import FileError
+from mbla.results.lock import holder, lock_path, locked
 from mbla.studies.sweep.journal import Journal
-from mbla.studies.sweep.journal.lock import holder, lock_path, locked
 from mbla.studies.sweep.journal.reading import read_journal
 from mbla.studies.sweep.journal.shards import journal_name
 from tests.studies.sweep.journal.forked import forked

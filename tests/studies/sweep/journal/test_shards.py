@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 
 from mbla.errors import FileError
+from mbla.results.lock import lock_path
 from mbla.studies.sweep.journal import Journal
-from mbla.studies.sweep.journal.lock import lock_path
 from mbla.studies.sweep.journal.reading import merged
 from mbla.studies.sweep.journal.shards import WHOLE, journal_name, journals_in, shard_of
 from mbla.studies.sweep.plan import Task

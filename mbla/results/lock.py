@@ -1,26 +1,30 @@
-"""Locks that keep two runs off one journal.
+"""Locks that keep two runs off one journal, or one result.
 
-A lock is one of the operating system (flock) on a file of its own beside the journal: it ends with the process that
+A lock is one of the operating system (flock) on a file of its own beside what it keeps: it ends with the process that
 holds it, however that ends, so that none is ever left behind. The file says who holds it; it is removed at the end, and
 one that a killed process left is in nobody's way.
 
 Over NFS the lock holds between machines (Linux has it from the server since 2.6.12) unless the file system was mounted
-with ``local_lock``; Lustre has locks where it was mounted with ``flock``. Where there are none the run is refused.
+with ``local_lock``; Lustre has locks where it was mounted with ``flock``. Where there are none a sweep is refused; a
+run of one deck goes on without.
 """
 
 from __future__ import annotations
 
 import contextlib
 import errno
-import fcntl
 import os
 import socket
+import sys
 import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
 from mbla.errors import FileError
-from mbla.results.files import file_errors
+from mbla.results.disk import file_errors
+
+if sys.platform != "win32":
+    import fcntl
 
 _NONE_HERE = (errno.ENOSYS, errno.EOPNOTSUPP, errno.ENOLCK)
 """errors of file systems without locks"""
@@ -37,12 +41,19 @@ def lock_path(path: Path) -> Path:
     return path.with_name(f".{path.name}.lock")
 
 
+class NoLocksError(FileError):
+    """The file system, or the operating system, has no locks."""
+
+
 @contextlib.contextmanager
-def locked(path: Path, *, shared: bool = False, busy: Callable[[], str] | None = None) -> Iterator[None]:
+def locked(
+    path: Path, *, shared: bool = False, busy: Callable[[], str] | None = None, required: bool = True
+) -> Iterator[None]:
     """Hold the lock of ``path`` inside the block.
 
-    shared : others may hold it shared at the same time
-    busy   : what is said where another process holds it; unless given, who that is
+    shared   : others may hold it shared at the same time
+    busy     : what is said where another process holds it; unless given, who that is
+    required : whether to refuse where there are no locks; without one nothing keeps others off
 
     Raises
     ------
@@ -50,7 +61,13 @@ def locked(path: Path, *, shared: bool = False, busy: Callable[[], str] | None =
         another process holds it, or the file system has no locks
     """
     file = lock_path(path)
-    descriptor = _taken(path, file, shared, busy)
+    try:
+        descriptor = _taken(path, file, shared, busy)
+    except NoLocksError:
+        if required:
+            raise
+        yield
+        return
     try:
         if not shared:
             with file_errors(file):
@@ -79,6 +96,8 @@ def holder(path: Path) -> str | None:
 
 def _taken(path: Path, file: Path, shared: bool, busy: Callable[[], str] | None) -> int:
     """Descriptor of the locked file; again where the one before removed the file in between."""
+    if sys.platform == "win32":
+        raise _no_locks(path)
     kind = fcntl.LOCK_SH if shared else fcntl.LOCK_EX
     until = time.monotonic() + PATIENCE
     while True:
@@ -92,18 +111,22 @@ def _taken(path: Path, file: Path, shared: bool, busy: Callable[[], str] | None)
             if time.monotonic() > until:
                 os.close(descriptor)
                 raise FileError(
-                    "sweep-at-work", busy() if busy else f"{path}: {holder(path) or 'another process'} {AT_WORK}"
+                    "another-run-at-work", busy() if busy else f"{path}: {holder(path) or 'another process'} {AT_WORK}"
                 ) from None
             time.sleep(_PAUSE)
         except OSError as error:
             os.close(descriptor)
             if error.errno in _NONE_HERE:
-                raise FileError(
-                    "journal-not-locked",
-                    f"{path}: its file system has no locks to keep two runs apart; -o FOLDER writes elsewhere",
-                ) from error
-            raise FileError("journal-not-locked", f"{file}: {error.strerror}") from error
+                with contextlib.suppress(OSError):
+                    file.unlink()
+                raise _no_locks(path) from error
+            raise FileError("locks-missing", f"{file}: {error.strerror}") from error
         os.close(descriptor)
+
+
+def _no_locks(path: Path) -> NoLocksError:
+    words = f"{path}: its file system has no locks to keep two runs apart; -o FOLDER writes elsewhere"
+    return NoLocksError("locks-missing", words)
 
 
 def _is_at(file: Path, descriptor: int) -> bool:
