@@ -349,6 +349,8 @@ def _dataset(file: h5py.File, path: str, file_bytes: int) -> h5py.Dataset:
     dataset = file[path]
     if not isinstance(dataset, h5py.Dataset):
         raise ValueError(f"{path} is not a dataset")
+    if dataset.file != file or dataset.external or dataset.is_virtual:
+        raise ValueError(f"{path} stands in another file")
     if dataset.nbytes > LARGEST_RATIO * file_bytes:
         raise ValueError(f"{path} claims {dataset.nbytes} bytes")
     return dataset
