@@ -11,17 +11,23 @@ from mbla.contacts.contacts import Contacts
 from mbla.errors import Notice
 from mbla.exit_status import exit_code
 from mbla.model.model import Model
+from mbla.program.assemble import yield_limits
 from mbla.rebuilt import differences_from_deck
 from mbla.results.results import CaseResult, Results
+from mbla.solution.contact_modes import contact_modes
 from mbla.solution.glued import MOTIONS
-from mbla.solution.solution import Checks
+from mbla.solution.solution import Checks, Mechanics
 from mbla.solution.statics import contact_velocities
 from mbla.solution.verification import verify
-from mbla.solution.verify import SOLVED_RESIDUAL, verified_status
+from mbla.solution.verify import SOLVED_RESIDUAL, dilatancy_of, verified_status
 
 AGREEMENT = 1e-6
 """Difference of stored and recomputed figures, relative and absolute, beyond which the file is not what a run wrote;
 sparse factorisations of another machine may round differently."""
+
+
+MODES_OF = ("mechanics", "associative", "lower", "upper")
+"""parts of a solution whose modes follow from their own forces and velocities"""
 
 
 def verify_results(results: Results) -> tuple[Results, tuple[str, ...]]:
@@ -99,7 +105,18 @@ def _unproved(model: Model, contacts: Contacts, case: CaseResult, checks: Checks
         velocities = contact_velocities(model, contacts, mechanics.mechanism)
         if _apart(velocities, mechanics.contact_velocities):
             found.append(f"contact velocities ({part}) are not those of the mechanism")
+        if part in MODES_OF and not case.solution.sides and _other_modes(model, contacts, case, part, mechanics):
+            found.append(f"contact modes ({part}) are not those of forces and velocities")
     return found
+
+
+def _other_modes(model: Model, contacts: Contacts, case: CaseResult, part: str, mechanics: Mechanics) -> bool:
+    """Whether modes are others than forces and velocities give under the flow rule of that part."""
+    limits = yield_limits(model, contacts)
+    flow_rule = "associative" if part == "associative" else case.solution.flow_rule
+    slope = dilatancy_of(limits, flow_rule)
+    modes = contact_modes(mechanics.contact_forces, mechanics.contact_velocities, limits, slope)
+    return not np.array_equal(modes, mechanics.modes)
 
 
 def _apart(one: FloatArray, other: FloatArray) -> bool:

@@ -76,6 +76,7 @@ def test_what_the_deck_or_the_mechanism_does_not_give(path: Path, name: str, fac
         ("provenance/exit_code", 5, "the exit status is 0 recomputed, the file says 5"),
         ("deck/overrides", b"parameters.mu=0.5", "the hash of the deck is not that of its text"),
         ("deck/source_texts", b"mbla: 1", "the deck in the file is not valid"),
+        ("cases/push/modes", 2, "contact modes (mechanics) are not those of forces and velocities"),
         ("contacts/frames", 0.0, "frames of contact points are not orthonormal"),
     ],
 )

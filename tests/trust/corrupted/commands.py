@@ -55,11 +55,11 @@ class Worker:
 
 
 @contextmanager
-def worker(folder: Path) -> Iterator[Worker]:
-    """A worker whose messages go to a file in the folder."""
+def worker(folder: Path, *options: str) -> Iterator[Worker]:
+    """A worker whose messages go to a file in the folder; ``--drawing`` for one that is to draw."""
     with (folder / "worker.txt").open("w") as said:
         process = subprocess.Popen(
-            [sys.executable, "-m", "tests.trust.corrupted.worker"],
+            [sys.executable, "-m", "tests.trust.corrupted.worker", *options],
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             stderr=said,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from pathlib import Path
 
 from mbla.run_deck import run
@@ -44,12 +45,12 @@ load_cases:
 }
 
 
-def write_originals(folder: Path) -> dict[str, Path]:
-    """The decks run in a folder: path of each result file by the name of its deck."""
+def write_originals(folder: Path, names: Iterable[str] = tuple(DECKS)) -> dict[str, Path]:
+    """Decks run in a folder: path of each result file by the name of its deck."""
     paths = {}
-    for name, text in DECKS.items():
+    for name in names:
         deck = folder / f"{name}.yaml"
-        deck.write_text(text, encoding="utf-8")
+        deck.write_text(DECKS[name], encoding="utf-8")
         run(deck, RunOptions())
         paths[name] = folder / f"{name}.out" / f"{name}.h5"
     return paths

@@ -18,23 +18,25 @@ MOST_SECONDS = 60
 MOST_BYTES = 4 << 30
 
 
-def _imported() -> None:
-    """What commands import late, once for all of them."""
-    import matplotlib
-
-    matplotlib.use("Agg")
+def _imported(drawing: bool) -> None:
+    """What commands import late, once for all of them; of those that draw only where they are asked for."""
     import mbla.exit_status
     import mbla.rebuilt
     import mbla.results.comparison.comparison
     import mbla.results.comparison.records
     import mbla.results.comparison.words
     import mbla.results.hdf5.result_file
-    import mbla.results.pictures.plot
     import mbla.results.records.json_record
-    import mbla.results.report.report
     import mbla.results.tables.export
     import mbla.results.words.listing
-    import mbla.verify_file  # noqa: F401
+    import mbla.verify_file
+
+    if drawing:
+        import matplotlib
+
+        matplotlib.use("Agg")
+        import mbla.results.pictures.plot
+        import mbla.results.report.report  # noqa: F401
 
 
 def _command(arguments: list[str]) -> dict[str, Any]:
@@ -76,7 +78,7 @@ def _command(arguments: list[str]) -> dict[str, Any]:
 def main() -> None:
     """Until standard input ends."""
     answers = os.fdopen(os.dup(1), "w", encoding="utf-8")
-    _imported()
+    _imported(drawing="--drawing" in sys.argv)
     for line in sys.stdin:
         answers.write(json.dumps(_command(json.loads(line))) + "\n")
         answers.flush()
