@@ -83,7 +83,7 @@ def commands(path: Path, good: Path, out: Path) -> dict[str, tuple[str | Path, .
         "verify": ("verify", path, "--json"),
         "diff": ("diff", path, good),
         "export": ("export", path, "--csv", "-o", out / "tables", "--force"),
-        "plot": ("plot", path, "-o", out / "picture.svg", "--kind", "mechanism"),
+        "plot": ("plot", path, "-o", out / "pictures", "--kind", "mechanism", "--format", "svg"),
         "report": ("report", path, "-o", out / "report.html", "--no-3d"),
     }
 
