@@ -14,7 +14,6 @@ from mbla.deck.include import Reading, confined, read_files
 from mbla.deck.notices import notices_of
 from mbla.deck.overrides import apply_override
 from mbla.deck.references import check_references
-from mbla.deck.sources import SourceText
 from mbla.deck.tree import KeyPath, Tree
 from mbla.deck.types import DeckContent, UnitsSection
 from mbla.deck.units import Units
@@ -42,10 +41,11 @@ def read_deck(path: str | Path, overrides: Sequence[str] = (), *, expected: bool
         return _read(Path(path), overrides, expected=expected)
 
 
-def read_deck_text(text: str, path: Path, overrides: Sequence[str] = ()) -> Deck:
+def read_deck_text(text: str, path: Path, overrides: Sequence[str] = (), *, expected: bool = True) -> Deck:
     """Read and check a deck that is at hand as text.
 
-    path : the file it stands for, in messages and for the files that it names; not opened
+    path     : the file it stands for, in messages and for the files that it names; not opened
+    expected : as for ``read_deck``
 
     Raises
     ------
@@ -53,7 +53,7 @@ def read_deck_text(text: str, path: Path, overrides: Sequence[str] = ()) -> Deck
         with every fault found
     """
     with no_collection():
-        return _read(path, overrides, text)
+        return _read(path, overrides, text, expected=expected)
 
 
 def _read(path: Path, overrides: Sequence[str], text: str | None = None, *, expected: bool = True) -> Deck:
@@ -88,7 +88,7 @@ def _read(path: Path, overrides: Sequence[str], text: str | None = None, *, expe
         path=path,
         sources=tuple(Source(source.path, source.text) for source in tree.sources if source.path is not None),
         overrides=tuple(overrides),
-        sha256=_sha256(tree.sources),
+        sha256=sha256_of(source.text for source in tree.sources),
         content=content,
         units=units,
         notices=notices_of(tree, content, units, parameters),
@@ -130,11 +130,11 @@ def _once(faults: Iterable[Fault]) -> list[Fault]:
     return list(dict.fromkeys(faults))
 
 
-def _sha256(sources: Iterable[SourceText]) -> str:
-    """Hash of all texts in the order they were read, each with its length; names of files do not matter."""
+def sha256_of(texts: Iterable[str]) -> str:
+    """Hash of the texts of a deck and its overrides in the order they were read, each with its length."""
     digest = hashlib.sha256()
-    for source in sources:
-        content = source.text.encode()
+    for text in texts:
+        content = text.encode()
         digest.update(f"{len(content)}\n".encode())
         digest.update(content)
     return digest.hexdigest()

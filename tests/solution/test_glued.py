@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import replace
 from pathlib import Path
 
-import h5py
 import numpy as np
 import pytest
 
@@ -19,6 +18,7 @@ from mbla.run_deck import RunOptions, contacts_of, run
 from mbla.solution.solution import Status
 from mbla.verify_file import verify_results
 from tests.line import case_of, factor_of
+from tests.results.changed_files import changing
 
 HEAD = """\
 mbla: 1
@@ -152,7 +152,7 @@ def test_restoring_a_file_refuses_numbers_with_gaps(tmp_path: Path) -> None:
     path.write_text(BRACKET, encoding="utf-8")
     run(path, RunOptions())
     file = tmp_path / "deck.out" / "deck.h5"
-    with h5py.File(file, "r+") as opened:
+    with changing(file) as opened:
         opened["contacts/solid_of_block"][:] = [0, 2]
     with pytest.raises(FileError, match="rigid bodies"):
         read_results_hdf5(file)

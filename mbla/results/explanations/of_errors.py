@@ -239,11 +239,14 @@ OF_RUNS = (
     refused(
         "damaged-result-file",
         "A result file is damaged or not one of mbla.",
-        "An incomplete copy, another program's file, a failing disk: checksums do not fit.",
+        "An incomplete copy, another program's file, a failing disk, or a file that was changed after the run: check "
+        "sums do not fit.",
         "Copy it again, or run the deck again.",
         "not an mbla result file",
         "not an HDF5 file",
         "damaged:",
+        "no check sum at its end",
+        "its check sum does not fit",
         kind="error",
     ),
 )

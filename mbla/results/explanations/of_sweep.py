@@ -51,8 +51,8 @@ OF_SWEEP = (
         "error",
         "Another run is at work on the same sweep, or writes results of the same deck into the same folder.",
         _POINTS,
-        "Two runs of one deck into one folder would mix their files, two on one journal solve points twice; shards of one sweep run side by side, a whole run and a "
-        "shard do not.",
+        "Two runs of one deck into one folder would mix their files, two on one journal solve points twice; shards of "
+        "one sweep run side by side, a whole run and a shard do not.",
         "Wait for its end, or end the process named on the machine named. A run that was killed holds nothing.",
         says=("is at work on it",),
     ),

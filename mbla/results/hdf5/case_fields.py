@@ -223,13 +223,13 @@ HISTORY = (
         ),
     ),
     *(
-        Field(f"{CASE}/programs/{name}", "text", ("program_row",), "1", words, part="solvers")
+        Field(f"{CASE}/programs/{name}", "text", ("program_row",), "1", words, part="solution")
         for name, words in (
             ("solver", "mbla, clarabel or highs; empty: steps of the joint law, no cone program"),
             ("factorization", "library that factorised its linear systems; empty: the solver's own, or none"),
         )
     ),
-    Field(f"{CASE}/solver", "text", (), "1", "solver asked for, as analysis.solver", part="solvers"),
+    Field(f"{CASE}/solver", "text", (), "1", "solver asked for, as analysis.solver", part="solution"),
     *_columns(
         f"{CASE}/iterations",
         "iteration_row",

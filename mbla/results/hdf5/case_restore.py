@@ -58,7 +58,7 @@ def case_from(load_case: LoadCase, get: dict[str, Any]) -> CaseResult:
         outer=answers["outer"],
         certificate=get.get("certificate"),
         reason=get["reason"],
-        programs=_records(ProgramRecord, _program_fields(get), get, "programs/"),
+        programs=_records(ProgramRecord, (*PROGRAM_FIELDS, *SOLVER_FIELDS), get, "programs/"),
         iterations=_records(IterationRecord, ITERATION_FIELDS, get, "iterations/"),
         seconds=get["seconds"],
         scheme=get["scheme"],
@@ -136,7 +136,7 @@ def _size(get: dict[str, Any]) -> ModelSize | None:
 
 
 def _reductions(get: dict[str, Any]) -> tuple[ReductionStep, ...]:
-    """Files of runs that looked for none, and the first ones of this layout, have no such table."""
+    """Files of runs that looked for none have no such table."""
     if "reductions/name" not in get:
         return ()
     columns = {when: [get[f"reductions/{name}_{when}"] for name in STEP_SIZES] for when in STEP_ENDS}
@@ -148,15 +148,10 @@ def _reductions(get: dict[str, Any]) -> tuple[ReductionStep, ...]:
 
 def _solver(get: dict[str, Any]) -> str:
     """The solver asked for, once all names of solvers are known ones."""
-    asked: str = get.get("solver", "")
-    if not {asked, *get.get("programs/solver", [])} <= {"", "auto", *METHODS}:
+    asked: str = get["solver"]
+    if not {asked, *get["programs/solver"]} <= {"", "auto", *METHODS}:
         raise ValueError("name of a solver")
     return asked
-
-
-def _program_fields(get: dict[str, Any]) -> tuple[str, ...]:
-    """Columns of the table of programs; the first files of this layout do not say who solved them."""
-    return (*PROGRAM_FIELDS, *SOLVER_FIELDS) if "solver" in get else PROGRAM_FIELDS
 
 
 def _records(

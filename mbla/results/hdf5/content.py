@@ -16,7 +16,7 @@ from mbla.model.labels import BlockLabels
 from mbla.model.model import LoadCase, Model
 from mbla.results.hdf5.case_content import Content, case_content
 from mbla.results.hdf5.layout import FILETYPE, VERSION
-from mbla.results.hdf5.load_fields import EARLIER_NAMES
+from mbla.results.hdf5.load_fields import RECORD_NAMES
 from mbla.results.results import Results
 
 BLOCK_ARRAYS = (
@@ -216,9 +216,9 @@ def _loads(load_case: LoadCase) -> Content:
         part = getattr(load_case, name)
         if part is not None:
             content |= {f"{name}/{field.name}": getattr(part, field.name) for field in fields(part)}
-    for now, earlier in EARLIER_NAMES.items():  # names that the records have
-        if earlier in content:
-            content[now] = content.pop(earlier)
+    for path, of_record in RECORD_NAMES.items():
+        if of_record in content:
+            content[path] = content.pop(of_record)
     settlement = load_case.settlement
     if settlement is not None:
         content |= {f"settlement/{name}": getattr(settlement, name) for name in SETTLEMENT_FIELDS}

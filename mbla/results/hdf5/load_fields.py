@@ -5,13 +5,13 @@ from __future__ import annotations
 from mbla.results.hdf5.field import Field, FieldKind, UnitKind
 from mbla.results.hdf5.mechanism_fields import CASE
 
-EARLIER_NAMES = {
+RECORD_NAMES = {
     "travel/load_point": "travel/point",
     "travel/carrying_block": "travel/block",
     "tilt/turning_axis": "tilt/axis",
 }
-"""paths below the case, and what they were in the first files of this layout version, as in the records; netCDF takes a
-dataset of the name of a dimension for the coordinate of that"""
+"""paths below the case whose names are not those of the records: netCDF takes a dataset of the name of a dimension for
+the coordinate of that"""
 
 LOADS = (
     Field(f"{CASE}/dead_load", "float", ("block", "component"), "load", "dead force and moment about the centroid"),

@@ -9,18 +9,9 @@ import numpy as np
 from mbla.results.hdf5.case_content import Value
 from mbla.results.hdf5.field import Field
 from mbla.results.hdf5.layout import SHARED_DIMENSIONS
-from mbla.results.hdf5.load_fields import EARLIER_NAMES
 
 if TYPE_CHECKING:
     import h5py
-
-
-def earlier_name(path: str) -> str:
-    """Where the first files of this layout version hold a dataset; its path where that has not changed."""
-    for now, earlier in EARLIER_NAMES.items():
-        if path.endswith(f"/{now}"):
-            return path.removesuffix(now) + earlier
-    return path
 
 
 def text_of(value: Any) -> str:

@@ -21,7 +21,7 @@ from mbla.model.model import Ground, Joint, LoadCase, Model, Settlement, Tilt, T
 from mbla.results.hdf5.case_content import Content
 from mbla.results.hdf5.case_restore import case_from
 from mbla.results.hdf5.content import BLOCK_ARRAYS, CONTACT_ARRAYS, REPORT_FIELDS, SETTLEMENT_FIELDS
-from mbla.results.hdf5.load_fields import EARLIER_NAMES
+from mbla.results.hdf5.load_fields import RECORD_NAMES
 from mbla.results.results import DeckRecord, Results
 
 
@@ -141,7 +141,7 @@ def _contacts(get: dict[str, Any]) -> Contacts:
 
 
 def _load_case(name: str, get: dict[str, Any]) -> LoadCase:
-    get = {EARLIER_NAMES.get(path, path): value for path, value in get.items()}
+    get = {RECORD_NAMES.get(path, path): value for path, value in get.items()}
     travel, tilt = _part(get, "travel/"), _part(get, "tilt/")
     settlement = None
     if "settlement/blocks" in get:

@@ -2,7 +2,8 @@
 
 The file is built in memory because a process that is killed, or a disk that fills up, while HDF5 writes leaves a file
 that nothing can read. Arrays are chunked with gzip, shuffle and Fletcher-32 checksums; single values are stored inside
-object headers, which carry checksums from HDF5 1.10 on. So a damaged file is found out instead of giving other numbers.
+object headers, which carry checksums from HDF5 1.10 on. A seal over all of it (:mod:`mbla.results.hdf5.seal`) is
+checked before HDF5 opens the file. So a file that was damaged or changed is found out instead of giving other numbers.
 """
 
 from __future__ import annotations
@@ -28,8 +29,9 @@ from mbla.results.hdf5.layout import (
     VERSION,
     fields_of_case,
 )
-from mbla.results.hdf5.reading import check_indices, earlier_name, read_field, strings, text_of
+from mbla.results.hdf5.reading import check_indices, read_field, strings, text_of
 from mbla.results.hdf5.restore import results_from
+from mbla.results.hdf5.seal import check_seal, sealed
 from mbla.results.results import Results
 
 if TYPE_CHECKING:
@@ -96,7 +98,7 @@ def write_results_hdf5(results: Results) -> bytes:
         if content:
             raise AssertionError(f"not in the layout: {sorted(content)}")
         file.flush()
-        return bytes(file.id.get_file_image())
+        return sealed(bytes(file.id.get_file_image()))
 
 
 def read_results_hdf5(path: Path) -> Results:
@@ -111,6 +113,7 @@ def read_results_hdf5(path: Path) -> Results:
 
     _try_opening(path)
     try:
+        check_seal(path)
         with h5py.File(path, "r", locking=False) as file:
             attributes = _read_attributes(file, path)
             content = _read_content(file, path.stat().st_size)
@@ -325,14 +328,13 @@ def _read_content(file: h5py.File, file_bytes: int) -> Content:
     parts: dict[str, set[bool]] = {}
     fields = _fields(cases)
     for path, field in fields:
-        name = path if path in file else earlier_name(path)
-        present = name in file
+        present = path in file
         if field.part:
             parts.setdefault(f"{path.split('/')[1]}: {field.part}", set()).add(present)
         elif not present:
             raise ValueError(f"{path} is missing")
         if present:
-            content[path] = read_field(_dataset(file, name, file_bytes), path, field, sizes)
+            content[path] = read_field(_dataset(file, path, file_bytes), path, field, sizes)
     incomplete = [part for part, presence in parts.items() if len(presence) > 1]
     if incomplete:
         raise ValueError(f"incomplete: {', '.join(incomplete)}")
@@ -348,6 +350,8 @@ def _dataset(file: h5py.File, path: str, file_bytes: int) -> h5py.Dataset:
     dataset = file[path]
     if not isinstance(dataset, h5py.Dataset):
         raise ValueError(f"{path} is not a dataset")
+    if dataset.file != file or dataset.external or dataset.is_virtual:
+        raise ValueError(f"{path} stands in another file")
     if dataset.nbytes > LARGEST_RATIO * file_bytes:
         raise ValueError(f"{path} claims {dataset.nbytes} bytes")
     return dataset

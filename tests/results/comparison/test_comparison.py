@@ -21,6 +21,7 @@ from mbla.results.results import Results
 from mbla.run_deck import RunOptions, run
 from mbla.solution.solution import Status
 from tests.line import BLOCK
+from tests.results.changed_files import changing
 from tests.results.synthetic import cuboids, tower_results
 
 TWO = """\
@@ -258,14 +259,12 @@ def test_exit_status_and_json(tmp_path: Path, capsys: pytest.CaptureFixture[str]
 
 
 def test_files_that_cannot_be_compared(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    import h5py
-
     results_of(tmp_path, BLOCK)
     good = tmp_path / "a.out" / "deck.h5"
     text, old = tmp_path / "text.h5", tmp_path / "old.h5"
     text.write_text("no result", encoding="utf-8")
     old.write_bytes(good.read_bytes())
-    with h5py.File(old, "r+") as file:
+    with changing(old) as file:
         file.attrs["version"] = 1
     for bad, words in ((text, "not an HDF5 file"), (old, "layout version 1"), (tmp_path / "none.h5", "No such file")):
         for pair in ((good, bad), (bad, good)):

@@ -11,9 +11,8 @@ import pytest
 
 from mbla.deck.units import Units
 from mbla.results.hdf5.result_file import read_results_hdf5, write_results_hdf5
-from mbla.results.records.json_record import results_json
 from mbla.results.results import Results
-from tests.results.changed_files import change, remove
+from tests.results.changed_files import change, changing
 from tests.results.no_contacts import without_contacts
 from tests.results.synthetic import full_results, same, tower_results
 
@@ -63,22 +62,6 @@ def test_the_full_results_leave_no_field_at_its_default() -> None:
                 assert not same(getattr(record, field.name), field.default), field.name
             else:
                 assert getattr(record, field.name) is not None, field.name
-
-
-def test_a_file_that_does_not_say_who_solved_is_read(path: Path, results: Results) -> None:
-    """The first files of this layout version did not."""
-    for case in results.cases:
-        for name in ("solver", "programs/solver", "programs/factorization"):
-            remove(path, f"cases/{case.load_case.name}/{name}")
-    case = read_results_hdf5(path).cases[0]
-    assert case.solution.solver == ""
-    assert {(program.solver, program.factorization) for program in case.solution.programs} == {("", "")}
-    assert same(case.solution.iterations, results.cases[0].solution.iterations)
-    assert results_json(read_results_hdf5(path))["cases"][0]["solver"] == {
-        "asked": None,
-        "used": [],
-        "factorization": [],
-    }
 
 
 def test_lists_that_are_empty_come_back(tmp_path: Path, results: Results) -> None:
@@ -150,8 +133,8 @@ def test_what_follows_from_the_mechanism_is_found_anew(path: Path, results: Resu
 
 
 def test_a_changed_value_is_read_as_changed(path: Path) -> None:
-    """Checksums guard against damage, not against someone's own edits: those are for ``verify`` to judge."""
-    with h5py.File(path, "r+") as file:
+    """The seal guards against damage and edits, not against who seals anew: that is for ``verify`` to judge."""
+    with changing(path) as file:
         file["cases/push_x/load_factor"][()] = 0.75
         file["cases/push_x/contact_forces"][0, 0] = 99.0
     mechanics = read_results_hdf5(path).cases[0].solution.mechanics

@@ -18,9 +18,8 @@ import xarray
 from mbla.deck.units import Units
 from mbla.results.hdf5.field import unit_text
 from mbla.results.hdf5.layout import LAYOUT, SHARED_DIMENSIONS, fields_of_case
-from mbla.results.hdf5.load_fields import EARLIER_NAMES
-from mbla.results.hdf5.result_file import read_results_hdf5, write_results_hdf5
-from tests.results.synthetic import full_results, same
+from mbla.results.hdf5.result_file import write_results_hdf5
+from tests.results.synthetic import full_results
 
 PAGE = Path(__file__).parents[3] / "schemas" / "results.md"
 
@@ -100,20 +99,6 @@ def test_single_letters_stay_apart(path: Path) -> None:
     tons.write_bytes(write_results_hdf5(replace(results, model=replace(results.model, units=Units("m", "N", "t")))))
     with xarray.open_dataset(tons, group="model", engine="h5netcdf") as data:
         assert data.units.values.tolist() == ["m", "N", "t"]
-
-
-def test_the_first_files_of_this_version_are_read(path: Path, tmp_path: Path) -> None:
-    old = tmp_path / "old.h5"
-    old.write_bytes(path.read_bytes())
-    moved = 0
-    with h5py.File(old, "r+") as file:
-        for case in file["cases"].values():
-            for now, earlier in EARLIER_NAMES.items():
-                if now in case:
-                    case.move(now, earlier)
-                    moved += 1
-    assert moved == len(EARLIER_NAMES)
-    assert same(read_results_hdf5(old), full_results())
 
 
 def test_the_snippet_of_the_page_runs(path: Path) -> None:

@@ -44,7 +44,7 @@ from mbla.solution.settings import SolverSettings
 from mbla.studies.sweep.engine.connection import Connection, refuse_missing
 from mbla.studies.sweep.engine.options import EngineOptions
 from mbla.studies.sweep.journal import Journal
-from mbla.studies.sweep.journal import lock as journal_lock
+from mbla.results import lock as journal_lock
 from mbla.studies.sweep.pictures.plot import SweepPictures, plot_sweep
 from mbla.studies.sweep.worker import child
 from mbla.studies.sweep.worker.supervised import SupervisedRunner
