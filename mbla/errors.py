@@ -77,7 +77,7 @@ class Fault:
 
     def __str__(self) -> str:
         subject = self.key if self.value is None else f"{self.key} = {self.value}"
-        return f"{self.place} {subject}: {self.message}" if subject else f"{self.place} {self.message}"
+        return printable(f"{self.place} {subject}: {self.message}" if subject else f"{self.place} {self.message}")
 
 
 class DeckError(MblaError):
@@ -106,4 +106,15 @@ class Notice:
     case: str = ""
 
     def __str__(self) -> str:
-        return f"{self.severity} [{self.identifier}]: {self.message}"
+        return printable(f"{self.severity} [{self.identifier}]: {self.message}")
+
+
+def printable(text: str) -> str:
+    """A text with nothing in it that a terminal acts on: names of files, and what files hold, come from anybody.
+
+    >>> printable("stone\\x1b[2J.obj")
+    'stone\ufffd[2J.obj'
+    """
+    if text.isprintable():
+        return text
+    return "".join(character if character.isprintable() else "\ufffd" for character in text)

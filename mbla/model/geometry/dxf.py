@@ -61,7 +61,7 @@ def read_dxf(path: Path) -> Geometry:
     try:
         document = ezdxf.readfile(path)  # type: ignore[attr-defined]
         _collect(document, drawing)
-    except GeometryFileError:
+    except (GeometryFileError, MemoryError):
         raise
     except Exception as error:  # damaged files let all kinds of exceptions through, some when an entity is looked at
         reason = " ".join(str(getattr(error, "strerror", None) or error).split())

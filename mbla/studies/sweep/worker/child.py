@@ -27,7 +27,7 @@ from mbla.studies.peak_memory import resident
 from mbla.studies.sweep.fingerprint import fingerprint_of
 from mbla.studies.sweep.plan import Plan
 from mbla.studies.sweep.program import program_identity
-from mbla.studies.sweep.worker.memory_limit import can_limit, limited, written
+from mbla.memory_limit import can_limit, limited, written
 from mbla.studies.sweep.worker.messages import plan_of, record_of, task_of
 from mbla.studies.sweep.worker.runner import PointRunner
 
