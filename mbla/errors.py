@@ -15,8 +15,9 @@ Anything else that reaches the command line is a defect of mbla (exit status 1).
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from itertools import islice
 from typing import Literal
 
 
@@ -78,6 +79,18 @@ class Fault:
     def __str__(self) -> str:
         subject = self.key if self.value is None else f"{self.key} = {self.value}"
         return printable(f"{self.place} {subject}: {self.message}" if subject else f"{self.place} {self.message}")
+
+
+MOST_FAULTS = 1000
+"""of one kind that are told; a file that has more is none that somebody corrects fault by fault"""
+
+
+def first_faults(faults: Iterable[Fault]) -> list[Fault]:
+    """The first of many faults, and where the others are left out a last one that says so."""
+    told = list(islice(faults, MOST_FAULTS + 1))
+    if len(told) > MOST_FAULTS:
+        told[-1] = Fault(told[-1].place, "", f"more faults follow: only the first {MOST_FAULTS} are told")
+    return told
 
 
 class DeckError(MblaError):

@@ -112,7 +112,7 @@ def _change(holder: Any, key: Any, others: Sequence[Any], choose: Choice) -> Non
     how = choose(("value", "value", "other", "leave out", "repeat", "rename", "number", "number", "wrap"))
     value = holder[key]
     if how == "number" and isinstance(value, (int, float)) and not isinstance(value, bool):
-        holder[key] = value * choose((-1, 0, 0.5, 2, 10, 1e-6, 1e6)) + choose((0, 0, 1, 1e-9))
+        holder[key] = choose((-value, 0, 2 * value, value + 1, value * 10**6, _float(value) / 2, _float(value) * 1e-6))
     elif how == "other":
         holder[key] = copy.deepcopy(choose(others))
     elif how == "leave out":
@@ -125,6 +125,11 @@ def _change(holder: Any, key: Any, others: Sequence[Any], choose: Choice) -> Non
         holder[key] = [value]
     else:
         holder[key] = copy.deepcopy(choose(VALUES))
+
+
+def _float(value: float) -> float:
+    """A number in double precision, the largest one for what has none."""
+    return float(min(max(value, -1e308), 1e308))
 
 
 def _places(value: Any, path: tuple[Any, ...] = ()) -> list[tuple[Any, ...]]:
