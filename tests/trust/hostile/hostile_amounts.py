@@ -91,10 +91,21 @@ CASES = [
             "[{force: [1, 0, 0], travel: {from: [0, 0, 2], to: [1, 0, 2], positions: 1000000000000}}]",
         ),
     ),
-    deck("a load on 10^9 blocks", BLOCK.replace("[{acceleration: [1, 0, 0]}]", "[{force: [1, 0, 0], on: {group: block, index: 1000000000}}]")),
-    deck("a list of 100,000 selectors of nothing", BLOCK.replace("[{acceleration: [1, 0, 0]}]", "[{force: [1, 0, 0], on: [" + "nothing, " * 100_000 + "]}]")),
+    deck(
+        "a load on 10^9 blocks",
+        BLOCK.replace("[{acceleration: [1, 0, 0]}]", "[{force: [1, 0, 0], on: {group: block, index: 1000000000}}]"),
+    ),
+    deck(
+        "a list of 100,000 selectors of nothing",
+        BLOCK.replace("[{acceleration: [1, 0, 0]}]", "[{force: [1, 0, 0], on: [" + "nothing, " * 100_000 + "]}]"),
+    ),
     deck("a load as large as numbers go", BLOCK.replace("[1, 0, 0]}]", "[1.e+308, 1.e+308, 1.e+309]}]")),
     deck("a tolerance of nothing", BLOCK.replace("contacts: {joint: dry}", "contacts: {joint: dry, tolerance: 0}")),
-    deck("a parameter that makes 10^12 blocks", BLOCK.replace("parameters: {", "parameters: {n: 1.e+12, ").replace('max: ["=b", 1, "=h"]', 'max: ["=b", 1, "=h"], repeat: {count: "=n", translate: [9, 0, 0]}')),
+    deck(
+        "a parameter that makes 10^12 blocks",
+        BLOCK.replace("parameters: {", "parameters: {n: 1.e+12, ").replace(
+            'max: ["=b", 1, "=h"]', 'max: ["=b", 1, "=h"], repeat: {count: "=n", translate: [9, 0, 0]}'
+        ),
+    ),
 ]
 """All of them."""

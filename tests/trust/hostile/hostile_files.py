@@ -17,7 +17,6 @@ def including(names: str) -> str:
     return f"{BLOCK}include: [{names}]\n"
 
 
-
 def _made(make: Callable[[Path], object], deck_text: str = "") -> Write:
     """Something that is made beside a deck, or in its place."""
 
@@ -97,7 +96,6 @@ FILES = [
     Case("a link to /dev/zero", _made(_link("deck.yaml", "/dev/zero")), status=NOT_READ),
     Case("a link to nothing", _made(_link("deck.yaml", "nowhere.yaml")), status=NOT_READ),
     Case("links in a circle", _made(_loop), status=NOT_READ),
-    Case("a name with a NUL", _made(lambda folder: None), ("run", "a\0b.yaml"), NOT_READ),
     Case("a name of 10 kB", _made(lambda folder: None), ("run", "x" * 10_000), NOT_READ),
     Case("a path of 10 kB", _made(lambda folder: None), ("run", "x/" * 5_000), NOT_READ),
     Case("a name with escape sequences", _made(lambda folder: None), ("run", "\x1b[2J.yaml"), NOT_READ),

@@ -68,9 +68,7 @@ def _dxf(entities: str, blocks: str = "") -> str:
 
 
 def _insert(block: str, columns: int = 1, rows: int = 1) -> str:
-    return (
-        f"0\nINSERT\n8\n0\n2\n{block}\n10\n0\n20\n0\n30\n0\n70\n{columns}\n71\n{rows}\n44\n2\n45\n2\n"
-    )
+    return f"0\nINSERT\n8\n0\n2\n{block}\n10\n0\n20\n0\n30\n0\n70\n{columns}\n71\n{rows}\n44\n2\n45\n2\n"
 
 
 def _block(name: str, content: str) -> str:
@@ -122,49 +120,108 @@ CASES = [
     mesh("10^12 binary vertices announced", "ply", PLY.format("binary_little_endian", 10**12, *["double"] * 3, "")),
     mesh("10^9 binary vertices announced", "ply", PLY.format("binary_little_endian", 10**9, *["double"] * 3, "")),
     mesh("a negative number of vertices", "ply", PLY.format("ascii", -5, *["float"] * 3, FACES)),
-    mesh("a list of 4 billion corners", "ply", PLY.format("binary_little_endian", 0, *["float"] * 3, "element face 1\nproperty list uint int vertex_indices\n").encode() + b"\xff" * 8),
+    mesh(
+        "a list of 4 billion corners",
+        "ply",
+        PLY.format(
+            "binary_little_endian", 0, *["float"] * 3, "element face 1\nproperty list uint int vertex_indices\n"
+        ).encode()
+        + b"\xff" * 8,
+    ),
     mesh("a header without end", "ply", b"ply\n" + b"comment x\n" * 100_000),
     mesh("2 GB of zeros packed", "vtu", _packed_vtu()),
     mesh("entities of entities", "vtu", ENTITIES),
     mesh("an entity outside", "vtu", OUTSIDE),
     mesh("nested elements", "vtu", "<a>" * 200_000),
-    mesh("10^12 points announced", "vtu", MESHES["vtu"].replace(b'NumberOfPoints="8"', b'NumberOfPoints="1000000000000"').replace(b'NumberOfCells="1"', b'NumberOfCells="1000000000000"').replace(b"ascii", b"appended")),
+    mesh(
+        "10^12 points announced",
+        "vtu",
+        MESHES["vtu"]
+        .replace(b'NumberOfPoints="8"', b'NumberOfPoints="1000000000000"')
+        .replace(b'NumberOfCells="1"', b'NumberOfCells="1000000000000"')
+        .replace(b"ascii", b"appended"),
+    ),
     mesh("a point tag of 10^10", "msh", MESHES["msh"].replace(b"\n8\n", b"\n9999999999\n")),
-    mesh("10^12 nodes announced", "msh", b"$MeshFormat\n4.1 1 8\n" + struct.pack("<i", 1) + b"\n$EndMeshFormat\n$Nodes\n" + struct.pack("<4Q", 1, 10**12, 1, 10**12) + struct.pack("<3iQ", 3, 1, 0, 10**12) + b"\n$EndNodes\n"),
-    mesh("10^12 nodes announced in an old file", "msh", b"$MeshFormat\n2.2 1 8\n" + struct.pack("<i", 1) + b"\n$EndMeshFormat\n$Nodes\n1000000000000\n"),
+    mesh(
+        "10^12 nodes announced",
+        "msh",
+        b"$MeshFormat\n4.1 1 8\n"
+        + struct.pack("<i", 1)
+        + b"\n$EndMeshFormat\n$Nodes\n"
+        + struct.pack("<4Q", 1, 10**12, 1, 10**12)
+        + struct.pack("<3iQ", 3, 1, 0, 10**12)
+        + b"\n$EndNodes\n",
+    ),
+    mesh(
+        "10^12 nodes announced in an old file",
+        "msh",
+        b"$MeshFormat\n2.2 1 8\n" + struct.pack("<i", 1) + b"\n$EndMeshFormat\n$Nodes\n1000000000000\n",
+    ),
     mesh("a section without end", "msh", b"$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Comments\n" + b"x\n" * 100_000),
     mesh("an inclusion", "inp", "*INCLUDE, INPUT=/etc/passwd\n"),
     mesh("a set of 10^12 elements", "inp", NODE + "*ELSET, ELSET=a, GENERATE\n1, 1000000000000, 1\n"),
-    mesh("a set of 10^40 elements", "inp", NODE + f"*ELEMENT, TYPE=S3\n1, 1, 1, 1\n*ELSET, ELSET=a, GENERATE\n1, {10**40}, 1\n"),
+    mesh(
+        "a set of 10^40 elements",
+        "inp",
+        NODE + f"*ELEMENT, TYPE=S3\n1, 1, 1, 1\n*ELSET, ELSET=a, GENERATE\n1, {10**40}, 1\n",
+    ),
     mesh("a set that doubles itself 200 times", "inp", DOUBLED),
     mesh("an element of one line of 10 MB", "inp", NODE + "*ELEMENT, TYPE=C3D8\n" + "1, " * (3 * MEGABYTE)),
     mesh("100,000 nodes without a number", "inp", "*NODE\n" + ",,,\n" * 100_000),
     mesh("nested JSON", "gltf", _nested(100_000)),
-    mesh("nodes that double 60 times", "gltf", changed_gltf(lambda d: d.update(nodes=[*({"children": [n + 1, n + 1]} for n in range(60)), {"mesh": 0}]))),
+    mesh(
+        "nodes that double 60 times",
+        "gltf",
+        changed_gltf(lambda d: d.update(nodes=[*({"children": [n + 1, n + 1]} for n in range(60)), {"mesh": 0}])),
+    ),
     mesh("nodes in a circle", "gltf", changed_gltf(lambda d: d.update(nodes=[{"children": [0], "mesh": 0}]))),
-    mesh("an accessor of 2 billion zeros", "gltf", changed_gltf(lambda d: d["accessors"][0].update(count=2**31 - 1) or d["accessors"][0].pop("bufferView"))),
+    mesh(
+        "an accessor of 2 billion zeros",
+        "gltf",
+        changed_gltf(lambda d: d["accessors"][0].update(count=2**31 - 1) or d["accessors"][0].pop("bufferView")),
+    ),
     mesh("a count as large as numbers go", "gltf", changed_gltf(lambda d: d["accessors"][0].update(count=10**30))),
     mesh("a negative stride", "gltf", changed_gltf(lambda d: d["bufferViews"][0].update(byteStride=-(2**40)))),
     mesh("a negative offset", "gltf", changed_gltf(lambda d: d["bufferViews"][0].update(byteOffset=-(2**62)))),
     mesh("a buffer outside", "gltf", changed_gltf(lambda d: d["buffers"][0].update(uri="../../../../etc/passwd"))),
-    mesh("a buffer on the network", "gltf", changed_gltf(lambda d: d["buffers"][0].update(uri="https://example.org/a.bin"))),
+    mesh(
+        "a buffer on the network",
+        "gltf",
+        changed_gltf(lambda d: d["buffers"][0].update(uri="https://example.org/a.bin")),
+    ),
     mesh("a buffer that is a device", "gltf", changed_gltf(lambda d: d["buffers"][0].update(uri="/dev/zero"))),
     mesh("a buffer with a NUL", "gltf", changed_gltf(lambda d: d["buffers"][0].update(uri="a%00b"))),
     mesh("a buffer with a name of 10 kB", "gltf", changed_gltf(lambda d: d["buffers"][0].update(uri="x" * 10_000))),
-    mesh("a compression that is required", "gltf", changed_gltf(lambda d: d.update(extensionsRequired=["KHR_draco_mesh_compression"]))),
+    mesh(
+        "a compression that is required",
+        "gltf",
+        changed_gltf(lambda d: d.update(extensionsRequired=["KHR_draco_mesh_compression"])),
+    ),
     mesh("a chunk of 4 GB", "glb", struct.pack("<5I", 0x46546C67, 2, 2**32 - 1, 2**32 - 1, 0x4E4F534A)),
     mesh("chunks without content", "glb", struct.pack("<3I", 0x46546C67, 2, 100) + struct.pack("<2I", 0, 7) * 500_000),
     mesh("nested JSON", "json", _nested(100_000)),
     mesh("nested lists", "json", "[" * 1_000_000),
     mesh("an integer of 1,000,000 digits", "json", '{"vertex": {"0": {"x": ' + "9" * 1_000_000 + '}}, "face": {}}'),
     mesh("an integer of 400 digits", "json", '{"vertex": {"0": {"x": ' + "9" * 400 + '}}, "face": {"0": [0, 0, 0]}}'),
-    mesh("an elements tree in a circle", "json", '{"elements": {"a": {}, "b": {}}, "tree": {"root": {"children": [{"element": "a", "children": [{"element": "b", "children": [{"element": "a"}]}]}]}}}'),
-    mesh("a transformation of words", "json", MESHES["json"].replace(b'"face"', b'"transformation": {"matrix": [["x"]]}, "face"')),
+    mesh(
+        "an elements tree in a circle",
+        "json",
+        '{"elements": {"a": {}, "b": {}}, "tree": {"root": {"children": [{"element": "a", "children": [{"element": "b", "children": [{"element": "a"}]}]}]}}}',
+    ),
+    mesh(
+        "a transformation of words",
+        "json",
+        MESHES["json"].replace(b'"face"', b'"transformation": {"matrix": [["x"]]}, "face"'),
+    ),
     mesh("a block in itself", "dxf", _dxf(_insert("a"), _block("a", _insert("a") + SQUARE))),
     mesh("blocks of ten blocks, twelve levels", "dxf", _dxf(_insert("b0"), LEVELS)),
     mesh("a block inserted 10^9 times", "dxf", _dxf(_insert("a", 32000, 32000), _block("a", SQUARE))),
     mesh("3,000 lines that cross", "dxf", _dxf(LINES)),
     mesh("coordinates of infinity", "dxf", _dxf(SQUARE.replace("10\n1\n", "10\ninf\n"))),
-    mesh("an ellipse of nothing", "dxf", _dxf("0\nELLIPSE\n8\n0\n10\n0\n20\n0\n30\n0\n11\n0\n21\n0\n31\n0\n40\n0\n41\n0\n42\n1e300\n")),
+    mesh(
+        "an ellipse of nothing",
+        "dxf",
+        _dxf("0\nELLIPSE\n8\n0\n10\n0\n20\n0\n30\n0\n11\n0\n21\n0\n31\n0\n40\n0\n41\n0\n42\n1e300\n"),
+    ),
 ]
 """All of them."""

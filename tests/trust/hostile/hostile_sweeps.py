@@ -40,7 +40,7 @@ TEXTS = {
     "a step of nothing": changed("values: [2, 3]", "linear: {from: 2, to: 2, points: 5}"),
     "a deviation as large as numbers go": changed("deviation: 0.08", "deviation: 1.e+308"),
     "values of 10^12 courses": changed("values: [2, 3]", "values: [1000000000, 2000000000]"),
-    "a constraint that is Python": SWEEP + "where: ['__import__(\"os\").system(\"touch written\")']\n",
+    "a constraint that is Python": SWEEP + 'where: [\'__import__("os").system("touch written")\']\n',
     "a seed of 5,000 digits": changed("seed: 1", "seed: " + "9" * 5000),
     "a deck up": changed("deck: deck.yaml", "deck: ../../../../etc/passwd"),
     "a deck that is a device": changed("deck: deck.yaml", "deck: /dev/zero"),

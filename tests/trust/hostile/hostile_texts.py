@@ -28,12 +28,6 @@ def _sparse(size: int, begin: bytes = b"") -> Callable[[Path], None]:
     return write
 
 
-def _blanks(folder: Path) -> None:
-    with (folder / "deck.yaml").open("wb") as file:
-        for _ in range(1024):
-            file.write(b" " * MEGABYTE)
-
-
 LAUGHS = "a: &a [x, x, x, x, x, x, x, x, x]\n" + "".join(
     f"{b}: &{b} [{', '.join([f'*{a}'] * 9)}]\n" for a, b in zip("abcdefgh", "bcdefghi", strict=True)
 )
@@ -73,7 +67,7 @@ BYTES = [
     deck("XML with entities", '<!DOCTYPE d [<!ENTITY a "b"><!ENTITY c "&a;&a;">]><d>&c;</d>'),
     Case("1 GB of zeros", _sparse(1024 * MEGABYTE)),
     Case("1 TB of zeros behind a deck", _sparse(1024**4, BLOCK.encode())),
-    Case("1 GB of blanks", _blanks),
+    deck("17 MB of blanks", b" " * (17 * MEGABYTE)),
     deck("10 MB of blanks", b" " * (10 * MEGABYTE)),
     deck("10 MB of line breaks", b"\n" * (10 * MEGABYTE)),
     deck("10 MB of carriage returns", b"\r" * (10 * MEGABYTE)),
@@ -95,7 +89,10 @@ YAML = [
     deck("10,000 levels of indentation", "".join(" " * n + "a:\n" for n in range(3000))),
     deck("100,000 closing brackets", BLOCK + "]" * 100_000),
     deck("aliases of aliases", LAUGHS),
-    deck("aliases of aliases in a section", BLOCK + "expected:\n" + "".join("  " + each for each in LAUGHS.splitlines(True))),
+    deck(
+        "aliases of aliases in a section",
+        BLOCK + "expected:\n" + "".join("  " + each for each in LAUGHS.splitlines(True)),
+    ),
     deck("an alias of itself", "mbla: &a [*a]\n"),
     deck("an alias of nothing", "mbla: *nothing\n"),
     deck("100,000 aliases", "mbla: &a 1\nblocks: [" + "*a, " * 100_000 + "]\n"),
@@ -114,7 +111,10 @@ YAML = [
     deck("20,000 unknown keys", BLOCK + "".join(f"k{n}: 1\n" for n in range(20_000))),
     deck("20,000 wrong items", BLOCK + "masses: [" + "x, " * 20_000 + "]\n"),
     deck("10,000 wrong blocks", with_text("blocks:\n", "blocks:\n" + "  - {bax: {}}\n" * 10_000)),
-    deck("5,000 unknown materials", with_text("blocks:\n", "blocks:\n" + "  - {box: {material: q, min: [0, 0, 0], max: [1, 1, 1]}}\n" * 5_000)),
+    deck(
+        "5,000 unknown materials",
+        with_text("blocks:\n", "blocks:\n" + "  - {box: {material: q, min: [0, 0, 0], max: [1, 1, 1]}}\n" * 5_000),
+    ),
     deck("500,000 nothings", BLOCK + "masses: [" + "~, " * 500_000 + "]\n"),
     deck("1,000,000 documents", "---\n" * 1_000_000),
     deck("a second deck", BLOCK + "---\n" + BLOCK),
@@ -161,7 +161,7 @@ EXPRESSIONS = {
     "a keyword": "=round(1.5, ndigits=99999999)",
     "a factorial": "=factorial(999999)",
     "rounding to many digits": "=round(1.5, 999999999)",
-    "290 parentheses": "=" + "(" * 145 + "1" + ")" * 145,
+    "290 parentheses": "=" + "(" * 290,
     "290 signs": "=" + "-" * 290 + "1",
     "290 calls": "=" + "abs(" * 58 + "1" + ")" * 58,
     "10 MB": "=1" + "+1" * (5 * MEGABYTE),
@@ -174,7 +174,6 @@ EXPRESSIONS = {
     "a condition": "=1 if 1 else 2",
     "an ellipsis": "=...",
     "a slice": "=mu[0:9]",
-    "a comment": "=1 #",
     "a line break": "=1\\n+1;import os",
     "a division by zero": "=1/0",
     "a remainder of zero": "=1%0",
@@ -218,7 +217,13 @@ DECKS = [
     ),
     deck("5,000 parameters in a circle", with_text("mu: 0.5", f"mu: 0.5, {CYCLE}")),
     deck("5,000 parameters in a chain that overflows", with_text("mu: 0.5", f"mu: 0.5, {CHAIN}")),
-    *(deck(f"a load case with a name {name}", BLOCK.replace("  push:", f'  "{text}":')) for name, text in NAMES.items()),
-    *(deck(f"a group with a name {name}", with_text("group: block", f'group: "{text}"')) for name, text in NAMES.items()),
+    *(
+        deck(f"a load case with a name {name}", BLOCK.replace("  push:", f'  "{text}":'))
+        for name, text in NAMES.items()
+    ),
+    *(
+        deck(f"a group with a name {name}", with_text("group: block", f'group: "{text}"'))
+        for name, text in NAMES.items()
+    ),
 ]
 """All of them."""

@@ -120,7 +120,9 @@ def _change(holder: Any, key: Any, others: Sequence[Any], choose: Choice) -> Non
     elif how == "repeat" and isinstance(holder, list):
         holder.insert(key, copy.deepcopy(value))
     elif how == "rename" and isinstance(holder, dict):
-        holder[choose((f"{key}s", str(key).upper(), "material", "repeat", "transform", "on", "../x", "x" * 300))] = value
+        holder[choose((f"{key}s", str(key).upper(), "material", "repeat", "transform", "on", "../x", "x" * 300))] = (
+            value
+        )
     elif how == "wrap":
         holder[key] = [value]
     else:
