@@ -125,8 +125,8 @@ class Notice:
 def printable(text: str) -> str:
     """A text with nothing in it that a terminal acts on: names of files, and what files hold, come from anybody.
 
-    >>> printable("stone\\x1b[2J.obj")
-    'stone\ufffd[2J.obj'
+    >>> printable("stone" + chr(27) + ".obj")
+    'stone�.obj'
     """
     if text.isprintable():
         return text

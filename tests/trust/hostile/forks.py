@@ -85,7 +85,8 @@ def main() -> None:
                 usage.ru_utime + usage.ru_stime,
                 usage.ru_maxrss * 1024 / MEGABYTE,
             )
-        print(json.dumps(asdict(ended)), flush=True)
+        sys.stdout.write(json.dumps(asdict(ended)) + "\n")
+        sys.stdout.flush()
 
 
 def import_everything() -> None:

@@ -206,7 +206,8 @@ CASES = [
     mesh(
         "an elements tree in a circle",
         "json",
-        '{"elements": {"a": {}, "b": {}}, "tree": {"root": {"children": [{"element": "a", "children": [{"element": "b", "children": [{"element": "a"}]}]}]}}}',
+        '{"elements": {"a": {}, "b": {}}, "tree": {"root": {"children": [{"element": "a", '
+        '"children": [{"element": "b", "children": [{"element": "a"}]}]}]}}}',
     ),
     mesh(
         "a transformation of words",

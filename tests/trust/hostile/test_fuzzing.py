@@ -56,7 +56,7 @@ def test_a_program_that_breaks_is_found(tmp_path: Path, monkeypatch: pytest.Monk
     subject.prepare_folder(tmp_path)
     finds = Finds(tmp_path / "finds")
     give_at_random(finds, tmp_path, 40, 1)
-    assert list(finds.found.values())[0].startswith("KeyError")
+    assert next(iter(finds.found.values())).startswith("KeyError")
     assert list((tmp_path / "finds").iterdir())
 
 

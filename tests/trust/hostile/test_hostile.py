@@ -87,7 +87,7 @@ def test_every_hostile_file_is_refused_at_once(running: Commands, tmp_path: Path
     record_counts(
         "hostile-files",
         31,
-        "Decks, sweep files and geometry files that are meant to hurt are refused with the documented exit status, with "
-        "one line per fault and nothing written, in less than a second beyond start-up and 200 MB",
+        "Decks, sweep files and geometry files that are meant to hurt are refused with the documented exit status, "
+        "with one line per fault and nothing written, in less than a second beyond start-up and 200 MB",
         {"files": len(CASES), "milliseconds at worst": round(1000 * worst[0]), "MB at worst": round(worst[1])},
     )
