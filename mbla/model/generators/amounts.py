@@ -19,4 +19,5 @@ def refuse_too_many(amount: float, key: str | KeyPath, what: str = "units") -> N
     """
     if amount > MOST:
         path = (key,) if isinstance(key, str) else key
-        raise ItemRefused([(path, f"makes about {amount:.0e} {what}; at most {MOST:,} can be handled")])
+        about = float(min(amount, 10**300))  # products of whole numbers may be too large for a number
+        raise ItemRefused([(path, f"makes about {about:.0e} {what}; at most {MOST:,} can be handled")])
