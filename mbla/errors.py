@@ -26,8 +26,9 @@ and ``mbla explain`` tells what it means. A new error takes the identifier of it
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from itertools import islice
 from typing import Literal
 
 
@@ -156,7 +157,20 @@ class Fault:
 
     def __str__(self) -> str:
         subject = self.key if self.value is None else f"{self.key} = {self.value}"
-        return f"{self.place} {subject}: {self.message}" if subject else f"{self.place} {self.message}"
+        return printable(f"{self.place} {subject}: {self.message}" if subject else f"{self.place} {self.message}")
+
+
+MOST_FAULTS = 1000
+"""of one kind that are told; a file that has more is none that somebody corrects fault by fault"""
+
+
+def first_faults(faults: Iterable[Fault]) -> list[Fault]:
+    """The first of many faults, and where the others are left out a last one that says so."""
+    told = list(islice(faults, MOST_FAULTS + 1))
+    if len(told) > MOST_FAULTS:
+        words = f"more faults follow: only the first {MOST_FAULTS} are told"
+        told[-1] = Fault(told[-1].place, "", Message("too-many-faults", words))
+    return told
 
 
 class DeckError(MblaError):
@@ -185,4 +199,15 @@ class Notice:
     case: str = ""
 
     def __str__(self) -> str:
-        return f"{self.severity} [{self.identifier}]: {self.message}"
+        return printable(f"{self.severity} [{self.identifier}]: {self.message}")
+
+
+def printable(text: str) -> str:
+    """A text with nothing in it that a terminal acts on: names of files, and what files hold, come from anybody.
+
+    >>> printable("stone" + chr(27) + ".obj")
+    'stone�.obj'
+    """
+    if text.isprintable():
+        return text
+    return "".join(character if character.isprintable() else "\ufffd" for character in text)

@@ -6,13 +6,15 @@ import contextlib
 import os
 import sys
 
+from mbla.errors import printable
+
 WIDTH = 80
 """characters of a line of a terminal that does not say how wide it is"""
 
 
 def say(text: str, status: int) -> int:
-    """A line on standard error; the exit status, as it came."""
-    _write(f"{text}\n")
+    """Lines on standard error, with nothing in them that a terminal acts on; the exit status, as it came."""
+    _write("".join(f"{printable(line)}\n" for line in text.split("\n")))
     return status
 
 

@@ -88,6 +88,11 @@ def _with_included(reading: Reading, tree: Tree, source: SourceText) -> Tree:
     if not isinstance(names, list):
         return tree
     merged: Tree | None = None
+    if len(names) > MAX_FILES:
+        words = f"names {len(names)} files: at most {MAX_FILES} are read"
+        reading.faults.append(tree.fault(("include",), Message("too-many-files", words)))
+        reading.whole = False
+        return tree
     for index, name in enumerate(names):
         if not isinstance(name, str):
             continue

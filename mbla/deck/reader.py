@@ -15,7 +15,7 @@ from mbla.deck.file_kind import DECK, FileKind
 from mbla.deck.scalars import plain_scalar
 from mbla.deck.sources import SourceText, has_control_character
 from mbla.deck.tree import FILE_SHIFT, OFFSET_MASK, KeyPath, MappingMarks, Marks, SequenceMarks, key_text, shorten
-from mbla.errors import Fault, Message, Place, ValueRefused
+from mbla.errors import MOST_FAULTS, Fault, Message, Place, ValueRefused
 
 MAX_DEPTH = 64
 """Nesting of brackets and indentation; the deck's own types need ten."""
@@ -245,6 +245,10 @@ class _Builder:
     def fault(self, mark: int, message: Message, value: str | None = None, path: KeyPath | None = None) -> None:
         key = key_text(self.path() if path is None else path)
         self.faults.append(Fault(self.place(mark), key, message, shorten(value) if value else None))
+        if len(self.faults) == MOST_FAULTS:
+            words = Message("too-many-faults", f"is read no further after {MOST_FAULTS} faults")
+            self.faults.append(Fault(self.place(mark), "", words))
+            raise _StopError
 
     def refuse_properties(self, event: Any, mark: int) -> None:
         if event.anchor:

@@ -18,7 +18,7 @@ from mbla.deck.tree import KeyPath, Tree
 from mbla.deck.types import DeckContent, UnitsSection
 from mbla.deck.units import Units
 from mbla.deck.validation import validate
-from mbla.errors import DeckError, Fault, FileError, Message
+from mbla.errors import DeckError, Fault, FileError, Message, first_faults
 from mbla.sharing import copied
 
 
@@ -81,7 +81,7 @@ def _read(path: Path, overrides: Sequence[str], text: str | None = None, *, expe
     faults += reading.faults
     # What is no name at all is not looked up as well.
     seen = {(fault.place, fault.key) for fault in faults}
-    faults += [fault for fault in check_references(tree) if (fault.place, fault.key) not in seen]
+    faults += [fault for fault in first_faults(check_references(tree)) if (fault.place, fault.key) not in seen]
     if content is None or faults:
         raise DeckError(_once(faults))
     return Deck(

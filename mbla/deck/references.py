@@ -72,7 +72,7 @@ def check_references(tree: Tree) -> Iterator[Fault]:
         "group": list(dict.fromkeys(groups(data))),
     }
     for reference in REFERENCES:
-        names = [*known[reference.kind], *reference.also]
+        names = dict.fromkeys((*known[reference.kind], *reference.also))
         for path, name in find(data, reference.path.split(".")):
             if isinstance(name, str) and name not in names:
                 yield tree.fault(path, Message("unknown-name", unknown(reference.kind, name, names, "known")))

@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 import re
 import stat
-from bisect import bisect_right
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -13,7 +12,7 @@ from pathlib import Path
 from mbla.deck.file_kind import DECK, FileKind
 from mbla.errors import DeckError, Fault, FileError, Message, Place
 
-MAX_BYTES = 64 * 1024 * 1024
+MAX_BYTES = 16 * 1024 * 1024
 """Larger decks are refused: geometry of that size belongs in a mesh file."""
 
 # Every control character but tab, line feed and carriage return, and the two characters that Unicode never assigns.
@@ -34,15 +33,24 @@ class SourceText:
     line: int | None = None
 
     @cached_property
-    def _line_starts(self) -> list[int]:
-        return [0, *(match.end() for match in re.finditer(r"\r\n|\r|\n", self.text))]
+    def _counted(self) -> list[int]:
+        """Offset up to which line breaks were counted, and how many there are: faults are told in their order."""
+        return [0, 0]
 
     def place(self, offset: int) -> Place:
         """Place of the character at an offset of the text."""
         if self.line is not None:
             return Place(self.label, self.line, offset + 1)
-        row = bisect_right(self._line_starts, offset) - 1
-        return Place(self.label, row + 1, offset - self._line_starts[row] + 1)
+        text, (known, row) = self.text, self._counted
+        if offset < known:
+            known = row = 0
+        within = text[offset - 1 : offset + 1] == "\r\n"  # a break of two characters ends behind the second
+        row += text.count("\n", known, offset) + text.count("\r", known, offset) - text.count("\r\n", known, offset)
+        row -= within
+        self._counted[:] = offset, row
+        start = text.rfind("\n", 0, offset) + 1
+        start = max(start, text.rfind("\r", start, offset - within) + 1)
+        return Place(self.label, row + 1, offset - start + 1)
 
 
 def read_bytes(path: Path, label: str) -> bytes:

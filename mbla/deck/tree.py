@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from typing import Any, TypeAlias
 
 from mbla.deck.sources import SourceText
-from mbla.errors import Fault, Message, Place
+from mbla.errors import Fault, Message, Place, printable
 
 KeyPath: TypeAlias = tuple[str | int, ...]
 
@@ -144,9 +144,7 @@ def _flow_sequence(text: str) -> str | None:
 
 def shorten(text: str) -> str:
     """A text on one line, cut where it would fill the screen, with nothing in it that a terminal acts on."""
-    line = " ".join(text[: 4 * _LONGEST_VALUE].split())
-    if not line.isprintable():
-        line = "".join(character if character.isprintable() else "\ufffd" for character in line)
+    line = printable(" ".join(text[: 4 * _LONGEST_VALUE].split()))
     return line if len(line) <= _LONGEST_VALUE and len(text) <= 4 * _LONGEST_VALUE else line[: _LONGEST_VALUE - 1] + "…"
 
 

@@ -15,7 +15,7 @@ from mbla.deck.rules.exactly_one import KINDS
 from mbla.deck.suggestions import did_you_mean, listed, unknown
 from mbla.deck.tree import KeyPath, MappingMarks, SequenceMarks, Tree, own_mark
 from mbla.deck.types import DeckContent
-from mbla.errors import Fault, Message
+from mbla.errors import Fault, Message, first_faults
 
 Convert = Callable[[str, str], float]
 Root = TypeVar("Root", bound=BaseModel)
@@ -37,7 +37,7 @@ def validate(
     except ValidationError as error:
         errors = error.errors(include_url=False, include_context=True)
     around = damaged | {mark for path in _paths_of(tree, reported) for mark in tree.marks_along(path)[:-1]}
-    return None, list(_faults(tree, root, errors, reported, around))
+    return None, first_faults(_faults(tree, root, errors, reported, around))
 
 
 def _faults(

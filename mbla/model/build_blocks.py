@@ -237,7 +237,7 @@ def _bent_faces(
     polyhedra: Polyhedra, faces: FaceGeometry, sizes: FloatArray, extents: Extents, labels: Labels
 ) -> list[Notice]:
     limit = np.maximum(PLANAR * sizes, 8 * extents.rounding)[polyhedra.block_of_face]
-    bent = np.flatnonzero(faces.deviations > limit)
+    bent = np.flatnonzero((faces.deviations > limit) & (sizes > 0)[polyhedra.block_of_face])  # others are refused
     if not len(bent):
         return []
     block = polyhedra.block_of_face[bent]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
@@ -10,11 +11,12 @@ import numpy as np
 from mbla.arrays import BoolArray, IntArray
 from mbla.deck.deck import Deck
 from mbla.deck.tree import KeyPath
-from mbla.deck.types import BlockItem, Item, Material
+from mbla.deck.types import BlockItem, Item, Material, Repetition
 from mbla.deck.units import Units
 from mbla.errors import DeckError, Fault, Notice
 from mbla.model.build_blocks import Labels, indices_in_groups
 from mbla.model.generators import KINDS, generator_of
+from mbla.model.generators.amounts import refuse_too_many
 from mbla.model.generators.generator import Generated, ItemRefused, Site
 from mbla.model.labels import NONE, BlockLabels, join_labels, labels_of
 from mbla.model.model import Ground
@@ -90,6 +92,7 @@ def collect_items(deck: Deck, faults: list[Fault]) -> CollectedItems:
         entry = _Entry(number, item.group or kind, item.material, deck.contacts.joint, densities)
         try:
             generated = _generate(deck, kind, item, path)
+            _refuse_copies(item, generated, collection.n_blocks)
         except ItemRefused as refused:
             faults += [deck.fault_at((*path, *below), message) for below, message in refused.findings]
         except DeckError as error:
@@ -125,6 +128,14 @@ def _generate(deck: Deck, kind: str, item: Item, path: KeyPath) -> Generated:
         generated = generator_of(kind)(item, site)
         transform = build_transform(item.transform)
         return generated if transform is None else transform_item(generated, transform)
+
+
+def _refuse_copies(item: Item, generated: Generated, before: int) -> None:
+    """Refuse an item that with its copies, and with the blocks before it, makes more than can be handled."""
+    steps = [item.repeat] if isinstance(item.repeat, Repetition) else item.repeat
+    blocks = sum(len(part.polyhedra) for part in generated.parts) * math.prod(step.count for step in steps)
+    refuse_too_many(blocks, "repeat" if steps else (), "blocks")
+    refuse_too_many(before + blocks, (), "blocks, with those of the items before it")
 
 
 def _add_copies(collection: _Collection, generated: Generated, item: Item, entry: _Entry) -> None:

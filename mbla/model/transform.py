@@ -58,10 +58,10 @@ def repetitions(repeat: Sequence[Repetition] | Repetition) -> list[AffineMap]:
     """The map to each copy of an item, the first of which is the item itself; of steps, the last varies slowest."""
     maps = [AffineMap(np.eye(3), np.zeros(3))]
     for step in [repeat] if isinstance(repeat, Repetition) else repeat:
-        so_far = maps
+        so_far = tuple(maps)
         for copy in range(1, step.count):
             onwards = _onwards(step, copy)
-            maps = maps + [AffineMap(onwards.matrix @ each.matrix, onwards.points(each.offset)) for each in so_far]
+            maps += [AffineMap(onwards.matrix @ each.matrix, onwards.points(each.offset)) for each in so_far]
     return maps
 
 

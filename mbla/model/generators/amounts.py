@@ -20,6 +20,6 @@ def refuse_too_many(amount: float, key: str | KeyPath, what: str = "units") -> N
     """
     if amount > MOST:
         path = (key,) if isinstance(key, str) else key
-        raise ItemRefused(
-            [(path, Message("too-many-units", f"makes about {amount:.0e} {what}; at most {MOST:,} can be handled"))]
-        )
+        about = float(min(amount, 10**300))  # products of whole numbers may be too large for a number
+        words = f"makes about {about:.0e} {what}; at most {MOST:,} can be handled"
+        raise ItemRefused([(path, Message("too-many-units", words))])

@@ -46,6 +46,9 @@ def generate_mesh(item: MeshItem, site: Site) -> Generated:
     vertices = _placed(geometry, item, site)
     placed = replace(geometry, polyhedra=replace(geometry.polyhedra, vertices=vertices))
     blocks = repair(placed, site.tolerance, item.weld)
+    if not len(blocks.polyhedra):
+        words = "the file holds no blocks: nothing is left of faces without area"
+        raise ItemRefused([(("file",), Message("geometry-without-blocks", words))])
     members = [member_name(name) for name in blocks.names]
     told = (*blocks.notices, *_taken_for_granted(item, geometry, site, vertices))
     notices = tuple(replace(notice, message=f"{item.file}: {notice.message}") for notice in told)

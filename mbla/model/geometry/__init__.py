@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
+from mbla.memory_limit import can_limit, limited, written
 from mbla.model.geometry.compas_json import read_compas_json
 from mbla.model.geometry.dxf import read_dxf
 from mbla.model.geometry.geometry import Geometry, GeometryFileError
@@ -31,6 +32,32 @@ READERS: dict[str, Callable[[Path], Geometry]] = {
 """by extension, in lower case"""
 
 
+LARGEST_FILE = 1024**3
+"""bytes of a geometry file: some ten million triangles as text"""
+LEAST_MEMORY, MEMORY_PER_BYTE = 96 * 1024**2, 60
+"""bytes that reading may take: libraries believe the sizes that files announce, and unpack what is packed"""
+
+
+def _read_within_memory(reader: Callable[[Path], Geometry], path: Path) -> Geometry:
+    """What a reader gives, in memory that is in proportion to the size of the file where the system can hold it to."""
+    try:
+        size = path.stat().st_size
+    except OSError as error:
+        raise GeometryFileError("file-unreadable", f"cannot be read: {error.strerror or error}") from error
+    if size > LARGEST_FILE:
+        words = f"is larger than {LARGEST_FILE // 1024**2} MB: divide it into several files"
+        raise GeometryFileError("geometry-too-large", words)
+    most = written() + LEAST_MEMORY + MEMORY_PER_BYTE * size if can_limit() else None
+    try:
+        with limited(most):
+            return reader(path)
+    except MemoryError as error:
+        raise GeometryFileError(
+            "geometry-too-large",
+            f"needs far more memory than its {size} bytes can hold blocks for: it is damaged, or packed; export it anew",
+        ) from error
+
+
 def read_geometry(path: Path) -> Geometry:
     """What a geometry file holds, as read.
 
@@ -42,7 +69,7 @@ def read_geometry(path: Path) -> Geometry:
     reader = READERS.get(path.suffix.lower())
     if reader is None:
         raise GeometryFileError("geometry-not-read", f"unknown kind of geometry file; known are {', '.join(READERS)}")
-    geometry = reader(path)
+    geometry = _read_within_memory(reader, path)
     if not len(geometry.polyhedra):
         raise GeometryFileError(
             "geometry-without-blocks", "the file holds no blocks: no surface and no volume cell was found"

@@ -67,7 +67,7 @@ def read_compas_json(path: Path) -> Geometry:
         raise GeometryFileError("file-unreadable", f"cannot be read: {error.strerror or error}") from error
     except RecursionError as error:
         raise GeometryFileError("geometry-file", "is not a COMPAS file: its JSON is nested too deeply") from error
-    except (KeyError, IndexError, TypeError, ValueError, AttributeError) as error:
+    except (KeyError, IndexError, TypeError, ValueError, AttributeError, OverflowError) as error:
         reason = f"lacks {error}" if isinstance(error, KeyError) else str(error)
         raise GeometryFileError("geometry-file", f"is not a well-formed COMPAS JSON file: {reason}"[:300]) from error
     if found.others and not found.surfaces:

@@ -35,6 +35,8 @@ UNITS = {1: "in", 2: "ft", 4: "mm", 5: "cm", 6: "m"}
 """by $INSUNITS; others are not the deck's"""
 DEEPEST = 50
 """blocks within blocks"""
+MOST_INSERTED = 20_000
+"""blocks inserted, each as often as it is seen: blocks of blocks could stand for more than any machine holds"""
 
 
 @dataclass
@@ -61,7 +63,7 @@ def read_dxf(path: Path) -> Geometry:
     try:
         document = ezdxf.readfile(path)  # type: ignore[attr-defined]
         _collect(document, drawing)
-    except GeometryFileError:
+    except (GeometryFileError, MemoryError):
         raise
     except Exception as error:  # damaged files let all kinds of exceptions through, some when an entity is looked at
         reason = " ".join(str(getattr(error, "strerror", None) or error).split())
@@ -79,15 +81,18 @@ def read_dxf(path: Path) -> Geometry:
 def _collect(document: Any, drawing: _Drawing) -> None:
     """Curves of the drawing's model space, in its order."""
     hidden = {layer.dxf.name.lower() for layer in document.layers if layer.is_off() or layer.is_frozen()}
-    for layer, entity in _entities(document.modelspace(), None, 0):
+    for layer, entity in _entities(document.modelspace(), None, 0, [0]):
         if layer.lower() in hidden:
             drawing.hidden[layer] = drawing.hidden.get(layer, 0) + 1
         else:
             _add(drawing, layer, entity)
 
 
-def _entities(space: Any, inserted_on: str | None, depth: int) -> Iterator[tuple[str, Any]]:
-    """Entities with their layers; inside a block layer 0 means that of its reference."""
+def _entities(space: Any, inserted_on: str | None, depth: int, inserted: list[int]) -> Iterator[tuple[str, Any]]:
+    """Entities with their layers; inside a block layer 0 means that of its reference.
+
+    inserted : (1,) how many blocks were inserted so far
+    """
     for entity in space:
         layer = str(entity.dxf.get("layer", "0"))
         if layer == "0" and inserted_on is not None:
@@ -97,9 +102,12 @@ def _entities(space: Any, inserted_on: str | None, depth: int) -> Iterator[tuple
             continue
         if depth >= DEEPEST:
             raise GeometryFileError("geometry-file", "has a block that contains itself")
+        inserted[0] += max(entity.mcount, 1)
+        if inserted[0] > MOST_INSERTED:
+            raise GeometryFileError("geometry-too-large", f"inserts blocks more than {MOST_INSERTED} times")
         copies = entity.multi_insert() if entity.mcount > 1 else (entity,)
         for copy in copies:
-            yield from _entities(copy.virtual_entities(), layer, depth + 1)
+            yield from _entities(copy.virtual_entities(), layer, depth + 1, inserted)
 
 
 def _add(drawing: _Drawing, layer: str, entity: Any) -> None:

@@ -28,8 +28,6 @@ TRIANGLES, STRIP, FAN = 4, 5, 6
 """modes of primitives that are surfaces"""
 KNOWN_EXTENSIONS = ("KHR_mesh_quantization", "KHR_texture_transform", "KHR_materials", "KHR_lights_punctual")
 """required extensions that do not change the shape, or need nothing more to be read; beginnings of names"""
-DEEPEST = 1000
-"""levels of nodes; the format allows no loops, files may have them"""
 
 
 def read_gltf(path: Path) -> Geometry:
@@ -46,7 +44,7 @@ def read_gltf(path: Path) -> Geometry:
         return _geometry(document, Buffers(document, binary, path.parent))
     except OSError as error:
         raise GeometryFileError("file-unreadable", f"cannot be read: {error.strerror or error}") from error
-    except (KeyError, IndexError, TypeError, ValueError, AttributeError, struct.error) as error:
+    except (KeyError, IndexError, TypeError, ValueError, AttributeError, OverflowError, struct.error) as error:
         reason = f"lacks {error}" if isinstance(error, KeyError) else str(error)
         raise GeometryFileError("geometry-file", f"is not a well-formed glTF file: {reason}"[:300]) from error
 
@@ -126,14 +124,18 @@ def _placed_nodes(document: dict[str, Any]) -> Iterator[tuple[dict[str, Any], Fl
     else:  # a file without scenes is a library of nodes: all that are no children
         children = {child for node in nodes for child in node.get("children", [])}
         roots = [number for number in range(len(nodes)) if number not in children]
-    waiting = [(number, np.eye(4), 0) for number in reversed(roots)]
+    waiting = [(number, np.eye(4)) for number in reversed(roots)]
+    placed: set[int] = set()  # the format has trees only; without them few nodes could stand for many
     while waiting:
-        number, above, depth = waiting.pop()
-        if depth > DEEPEST or not 0 <= number < len(nodes):
-            raise ValueError(f"node {number} does not exist, or contains itself")
+        number, above = waiting.pop()
+        if not 0 <= number < len(nodes):
+            raise ValueError(f"node {number} does not exist")
+        if number in placed:
+            raise ValueError(f"node {number} is in two places, or contains itself")
+        placed.add(number)
         matrix = above @ _local_matrix(nodes[number])
         yield nodes[number], matrix
-        waiting += [(child, matrix, depth + 1) for child in reversed(nodes[number].get("children", []))]
+        waiting += [(child, matrix) for child in reversed(nodes[number].get("children", []))]
 
 
 def _local_matrix(node: dict[str, Any]) -> FloatArray:

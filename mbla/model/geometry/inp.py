@@ -8,7 +8,7 @@ knows few types of elements, and follows ``*INCLUDE`` out of the deck's folder.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -59,11 +59,14 @@ class _Card:
 
 @dataclass
 class _Content:
-    """The mesh as read: nodes by number, elements by number with type, nodes and set."""
+    """The mesh as read: nodes by number, elements by number with type, nodes and set, members of sets in their order.
+
+    Members may be ranges: a line can name more elements than any file has.
+    """
 
     nodes: dict[int, tuple[float, float, float]] = field(default_factory=dict)
     elements: dict[int, tuple[str, list[int], str]] = field(default_factory=dict)
-    sets: dict[str, list[int]] = field(default_factory=dict)
+    sets: dict[str, dict[int | range, None]] = field(default_factory=dict)
 
 
 def read_inp(path: Path) -> Geometry:
@@ -141,15 +144,15 @@ def _read_elements(content: _Content, card: _Card) -> None:
 
 def _read_set(content: _Content, card: _Card) -> None:
     """Members of ``*ELSET``: numbers, ranges with GENERATE, or names of earlier sets."""
-    members = content.sets.setdefault(card.options.get("ELSET", ""), [])
+    members = content.sets.setdefault(card.options.get("ELSET", ""), {})
     for number, fields in card.data:
         try:
             if "GENERATE" in card.options:
                 first, last, *step = (int(each) for each in fields)
-                members += range(first, last + 1, step[0] if step else 1)
+                members[range(first, last + 1, step[0] if step else 1)] = None
                 continue
             for each in fields:
-                members += [int(each)] if each.isdigit() else content.sets.get(each, [])
+                members.update({int(each): None} if each.isdigit() else content.sets.get(each, {}))
         except ValueError as error:
             raise _unreadable(number, error) from error
 
@@ -188,7 +191,7 @@ def _node_count(kind: str) -> int | None:
 
 def _set_of_elements(content: _Content) -> dict[int, str]:
     """Name of the smallest set that each element is in; of equal ones that of an ``*ELSET`` card."""
-    sets: dict[tuple[bool, str], list[int]] = {(True, name): members for name, members in content.sets.items()}
+    sets = {(True, name): _elements_in(members, content) for name, members in content.sets.items()}
     for number, (_, _, name) in content.elements.items():
         if name:
             sets.setdefault((False, name), []).append(number)
@@ -196,6 +199,20 @@ def _set_of_elements(content: _Content) -> dict[int, str]:
     for (_, name), members in sorted(sets.items(), key=lambda item: (-len(item[1]), item[0][0])):
         names.update(dict.fromkeys(members, name))
     return names
+
+
+def _elements_in(members: Mapping[int | range, None], content: _Content) -> list[int]:
+    """Elements of the file that a set names."""
+    found: dict[int, None] = {}
+    for each in members:
+        if isinstance(each, int):
+            named: Iterable[int] = (each,)
+        elif (each.stop - each.start) // each.step <= len(content.elements):
+            named = each
+        else:
+            named = (number for number in content.elements if number in each)
+        found.update((number, None) for number in named if number in content.elements)
+    return list(found)
 
 
 def _solids(

@@ -111,6 +111,8 @@ def _mesh(source: str | io.BytesIO, file_format: str) -> tuple[Any, list[Notice]
         with contextlib.redirect_stdout(printed), contextlib.redirect_stderr(printed), np.errstate(all="ignore"):
             # the reader itself: meshio.read prints, and ends the program, where a file is malformed
             mesh = getattr(meshio, file_format).read(source)
+    except MemoryError:
+        raise
     except OSError as error:
         raise GeometryFileError("file-unreadable", f"cannot be read: {error.strerror or error}") from error
     except (Exception, SystemExit) as error:  # the readers let all kinds of exceptions through

@@ -29,7 +29,9 @@ def read_stl(path: Path) -> Geometry:
     except OSError as error:
         raise GeometryFileError("file-unreadable", f"cannot be read: {error.strerror or error}") from error
     n_triangles = int.from_bytes(content[80:HEADER], "little") if len(content) >= HEADER else -1
-    if len(content) == HEADER + TRIANGLE * n_triangles:  # binary headers may begin with "solid", too
+    if (
+        n_triangles >= 0 and len(content) == HEADER + TRIANGLE * n_triangles
+    ):  # binary headers may begin with "solid", too
         return _geometry([_triangles(content)], [""])
     if content.lstrip()[:5].lower() == b"solid":
         return _solids(content.decode("utf-8", errors="replace"))

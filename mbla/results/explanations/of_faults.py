@@ -26,6 +26,18 @@ OF_TEXTS = (
         "Put large geometry into a mesh or a table file and name it in the deck.",
     ),
     refused(
+        "too-many-faults",
+        "More is wrong than is worth telling.",
+        "Mostly a file of another kind, or one mistake in many generated items.",
+        "Mend the first faults, or what wrote the file, and read it again: the others are told then.",
+    ),
+    refused(
+        "too-many-files",
+        "A deck includes more files than are read.",
+        "A generated list, or a pattern that matched a whole folder.",
+        "Put what belongs together into one file.",
+    ),
+    refused(
         "nested-too-deeply",
         "Lists or mappings lie in each other at more levels than any deck needs.",
         "Unbalanced brackets, or a file that is no deck.",
@@ -268,6 +280,13 @@ OF_TABLES = (
         "A geometry file holds nothing that makes a block.",
         "It has points, lines or parametric shapes only.",
         "Export surfaces or volume cells; convert shapes to meshes.",
+    ),
+    refused(
+        "geometry-too-large",
+        "A geometry file is larger, or asks for more memory, than blocks of its size need.",
+        "A damaged header that announces more than the file holds, numbers of nodes without end, insertions without "
+        "number, or a model of many gigabytes.",
+        "Export it anew, without packing; divide a large model into several files.",
     ),
     refused(
         "geometry-not-read",

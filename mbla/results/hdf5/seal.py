@@ -40,18 +40,20 @@ def check_seal(path: Path) -> None:
     """
     with path.open("rb") as file:
         if file.read(len(HDF5_SIGNATURE)) != HDF5_SIGNATURE:
-            raise FileError(f"{path}: not an HDF5 file")
+            raise FileError("damaged-result-file", f"{path}: not an HDF5 file")
         length = file.seek(0, os.SEEK_END) - SEAL_BYTES
         file.seek(max(length, 0))
         seal = file.read(SEAL_BYTES + 1)
         if length < 0 or not seal.startswith(LABEL):
             raise FileError(
+                "damaged-result-file",
                 f"{path}: no check sum at its end: cut off or changed since it was written, of a layout before "
-                "version 5, or not an mbla result file: run the deck again"
+                "version 5, or not an mbla result file: run the deck again",
             )
         if seal != _seal(_digest(file, length)):
             raise FileError(
-                f"{path}: damaged or changed since it was written, its check sum does not fit: run the deck again"
+                "damaged-result-file",
+                f"{path}: damaged or changed since it was written, its check sum does not fit: run the deck again",
             )
 
 

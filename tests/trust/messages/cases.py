@@ -27,6 +27,7 @@ from mbla.errors import DeckError, Fault, Place
 from mbla.given_deck import refuse_unfit_name
 from mbla.model import build_model
 from mbla.model.build_blocks import blocks_from_polyhedra
+from mbla.results import lock as journal_lock
 from mbla.results.hdf5.result_file import write_results_hdf5
 from mbla.results.notebook import run
 from mbla.results.notebook.run import Run
@@ -44,7 +45,6 @@ from mbla.solution.settings import SolverSettings
 from mbla.studies.sweep.engine.connection import Connection, refuse_missing
 from mbla.studies.sweep.engine.options import EngineOptions
 from mbla.studies.sweep.journal import Journal
-from mbla.results import lock as journal_lock
 from mbla.studies.sweep.pictures.plot import SweepPictures, plot_sweep
 from mbla.studies.sweep.worker import child
 from mbla.studies.sweep.worker.supervised import SupervisedRunner

@@ -15,7 +15,7 @@ from mbla.deck.suggestions import unknown
 from mbla.deck.tree import Tree
 from mbla.deck.units import Units
 from mbla.deck.validation import validate
-from mbla.errors import DeckError, Fault, Message, ValueRefused
+from mbla.errors import DeckError, Fault, Message, ValueRefused, first_faults
 from mbla.studies.sweep.file import design_rules as design_rules
 from mbla.studies.sweep.file import rules as rules
 from mbla.studies.sweep.file.content import SweepContent
@@ -59,7 +59,7 @@ def _read(path: Path, overrides: Sequence[str]) -> Sweep:
     content, faults = validate(tree, SweepContent, _number, reading.reported, reading.damaged)
     faults += reading.faults
     seen = {(fault.place, fault.key) for fault in faults}
-    faults += [fault for fault in _unknown_parameters(tree) if (fault.place, fault.key) not in seen]
+    faults += [fault for fault in first_faults(_unknown_parameters(tree)) if (fault.place, fault.key) not in seen]
     if content is None or faults:
         raise DeckError(list(dict.fromkeys(faults)))
     text = reading.sources[0].text

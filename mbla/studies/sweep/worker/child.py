@@ -22,12 +22,12 @@ from typing import IO, Any
 
 from mbla.errors import UsageError
 from mbla.failures import words_of
+from mbla.memory_limit import can_limit, limited, written
 from mbla.studies.measuring_process import import_everything
 from mbla.studies.peak_memory import resident
 from mbla.studies.sweep.fingerprint import fingerprint_of
 from mbla.studies.sweep.plan import Plan
 from mbla.studies.sweep.program import program_identity
-from mbla.studies.sweep.worker.memory_limit import can_limit, limited, written
 from mbla.studies.sweep.worker.messages import plan_of, record_of, task_of
 from mbla.studies.sweep.worker.runner import PointRunner
 

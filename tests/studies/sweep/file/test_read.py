@@ -150,7 +150,7 @@ def test_a_huge_file_is_not_read(tmp_path: Path) -> None:
     path = tmp_path / "sweep.yaml"
     with path.open("wb") as file:
         file.truncate(64 * 1024 * 1024 + 1)
-    with pytest.raises(DeckError, match="is larger than 64 MB: say values as ranges or samples, or divide it"):
+    with pytest.raises(DeckError, match="is larger than 16 MB: say values as ranges or samples, or divide it"):
         read_sweep(path)
 
 

@@ -1,7 +1,7 @@
-"""A limit on the memory of this process while a point is solved.
+"""A limit on the memory of this process while a point is solved, or a file is read by a library that sets none.
 
 The limit is on what can be written (RLIMIT_DATA: heap and private mappings, Linux since 4.7; getrlimit(2)), above what
-the process holds with the base deck. An allocation beyond it fails: Python then raises MemoryError, some libraries
+the process holds before. An allocation beyond it fails: Python then raises MemoryError, some libraries
 abort. Addresses that are only reserved, and pages of files, do not count, as they do with RLIMIT_AS.
 """
 

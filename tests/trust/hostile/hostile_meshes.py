@@ -1,0 +1,229 @@
+"""Geometry files of every format that announce more than they hold, unpack to more than fits, or lead elsewhere."""
+
+from __future__ import annotations
+
+import base64
+import json
+import struct
+import zlib
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+from tests.trust.hostile.case import Case, deck
+from tests.trust.hostile.samples import MESHES, NAMED_DECK, gltf_document
+
+MEGABYTE = 1024 * 1024
+
+
+def mesh(name: str, extension: str, content: bytes | str, **files: bytes | str) -> Case:
+    """A deck that names a hostile geometry file."""
+    more = ", extrude: 1" if extension == "dxf" else ""
+    text = NAMED_DECK.format(file=f"mesh.{extension}", more=more)
+    written: dict[str, Any] = {f"mesh__{extension}": content, **files}
+    return deck(f"{extension}: {name}", text, **written)
+
+
+def changed_gltf(change: Callable[[Any], object]) -> str:
+    """The document of a cube, changed."""
+    document = gltf_document()
+    change(document)
+    return json.dumps(document)
+
+
+def _packed_vtu() -> bytes:
+    """A file whose coordinates are zeros, 2 GB of them, packed into 2 MB."""
+    block, count = 2**24, 128
+    packed = zlib.compress(bytes(block), 9)
+    header = struct.pack("<3I", count, block, 0) + struct.pack("<I", len(packed)) * count
+    data = base64.b64encode(header) + base64.b64encode(packed * count)
+    points = count * block // 24
+    return (
+        b'<VTKFile type="UnstructuredGrid" version="0.1" byte_order="LittleEndian" compressor="vtkZLibDataCompressor">'
+        b'<UnstructuredGrid><Piece NumberOfPoints="%d" NumberOfCells="1"><Points>'
+        b'<DataArray type="Float64" NumberOfComponents="3" format="binary">%s</DataArray></Points><Cells>'
+        b'<DataArray type="Int64" Name="connectivity" format="ascii">0 1 2 3</DataArray>'
+        b'<DataArray type="Int64" Name="offsets" format="ascii">4</DataArray>'
+        b'<DataArray type="Int64" Name="types" format="ascii">10</DataArray></Cells></Piece>'
+        b"</UnstructuredGrid></VTKFile>" % (points, data)
+    )
+
+
+ENTITIES = (
+    '<!DOCTYPE d [<!ENTITY a "0 0 0 0 0 0 0 0 0 0">'
+    + "".join(f"<!ENTITY {b} '{f'&{a};' * 10}'>" for a, b in zip("abcdefghi", "bcdefghij", strict=True))
+    + ']><VTKFile type="UnstructuredGrid" version="0.1">&j;</VTKFile>'
+)
+OUTSIDE = (
+    '<!DOCTYPE d [<!ENTITY a SYSTEM "file:///etc/passwd">]><VTKFile type="UnstructuredGrid" version="0.1">&a;</VTKFile>'
+)
+NODE = "*NODE\n1, 0, 0, 0\n"
+DOUBLED = NODE + "*ELEMENT, TYPE=C3D4\n1, 1, 1, 1, 1\n*ELSET, ELSET=a\n1\n" + "*ELSET, ELSET=a\na, a\n" * 200
+PLY = "ply\nformat {} 1.0\nelement vertex {}\nproperty {} x\nproperty {} y\nproperty {} z\n{}end_header\n"
+FACES = "element face 1000000000\nproperty list uchar int vertex_indices\n"
+
+
+def _dxf(entities: str, blocks: str = "") -> str:
+    sections = (("BLOCKS", blocks), ("ENTITIES", entities))
+    return "".join(f"0\nSECTION\n2\n{name}\n{text}0\nENDSEC\n" for name, text in sections) + "0\nEOF\n"
+
+
+def _insert(block: str, columns: int = 1, rows: int = 1) -> str:
+    return f"0\nINSERT\n8\n0\n2\n{block}\n10\n0\n20\n0\n30\n0\n70\n{columns}\n71\n{rows}\n44\n2\n45\n2\n"
+
+
+def _block(name: str, content: str) -> str:
+    return f"0\nBLOCK\n8\n0\n2\n{name}\n70\n0\n10\n0\n20\n0\n30\n0\n3\n{name}\n1\n\n{content}0\nENDBLK\n8\n0\n"
+
+
+SQUARE = "0\nLWPOLYLINE\n8\n0\n90\n4\n70\n1\n10\n0\n20\n0\n10\n1\n20\n0\n10\n1\n20\n1\n10\n0\n20\n1\n"
+LEVELS = "".join(_block(f"b{n}", _insert(f"b{n + 1}") * 10) for n in range(12)) + _block("b12", SQUARE)
+LINES = "".join(
+    f"0\nLINE\n8\n0\n10\n{x0}\n20\n{y0}\n30\n0\n11\n{x1}\n21\n{y1}\n31\n0\n"
+    for n in range(1500)
+    for x0, y0, x1, y1 in ((n, 0, n, 1500), (0, n, 1500, n))
+)
+"""3,000 lines enclose more than two million fields"""
+
+
+def _of_blanks(extension: str, size: int) -> Case:
+    def write(folder: Path) -> None:
+        more = ", extrude: 1" if extension == "dxf" else ""
+        (folder / "deck.yaml").write_text(NAMED_DECK.format(file=f"mesh.{extension}", more=more), encoding="utf-8")
+        with (folder / f"mesh.{extension}").open("wb") as file:
+            file.truncate(size)
+
+    return Case(f"{extension}: {size:.0e} bytes of zeros", write)
+
+
+def _nested(depth: int) -> str:
+    return '{"a":' * depth + "1" + "}" * depth
+
+
+CASES = [
+    *(mesh("empty", extension, b"") for extension in MESHES),
+    *(mesh("zeros", extension, bytes(1000)) for extension in MESHES),
+    *(mesh("all bytes", extension, bytes(range(256)) * 40) for extension in MESHES),
+    *(mesh("cut in half", extension, content[: len(content) // 2]) for extension, content in MESHES.items()),
+    *(_of_blanks(extension, 2 * 1024**3) for extension in MESHES),
+    *(mesh("escape sequences", extension, b"\x1b[2J\x1b]0;x\x07 " * 100) for extension in MESHES),
+    mesh("a vertex that does not exist", "obj", "v 0 0 0\nf 1 2 3\n"),
+    mesh("a vertex far away", "obj", "v 0 0 0\nf 99999999999999999999 1 1\n"),
+    mesh("a vertex of 5,000 digits", "obj", f"v 0 0 0\nf {'9' * 5000} 1 1\n"),
+    mesh("coordinates of infinity", "obj", MESHES["obj"].replace(b"v 0.0 0.0 0.0", b"v inf nan 1e999")),
+    mesh("a line of 10 MB", "obj", b"v 0 0 0\nf " + b"1 " * (5 * MEGABYTE)),
+    mesh("3,000,000 continued lines", "obj", b"v 0 0 0 \\\n" * 300_000),
+    mesh("100,000 objects of nothing", "obj", b"o x\nv 0 0 0\n" * 100_000),
+    mesh("10^12 triangles announced", "stl", bytes(80) + struct.pack("<I", 2**32 - 1) + bytes(50)),
+    mesh("34 bytes", "stl", bytes(34)),
+    mesh("a solid without end", "stl", b"solid x\n" + b"vertex 0 0 0\n" * 100_000),
+    mesh("10^12 vertices announced", "ply", PLY.format("ascii", 10**12, *["float"] * 3, FACES)),
+    mesh("10^12 binary vertices announced", "ply", PLY.format("binary_little_endian", 10**12, *["double"] * 3, "")),
+    mesh("10^9 binary vertices announced", "ply", PLY.format("binary_little_endian", 10**9, *["double"] * 3, "")),
+    mesh("a negative number of vertices", "ply", PLY.format("ascii", -5, *["float"] * 3, FACES)),
+    mesh(
+        "a list of 4 billion corners",
+        "ply",
+        PLY.format(
+            "binary_little_endian", 0, *["float"] * 3, "element face 1\nproperty list uint int vertex_indices\n"
+        ).encode()
+        + b"\xff" * 8,
+    ),
+    mesh("a header without end", "ply", b"ply\n" + b"comment x\n" * 100_000),
+    mesh("2 GB of zeros packed", "vtu", _packed_vtu()),
+    mesh("entities of entities", "vtu", ENTITIES),
+    mesh("an entity outside", "vtu", OUTSIDE),
+    mesh("nested elements", "vtu", "<a>" * 200_000),
+    mesh(
+        "10^12 points announced",
+        "vtu",
+        MESHES["vtu"]
+        .replace(b'NumberOfPoints="8"', b'NumberOfPoints="1000000000000"')
+        .replace(b'NumberOfCells="1"', b'NumberOfCells="1000000000000"')
+        .replace(b"ascii", b"appended"),
+    ),
+    mesh("a point tag of 10^10", "msh", MESHES["msh"].replace(b"\n8\n", b"\n9999999999\n")),
+    mesh(
+        "10^12 nodes announced",
+        "msh",
+        b"$MeshFormat\n4.1 1 8\n"
+        + struct.pack("<i", 1)
+        + b"\n$EndMeshFormat\n$Nodes\n"
+        + struct.pack("<4Q", 1, 10**12, 1, 10**12)
+        + struct.pack("<3iQ", 3, 1, 0, 10**12)
+        + b"\n$EndNodes\n",
+    ),
+    mesh(
+        "10^12 nodes announced in an old file",
+        "msh",
+        b"$MeshFormat\n2.2 1 8\n" + struct.pack("<i", 1) + b"\n$EndMeshFormat\n$Nodes\n1000000000000\n",
+    ),
+    mesh("a section without end", "msh", b"$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Comments\n" + b"x\n" * 100_000),
+    mesh("an inclusion", "inp", "*INCLUDE, INPUT=/etc/passwd\n"),
+    mesh("a set of 10^12 elements", "inp", NODE + "*ELSET, ELSET=a, GENERATE\n1, 1000000000000, 1\n"),
+    mesh(
+        "a set of 10^40 elements",
+        "inp",
+        NODE + f"*ELEMENT, TYPE=S3\n1, 1, 1, 1\n*ELSET, ELSET=a, GENERATE\n1, {10**40}, 1\n",
+    ),
+    mesh("a set that doubles itself 200 times", "inp", DOUBLED),
+    mesh("an element of one line of 10 MB", "inp", NODE + "*ELEMENT, TYPE=C3D8\n" + "1, " * (3 * MEGABYTE)),
+    mesh("100,000 nodes without a number", "inp", "*NODE\n" + ",,,\n" * 100_000),
+    mesh("nested JSON", "gltf", _nested(100_000)),
+    mesh(
+        "nodes that double 60 times",
+        "gltf",
+        changed_gltf(lambda d: d.update(nodes=[*({"children": [n + 1, n + 1]} for n in range(60)), {"mesh": 0}])),
+    ),
+    mesh("nodes in a circle", "gltf", changed_gltf(lambda d: d.update(nodes=[{"children": [0], "mesh": 0}]))),
+    mesh(
+        "an accessor of 2 billion zeros",
+        "gltf",
+        changed_gltf(lambda d: d["accessors"][0].update(count=2**31 - 1) or d["accessors"][0].pop("bufferView")),
+    ),
+    mesh("a count as large as numbers go", "gltf", changed_gltf(lambda d: d["accessors"][0].update(count=10**30))),
+    mesh("a negative stride", "gltf", changed_gltf(lambda d: d["bufferViews"][0].update(byteStride=-(2**40)))),
+    mesh("a negative offset", "gltf", changed_gltf(lambda d: d["bufferViews"][0].update(byteOffset=-(2**62)))),
+    mesh("a buffer outside", "gltf", changed_gltf(lambda d: d["buffers"][0].update(uri="../../../../etc/passwd"))),
+    mesh(
+        "a buffer on the network",
+        "gltf",
+        changed_gltf(lambda d: d["buffers"][0].update(uri="https://example.org/a.bin")),
+    ),
+    mesh("a buffer that is a device", "gltf", changed_gltf(lambda d: d["buffers"][0].update(uri="/dev/zero"))),
+    mesh("a buffer with a NUL", "gltf", changed_gltf(lambda d: d["buffers"][0].update(uri="a%00b"))),
+    mesh("a buffer with a name of 10 kB", "gltf", changed_gltf(lambda d: d["buffers"][0].update(uri="x" * 10_000))),
+    mesh(
+        "a compression that is required",
+        "gltf",
+        changed_gltf(lambda d: d.update(extensionsRequired=["KHR_draco_mesh_compression"])),
+    ),
+    mesh("a chunk of 4 GB", "glb", struct.pack("<5I", 0x46546C67, 2, 2**32 - 1, 2**32 - 1, 0x4E4F534A)),
+    mesh("chunks without content", "glb", struct.pack("<3I", 0x46546C67, 2, 100) + struct.pack("<2I", 0, 7) * 500_000),
+    mesh("nested JSON", "json", _nested(100_000)),
+    mesh("nested lists", "json", "[" * 1_000_000),
+    mesh("an integer of 1,000,000 digits", "json", '{"vertex": {"0": {"x": ' + "9" * 1_000_000 + '}}, "face": {}}'),
+    mesh("an integer of 400 digits", "json", '{"vertex": {"0": {"x": ' + "9" * 400 + '}}, "face": {"0": [0, 0, 0]}}'),
+    mesh(
+        "an elements tree in a circle",
+        "json",
+        '{"elements": {"a": {}, "b": {}}, "tree": {"root": {"children": [{"element": "a", '
+        '"children": [{"element": "b", "children": [{"element": "a"}]}]}]}}}',
+    ),
+    mesh(
+        "a transformation of words",
+        "json",
+        MESHES["json"].replace(b'"face"', b'"transformation": {"matrix": [["x"]]}, "face"'),
+    ),
+    mesh("a block in itself", "dxf", _dxf(_insert("a"), _block("a", _insert("a") + SQUARE))),
+    mesh("blocks of ten blocks, twelve levels", "dxf", _dxf(_insert("b0"), LEVELS)),
+    mesh("a block inserted 10^9 times", "dxf", _dxf(_insert("a", 32000, 32000), _block("a", SQUARE))),
+    mesh("3,000 lines that cross", "dxf", _dxf(LINES)),
+    mesh("coordinates of infinity", "dxf", _dxf(SQUARE.replace("10\n1\n", "10\ninf\n"))),
+    mesh(
+        "an ellipse of nothing",
+        "dxf",
+        _dxf("0\nELLIPSE\n8\n0\n10\n0\n20\n0\n30\n0\n11\n0\n21\n0\n31\n0\n40\n0\n41\n0\n42\n1e300\n"),
+    ),
+]
+"""All of them."""

@@ -1,0 +1,180 @@
+"""Small valid files of every kind, from which hostile and random ones are made."""
+
+from __future__ import annotations
+
+import base64
+import io
+import json
+import struct
+from collections.abc import Sequence
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+import ezdxf
+import meshio
+import numpy as np
+
+from tests.line import BLOCK, WALL
+
+ROOT = Path(__file__).parents[3]
+
+POINTS = [[x, y, z] for z in (0.0, 1.0) for y in (0.0, 1.0) for x in (0.0, 1.0)]
+"""corners of a cube"""
+QUADS = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]]
+TRIANGLES = [[a, b, c] for p, q, r, s in QUADS for a, b, c in ((p, q, r), (p, r, s))]
+HEXAHEDRON = [0, 1, 3, 2, 4, 5, 7, 6]
+
+NAMED_DECK = """\
+mbla: 1
+materials: {{stone: {{density: 2000}}}}
+joints: {{dry: {{friction: 0.6}}}}
+blocks: [{{mesh: {{group: stone, material: stone, file: {file}{more}}}}}]
+contacts: {{joint: dry}}
+supports: [{{ground: {{z: 0}}}}]
+load_cases: {{push: {{live: [{{acceleration: [1, 0, 0]}}]}}}}
+"""
+"""A deck around a geometry file: ``file`` its name, ``more`` keys of its item."""
+
+SWEEP = """\
+mbla_sweep: 1
+title: friction and length
+deck: deck.yaml
+set: {analysis.flow_rule: associative}
+parameters:
+  mu: {key: joints.dry.friction, normal: {mean: 0.65, deviation: 0.08, min: 0.3}}
+  n: {key: parameters.n, values: [2, 3]}
+design:
+  - random: {of: [mu], points: 4, seed: 1}
+  - grid: {of: [n]}
+results: [status, load_factor]
+"""
+
+
+def _obj() -> bytes:
+    lines = ["o stone", *(f"v {x} {y} {z}" for x, y, z in POINTS)]
+    lines += [f"f {' '.join(str(corner + 1) for corner in face)}" for face in QUADS]
+    return ("\n".join(lines) + "\n").encode()
+
+
+def _stl() -> bytes:
+    facets = "".join(
+        "facet normal 0 0 0\nouter loop\n"
+        + "".join("vertex {} {} {}\n".format(*POINTS[corner]) for corner in triangle)
+        + "endloop\nendfacet\n"
+        for triangle in TRIANGLES
+    )
+    return f"solid stone\n{facets}endsolid stone\n".encode()
+
+
+def binary_stl() -> bytes:
+    """The cube as binary STL."""
+    records = [struct.pack("<12fH", 0, 0, 0, *np.ravel([POINTS[c] for c in t]), 0) for t in TRIANGLES]
+    return b"\0" * 80 + struct.pack("<I", len(records)) + b"".join(records)
+
+
+def written_by_meshio(extension: str, cells: Sequence[tuple[str, list[list[int]]]], **options: object) -> bytes:
+    """A file of the cube as meshio writes it."""
+    with TemporaryDirectory() as folder:
+        path = Path(folder) / f"cube.{extension}"
+        meshio.write(path, meshio.Mesh(np.array(POINTS), list(cells)), **options)
+        return path.read_bytes()
+
+
+def _inp() -> bytes:
+    nodes = "\n".join(f"{n}, {x}, {y}, {z}" for n, (x, y, z) in enumerate(POINTS, start=1))
+    corners = ", ".join(str(corner + 1) for corner in HEXAHEDRON)
+    text = f"*NODE\n{nodes}\n*ELEMENT, TYPE=C3D8, ELSET=stones\n1, {corners}\n*ELSET, ELSET=all, GENERATE\n1, 1, 1\n"
+    return text.encode()
+
+
+def gltf_document() -> dict[str, object]:
+    """A document of the cube with its buffer in it."""
+    points, rows = np.array(POINTS, "<f4").tobytes(), np.array(TRIANGLES, "<u2").tobytes()
+    data = base64.b64encode(points + rows).decode()
+    return {
+        "asset": {"version": "2.0"},
+        "scene": 0,
+        "scenes": [{"nodes": [0]}],
+        "nodes": [{"name": "stone", "mesh": 0, "children": [1]}, {"translation": [2, 0, 0], "mesh": 0}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
+        "accessors": [
+            {"bufferView": 0, "componentType": 5126, "count": 8, "type": "VEC3"},
+            {"bufferView": 1, "componentType": 5123, "count": 36, "type": "SCALAR"},
+        ],
+        "bufferViews": [
+            {"buffer": 0, "byteLength": len(points)},
+            {"buffer": 0, "byteOffset": len(points), "byteLength": len(rows)},
+        ],
+        "buffers": [{"byteLength": len(points) + len(rows), "uri": f"data:application/octet-stream;base64,{data}"}],
+    }
+
+
+def _glb() -> bytes:
+    document = gltf_document()
+    buffer = np.array(POINTS, "<f4").tobytes() + np.array(TRIANGLES, "<u2").tobytes()
+    document["buffers"] = [{"byteLength": len(buffer)}]
+    text = json.dumps(document).encode()
+    text += b" " * (-len(text) % 4)
+    chunks = struct.pack("<II", len(text), 0x4E4F534A) + text + struct.pack("<II", len(buffer), 0x004E4942) + buffer
+    return struct.pack("<III", 0x46546C67, 2, 12 + len(chunks)) + chunks
+
+
+def _compas() -> bytes:
+    vertex = {str(n): {"x": x, "y": y, "z": z} for n, (x, y, z) in enumerate(POINTS)}
+    mesh = {"vertex": vertex, "face": {str(n): face for n, face in enumerate(QUADS)}}
+    return json.dumps([{"dtype": "compas.datastructures/Mesh", "data": mesh, "name": "stone"}]).encode()
+
+
+def _dxf() -> bytes:
+    drawing = ezdxf.new()  # type: ignore[attr-defined]
+    stone = drawing.blocks.new("stone")
+    stone.add_lwpolyline([(0, 0), (1, 0), (1, 1), (0, 1)], close=True)
+    space = drawing.modelspace()
+    space.add_blockref("stone", (0, 0))
+    space.add_circle((3, 1), 1)
+    text = io.StringIO()
+    drawing.write(text)
+    return text.getvalue().encode()
+
+
+HEXAHEDRA = [("hexahedron", [HEXAHEDRON])]
+FACES = [("triangle", TRIANGLES)]
+MESHES: dict[str, bytes] = {
+    "obj": _obj(),
+    "ply": written_by_meshio("ply", FACES, binary=False),
+    "stl": _stl(),
+    "vtu": written_by_meshio("vtu", HEXAHEDRA, binary=False),
+    "msh": written_by_meshio("msh", HEXAHEDRA, file_format="gmsh", binary=False),
+    "inp": _inp(),
+    "gltf": json.dumps(gltf_document()).encode(),
+    "glb": _glb(),
+    "json": _compas(),
+    "dxf": _dxf(),
+}
+"""A valid file of every format that decks can name, by extension."""
+BINARY_MESHES: list[tuple[str, bytes]] = [
+    ("stl", binary_stl()),
+    ("ply", written_by_meshio("ply", FACES, binary=True)),
+    ("vtu", written_by_meshio("vtu", HEXAHEDRA, binary=True)),
+    ("msh", written_by_meshio("msh", HEXAHEDRA, file_format="gmsh", binary=True)),
+]
+
+
+def small_files(folder: Path, largest: int = 1500) -> list[bytes]:
+    """Contents of the YAML files in a folder tree that are small enough to be changed often."""
+    return [path.read_bytes() for path in sorted(folder.rglob("*.yaml")) if path.stat().st_size <= largest]
+
+
+def seeds() -> list[tuple[str, bytes]]:
+    """Kind and content of files to begin with: samples, the decks of the program, and those that it refuses."""
+    sweeps = [*small_files(ROOT / "decks" / "sweeps"), *small_files(ROOT / "tests" / "invalid_sweeps")]
+    decks = [*small_files(ROOT / "decks"), *small_files(ROOT / "tests" / "invalid_decks")]
+    return [
+        ("deck", BLOCK.encode()),
+        ("deck", WALL.encode()),
+        ("sweep", SWEEP.encode()),
+        *MESHES.items(),
+        *BINARY_MESHES,
+        *(("sweep", content) for content in sweeps if b"mbla_sweep" in content),
+        *(("deck", content) for content in decks if b"mbla_sweep" not in content),
+    ]

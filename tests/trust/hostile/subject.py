@@ -1,0 +1,111 @@
+"""What is fuzzed: reading a file of some kind, the model and the contacts, as ``mbla check`` does; solving nothing."""
+
+from __future__ import annotations
+
+import signal
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from types import FrameType
+from typing import Any
+
+from mbla.check import check
+from mbla.deck import read_deck
+from mbla.errors import DeckError, MblaError
+from mbla.model.generators import amounts
+from mbla.run_options import RunOptions
+from mbla.studies.sweep.command import SweepOptions, prepare
+from mbla.studies.sweep.file.read import read_sweep
+from tests.line import WALL
+from tests.trust.hostile.samples import MESHES, NAMED_DECK
+
+KINDS = ("deck", "sweep", *MESHES)
+"""kinds of files: decks, sweep files, and geometry files by their extension"""
+LONGEST = 5.0
+"""seconds of processor time that reading a file may take"""
+FEW_BLOCKS = 300
+"""what the program allows here in the place of millions: whatever it lets through is then small"""
+
+
+class Hang(BaseException):
+    """Not an Exception: nothing in the program may take it for one of its own."""
+
+
+class Broken(AssertionError):
+    """The program answered, but not as it promises."""
+
+
+def prepare_folder(folder: Path) -> None:
+    """Put the files there that decks and sweep files of the samples name."""
+    (folder / "deck.yaml").write_text(WALL, encoding="utf-8")
+    (folder / "stone.obj").write_bytes(MESHES["obj"])
+
+
+def give(kind: str, content: bytes, folder: Path) -> str:
+    """Let the program read a file; how it ended: ``accepted``, or the name of the error that it raised on purpose.
+
+    Raises
+    ------
+    Hang
+        if that takes longer than ``LONGEST``
+    Exception
+        anything that the program should not raise
+    """
+    path = folder / f"given.{'yaml' if kind in ('deck', 'sweep') else kind}"
+    path.write_bytes(content)
+    named = path
+    if kind not in ("deck", "sweep"):
+        named = folder / "names.yaml"
+        named.write_text(NAMED_DECK.format(file=path.name, more=", extrude: 1" if kind == "dxf" else ""))
+    try:
+        with small_amounts(), limited():
+            if kind == "sweep":
+                prepare(read_sweep(named), SweepOptions())
+            else:
+                check(read_deck(named), RunOptions(), False, time.perf_counter())
+    except DeckError as error:
+        _check_lines(error)
+        return type(error).__name__
+    except MblaError as error:
+        return type(error).__name__
+    return "accepted"
+
+
+def _check_lines(error: DeckError) -> None:
+    """One printable line for each fault, with its place."""
+    if not error.faults:
+        raise Broken("a deck is refused without a fault")
+    for fault in error.faults:
+        text = str(fault)
+        if not text.isprintable() or len(text) > 2000:
+            raise Broken(f"a fault is not one printable line: {text[:3000]!r}")
+        if fault.place.line < 1 or fault.place.column < 1:
+            raise Broken(f"a fault has no place: {text}")
+
+
+@contextmanager
+def small_amounts() -> Iterator[None]:
+    """Let the program refuse small amounts of blocks already, by the limit that is its own."""
+    usual = amounts.MOST
+    amounts.MOST = FEW_BLOCKS
+    try:
+        yield
+    finally:
+        amounts.MOST = usual
+
+
+@contextmanager
+def limited(seconds: float = LONGEST) -> Iterator[None]:
+    """Raise ``Hang`` in what takes longer, in processor time."""
+
+    def hang(number: int, frame: FrameType | None) -> Any:
+        raise Hang(f"more than {seconds} s of processor time")
+
+    before = signal.signal(signal.SIGPROF, hang)
+    signal.setitimer(signal.ITIMER_PROF, seconds)
+    try:
+        yield
+    finally:
+        signal.setitimer(signal.ITIMER_PROF, 0)
+        signal.signal(signal.SIGPROF, before)
