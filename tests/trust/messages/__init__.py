@@ -1,1 +1,1 @@
-"""Every error has a stable identifier, a test with its exact text and place, and an entry in ``mbla explain``."""
+"""No error without a stable identifier; each identifier is explained, and tested by at least one exact text."""
