@@ -169,7 +169,7 @@ def first_faults(faults: Iterable[Fault]) -> list[Fault]:
     told = list(islice(faults, MOST_FAULTS + 1))
     if len(told) > MOST_FAULTS:
         words = f"more faults follow: only the first {MOST_FAULTS} are told"
-        told[-1] = Fault(told[-1].place, "", Message("too-many-faults", words))
+        told[-1] = Fault(told[-1].place, "", Message("more-faults", words))
     return told
 
 

@@ -6,6 +6,7 @@ import os
 from pathlib import Path
 
 from mbla.errors import FileError
+from mbla.results.disk import file_errors
 from mbla.results.whole_file import write_whole
 
 
@@ -16,7 +17,8 @@ def write_starter(name: str, *, replace: bool) -> Path:
         raise FileError("file-missing", f"{path}: there is no folder {path.parent}")
     if not replace and os.path.lexists(path):
         raise FileError("result-exists", f"{path}: exists already; --force replaces it")
-    write_whole(path, starter_text(path).encode("utf-8"))
+    with file_errors(path):
+        write_whole(path, starter_text(path).encode("utf-8"))
     return path
 
 

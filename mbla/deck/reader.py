@@ -246,7 +246,7 @@ class _Builder:
         key = key_text(self.path() if path is None else path)
         self.faults.append(Fault(self.place(mark), key, message, shorten(value) if value else None))
         if len(self.faults) == MOST_FAULTS:
-            words = Message("too-many-faults", f"is read no further after {MOST_FAULTS} faults")
+            words = Message("more-faults", f"is read no further after {MOST_FAULTS} faults")
             self.faults.append(Fault(self.place(mark), "", words))
             raise _StopError
 

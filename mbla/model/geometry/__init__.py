@@ -54,7 +54,7 @@ def _read_within_memory(reader: Callable[[Path], Geometry], path: Path) -> Geome
     except MemoryError as error:
         raise GeometryFileError(
             "geometry-too-large",
-            f"needs far more memory than its {size} bytes can hold blocks for: it is damaged, or packed; export it anew",
+            f"needs far more memory than its {size} bytes can hold blocks for: damaged or packed; export it anew",
         ) from error
 
 

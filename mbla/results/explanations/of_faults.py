@@ -26,12 +26,6 @@ OF_TEXTS = (
         "Put large geometry into a mesh or a table file and name it in the deck.",
     ),
     refused(
-        "too-many-faults",
-        "More is wrong than is worth telling.",
-        "Mostly a file of another kind, or one mistake in many generated items.",
-        "Mend the first faults, or what wrote the file, and read it again: the others are told then.",
-    ),
-    refused(
         "too-many-files",
         "A deck includes more files than are read.",
         "A generated list, or a pattern that matched a whole folder.",

@@ -25,7 +25,7 @@ from mbla.deck.include import confined
 from mbla.deck.types import DeckContent
 from mbla.errors import DeckError, Fault, Place
 from mbla.given_deck import refuse_unfit_name
-from mbla.model import build_model
+from mbla.model import build_model, geometry
 from mbla.model.build_blocks import blocks_from_polyhedra
 from mbla.results import lock as journal_lock
 from mbla.results.hdf5.result_file import write_results_hdf5
@@ -55,6 +55,7 @@ from tests.studies.sweep.journal.points import HEADER, point
 from tests.studies.sweep.pictures.hand_made import grid
 from tests.studies.sweep.small_plan import plan_over
 
+NAMED = "mesh: {group: block, material: stone, file: wall.obj}"
 Patch = pytest.MonkeyPatch
 Bring = Callable[[Path, Patch], object]
 
@@ -98,6 +99,14 @@ def name_with_a_zero_byte(folder: Path, patch: Patch) -> object:
 def deck_beyond_all_size(folder: Path, patch: Patch) -> object:
     patch.setattr(sources, "MAX_BYTES", 1024**2)
     return read_deck(write(folder, "#" * (1024**2 + 1)))
+
+
+@brings("geometry-too-large")
+def geometry_beyond_all_size(folder: Path, patch: Patch) -> object:
+    patch.setattr(geometry, "LARGEST_FILE", 1024**2)
+    (folder / "wall.obj").write_bytes(b"#" * (1024**2 + 1))
+    named = changed("box: {group: block, material: stone, min: [0, 0, 0], max: [1, 1, 1]}", NAMED)
+    return build_model(read_deck(write(folder, named)))
 
 
 @brings("not-utf-8")

@@ -6,6 +6,10 @@ EXPECTED: dict[str, tuple[str, ...]] = {
         "{folder}/deck.yaml:1:1 is larger than 1 MB: put large geometry in a mesh file (`mesh: {file: "
         "...}`)  [file-too-large]",
     ),
+    "geometry_beyond_all_size": (
+        "{folder}/deck.yaml:10:49 blocks[0].mesh.file = wall.obj: is larger than 1 MB: divide it into several files  "
+        "[geometry-too-large]",
+    ),
     "deck_in_latin_1": ("{folder}/deck.yaml:2:9 byte 0xF6 is not UTF-8: save the deck as UTF-8  [not-utf-8]",),
     "folder_for_a_deck": ("mbla: {folder}: is a folder, not a deck  [folder-given]",),
     "deck_for_a_folder_that_is_not_there": (
