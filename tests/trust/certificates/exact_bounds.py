@@ -10,15 +10,18 @@ It is a definite real number, which no rounding enters. Two theorems enclose it.
 *Static.* If rational x and λ fulfil all conditions then λ ≤ λ*, by definition. The cone is tested without a root:
 c + μ N ≥ 0 and T1² + T2² ≤ (c + μ N)².
 
-*Kinematic.* Let u be rational with f_L·u > 0, v = Aᵀu, and at each point s with s² ≥ v1² + v2², s ≥ 0, and
-q = v_N − μ s, q ≥ 0 where the point cannot crush. Then λ* ≤ (Σ D − f_D·u) / (f_L·u) with D = c s + f_t q where q ≥ 0,
-D = c s − f_c q where q < 0. For any x within the conditions −x·v = −N (μ s + q) − T·(v1, v2) ≤ −N μ s − N q + (c + μ N) s
-= c s − N q ≤ D, and equilibrium gives λ f_L·u + f_D·u = −x·v summed over the points.
+*Kinematic.* Let u be rational with f_L·u > 0, v = Aᵀu, and at each point s ≥ 0 with s² ≥ v1² + v2², q = v_N − μ s,
+and q ≥ 0 where the point cannot crush. Then λ* ≤ (Σ D − f_D·u) / (f_L·u) with D = c s + f_t q where q ≥ 0,
+D = c s − f_c q where q < 0. For any x within the conditions
 
-Where they come from does not matter to the proof. Forces of the file are moved by a share θ towards forces strictly
-inside of all conditions, then put into equilibrium: by least squares in floats, and the rest exactly, by a square system
-of the columns with most room. The mechanism of the file is moved by θ towards one that opens every joint beyond its
-friction. Both inner points are found by linear programs.
+    −x·v = −N (μ s + q) − T·(v1, v2) ≤ −N μ s − N q + (c + μ N) s = c s − N q ≤ D,
+
+and equilibrium gives λ f_L·u + f_D·u = −x·v summed over the points.
+
+Where x and u come from does not matter to the proof. Forces of the file are moved by a share θ towards forces strictly
+inside of all conditions, then put into equilibrium: by least squares in floats, and the rest exactly, by a square
+system of the columns with most room. The mechanism of the file is moved by θ towards one that opens every joint beyond
+its friction. Both inner points are found by linear programs.
 """
 
 from __future__ import annotations

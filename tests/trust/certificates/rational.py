@@ -18,6 +18,8 @@ from mbla.model.model import LoadCase, Model
 
 Vector: TypeAlias = list[Fraction]
 ZERO = Fraction(0)
+FINE = 2**200
+"""roots are rounded up to multiples of one over this"""
 
 
 @dataclass(frozen=True)
@@ -110,11 +112,8 @@ def dot(one: Vector, other: Vector) -> Fraction:
 
 
 def at_least_root(square: Fraction) -> Fraction:
-    """A rational number whose square is at least the given one, and hardly more."""
-    root = Fraction(math.sqrt(square))
-    while root * root < square:
-        root *= 1 + Fraction(1, 2**50)
-    return root
+    """A rational number whose square is at least the given one, and hardly more; whole numbers alone find it."""
+    return Fraction(math.isqrt(math.floor(square * FINE * FINE)) + 1, FINE) if square else ZERO
 
 
 def solved_exactly(columns: list[Vector], right: Vector) -> Vector | None:
