@@ -83,11 +83,12 @@ def exact_kinematic(case: ExactCase, mechanics: Mechanics) -> Fraction | None:
     """A λ beyond which nothing is carried, proved."""
     motion = mechanics.mechanism[list(case.free)].ravel()
     opening = _opening_motion(case, motion)
-    for share in SHARES if opening is not None else ():
-        bound = bound_of(case, rationals(motion + share * opening))
+    opened = [] if opening is None else [motion + share * opening for share in SHARES]
+    for tried in (*opened, motion):
+        bound = bound_of(case, rationals(tried))
         if bound is not None:
             return bound
-    return bound_of(case, rationals(motion))
+    return None
 
 
 def within_limits(case: ExactCase, forces: Vector) -> bool:
@@ -191,7 +192,7 @@ def _inner_forces(case: ExactCase, matrix: FloatArray, factor: float) -> tuple[F
         bounds=[(None, None)] * n_forces + [(factor - 2.0 * reach, factor), (0.0, 1.0)],
         method="highs",
     )
-    if not answer.success or answer.x[-1] <= ROOM:
+    if answer.x is None or not answer.success or answer.x[-1] <= ROOM:
         return None
     return answer.x[:-2] * unit, float(answer.x[-2])
 
@@ -220,6 +221,6 @@ def _opening_motion(case: ExactCase, motion: FloatArray) -> FloatArray | None:
         bounds=[(-1e3, 1e3)] * len(motion) + [(0.0, 1.0)],
         method="highs",
     )
-    if not answer.success or answer.x[-1] <= ROOM:
+    if answer.x is None or not answer.success or answer.x[-1] <= ROOM:
         return None
     return np.asarray(answer.x[:-1] * speed)

@@ -79,7 +79,8 @@ def exact_case(model: Model, contacts: Contacts, load_case: LoadCase) -> ExactCa
         bodies = contacts.bodies[interface].tolist()
         place = rationals(contacts.points[point])
         for direction in contacts.frames[point]:
-            force, column = rationals(direction), {}
+            force = rationals(direction)
+            column: dict[int, Fraction] = {}
             for body, sign in zip(bodies, (-1, 1), strict=True):
                 if body in row_of:
                     arm = _difference(place, rationals(model.blocks.centroids[body]))

@@ -17,7 +17,7 @@ from tests.trust.counts import record_counts
 LOG = logging.getLogger(__name__)
 FEW = (0, 5, 12, 31, 52)
 """a wall, cells of both kinds, one that does not stand, one that friction locks"""
-MANY, WITHOUT_DILATANCY = range(1000), range(200)
+MANY, WITHOUT_DILATANCY = range(1000), range(100)
 NON_ASSOCIATIVE = ("--flow-rule", "non_associative")
 
 

@@ -47,7 +47,7 @@ def _load_factor(case: ExactCase, radius: float) -> float:
     shear, strength = _shear_conditions(case, radius, unit)
     ends = [_ends(limits, unit) for limits in case.limits]
     bounds = [end for normal in ends for end in (normal, (None, None), (None, None))]
-    answer = linprog(
+    answer = linprog(  # type: ignore[call-overload]  # its stubs do not know sparse matrices
         -np.eye(1, equations.shape[1], equations.shape[1] - 1)[0],
         A_ub=shear,
         b_ub=strength,

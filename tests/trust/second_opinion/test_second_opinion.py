@@ -35,7 +35,7 @@ def broken_bracket(found: BesidePolyhedra) -> list[str]:
 
 
 def broken_models(found: BesideConvex) -> list[str]:
-    """The convex model adds conditions: it carries no more, and as much where its interfaces neither twist nor crush."""
+    """The convex model adds conditions: it carries no more, and as much where no interface twists or crushes."""
     room = WITHIN * max(abs(found.concave), NEAR_ZERO) if math.isfinite(found.concave) else 0.0
     above = found.convex > found.concave + room
     unexplained = differ(found) and not (found.twists or found.crushes)
