@@ -18,7 +18,7 @@ from tests.trust.certificates.whole_line import each, with_results
 from tests.trust.counts import record_counts
 
 LOG = logging.getLogger(__name__)
-FEW, SEEDS, WANTED = (0, 9), range(75), 50
+FEW, SEEDS, WANTED = (9,), range(75), 50
 ROUNDING = 1e-9
 """share of the load factor by which bounds in floats may miss those that are exact"""
 
@@ -80,6 +80,7 @@ def test_wrong_bounds_are_refuted() -> None:
     small = small_case(0)
     assert small is not None
     exact, mechanics, found = small
+    assert broken_bounds(found) == []
     assert len(broken_bounds(replace(found, static=found.static * (1 + 1e-6)))) == 1
     assert len(broken_bounds(replace(found, kinematic=found.kinematic * (1 - 1e-6)))) == 1
     heavier = replace(mechanics, load_factor=mechanics.load_factor * (1 + 1e-3))

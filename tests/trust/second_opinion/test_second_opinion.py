@@ -16,9 +16,9 @@ from tests.trust.second_opinion.friction_polyhedra import Bracket
 from tests.trust.second_opinion.opinions import BesideConvex, BesidePolyhedra, beside_convex, beside_polyhedra
 
 LOG = logging.getLogger(__name__)
-FEW, MANY = (1, 4, 12, 52), range(200)
-FEW_BY_BOTH_MODELS = (1, 4, 7)
-"""a trilithon and a stack that do not twist, and cells that do"""
+FEW, MANY = (4, 12, 52), range(200)
+FEW_BY_BOTH_MODELS = (4, 7)
+"""a stack that does not twist, and cells that do"""
 ROUNDING = 1e-6
 """share of the load factor to which the program and HiGHS are good"""
 
