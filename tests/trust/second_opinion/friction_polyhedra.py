@@ -24,22 +24,31 @@ LOCKED = 1e6
 
 @dataclass(frozen=True)
 class Bracket:
-    """Load factors with the inner and the outer polygon: -inf where nothing is in equilibrium, inf without a limit."""
+    """Load factors with the inner and the outer polygon: -inf where nothing is in equilibrium, inf without a limit.
+
+    inner_stands : whether the inner polygon carries the dead load alone. A live load that holds the structure up may
+                   leave a load factor where it is not carried, below zero or above
+    outer_stands : whether HiGHS does not exclude that the outer one carries it
+    """
 
     inner: float
     outer: float
+    inner_stands: bool
+    outer_stands: bool
 
 
 def bracket_of(case: ExactCase) -> Bracket:
-    """The load factor of both linear programs."""
-    apothem = math.cos(math.pi / SIDES)
-    return Bracket(_load_factor(case, apothem), _load_factor(case, 1.0))
+    """The load factor of both linear programs; nan where HiGHS does not decide."""
+    inner, outer = math.cos(math.pi / SIDES), 1.0
+    factors = [_load_factor(case, radius, LOCKED) for radius in (inner, outer)]
+    carried = [_load_factor(case, radius, 0.0) for radius in (inner, outer)]
+    return Bracket(*factors, carried[0] == 0.0, carried[1] != -math.inf)
 
 
-def _load_factor(case: ExactCase, radius: float) -> float:
+def _load_factor(case: ExactCase, radius: float, most: float) -> float:
     """With the polygon of ``SIDES`` sides at that distance from the middle, over the radius of the friction circle.
 
-    Unknowns are 3 forces a point and the load factor, in units of the mean dead load. nan where HiGHS does not decide.
+    Unknowns are 3 forces a point and the load factor, of size ``most`` at most, in units of the mean dead load.
     """
     dead, live = (np.array([float(part) for part in load]) for load in (case.dead, case.live))
     unit, live_unit = float(np.abs(dead[dead != 0]).mean()), float(np.abs(live).max())
@@ -53,7 +62,7 @@ def _load_factor(case: ExactCase, radius: float) -> float:
         b_ub=strength,
         A_eq=equations,
         b_eq=-dead / unit,
-        bounds=[*bounds, (-LOCKED, LOCKED)],
+        bounds=[*bounds, (-most, most)],
         method="highs",
     )
     if answer.status == 2:
@@ -61,7 +70,7 @@ def _load_factor(case: ExactCase, radius: float) -> float:
     if answer.status != 0:
         return math.nan
     factor = float(answer.x[-1])
-    return math.inf if factor > 0.999 * LOCKED else factor * unit / live_unit
+    return math.inf if most > 0 and factor > 0.999 * most else factor * unit / live_unit
 
 
 def _ends(limits: Limits, unit: float) -> tuple[float, float | None]:
