@@ -119,6 +119,11 @@ def test_200_by_both_contact_models() -> None:
         LOG.info("%s", found)
         opinions.append(found)
     assert [fault for found in opinions for fault in broken_models(found)] == []
+    record_models(opinions)
+
+
+def record_models(opinions: list[BesideConvex]) -> None:
+    """The counts of both contact models."""
     apart = [found for found in opinions if differ(found)]
     both = [found for found in opinions if math.isfinite(found.concave) and math.isfinite(found.convex)]
     record_counts(
@@ -136,5 +141,9 @@ def test_200_by_both_contact_models() -> None:
             "no load factor by either": sum(
                 found.concave == found.convex and not math.isfinite(found.convex) for found in opinions
             ),
+            "dead load not carried by interface resultants alone": sum(
+                found.convex == -math.inf < found.concave for found in opinions
+            ),
+            "left open with interface resultants": sum(math.isnan(found.convex) for found in opinions),
         },
     )
