@@ -39,10 +39,13 @@ class Bracket:
 
 def bracket_of(case: ExactCase) -> Bracket:
     """The load factor of both linear programs; nan where HiGHS does not decide."""
-    inner, outer = math.cos(math.pi / SIDES), 1.0
-    factors = [_load_factor(case, radius, LOCKED) for radius in (inner, outer)]
-    carried = [_load_factor(case, radius, 0.0) for radius in (inner, outer)]
-    return Bracket(*factors, carried[0] == 0.0, carried[1] != -math.inf)
+    apothem = math.cos(math.pi / SIDES)
+    return Bracket(
+        inner=_load_factor(case, apothem, LOCKED),
+        outer=_load_factor(case, 1.0, LOCKED),
+        inner_stands=_load_factor(case, apothem, 0.0) == 0.0,
+        outer_stands=_load_factor(case, 1.0, 0.0) != -math.inf,
+    )
 
 
 def _load_factor(case: ExactCase, radius: float, most: float) -> float:
