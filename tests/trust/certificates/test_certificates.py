@@ -61,36 +61,34 @@ def test_what_is_not_kept_is_found(stack: tuple[Outcome, Outcome]) -> None:
 @pytest.mark.trust
 def test_all_certificates() -> None:
     outcomes, statuses = _all(associative, MANY)
-    record_counts(
-        "certificates",
-        10,
+    claim = (
         "An associative load factor that is called solved lies between bounds within 1e-5 of each other, which "
-        "mbla verify recomputes from the result file alone",
-        {
-            "random assemblies": len(outcomes),
-            "solved, all with both bounds": statuses["solved"],
-            "without equilibrium, proved by a motion": statuses["no_equilibrium"],
-            "locked by friction, proved by forces": statuses["unbounded"],
-            "said to be left open": len(outcomes) - sum(statuses[status] for status in SETTLED),
-        },
+        "mbla verify recomputes from the result file alone"
     )
+    counts = {
+        "random assemblies": len(outcomes),
+        "solved, all with both bounds": statuses["solved"],
+        "without equilibrium, proved by a motion": statuses["no_equilibrium"],
+        "locked by friction, proved by forces": statuses["unbounded"],
+        "said to be left open": len(outcomes) - sum(statuses[status] for status in SETTLED),
+    }
+    record_counts("certificates", 10, claim, counts)
 
 
 @pytest.mark.trust
 def test_all_without_dilatancy() -> None:
     outcomes, statuses = _all(without_dilatancy, WITHOUT_DILATANCY)
-    record_counts(
-        "without_dilatancy",
-        11,
+    claim = (
         "A load factor without dilatancy that is called solved carries its residuals, all below 1e-4, and lies at or "
-        "below the kinematic bound of the associative one",
-        {
-            "random assemblies": len(outcomes),
-            "solved": statuses["solved"],
-            "without equilibrium, or locked by friction, proved": statuses["no_equilibrium"] + statuses["unbounded"],
-            "said to be left open": len(outcomes) - sum(statuses[status] for status in SETTLED),
-        },
+        "below the kinematic bound of the associative one"
     )
+    counts = {
+        "random assemblies": len(outcomes),
+        "solved": statuses["solved"],
+        "without equilibrium, or locked by friction, proved": statuses["no_equilibrium"] + statuses["unbounded"],
+        "said to be left open": len(outcomes) - sum(statuses[status] for status in SETTLED),
+    }
+    record_counts("without_dilatancy", 11, claim, counts)
 
 
 def _all(solve: Callable[[int], Outcome], seeds: range) -> tuple[list[Outcome], Counter[str]]:

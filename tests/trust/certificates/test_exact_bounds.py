@@ -97,11 +97,10 @@ def test_bounds_of_50_are_exact() -> None:
     for found in solved:
         LOG.info("%s: %s", found.name, found.exact)
     assert [fault for found in solved for fault in broken_bounds(found)] == []
-    record_counts(
-        "exact_bounds",
-        12,
+    claim = (
         "The load factor of a small assembly lies between bounds proved in exact rational arithmetic from the floats "
-        "of the result file, within 1e-5 of each other, and the bounds told by the program agree with them",
-        {"small random assemblies that are solved, all enclosed": len(solved)},
+        "of the result file, within 1e-5 of each other, and the bounds told by the program agree with them"
     )
+    counts = {"small random assemblies that are solved, all enclosed": len(solved)}
+    record_counts("exact_bounds", 12, claim, counts)
     assert len(solved) == WANTED
