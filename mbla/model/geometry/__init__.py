@@ -45,6 +45,6 @@ def read_geometry(path: Path) -> Geometry:
     geometry = reader(path)
     if not len(geometry.polyhedra):
         raise GeometryFileError("the file holds no blocks: no surface and no volume cell was found")
-    if (np.diff(geometry.polyhedra.loop_start) < 3).any():
-        raise GeometryFileError("a face has fewer than three corners")
+    if len(short := np.flatnonzero(np.diff(geometry.polyhedra.loop_start) < 3)):
+        raise GeometryFileError(f"face {short[0]} of the file has fewer than three corners")
     return geometry
