@@ -1,4 +1,4 @@
-"""What a file has and no block comes of, in warnings: a file that is cut off, or a block that lost its faces, shows so."""
+"""Warnings of what no block comes of: a file that is cut off, or a block that lost its faces, shows so."""
 
 from __future__ import annotations
 

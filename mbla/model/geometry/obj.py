@@ -22,8 +22,9 @@ from mbla.model.polyhedra import Polyhedra
 from mbla.model.wording import counted, was
 
 SILENT = frozenset(
-    "vn vt vp vw s usemtl mtllib usemap maplib shadow_obj trace_obj bevel c_interp d_interp lod mg con cstype deg bmat "
-    "step parm trim hole scrv sp end ctech stech bsp bzp cdc cdp res".split()
+    {"vn", "vt", "vp", "vw", "s", "usemtl", "mtllib", "usemap", "maplib", "shadow_obj", "trace_obj", "bevel"}
+    | {"c_interp", "d_interp", "lod", "mg", "con", "cstype", "deg", "bmat", "step", "parm", "trim", "hole", "scrv"}
+    | {"sp", "end", "ctech", "stech", "bsp", "bzp", "cdc", "cdp", "res"}
 )
 """keywords that say nothing of the shape of polygons"""
 LEFT_OUT = {"l": "line", "p": "point", "curv": "curve", "curv2": "curve", "surf": "free-form surface"}

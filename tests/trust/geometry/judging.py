@@ -43,7 +43,7 @@ POWERS = {"total_weight": 3, "total_volume": 3, "contact_area": 2}
 """with which figures grow with lengths"""
 NAMED = re.compile(
     r"line \d+|\.csv:\d+: |"  # where it stands in the file
-    r"block \S+( \([^)]*\))?: .*\b(face|faces|vertex|vertices|edge|edges|volume|pieces|one-sided|coordinate|measures)\b|"
+    r"block \S+( \([^)]*\))?: .*\b(faces?|vertex|vertices|edges?|volume|pieces|one-sided|coordinate|measures)\b|"
     r"\S+\[\d+\] .*overlap|overlap.*\S+\[\d+\]|"  # which of the blocks
     r"is not a well-formed .+|cannot be read: .+|is not a COMPAS file: |holds no |has no |is empty|"
     r"is not UTF-8 text|a \w+ on layer \S+ |face \d+ of the file |the points have neither|its buffer \S+ |"

@@ -388,7 +388,7 @@ def _scaled(factor: float) -> Change:
 
 
 def _moved(distance: float) -> Change:
-    return _all(lambda stone, random: stone.with_corners(stone.corners + [distance, 0, 0]))
+    return _all(lambda stone, random: stone.with_corners(stone.corners + np.array([distance, 0, 0])))
 
 
 SAME, REFUSED, EITHER, TOLD = Expect.SAME, Expect.REFUSED, Expect.EITHER, Expect.TOLD

@@ -5,8 +5,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-import numpy as np
-
 from mbla.arrays import FloatArray
 from mbla.model.polyhedra import HEXAHEDRON
 from tests.decks.arch_files import voussoirs

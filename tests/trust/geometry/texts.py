@@ -15,7 +15,7 @@ from tests.trust.geometry.stones import Stone
 Damage = Callable[[bytes, Generator], bytes]
 
 CHECKED = ("obj", "stl", "ply", "vtu", "vtu cells", "msh", "compas", "gltf", "table of vertices", "table of faces")
-"""formats that say a thing twice, so that a line less or more is noticed; an element of a CalculiX file is not missed"""
+"""formats in which a line less or more is noticed; an element less of a CalculiX file is not"""
 
 
 def text(kind: Format) -> bool:
