@@ -5,6 +5,7 @@ from __future__ import annotations
 import zlib
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cache
 
 import numpy as np
 
@@ -42,8 +43,13 @@ class Mutant:
         return f"{self.kind.name}: {self.name}"
 
 
-def mutants() -> Iterator[Mutant]:
+@cache
+def mutants() -> tuple[Mutant, ...]:
     """Every mutant of every format."""
+    return tuple(_mutants())
+
+
+def _mutants() -> Iterator[Mutant]:
     for kind in FORMATS.values():
         yield from _of_shapes(kind)
         yield from _of_texts(kind)
