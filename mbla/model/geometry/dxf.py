@@ -111,7 +111,7 @@ def _add(drawing: _Drawing, layer: str, entity: Any) -> None:
             drawing.left_out[kind] = drawing.left_out.get(kind, 0) + 1
         return
     closed, points = _flattened(entity, f"a {kind} on layer {layer}")
-    if len(points) < 3 and getattr(entity, "is_closed", False) and kind != "LINE":
+    if not closed and kind in ("POLYLINE", "LWPOLYLINE") and entity.is_closed:
         raise GeometryFileError(
             f"a {kind} on layer {layer} has no area: it is closed, and its corners lie at one place or on one line"
         )

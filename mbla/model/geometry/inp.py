@@ -48,6 +48,8 @@ REFUSED = {
 }
 """cards that change the mesh in ways that are not followed"""
 
+UNREADABLE = "\ufffd"
+"""stands for bytes that are no text"""
 ALIKE = frozenset({"NSET", "ELGEN", "NODE FILE", "NODE PRINT", "NODAL", "SECTION", "CLEARANCE"})
 """cards of other names than those that are followed, and not misspelt"""
 
@@ -118,6 +120,8 @@ def _read(text: str) -> _Content:
 
 def _refuse_misspelt(card: _Card) -> None:
     """Cards that are not known are passed over; one that is nearly known would take its blocks with it."""
+    if UNREADABLE in card.keyword + "".join(card.options) + card.options.get("TYPE", ""):
+        raise GeometryFileError(f"line {card.line} cannot be read: it has bytes that are no UTF-8")
     if card.keyword not in (*READ, *ALIKE):
         near = get_close_matches(card.keyword, READ, n=1, cutoff=0.8)
         if near:
