@@ -16,10 +16,10 @@ from tests.trust.geometry.stones import arch
     ("kind", "one", "other", "message"),
     [
         ("ply", b"face 54", b"face 48", "announces 72 vertices and 48 faces, a line each, and has 126 lines"),
-        ("ply", b"\n4 0 3 2 1\n", b"\n5 0 3 2 1\n", "line 81 announces 5 corners and has 4"),
+        ("ply", b"\n4 0 3 2 1\n", b"\n5 0 3 2 1\n", "line 82 announces 5 corners and has 4"),
         ("ply binary", b"face 54", b"face 48", "what its header announces takes 2688 bytes, it has 2808"),
         ("ply binary", b"face 54", b"face 55", "announces 55 cells, 54 can be read"),
-        ("vtu cells", b'Cells="9', b'Cells="10', "announces 10 cells, 9 can be read"),
+        ("vtu cells", b'Cells="9', b'Cells="10', "is not a well-formed VTU file"),
         ("vtu cells", b"12 12 12", b"12 99 12", "announces 9 cells, 8 can be read"),
         ("msh cells", b"$Elements\n9", b"$Elements\n8", "announces 8 elements and has 9 elements"),
     ],
