@@ -19,6 +19,8 @@ from mbla.model.ragged import row_maxima, row_sums
 
 LARGEST_COORDINATE = 1e50
 """beyond it volumes overflow"""
+SMALLEST_BLOCK = 1e-50
+"""extent of a block below which its volume, and what is computed with that, underflows"""
 SAME_POINT = 1e-9
 """distance of two vertices, relative to the diagonal, at which they are one"""
 NO_AREA, NO_VOLUME = 1e-12, 1e-12
@@ -51,13 +53,18 @@ def find_extents(polyhedra: Polyhedra) -> Extents:
     return Extents(np.linalg.norm(spans, axis=1), np.finfo(float).eps * greatest)
 
 
-def coordinate_defects(polyhedra: Polyhedra) -> list[Defect]:
-    """Coordinates that are not finite, or too large to compute with."""
+def wild_vertices(polyhedra: Polyhedra) -> BoolArray:
+    """Vertices with a coordinate that is not finite, or too large to compute with, (n_vertices,)."""
     with np.errstate(invalid="ignore"):
-        bad = ~(np.abs(polyhedra.vertices) <= LARGEST_COORDINATE).all(axis=1)
+        return np.asarray(~(np.abs(polyhedra.vertices) <= LARGEST_COORDINATE).all(axis=1))
+
+
+def coordinate_defects(polyhedra: Polyhedra) -> list[Defect]:
+    """Coordinates that are not finite, or too large to compute with; and blocks that are too small for that."""
+    bad = wild_vertices(polyhedra)
     blocks, first = np.unique(polyhedra.block_of_vertex[bad], return_index=True)
     rows = np.flatnonzero(bad)[first]
-    return [
+    return _tiny_blocks(polyhedra, bad) + [
         Defect(
             int(block),
             Message(
@@ -67,6 +74,27 @@ def coordinate_defects(polyhedra: Polyhedra) -> list[Defect]:
             ),
         )
         for block, row in zip(blocks, rows, strict=True)
+    ]
+
+
+def _tiny_blocks(polyhedra: Polyhedra, wild: BoolArray) -> list[Defect]:
+    """Blocks that extend, but hardly; one whose vertices all lie at one place is told as that."""
+    if not len(polyhedra.vertices):
+        return []
+    local = np.where(wild[:, None], 0.0, polyhedra.vertices)
+    start = polyhedra.vertex_start
+    spans = (row_maxima(local, start) + row_maxima(-local, start)).max(axis=1)
+    spans[polyhedra.block_of_vertex[wild]] = np.inf
+    return [
+        Defect(
+            int(block),
+            Message(
+                "coordinate-out-of-range",
+                f"measures {spans[block]:.1e} only: blocks of less than {SMALLEST_BLOCK:.0e} cannot be computed with, "
+                "look at the units",
+            ),
+        )
+        for block in np.flatnonzero((spans > 0) & (spans < SMALLEST_BLOCK))
     ]
 
 

@@ -74,6 +74,6 @@ def read_geometry(path: Path) -> Geometry:
         raise GeometryFileError(
             "geometry-without-blocks", "the file holds no blocks: no surface and no volume cell was found"
         )
-    if (np.diff(geometry.polyhedra.loop_start) < 3).any():
-        raise GeometryFileError("geometry-file", "a face has fewer than three corners")
+    if len(short := np.flatnonzero(np.diff(geometry.polyhedra.loop_start) < 3)):
+        raise GeometryFileError("geometry-file", f"face {short[0]} of the file has fewer than three corners")
     return geometry

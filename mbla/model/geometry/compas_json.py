@@ -9,7 +9,6 @@ named ``support``, others by the name that their element or mesh was given.
 
 from __future__ import annotations
 
-import json
 from dataclasses import dataclass, field
 from itertools import chain
 from pathlib import Path
@@ -20,6 +19,8 @@ import numpy as np
 from mbla.arrays import FloatArray, starts
 from mbla.errors import Notice
 from mbla.model.geometry.geometry import Geometry, GeometryFileError
+from mbla.model.geometry.json_text import parse_json
+from mbla.model.geometry.leftovers import empty_objects
 from mbla.model.geometry.welding import own_vertices
 from mbla.model.polyhedra import Polyhedra, join_polyhedra
 from mbla.model.wording import counted, was
@@ -35,10 +36,11 @@ BETWEEN_BLOCKS = frozenset({"edge", "edgedata", "adjacency", "interface", "inter
 
 @dataclass
 class _Found:
-    """Surfaces found so far with their names, and solids that cannot be read."""
+    """Surfaces found so far with their names, meshes without faces, and solids that cannot be read."""
 
     surfaces: list[Polyhedra] = field(default_factory=list)
     names: list[str] = field(default_factory=list)
+    empty: list[str] = field(default_factory=list)
     others: dict[str, int] = field(default_factory=dict)
 
 
@@ -60,7 +62,7 @@ def read_compas_json(path: Path) -> Geometry:
         for files that are no JSON, hold no mesh, or a mesh that is malformed
     """
     try:
-        document = json.loads(path.read_bytes().decode("utf-8-sig"))
+        document = parse_json(path.read_bytes())
         found = _Found()
         _collect(document, _Context(), found)
     except OSError as error:
@@ -81,7 +83,7 @@ def read_compas_json(path: Path) -> Geometry:
 
 
 def _notices(found: _Found) -> tuple[Notice, ...]:
-    notices = []
+    notices = [*empty_objects(found.empty)]
     if found.others:
         total = sum(found.others.values())
         words = f"{counted(total, 'object')} of type {', '.join(sorted(found.others))} {was(total)} left out: no meshes"
@@ -117,6 +119,8 @@ def _collect_object(entry: dict[str, Any], context: _Context, found: _Found) -> 
         _add(_mesh(content), here, found)
     elif isinstance(content.get("vertices"), list) and isinstance(content.get("faces"), list):
         _add(_polyhedron(content), here, found)
+    elif kind in ("Mesh", "Polyhedron"):
+        found.empty.append(here.name)
     elif kind in OTHER_SHAPES:
         found.others[kind] = found.others.get(kind, 0) + 1
     elif isinstance(content.get("elements"), (dict, list)) and isinstance(content.get("tree"), dict):
@@ -185,6 +189,7 @@ def _ancestors(identifier: str, parents: dict[str, str]) -> list[str]:
 
 def _add(surface: Polyhedra, context: _Context, found: _Found) -> None:
     if not len(surface):
+        found.empty.append(context.name)
         return
     if context.matrix is not None:
         vertices = surface.vertices @ context.matrix[:3, :3].T + context.matrix[:3, 3]
@@ -198,15 +203,32 @@ def _mesh(content: dict[str, Any]) -> Polyhedra:
     keys = {str(key): row for row, key in enumerate(content["vertex"])}
     default = content.get("default_vertex_attributes") or content.get("dva") or {}
     points = [
-        [float(vertex.get(axis, default.get(axis, 0.0))) for axis in "xyz"] for vertex in content["vertex"].values()
+        [_coordinate(vertex.get(axis, default.get(axis)), axis, key) for axis in "xyz"]
+        for key, vertex in content["vertex"].items()
     ]
-    faces = [[keys[str(corner)] for corner in face] for face in content["face"].values() if face]
+    faces = [[_row(corner, keys, key) for corner in face] for key, face in content["face"].items() if face]
     return _surface(points, faces)
 
 
+def _coordinate(value: Any, axis: str, key: str) -> float:
+    if isinstance(value, bool) or not isinstance(value, (int, float)):
+        raise ValueError(f"vertex {key[:40]} has {'no' if value is None else 'no number as'} {axis}")
+    return float(value)
+
+
+def _row(corner: Any, rows: dict[str, int], face: str) -> int:
+    if str(corner) not in rows:
+        raise ValueError(f"face {face[:40]} names vertex {str(corner)[:40]}, which does not exist")
+    return rows[str(corner)]
+
+
 def _polyhedron(content: dict[str, Any]) -> Polyhedra:
-    points = [[float(coordinate) for coordinate in point] for point in content["vertices"]]
-    faces = [[int(corner) for corner in face] for face in content["faces"]]
+    points = [
+        [_coordinate(value, axis, str(row)) for axis, value in zip("xyz", point, strict=True)]
+        for row, point in enumerate(content["vertices"])
+    ]
+    rows = {str(row): row for row in range(len(points))}
+    faces = [[_row(corner, rows, str(row)) for corner in face] for row, face in enumerate(content["faces"])]
     return _surface(points, faces)
 
 

@@ -16,6 +16,7 @@ import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.errors import Notice
+from mbla.model.defects import LARGEST_COORDINATE
 from mbla.model.geometry.geometry import Geometry, GeometryFileError
 from mbla.model.geometry.line_networks import enclosed_fields
 from mbla.model.geometry.outlines import prism
@@ -117,11 +118,14 @@ def _add(drawing: _Drawing, layer: str, entity: Any) -> None:
         if kind not in SILENT:
             drawing.left_out[kind] = drawing.left_out.get(kind, 0) + 1
         return
-    closed, points = _flattened(entity)
+    closed, points = _flattened(entity, f"a {kind} on layer {layer}")
+    if not closed and kind in ("POLYLINE", "LWPOLYLINE") and entity.is_closed:
+        raise GeometryFileError(
+            "geometry-file",
+            f"a {kind} on layer {layer} has no area: it is closed, and its corners lie at one place or on one line",
+        )
     if len(points) < 2:
         return
-    if not np.isfinite(points).all():
-        raise GeometryFileError("geometry-file", f"a {kind} on layer {layer} has a coordinate that is not finite")
     extent = float(np.ptp(points, axis=0).max())
     if np.ptp(points[:, 2]) > LEVEL * extent:
         raise GeometryFileError(
@@ -133,7 +137,7 @@ def _add(drawing: _Drawing, layer: str, entity: Any) -> None:
         drawing.lines.setdefault(layer, []).append(points[:, :2])
 
 
-def _flattened(entity: Any) -> tuple[bool, FloatArray]:
+def _flattened(entity: Any, called: str) -> tuple[bool, FloatArray]:
     """Whether a curve is closed, and its points in the drawing's coordinates, (n, 3), the first not repeated."""
     import ezdxf.path
 
@@ -141,6 +145,10 @@ def _flattened(entity: Any) -> tuple[bool, FloatArray]:
     if not len(path):
         return False, np.empty((0, 3))
     ends = np.array([(p.x, p.y, p.z) for p in path.control_vertices()], dtype=np.float64)
+    if not (np.abs(ends) <= LARGEST_COORDINATE).all():
+        raise GeometryFileError(
+            "geometry-file", f"{called} has a coordinate that is not finite or exceeds {LARGEST_COORDINATE:.0e}"
+        )
     spans = np.sort(np.ptp(ends, axis=0))[1:]
     size = float(np.sqrt(spans[0] * spans[1])) or float(spans[1])
     points = np.array([(p.x, p.y, p.z) for p in path.flattening(SAGITTA * size)], dtype=np.float64)

@@ -7,7 +7,6 @@ Source: Khronos Group, glTF 2.0 Specification (2021).
 
 from __future__ import annotations
 
-import json
 import struct
 from collections.abc import Iterator
 from pathlib import Path
@@ -18,7 +17,9 @@ import numpy as np
 from mbla.arrays import FloatArray, IntArray
 from mbla.errors import Notice
 from mbla.model.geometry.geometry import Geometry, GeometryFileError
-from mbla.model.geometry.gltf_accessors import Buffers, read_accessor
+from mbla.model.geometry.gltf_accessors import Buffers, entry_of, read_accessor
+from mbla.model.geometry.json_text import parse_json
+from mbla.model.geometry.leftovers import empty_objects
 from mbla.model.geometry.welding import own_vertices
 from mbla.model.polyhedra import join_polyhedra
 from mbla.model.wording import counted, was
@@ -26,6 +27,8 @@ from mbla.model.wording import counted, was
 GLB_MAGIC, JSON_CHUNK, BINARY_CHUNK = 0x46546C67, 0x4E4F534A, 0x004E4942
 TRIANGLES, STRIP, FAN = 4, 5, 6
 """modes of primitives that are surfaces"""
+UNSIGNED = (5121, 5123, 5125)
+"""component types of numbers of corners"""
 KNOWN_EXTENSIONS = ("KHR_mesh_quantization", "KHR_texture_transform", "KHR_materials", "KHR_lights_punctual")
 """required extensions that do not change the shape, or need nothing more to be read; beginnings of names"""
 
@@ -68,7 +71,7 @@ def _parts(content: bytes) -> tuple[dict[str, Any], bytes | None]:
 
 def _document(content: bytes) -> dict[str, Any]:
     try:
-        document = json.loads(content.decode("utf-8-sig"))
+        document = parse_json(content)
     except RecursionError:
         raise ValueError("its JSON is nested too deeply") from None
     if not isinstance(document, dict):
@@ -90,22 +93,25 @@ def _check_version(document: dict[str, Any]) -> None:
 
 def _geometry(document: dict[str, Any], buffers: Buffers) -> Geometry:
     surfaces, names = [], []
+    empty: list[str] = []
     left_out = 0
     deformed = False
     for node, matrix in _placed_nodes(document):
         if "mesh" not in node:
             continue
-        mesh = document["meshes"][node["mesh"]]
+        mesh = entry_of(document, "meshes", node["mesh"])
         deformed |= "skin" in node or any("targets" in primitive for primitive in mesh["primitives"])
         points, triangles, lines = _surface(document, mesh, buffers)
         left_out += lines
+        name = str(node.get("name") or mesh.get("name") or "")
         if not len(triangles):
+            empty += [] if lines else [name]
             continue
         placed = points @ matrix[:3, :3].T + matrix[:3, 3]
         block = np.zeros(len(triangles), dtype=np.int64)
         surfaces.append(own_vertices(placed, triangles.reshape(-1), 3 * np.arange(len(triangles) + 1), block))
-        names.append(str(node.get("name") or mesh.get("name") or ""))
-    notices = []
+        names.append(name)
+    notices = [*empty_objects(empty)]
     if left_out:
         words = f"{counted(left_out, 'set')} of points or lines {was(left_out)} left out: no block"
         notices.append(Notice("warning", "mesh-cells-left-out", words))
@@ -120,7 +126,7 @@ def _placed_nodes(document: dict[str, Any]) -> Iterator[tuple[dict[str, Any], Fl
     nodes = document.get("nodes", [])
     scenes = document.get("scenes", [])
     if scenes:
-        roots = scenes[document.get("scene", 0)].get("nodes", [])
+        roots = entry_of(document, "scenes", document.get("scene", 0)).get("nodes", [])
     else:  # a file without scenes is a library of nodes: all that are no children
         children = {child for node in nodes for child in node.get("children", [])}
         roots = [number for number in range(len(nodes)) if number not in children]
@@ -155,9 +161,16 @@ def _local_matrix(node: dict[str, Any]) -> FloatArray:
         ]
     )
     matrix = np.eye(4)
-    matrix[:3, :3] = rotation * np.array(node.get("scale", (1, 1, 1)), dtype=np.float64)
-    matrix[:3, 3] = node.get("translation", (0, 0, 0))
+    matrix[:3, :3] = rotation * _three(node, "scale", 1.0)
+    matrix[:3, 3] = _three(node, "translation", 0.0)
     return matrix
+
+
+def _three(node: dict[str, Any], key: str, otherwise: float) -> FloatArray:
+    numbers = np.array(node.get(key, (otherwise,) * 3), dtype=np.float64)
+    if numbers.shape != (3,):
+        raise ValueError(f"a {key} has not three numbers")
+    return numbers
 
 
 def _surface(document: dict[str, Any], mesh: dict[str, Any], buffers: Buffers) -> tuple[FloatArray, IntArray, int]:
@@ -174,19 +187,29 @@ def _surface(document: dict[str, Any], mesh: dict[str, Any], buffers: Buffers) -
             raise ValueError("a position has not three coordinates")
         rows = np.arange(len(points))
         if "indices" in primitive:
-            rows = read_accessor(document, primitive["indices"], buffers).astype(np.int64).reshape(-1)
+            rows = _corners(document, primitive["indices"], buffers)
         if rows.size and not rows.max() < len(points):
             raise ValueError(f"a triangle names a point that does not exist; there are {len(points)}")
+        if mode == TRIANGLES and len(rows) % 3:
+            raise ValueError(f"its triangles have {len(rows)} corners, which three do not divide")
         all_points.append(points)
         all_triangles.append(_triangles(rows, mode) + count)
         count += len(points)
     return np.concatenate(all_points), np.concatenate(all_triangles), left_out
 
 
+def _corners(document: dict[str, Any], number: int, buffers: Buffers) -> IntArray:
+    """Corners of triangles by their numbers, (n,)."""
+    accessor = entry_of(document, "accessors", number)
+    if accessor["componentType"] not in UNSIGNED or accessor["type"] != "SCALAR" or accessor.get("normalized"):
+        raise ValueError(f"accessor {number} has no whole numbers of corners")
+    return read_accessor(document, number, buffers).astype(np.int64)
+
+
 def _triangles(rows: IntArray, mode: int) -> IntArray:
     """(n, 3) rows of points, from the order of a list, a strip (every other one turned) or a fan."""
     if mode == TRIANGLES:
-        return rows[: len(rows) // 3 * 3].reshape(-1, 3)
+        return rows.reshape(-1, 3)
     if mode == FAN:
         return np.stack([rows[1:-1], rows[2:], np.full(max(len(rows) - 2, 0), rows[0])], axis=1)
     strip = np.stack([rows[:-2], rows[1:-1], rows[2:]], axis=1)

@@ -15,6 +15,22 @@ from mbla.model.geometry.geometry import GeometryFileError
 
 COMPONENTS = {5120: np.int8, 5121: np.uint8, 5122: np.int16, 5123: np.uint16, 5125: np.uint32, 5126: np.float32}
 WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4}
+LARGEST_SPARSE = 10**7
+"""rows of an accessor that are zero but for a few: no file holds so many points of blocks"""
+
+
+def entry_of(document: dict[str, Any], key: str, number: Any) -> dict[str, Any]:
+    """An entry of one of the document's lists by its number; ValueError where there is none.
+
+    >>> entry_of({"meshes": [{}]}, "meshes", -1)
+    Traceback (most recent call last):
+    ValueError: meshes has no entry -1, but 1 from 0 on
+    """
+    entries = document.get(key, [])
+    if isinstance(number, bool) or not isinstance(number, int) or not 0 <= number < len(entries):
+        raise ValueError(f"{key} has no entry {number}, but {len(entries)} from 0 on")
+    entry: dict[str, Any] = entries[number]
+    return entry
 
 
 class Buffers:
@@ -30,7 +46,7 @@ class Buffers:
 
     def __getitem__(self, number: int) -> bytes:
         if number not in self._read:
-            self._read[number] = self._load(self._entries[number])
+            self._read[number] = self._load(entry_of({"buffers": self._entries}, "buffers", number))
         return self._read[number]
 
     def _load(self, entry: dict[str, Any]) -> bytes:
@@ -57,14 +73,16 @@ class Buffers:
 
 def read_accessor(document: dict[str, Any], number: int, buffers: Buffers) -> FloatArray:
     """Values of an accessor, (count,) or (count, width); whole numbers that stand for shares are turned into them."""
-    accessor = document["accessors"][number]
+    accessor = entry_of(document, "accessors", number)
     kind, width, count = np.dtype(COMPONENTS[accessor["componentType"]]), WIDTHS[accessor["type"]], accessor["count"]
-    if not 0 <= count < 2**31:
+    if isinstance(count, bool) or not isinstance(count, int) or not 0 <= count < 2**31:
         raise ValueError(f"accessor {number} has a count of {count}")
     if "bufferView" in accessor:
         values = _view(document, accessor["bufferView"], accessor.get("byteOffset", 0), kind, width, count, buffers)
-    else:
+    elif "sparse" in accessor and count <= LARGEST_SPARSE:
         values = np.zeros((count, width))
+    else:
+        raise ValueError(f"accessor {number} has no values: no bufferView for its count of {count}")
     if "sparse" in accessor:
         _put_sparse(document, accessor["sparse"], kind, values, buffers)
     if accessor.get("normalized") and kind.kind in "iu":
@@ -76,10 +94,14 @@ def read_accessor(document: dict[str, Any], number: int, buffers: Buffers) -> Fl
 def _view(
     document: dict[str, Any], view: int, offset: int, kind: np.dtype[Any], width: int, count: int, buffers: Buffers
 ) -> FloatArray:
-    entry = document["bufferViews"][view]
+    entry = entry_of(document, "bufferViews", view)
     stride = entry.get("byteStride") or kind.itemsize * width
     first = entry.get("byteOffset", 0) + offset
     content = buffers[entry["buffer"]]
+    if min(first, offset) < 0 or stride < 1 or first % kind.itemsize:
+        raise ValueError(
+            f"bufferView {view} begins at byte {first}, where no number of {kind.itemsize} bytes can begin"
+        )
     if count and first + stride * (count - 1) + kind.itemsize * width > len(content):
         raise ValueError("a buffer is shorter than the document says")
     if not count:

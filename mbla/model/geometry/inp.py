@@ -10,6 +10,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
+from difflib import get_close_matches
 from pathlib import Path
 
 import numpy as np
@@ -18,6 +19,7 @@ from mbla.arrays import FloatArray, IntArray, starts
 from mbla.errors import Notice
 from mbla.model.geometry.cells import VOLUME_CELLS
 from mbla.model.geometry.geometry import Geometry, GeometryFileError
+from mbla.model.geometry.leftovers import unused_points
 from mbla.model.geometry.welding import own_vertices
 from mbla.model.polyhedra import Polyhedra, join_polyhedra, polyhedra_from_cells, take_polyhedra
 
@@ -45,6 +47,11 @@ REFUSED = {
     "ELCOPY": "write all elements",
 }
 """cards that change the mesh in ways that are not followed"""
+
+UNREADABLE = "\ufffd"
+"""stands for bytes that are no text"""
+ALIKE = frozenset({"NSET", "ELGEN", "NODE FILE", "NODE PRINT", "NODAL", "SECTION", "CLEARANCE"})
+"""cards of other names than those that are followed, and not misspelt"""
 
 
 @dataclass
@@ -90,7 +97,8 @@ def read_inp(path: Path) -> Geometry:
     solids = {n: e for n, e in content.elements.items() if SOLIDS.match(e[0])}
     shells = {} if solids else {n: e for n, e in content.elements.items() if SHELLS.match(e[0])}
     used = solids or shells
-    notices = _left_out(content, used, bool(solids))
+    nodes = [rows[node] for _, numbers, _ in content.elements.values() for node in numbers if node in rows]
+    notices = _left_out(content, used, bool(solids)) + unused_points(len(rows), np.array(nodes, dtype=np.int64))
     try:
         if solids:
             cells, order = _solids(solids, rows, points)
@@ -108,17 +116,35 @@ def _read(text: str) -> _Content:
             raise GeometryFileError(
                 "geometry-not-read", f"line {card.line}: *{card.keyword} is not followed: {REFUSED[card.keyword]}"
             )
-        read = {"NODE": _read_nodes, "ELEMENT": _read_elements, "ELSET": _read_set}.get(card.keyword)
+        _refuse_misspelt(card)
+        read = READ.get(card.keyword)
         if read is not None:
             read(content, card)
     return content
 
 
+def _refuse_misspelt(card: _Card) -> None:
+    """Cards that are not known are passed over; one that is nearly known would take its blocks with it."""
+    if UNREADABLE in card.keyword + "".join(card.options) + card.options.get("TYPE", ""):
+        raise GeometryFileError("geometry-file", f"line {card.line} cannot be read: it has bytes that are no UTF-8")
+    if card.keyword not in (*READ, *ALIKE):
+        near = get_close_matches(card.keyword, READ, n=1, cutoff=0.8)
+        if near:
+            raise GeometryFileError(
+                "geometry-file",
+                f"line {card.line} cannot be read: *{card.keyword} is no card; did you mean *{near[0]}?",
+            )
+
+
 def _read_nodes(content: _Content, card: _Card) -> None:
+    """Nodes in space; a number given twice is one node only where both lie at one place."""
     for number, fields in card.data:
         try:
-            x, y, z = [float(each) for each in fields[1:4]] + [0.0] * (3 - len(fields[1:4]))
-            content.nodes[int(fields[0])] = (x, y, z)
+            if len(fields) != 4:
+                raise ValueError(f"a node has its number and three coordinates, here are {len(fields)} fields")
+            node, place = int(fields[0]), (float(fields[1]), float(fields[2]), float(fields[3]))
+            if content.nodes.setdefault(node, place) != place:
+                raise ValueError(f"node {node} lies elsewhere in an earlier line")
         except ValueError as error:
             raise _unreadable(number, error) from error
 
@@ -134,12 +160,20 @@ def _read_elements(content: _Content, card: _Card) -> None:
         except ValueError as error:
             raise _unreadable(number, error) from error
         if needed is None or len(numbers) > needed:
-            content.elements[numbers[0]] = (kind, numbers[1:], name)
+            _add_element(content, number, kind, numbers, name, needed)
             numbers = []
     if numbers:
         raise GeometryFileError(
             "geometry-file", f"line {card.line}: the last element has fewer than the {needed} nodes of a {kind}"
         )
+
+
+def _add_element(content: _Content, line: int, kind: str, numbers: list[int], name: str, needed: int | None) -> None:
+    if needed is not None and len(numbers) > needed + 1:
+        raise _unreadable(line, ValueError(f"a {kind} has {needed} nodes, here are {len(numbers) - 1}"))
+    element = (kind, numbers[1:], name)
+    if content.elements.setdefault(numbers[0], element)[:2] != element[:2]:
+        raise _unreadable(line, ValueError(f"element {numbers[0]} has other nodes in an earlier line"))
 
 
 def _read_set(content: _Content, card: _Card) -> None:
@@ -155,6 +189,10 @@ def _read_set(content: _Content, card: _Card) -> None:
                 members.update({int(each): None} if each.isdigit() else content.sets.get(each, {}))
         except ValueError as error:
             raise _unreadable(number, error) from error
+
+
+READ = {"NODE": _read_nodes, "ELEMENT": _read_elements, "ELSET": _read_set}
+"""cards that are followed, and how"""
 
 
 def _unreadable(line: int, error: ValueError) -> GeometryFileError:

@@ -19,10 +19,20 @@ from typing import Any
 
 import numpy as np
 
-from mbla.arrays import FloatArray, starts
+from mbla.arrays import FloatArray, IntArray, starts
 from mbla.errors import FileError, Notice
 from mbla.model.geometry.cells import VOLUME_CELLS
 from mbla.model.geometry.geometry import Geometry, GeometryFileError
+from mbla.model.geometry.leftovers import unused_points
+from mbla.model.geometry.mesh_counts import (
+    announced_in_ply,
+    announced_in_vtu,
+    counts_of,
+    refuse_other_counts,
+    refuse_other_length,
+    refuse_other_lines,
+    refuse_other_sections,
+)
 from mbla.model.geometry.welding import own_vertices
 from mbla.model.polyhedra import Polyhedra, join_polyhedra, polyhedra_from_cells
 
@@ -50,20 +60,32 @@ def read_ply(path: Path) -> Geometry:
         raise GeometryFileError("geometry-file", "is not a well-formed PLY file: its header has no end")
     # both names are in use, meshio knows one
     header = re.sub(rb"(property\s+list\s+\S+\s+\S+\s+)vertex_index\b", rb"\1vertex_indices", header)
-    return _read(io.BytesIO(header + end + body), "ply")
+    as_text = re.search(rb"\sformat\s+ascii\b", header) is not None
+    if as_text:
+        refuse_other_lines(header, body)
+    geometry, mesh = _read(io.BytesIO(header + end + body), "ply")
+    refuse_other_counts(WORDS["ply"], announced_in_ply(header), counts_of(mesh))
+    if not as_text:
+        refuse_other_length(header, body, mesh)
+    return geometry
 
 
 def read_vtu(path: Path) -> Geometry:
     """Volume cells, or closed parts of surfaces, of a VTU file."""
-    return _read(str(path), "vtu")
+    geometry, mesh = _read(str(path), "vtu")
+    refuse_other_counts(WORDS["vtu"], announced_in_vtu(path), counts_of(mesh))
+    return geometry
 
 
 def read_msh(path: Path) -> Geometry:
     """Volume cells, or closed parts of surfaces, of a Gmsh file."""
-    return _read(str(path), "gmsh")
+    geometry, _ = _read(str(path), "gmsh")
+    refuse_other_sections(path)
+    return geometry
 
 
-def _read(source: str | io.BytesIO, file_format: str) -> Geometry:
+def _read(source: str | io.BytesIO, file_format: str) -> tuple[Geometry, Any]:
+    """What the file holds, and the same as meshio gives it."""
     mesh, remarks = _mesh(source, file_format)
     points = _points(mesh)
     volumes = [
@@ -72,10 +94,10 @@ def _read(source: str | io.BytesIO, file_format: str) -> Geometry:
     surfaces = [block for block in mesh.cells if _shape(block.type) in SURFACE_CELLS or block.type == "pixel"]
     used = volumes or surfaces
     left_out = [block for block in mesh.cells if not any(block is other for other in used)]
-    notices = [*remarks, *_left_out(left_out, bool(volumes))]
+    notices = [*remarks, *_left_out(left_out, bool(volumes)), *unused_points(len(points), _rows_of(mesh))]
     if volumes:
         cells = join_polyhedra([_volume_cells(points, block) for block in volumes])
-        return Geometry(cells, tuple(notices), _physical_groups(mesh, volumes), cells=True)
+        return Geometry(cells, tuple(notices), _physical_groups(mesh, volumes), cells=True), mesh
     faces = list(chain.from_iterable(_surface_cells(block) for block in surfaces))
     counts = np.array([len(face) for face in faces], dtype=np.int64)
     corners = np.fromiter(chain.from_iterable(faces), dtype=np.int64, count=int(counts.sum()))
@@ -87,7 +109,18 @@ def _read(source: str | io.BytesIO, file_format: str) -> Geometry:
     faces, counts = [faces[row] for row in order], counts[order]
     corners = np.fromiter(chain.from_iterable(faces), dtype=np.int64, count=int(counts.sum()))
     surface = own_vertices(points, corners, starts(counts), block[order])
-    return Geometry(surface, tuple(notices), tuple(present) if names else ())
+    return Geometry(surface, tuple(notices), tuple(present) if names else ()), mesh
+
+
+def _rows_of(mesh: Any) -> IntArray:
+    """Rows of points that any cell names, whatever its type."""
+    rows = [np.ravel(each) for block in mesh.cells for cell in block.data for each in _parts(block, cell)]
+    return np.concatenate([np.empty(0, dtype=np.int64), *rows]).astype(np.int64)
+
+
+def _parts(block: Any, cell: Any) -> Sequence[Any]:
+    """Faces of a polyhedron; another cell as it is."""
+    return list(cell) if block.type.startswith("polyhedron") else [cell]
 
 
 def _physical_groups(mesh: Any, used: Sequence[Any]) -> tuple[str, ...]:
@@ -183,7 +216,9 @@ def _surface_cells(block: Any) -> Iterator[Sequence[int]]:
 
 def _check_rows(rows: np.typing.NDArray[np.int64], points: FloatArray) -> None:
     if rows.size and not (rows.min() >= 0 and rows.max() < len(points)):
-        raise GeometryFileError("geometry-file", f"a cell names a point that does not exist; there are {len(points)}")
+        wrong = rows[(rows < 0) | (rows >= len(points))].flat[0]
+        words = f"a cell names point {wrong}, which does not exist; there are {len(points)}, from 0 on"
+        raise GeometryFileError("geometry-file", words)
 
 
 def _left_out(blocks: Sequence[Any], beside_volumes: bool) -> list[Notice]:

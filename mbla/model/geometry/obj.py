@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -15,10 +16,17 @@ import numpy as np
 from mbla.arrays import IntArray, starts
 from mbla.errors import Notice
 from mbla.model.geometry.geometry import Geometry, GeometryFileError
+from mbla.model.geometry.leftovers import empty_objects, unused_points
 from mbla.model.geometry.welding import own_vertices
 from mbla.model.polyhedra import Polyhedra
 from mbla.model.wording import counted, was
 
+SILENT = frozenset(
+    {"vn", "vt", "vp", "vw", "s", "usemtl", "mtllib", "usemap", "maplib", "shadow_obj", "trace_obj", "bevel"}
+    | {"c_interp", "d_interp", "lod", "mg", "con", "cstype", "deg", "bmat", "step", "parm", "trim", "hole", "scrv"}
+    | {"sp", "end", "ctech", "stech", "bsp", "bzp", "cdc", "cdp", "res"}
+)
+"""keywords that say nothing of the shape of polygons"""
 LEFT_OUT = {"l": "line", "p": "point", "curv": "curve", "curv2": "curve", "surf": "free-form surface"}
 """elements that carry geometry but no block"""
 
@@ -28,6 +36,9 @@ class _Content:
     """The file as read: vertices, faces as rows of them, and the row of the object and group name at each face.
 
     What precedes the first object or group is row 0.
+
+    beginnings   : number of vertices before each object
+    last_element : number of vertices before the last face, line or point
     """
 
     vertices: list[tuple[float, float, float]] = field(default_factory=list)
@@ -37,6 +48,8 @@ class _Content:
     object_names: list[str] = field(default_factory=lambda: [""])
     group_names: list[str] = field(default_factory=lambda: [""])
     left_out: dict[str, int] = field(default_factory=dict)
+    beginnings: list[int] = field(default_factory=list)
+    last_element: int = 0
 
 
 def read_obj(path: Path) -> Geometry:
@@ -52,11 +65,41 @@ def read_obj(path: Path) -> Geometry:
         Notice("warning", "mesh-cells-left-out", f"{counted(count, noun)} {was(count)} left out: no block")
         for noun, count in content.left_out.items()
     )
+    used = np.array([corner for face in content.faces for corner in face], dtype=np.int64)
+    if not content.left_out:
+        notices += unused_points(len(content.vertices), used)
+        notices += _empty_objects(content)
+        _refuse_cut(content)
     by_object = len(content.object_names) > 1
     rows = np.array(content.objects if by_object else content.groups, dtype=np.int64)
     names = content.object_names if by_object else content.group_names
-    polyhedra, used = _collect(content, rows)
-    return Geometry(polyhedra, notices, tuple(names[row] for row in used) if len(names) > 1 else ())
+    polyhedra, present = _collect(content, rows)
+    return Geometry(polyhedra, notices, tuple(names[row] for row in present) if len(names) > 1 else ())
+
+
+def _empty_objects(content: _Content) -> tuple[Notice, ...]:
+    """Objects with vertices of their own and without a face."""
+    bounds = pairwise([*content.beginnings, len(content.vertices)])
+    with_faces = set(content.objects)
+    return empty_objects(
+        [
+            content.object_names[row]
+            for row, (begin, end) in enumerate(bounds, start=1)
+            if end > begin and row not in with_faces
+        ]
+    )
+
+
+def _refuse_cut(content: _Content) -> None:
+    """Vertices come before the faces that use them: a file that ends with vertices lacks faces."""
+    corners = {corner for face in content.faces for corner in face}
+    after = [row for row in range(content.last_element, len(content.vertices)) if row not in corners]
+    if content.faces and after:
+        raise GeometryFileError(
+            "geometry-file",
+            f"is not a well-formed OBJ file: it ends with {counted(len(after), 'vertex')} that no face uses, "
+            "it seems to be cut off",
+        )
 
 
 def _read(path: Path) -> _Content:
@@ -100,13 +143,17 @@ def _read_line(content: _Content, keyword: str, rest: str) -> None:
         content.faces.append(corners)
         content.objects.append(len(content.object_names) - 1)
         content.groups.append(len(content.group_names) - 1)
+        content.last_element = len(content.vertices)
     elif keyword == "o":
         content.object_names.append(rest.strip())
+        content.beginnings.append(len(content.vertices))
     elif keyword == "g":
         content.group_names.append(rest.strip())
     elif keyword in LEFT_OUT:
         noun = LEFT_OUT[keyword]
         content.left_out[noun] = content.left_out.get(noun, 0) + 1
+    elif keyword not in SILENT:
+        raise ValueError(f"{keyword[:40]!r} is no keyword of OBJ")
 
 
 def _vertex(token: str, count: int) -> int:

@@ -1,7 +1,8 @@
 """What a geometry file holds, made into blocks: repaired where that cannot change their shape, and split.
 
 Every repair is told in a notice. What it takes two meanings to repair (holes, faces that cross, surfaces inside each
-other) is left as it is, to be refused by block when the blocks are built.
+other) is left as it is, to be refused by block when the blocks are built. So are objects with coordinates that cannot
+be computed with, and those of which a repair would leave nothing.
 
 Tolerances are relative to the shortest edge at a vertex, so that no repair makes two corners of a face one, unless the
 deck gives a distance within which it wants that (``weld``).
@@ -16,7 +17,7 @@ import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.errors import Notice
-from mbla.model.defects import LARGEST_COORDINATE
+from mbla.model.defects import coordinate_defects, mark
 from mbla.model.geometry.duplicate_faces import face_codes, repeated_faces
 from mbla.model.geometry.edge_lengths import lone_edge_corners, shortest_edges
 from mbla.model.geometry.flat_faces import flat_faces
@@ -24,7 +25,7 @@ from mbla.model.geometry.geometry import Geometry
 from mbla.model.geometry.surfaces import split_surfaces
 from mbla.model.geometry.t_junctions import insert_t_junctions
 from mbla.model.geometry.welding import Welded, take_faces, weld, weld_near, welding_notices, with_faces
-from mbla.model.polyhedra import Polyhedra, take_polyhedra
+from mbla.model.polyhedra import Polyhedra, join_polyhedra, take_polyhedra
 from mbla.model.wording import counted, was
 
 
@@ -57,10 +58,9 @@ def repair(geometry: Geometry, tolerance: float, weld_distance: float | None = N
     tolerance     : relative to the shortest edge, for gaps inside a block
     weld_distance : distance within which corners of an object are one
     """
-    if not (np.abs(geometry.polyhedra.vertices) <= LARGEST_COORDINATE).all():
-        return replace(geometry, cells=True)  # left to be refused by block
-    work = _Work(geometry.polyhedra, np.arange(len(geometry.polyhedra)))
-    work.put(geometry.polyhedra)
+    fit = ~mark(coordinate_defects(geometry.polyhedra), len(geometry.polyhedra))
+    work = _Work(take_polyhedra(geometry.polyhedra, np.flatnonzero(fit)), np.flatnonzero(fit))
+    work.put(work.polyhedra)
     _weld_equal(work, geometry)
     if weld_distance is not None:
         everything = np.arange(len(work.polyhedra.vertices))
@@ -71,10 +71,23 @@ def repair(geometry: Geometry, tolerance: float, weld_distance: float | None = N
             step(work)
         _close_gaps(work, tolerance)
         _split(work, geometry)
+    if not work.pooled:
+        _put_back(work, geometry)
     names = tuple("" if work.pooled else geometry.names[row] for row in work.source) if geometry.names else ()
     return replace(
         geometry, polyhedra=work.polyhedra, notices=(*geometry.notices, *work.notices), names=names, cells=True
     )
+
+
+def _put_back(work: _Work, geometry: Geometry) -> None:
+    """Objects of which nothing is left, as they are in the file: none of them goes without a word."""
+    gone = np.setdiff1d(with_faces(geometry.polyhedra), work.source)
+    if not len(gone):
+        return
+    polyhedra = join_polyhedra([work.polyhedra, take_polyhedra(geometry.polyhedra, gone)])
+    source = np.concatenate([work.source, gone])
+    order = np.argsort(source, kind="stable")
+    work.polyhedra, work.source = take_polyhedra(polyhedra, order), source[order]
 
 
 def _weld_equal(work: _Work, geometry: Geometry) -> None:

@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from mbla.model.geometry.geometry import Geometry, GeometryFileError
+from mbla.model.geometry.leftovers import empty_objects
 from mbla.model.polyhedra import Polyhedra, join_polyhedra
 
 HEADER, TRIANGLE = 84, 50
@@ -64,7 +65,7 @@ def _solids(text: str) -> Geometry:
                 raise GeometryFileError(
                     "geometry-file", f"is not a well-formed STL file: line {number} is no vertex"
                 ) from error
-        elif word == "endloop" and len(corners[-1]) % 3:
+        elif word == "endloop" and (not corners or len(corners[-1]) % 3):
             raise GeometryFileError(
                 "geometry-file", f"is not a well-formed STL file: the loop that ends in line {number} is no triangle"
             )
@@ -77,12 +78,13 @@ def _solids(text: str) -> Geometry:
 
 def _geometry(solids: list[np.typing.NDArray[np.float64]], names: list[str]) -> Geometry:
     kept = [row for row, triangles in enumerate(solids) if len(triangles)]
+    empty = empty_objects([name for name, triangles in zip(names, solids, strict=True) if not len(triangles)])
     parts = [_soup(solids[row]) for row in kept]
     named = tuple(names[row] for row in kept)
     several = len(kept) > 1 and any(named)
     if not several and len(parts) > 1:
         parts = [_soup(np.concatenate([solids[row] for row in kept]))]
-    return Geometry(join_polyhedra(parts), names=named if several else (), indexed=False)
+    return Geometry(join_polyhedra(parts), empty, named if several else (), indexed=False)
 
 
 def _soup(triangles: np.typing.NDArray[np.float64]) -> Polyhedra:

@@ -176,12 +176,6 @@ OF_ITEMS = (
         "Give extrude, the thickness.",
     ),
     refused(
-        "coordinate-out-of-range",
-        "Coordinates are not finite, or so far from the origin that rounding leaves nothing of the blocks.",
-        "A damaged export, or survey coordinates in a large national grid.",
-        "Move the structure towards the origin, or correct the file.",
-    ),
-    refused(
         "more-faults",
         "There are more faults of the same kind, which are only counted.",
         "Mostly one reason for all: a mesh of the wrong scale or kind, a table with another column order.",

@@ -100,6 +100,23 @@ OF_FILES = (
         "Count the blocks against the file; export the missing ones as closed surfaces or volume cells.",
     ),
     Explanation(
+        "objects-empty",
+        "warning",
+        "Objects of a geometry file have no faces, and became no blocks.",
+        "What was left out neither weighs nor supports anything: if it was a block, the load factor is of another "
+        "structure.",
+        "A file that is cut off, an export without faces, or an object that is there for its name only.",
+        "Count the blocks against the file; export the object again, or remove it.",
+    ),
+    Explanation(
+        "file-vertices-unused",
+        "warning",
+        "No face of a geometry file uses some of its vertices.",
+        "If the faces are missing, so are blocks: the load factor is then of another structure.",
+        "A file that is cut off, a block that lost its faces, or points that the exporting program left behind.",
+        "Count the blocks against the file, and export it again where they differ.",
+    ),
+    Explanation(
         "mesh-supports-marked",
         "notice",
         "A geometry file marks blocks as supports; the deck alone fixes blocks.",

@@ -239,7 +239,7 @@ def test_both_names_of_the_list_of_corners_in_ply(tmp_path: Path) -> None:
 def test_a_cell_that_names_a_missing_point(tmp_path: Path) -> None:
     path = tmp_path / "bad.vtu"
     write_mesh(path, np.zeros((4, 3)), [("tetra", np.array([[0, 1, 2, 9]]))])
-    with pytest.raises(GeometryFileError, match="names a point that does not exist; there are 4"):
+    with pytest.raises(GeometryFileError, match="names point 9, which does not exist; there are 4"):
         read_geometry(path)
 
 

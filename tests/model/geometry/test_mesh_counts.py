@@ -1,0 +1,34 @@
+"""Files that announce other numbers of points and cells than they have are refused, however few are missing."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from mbla.model.geometry import read_geometry
+from mbla.model.geometry.geometry import GeometryFileError
+from tests.trust.geometry.formats import FORMATS
+from tests.trust.geometry.stones import arch
+
+
+@pytest.mark.parametrize(
+    ("kind", "one", "other", "message"),
+    [
+        ("ply", b"face 54", b"face 48", "announces 72 vertices and 48 faces, a line each, and has 126 lines"),
+        ("ply", b"\n4 0 3 2 1\n", b"\n5 0 3 2 1\n", "line 82 announces 5 corners and has 4"),
+        ("ply binary", b"face 54", b"face 48", "what its header announces takes 2688 bytes, it has 2808"),
+        ("ply binary", b"face 54", b"face 55", "announces 55 cells, 54 can be read"),
+        ("vtu cells", b'Cells="9', b'Cells="10', "is not a well-formed VTU file"),
+        ("vtu cells", b"12 12 12", b"12 99 12", "announces 9 cells, 8 can be read"),
+        ("msh cells", b"$Elements\n9", b"$Elements\n8", "announces 8 elements and has 9 elements"),
+    ],
+)
+def test_refused(tmp_path: Path, kind: str, one: bytes, other: bytes, message: str) -> None:
+    ((name, content),) = FORMATS[kind].write(arch()).items()
+    assert one in content
+    (tmp_path / name).write_bytes(content)
+    assert len(read_geometry(tmp_path / name).polyhedra)
+    (tmp_path / name).write_bytes(content.replace(one, other, 1))
+    with pytest.raises(GeometryFileError, match=message):
+        read_geometry(tmp_path / name)

@@ -1,0 +1,46 @@
+"""Blocks by corners and faces, as geometry files hold them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+from mbla.arrays import FloatArray
+from mbla.model.polyhedra import HEXAHEDRON
+from tests.decks.arch_files import voussoirs
+
+Face = tuple[int, ...]
+
+
+@dataclass(frozen=True)
+class Stone:
+    """One block: ``corners`` (n, 3) in metres with z upwards, ``faces`` by rows of them."""
+
+    name: str
+    corners: FloatArray
+    faces: tuple[Face, ...]
+
+    def with_corner(self, row: int, place: Sequence[float]) -> Stone:
+        """One corner elsewhere."""
+        corners = self.corners.copy()
+        corners[row] = place
+        return replace(self, corners=corners)
+
+    def with_face(self, row: int, *instead: Face) -> Stone:
+        """Other faces in place of one; none leaves a hole."""
+        return replace(self, faces=(*self.faces[:row], *instead, *self.faces[row + 1 :]))
+
+    def with_corners(self, corners: FloatArray) -> Stone:
+        """Every corner elsewhere, (n, 3)."""
+        return replace(self, corners=corners)
+
+
+def arch() -> list[Stone]:
+    """The arch of ``tests/decks/arch_files.py``: nine voussoirs, corners 4 to 7 on the plane y = 0."""
+    faces = tuple(tuple(face) for face in HEXAHEDRON)
+    return [Stone(f"voussoir {number}", corners.copy(), faces) for number, corners in enumerate(voussoirs())]
+
+
+def triangles(stone: Stone) -> tuple[Face, ...]:
+    """Faces split into triangles from their first corner on."""
+    return tuple((face[0], face[i], face[i + 1]) for face in stone.faces for i in range(1, len(face) - 1))

@@ -1,0 +1,162 @@
+"""Every broken geometry file is refused with a diagnosis, or gives the result of the file that is not broken."""
+
+from __future__ import annotations
+
+from collections import Counter
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from tests.trust.counts import record_counts
+from tests.trust.geometry.formats import FORMATS, Format
+from tests.trust.geometry.huge import SIDES, check, cube, write
+from tests.trust.geometry.judging import SECONDS, Outcome, differences, outcome, refusal_defects
+from tests.trust.geometry.mutants import Mutant, mutants
+from tests.trust.geometry.shapes import REFUSED, SAME, TOLD
+from tests.trust.geometry.stones import arch
+
+SHORT = 60
+"""every so-many-th mutant of those that must be refused is in the short form"""
+HUGE_SECONDS = 1800
+"""by the clock; on a machine that does nothing else it takes a small part of that"""
+HUGE_MEMORY = 4 * 2**30
+"""bytes"""
+
+
+def verdict(mutant: Mutant, found: Outcome, sound: Outcome) -> tuple[str, list[str]]:
+    """What came of a mutant (``refused``, ``same`` or ``told``), and what is wrong with that."""
+    defects = [f"took {found.seconds:.0f} s"] if found.seconds > SECONDS else []
+    if found.figures is None:
+        wrong = [f"refused: {found.faults}"] if mutant.expect is SAME else []
+        return "refused", defects + wrong + refusal_defects(found)
+    if mutant.expect is REFUSED:
+        return "same", [*defects, f"was taken: {found.figures}, {set(found.notices)}"]
+    silent = bool(mutant.told) and not found.notices & mutant.told
+    if mutant.expect is TOLD:
+        return "told", [*defects, *([f"nothing said: {set(found.notices)}"] if silent else [])]
+    other = differences(found, sound, mutant.tolerance, mutant.scale)
+    if silent:
+        defects.append(f"not said what was done: {set(found.notices)}")
+    return "same", defects + other
+
+
+@cache
+def sound_outcome(kind: Format, folder: Path) -> Outcome:
+    """What comes of the arch in a file that is not broken."""
+    return outcome(folder / f"sound {kind.name}".replace(" ", "_"), kind.item, kind.write(arch()), solve=True)
+
+
+def findings(chosen: list[Mutant], folder: Path) -> tuple[Counter[str], list[str]]:
+    """How many came to what, and every defect.
+
+    What must be refused or be the same is run; of the others the model is enough, and what is said of it.
+    """
+    counts: Counter[str] = Counter()
+    defects = []
+    for number, mutant in enumerate(chosen):
+        solve = mutant.expect in (SAME, REFUSED)
+        found = outcome(folder / str(number), mutant.kind.item, mutant.files, solve=solve)
+        came, wrong = verdict(mutant, found, sound_outcome(mutant.kind, folder))
+        counts[came] += 1
+        counts["solved"] += solve and came == "same"
+        defects += [f"{mutant.title}: {defect}" for defect in wrong]
+    return counts, defects
+
+
+def test_some_mutants(tmp_path: Path) -> None:
+    """Some that must be refused, of every format, and one that is mended and solved."""
+    everything = [mutant for mutant in mutants() if mutant.expect is REFUSED][::SHORT]
+    assert len({mutant.kind.name for mutant in everything}) >= 8
+    counts, defects = _refused_only(everything, tmp_path)
+    assert defects == []
+    assert counts["refused"] == len(everything)
+
+
+def test_a_mended_file_gives_the_result_of_the_sound_one(tmp_path: Path) -> None:
+    chosen = [mutant for mutant in mutants() if mutant.title == "obj: faces turned at random"]
+    counts, defects = findings(chosen, tmp_path)
+    assert defects == []
+    assert counts["solved"] == 1
+
+
+def _refused_only(chosen: list[Mutant], folder: Path) -> tuple[Counter[str], list[str]]:
+    nothing = Outcome(3, (), 0.0, False)
+    counts: Counter[str] = Counter()
+    defects = []
+    for number, mutant in enumerate(chosen):
+        came, wrong = verdict(
+            mutant, outcome(folder / str(number), mutant.kind.item, mutant.files, solve=True), nothing
+        )
+        counts[came] += 1
+        defects += [f"{mutant.title}: {defect}" for defect in wrong]
+    return counts, defects
+
+
+def test_the_judge_sees_what_is_wrong() -> None:
+    """A check that cannot fail is none: each way of being wrong is found."""
+    sound = Outcome(0, (), 0.1, True, frozenset(), None, {"blocks": 9, "load_factor": 0.4})
+    mutant = next(each for each in mutants() if each.title == "obj: face turned")
+    said = frozenset({"faces-turned-outwards"})
+    same = Outcome(0, (), 0.1, True, said, None, dict(sound.figures or {}))
+    assert verdict(mutant, same, sound) == ("same", [])
+    for found in (
+        Outcome(0, (), 0.1, True, frozenset(), None, sound.figures),  # mended without a word
+        Outcome(0, (), 0.1, True, said, None, {"blocks": 8, "load_factor": 0.4}),
+        Outcome(0, (), 0.1, True, said, None, {"blocks": 9, "load_factor": 0.41}),
+        Outcome(0, (), 99.0, True, said, None, sound.figures),
+        Outcome(3, ("deck.yaml:5:3 blocks[0].mesh: block mesh[0]: face 3 has no area",), 0.1, False),
+    ):
+        assert verdict(mutant, found, sound)[1]
+    hole = next(each for each in mutants() if each.title == "obj: face missing")
+    line = "deck.yaml:5:3 blocks[0].mesh: block mesh[0]: is not closed: 3 edges have one face only, face 3"
+    assert verdict(hole, Outcome(3, (line,), 0.1, False), sound) == ("refused", [])
+    for found in (
+        same,
+        Outcome(1, (line,), 0.1, False),
+        Outcome(3, (), 0.1, False),
+        Outcome(3, (line,), 0.1, True),
+        Outcome(3, ("Traceback (most recent call last):",), 0.1, False),
+        Outcome(3, ("deck.yaml:5:3 blocks[0].mesh: bad file",), 0.1, False),
+    ):
+        assert verdict(hole, found, sound)[1]
+
+
+@pytest.mark.trust
+def test_a_million_triangles(tmp_path: Path) -> None:
+    """One block of a million triangles is the cuboid that it is; without one of them it is refused."""
+    triangles = cube(SIDES)
+    assert len(triangles) > 1_000_000
+    assert np.linalg.det(triangles).sum() / 6 == pytest.approx(1.0)
+    whole = check(write(tmp_path / "whole", triangles), HUGE_SECONDS)
+    hole = check(write(tmp_path / "open", triangles[:-1]), HUGE_SECONDS)
+    assert whole.status == 0, whole.words
+    assert "1 block" in whole.words
+    assert hole.status == 3
+    assert "is not closed: 3 edges" in hole.words
+    assert max(whole.memory, hole.memory) < HUGE_MEMORY
+
+
+@pytest.mark.trust
+def test_every_mutant(tmp_path: Path) -> None:
+    chosen = list(mutants())
+    assert len(chosen) >= 200
+    assert {mutant.kind.name for mutant in chosen} == set(FORMATS)
+    counts, defects = findings(chosen, tmp_path)
+    assert defects == []
+    record_counts(
+        "broken-geometry",
+        4,
+        "A broken geometry file is refused with its fault named, or mended and told, or gives the model of the sound "
+        "file; what is left out of a file is told in a warning",
+        {
+            "mutated files": len(chosen),
+            "kinds of files": len(FORMATS),
+            "refused by name": counts["refused"],
+            "with the model of the sound file": counts["same"],
+            "of these solved, with its load factor": counts["solved"],
+            "with a warning of what is missing": counts["told"],
+            "tracebacks, hangs, silent differences": len(defects),
+        },
+    )
