@@ -169,8 +169,8 @@ OF_STRUCTURES = (
     refused(
         "coordinate-out-of-range",
         "A coordinate is no number, or too large or too small to compute with.",
-        "A damaged export, survey coordinates in a large national grid, a unit, a scale or a transform that is wrong by "
-        "orders of magnitude.",
+        "A damaged export, survey coordinates in a large national grid, a unit, a scale or a transform that is wrong "
+        "by orders of magnitude.",
         "Correct the vertex that the message names, or the units; move the structure towards the origin.",
         "has a coordinate that is not finite",
         "cannot be computed with",
