@@ -1,9 +1,9 @@
-"""All checks in one command: format, lint, types, tests; options go to pytest.
+"""All checks in one command: format, lint, types, tests on all cores; options go to pytest.
 
 ::
 
     python tests/checks.py
-    python tests/checks.py -m long
+    python tests/checks.py -m long -n 0
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ import sys
 from pathlib import Path
 
 ROOT = Path(__file__).parents[1]
-CHECKS = (("ruff", "format", "--check", "."), ("ruff", "check", "."), ("mypy",), ("pytest", "-rs"))
+CHECKS = (("ruff", "format", "--check", "."), ("ruff", "check", "."), ("mypy",), ("pytest", "-rs", "-n", "auto", "--dist", "loadfile"))
 """-rs: what was skipped, and why: a machine without a browser or OpenGL tests less"""
 
 
