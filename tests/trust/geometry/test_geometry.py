@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections import Counter
 from functools import cache
 from pathlib import Path
@@ -132,7 +133,9 @@ def test_a_million_triangles(tmp_path: Path) -> None:
     whole = check(write(tmp_path / "whole", triangles), HUGE_SECONDS)
     hole = check(write(tmp_path / "open", triangles[:-1]), HUGE_SECONDS)
     assert whole.status == 0, whole.words
-    assert "1 block" in whole.words
+    model = json.loads(whole.answer)["model"]
+    assert (model["blocks"], model["interfaces"]) == (1, 1)
+    assert model["total_volume"] == pytest.approx(1.0, rel=1e-6)
     assert hole.status == 3
     assert "is not closed: 3 edges" in hole.words
     memory = max(whole.memory, hole.memory)
