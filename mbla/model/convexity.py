@@ -11,6 +11,10 @@ from mbla.model.ragged import chunks, ranges
 
 LARGE = 20_000
 """products faces x vertices above which a polyhedron is compared by itself, with a matrix product"""
+HUGE = 20_000_000
+"""products above which not every vertex is compared with every face: of a million triangles that would take hours"""
+SHARE = 0.01
+"""part of what is allowed by which the comparison of huge polyhedra may miss it"""
 AT_ONCE = 2_000_000
 """products held in memory together"""
 
@@ -30,7 +34,8 @@ def find_convex(polyhedra: Polyhedra, faces: FaceGeometry, allowed: FloatArray) 
     for block in np.flatnonzero(products > LARGE):
         vertices = polyhedra.local_vertices[polyhedra.vertex_start[block] : polyhedra.vertex_start[block + 1]]
         rows = slice(polyhedra.face_start[block], polyhedra.face_start[block + 1])
-        convex[block] = _all_behind(vertices, faces.centres[rows], faces.normals[rows], float(allowed[block]))
+        compare = _all_behind if products[block] <= HUGE else _none_ahead
+        convex[block] = compare(vertices, faces.centres[rows], faces.normals[rows], float(allowed[block]))
     return convex
 
 
@@ -54,5 +59,27 @@ def _all_behind(vertices: FloatArray, centres: FloatArray, normals: FloatArray, 
     for first in range(0, len(normals), slab):
         rows = slice(first, first + slab)
         if ((vertices @ normals[rows].T) - offsets[rows]).max() > allowed:
+            return False
+    return True
+
+
+def _none_ahead(vertices: FloatArray, centres: FloatArray, normals: FloatArray, allowed: float) -> bool:
+    """Same for one huge polyhedron: no vertex in a great ball that rests on each face, ``allowed`` above it.
+
+    A ball of radius r holds what leads by more than ``allowed`` + L²/2r at a distance L along the face; r makes that
+    at most ``SHARE`` of ``allowed`` more across the whole polyhedron.
+    """
+    from scipy.spatial import cKDTree
+
+    extent = float(np.linalg.norm(np.ptp(vertices, axis=0)))
+    if not allowed > 0 or not extent > 0:
+        return False
+    radius = extent**2 / (2 * SHARE * allowed)
+    tree = cKDTree(vertices)
+    for first in range(0, len(normals), AT_ONCE // 20):
+        rows = slice(first, first + AT_ONCE // 20)
+        middles = centres[rows] + (allowed + radius) * normals[rows]
+        nearest, _ = tree.query(middles, distance_upper_bound=radius)
+        if np.isfinite(nearest).any():
             return False
     return True

@@ -31,3 +31,19 @@ def test_dents_within_the_tolerance_do_not_count(dent: float, convex: bool) -> N
     vertices = [*vertices, [0.5, 0.5, 1 - dent]]
     built = build((vertices, [faces[0], *([4 + i, 4 + (i + 1) % 4, 8] for i in range(4)), *faces[2:]]))
     assert built.blocks.convex.tolist() == [convex]
+
+
+@pytest.mark.parametrize("scale", [1e-6, 1.0, 1e6])
+def test_huge_polyhedra_are_judged_as_large_ones(monkeypatch: pytest.MonkeyPatch, scale: float) -> None:
+    points = np.random.default_rng(0).normal(size=(400, 3))
+    points /= np.linalg.norm(points, axis=1)[:, None]
+    faces = ConvexHull(points).simplices.tolist()
+    shapes = []
+    for dent in (0.0, 1e-4, 5e-2, 0.5):
+        dented = points.copy()
+        dented[7] *= 1 - dent
+        shapes.append(moved((dented.tolist(), faces), scale * rotation(0)))
+    large = build(*shapes).blocks.convex.tolist()
+    assert set(large) == {True, False}
+    monkeypatch.setattr("mbla.model.convexity.HUGE", 0)
+    assert build(*shapes).blocks.convex.tolist() == large

@@ -30,9 +30,10 @@ SIDES = 289
 
 @dataclass(frozen=True)
 class Run:
-    """How ``mbla check`` took a file: exit status, its output, seconds by the clock, and memory at its peak, bytes."""
+    """How ``mbla check`` took a file: exit status, its outputs, seconds by the clock, and memory at its peak, bytes."""
 
     status: int
+    answer: str
     words: str
     seconds: float
     memory: int
@@ -68,11 +69,11 @@ def write(folder: Path, triangles: FloatArray) -> Path:
 def check(deck: Path, limit: float) -> Run:
     """``mbla check`` in a process of its own, ended after ``limit`` seconds."""
     began = time.perf_counter()
-    command = [sys.executable, "-m", "mbla", "check", str(deck)]
+    command = [sys.executable, "-m", "mbla", "check", "--json", str(deck)]
     done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=limit)
     seconds = time.perf_counter() - began
     memory = resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss * 1024
-    return Run(done.returncode, done.stdout + done.stderr, seconds, memory)
+    return Run(done.returncode, done.stdout, done.stderr, seconds, memory)
 
 
 if __name__ == "__main__":

@@ -334,7 +334,7 @@ def one_sided(stone: Stone, random: Generator) -> Stone:
 
 def projective(stone: Stone, random: Generator) -> Stone:
     """The projective plane of six corners: every edge has two faces, and it has one side."""
-    faces: tuple[tuple[int, ...], ...] = ((0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 5), (0, 5, 1))
+    faces: tuple[Face, ...] = ((0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 5), (0, 5, 1))
     faces += ((1, 2, 4), (2, 3, 5), (3, 4, 1), (4, 5, 2), (5, 1, 3))
     at = stone.corners.mean(axis=0) + 0.1 * random.normal(size=(6, 3))
     return replace(stone, corners=at, faces=faces)
