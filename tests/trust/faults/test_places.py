@@ -13,7 +13,8 @@ import pytest
 
 from tests.trust.counts import record_counts
 from tests.trust.faults.commands import Commands, content, is_one_plain_line, restored, written
-from tests.trust.faults.test_limits import MEGABYTE, small_disk
+from tests.trust.faults.mounts import small_disk
+from tests.trust.faults.test_limits import MEGABYTE
 
 CLAIM = (
     "Two runs of one deck into one folder at once: each ends with its whole result or is refused, and the files in the "
