@@ -25,6 +25,7 @@ from mbla.collector import loading
 from mbla.errors import DeckError, FileError, MblaError, UsageError
 from mbla.failures import failure_record, lines_of, with_notes, words_of
 from mbla.given_deck import read_given_deck, refuse_unfit_name, run_options
+from mbla.memory_limit import refuse_too_low_limits
 from mbla.run_options import RunOptions
 from mbla.streams import drop_output, prepare_streams
 from mbla.terminal import clear_line, rewrite_line, say
@@ -51,6 +52,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     try:
         prepare_streams(json_lines=getattr(options, "json", False))
         _refuse_vanished_folder()
+        refuse_too_low_limits()
         status = COMMANDS[options.command](options)
         sys.stdout.flush()
         return status

@@ -12,7 +12,32 @@ import sys
 from collections.abc import Iterator
 from pathlib import Path
 
+from mbla.errors import LimitError
+
 STATUS = Path("/proc/self/status")
+MIB = 1 << 20
+LEAST = {"RLIMIT_AS": (400 * MIB, "address space (ulimit -v)"), "RLIMIT_DATA": (256 * MIB, "data (ulimit -d)")}
+"""Bytes that the program and its libraries take themselves, rounded up, by the limit that they count towards."""
+
+
+def refuse_too_low_limits() -> None:
+    """Raise LimitError where not even the libraries would find room; before any of them is imported.
+
+    Without that much OpenBLAS ends the process with a status of its own or asks for memory for ever, deaf to signals,
+    while it is loaded, and others name what has nothing to do with memory.
+    """
+    if sys.platform != "linux":
+        return
+    import resource
+
+    for name, (least, words) in LEAST.items():
+        most, _ = resource.getrlimit(getattr(resource, name))
+        if most != resource.RLIM_INFINITY and most < least:
+            raise LimitError(
+                "out-of-memory",
+                f"out of memory: the limit of {most // MIB} MiB on {words} is below the {least // MIB} MiB that the "
+                "program itself takes; raise the limit",
+            )
 
 
 def can_limit() -> bool:

@@ -249,8 +249,8 @@ OF_SOLVERS = (
     _error(
         "out-of-memory",
         "The memory of the machine is not enough.",
-        "A model or a setting that is too large for it.",
-        "Use symmetry, fewer contact points, accuracy: draft, or a larger machine.",
+        "A model or a setting that is too large for it, or a limit (ulimit, batch system) that leaves too little.",
+        "Use symmetry, fewer contact points, accuracy: draft, or a larger machine; or raise the limit.",
     ),
     _error(
         "solver-status",

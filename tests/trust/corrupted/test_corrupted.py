@@ -68,10 +68,12 @@ class Check:
                 self.found.wrong.append(f"{what}: {name} ends with {ended.status} instead of {REFUSED}")
         self.found.counts["refused"] += 1
 
-    def judged(self, path: Path, original: str, what: str) -> None:
+    def judged(self, path: Path, original: str, what: str, names: tuple[str, ...] = ()) -> None:
         """No command may fail to end well; verify must not agree with other claims than those of the original."""
         self.found.counts["files"] += 1
         for name, arguments in commands(path, self.good, self.folder / "out").items():
+            if names and name not in names:
+                continue
             ended = self.worker.run(*arguments)
             self.found.counts["commands"] += 1
             self.found.wrong += [f"{what}: {name}: {fault}" for fault in faults_of(path, ended)]
@@ -146,8 +148,22 @@ def test_some_files(tmp_path: Path) -> None:
         check = Check(tmp_path, runner, ["overhang"])
         spoil_by_damage(check, len(DAMAGES), ("show", "verify"))
         spoil_by_edits(check, 2, ("show", "verify"))
+        _would_find_agreement_with_another_claim(check)
     check.done()
     assert check.found.counts["refused"] == len(DAMAGES) + 2
+
+
+def _would_find_agreement_with_another_claim(check: Check) -> None:
+    """A check that knows of another weight than the file has holds it against verify, which agrees with it."""
+    told = json.loads(check.told["overhang"]["verify"])
+    told["model"]["total_weight"] *= 1.25
+    kept, check.found, verified = check.found, Found(), check.told["overhang"]["verify"]
+    check.told["overhang"]["verify"] = json.dumps(told)
+    check.judged(check.fresh("overhang"), "overhang", "as written", ("verify",))
+    found, check.found = check.found, kept
+    check.told["overhang"]["verify"] = verified
+    assert found.counts["without effect"] == 1
+    assert [fault for fault in found.wrong if "verify agrees with another claim: .model.total_weight" in fault]
 
 
 @pytest.mark.trust

@@ -43,12 +43,14 @@ class Fault:
 class Ended:
     """A command that ended.
 
-    status : as the shell has it, negative for a signal
-    counts : calls by kind, and ``came``: whether the fault did
+    status         : as the shell has it, negative for a signal
+    counts         : calls by kind, and ``came``: whether the fault did
+    processor_time : that it took in all [s]
     """
 
     status: int
     said: str
+    processor_time: float
     counts: Mapping[str, int] = field(default_factory=dict)
 
 
@@ -63,6 +65,13 @@ class Begun:
         """A signal, where it has not ended."""
         with contextlib.suppress(ProcessLookupError):
             os.kill(self.pid, number)
+
+    def processor_time(self) -> float:
+        """What it took until now [s]; zero where it has ended."""
+        with contextlib.suppress(FileNotFoundError, ProcessLookupError):
+            times = Path(f"/proc/{self.pid}/stat").read_text(encoding="ascii").rpartition(")")[2].split()[11:13]
+            return sum(map(int, times)) / os.sysconf("SC_CLK_TCK")
+        return 0.0
 
     def end(self) -> Ended:
         """Wait for it."""
@@ -98,7 +107,10 @@ class Commands:
     def begin(
         self, *arguments: str | Path, fault: Fault | None = None, limits: Mapping[str, int] | None = None
     ) -> Begun:
-        """Begin a command; ``limits`` are those of the ``resource`` module, such as RLIMIT_FSIZE."""
+        """Begin a command; ``limits`` are those of the ``resource`` module, such as RLIMIT_FSIZE.
+
+        RLIMIT_AS is above what a process has that has the program imported.
+        """
         self._tell([str(argument) for argument in arguments], fault, limits or {})
         return Begun(int(self._answer()), self)
 
@@ -109,7 +121,8 @@ class Commands:
     def ended(self) -> Ended:
         """How the command ended that was begun."""
         answer = json.loads(self._answer())
-        return Ended(answer["status"], self._errors.read_text(encoding="utf-8", errors="replace"), answer["counts"])
+        said = self._errors.read_text(encoding="utf-8", errors="replace")
+        return Ended(answer["status"], said, answer["processor_time"], answer["counts"])
 
     @property
     def _errors(self) -> Path:

@@ -7,10 +7,12 @@ from collections.abc import Iterator
 import pytest
 
 from tests.trust.faults.commands import Commands
+from tests.trust.faults.mounts import keep_mounts_to_ourselves
 
 
 @pytest.fixture(scope="session")
 def commands(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Commands]:
+    keep_mounts_to_ourselves()
     with Commands(tmp_path_factory.mktemp("faults")) as running:
         yield running
 

@@ -43,10 +43,17 @@ def _run(command: dict[str, Any], shim: Shim | None) -> None:
         os.close(descriptor)
     signal.signal(signal.SIGINT, signal.default_int_handler)
     for name, most in command["limits"].items():
-        resource.setrlimit(getattr(resource, name), (most, most))
+        limit = most + (_address_space() if name == "RLIMIT_AS" else 0)
+        resource.setrlimit(getattr(resource, name), (limit, limit))
     if shim is not None:
         shim.arm(**command["fault"])
     sys.exit(main(command["arguments"]))
+
+
+def _address_space() -> int:
+    """What this process has of it [bytes]."""
+    pages = Path("/proc/self/statm").read_text(encoding="ascii").split()[0]
+    return int(pages) * os.sysconf("SC_PAGE_SIZE")
 
 
 def serve() -> None:
@@ -67,7 +74,8 @@ def serve() -> None:
         print(pid, file=output, flush=True)
         _, status, used = os.wait4(pid, 0)
         counts = shim.counts() if shim is not None else {}
-        answer = {"status": os.waitstatus_to_exitcode(status), "counts": counts, "peak": used.ru_maxrss}
+        answer = {"status": os.waitstatus_to_exitcode(status), "counts": counts}
+        answer["processor_time"] = used.ru_utime + used.ru_stime
         print(json.dumps(answer), file=output, flush=True)
 
 

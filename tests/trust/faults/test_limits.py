@@ -2,12 +2,7 @@
 
 from __future__ import annotations
 
-import contextlib
-import ctypes
-import os
 import resource
-import sys
-from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -22,6 +17,7 @@ from tests.trust.faults.commands import (
     restored,
     written,
 )
+from tests.trust.faults.mounts import small_disk
 
 CLAIM = (
     "`mbla run` where the disk, a file or memory is too small: exit status 6 or 7, one line, no crash, and the earlier "
@@ -29,6 +25,7 @@ CLAIM = (
 )
 DISKS, FILES, MEMORIES = 50, 50, 20
 MEGABYTE = 1 << 20
+PAGE = 4096
 WORDS = 400
 """bytes that the error itself takes, which goes to a file as well"""
 
@@ -64,9 +61,18 @@ class Limited:
     def with_memory(self, size: int) -> bool:
         """No more address space than that [bytes] above what the process has at its beginning."""
         restored(self.out, self.earlier)
-        limit = _address_space() + size
-        ended = self.commands.run("run", self.deck, "-q", "--force", limits={"RLIMIT_AS": limit})
-        return self.ended_well(ended, self.out, size)
+        ended = self.commands.run("run", self.deck, "-q", "--force", limits={"RLIMIT_AS": size})
+        met = self.ended_well(ended, self.out, size)
+        assert not met or ended.status == 7, ended
+        return met
+
+    def memory(self) -> int:
+        """What suffices, to a megabyte, above what the process has at its beginning [bytes]."""
+        low, high = 0, 1024
+        while high - low > 1:
+            middle = (low + high) // 2
+            low, high = (middle, high) if self.with_memory(middle * MEGABYTE) else (low, middle)
+        return high * MEGABYTE
 
     def on_a_disk_of(self, room: int, folder: Path) -> bool:
         """A file system with so much room beside the earlier result [bytes]; whether it was too small."""
@@ -80,28 +86,6 @@ class Limited:
             return met
 
 
-PAGE = 4096
-
-
-def _address_space() -> int:
-    """Of this process, which has about the same imported [bytes]."""
-    return int(Path("/proc/self/statm").read_text(encoding="ascii").split()[0]) * os.sysconf("SC_PAGE_SIZE")
-
-
-@contextlib.contextmanager
-def small_disk(folder: Path, size: int) -> Iterator[None]:
-    """A file system in memory of that size [bytes]; the test is skipped where none may be mounted."""
-    library = ctypes.CDLL(None, use_errno=True)
-    folder.mkdir(exist_ok=True)
-    options = f"size={size}".encode()
-    if sys.platform != "linux" or library.mount(b"tmpfs", os.fsencode(folder), b"tmpfs", 0, options):
-        pytest.skip(f"no small file system can be mounted: {os.strerror(ctypes.get_errno())}")
-    try:
-        yield
-    finally:
-        library.umount2(os.fsencode(folder), 0)
-
-
 @pytest.fixture(scope="module")
 def limited(commands: Commands, tmp_path_factory: pytest.TempPathFactory) -> Limited:
     return Limited(commands, tmp_path_factory.mktemp("limited"))
@@ -110,6 +94,10 @@ def limited(commands: Commands, tmp_path_factory: pytest.TempPathFactory) -> Lim
 def test_files_too_large(limited: Limited) -> None:
     assert limited.with_files_up_to(WORDS)
     assert limited.with_files_up_to(max(map(len, limited.earlier.values())) - 2000)
+
+
+def test_memory_that_does_not_suffice(limited: Limited) -> None:
+    assert limited.with_memory(MEGABYTE)
 
 
 def test_a_full_disk(limited: Limited, tmp_path: Path) -> None:
@@ -125,7 +113,9 @@ def test_disks_files_and_memories_of_many_sizes(limited: Limited, tmp_path: Path
     room = sum(-(-len(data) // PAGE) * PAGE for data in limited.earlier.values())
     sizes = range(0, room, max(PAGE, room // (DISKS + 2)))
     disks = sum(limited.on_a_disk_of(size, tmp_path / "disk") for size in sizes)
-    memories = sum(limited.with_memory(part * MEGABYTE) for part in range(MEMORIES))
+    step = (limited.memory() - MEGABYTE) // MEMORIES
+    memories = sum(limited.with_memory(step * part) for part in range(MEMORIES))
+    assert memories == MEMORIES
     record_counts(
         "faults-limits",
         53,

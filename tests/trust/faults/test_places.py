@@ -13,7 +13,8 @@ import pytest
 
 from tests.trust.counts import record_counts
 from tests.trust.faults.commands import Commands, content, is_one_plain_line, restored, written
-from tests.trust.faults.test_limits import MEGABYTE, small_disk
+from tests.trust.faults.mounts import small_disk
+from tests.trust.faults.test_limits import MEGABYTE
 
 CLAIM = (
     "Two runs of one deck into one folder at once: each ends with its whole result or is refused, and the files in the "
@@ -44,9 +45,9 @@ def test_a_read_only_folder(commands: Commands, deck: Path, tmp_path: Path) -> N
         library = ctypes.CDLL(None, use_errno=True)
         assert library.mount(b"none", os.fsencode(disk), b"tmpfs", MS_RDONLY | MS_REMOUNT, None) == 0
         said = refused(commands, deck, "-o", disk / "block.out", "--force")
-        assert said == f"mbla: {disk / 'block.out'}: Read-only file system\n"
+        assert said == f"mbla: {disk / 'block.out'}: Read-only file system  [file-not-written]\n"
         said = refused(commands, deck, "-o", disk / "more" / "block.out")
-        assert said == f"mbla: {disk / 'more' / 'block.out'}: Read-only file system\n"
+        assert said == f"mbla: {disk / 'more' / 'block.out'}: Read-only file system  [file-not-written]\n"
         assert content(disk / "block.out") == {"block.h5": b"earlier"}
 
 
@@ -67,7 +68,7 @@ def test_a_file_where_the_folder_should_be(commands: Commands, deck: Path, tmp_p
 def test_a_folder_where_a_file_should_be(commands: Commands, deck: Path, suffix: str) -> None:
     folder = deck.parent / "block.out" / f"block.{suffix}"
     folder.mkdir(parents=True)
-    assert refused(commands, deck, "--force") == f"mbla: {folder}: is a folder\n"
+    assert refused(commands, deck, "--force") == f"mbla: {folder}: is a folder  [folder-given]\n"
     assert list(folder.parent.iterdir()) == [folder]
 
 
