@@ -20,7 +20,7 @@ from mbla.model.ragged import chunks
 NEAR_MISS = 10.0
 """Gaps up to this many tolerances are near misses."""
 
-MOST_PAIRS, PAIRS_OF_A_BLOCK = 300_000, 100
+MOST_PAIRS, PAIRS_OF_A_BLOCK = 300_000, 30
 """pairs that are looked at: so many, or so many times the number of blocks; those that share no volume have some ten"""
 
 # Facets farther from opposite than this are no contact: the strip along their common line where the gap stays within

@@ -25,7 +25,7 @@ _GRID = 1e-11
 
 # Rows that a tree is asked for at first; the number is doubled as long as there are fewer hits than the second number,
 # which bounds memory to some 50 MB wherever the boxes lie.
-_FIRST_ROWS, _MANY_HITS = 64, 1_000_000
+_FIRST_ROWS, _MANY_HITS = 8, 1_000_000
 
 _EMPTY = shapely.Polygon()
 
