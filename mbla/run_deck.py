@@ -8,12 +8,13 @@ from dataclasses import replace
 from pathlib import Path
 
 from mbla.contacts import Contacts, find_contacts
+from mbla.contacts.broad_phase import PairsRefused
 from mbla.contacts.glue import Solids, held_model, solids_of
 from mbla.contacts.glue_findings import glue_findings
 from mbla.contacts.interface_points import PointsRefused
 from mbla.contacts.notices import overlap_messages
 from mbla.deck import Deck, read_deck
-from mbla.errors import DeckError, Message, Notice, UsageError
+from mbla.errors import DeckError, Message, Notice, UsageError, first_faults
 from mbla.exit_status import exit_code
 from mbla.expected import differences
 from mbla.model import Model, build_model
@@ -201,6 +202,8 @@ def contacts_of(deck: Deck, model: Model) -> Contacts:
     """Contacts of a model; blocks that overlap make the deck invalid, and glue that leaves nothing to move."""
     try:
         contacts = find_contacts(model, deck.contacts)
+    except PairsRefused as refused:
+        raise DeckError([deck.fault_at(("blocks",), refused.message)]) from refused
     except PointsRefused as refused:
         raise DeckError([deck.fault_at(("contacts", "points", "spacing"), refused.message)]) from refused
     faults = [
@@ -209,7 +212,7 @@ def contacts_of(deck: Deck, model: Model) -> Contacts:
     ]
     faults += [deck.fault_at(path, message) for path, message in glue_findings(model, contacts)]
     if faults:
-        raise DeckError(faults)
+        raise DeckError(first_faults(faults))
     return contacts
 
 

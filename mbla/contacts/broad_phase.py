@@ -11,13 +11,17 @@ import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.contacts.facets import Facets
-from mbla.contacts.polygons import box_pairs
+from mbla.contacts.polygons import Crowded, box_pairs
 from mbla.contacts.ragged import rows_and_items
+from mbla.errors import Refusal
 from mbla.model.blocks import Blocks
 from mbla.model.ragged import chunks
 
 NEAR_MISS = 10.0
 """Gaps up to this many tolerances are near misses."""
+
+MOST_PAIRS, PAIRS_OF_A_BLOCK = 300_000, 30
+"""pairs that are looked at: so many, or so many times the number of blocks; those that share no volume have some ten"""
 
 # Facets farther from opposite than this are no contact: the strip along their common line where the gap stays within
 # the tolerance would be narrower than 3.5 tolerances.
@@ -25,6 +29,10 @@ _COARSE_ANGLE = np.cos(np.radians(30))
 
 # Facet pairs looked at together: bounds memory to some 200 MB.
 _BATCH = 1_000_000
+
+
+class PairsRefused(Refusal):
+    """Too many blocks come near each other; the message says where."""
 
 
 @dataclass(frozen=True)
@@ -45,11 +53,25 @@ class BlockPairs:
 
 
 def find_block_pairs(blocks: Blocks, tolerance: float) -> BlockPairs:
-    """Pairs of blocks within reach; tolerance is relative to block size."""
+    """Pairs of blocks within reach; tolerance is relative to block size.
+
+    Raises
+    ------
+    PairsRefused
+        for far more of them than blocks that lie beside each other have
+    """
     lower, upper = block_boxes(blocks)
     # Half the reach on either box is enough for every pair; the exact reach of the pair is compared after.
     margin = (NEAR_MISS * tolerance / 2 * blocks.sizes)[:, None]
-    i, j = box_pairs(lower - margin, upper + margin)
+    most = max(MOST_PAIRS, PAIRS_OF_A_BLOCK * len(blocks))
+    try:
+        i, j = box_pairs(lower - margin, upper + margin, most)
+    except Crowded as crowded:
+        words = (
+            f"many blocks lie in one place, as {blocks.name(crowded.box)}: more than {most:,} pairs come near each "
+            "other; no more can be handled"
+        )
+        raise PairsRefused("too-many-units", words) from crowded
     sizes = np.minimum(blocks.sizes[i], blocks.sizes[j])
     depths = (np.minimum(upper[i], upper[j]) - np.maximum(lower[i], lower[j])).min(axis=1, initial=np.inf)
     keep = depths >= -NEAR_MISS * tolerance * sizes

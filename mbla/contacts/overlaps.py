@@ -17,6 +17,7 @@ from mbla.contacts.broad_phase import BlockPairs
 from mbla.contacts.facets import Facets
 from mbla.contacts.ragged import rows_and_items
 from mbla.contacts.solids import Solid, triangulate_blocks
+from mbla.errors import MOST_FAULTS
 from mbla.model.blocks import Blocks
 from mbla.model.ragged import chunks, ranges
 
@@ -30,7 +31,7 @@ _LARGE = 20_000
 class Overlaps:
     """Pairs of blocks that share volume.
 
-    pairs     : (n, 2) blocks
+    pairs     : (n, 2) blocks; only the first of more than ``MOST_FAULTS``, for which the deck is refused anyway
     depths    : (n,)   thickness of the shared volume relative to block size
     unchecked : (m, 2) pairs that could not be judged, because one of the blocks is not a closed solid
     """
@@ -99,7 +100,7 @@ def _least_of_large(vertices: FloatArray, normals: FloatArray, origins: FloatArr
 
 
 def _by_solids(blocks: Blocks, pairs: BlockPairs, rows: IntArray, tolerance: float) -> Overlaps:
-    """Judge the pairs left over one by one."""
+    """Judge the pairs left over one by one, until there are more overlaps than are told."""
     found, depths, unchecked = [], [], []
     triangles = triangulate_blocks(blocks, np.unique(pairs.blocks[rows]))
     for row in rows:
@@ -114,6 +115,8 @@ def _by_solids(blocks: Blocks, pairs: BlockPairs, rows: IntArray, tolerance: flo
         if thickness > tolerance:
             found.append((a, b))
             depths.append(thickness)
+            if len(found) > MOST_FAULTS:
+                break
     return Overlaps(
         np.array(found, dtype=np.int64).reshape(-1, 2),
         np.array(depths, dtype=np.float64),

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from mbla.arrays import BoolArray, FloatArray, IntArray, starts
 from mbla.contacts.convex_clip import clip_convex
 from mbla.contacts.loops import convex_loops, signed_areas
+from mbla.errors import Refusal
 
 Polygons: TypeAlias = NDArray[np.object_]
 
@@ -22,13 +23,29 @@ _POLYGON, _MULTIPOLYGON, _COLLECTION = 3, 6, 7
 # Grid that overlays are snapped to, for coordinates of order one.
 _GRID = 1e-11
 
+# Rows that a tree is asked for at first; the number is doubled as long as there are fewer hits than the second number,
+# which bounds memory to some 50 MB wherever the boxes lie.
+_FIRST_ROWS, _MANY_HITS = 8, 1_000_000
+
 _EMPTY = shapely.Polygon()
 
 
-def box_pairs(lower: FloatArray, upper: FloatArray) -> tuple[IntArray, IntArray]:
+class Crowded(Refusal):
+    """Far more boxes share a point than those of things that lie beside each other.
+
+    box : the one that shares a point with most of those looked at
+    """
+
+    def __init__(self, box: int) -> None:
+        super().__init__("too-many-units", "too many boxes in one place")
+        self.box = box
+
+
+def box_pairs(lower: FloatArray, upper: FloatArray, most: float = np.inf) -> tuple[IntArray, IntArray]:
     """Pairs i < j of boxes that share a point, sorted by i, then j.
 
     lower, upper : (n, 3) corners of the boxes
+    most         : pairs that are found; ``Crowded`` is raised before there are many more
 
     The tree works on the two axes along which the boxes are smallest against the whole; the third is compared after.
     """
@@ -40,13 +57,31 @@ def box_pairs(lower: FloatArray, upper: FloatArray) -> tuple[IntArray, IntArray]
     selectivity[extent <= 0] = 2.0
     first, second, third = np.argsort(selectivity, kind="stable")
     rectangles = shapely.box(lower[:, first], lower[:, second], upper[:, first], upper[:, second])
-    i, j = shapely.STRtree(rectangles).query(rectangles)
-    keep = i < j
-    i, j = i[keep].astype(np.int64), j[keep].astype(np.int64)
-    keep = (lower[i, third] <= upper[j, third]) & (lower[j, third] <= upper[i, third])
-    i, j = i[keep], j[keep]
+    tree = shapely.STRtree(rectangles)
+    found: list[tuple[IntArray, IntArray]] = []
+    number, begin, size = 0, 0, _FIRST_ROWS
+    spread = _spread(len(lower))
+    while begin < len(spread):
+        rows = spread[begin : begin + size]
+        i, j = tree.query(rectangles[rows])
+        hits, i = len(i), rows[i]
+        keep = (i < j) & (lower[i, third] <= upper[j, third]) & (lower[j, third] <= upper[i, third])
+        i, j = i[keep], j[keep].astype(np.int64)
+        found.append((i, j))
+        number += len(i)
+        if number > most:
+            raise Crowded(int(np.bincount(i).argmax()))
+        begin += size
+        size = max(size // 2, 1) if hits > _MANY_HITS else 2 * size
+    i, j = (np.concatenate([pair[side] for pair in found]) for side in (0, 1))
     order = np.lexsort((j, i))
     return i[order], j[order]
+
+
+def _spread(n: int) -> IntArray:
+    """All rows, (n,), in an order in which those that follow each other are from everywhere."""
+    step = max(round(np.sqrt(n)), 1)
+    return np.concatenate([np.arange(begin, n, step) for begin in range(step)])
 
 
 def polygons_from_loops(points: FloatArray, loop_start: IntArray) -> Polygons:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
@@ -11,12 +10,12 @@ import numpy as np
 from mbla.arrays import BoolArray, IntArray
 from mbla.deck.deck import Deck
 from mbla.deck.tree import KeyPath
-from mbla.deck.types import BlockItem, Item, Material, Repetition
+from mbla.deck.types import BlockItem, Item, Material
 from mbla.deck.units import Units
 from mbla.errors import DeckError, Fault, Notice
 from mbla.model.build_blocks import Labels, indices_in_groups
 from mbla.model.generators import KINDS, generator_of
-from mbla.model.generators.amounts import refuse_too_many
+from mbla.model.generators.amounts import copies_of, refuse_too_many, refuse_too_many_facets
 from mbla.model.generators.generator import Generated, ItemRefused, Site
 from mbla.model.labels import NONE, BlockLabels, join_labels, labels_of
 from mbla.model.model import Ground
@@ -132,9 +131,11 @@ def _generate(deck: Deck, kind: str, item: Item, path: KeyPath) -> Generated:
 
 def _refuse_copies(item: Item, generated: Generated, before: int) -> None:
     """Refuse an item that with its copies, and with the blocks before it, makes more than can be handled."""
-    steps = [item.repeat] if isinstance(item.repeat, Repetition) else item.repeat
-    blocks = sum(len(part.polyhedra) for part in generated.parts) * math.prod(step.count for step in steps)
-    refuse_too_many(blocks, "repeat" if steps else (), "blocks")
+    copies, key = copies_of(item), "repeat" if item.repeat else ()
+    blocks = sum(len(part.polyhedra) for part in generated.parts) * copies
+    refuse_too_many(blocks, key, "blocks")
+    if copies > 1:
+        refuse_too_many_facets(sum(len(part.polyhedra.block_of_face) for part in generated.parts), key, copies)
     refuse_too_many(before + blocks, (), "blocks, with those of the items before it")
 
 

@@ -7,6 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mbla.contacts.polygons import (
+    Crowded,
     Polygons,
     box_pairs,
     connected_parts,
@@ -37,6 +38,16 @@ def test_box_pairs_agree_with_all_against_all(seed: int, count: int) -> None:
         if (lower[a] <= upper[b]).all() and (lower[b] <= upper[a]).all()
     ]
     assert list(zip(i.tolist(), j.tolist(), strict=True)) == expected
+
+
+def test_boxes_in_one_place_are_not_paired() -> None:
+    rng = np.random.default_rng(1)
+    lower = rng.uniform(0, 100, (3000, 3))
+    assert len(box_pairs(lower, lower + 1, most=3000)[0]) < 3000
+    lower[1000:1500] = 50
+    with pytest.raises(Crowded) as caught:
+        box_pairs(lower, lower + 1, most=3000)
+    assert 1000 <= caught.value.box < 1500
 
 
 @pytest.mark.parametrize("flat", [0, 1, 2])

@@ -10,7 +10,7 @@ import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
 from mbla.deck.types import BarrelVaultItem
-from mbla.model.generators.amounts import refuse_too_many
+from mbla.model.generators.amounts import copies_of, refuse_too_many
 from mbla.model.generators.chains import prisms
 from mbla.model.generators.generator import Generated, GroundPart, Part, Site
 from mbla.model.generators.vault_sections import VaultSection, vault_section
@@ -28,7 +28,7 @@ def generate_barrel_vault(item: BarrelVaultItem, site: Site) -> Generated:
     ItemRefused
         for more units than can be handled
     """
-    refuse_too_many(item.courses * item.length / item.unit, "length")
+    refuse_too_many(item.courses * item.length / item.unit, "length", copies=copies_of(item))
     section = vault_section(item, item.span)
     rows = [_ends(item, item.bond == "running" and course % 2 == 1) for course in range(item.courses)]
     course = np.repeat(np.arange(item.courses), [len(row) for row in rows])

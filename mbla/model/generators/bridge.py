@@ -16,7 +16,7 @@ from mbla.arrays import FloatArray, IntArray
 from mbla.deck.tree import KeyPath
 from mbla.deck.types import BridgeItem
 from mbla.errors import Message
-from mbla.model.generators.amounts import refuse_too_many
+from mbla.model.generators.amounts import copies_of, refuse_too_many
 from mbla.model.generators.arches.piers import (
     LEVEL,
     SpringingJoint,
@@ -190,7 +190,7 @@ def _spandrels(item: BridgeItem, frame: _Frame) -> list[_Row]:
     if not np.isfinite(top):
         return []  # coordinates beyond what a double holds: the voussoirs are refused
     about = (frame.right - frame.left) * top / (masonry.length * masonry.height)
-    refuse_too_many(about, "unit")
+    refuse_too_many(about, "unit", copies=copies_of(item))
     shelves = np.array([springer[:, 1].max() for springer in frame.springers if springer is not None])
     beds = bed_levels(outline, top, crowns, shelves, masonry)
     polygons: list[FloatArray] = []

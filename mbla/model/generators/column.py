@@ -11,7 +11,7 @@ import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.deck.types import ColumnEnd, ColumnItem
-from mbla.model.generators.amounts import refuse_too_many
+from mbla.model.generators.amounts import copies_of, refuse_too_many_facets
 from mbla.model.generators.chains import chains
 from mbla.model.generators.generator import Generated, Part, Site
 from mbla.model.generators.round_sections import corner_radius, regular_polygon
@@ -28,7 +28,8 @@ def generate_column(item: ColumnItem, site: Site) -> Generated:
     ItemRefused
         for more facets than can be handled
     """
-    refuse_too_many(float(len(item.drum_heights or ()) + (item.drums or 0)) * item.sides, "sides", "facets")
+    drums = float(len(item.drum_heights or ()) + (item.drums or 0))
+    refuse_too_many_facets(drums * item.sides, "sides", copies_of(item))
     outline = corner_radius(item.sides, item.polygon) * regular_polygon(item.sides)
     foot = item.base.height if item.base else 0.0
     joints = foot + _joints(item)

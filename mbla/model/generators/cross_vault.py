@@ -14,7 +14,7 @@ import numpy as np
 from mbla.arrays import FloatArray
 from mbla.deck.types import CrossVaultItem
 from mbla.errors import Message
-from mbla.model.generators.amounts import refuse_too_many
+from mbla.model.generators.amounts import copies_of, refuse_too_many
 from mbla.model.generators.generator import Generated, ItemRefused, Part, Site, level_ground
 from mbla.model.generators.mitres import (
     CORNERS,
@@ -94,7 +94,7 @@ def _ends(item: CrossVaultItem, section: HalfSection) -> FloatArray:
     if edge < feet.max() + LEAST_EDGE * item.thickness:
         message = f"must be > {feet.max():g}: the webs end beyond the feet of the groins"
         raise ItemRefused([(("edge",), Message("out-of-bounds", message))])
-    refuse_too_many(item.courses * 2 * (sum(item.bay) / 2 + 2 * edge) / item.unit, "unit")
+    refuse_too_many(item.courses * 2 * (sum(item.bay) / 2 + 2 * edge) / item.unit, "unit", copies=copies_of(item))
     return np.array(item.bay) / 2 + edge
 
 

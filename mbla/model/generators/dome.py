@@ -19,7 +19,7 @@ import numpy as np
 from mbla.arrays import FloatArray
 from mbla.deck.types import DomeDrum, DomeItem
 from mbla.errors import Message
-from mbla.model.generators.amounts import refuse_too_many
+from mbla.model.generators.amounts import copies_of, refuse_too_many_facets
 from mbla.model.generators.chains import chains
 from mbla.model.generators.curves import Circle, named_curve
 from mbla.model.generators.generator import Generated, ItemRefused, Part, Site, level_ground
@@ -85,7 +85,7 @@ def _dome(item: DomeItem) -> _Dome:
     assert isinstance(circle, Circle)  # which both shapes are
     facets = item.facets or (2 if item.bond == "running" else 1)
     courses = item.drum.courses if item.drum else 0
-    refuse_too_many(float(item.rings + courses) * item.segments * facets, "segments", "facets")
+    refuse_too_many_facets(float(item.rings + courses) * item.segments * facets, "segments", copies_of(item))
     springing = item.drum.height if item.drum else 0.0
     angles = np.linspace(circle.half_angle, _top(item, circle), item.rings + 1)
     return _Dome(circle, item.thickness, angles, springing, item.segments, facets, item.bond == "running")

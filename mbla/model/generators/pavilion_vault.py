@@ -10,7 +10,7 @@ import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.deck.types import PavilionVaultItem
-from mbla.model.generators.amounts import refuse_too_many
+from mbla.model.generators.amounts import copies_of, refuse_too_many
 from mbla.model.generators.generator import Generated, Part, Site, level_ground
 from mbla.model.generators.mitres import (
     CORNERS,
@@ -35,7 +35,7 @@ def generate_pavilion_vault(item: PavilionVaultItem, site: Site) -> Generated:
     ItemRefused
         for more units than can be handled
     """
-    refuse_too_many(item.courses * sum(item.bay) / item.unit, "unit")
+    refuse_too_many(item.courses * sum(item.bay) / item.unit, "unit", copies=copies_of(item))
     section = half_section(item, item.bay)
     hips, webs, labels = [], [], []
     for course in range(section.courses):

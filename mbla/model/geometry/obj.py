@@ -119,15 +119,17 @@ def _lines(path: Path) -> Iterator[tuple[int, str]]:
         text = path.read_text(encoding="utf-8", errors="replace")
     except OSError as error:
         raise GeometryFileError("file-unreadable", f"cannot be read: {error.strerror}") from error
-    pending = ""
+    number = 0
+    parts: list[str] = []
     for number, raw in enumerate(text.splitlines(), start=1):
-        line = pending + raw.split("#", 1)[0].strip().replace("\t", " ")
-        if line.endswith("\\"):
-            pending = line[:-1] + " "
-            continue
-        pending = ""
-        if line:
-            yield number, line
+        part = raw.split("#", 1)[0].strip().replace("\t", " ")
+        parts.append(part.removesuffix("\\"))
+        if not part.endswith("\\"):
+            if line := " ".join(parts).strip():
+                yield number, line
+            parts = []
+    if line := " ".join(parts).strip():  # the file ends amid a line that goes on
+        yield number, line
 
 
 def _read_line(content: _Content, keyword: str, rest: str) -> None:

@@ -71,6 +71,11 @@ def _solids(text: str) -> Geometry:
             )
         elif word == "endsolid":
             complete = True
+    cut = [name for name, each in zip(names, corners, strict=True) if len(each) % 3]
+    if cut:
+        raise GeometryFileError(
+            "geometry-file", f"is not a well-formed STL file: the corners of solid {cut[0]!r} make no whole triangles"
+        )
     if not complete:
         raise GeometryFileError("geometry-file", "is not a well-formed STL file: its last solid has no end")
     return _geometry([np.array(each, dtype=np.float64).reshape(-1, 3, 3) for each in corners], names)

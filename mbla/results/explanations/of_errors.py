@@ -238,9 +238,9 @@ OF_STRUCTURES = (
     ),
     refused(
         "too-many-units",
-        "An item makes more than can be handled.",
-        "Mostly a length in another unit than the unit size.",
-        "Check the units of the deck and of the item.",
+        "An item makes more than can be handled, or blocks lie in one place by the thousand.",
+        "Mostly a length in another unit than the unit size, or copies that are moved by nothing.",
+        "Check the units of the deck and of the item, and what moves its copies.",
         "can be handled",
     ),
     refused(

@@ -169,3 +169,8 @@ def test_binary_rubbish_is_no_traceback(tmp_path: Path) -> None:
     except GeometryFileError:
         return
     assert len(read_obj(path).polyhedra) == 0
+
+
+def test_lines_go_on_after_a_backslash_even_where_the_file_ends(tmp_path: Path) -> None:
+    text = CUBE + FACES.replace("f 4 1 5 8\n", "f 4 \\\n 1 \\\n\\\n5 8 \\\n")
+    assert volumes(obj(tmp_path), text) == pytest.approx([1.0])

@@ -85,7 +85,8 @@ def test_real_blocks_as_one_surface_of_triangles(tmp_path: Path, name: str) -> N
     [
         ("solid\nvertex 1 2 x\nendsolid", "line 2 is no vertex"),
         ("solid\nvertex 1 2 3\nendloop\nendsolid", "the loop that ends in line 3 is no triangle"),
-        ("solid\nvertex 1 2 3\n", "its last solid has no end"),
+        ("solid\n", "its last solid has no end"),
+        ("solid a\nvertex 1 2 3\nendsolid", "the corners of solid 'a' make no whole triangles"),
     ],
 )
 def test_malformed_text(tmp_path: Path, content: str, message: str) -> None:

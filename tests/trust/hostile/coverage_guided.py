@@ -7,14 +7,14 @@
 It begins with the decks of the program and with those that it refuses; the first byte of an input says of which kind
 the file is, the rest is its content. What reached new lines is kept in ``FOLDER/corpus``, where the next call goes on.
 A file that is answered by anything but a clear refusal or a model goes to ``FOLDER/finds``, and its story to
-``FOLDER/result.json``, which says how many files were given. What kills the process itself, or takes more memory than
+``FOLDER/result.json``, which says how many files were given: a call that finds one there gives those that are left,
+with another seed. What kills the process itself, or takes more memory than
 libFuzzer allows, is left in the current folder as ``crash-...``, ``oom-...`` or ``timeout-...``.
 """
 
 from __future__ import annotations
 
 import hashlib
-import json
 import sys
 from pathlib import Path
 from random import Random
@@ -65,17 +65,20 @@ def main() -> None:
     for kind, content in seeds():
         data = packed(kind, content)
         (corpus / hashlib.sha256(data).hexdigest()[:20]).write_bytes(data)
-    finds = Finds(place / "finds")
+    record = place / "result.json"
+    finds = Finds.resumed(record, place / "finds")
+    if finds.runs >= runs:
+        return
     with TemporaryDirectory() as folder:
         subject.prepare_folder(Path(folder))
 
         def one(data: bytes) -> None:
             finds.give(*unpacked(data), Path(folder))
             if finds.runs % 100 == 0:  # libFuzzer ends the process without a word to Python
-                record = {"runs": finds.runs, "ended": finds.ended, "found": finds.found}
-                (place / "result.json").write_text(json.dumps(record, indent=2), encoding="utf-8")
+                finds.write(record)
 
-        options = [f"-runs={runs}", "-timeout=60", f"-rss_limit_mb={MOST_MEGABYTES}", "-max_len=6000", f"-seed={seed}"]
+        left = [f"-runs={runs - finds.runs}", f"-seed={seed + finds.runs}"]
+        options = [*left, "-timeout=60", f"-rss_limit_mb={MOST_MEGABYTES}", "-max_len=6000"]
         atheris.Setup([sys.argv[0], *options, str(corpus)], one, custom_mutator=mutate)
         atheris.Fuzz()
 

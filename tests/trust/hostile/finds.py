@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import json
 import traceback
-from dataclasses import dataclass, field
+from dataclasses import asdict, dataclass, field
 from pathlib import Path
 
 from tests.trust.hostile import subject
@@ -44,6 +45,18 @@ class Finds:
             path = self.folder / f"{len(self.found) + 1:03}.{kind}"
             path.write_bytes(content)
             self.found[place] = f"{place}: {str(error)[:300]} (see {path})"
+
+    @classmethod
+    def resumed(cls, record: Path, folder: Path) -> Finds:
+        """Those of a run that was interrupted; none where there is no record of one."""
+        earlier = json.loads(record.read_text(encoding="utf-8")) if record.exists() else {}
+        return cls(**{**earlier, "folder": folder})
+
+    def write(self, record: Path) -> None:
+        """Keep what is known so far; a run that is killed leaves the record before whole."""
+        new = record.with_suffix(".new")
+        new.write_text(json.dumps({**asdict(self), "folder": str(self.folder)}, indent=2) + "\n", encoding="utf-8")
+        new.replace(record)
 
     def accepted(self) -> int:
         """Files that were taken as models."""

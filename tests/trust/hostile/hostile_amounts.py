@@ -37,6 +37,11 @@ ITEMS = {
     "100,000 boxes in one place": (
         "box: {min: [0, 0, 0], max: [1, 1, 1], repeat: {count: 100000, translate: [0, 0, 1.e-9]}}"
     ),
+    "1,000 boxes in one place": "box: {min: [0, 0, 0], max: [1, 1, 1], repeat: {count: 1000, translate: [0, 0, 0]}}",
+    "50 boxes in one place": "box: {min: [0, 0, 0], max: [1, 1, 1], repeat: {count: 50, translate: [0, 0, 0]}}",
+    "10^5 columns of 360 sides": (
+        "column: {radius: 0.5, height: 1, drums: 1, sides: 360, repeat: {count: 100000, translate: [2, 0, 0]}}"
+    ),
     "an arch of 10^12 voussoirs": (
         "arch: {shape: semicircular, span: 4, thickness: 0.3, width: 1, voussoirs: 1000000000000}"
     ),

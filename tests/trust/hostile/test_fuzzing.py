@@ -8,44 +8,30 @@ import os
 import subprocess
 import sys
 from pathlib import Path
-from random import Random
 from typing import Any
 
 import pytest
 from hypothesis import HealthCheck, given, settings
-from hypothesis import strategies as st
 
 from tests.trust.counts import record_counts
 from tests.trust.hostile import subject
+from tests.trust.hostile.at_random import at_random, by_hypothesis, files, give_in_batches
 from tests.trust.hostile.finds import Finds
-from tests.trust.hostile.mutations import changed
-from tests.trust.hostile.samples import seeds
 
-SEEDS = seeds()
 AT_RANDOM = int(os.environ.get("MBLA_FUZZING_AT_RANDOM", "100000"))
+BY_HYPOTHESIS = int(os.environ.get("MBLA_FUZZING_BY_HYPOTHESIS", "5000"))
 GUIDED = int(os.environ.get("MBLA_FUZZING_GUIDED", "100000"))
 """files that the full check gives"""
-
-
-def give_at_random(finds: Finds, folder: Path, runs: int, seed: int) -> None:
-    """Files changed up to five times, each from another seed."""
-    for number in range(runs):
-        rng = Random(seed * 10**9 + number)
-        kind, content = rng.choice(SEEDS)
-        for _ in range(rng.choice((1, 1, 2, 3, 5))):
-            content = changed(kind, content, rng.choice)
-        finds.give(kind, content, folder)
+FOLDER = os.environ.get("MBLA_FUZZING_FOLDER")
+"""where a run that was interrupted left its records, and where this one leaves its own"""
 
 
 @settings(max_examples=40, deadline=None, suppress_health_check=list(HealthCheck), derandomize=True)
-@given(data=st.data())
-def test_a_changed_file_is_refused_in_clear_words_or_is_a_model(tmp_path_factory: Any, data: st.DataObject) -> None:
+@given(file=files())
+def test_a_changed_file_is_refused_in_clear_words_or_is_a_model(tmp_path_factory: Any, file: tuple[str, bytes]) -> None:
     folder = tmp_path_factory.mktemp("given")
     subject.prepare_folder(folder)
-    kind, content = data.draw(st.sampled_from(SEEDS))
-    for _ in range(data.draw(st.integers(1, 4))):
-        content = changed(kind, content, lambda options: data.draw(st.sampled_from(options)))
-    assert subject.give(kind, content, folder) in ("DeckError", "accepted")
+    assert subject.give(*file, folder) in ("DeckError", "accepted")
 
 
 def test_a_program_that_breaks_is_found(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -53,34 +39,42 @@ def test_a_program_that_breaks_is_found(tmp_path: Path, monkeypatch: pytest.Monk
         raise KeyError("stone")
 
     monkeypatch.setattr(subject, "read_deck", broken)
-    subject.prepare_folder(tmp_path)
-    finds = Finds(tmp_path / "finds")
-    give_at_random(finds, tmp_path, 40, 1)
+    finds = give_in_batches(at_random, tmp_path, 40, 1)
     assert next(iter(finds.found.values())).startswith("KeyError")
     assert list((tmp_path / "finds").iterdir())
 
 
+def test_a_run_goes_on_where_its_record_ends(tmp_path: Path) -> None:
+    once = give_in_batches(at_random, tmp_path / "once", 20, 1)
+    give_in_batches(at_random, tmp_path / "twice", 10, 1)
+    again = give_in_batches(at_random, tmp_path / "twice", 20, 1)
+    assert (again.runs, again.ended) == (once.runs, once.ended) == (20, once.ended)
+
+
 @pytest.mark.trust
 def test_many_changed_files_and_a_fuzzer_that_looks_at_coverage(tmp_path: Path) -> None:
-    subject.prepare_folder(tmp_path)
-    finds = Finds(tmp_path / "finds")
-    give_at_random(finds, tmp_path, AT_RANDOM, 1)
-    assert not finds.found
-    guided = 0
-    if importlib.util.find_spec("atheris") and GUIDED:
-        command = [sys.executable, "-m", "tests.trust.hostile.coverage_guided", str(tmp_path), str(GUIDED)]
-        subprocess.run(command, cwd=Path(__file__).parents[3], check=True, capture_output=True)
-        record = json.loads((tmp_path / "result.json").read_text(encoding="utf-8"))
-        assert not record["found"]
-        guided = record["runs"]
+    place = Path(FOLDER) if FOLDER else tmp_path
+    random_finds = give_in_batches(at_random, place, AT_RANDOM, 1)
+    drawn = give_in_batches(by_hypothesis, place, BY_HYPOTHESIS, 1)
+    assert not random_finds.found | drawn.found
+    guided = _guided(place) if importlib.util.find_spec("atheris") and GUIDED else Finds(place)
+    assert not guided.found
     record_counts(
         "hostile-fuzzing",
         32,
         "Decks, sweep files and geometry files changed at random are refused in one line per fault or read as models: "
         "no crash, no internal error, none takes more than 5 seconds of processor time",
         {
-            "files changed at random": finds.runs,
-            "files of a fuzzer that looks at coverage": guided,
-            "of the first taken as models": finds.accepted(),
+            "files changed at random": random_finds.runs,
+            "files drawn by hypothesis": drawn.runs,
+            "files of a fuzzer that looks at coverage": guided.runs,
+            "of all taken as models": sum(finds.accepted() for finds in (random_finds, drawn, guided)),
         },
     )
+
+
+def _guided(place: Path) -> Finds:
+    """Let the fuzzer run, on from where it was interrupted."""
+    command = [sys.executable, "-m", "tests.trust.hostile.coverage_guided", str(place), str(GUIDED)]
+    subprocess.run(command, cwd=Path(__file__).parents[3], check=True, capture_output=True)
+    return Finds(**json.loads((place / "result.json").read_text(encoding="utf-8")))

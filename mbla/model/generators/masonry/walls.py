@@ -11,7 +11,7 @@ from mbla.arrays import FloatArray
 from mbla.deck.items.masonry import Gable, Masonry
 from mbla.deck.tree import KeyPath
 from mbla.errors import Message
-from mbla.model.generators.amounts import refuse_too_many
+from mbla.model.generators.amounts import copies_of, refuse_too_many
 from mbla.model.generators.generator import ItemRefused, Part
 from mbla.model.generators.masonry.buttresses import PlacedButtress, buttress_leg
 from mbla.model.generators.masonry.leg import Leg, Slopes
@@ -42,7 +42,7 @@ def check_number(item: Masonry, length: float, key: KeyPath, rises: Sequence[flo
     """
     courses = item.courses + max(rises, default=0.0) / min(item.unit[0], item.unit[2])
     about = courses * item.leaves * length / min(item.unit[0], item.unit[1] if item.leaves > 1 else item.unit[0])
-    refuse_too_many(about, key)
+    refuse_too_many(about, key, copies=copies_of(item))
 
 
 def fixed_levels(openings: Iterable[PlacedOpening], buttresses: Iterable[PlacedButtress]) -> list[int]:
