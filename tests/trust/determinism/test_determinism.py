@@ -43,7 +43,7 @@ def test_one_deck_with_everything_changed_at_once(tmp_path: Path) -> None:
     assert first.statuses == (0,)
     assert {Path(name).suffix for name in first.files} == {".h5", ".lst", ".sta", ".json", ".vtu", ".pvd", ".py"}
     assert differences(first, other) == []
-    assert (first.modes, other.modes) == ({0o644}, {0o600})
+    assert (first.modes, other.modes) == (frozenset({0o644}), frozenset({0o600}))
 
 
 @pytest.mark.trust

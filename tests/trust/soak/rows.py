@@ -73,6 +73,6 @@ def _is_right(row: Mapping[str, str]) -> bool:
 
 def closed_form(row: Mapping[str, str]) -> float:
     """Load factor at the parameters of a row."""
-    along, across, _ = (abs(component) for component in json.loads(row["direction"]))
+    along, across, _ = (abs(float(component)) for component in json.loads(row["direction"]))
     overturning = [0.5 * size / push for size, push in ((float(row["b"]), along), (1.0, across)) if push > 0]
     return min(float(row["mu"]), *overturning)

@@ -95,10 +95,10 @@ def _licence(name: str) -> str:
         return ""
     about = found.metadata
     classifiers = [text.split(" :: ")[-1] for text in about.get_all("Classifier", []) if text.startswith(CLASSIFIER)]
-    field = (about.get("License") or "").strip().splitlines()
+    field = (" ".join(about.get_all("License", []))).strip().splitlines()
     short = field[0] if field and len(field[0]) <= LONG else ""
     named = [text for text in classifiers if text != "OSI Approved"]
-    return about.get("License-Expression") or ", ".join(dict.fromkeys(named)) or short or "not stated"
+    return " ".join(about.get_all("License-Expression", [])) or ", ".join(dict.fromkeys(named)) or short or "not stated"
 
 
 def table() -> str:

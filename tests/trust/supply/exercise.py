@@ -26,14 +26,14 @@ EXPECTED = (
 """decks whose load factors must be those that they expect"""
 WALL, DOME = "out/ferris_wall_3.h5", "out/dome_of_slices_falls.h5"
 BESIDE = (
-    (0, "show", WALL),
-    (0, "verify", WALL),
-    (0, "plot", WALL, "--kind", "mechanism", "-o", "out/wall.svg"),
-    (0, "plot", DOME, "--kind", "model", "-o", "out/dome.png"),
-    (0, "plot", WALL, "--animate", "mp4", "-o", "out/films"),
-    (0, "report", WALL, "-o", "out/wall.html"),
-    (0, "export", WALL, "--csv", "--parquet", "--vtkhdf", "-o", "out/tables"),
-    (0, "sweep", "sweep.yaml", "-j", "2", "-q"),
+    (0, ("show", WALL)),
+    (0, ("verify", WALL)),
+    (0, ("plot", WALL, "--kind", "mechanism", "-o", "out/wall.svg")),
+    (0, ("plot", DOME, "--kind", "model", "-o", "out/dome.png")),
+    (0, ("plot", WALL, "--animate", "mp4", "-o", "out/films")),
+    (0, ("report", WALL, "-o", "out/wall.html")),
+    (0, ("export", WALL, "--csv", "--parquet", "--vtkhdf", "-o", "out/tables")),
+    (0, ("sweep", "sweep.yaml", "-j", "2", "-q")),
 )
 """exit status, and arguments"""
 
@@ -54,12 +54,12 @@ class Exercised:
 def exercise(python: Path, folder: Path, environment: Mapping[str, str]) -> Exercised:
     """Run all commands in a folder that has ``decks``; ``environment`` is beside the variables of this process."""
     (folder / "sweep.yaml").write_text(SWEEP, encoding="utf-8")
-    decks = [(_status(deck), "run", f"decks/{deck}.yaml", "--expected", "-o", "out", "-q") for deck in EXPECTED]
-    asked = [*decks, *BESIDE]
-    done = [guarded(python, ("-m", "mbla", *arguments), folder, environment) for _, *arguments in asked]
+    decks = [(_status(deck), ("run", f"decks/{deck}.yaml", "--expected", "-o", "out", "-q")) for deck in EXPECTED]
+    asked: list[tuple[int, tuple[str, ...]]] = [*decks, *BESIDE]
+    done = [guarded(python, ("-m", "mbla", *arguments), folder, environment) for _, arguments in asked]
     failed = [
         f"mbla {' '.join(arguments)}: {ended.returncode}: {ended.stderr}"
-        for (status, *arguments), ended in zip(asked, done, strict=True)
+        for (status, arguments), ended in zip(asked, done, strict=True)
         if ended.returncode != status
     ]
     return Exercised(len(asked), tuple(failed), attempts_in(folder))

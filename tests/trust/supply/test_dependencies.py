@@ -11,14 +11,16 @@ from packaging.utils import canonicalize_name
 from tests.trust.supply.dependencies import installed, listed, project, reasons
 
 DIRECT = sorted({canonicalize_name(Requirement(text).name) for texts in project().values() for text in texts})
-ROWS = [[cell.strip() for cell in line.split("|")[1:-1]] for line in reasons().splitlines() if line.startswith("| ")]
+LINES = [[cell.strip() for cell in line.split("|")[1:-1]] for line in reasons().splitlines() if line.startswith("| ")]
+ROWS = [row for row in LINES if len(row) == len(LINES[0])]
+"""package, licence, why, imported by; the table of times has other columns"""
 
 
 @pytest.mark.parametrize("name", DIRECT)
 def test_a_direct_dependency_has_licence_and_reason_and_is_listed(name: str) -> None:
     rows = [row for row in ROWS if re.search(rf"(?<![\w-]){re.escape(name)}(?![\w])", row[0])]
     assert rows, f"{name} is not in the README's table of dependencies"
-    assert all(len(row) == 4 and all(row) for row in rows)
+    assert all(all(row) for row in rows)
     assert "mbla" in listed()[name]
 
 
