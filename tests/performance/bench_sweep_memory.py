@@ -77,15 +77,15 @@ class Watched:
         return 1e3 * (self.last(self.command) - self.first(self.command)) / between
 
 
-def written(folder: Path, points: int) -> Path:
+def written(folder: Path, points: int, widths: int = WIDTHS, directions_around: int = DIRECTIONS) -> Path:
     """The sweep file, its deck beside it."""
     (folder / "block.yaml").write_text(BLOCK, encoding="utf-8")
-    angles = 2 * np.pi * np.arange(DIRECTIONS) / DIRECTIONS
+    angles = 2 * np.pi * np.arange(directions_around) / directions_around
     directions = [[float(np.cos(angle)), float(np.sin(angle)), 0.0] for angle in angles]
     parameters = {
-        "b": {"linear": {"from": 0.5, "to": 1.5, "points": WIDTHS}},
+        "b": {"linear": {"from": 0.5, "to": 1.5, "points": widths}},
         "direction": {"key": "load_cases.push.live.0.acceleration", "values": directions},
-        "mu": {"linear": {"from": 0.1, "to": 0.9, "points": points // (WIDTHS * DIRECTIONS)}},
+        "mu": {"linear": {"from": 0.1, "to": 0.9, "points": points // (widths * directions_around)}},
     }
     path = folder / "block_sweep.yaml"
     path.write_text(yaml.safe_dump({"mbla_sweep": 1, "deck": "block.yaml", "parameters": parameters}), encoding="utf-8")

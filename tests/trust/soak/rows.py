@@ -1,0 +1,78 @@
+"""The rows of a finished sweep of the pushed block, judged: none missing, none twice, each with its own answer.
+
+The block is b x 1 x 2 and is pushed at its centroid by load factor a times its weight in the direction (cos t, sin t).
+It slides at a = mu, and overturns about an edge at a = b / (2 |cos t|) or 1 / (2 |sin t|); the smallest of these is the
+load factor. So an answer that went to the wrong point is found out, not only one that is missing.
+"""
+
+from __future__ import annotations
+
+import csv
+import json
+import math
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from tests.studies.sweep.killed_sweeps import keys_in_journals
+
+TOLERANCE = 1e-5
+"""relative, of a load factor: what the bounds of a verified one lie within"""
+
+
+@dataclass(frozen=True)
+class Rows:
+    """What is found in journal and table.
+
+    journal : rows in it
+    table   : rows in it
+    right   : rows of the table with the load factor of the closed form for the parameters of that row
+    wrong   : what is missing, twice, or not as it should be, in words
+    """
+
+    journal: int
+    table: int
+    right: int
+    wrong: tuple[str, ...]
+
+
+def rows_of(folder: Path, points: int) -> Rows:
+    """Read the files of a finished sweep; ``points`` is how many there must be."""
+    keys = Counter(keys_in_journals(folder))
+    with (folder / "sweep.csv").open(newline="", encoding="utf-8") as file:
+        table = list(csv.DictReader(file))
+    numbers = Counter(int(row["point"]) for row in table)
+    wrong = [f"{count} rows of the journal have the key {key}" for key, count in keys.items() if count > 1]
+    if len(keys) != points:
+        wrong.append(f"{len(keys)} different points in the journal, not {points}")
+    if list(numbers.elements()) != list(range(1, points + 1)):
+        wrong.append(f"the table does not have the points 1 to {points}, each once and in their order")
+    places = Counter(tuple(row[name] for name in _parameters(row)) for row in table)
+    if len(places) != points:
+        wrong.append(f"{len(places)} different sets of parameters in the table, not {points}")
+    right = sum(_is_right(row) for row in table)
+    if right != points:
+        wrong.append(f"{right} rows with the load factor of the closed form, not {points}")
+    counts = json.loads((folder / "sweep.json").read_text(encoding="utf-8"))["points"]
+    if counts != {"all": points, "done": points, "failed": 0, "unfinished": 0, "left_out": 0}:
+        wrong.append(f"the record counts {counts}")
+    return Rows(keys.total(), len(table), right, tuple(wrong))
+
+
+def _parameters(row: Mapping[str, str]) -> Sequence[str]:
+    """Names of the columns of parameters: those between the number of the point and its state."""
+    names = list(row)
+    return names[1 : names.index("state")]
+
+
+def _is_right(row: Mapping[str, str]) -> bool:
+    found = row["load_factor"]
+    return bool(found) and math.isclose(float(found), closed_form(row), rel_tol=TOLERANCE)
+
+
+def closed_form(row: Mapping[str, str]) -> float:
+    """Load factor at the parameters of a row."""
+    along, across, _ = (abs(float(component)) for component in json.loads(row["direction"]))
+    overturning = [0.5 * size / push for size, push in ((float(row["b"]), along), (1.0, across)) if push > 0]
+    return min(float(row["mu"]), *overturning)

@@ -1,0 +1,88 @@
+"""10,000 points of a sweep in one process: its memory, and every point once with its own answer."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from mbla.cli import main
+from tests.performance.bench_sweep_memory import POINTS, watched, written
+from tests.trust.counts import record_counts
+from tests.trust.soak.rows import rows_of
+
+CLAIM = (
+    "A sweep of 10,000 points in one worker loses no point and repeats none, each row has the load factor of the "
+    "closed form for its own parameters, and the process that solves the points does not grow by 5 %"
+)
+GROWTH = 0.05
+"""of the process that solves points, from the first tenth of them to the last"""
+HELD = 2.0
+"""kB for each point that the command may grow: it holds the answers until the table is written"""
+
+
+@pytest.fixture(scope="module")
+def swept(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Folder of a finished sweep of eight points."""
+    path = written(tmp_path_factory.mktemp("soak"), 8, widths=2, directions_around=2)
+    assert main(["sweep", str(path), "-q", "-j", "1"]) == 0
+    return path.with_suffix(".out")
+
+
+def test_a_small_sweep_has_every_point_once_with_its_own_answer(swept: Path) -> None:
+    found = rows_of(swept, 8)
+    assert found.wrong == ()
+    assert (found.journal, found.table, found.right) == (8, 8, 8)
+
+
+@pytest.mark.parametrize(
+    ("name", "damage"),
+    [
+        ("journal.csv", "lost"),
+        ("journal.csv", "twice"),
+        ("sweep.csv", "lost"),
+        ("sweep.csv", "twice"),
+        ("sweep.csv", "swapped"),
+    ],
+)
+def test_a_row_that_is_lost_or_twice_or_in_the_wrong_place_is_found(
+    swept: Path, tmp_path: Path, name: str, damage: str
+) -> None:
+    for file in swept.iterdir():
+        (tmp_path / file.name).write_bytes(file.read_bytes())
+    lines = (swept / name).read_text(encoding="utf-8").splitlines(keepends=True)
+    damaged = {"lost": lines[:-1], "twice": [*lines, lines[-1]], "swapped": [*lines[:-2], lines[-1], lines[-2]]}
+    (tmp_path / name).write_text("".join(damaged[damage]), encoding="utf-8")
+    assert rows_of(tmp_path, 8).wrong
+
+
+def test_an_answer_of_another_point_is_found(swept: Path, tmp_path: Path) -> None:
+    for file in swept.iterdir():
+        (tmp_path / file.name).write_bytes(file.read_bytes())
+    table = (swept / "sweep.csv").read_text(encoding="utf-8")
+    assert ",0.5," in table
+    (tmp_path / "sweep.csv").write_text(table.replace(",0.5,", ",1.5,", 2), encoding="utf-8")
+    assert rows_of(tmp_path, 8).wrong
+
+
+@pytest.mark.trust
+def test_ten_thousand_points_in_one_worker(tmp_path: Path) -> None:
+    found = watched(tmp_path, POINTS, 1)
+    rows = rows_of(tmp_path / "block_sweep.out", POINTS)
+    assert rows.wrong == ()
+    growth = found.last(found.points) / found.first(found.points) - 1.0
+    assert growth < GROWTH
+    assert found.kilobytes_per_point < HELD
+    assert len(found.begun) == 1, "the process that solves points was begun anew: its memory says nothing"
+    counts = {
+        "points": POINTS,
+        "rows of the journal": rows.journal,
+        "rows of the table": rows.table,
+        "with the load factor of the closed form": rows.right,
+        "missing or twice": 0,
+        "permille that the solving process grew": max(round(1e3 * growth), 0),
+        "bytes a point that the command grew, which holds the answers for the table": round(
+            1e3 * max(found.kilobytes_per_point, 0.0)
+        ),
+    }
+    record_counts("soak", 90, CLAIM, counts)
