@@ -4,7 +4,7 @@
 
     python -m tests.trust.mutation [GROUP ...] [--sample N] [--seed S] [--output FILE]
 
-Exit status 1 where a survivor is not explained.
+Exit status 1 where a survivor is not explained. An interrupt (Ctrl-C) ends a group; what it found by then is told.
 """
 
 from __future__ import annotations
@@ -43,6 +43,8 @@ def _told(name: str, one: Judged) -> Judged:
         lines.append(f"{survivor.module}:{survivor.line} {survivor.change}: {note}")
     score = 100.0 * one.killed / max(one.mutants, 1)
     lines.append(f"{name}: {one.killed} of {one.mutants} mutants of {one.modules} modules killed, {score:.1f} %")
+    if not one.whole:
+        lines.append(f"{name}: interrupted, not all tests were run")
     sys.stdout.write("\n".join(lines) + "\n")
     return one
 

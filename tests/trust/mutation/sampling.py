@@ -40,13 +40,17 @@ class Survivor:
 
 @dataclass(frozen=True)
 class Judged:
-    """What became of the mutants of a group."""
+    """What became of the mutants of a group.
+
+    whole : whether all tests were run; where not, what they had noticed by then
+    """
 
     modules: int
     mutants: int
     killed: int
     survivors: tuple[Survivor, ...]
     left_out: tuple[str, ...]
+    whole: bool
 
     @property
     def explained(self) -> int:
@@ -73,7 +77,7 @@ def judged(group: Group, mutants: list[Mutant]) -> Judged:
     status = pytest.main(
         ["-q", "-p", "no:cacheprovider", "-m", "not long and not trust", *map(str, group.test_files())], plugins=[forks]
     )
-    if status not in (pytest.ExitCode.OK, pytest.ExitCode.TESTS_FAILED):
+    if status not in (pytest.ExitCode.OK, pytest.ExitCode.TESTS_FAILED, pytest.ExitCode.INTERRUPTED):
         raise RuntimeError(f"pytest ended with {status}")
     return Judged(
         modules=len(files),
@@ -81,6 +85,7 @@ def judged(group: Group, mutants: list[Mutant]) -> Judged:
         killed=len(forks.killed),
         survivors=tuple(_survivor(mutant, mutant in forks.reached) for mutant in forks.alive),
         left_out=tuple(forks.left_out),
+        whole=status != pytest.ExitCode.INTERRUPTED,
     )
 
 

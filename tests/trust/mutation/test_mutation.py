@@ -111,6 +111,7 @@ def test_mutants_of_the_modules_that_figures_rest_on(tmp_path: Path) -> None:
     found = {name: _run(name, tmp_path) for name in GROUPS}
     counts = {"modules": sum(one.modules for one in found.values())}
     for name, one in found.items():
+        assert one.whole, name
         assert one.killed >= SCORE * one.mutants, (name, one.survivors)
         counts |= {f"mutants of {name}": one.mutants, f"noticed in {name}": one.killed}
     record_counts("mutation", 100, CLAIM, counts)
