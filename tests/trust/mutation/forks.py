@@ -41,6 +41,7 @@ class Forks:
         self.files = {str(mutant.path) for mutant in self.alive}
         self.longest = longest
         self.spent: dict[Mutant, float] = {}
+        self.swapper: Swapper | None = None
 
     def pytest_sessionstart(self) -> None:
         """Random examples that are the same each time, and kept nowhere."""
@@ -53,7 +54,7 @@ class Forks:
     def pytest_pyfunc_call(self, pyfuncitem: pytest.Function) -> bool:
         """The body of a test, its fixtures made: in forked processes only."""
         names = pyfuncitem._fixtureinfo.argnames
-        arguments = {name: pyfuncitem.funcargs[name] for name in names}
+        arguments: dict[str, Any] = {name: pyfuncitem.funcargs[name] for name in names}
         folder = Folder(arguments.get("tmp_path"))
         body = lambda: pyfuncitem.obj(**arguments)  # noqa: E731
         lines: set[tuple[str, int]] = set()
@@ -97,8 +98,10 @@ class Forks:
     ) -> None:
         if not reached:
             return
-        swapper, noticed = Swapper(self.files), []
-        gc.freeze()  # pages that the forked processes need not copy
+        if self.swapper is None:
+            self.swapper = Swapper(self.files)
+            gc.freeze()  # pages that the forked processes need not copy; what is frozen is no longer found
+        swapper, noticed = self.swapper, []
 
         def wrong(mutant: Mutant) -> int:
             if not swapper.put(mutant):
