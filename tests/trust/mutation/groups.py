@@ -1,0 +1,86 @@
+"""Which modules are made wrong, and the tests next to them, quick ones first."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+ROOT = Path(__file__).parents[3]
+
+
+@dataclass(frozen=True)
+class Group:
+    """Modules and tests, as patterns below the repository.
+
+    longest : CPU seconds of a test, beyond which it is left out
+    """
+
+    modules: tuple[str, ...]
+    tests: tuple[str, ...]
+    longest: float = 2.0
+
+    def files(self) -> list[Path]:
+        """Modules in the order of their names."""
+        return sorted({path for pattern in self.modules for path in ROOT.glob(pattern)})
+
+    def test_files(self) -> list[Path]:
+        """Tests in the order of the patterns."""
+        return list(dict.fromkeys(path for pattern in self.tests for path in sorted(ROOT.glob(pattern))))
+
+
+GROUPS = {
+    "verify": Group(
+        modules=(
+            "mbla/solution/verify*.py",
+            "mbla/solution/residuals.py",
+            "mbla/solution/bounds.py",
+            "mbla/solution/proofs.py",
+            "mbla/solution/statics.py",
+            "mbla/solution/certificate.py",
+        ),
+        tests=(
+            "tests/solution/test_residuals.py",
+            "tests/solution/test_bounds.py",
+            "tests/solution/test_verify*.py",
+            "tests/solution/test_certificate.py",
+            "tests/solution/test_rough_residuals.py",
+            "tests/solution/test_accuracy.py",
+            "tests/solution/test_tilt.py",
+            "tests/solution/test_locking.py",
+            "tests/solution/test_limit_point.py",
+            "tests/test_verify_file.py",
+        ),
+        longest=6.0,
+    ),
+    "geometry": Group(
+        modules=(
+            "mbla/model/geometry/*.py",
+            "mbla/model/volumes.py",
+            "mbla/model/face_geometry.py",
+            "mbla/model/polyhedra.py",
+            "mbla/model/convexity.py",
+            "mbla/model/defects.py",
+            "mbla/model/facets.py",
+            "mbla/model/orientation.py",
+            "mbla/model/self_intersection.py",
+            "mbla/model/transform.py",
+        ),
+        tests=("tests/model/test_*.py", "tests/model/geometry/test_*.py"),
+    ),
+    "contacts": Group(modules=("mbla/contacts/*.py",), tests=("tests/contacts/test_*.py", "tests/model/test_*.py")),
+    "program": Group(
+        modules=("mbla/program/**/*.py",),
+        tests=(
+            "tests/program/**/test_*.py",
+            "tests/analytic/test_planar_programs.py",
+            "tests/solution/test_bounds.py",
+            "tests/solution/test_guides.py",
+            "tests/solution/test_glued.py",
+            "tests/solution/test_associative.py",
+            "tests/solution/test_convex.py",
+            "tests/solution/test_force_ranges.py",
+            "tests/analytic/test_closed_forms.py",
+        ),
+        longest=3.0,
+    ),
+}
