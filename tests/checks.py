@@ -13,7 +13,12 @@ import sys
 from pathlib import Path
 
 ROOT = Path(__file__).parents[1]
-CHECKS = (("ruff", "format", "--check", "."), ("ruff", "check", "."), ("mypy",), ("pytest", "-rs", "-n", "auto", "--dist", "loadfile"))
+CHECKS = (
+    ("ruff", "format", "--check", "."),
+    ("ruff", "check", "."),
+    ("mypy",),
+    ("pytest", "-rs", "-n", "auto", "--dist", "loadfile"),
+)
 """-rs: what was skipped, and why: a machine without a browser or OpenGL tests less"""
 
 
