@@ -21,7 +21,7 @@ CLAIM = (
     "dependencies that it allows and in the newest: decks with their expected load factors, pictures, report, tables, "
     "a sweep in two processes"
 )
-LOADS = r"""<(?:script|img|iframe|source|video|embed)[^>]*\ssrc\s*=\s*["']?\s*(?:https?:)?//|<link[^>]*\shref\s*="""
+LOADS = r"""<(?:script|img|iframe|source|video|embed)[^>]*\ssrc\s*=\s*["']?\s*(?:https?:)?//|<link[^>]*\shref\s*=\s*["']?(?!data:)[^"'\s]"""  # noqa: E501
 """elements of a page that fetch something; a link that a reader may follow is none"""
 SOURCES = {"PYTHONPATH": str(ROOT)}
 
