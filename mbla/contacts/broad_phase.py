@@ -11,7 +11,7 @@ import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.contacts.facets import Facets
-from mbla.contacts.polygons import Crowded, box_pairs
+from mbla.contacts.polygons import CrowdedError, box_pairs
 from mbla.contacts.ragged import rows_and_items
 from mbla.errors import Refusal
 from mbla.model.blocks import Blocks
@@ -66,7 +66,7 @@ def find_block_pairs(blocks: Blocks, tolerance: float) -> BlockPairs:
     most = max(MOST_PAIRS, PAIRS_OF_A_BLOCK * len(blocks))
     try:
         i, j = box_pairs(lower - margin, upper + margin, most)
-    except Crowded as crowded:
+    except CrowdedError as crowded:
         words = (
             f"many blocks lie in one place, as {blocks.name(crowded.box)}: more than {most:,} pairs come near each "
             "other; no more can be handled"

@@ -14,7 +14,6 @@ from numpy.typing import NDArray
 from mbla.arrays import BoolArray, FloatArray, IntArray, starts
 from mbla.contacts.convex_clip import clip_convex
 from mbla.contacts.loops import convex_loops, signed_areas
-from mbla.errors import Refusal
 
 Polygons: TypeAlias = NDArray[np.object_]
 
@@ -30,14 +29,14 @@ _FIRST_ROWS, _MANY_HITS = 8, 1_000_000
 _EMPTY = shapely.Polygon()
 
 
-class Crowded(Refusal):
+class CrowdedError(Exception):
     """Far more boxes share a point than those of things that lie beside each other.
 
     box : the one that shares a point with most of those looked at
     """
 
     def __init__(self, box: int) -> None:
-        super().__init__("too-many-units", "too many boxes in one place")
+        super().__init__(box)
         self.box = box
 
 
@@ -45,7 +44,7 @@ def box_pairs(lower: FloatArray, upper: FloatArray, most: float = np.inf) -> tup
     """Pairs i < j of boxes that share a point, sorted by i, then j.
 
     lower, upper : (n, 3) corners of the boxes
-    most         : pairs that are found; ``Crowded`` is raised before there are many more
+    most         : pairs that are found; ``CrowdedError`` is raised before there are many more
 
     The tree works on the two axes along which the boxes are smallest against the whole; the third is compared after.
     """
@@ -70,7 +69,7 @@ def box_pairs(lower: FloatArray, upper: FloatArray, most: float = np.inf) -> tup
         found.append((i, j))
         number += len(i)
         if number > most:
-            raise Crowded(int(np.bincount(i).argmax()))
+            raise CrowdedError(int(np.bincount(i).argmax()))
         begin += size
         size = max(size // 2, 1) if hits > _MANY_HITS else 2 * size
     i, j = (np.concatenate([pair[side] for pair in found]) for side in (0, 1))
