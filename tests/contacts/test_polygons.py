@@ -7,7 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mbla.contacts.polygons import (
-    Crowded,
+    CrowdedError,
     Polygons,
     box_pairs,
     connected_parts,
@@ -45,7 +45,7 @@ def test_boxes_in_one_place_are_not_paired() -> None:
     lower = rng.uniform(0, 100, (3000, 3))
     assert len(box_pairs(lower, lower + 1, most=3000)[0]) < 3000
     lower[1000:1500] = 50
-    with pytest.raises(Crowded) as caught:
+    with pytest.raises(CrowdedError) as caught:
         box_pairs(lower, lower + 1, most=3000)
     assert 1000 <= caught.value.box < 1500
 
