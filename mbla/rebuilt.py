@@ -32,7 +32,7 @@ FOLDER = Path("deck of a result file")
 SAME = 1e-9
 """Difference over the largest of its kind up to which two arrays are one: rounding of another machine."""
 
-FOUND_BY_SOLVING = ("reference", "angle", "upright")
+FOUND_BY_SOLVING = ("reference", "angle", "tangent", "upright")
 """of loads: what the deck does not give but the run finds"""
 
 
