@@ -1,5 +1,5 @@
 """The same deck gives the same bytes, wherever, whenever and under whatever settings of the machine it is run.
 
 Bytes are compared with a clock that stands still: then every file must be the same to the last byte, also the HDF5
-files with their seal. With a clock that goes, what may differ is named entry by entry in :mod:`documented`.
+files with their seal. What differs with a clock that goes is not looked at.
 """
