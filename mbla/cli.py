@@ -109,9 +109,10 @@ def _check(options: argparse.Namespace) -> int:
 
     def one(deck: Path) -> int:
         content, seconds = read_given_deck(deck, run)
-        from mbla.check import check
-        from mbla.results.records.json_record import check_json, json_line
-        from mbla.results.words.listing import check_listing
+        with loading():
+            from mbla.check import check
+            from mbla.results.records.json_record import check_json, json_line
+            from mbla.results.words.listing import check_listing
 
         results, needs = check(content, run, options.vtu, time.perf_counter() - seconds)
         text = json_line(check_json(results, needs)) + "\n" if options.json else check_listing(results, needs)
@@ -125,17 +126,19 @@ def _check(options: argparse.Namespace) -> int:
 
 
 def _schema(options: argparse.Namespace) -> int:
-    if options.kind == "sweep":
-        from mbla.studies.sweep.file.schema import sweep_schema as schema
-    else:
-        from mbla.deck.schema import deck_schema as schema
+    with loading():
+        if options.kind == "sweep":
+            from mbla.studies.sweep.file.schema import sweep_schema as schema
+        else:
+            from mbla.deck.schema import deck_schema as schema
 
     print(json.dumps(schema(), indent=2))
     return 0
 
 
 def _new(options: argparse.Namespace) -> int:
-    from mbla.starter import write_starter
+    with loading():
+        from mbla.starter import write_starter
 
     path = write_starter(options.name, replace=options.force)
     print(f"{path} written; run it with: mbla run {shlex.quote(str(path))}")

@@ -7,6 +7,8 @@ import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 
+from mbla.signals import held_signals
+
 
 @contextmanager
 def no_collection() -> Iterator[None]:
@@ -28,10 +30,11 @@ def no_collection() -> Iterator[None]:
 def loading() -> Iterator[None]:
     """Import modules: the collector is paused, and passes over them, as over all else that is there, from then on.
 
-    Where none was new nothing is kept from it.
+    Where none was new nothing is kept from it. Signals wait, as the libraries that are loaded do not let an
+    interruption through: pydantic tells it as a fault of the deck's types.
     """
     before = len(sys.modules)
-    with no_collection():
+    with no_collection(), held_signals():
         yield
     if len(sys.modules) > before:
         gc.freeze()

@@ -7,7 +7,7 @@ import time
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from mbla.collector import no_collection
+from mbla.collector import loading
 from mbla.errors import FileError
 from mbla.run_options import RunOptions
 
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 def read_given_deck(path: Path, options: RunOptions) -> tuple[Deck, float]:
     """The deck, and the seconds it took; a faulty one is told before anything heavy is imported."""
-    with no_collection():
+    with loading():
         from mbla.deck import read_deck
 
     started = time.perf_counter()

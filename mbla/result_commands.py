@@ -9,12 +9,15 @@ from __future__ import annotations
 import argparse
 import sys
 
+from mbla.collector import loading
+
 
 def show(options: argparse.Namespace) -> int:
     """Print the listing, or the JSON object."""
-    from mbla.results.hdf5.result_file import read_results_hdf5
-    from mbla.results.records.json_record import json_line, results_json
-    from mbla.results.words.listing import listing
+    with loading():
+        from mbla.results.hdf5.result_file import read_results_hdf5
+        from mbla.results.records.json_record import json_line, results_json
+        from mbla.results.words.listing import listing
 
     results = read_results_hdf5(options.result)
     print(json_line(results_json(results)) + "\n" if options.json else listing(results), end="")
@@ -23,10 +26,11 @@ def show(options: argparse.Namespace) -> int:
 
 def verify(options: argparse.Namespace) -> int:
     """Recompute residuals and bounds; the exit status tells what the file is worth by them."""
-    from mbla.results.hdf5.result_file import read_results_hdf5
-    from mbla.results.records.json_record import json_line, verification_json
-    from mbla.results.words.listing import verification_lines
-    from mbla.verify_file import verify_results
+    with loading():
+        from mbla.results.hdf5.result_file import read_results_hdf5
+        from mbla.results.records.json_record import json_line, verification_json
+        from mbla.results.words.listing import verification_lines
+        from mbla.verify_file import verify_results
 
     results, agreed = verify_results(read_results_hdf5(options.result))
     if options.json:
@@ -38,9 +42,10 @@ def verify(options: argparse.Namespace) -> int:
 
 def plot(options: argparse.Namespace) -> int:
     """Draw pictures or films; their paths are printed."""
-    from mbla.results.hdf5.result_file import read_results_hdf5
-    from mbla.results.pictures.options import picture_options
-    from mbla.results.pictures.plot import plot_results
+    with loading():
+        from mbla.results.hdf5.result_file import read_results_hdf5
+        from mbla.results.pictures.options import picture_options
+        from mbla.results.pictures.plot import plot_results
 
     chosen = picture_options(options)
     results = read_results_hdf5(options.result)
@@ -52,7 +57,8 @@ def plot(options: argparse.Namespace) -> int:
 
 def sweep_plot(options: argparse.Namespace) -> int:
     """Draw pictures of a sweep; their paths are printed."""
-    from mbla.studies.sweep.pictures.plot import plot_sweep_files
+    with loading():
+        from mbla.studies.sweep.pictures.plot import plot_sweep_files
 
     for path in plot_sweep_files(options.sweep, options):
         print(path)
@@ -61,8 +67,9 @@ def sweep_plot(options: argparse.Namespace) -> int:
 
 def report(options: argparse.Namespace) -> int:
     """Write the HTML file; its path is printed, remarks on what it lacks go to standard error."""
-    from mbla.results.hdf5.result_file import read_results_hdf5
-    from mbla.results.report.report import report_path, write_report
+    with loading():
+        from mbla.results.hdf5.result_file import read_results_hdf5
+        from mbla.results.report.report import report_path, write_report
 
     results = read_results_hdf5(options.result)
     target = report_path(options.output, options.result)
@@ -74,8 +81,9 @@ def report(options: argparse.Namespace) -> int:
 
 def export(options: argparse.Namespace) -> int:
     """Write tables and meshes; their paths are printed."""
-    from mbla.results.hdf5.result_file import read_results_hdf5
-    from mbla.results.tables.export import Formats, export_results
+    with loading():
+        from mbla.results.hdf5.result_file import read_results_hdf5
+        from mbla.results.tables.export import Formats, export_results
 
     results = read_results_hdf5(options.result)
     folder = options.output or options.result.parent
@@ -89,11 +97,12 @@ def export(options: argparse.Namespace) -> int:
 
 def diff(options: argparse.Namespace) -> int:
     """Print what differs; status 4 only where it is asked for."""
-    from mbla.results.comparison.comparison import compare_results
-    from mbla.results.comparison.records import comparison_json
-    from mbla.results.comparison.words import comparison_text
-    from mbla.results.hdf5.result_file import read_results_hdf5
-    from mbla.results.records.json_record import json_line
+    with loading():
+        from mbla.results.comparison.comparison import compare_results
+        from mbla.results.comparison.records import comparison_json
+        from mbla.results.comparison.words import comparison_text
+        from mbla.results.hdf5.result_file import read_results_hdf5
+        from mbla.results.records.json_record import json_line
 
     names = str(options.first), str(options.second)
     results = read_results_hdf5(options.first), read_results_hdf5(options.second)
@@ -107,9 +116,10 @@ def diff(options: argparse.Namespace) -> int:
 
 def explain(options: argparse.Namespace) -> int:
     """Print what identifiers mean."""
-    from mbla.results.explanations.explanations import EXPLANATIONS, find_explanations
-    from mbla.results.explanations.words import all_text, explanation_json, explanation_text
-    from mbla.results.records.json_record import json_line
+    with loading():
+        from mbla.results.explanations.explanations import EXPLANATIONS, find_explanations
+        from mbla.results.explanations.words import all_text, explanation_json, explanation_text
+        from mbla.results.records.json_record import json_line
 
     asked = " ".join(options.identifier)
     found = find_explanations(asked) if asked.strip() else tuple(EXPLANATIONS.values())

@@ -11,6 +11,7 @@ import sys
 from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
+from mbla.collector import loading
 from mbla.given_deck import read_given_deck, refuse_unfit_name, run_options
 from mbla.terminal import clear_line, rewrite_line, say
 
@@ -23,8 +24,9 @@ def interact(options: argparse.Namespace) -> int:
     refuse_unfit_name(options.deck)
     run = run_options(options)
     content, _ = read_given_deck(options.deck, run)
-    from mbla.studies.interact.command import interact
-    from mbla.studies.interact.words import study_lines
+    with loading():
+        from mbla.studies.interact.command import interact
+        from mbla.studies.interact.words import study_lines
 
     report = None if options.quiet else _point_progress()
     try:
@@ -40,8 +42,9 @@ def tradeoff(options: argparse.Namespace) -> int:
     refuse_unfit_name(options.deck)
     run = run_options(options, override=False)
     content, _ = read_given_deck(options.deck, run)
-    from mbla.studies.tradeoff.command import tradeoff
-    from mbla.studies.tradeoff.words import study_lines
+    with loading():
+        from mbla.studies.tradeoff.command import tradeoff
+        from mbla.studies.tradeoff.words import study_lines
 
     report = None if options.quiet else _rung_progress()
     try:
@@ -60,8 +63,9 @@ def _tell(
     remarks: Sequence[str],
 ) -> None:
     """Remarks, the JSON object where it is asked for, what the study found in words, and its files."""
-    from mbla.results.records.json_record import json_line
-    from mbla.results.words.text import sentence
+    with loading():
+        from mbla.results.records.json_record import json_line
+        from mbla.results.words.text import sentence
 
     for remark in remarks:
         say(f"mbla: {remark}", 0)

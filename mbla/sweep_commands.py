@@ -11,7 +11,7 @@ import sys
 import time
 from typing import TYPE_CHECKING
 
-from mbla.collector import loading, no_collection
+from mbla.collector import loading
 from mbla.terminal import clear_line, rewrite_line, say
 
 if TYPE_CHECKING:
@@ -28,7 +28,7 @@ BETWEEN_LINES = 10.0
 
 def sweep(options: argparse.Namespace) -> int:
     """Solve the points of a sweep file, or list them; the summary goes to standard output, or the JSON object alone."""
-    with no_collection():
+    with loading():
         from mbla.studies.sweep.file.read import read_sweep
 
     content = read_sweep(options.sweep, tuple(options.set))
@@ -65,8 +65,9 @@ def sweep(options: argparse.Namespace) -> int:
 
 
 def _sweep_options(options: argparse.Namespace) -> SweepOptions:
-    from mbla.studies.sweep.command import SweepOptions
-    from mbla.studies.sweep.engine.options import EngineOptions
+    with loading():
+        from mbla.studies.sweep.command import SweepOptions
+        from mbla.studies.sweep.engine.options import EngineOptions
 
     return SweepOptions(
         folder=options.output,

@@ -14,11 +14,11 @@ import scipy.sparse as sp
 from mbla.arrays import FloatArray
 from mbla.errors import SolverError
 from mbla.program.kinematic import ConeProgram
+from mbla.signals import held_signals
 from mbla.solution.cone_solution import ConeSolution as ConeSolution
 from mbla.solution.cone_solution import Log as Log
 from mbla.solution.linear_algebra.mkl import factorization_for
 from mbla.solution.settings import SolverSettings
-from mbla.solution.signals import signals_held
 from mbla.solution.solution import IterationRecord, Status
 
 STATUS_MAP = {
@@ -101,7 +101,7 @@ class ClarabelProgram:
         started, self._logged = time.perf_counter(), -1
         if self._solver is None:
             self._solver = self._new_solver(clarabel)
-        with signals_held() as signalled:
+        with held_signals() as signalled:
             callback = self._callback(program_number, to_load_factor, started, signalled)
             self._solver.set_termination_callback(callback)
             try:

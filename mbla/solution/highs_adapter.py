@@ -30,9 +30,9 @@ import scipy.sparse as sp
 from mbla.arrays import FloatArray
 from mbla.errors import SolverError
 from mbla.program.kinematic import ConeProgram
+from mbla.signals import held_signals
 from mbla.solution.cone_solution import ConeSolution, Log
 from mbla.solution.settings import SolverSettings
-from mbla.solution.signals import signals_held
 from mbla.solution.solution import IterationRecord, Status
 
 STATUS_MAP = {
@@ -143,7 +143,7 @@ class HighsProgram:
         highs: Any = highspy.Highs()  # type: ignore[no-untyped-call]
         self._set_options(highs)
         highs.passModel(_model(highspy, linear))
-        with signals_held() as signalled:
+        with held_signals() as signalled:
 
             def interrupt(event: Any) -> None:
                 if signalled():

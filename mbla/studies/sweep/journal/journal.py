@@ -16,9 +16,9 @@ from types import TracebackType
 
 from mbla.errors import FileError, Notice, UsageError
 from mbla.results.disk import file_errors, flush_to_disk, missing_folders
-from mbla.results.held_signals import held_signals
 from mbla.results.leftovers import temporary_path
 from mbla.results.lock import AT_WORK, holder, lock_path, locked
+from mbla.signals import held_signals
 from mbla.studies.sweep.journal.header import BEGIN_ANEW, JournalHeader, header_text
 from mbla.studies.sweep.journal.reading import keep, merged, read_journal
 from mbla.studies.sweep.journal.rows import read_row, row_of

@@ -1,0 +1,47 @@
+"""Interruptions that wait: until files are whole, until modules are loaded, until foreign code has returned.
+
+Python raises the exception of a signal wherever the program happens to be. In a callback of the cone solver it would be
+printed and forgotten, in the building of the deck's types it comes back as their fault, between two renames it leaves
+files of two runs.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import signal
+import threading
+from collections.abc import Callable, Iterator
+from types import FrameType
+
+_HELD = (signal.SIGTERM, signal.SIGINT)
+"""given back in this order: where the first interrupts that, the process ends"""
+
+
+@contextlib.contextmanager
+def held_signals() -> Iterator[Callable[[], bool]]:
+    """SIGINT and SIGTERM that arrive in the block count at its end, as they would have before it.
+
+    Gives a function that tells whether one has arrived. Signals that are ignored stay so, as under nohup. Only the main
+    thread is ever interrupted; in others nothing is held.
+    """
+    if threading.current_thread() is not threading.main_thread():
+        yield lambda: False
+        return
+    arrived: list[int] = []
+
+    def note(number: int, frame: FrameType | None) -> None:
+        arrived.append(number)
+
+    handlers = {number: signal.getsignal(number) for number in _HELD}
+    ours = {  # None: a handler that is not of Python
+        number: handler for number, handler in handlers.items() if handler is not None and handler != signal.SIG_IGN
+    }
+    try:
+        for number in ours:
+            signal.signal(number, note)
+        yield lambda: bool(arrived)
+    finally:
+        for number, handler in ours.items():
+            signal.signal(number, handler)
+        if arrived:
+            signal.raise_signal(arrived[0])
