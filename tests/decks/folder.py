@@ -26,6 +26,7 @@ LONG = (
     "structures/house",
     "structures/room",
     "structures/spiral_stair",
+    "tutorials/buttressed_wall",
     "tutorials/crossvault_without_dilatancy",
 )  # fmt: skip
 """take more than ten seconds: run by ``pytest -m long`` only"""
