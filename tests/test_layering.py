@@ -10,11 +10,13 @@ from pathlib import Path
 
 import pytest
 
-PACKAGE = Path(__file__).parents[1] / "mbla"
+import mbla
+
+PACKAGE = Path(mbla.__file__).parent
 STAGES = ("deck", "model", "contacts", "program", "solution", "results", "studies")
 WHOLE_LINE = ("run_deck", "run_options", "exit_status", "failures")
 """modules beside the stages that call all of them: only what runs decks again and again stands to their right"""
-SHARED = ("arrays", "collector", "errors", "memory_limit", "sharing", "stopwatch")
+SHARED = ("arrays", "collector", "errors", "memory_limit", "sharing", "signals", "stopwatch")
 DOORS = {
     "yaml": "deck/reader.py",
     "pint": "deck/units.py",
@@ -92,7 +94,7 @@ def test_every_folder_of_the_package_is_a_stage() -> None:
 
 
 def test_top_level_of_the_project() -> None:
-    root = PACKAGE.parent
+    root = Path(__file__).parents[1]
     made = {"build", "dist", "__pycache__"}
     names = {path.name for path in root.iterdir() if not path.name.startswith(".") and path.name not in made}
     left = {name for name in names if not name.endswith((".out", ".egg-info"))}

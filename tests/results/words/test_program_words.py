@@ -5,11 +5,12 @@ from pathlib import Path
 
 import pytest
 
+import mbla
 from mbla.results.words.program_words import MOST_ROWS, PURPOSES, program_lines
 from mbla.results.words.text import WIDTH
 from tests.results.synthetic import tower_results
 
-SOLUTION = Path(__file__).parents[3] / "mbla" / "solution"
+SOLUTION = Path(mbla.__file__).parent / "solution"
 FIRST = tower_results().cases[0].solution
 
 

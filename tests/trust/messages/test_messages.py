@@ -12,6 +12,7 @@ from pathlib import Path
 
 import pytest
 
+import mbla
 from mbla.deck import read_deck
 from mbla.errors import DeckError
 from mbla.failures import lines_of
@@ -109,7 +110,7 @@ def test_no_error_is_made_without_an_identifier() -> None:
     without = [site for site in made if site.identifier is None and not site.handed_on]
     # a table of messages by the names of pydantic gives their identifiers on
     assert [(site.file, site.line) for site in without] == []
-    package = Path(__file__).parents[3] / "mbla"
+    package = Path(mbla.__file__).parent
     for identifier, file in PRINTED_BY.items():
         assert identifier in (package / file).read_text(encoding="utf-8")
 
