@@ -31,7 +31,7 @@ import yaml
 from mbla.studies.line_process import PACKAGES
 from tests.line import BLOCK
 from tests.performance.recording import record
-from tests.studies.sweep.killed_sweeps import descendants
+from tests.studies.sweep.killed_sweeps import descendants, kind_of
 
 POINTS = 10_000
 PART = 10
@@ -109,9 +109,16 @@ def watched(folder: Path, points: int, workers: int) -> Watched:
             found.rows.append(max(rows, 0))
             found.command.append(resident(process.pid))
             found.points.append(max(map(resident, children), default=0.0))
-            found.begun.update(children)
+            found.begun.update(filter(solves_points, children))
         assert process.returncode == 0, f"exit status {process.returncode}"
     return found
+
+
+def solves_points(pid: int) -> bool:
+    """Whether a process was begun for points, by a command that gives each a group of its own: no helper of one."""
+    with suppress(ProcessLookupError):
+        return kind_of(pid) == "points" and os.getpgid(pid) == pid
+    return False
 
 
 def resident(pid: int) -> float:
