@@ -45,5 +45,5 @@ def declared() -> list[str]:
 
 
 def _uv(*arguments: str | Path) -> None:
-    done = subprocess.run(["uv", *arguments], capture_output=True, text=True, check=False)
+    done = subprocess.run([sys.executable, "-m", "uv", *arguments], capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr

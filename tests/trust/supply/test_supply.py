@@ -15,15 +15,18 @@ from tests.line import BLOCK
 from tests.trust.counts import record_counts
 from tests.trust.supply.environments import LOWEST, NEWEST, environment, wheel
 from tests.trust.supply.exercise import attempts_in, exercise, guarded
+from tests.trust.supply.own_tests import own_tests, read_ends
 
 CLAIM = (
     "mbla works from its wheel alone, without its sources and without a network, in the lowest versions of its "
     "dependencies that it allows and in the newest: decks with their expected load factors, pictures, report, tables, "
-    "a sweep in two processes"
+    "a sweep in two processes, and the tests of the project"
 )
 LOADS = r"""<(?:script|img|iframe|source|video|embed)[^>]*\ssrc\s*=\s*["']?\s*(?:https?:)?//|<link[^>]*\shref\s*=\s*["']?(?!data:)[^"'\s]"""  # noqa: E501
 """elements of a page that fetch something; a link that a reader may follow is none"""
 SOURCES = {"PYTHONPATH": str(ROOT)}
+AT_LEAST = 9000
+"""tests that there are, at least"""
 
 
 def loads_of(page: str) -> list[str]:
@@ -60,10 +63,25 @@ def test_a_run_and_its_report_need_no_network(tmp_path: Path) -> None:
     assert loads_of((tmp_path / "block.html").read_text(encoding="utf-8")) == []
 
 
+def test_tests_that_fail_are_found(tmp_path: Path) -> None:
+    (tmp_path / "pytest.ini").write_text("[pytest]\n", encoding="utf-8")
+    (tmp_path / "test_three.py").write_text(
+        "import pytest\n\ndef test_one(): pass\n\ndef test_two(): assert False\n\n"
+        "def test_three(): pytest.skip('none')\n\n@pytest.fixture\ndef broken(): raise KeyError\n\n"
+        "def test_four(broken): pass\n",
+        encoding="utf-8",
+    )
+    command = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", "--junitxml=tests.xml", "."]
+    subprocess.run(command, cwd=tmp_path, capture_output=True, check=False)
+    found = read_ends(tmp_path / "tests.xml")
+    assert (found.passed, found.skipped) == (1, 1)
+    assert found.failed == ("test_three::test_two", "test_three::test_four")
+
+
 @pytest.mark.trust
 def test_the_wheel_alone_in_lowest_and_newest_versions_without_a_network(tmp_path: Path) -> None:
     built = wheel(tmp_path)
-    commands = packages = 0
+    commands = packages = passed = skipped = 0
     for resolution in (LOWEST, NEWEST):
         python = environment(tmp_path / resolution / "environment", built, resolution)
         folder = tmp_path / resolution / "work"
@@ -75,8 +93,12 @@ def test_the_wheel_alone_in_lowest_and_newest_versions_without_a_network(tmp_pat
         assert done.attempts == ()
         assert loads_of((folder / "out/wall.html").read_text(encoding="utf-8")) == []
         commands += done.commands
+        own = own_tests(python, tmp_path / resolution / "project", old=resolution == LOWEST)
+        assert own.failed == ()
+        assert own.passed > AT_LEAST
+        passed, skipped = passed + own.passed, skipped + own.skipped
         listed = subprocess.run(
-            ["uv", "pip", "list", "--quiet", "--format", "freeze", "--python", python],
+            [sys.executable, "-m", "uv", "pip", "list", "--quiet", "--format", "freeze", "--python", python],
             capture_output=True,
             text=True,
             check=True,
@@ -88,5 +110,7 @@ def test_the_wheel_alone_in_lowest_and_newest_versions_without_a_network(tmp_pat
         "commands": commands,
         "commands that failed": 0,
         "attempts to reach another machine": 0,
+        "tests that passed": passed,
+        "tests skipped, for want of a browser or an extra": skipped,
     }
     record_counts("supply", 100, CLAIM, counts)
