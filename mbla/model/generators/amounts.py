@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
+from typing import Literal
 
 from mbla.deck.items.item import Item, Repetition
 from mbla.deck.tree import KeyPath
@@ -14,41 +16,67 @@ MOST = 2_000_000
 FACETS_OF_A_UNIT = 6
 """of most units; an item may have so many times as many facets, in all its copies, as it may have units"""
 
+MOST_COPIES = 10**15
+"""that are told apart: far beyond all that can be handled, and a number that products with others stay finite of"""
+
 
 def copies_of(item: Item) -> int:
-    """How often an item is there, itself included."""
+    """How often an item is there, itself included; ``MOST_COPIES`` stand for more."""
     steps = [item.repeat] if isinstance(item.repeat, Repetition) else item.repeat
-    return math.prod(step.count for step in steps)
+    return min(math.prod(step.count for step in steps), MOST_COPIES)
 
 
-def refuse_too_many(amount: float, key: str | KeyPath, what: str = "units", copies: int = 1) -> None:
-    """Refuse an item that makes about so many units; at a key of the item, or a key path below it.
+@dataclass(frozen=True)
+class Amount:
+    """About how much one copy of an item makes, known before it is made.
 
-    Before they are made: one of many copies may take GB of memory, too.
+    number : of units, or of facets of their surfaces
+    key    : of the item, or a key path below it, that has most to do with it
+    """
+
+    number: float
+    key: str | KeyPath = ()
+    what: Literal["units", "facets"] = "units"
+
+    def of_copies(self, item: Item) -> float:
+        """In units, of an item with all its copies."""
+        return self.number * copies_of(item) / (FACETS_OF_A_UNIT if self.what == "facets" else 1)
+
+
+def refuse_too_many(amount: Amount, item: Item) -> None:
+    """Refuse an item that makes more than can be handled, before any of it is made.
 
     Raises
     ------
     ItemRefused
-        for more than can be handled
+        at the key of the amount
     """
-    _refuse_beyond(MOST, amount * copies, key, what if copies == 1 else f"{what} in {copies:,} copies")
+    copies = copies_of(item)
+    words = amount.what if copies == 1 else f"{amount.what} in {copies:,} copies"
+    if amount.what == "units":
+        refuse_beyond(MOST, amount.number * copies, amount.key, words)
+    else:
+        refuse_beyond(MOST, amount.number, amount.key, amount.what)
+        refuse_beyond(FACETS_OF_A_UNIT * MOST, amount.number * copies, amount.key, words)
 
 
-def refuse_too_many_facets(amount: float, key: str | KeyPath, copies: int) -> None:
-    """Refuse an item of which each copy has about so many facets.
+def too_many_together(about: float) -> Message | None:
+    """What is said of items that make about so many units together; None where that can be handled."""
+    if about <= MOST:
+        return None
+    words = f"the items make about {about:.0e} units together; at most {MOST:,} can be handled"
+    return Message("too-many-units", words)
+
+
+def refuse_beyond(most: int, amount: float, key: str | KeyPath, what: str) -> None:
+    """Refuse an item that makes more of something than can be handled, at a key of it.
 
     Raises
     ------
     ItemRefused
-        for more than can be handled
+        at that key
     """
-    _refuse_beyond(MOST, amount, key, "facets")
-    _refuse_beyond(FACETS_OF_A_UNIT * MOST, amount * copies, key, f"facets in {copies:,} copies")
-
-
-def _refuse_beyond(most: int, amount: float, key: str | KeyPath, what: str) -> None:
     if amount > most:
         path = (key,) if isinstance(key, str) else key
-        about = float(min(amount, 10**300))  # products of whole numbers may be too large for a number
-        words = f"makes about {about:.0e} {what}; at most {most:,} can be handled"
+        words = f"makes about {min(amount, 1e300):.0e} {what}; at most {most:,} can be handled"
         raise ItemRefused([(path, Message("too-many-units", words))])

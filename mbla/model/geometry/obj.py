@@ -29,6 +29,8 @@ SILENT = frozenset(
 """keywords that say nothing of the shape of polygons"""
 LEFT_OUT = {"l": "line", "p": "point", "curv": "curve", "curv2": "curve", "surf": "free-form surface"}
 """elements that carry geometry but no block"""
+LONGEST_LINE = 1_000_000
+"""characters, with those that continue it: a face of some hundred thousand corners"""
 
 
 @dataclass
@@ -114,20 +116,30 @@ def _read(path: Path) -> _Content:
 
 
 def _lines(path: Path) -> Iterator[tuple[int, str]]:
-    """Lines with their numbers, without comments; lines that end in a backslash are joined to the next."""
+    """Lines with their numbers, without comments; lines that end in a backslash are joined to the next.
+
+    Raises
+    ------
+    GeometryFileError
+        for a file that cannot be read, or a line that is too long
+    """
     try:
         text = path.read_text(encoding="utf-8", errors="replace")
     except OSError as error:
         raise GeometryFileError("file-unreadable", f"cannot be read: {error.strerror}") from error
-    number = 0
+    number = length = 0
     parts: list[str] = []
     for number, raw in enumerate(text.splitlines(), start=1):
+        length += len(raw)
+        if length > LONGEST_LINE:
+            words = f"line {number} is too long: with the lines that it continues it has more than {LONGEST_LINE:,} "
+            raise GeometryFileError("geometry-too-large", words + "characters; no face has so many corners")
         part = raw.split("#", 1)[0].strip().replace("\t", " ")
         parts.append(part.removesuffix("\\"))
         if not part.endswith("\\"):
             if line := " ".join(parts).strip():
                 yield number, line
-            parts = []
+            parts, length = [], 0
     if line := " ".join(parts).strip():  # the file ends amid a line that goes on
         yield number, line
 
