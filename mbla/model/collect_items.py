@@ -22,6 +22,9 @@ from mbla.model.model import Ground
 from mbla.model.polyhedra import Polyhedra, join_polyhedra
 from mbla.model.transform import build_transform, repetitions, transform_item
 
+CORNERS_OF_A_BLOCK = 8
+"""of a block, between which its copies are looked for in one place"""
+
 
 @dataclass(frozen=True)
 class CollectedItems:
@@ -152,14 +155,24 @@ def _refuse_copies(item: Item, generated: Generated, before: int) -> None:
         facets = sum(len(part.polyhedra.block_of_face) for part in generated.parts)
         amounts.refuse_too_many(Amount(facets, key, "facets"), item)
     amounts.refuse_beyond(amounts.MOST, before + blocks, (), "blocks, with those of the items before it")
+    if copies > 1 and blocks:
+        _refuse_crowd(item, next(part.polyhedra for part in generated.parts if len(part.polyhedra)), blocks)
+
+
+def _refuse_crowd(item: Item, polyhedra: Polyhedra, blocks: int) -> None:
+    """Refuse an item of which the copies of the first block lie in one place by the thousand."""
+    corners = polyhedra.vertices[: min(int(polyhedra.vertex_start[1]), CORNERS_OF_A_BLOCK)]
+    with np.errstate(all="ignore"):  # coordinates that are not finite are refused by block
+        images = repetitions(item.repeat).points(corners)
+        amounts.refuse_crowd(images.min(axis=1), images.max(axis=1), blocks)
 
 
 def _add_copies(collection: _Collection, generated: Generated, item: Item, entry: _Entry) -> None:
     """Add an item as often as it is repeated; what it has to say is said once."""
     copies = repetitions(item.repeat)
-    for copy, onwards in enumerate(copies):
+    for copy in range(len(copies)):
         number = copy if len(copies) > 1 else NONE
-        _add(collection, transform_item(generated, onwards) if copy else generated, entry, number)
+        _add(collection, transform_item(generated, copies.map(copy)) if copy else generated, entry, number)
     collection.notices += generated.notices
 
 

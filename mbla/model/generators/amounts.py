@@ -6,6 +6,9 @@ import math
 from dataclasses import dataclass
 from typing import Literal
 
+import numpy as np
+
+from mbla.arrays import FloatArray
 from mbla.deck.items.item import Item, Repetition
 from mbla.deck.tree import KeyPath
 from mbla.errors import Message
@@ -16,6 +19,9 @@ MOST = 2_000_000
 FACETS_OF_A_UNIT = 6
 """of most units; an item may have so many times as many facets, in all its copies, as it may have units"""
 
+MOST_PAIRS, PAIRS_OF_A_BLOCK = 300_000, 30
+"""of blocks that are looked at: so many, or so many times the number of blocks; those that share no volume have some
+ten"""
 MOST_COPIES = 10**15
 """that are told apart: far beyond all that can be handled, and a number that products with others stay finite of"""
 
@@ -58,6 +64,37 @@ def refuse_too_many(amount: Amount, item: Item) -> None:
     else:
         refuse_beyond(MOST, amount.number, amount.key, amount.what)
         refuse_beyond(FACETS_OF_A_UNIT * MOST, amount.number * copies, amount.key, words)
+
+
+def most_pairs(blocks: int) -> int:
+    """Pairs that so many blocks may have that come near each other."""
+    return max(MOST_PAIRS, PAIRS_OF_A_BLOCK * blocks)
+
+
+def refuse_crowd(lower: FloatArray, upper: FloatArray, blocks: int) -> None:
+    """Refuse copies that lie in one place by the thousand, before they are made.
+
+    Boxes whose middles differ along each axis by less than the smallest of them measures share a point: there are at
+    least as many pairs as of boxes with their middles in one cell of a grid of that width.
+
+    lower, upper : (n_copies, 3) of a box around some of each copy
+    blocks       : of all copies
+
+    Raises
+    ------
+    ItemRefused
+        at the key ``repeat``
+    """
+    width = (upper - lower).min(axis=0)
+    cells = np.floor((lower + upper) / 2 / np.where(width > 0, width, 1.0))
+    kinds, together = np.unique(cells.view([(axis, cells.dtype) for axis in "xyz"]), return_counts=True)
+    most = most_pairs(blocks)
+    together = together[np.isfinite(kinds["x"]) & np.isfinite(kinds["y"]) & np.isfinite(kinds["z"])]
+    if (together * (together - 1) // 2).sum() > most:
+        words = (
+            f"lays copies in one place: more than {most:,} pairs of them come near each other; no more can be handled"
+        )
+        raise ItemRefused([(("repeat",), Message("too-many-units", words))])
 
 
 def too_many_together(about: float) -> Message | None:
