@@ -15,7 +15,7 @@ import numpy as np
 
 from mbla.arrays import IntArray, starts
 from mbla.errors import Notice
-from mbla.model.geometry.geometry import Geometry, GeometryFileError
+from mbla.model.geometry.geometry import Geometry, GeometryFileError, refuse_long_line
 from mbla.model.geometry.leftovers import empty_objects, unused_points
 from mbla.model.geometry.welding import own_vertices
 from mbla.model.polyhedra import Polyhedra
@@ -29,8 +29,6 @@ SILENT = frozenset(
 """keywords that say nothing of the shape of polygons"""
 LEFT_OUT = {"l": "line", "p": "point", "curv": "curve", "curv2": "curve", "surf": "free-form surface"}
 """elements that carry geometry but no block"""
-LONGEST_LINE = 1_000_000
-"""characters, with those that continue it: a face of some hundred thousand corners"""
 
 
 @dataclass
@@ -131,9 +129,7 @@ def _lines(path: Path) -> Iterator[tuple[int, str]]:
     parts: list[str] = []
     for number, raw in enumerate(text.splitlines(), start=1):
         length += len(raw)
-        if length > LONGEST_LINE:
-            words = f"line {number} is too long: with the lines that it continues it has more than {LONGEST_LINE:,} "
-            raise GeometryFileError("geometry-too-large", words + "characters; no face has so many corners")
+        refuse_long_line(number, length)
         part = raw.split("#", 1)[0].strip().replace("\t", " ")
         parts.append(part.removesuffix("\\"))
         if not part.endswith("\\"):

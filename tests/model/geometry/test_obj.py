@@ -5,8 +5,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from mbla.model.geometry.geometry import Geometry, GeometryFileError
-from mbla.model.geometry.obj import LONGEST_LINE, read_obj
+from mbla.model.geometry.geometry import LONGEST_LINE, Geometry, GeometryFileError
+from mbla.model.geometry.obj import read_obj
 from mbla.model.geometry.repair import repair
 from tests.model.shapes import box, build_raw, prism
 
