@@ -15,13 +15,11 @@ from mbla.contacts.polygons import CrowdedError, box_pairs
 from mbla.contacts.ragged import rows_and_items
 from mbla.errors import Refusal
 from mbla.model.blocks import Blocks
+from mbla.model.generators.amounts import most_pairs
 from mbla.model.ragged import chunks
 
 NEAR_MISS = 10.0
 """Gaps up to this many tolerances are near misses."""
-
-MOST_PAIRS, PAIRS_OF_A_BLOCK = 300_000, 30
-"""pairs that are looked at: so many, or so many times the number of blocks; those that share no volume have some ten"""
 
 # Facets farther from opposite than this are no contact: the strip along their common line where the gap stays within
 # the tolerance would be narrower than 3.5 tolerances.
@@ -63,7 +61,7 @@ def find_block_pairs(blocks: Blocks, tolerance: float) -> BlockPairs:
     lower, upper = block_boxes(blocks)
     # Half the reach on either box is enough for every pair; the exact reach of the pair is compared after.
     margin = (NEAR_MISS * tolerance / 2 * blocks.sizes)[:, None]
-    most = max(MOST_PAIRS, PAIRS_OF_A_BLOCK * len(blocks))
+    most = most_pairs(len(blocks))
     try:
         i, j = box_pairs(lower - margin, upper + margin, most)
     except CrowdedError as crowded:

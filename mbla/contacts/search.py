@@ -46,8 +46,8 @@ def find_contacts(model: Model, section: ContactsSection) -> Contacts:
 @shared("contacts")
 def _found(model: Model, section: ContactsSection) -> Contacts:
     """Contacts of a model without loads and joint laws."""
-    facets = build_facets(model.blocks)
     pairs = find_block_pairs(model.blocks, section.tolerance)
+    facets = build_facets(model.blocks)
     verdicts, held_apart = _verdicts(model, facets, pairs, section.tolerance)
     overlaps = find_overlaps(model.blocks, facets, pairs, section.tolerance)
     order = _order(verdicts.contacts, ~both_fixed(model, verdicts.contacts.overlays.bodies))

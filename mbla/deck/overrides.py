@@ -84,7 +84,8 @@ def _put(tree: Tree, words: list[str], value: Any, value_marks: Marks, mark: int
 def next_key(data: Any, words: list[str]) -> tuple[str, list[str]]:
     """First key of a path and the rest; names may hold dots themselves, so the longest that exists is taken."""
     if isinstance(data, dict):
-        for length in range(len(words), 0, -1):
+        longest = 1 + max((key.count(".") for key in data), default=0)
+        for length in range(min(longest, len(words)), 0, -1):
             if (key := ".".join(words[:length])) in data:
                 return key, words[length:]
     return words[0], words[1:]

@@ -16,6 +16,7 @@ from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
 from mbla.deck.expressions import ParameterFaultError
+from mbla.deck.wrong_values import wrong_values
 from mbla.errors import ValueRefused
 
 EXPRESSION_PATTERN = "^="
@@ -71,13 +72,17 @@ def _from_text(dimension: str, accept: Callable[[Any], Any], then: CoreSchema) -
 
     def convert(value: Any, info: core_schema.ValidationInfo) -> Any:
         if not isinstance(value, str):
-            return accept(value)
+            accepted = accept(value)
+            if accepted is value:  # a number that was right would not have come here
+                wrong_values(info.context).add()
+            return accepted
         function: Callable[[str, str], float] = (info.context or {})["convert"]
         try:
             return accept(function(value, dimension))
         except ParameterFaultError:
             raise PydanticCustomError("reported", "uses a parameter that is at fault itself") from None
         except ValueRefused as error:
+            wrong_values(info.context).add()
             raise PydanticCustomError("quantity", "{reason}", {"reason": error.message}) from None
 
     return core_schema.chain_schema([core_schema.with_info_plain_validator_function(convert), then])

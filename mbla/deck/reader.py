@@ -14,11 +14,26 @@ import yaml
 from mbla.deck.file_kind import DECK, FileKind
 from mbla.deck.scalars import plain_scalar
 from mbla.deck.sources import SourceText, has_control_character
-from mbla.deck.tree import FILE_SHIFT, OFFSET_MASK, KeyPath, MappingMarks, Marks, SequenceMarks, key_text, shorten
+from mbla.deck.tree import (
+    FILE_SHIFT,
+    OFFSET_MASK,
+    KeyPath,
+    MappingMarks,
+    Marks,
+    SequenceMarks,
+    key_text,
+    own_mark,
+    shorten,
+)
 from mbla.errors import MOST_FAULTS, Fault, Message, Place, ValueRefused
 
 MAX_DEPTH = 64
 """Nesting of brackets and indentation; the deck's own types need ten."""
+
+MOST_KEYS, MOST_ITEMS = 10_000, 100_000
+"""of one mapping, and of one list; what is larger is no deck, or geometry that belongs in a file of its own"""
+KEY_TOO_MANY = f"is one key too many: a mapping has at most {MOST_KEYS:,}"
+ITEM_TOO_MANY = f"is one item too many: a list has at most {MOST_ITEMS:,}"
 
 _PARSER: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 
@@ -110,6 +125,8 @@ class _Builder:
             self.refuse_properties(event, mark)
         data = self.data
         if type(data) is list:
+            if len(data) == MOST_ITEMS:
+                self.refuse_entry(mark, ITEM_TOO_MANY, self.path())
             data.append(value)
             self.marks.items.append(mark)
         elif type(data) is not dict:
@@ -165,6 +182,8 @@ class _Builder:
     def put_value_or_key(self, value: Any, marks: Any) -> None:
         data = self.data
         if type(data) is list:
+            if len(data) == MOST_ITEMS:
+                self.refuse_entry(own_mark(marks), ITEM_TOO_MANY, self.path())
             data.append(value)
             self.marks.items.append(marks)
         elif type(data) is not dict:
@@ -204,6 +223,8 @@ class _Builder:
                 path=(*self.path(), value),
             )
         else:
+            if len(self.data) == MOST_KEYS:
+                self.refuse_entry(mark, KEY_TOO_MANY, (*self.path(), value))
             self.key = value
             self.marks.keys[value] = mark
 
@@ -249,6 +270,11 @@ class _Builder:
             words = Message("more-faults", f"is read no further after {MOST_FAULTS} faults")
             self.faults.append(Fault(self.place(mark), "", words))
             raise _StopError
+
+    def refuse_entry(self, mark: int, words: str, path: KeyPath) -> None:
+        """Refuse a key or an item that is one too many; nothing is read any more."""
+        self.fault(mark, Message("too-many-entries", words), path=path)
+        raise _StopError
 
     def refuse_properties(self, event: Any, mark: int) -> None:
         if event.anchor:

@@ -18,7 +18,7 @@ from mbla.deck.tree import KeyPath, Tree
 from mbla.deck.types import DeckContent, UnitsSection
 from mbla.deck.units import Units
 from mbla.deck.validation import validate
-from mbla.errors import DeckError, Fault, FileError, Message, first_faults
+from mbla.errors import MOST_FAULTS, DeckError, Fault, FileError, Message, first_faults
 from mbla.sharing import copied
 
 
@@ -77,6 +77,8 @@ def _read(path: Path, overrides: Sequence[str], text: str | None = None, *, expe
     units = _units(tree.data)
     parameters = Parameters(_mapping(tree.data.get("parameters")))
     content, faults = validate(tree, DeckContent, _converter(parameters, units), reading.reported, reading.damaged)
+    if len(faults) > MOST_FAULTS:  # no more of them are told
+        raise DeckError(_once(faults + reading.faults))
     faults += [tree.fault(("parameters", name), message) for name, message in parameters.failures()]
     faults += reading.faults
     # What is no name at all is not looked up as well.

@@ -5,9 +5,17 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from typing import Any, TypeAlias, TypeVar
 
-from pydantic import BaseModel, ConfigDict, ValidationInfo, model_validator
+from pydantic import (
+    BaseModel,
+    ConfigDict,
+    ModelWrapValidatorHandler,
+    ValidationError,
+    ValidationInfo,
+    model_validator,
+)
 from pydantic_core import PydanticCustomError
 
+from mbla.deck.wrong_values import wrong_values
 from mbla.errors import Message
 
 Finding: TypeAlias = tuple[tuple[str | int, ...], Message]
@@ -33,13 +41,22 @@ class Section(BaseModel):
 
     model_config = ConfigDict(extra="forbid", frozen=True, defer_build=True)
 
-    @model_validator(mode="after")
-    def _check_rules(self, info: ValidationInfo) -> Section:
-        if rules := RULES.get(type(self)):
-            findings = [finding for check in rules for finding in check(self)]
+    @model_validator(mode="wrap")
+    @classmethod
+    def _check(cls, value: Any, handler: ModelWrapValidatorHandler[Section], info: ValidationInfo) -> Section:
+        wrong = wrong_values(info.context)
+        before = wrong.number
+        try:
+            section = handler(value)
+        except ValidationError as error:
+            wrong.add_section(value, error, before)
+            raise
+        if rules := RULES.get(cls):
+            findings = [finding for check in rules for finding in check(section)]
             if findings:
+                wrong.add()
                 raise PydanticCustomError("rules", "breaks a rule", {"findings": findings})
-        return self
+        return section
 
 
 def shape(value: Any) -> str:

@@ -22,6 +22,7 @@ from mbla.deck.contacts import AboutNormal as AboutNormal
 from mbla.deck.contacts import ContactOverride as ContactOverride
 from mbla.deck.contacts import ContactPoints as ContactPoints
 from mbla.deck.contacts import ContactsSection as ContactsSection
+from mbla.deck.include import MAX_FILES
 from mbla.deck.items import ArchItem as ArchItem
 from mbla.deck.items import ArchPiers as ArchPiers
 from mbla.deck.items import BarrelVaultItem as BarrelVaultItem
@@ -142,7 +143,10 @@ class DeckContent(Section):
     title: Line = Field("", description="shown in every result")
     units: UnitsSection = Field(default_factory=UnitsSection, description="units of numbers in deck and results")
     parameters: dict[ParameterName, Number] = Field(default_factory=dict, description='names for "=..." expressions')
-    include: list[str] = Field(default_factory=list, description="decks merged into this one, relative to it")
+    include: Annotated[list[str], Field(max_length=MAX_FILES)] = Field(
+        default_factory=list,
+        description="decks merged into this one, relative to it; at most 100 are read, with all that these include",
+    )
     materials: dict[Name, Material] = Field(min_length=1, description="materials by name")
     joints: dict[Name, JointLaw] = Field(
         default_factory=dict, description="joint laws by name; frictionless, glued and open are known without"

@@ -15,10 +15,13 @@ from mbla.deck.rules.exactly_one import KINDS
 from mbla.deck.suggestions import did_you_mean, listed, unknown
 from mbla.deck.tree import KeyPath, MappingMarks, SequenceMarks, Tree, own_mark
 from mbla.deck.types import DeckContent
+from mbla.deck.wrong_values import KEY, MOST_WRONG, TooManyWrongError, WrongValues
 from mbla.errors import Fault, Message, first_faults
 
 Convert = Callable[[str, str], float]
 Root = TypeVar("Root", bound=BaseModel)
+NESTED = (dict, list)
+TOO_MANY = Message("more-faults", f"more than {MOST_WRONG:,} values are wrong: they are looked at no further")
 
 
 def validate(
@@ -32,12 +35,40 @@ def validate(
     reported : marks of values that the reader has complained of; they are not reported again
     damaged  : marks of mappings that lack something the reader has complained of
     """
+    wrong = WrongValues()
     try:
-        return root.model_validate(tree.data, context={"convert": convert}), []
+        return root.model_validate(tree.data, context={"convert": convert, KEY: wrong}), []
     except ValidationError as error:
-        errors = error.errors(include_url=False, include_context=True)
+        errors = _errors_of(error)
+    except TooManyWrongError:
+        errors = _errors_of_first(tree.data, wrong)
+        if not errors:
+            return None, [Fault(tree.place_of(tree.marks.own), "", TOO_MANY)]
     around = damaged | {mark for path in _paths_of(tree, reported) for mark in tree.marks_along(path)[:-1]}
     return None, first_faults(_faults(tree, root, errors, reported, around))
+
+
+def _errors_of(error: ValidationError, path: KeyPath = ()) -> list[Any]:
+    """What is wrong with the value at a path."""
+    found = error.errors(include_url=False, include_context=True)
+    return [{**each, "loc": (*path, *each["loc"])} for each in found] if path else list(found)
+
+
+def _errors_of_first(data: Any, wrong: WrongValues) -> list[Any]:
+    """What is wrong with the first mappings of a deck that have something wrong, which are found by what they are."""
+    errors = {id(value): error for value, error in wrong.mappings}
+    found: list[Any] = []
+    pending: list[tuple[KeyPath, Any]] = [((), data)]
+    while pending and errors:
+        path, value = pending.pop()
+        if isinstance(value, dict):
+            if error := errors.pop(id(value), None):
+                found += _errors_of(error, path)
+            pending += [((*path, key), below) for key, below in reversed(value.items()) if isinstance(below, NESTED)]
+        else:
+            below = [((*path, index), item) for index, item in enumerate(value) if isinstance(item, NESTED)]
+            pending += reversed(below)
+    return found
 
 
 def _faults(

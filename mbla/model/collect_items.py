@@ -14,13 +14,16 @@ from mbla.deck.types import BlockItem, Item, Material
 from mbla.deck.units import Units
 from mbla.errors import DeckError, Fault, Notice
 from mbla.model.build_blocks import Labels, indices_in_groups
-from mbla.model.generators import KINDS, generator_of
-from mbla.model.generators.amounts import copies_of, refuse_too_many, refuse_too_many_facets
+from mbla.model.generators import KINDS, amount_of, amounts, generator_of
+from mbla.model.generators.amounts import Amount
 from mbla.model.generators.generator import Generated, ItemRefused, Site
 from mbla.model.labels import NONE, BlockLabels, join_labels, labels_of
 from mbla.model.model import Ground
 from mbla.model.polyhedra import Polyhedra, join_polyhedra
 from mbla.model.transform import build_transform, repetitions, transform_item
+
+CORNERS_OF_A_BLOCK = 8
+"""of a block, between which its copies are looked for in one place"""
 
 
 @dataclass(frozen=True)
@@ -81,8 +84,9 @@ def collect_items(deck: Deck, faults: list[Fault]) -> CollectedItems:
     Raises
     ------
     DeckError
-        with all faults, where no item can be built
+        with all faults, where no item can be built; where all of them together make too much
     """
+    _refuse_together(deck)
     collection = _Collection()
     densities = {name: density_of(material, deck.units) for name, material in deck.content.materials.items()}
     for number, block_item in enumerate(deck.content.blocks):
@@ -129,22 +133,46 @@ def _generate(deck: Deck, kind: str, item: Item, path: KeyPath) -> Generated:
         return generated if transform is None else transform_item(generated, transform)
 
 
+def _refuse_together(deck: Deck) -> None:
+    """DeckError where items make more than can be handled, each of which could be, before any of them is made."""
+    total = 0.0
+    with np.errstate(all="ignore"):  # lengths beyond what a double holds are told by the item itself
+        for block_item in deck.content.blocks:
+            kind, item = kind_of(block_item)
+            about = amount_of(kind, item).of_copies(item)
+            total += about if about <= amounts.MOST else 0.0  # that one is refused by itself
+    if message := amounts.too_many_together(total):
+        raise DeckError([deck.fault_at(("blocks",), message)])
+
+
 def _refuse_copies(item: Item, generated: Generated, before: int) -> None:
     """Refuse an item that with its copies, and with the blocks before it, makes more than can be handled."""
-    copies, key = copies_of(item), "repeat" if item.repeat else ()
+    copies = amounts.copies_of(item)
+    key: str | KeyPath = "repeat" if item.repeat else ()
     blocks = sum(len(part.polyhedra) for part in generated.parts) * copies
-    refuse_too_many(blocks, key, "blocks")
+    amounts.refuse_beyond(amounts.MOST, blocks, key, "blocks")
     if copies > 1:
-        refuse_too_many_facets(sum(len(part.polyhedra.block_of_face) for part in generated.parts), key, copies)
-    refuse_too_many(before + blocks, (), "blocks, with those of the items before it")
+        facets = sum(len(part.polyhedra.block_of_face) for part in generated.parts)
+        amounts.refuse_too_many(Amount(facets, key, "facets"), item)
+    amounts.refuse_beyond(amounts.MOST, before + blocks, (), "blocks, with those of the items before it")
+    if copies > 1 and blocks:
+        _refuse_crowd(item, next(part.polyhedra for part in generated.parts if len(part.polyhedra)), blocks)
+
+
+def _refuse_crowd(item: Item, polyhedra: Polyhedra, blocks: int) -> None:
+    """Refuse an item of which the copies of the first block lie in one place by the thousand."""
+    corners = polyhedra.vertices[: min(int(polyhedra.vertex_start[1]), CORNERS_OF_A_BLOCK)]
+    with np.errstate(all="ignore"):  # coordinates that are not finite are refused by block
+        images = repetitions(item.repeat).points(corners)
+        amounts.refuse_crowd(images.min(axis=1), images.max(axis=1), blocks)
 
 
 def _add_copies(collection: _Collection, generated: Generated, item: Item, entry: _Entry) -> None:
     """Add an item as often as it is repeated; what it has to say is said once."""
     copies = repetitions(item.repeat)
-    for copy, onwards in enumerate(copies):
+    for copy in range(len(copies)):
         number = copy if len(copies) > 1 else NONE
-        _add(collection, transform_item(generated, onwards) if copy else generated, entry, number)
+        _add(collection, transform_item(generated, copies.map(copy)) if copy else generated, entry, number)
     collection.notices += generated.notices
 
 

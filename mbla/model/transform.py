@@ -54,23 +54,45 @@ def build_transform(transform: Sequence[TransformStep] | TransformStep) -> Affin
     return AffineMap(matrix, offset)
 
 
-def repetitions(repeat: Sequence[Repetition] | Repetition) -> list[AffineMap]:
-    """The map to each copy of an item, the first of which is the item itself; of steps, the last varies slowest."""
-    maps = [AffineMap(np.eye(3), np.zeros(3))]
+@dataclass(frozen=True)
+class Copies:
+    """The maps to the copies of an item, the first of which is the item itself; (n, 3, 3), (n, 3)."""
+
+    matrices: FloatArray
+    offsets: FloatArray
+
+    def __len__(self) -> int:
+        return len(self.offsets)
+
+    def map(self, copy: int) -> AffineMap:
+        """The map to one of them."""
+        return AffineMap(self.matrices[copy], self.offsets[copy])
+
+    def points(self, points: FloatArray) -> FloatArray:
+        """Images of points (k, 3) in all copies, (n, k, 3)."""
+        return np.asarray(points @ self.matrices.transpose(0, 2, 1) + self.offsets[:, None], dtype=np.float64)
+
+
+def repetitions(repeat: Sequence[Repetition] | Repetition) -> Copies:
+    """The copies that steps make; of steps, the last varies slowest."""
+    copies = Copies(np.eye(3)[None], np.zeros((1, 3)))
     for step in [repeat] if isinstance(repeat, Repetition) else repeat:
-        so_far = tuple(maps)
-        for copy in range(1, step.count):
-            onwards = _onwards(step, copy)
-            maps += [AffineMap(onwards.matrix @ each.matrix, onwards.points(each.offset)) for each in so_far]
-    return maps
+        onwards = _onwards(step)
+        matrices = onwards.matrices[:, None] @ copies.matrices[None]
+        copies = Copies(matrices.reshape(-1, 3, 3), onwards.points(copies.offsets).reshape(-1, 3))
+    return copies
 
 
-def _onwards(step: Repetition, copy: int) -> AffineMap:
-    """From the first copy to another: multiples of the displacement or the angle, so that no rounding adds up."""
+def _onwards(step: Repetition) -> Copies:
+    """From the first copy to each: multiples of the displacement or the angle, so that no rounding adds up."""
+    copies = np.arange(step.count)
     if step.rotate is not None:
-        return _rotation(step.rotate.model_copy(update={"angle": copy * step.rotate.angle}))
+        rotations = [
+            _rotation(step.rotate.model_copy(update={"angle": copy * step.rotate.angle})) for copy in copies.tolist()
+        ]
+        return Copies(np.stack([each.matrix for each in rotations]), np.stack([each.offset for each in rotations]))
     assert step.translate is not None  # a rule of the deck: one of translate and rotate
-    return AffineMap(np.eye(3), copy * np.array(step.translate))
+    return Copies(np.tile(np.eye(3), (step.count, 1, 1)), copies[:, None] * np.array(step.translate))
 
 
 def transform_item(generated: Generated, transform: AffineMap) -> Generated:

@@ -5,6 +5,7 @@ from pathlib import Path
 import pytest
 
 from mbla.deck import Deck, read_deck
+from mbla.deck.overrides import next_key
 from mbla.errors import Message
 from tests.deck.decks import BLOCK, changed, faults, write
 
@@ -110,3 +111,9 @@ def test_faults_of_deck_and_overrides_together(tmp_path: Path) -> None:
 def test_override_mends_a_fault(tmp_path: Path) -> None:
     path = write(tmp_path, changed("density: 2000", "density: -1"))
     assert read_deck(path, ["materials.stone.density=1"]).content.materials["stone"].density == 1.0
+
+
+def test_a_path_of_very_many_keys_is_refused_at_once() -> None:
+    assert next_key({"a.b.c": 1, "a": 2}, ["a", "b", "c", "d"]) == ("a.b.c", ["d"])
+    assert next_key({"a.b.c": 1, "a": 2}, ["a", "b", "d"]) == ("a", ["b", "d"])
+    assert next_key({"a": 1}, ["a"] * 100_000)[0] == "a"  # in time that grows with the number, not with its square

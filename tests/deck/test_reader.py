@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mbla.deck.reader import MAX_DEPTH, read_yaml
+from mbla.deck.reader import MAX_DEPTH, MOST_ITEMS, MOST_KEYS, read_yaml
 from mbla.deck.sources import SourceText
 from mbla.deck.tree import FILE_SHIFT, OFFSET_MASK, MappingMarks, SequenceMarks, Tree
 from mbla.errors import Message
@@ -73,6 +73,23 @@ def test_depth_limit_is_exact() -> None:
 def test_hostile_nesting(opening: str) -> None:
     *_, fault = read(opening * 100_000)[1]
     assert "levels deep" in fault
+
+
+def test_keys_of_a_mapping_are_counted() -> None:
+    keys = "".join(f"k{n}: 1\n" for n in range(MOST_KEYS))
+    assert read(keys)[1] == []
+    assert read(f"{keys}last: 1\nafter: &a 1\n")[1] == [
+        "deck:10001:1 last: is one key too many: a mapping has at most 10,000"
+    ]
+
+
+@pytest.mark.parametrize(("item", "extra"), [("1", "2"), ("1", "[2]"), ("[1]", "2")])
+def test_items_of_a_list_are_counted(item: str, extra: str) -> None:
+    items = f"{item}, " * MOST_ITEMS
+    assert read(f"a: [{items}]")[1] == []
+    assert read(f"a: [{items}\n{extra}, &a 1]")[1] == [
+        "deck:2:1 a[100000]: is one item too many: a list has at most 100,000"
+    ]
 
 
 def test_alias_bomb_is_refused_before_it_grows() -> None:

@@ -6,6 +6,8 @@ from pathlib import Path
 
 import pytest
 
+from mbla.deck.wrong_values import MOST_WRONG
+from mbla.errors import MOST_FAULTS
 from tests.deck.decks import BLOCK, changed, faults, write
 
 BOX = "box: {group: block, material: stone, min: [0, 0, 0], max: [1, 1, 1]}"
@@ -99,4 +101,30 @@ def test_missing_key_is_reported_where_its_mapping_begins(tmp_path: Path) -> Non
     text = changed(f"  - {BOX}\n", "  - box:\n      group: block\n      material: stone\n      min: [0, 0, 0]\n")
     assert faults(write(tmp_path, text)) == [
         "deck.yaml:10:5 blocks[0].box.max: is missing: corner with the greatest coordinates"
+    ]
+
+
+@pytest.mark.parametrize("count", [MOST_WRONG // 4, MOST_WRONG])
+def test_the_first_of_very_many_wrong_mappings_are_told(tmp_path: Path, count: int) -> None:
+    told = faults(write(tmp_path, BLOCK + "masses:\n" + "  - {mas: 1}\n" * count))
+    begin = BLOCK.count("\n") + 2
+    assert told[0] == f"deck.yaml:{begin}:5 masses[0].mass: is missing: the mass, all together"
+    assert len(told) == MOST_FAULTS + 1
+    assert told[-1].endswith("more faults follow: only the first 1000 are told")
+
+
+def test_of_very_many_wrong_words_none_is_told(tmp_path: Path) -> None:
+    items = "x, " * (MOST_WRONG + 1)
+    assert faults(write(tmp_path, f"{BLOCK}masses: [{items}]\n")) == [
+        "deck.yaml:1:1 more than 20,000 values are wrong: they are looked at no further"
+    ]
+    assert len(faults(write(tmp_path, f"{BLOCK}masses: [{items[:-6]}]\n"))) == MOST_FAULTS + 1
+
+
+@pytest.mark.parametrize("number", ["x", "-1", "true", '"1 s"', "[]"])
+def test_very_many_wrong_numbers_of_one_mapping(tmp_path: Path, number: str) -> None:
+    heights = f"{number}, " * (MOST_WRONG + 1)
+    column = f"column: {{material: stone, radius: 1, drum_heights: [{heights}]}}"
+    assert faults(write(tmp_path, changed(BOX, column))) == [
+        "deck.yaml:1:1 more than 20,000 values are wrong: they are looked at no further"
     ]

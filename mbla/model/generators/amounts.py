@@ -3,7 +3,12 @@
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
+from typing import Literal
 
+import numpy as np
+
+from mbla.arrays import FloatArray
 from mbla.deck.items.item import Item, Repetition
 from mbla.deck.tree import KeyPath
 from mbla.errors import Message
@@ -14,41 +19,101 @@ MOST = 2_000_000
 FACETS_OF_A_UNIT = 6
 """of most units; an item may have so many times as many facets, in all its copies, as it may have units"""
 
+MOST_PAIRS, PAIRS_OF_A_BLOCK = 300_000, 30
+"""of blocks that are looked at: so many, or so many times the number of blocks; those that share no volume have some
+ten"""
+MOST_COPIES = 10**15
+"""that are told apart: far beyond all that can be handled, and a number that products with others stay finite of"""
+
 
 def copies_of(item: Item) -> int:
-    """How often an item is there, itself included."""
+    """How often an item is there, itself included; ``MOST_COPIES`` stand for more."""
     steps = [item.repeat] if isinstance(item.repeat, Repetition) else item.repeat
-    return math.prod(step.count for step in steps)
+    return min(math.prod(step.count for step in steps), MOST_COPIES)
 
 
-def refuse_too_many(amount: float, key: str | KeyPath, what: str = "units", copies: int = 1) -> None:
-    """Refuse an item that makes about so many units; at a key of the item, or a key path below it.
+@dataclass(frozen=True)
+class Amount:
+    """About how much one copy of an item makes, known before it is made.
 
-    Before they are made: one of many copies may take GB of memory, too.
+    number : of units, or of facets of their surfaces
+    key    : of the item, or a key path below it, that has most to do with it
+    """
+
+    number: float
+    key: str | KeyPath = ()
+    what: Literal["units", "facets"] = "units"
+
+    def of_copies(self, item: Item) -> float:
+        """In units, of an item with all its copies."""
+        return self.number * copies_of(item) / (FACETS_OF_A_UNIT if self.what == "facets" else 1)
+
+
+def refuse_too_many(amount: Amount, item: Item) -> None:
+    """Refuse an item that makes more than can be handled, before any of it is made.
 
     Raises
     ------
     ItemRefused
-        for more than can be handled
+        at the key of the amount
     """
-    _refuse_beyond(MOST, amount * copies, key, what if copies == 1 else f"{what} in {copies:,} copies")
+    copies = copies_of(item)
+    words = amount.what if copies == 1 else f"{amount.what} in {copies:,} copies"
+    if amount.what == "units":
+        refuse_beyond(MOST, amount.number * copies, amount.key, words)
+    else:
+        refuse_beyond(MOST, amount.number, amount.key, amount.what)
+        refuse_beyond(FACETS_OF_A_UNIT * MOST, amount.number * copies, amount.key, words)
 
 
-def refuse_too_many_facets(amount: float, key: str | KeyPath, copies: int) -> None:
-    """Refuse an item of which each copy has about so many facets.
+def most_pairs(blocks: int) -> int:
+    """Pairs that so many blocks may have that come near each other."""
+    return max(MOST_PAIRS, PAIRS_OF_A_BLOCK * blocks)
+
+
+def refuse_crowd(lower: FloatArray, upper: FloatArray, blocks: int) -> None:
+    """Refuse copies that lie in one place by the thousand, before they are made.
+
+    Boxes whose middles differ along each axis by less than the smallest of them measures share a point: there are at
+    least as many pairs as of boxes with their middles in one cell of a grid of that width.
+
+    lower, upper : (n_copies, 3) of a box around some of each copy
+    blocks       : of all copies
 
     Raises
     ------
     ItemRefused
-        for more than can be handled
+        at the key ``repeat``
     """
-    _refuse_beyond(MOST, amount, key, "facets")
-    _refuse_beyond(FACETS_OF_A_UNIT * MOST, amount * copies, key, f"facets in {copies:,} copies")
+    width = (upper - lower).min(axis=0)
+    cells = np.floor((lower + upper) / 2 / np.where(width > 0, width, 1.0))
+    kinds, together = np.unique(cells.view([(axis, cells.dtype) for axis in "xyz"]), return_counts=True)
+    most = most_pairs(blocks)
+    together = together[np.isfinite(kinds["x"]) & np.isfinite(kinds["y"]) & np.isfinite(kinds["z"])]
+    if (together * (together - 1) // 2).sum() > most:
+        words = (
+            f"lays copies in one place: more than {most:,} pairs of them come near each other; no more can be handled"
+        )
+        raise ItemRefused([(("repeat",), Message("too-many-units", words))])
 
 
-def _refuse_beyond(most: int, amount: float, key: str | KeyPath, what: str) -> None:
+def too_many_together(about: float) -> Message | None:
+    """What is said of items that make about so many units together; None where that can be handled."""
+    if about <= MOST:
+        return None
+    words = f"the items make about {about:.0e} units together; at most {MOST:,} can be handled"
+    return Message("too-many-units", words)
+
+
+def refuse_beyond(most: int, amount: float, key: str | KeyPath, what: str) -> None:
+    """Refuse an item that makes more of something than can be handled, at a key of it.
+
+    Raises
+    ------
+    ItemRefused
+        at that key
+    """
     if amount > most:
         path = (key,) if isinstance(key, str) else key
-        about = float(min(amount, 10**300))  # products of whole numbers may be too large for a number
-        words = f"makes about {about:.0e} {what}; at most {most:,} can be handled"
+        words = f"makes about {min(amount, 1e300):.0e} {what}; at most {most:,} can be handled"
         raise ItemRefused([(path, Message("too-many-units", words))])

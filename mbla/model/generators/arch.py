@@ -11,6 +11,7 @@ import numpy as np
 from mbla.arrays import FloatArray, IntArray
 from mbla.deck.types import ArchItem
 from mbla.errors import Message
+from mbla.model.generators.amounts import Amount, refuse_too_many
 from mbla.model.generators.arches.piers import (
     LEVEL,
     SpringingJoint,
@@ -27,6 +28,12 @@ from mbla.model.generators.generator import Generated, GroundPart, ItemRefused, 
 from mbla.model.polyhedra import Polyhedra
 
 
+def amount_arch(item: ArchItem) -> Amount:
+    """About how many units such an item has."""
+    courses = 2 * item.piers.courses if item.piers else 0
+    return Amount(float(item.voussoirs) * item.rings * item.units_across + courses, "voussoirs")
+
+
 def generate_arch(item: ArchItem, site: Site) -> Generated:
     """Voussoirs ring by ring, from left to right in each; with them piers, ground or fixed blocks at the springings.
 
@@ -35,6 +42,7 @@ def generate_arch(item: ArchItem, site: Site) -> Generated:
     ItemRefused
         where the voussoirs are too few to be blocks or their joints cross, or the piers do not fit the springings
     """
+    refuse_too_many(amount_arch(item), item)
     springing = item.thickness if item.springing_thickness is None else item.springing_thickness
     thickness = Thickness(item.thickness, springing, 0.5 if item.line == "centre" else 0.0)
     section = build_section(_curve(item), item.voussoirs, item.rings, thickness)

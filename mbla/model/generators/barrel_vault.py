@@ -10,7 +10,7 @@ import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
 from mbla.deck.types import BarrelVaultItem
-from mbla.model.generators.amounts import copies_of, refuse_too_many
+from mbla.model.generators.amounts import Amount, refuse_too_many
 from mbla.model.generators.chains import prisms
 from mbla.model.generators.generator import Generated, GroundPart, Part, Site
 from mbla.model.generators.vault_sections import VaultSection, vault_section
@@ -18,6 +18,11 @@ from mbla.model.polyhedra import Polyhedra
 
 NO_UNIT = 1e-6
 """length of a remainder, relative to the unit, that is no unit of its own"""
+
+
+def amount_barrel_vault(item: BarrelVaultItem) -> Amount:
+    """About how many units such an item has."""
+    return Amount(item.courses * item.length / item.unit, "length")
 
 
 def generate_barrel_vault(item: BarrelVaultItem, site: Site) -> Generated:
@@ -28,7 +33,7 @@ def generate_barrel_vault(item: BarrelVaultItem, site: Site) -> Generated:
     ItemRefused
         for more units than can be handled
     """
-    refuse_too_many(item.courses * item.length / item.unit, "length", copies=copies_of(item))
+    refuse_too_many(amount_barrel_vault(item), item)
     section = vault_section(item, item.span)
     rows = [_ends(item, item.bond == "running" and course % 2 == 1) for course in range(item.courses)]
     course = np.repeat(np.arange(item.courses), [len(row) for row in rows])

@@ -7,6 +7,7 @@ abutments and the top of the spandrels, less the openings under the chords of th
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from itertools import pairwise
 
@@ -16,7 +17,7 @@ from mbla.arrays import FloatArray, IntArray
 from mbla.deck.tree import KeyPath
 from mbla.deck.types import BridgeItem
 from mbla.errors import Message
-from mbla.model.generators.amounts import copies_of, refuse_too_many
+from mbla.model.generators.amounts import Amount, refuse_too_many
 from mbla.model.generators.arches.piers import (
     LEVEL,
     SpringingJoint,
@@ -54,6 +55,27 @@ class _Frame:
     right: float
 
 
+def amount_bridge(item: BridgeItem) -> Amount:
+    """About how many units such an item has, in arches, piers and spandrels."""
+    n_spans = len(item.spans)
+    voussoirs = sum(item.voussoirs) if isinstance(item.voussoirs, list) else item.voussoirs * n_spans
+    piers = (0 if item.piers is None else item.piers.courses * (n_spans - 1)) + 2 * (item.abutments.courses or 0)
+    carrying = float(voussoirs * item.rings + piers)
+    filling = _units_of_spandrels(item)
+    return Amount(carrying + filling, "unit" if filling > carrying else "voussoirs")
+
+
+def _units_of_spandrels(item: BridgeItem) -> float:
+    """About how many; none where coordinates are beyond what a double holds: the voussoirs are refused then."""
+    if item.unit is None or item.cover is None:
+        return 0.0
+    rises = item.rise if isinstance(item.rise, list) else [max(item.spans) / 2 if item.rise is None else item.rise]
+    top = max(rises) + item.thickness + item.cover
+    gaps = 0.0 if item.piers is None else item.piers.width * (len(item.spans) - 1)
+    length = sum(item.spans) + gaps + 2 * item.abutments.width
+    return length * top / (item.unit[0] * item.unit[1]) if math.isfinite(length * top) else 0.0
+
+
 def generate_bridge(item: BridgeItem, site: Site) -> Generated:
     """Voussoirs span by span, piers and abutments, springers, spandrels, backing, parapets.
 
@@ -62,6 +84,7 @@ def generate_bridge(item: BridgeItem, site: Site) -> Generated:
     ItemRefused
         where voussoirs are too few or cross, springing joints do not fit piers and abutments, or units are too many
     """
+    refuse_too_many(amount_bridge(item), item)
     frame = _frame(item)
     rows = [*_arches(item, frame), *_supports(item, frame)]
     if item.spandrels != "none":
@@ -189,8 +212,6 @@ def _spandrels(item: BridgeItem, frame: _Frame) -> list[_Row]:
     top = float(crowns.max()) + item.cover
     if not np.isfinite(top):
         return []  # coordinates beyond what a double holds: the voussoirs are refused
-    about = (frame.right - frame.left) * top / (masonry.length * masonry.height)
-    refuse_too_many(about, "unit", copies=copies_of(item))
     shelves = np.array([springer[:, 1].max() for springer in frame.springers if springer is not None])
     beds = bed_levels(outline, top, crowns, shelves, masonry)
     polygons: list[FloatArray] = []

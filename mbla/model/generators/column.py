@@ -11,13 +11,19 @@ import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.deck.types import ColumnEnd, ColumnItem
-from mbla.model.generators.amounts import copies_of, refuse_too_many_facets
+from mbla.model.generators.amounts import Amount, refuse_too_many
 from mbla.model.generators.chains import chains
 from mbla.model.generators.generator import Generated, Part, Site
 from mbla.model.generators.round_sections import corner_radius, regular_polygon
 
 _SQUARE = regular_polygon(4) * np.sqrt(0.5)
 """of side 1"""
+
+
+def amount_column(item: ColumnItem) -> Amount:
+    """About how many facets such an item has."""
+    drums = float(len(item.drum_heights or ()) + (item.drums or 0))
+    return Amount(drums * item.sides, "sides", "facets")
 
 
 def generate_column(item: ColumnItem, site: Site) -> Generated:
@@ -28,8 +34,7 @@ def generate_column(item: ColumnItem, site: Site) -> Generated:
     ItemRefused
         for more facets than can be handled
     """
-    drums = float(len(item.drum_heights or ()) + (item.drums or 0))
-    refuse_too_many_facets(drums * item.sides, "sides", copies_of(item))
+    refuse_too_many(amount_column(item), item)
     outline = corner_radius(item.sides, item.polygon) * regular_polygon(item.sides)
     foot = item.base.height if item.base else 0.0
     joints = foot + _joints(item)

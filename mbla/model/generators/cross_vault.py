@@ -14,7 +14,7 @@ import numpy as np
 from mbla.arrays import FloatArray
 from mbla.deck.types import CrossVaultItem
 from mbla.errors import Message
-from mbla.model.generators.amounts import copies_of, refuse_too_many
+from mbla.model.generators.amounts import Amount, refuse_too_many
 from mbla.model.generators.generator import Generated, ItemRefused, Part, Site, level_ground
 from mbla.model.generators.mitres import (
     CORNERS,
@@ -54,6 +54,17 @@ class _Webs:
         return [Part(join_polyhedra(self.units), member="web", labels={"course": course, "span": span, "unit": unit})]
 
 
+def amount_cross_vault(item: CrossVaultItem) -> Amount:
+    """About how many units such an item has."""
+    return Amount(item.courses * 2 * (sum(item.bay) / 2 + 2 * _edge(item)) / item.unit, "unit")
+
+
+def _edge(item: CrossVaultItem) -> float:
+    """How far the webs run on beyond the corners of the bay."""
+    stretch = item.bay[1] / item.bay[0]
+    return 2 * item.thickness * max(1.0, stretch) if item.edge is None else item.edge
+
+
 def generate_cross_vault(item: CrossVaultItem, site: Site) -> Generated:
     """Groins from the springings up, four blocks in each course; units of the webs; keystone; fixed springers.
 
@@ -62,6 +73,7 @@ def generate_cross_vault(item: CrossVaultItem, site: Site) -> Generated:
     ItemRefused
         where the webs end before the feet of the groins, or for more units than can be handled
     """
+    refuse_too_many(amount_cross_vault(item), item)
     section = half_section(item, item.bay)
     ends = _ends(item, section)
     groins, webs = [], _Webs()
@@ -90,11 +102,10 @@ def _ends(item: CrossVaultItem, section: HalfSection) -> FloatArray:
     """Where the webs end along x and y from the middle, (2,)."""
     sides = np.array([1.0, section.stretch])
     feet = sides * section.distance[0].max() - np.array(item.bay) / 2
-    edge = 2 * item.thickness * max(1.0, section.stretch) if item.edge is None else item.edge
+    edge = _edge(item)
     if edge < feet.max() + LEAST_EDGE * item.thickness:
         message = f"must be > {feet.max():g}: the webs end beyond the feet of the groins"
         raise ItemRefused([(("edge",), Message("out-of-bounds", message))])
-    refuse_too_many(item.courses * 2 * (sum(item.bay) / 2 + 2 * edge) / item.unit, "unit", copies=copies_of(item))
     return np.array(item.bay) / 2 + edge
 
 

@@ -19,7 +19,7 @@ import numpy as np
 from mbla.arrays import FloatArray
 from mbla.deck.types import DomeDrum, DomeItem
 from mbla.errors import Message
-from mbla.model.generators.amounts import copies_of, refuse_too_many_facets
+from mbla.model.generators.amounts import Amount, refuse_too_many
 from mbla.model.generators.chains import chains
 from mbla.model.generators.curves import Circle, named_curve
 from mbla.model.generators.generator import Generated, ItemRefused, Part, Site, level_ground
@@ -50,6 +50,16 @@ class _Dome:
     def ring(self, profile: FloatArray, number: int) -> Polyhedra:
         """The blocks of a ring, counted from the springing; rings below it have negative numbers."""
         return ring_blocks(profile, self.segments, self.facets, self.running and number % 2 == 1)
+
+
+def amount_dome(item: DomeItem) -> Amount:
+    """About how many facets such an item has."""
+    courses = item.drum.courses if item.drum else 0
+    return Amount(float(item.rings + courses) * item.segments * _facets(item), "segments", "facets")
+
+
+def _facets(item: DomeItem) -> int:
+    return item.facets or (2 if item.bond == "running" else 1)
 
 
 def generate_dome(item: DomeItem, site: Site) -> Generated:
@@ -83,12 +93,10 @@ def _dome(item: DomeItem) -> _Dome:
     shape = "semicircular" if item.shape == "hemispherical" else item.shape
     circle = named_curve(shape, item.span, item.rise, item.embrace)
     assert isinstance(circle, Circle)  # which both shapes are
-    facets = item.facets or (2 if item.bond == "running" else 1)
-    courses = item.drum.courses if item.drum else 0
-    refuse_too_many_facets(float(item.rings + courses) * item.segments * facets, "segments", copies_of(item))
+    refuse_too_many(amount_dome(item), item)
     springing = item.drum.height if item.drum else 0.0
     angles = np.linspace(circle.half_angle, _top(item, circle), item.rings + 1)
-    return _Dome(circle, item.thickness, angles, springing, item.segments, facets, item.bond == "running")
+    return _Dome(circle, item.thickness, angles, springing, item.segments, _facets(item), item.bond == "running")
 
 
 def _top(item: DomeItem, circle: Circle) -> float:

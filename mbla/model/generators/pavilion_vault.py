@@ -10,7 +10,7 @@ import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.deck.types import PavilionVaultItem
-from mbla.model.generators.amounts import copies_of, refuse_too_many
+from mbla.model.generators.amounts import Amount, refuse_too_many
 from mbla.model.generators.generator import Generated, Part, Site, level_ground
 from mbla.model.generators.mitres import (
     CORNERS,
@@ -27,6 +27,11 @@ from mbla.model.generators.mitres import (
 from mbla.model.polyhedra import Polyhedra, join_polyhedra
 
 
+def amount_pavilion_vault(item: PavilionVaultItem) -> Amount:
+    """About how many units such an item has."""
+    return Amount(item.courses * sum(item.bay) / item.unit, "unit")
+
+
 def generate_pavilion_vault(item: PavilionVaultItem, site: Site) -> Generated:
     """Hips from the springings up, four blocks in each course; units of the webs; keystone; fixed springers.
 
@@ -35,7 +40,7 @@ def generate_pavilion_vault(item: PavilionVaultItem, site: Site) -> Generated:
     ItemRefused
         for more units than can be handled
     """
-    refuse_too_many(item.courses * sum(item.bay) / item.unit, "unit", copies=copies_of(item))
+    refuse_too_many(amount_pavilion_vault(item), item)
     section = half_section(item, item.bay)
     hips, webs, labels = [], [], []
     for course in range(section.courses):

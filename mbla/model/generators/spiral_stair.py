@@ -15,10 +15,15 @@ import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.deck.types import SpiralStairItem
-from mbla.model.generators.amounts import copies_of, refuse_too_many_facets
+from mbla.model.generators.amounts import Amount, refuse_too_many
 from mbla.model.generators.chains import chains
 from mbla.model.generators.generator import Generated, Part, Site, level_ground
 from mbla.model.polyhedra import Polyhedra, join_polyhedra, polyhedra_from_cells
+
+
+def amount_spiral_stair(item: SpiralStairItem) -> Amount:
+    """About how many facets such an item has."""
+    return Amount(float(item.treads) * (item.facets + 2), "facets", "facets")
 
 
 def generate_spiral_stair(item: SpiralStairItem, site: Site) -> Generated:
@@ -29,7 +34,7 @@ def generate_spiral_stair(item: SpiralStairItem, site: Site) -> Generated:
     ItemRefused
         for more facets than can be handled
     """
-    refuse_too_many_facets(float(item.treads) * (item.facets + 2), "facets", copies_of(item))
+    refuse_too_many(amount_spiral_stair(item), item)
     angles = _angles(item)
     number = np.arange(item.treads)
     outer = item.outer_radius + item.built_in

@@ -10,12 +10,25 @@ import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.deck.types import StackItem
+from mbla.model.generators.amounts import Amount, refuse_too_many
 from mbla.model.generators.generator import Generated, Part, Site
 from mbla.model.polyhedra import cuboids
 
 
+def amount_stack(item: StackItem) -> Amount:
+    """How many blocks such an item has."""
+    return Amount(item.count, "count")
+
+
 def generate_stack(item: StackItem, site: Site) -> Generated:
-    """Blocks from the bottom."""
+    """Blocks from the bottom.
+
+    Raises
+    ------
+    ItemRefused
+        for more blocks than can be handled
+    """
+    refuse_too_many(amount_stack(item), item)
     shifts = np.concatenate([np.zeros((1, 2)), np.cumsum(_shifts(item), axis=0)])
     heights = item.block[2] * np.arange(item.count + 1)
     least = np.column_stack([shifts, heights[:-1]])

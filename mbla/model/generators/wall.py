@@ -7,12 +7,19 @@ import numpy as np
 from mbla.deck.tree import KeyPath
 from mbla.deck.types import WallItem
 from mbla.errors import Message
+from mbla.model.generators.amounts import Amount, refuse_too_many
 from mbla.model.generators.generator import Generated, ItemRefused, Site
 from mbla.model.generators.masonry.buttresses import check_buttresses, place_buttress
 from mbla.model.generators.masonry.irregular import random_levels
 from mbla.model.generators.masonry.leg import Leg
 from mbla.model.generators.masonry.openings import check_opening, check_spans, place_opening
-from mbla.model.generators.masonry.walls import Wall, check_number, fixed_levels, parts_of, with_gable
+from mbla.model.generators.masonry.walls import Wall, amount_of_units, fixed_levels, parts_of, with_gable
+
+
+def amount_wall(item: WallItem) -> Amount:
+    """About how many units such an item has."""
+    rises = [*([item.gable.rise] if item.gable else []), *(buttress.depth for buttress in item.buttresses)]
+    return amount_of_units(item, item.length, ("length",), rises)
 
 
 def generate_wall(item: WallItem, site: Site) -> Generated:
@@ -24,8 +31,7 @@ def generate_wall(item: WallItem, site: Site) -> Generated:
         for openings off the bed joints, lintels and arches without support, buttresses across openings, too many
         units, or where nothing is left of the wall
     """
-    rises = [*([item.gable.rise] if item.gable else []), *(buttress.depth for buttress in item.buttresses)]
-    check_number(item, item.length, ("length",), rises)
+    refuse_too_many(amount_wall(item), item)
     findings: list[tuple[KeyPath, Message]] = []
     openings = []
     for number, opening in enumerate(item.openings):

@@ -8,13 +8,14 @@ from dataclasses import dataclass
 from mbla.deck.section import Finding
 from mbla.deck.types import WallsItem
 from mbla.errors import Message
+from mbla.model.generators.amounts import Amount, refuse_too_many
 from mbla.model.generators.generator import Generated, ItemRefused, Site
 from mbla.model.generators.masonry.buttresses import PlacedButtress, check_buttresses, place_buttress
 from mbla.model.generators.masonry.irregular import random_levels
 from mbla.model.generators.masonry.leg import NO_UNIT, Leg, Passage
 from mbla.model.generators.masonry.openings import PlacedOpening, check_opening, check_spans, place_opening
 from mbla.model.generators.masonry.plan import Line, check_plan, lines_of, passages_of
-from mbla.model.generators.masonry.walls import Wall, check_number, fixed_levels, parts_of, with_gable
+from mbla.model.generators.masonry.walls import Wall, amount_of_units, fixed_levels, parts_of, with_gable
 
 
 @dataclass(frozen=True)
@@ -27,6 +28,16 @@ class _Placed:
     meets: tuple[tuple[int, Passage], ...]
 
 
+def amount_walls(item: WallsItem) -> Amount:
+    """About how many units such an item has."""
+    return _amount(item, lines_of(item))
+
+
+def _amount(item: WallsItem, lines: Sequence[Line]) -> Amount:
+    rises = [*(gable.rise for gable in item.gables), *(buttress.depth for buttress in item.buttresses)]
+    return amount_of_units(item, sum(line.whole_length for line in lines), ("plan",), rises)
+
+
 def generate_walls(item: WallsItem, site: Site) -> Generated:
     """Units wall by wall, in each course by course from the bottom, leaf by leaf; then lintels, arches, buttresses.
 
@@ -37,6 +48,7 @@ def generate_walls(item: WallsItem, site: Site) -> Generated:
         without support, buttresses across openings, gables that meet, too many units
     """
     lines = lines_of(item)
+    refuse_too_many(_amount(item, lines), item)
     _check_each(item, lines, site.tolerance)
     meets = passages_of(lines, item.courses)
     placed = [_place(item, number, line, meets[number]) for number, line in enumerate(lines)]
@@ -46,8 +58,6 @@ def generate_walls(item: WallsItem, site: Site) -> Generated:
 
 def _check_each(item: WallsItem, lines: Sequence[Line], tolerance: float) -> None:
     """Refuse what is wrong with the plan, or with an opening by itself."""
-    rises = [*(gable.rise for gable in item.gables), *(buttress.depth for buttress in item.buttresses)]
-    check_number(item, sum(line.whole_length for line in lines), ("plan",), rises)
     findings: list[Finding] = list(check_plan(lines))
     for number, opening in enumerate(item.openings):
         found = check_opening(item, opening, tolerance)

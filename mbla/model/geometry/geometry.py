@@ -8,9 +8,19 @@ from typing import Literal
 from mbla.errors import Notice, Refusal
 from mbla.model.polyhedra import Polyhedra
 
+LONGEST_LINE = 1_000_000
+"""characters of a line of text, with those that continue it: a face of some hundred thousand corners"""
+
 
 class GeometryFileError(Refusal):
     """The file cannot be read, or holds no blocks; the message is for the user of the deck."""
+
+
+def refuse_long_line(number: int, length: int) -> None:
+    """GeometryFileError for a line of so many characters that what it lists would take gigabytes."""
+    if length > LONGEST_LINE:
+        words = f"line {number} is too long: with the lines that it continues it has more than {LONGEST_LINE:,} "
+        raise GeometryFileError("geometry-too-large", words + "characters; no face has so many corners")
 
 
 @dataclass(frozen=True)

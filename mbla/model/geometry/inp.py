@@ -18,7 +18,7 @@ import numpy as np
 from mbla.arrays import FloatArray, IntArray, starts
 from mbla.errors import Notice
 from mbla.model.geometry.cells import VOLUME_CELLS
-from mbla.model.geometry.geometry import Geometry, GeometryFileError
+from mbla.model.geometry.geometry import Geometry, GeometryFileError, refuse_long_line
 from mbla.model.geometry.leftovers import unused_points
 from mbla.model.geometry.welding import own_vertices
 from mbla.model.polyhedra import Polyhedra, join_polyhedra, polyhedra_from_cells, take_polyhedra
@@ -202,6 +202,7 @@ def _unreadable(line: int, error: ValueError) -> GeometryFileError:
 def _cards(text: str) -> Iterator[_Card]:
     card: _Card | None = None
     for number, raw in enumerate(text.splitlines(), start=1):
+        refuse_long_line(number, len(raw))
         line = raw.strip()
         if not line or line.startswith("**"):
             continue

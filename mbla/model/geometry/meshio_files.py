@@ -70,10 +70,20 @@ def read_ply(path: Path) -> Geometry:
     return geometry
 
 
+BYTES_OF_A_POINT, MOST_PACKED = 24, 50
+"""of three coordinates; and how many times its size a packed file may hold, which of blocks is some ten times"""
+
+
 def read_vtu(path: Path) -> Geometry:
     """Volume cells, or closed parts of surfaces, of a VTU file."""
+    announced = announced_in_vtu(path)
+    if announced.points * BYTES_OF_A_POINT > MOST_PACKED * path.stat().st_size:
+        words = (
+            f"announces {announced.points:,} points, far more than its size can hold: damaged or packed; export it anew"
+        )
+        raise GeometryFileError("geometry-too-large", words)
     geometry, mesh = _read(str(path), "vtu")
-    refuse_other_counts(WORDS["vtu"], announced_in_vtu(path), counts_of(mesh))
+    refuse_other_counts(WORDS["vtu"], announced, counts_of(mesh))
     return geometry
 
 

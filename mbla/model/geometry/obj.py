@@ -15,7 +15,7 @@ import numpy as np
 
 from mbla.arrays import IntArray, starts
 from mbla.errors import Notice
-from mbla.model.geometry.geometry import Geometry, GeometryFileError
+from mbla.model.geometry.geometry import Geometry, GeometryFileError, refuse_long_line
 from mbla.model.geometry.leftovers import empty_objects, unused_points
 from mbla.model.geometry.welding import own_vertices
 from mbla.model.polyhedra import Polyhedra
@@ -114,20 +114,28 @@ def _read(path: Path) -> _Content:
 
 
 def _lines(path: Path) -> Iterator[tuple[int, str]]:
-    """Lines with their numbers, without comments; lines that end in a backslash are joined to the next."""
+    """Lines with their numbers, without comments; lines that end in a backslash are joined to the next.
+
+    Raises
+    ------
+    GeometryFileError
+        for a file that cannot be read, or a line that is too long
+    """
     try:
         text = path.read_text(encoding="utf-8", errors="replace")
     except OSError as error:
         raise GeometryFileError("file-unreadable", f"cannot be read: {error.strerror}") from error
-    number = 0
+    number = length = 0
     parts: list[str] = []
     for number, raw in enumerate(text.splitlines(), start=1):
+        length += len(raw)
+        refuse_long_line(number, length)
         part = raw.split("#", 1)[0].strip().replace("\t", " ")
         parts.append(part.removesuffix("\\"))
         if not part.endswith("\\"):
             if line := " ".join(parts).strip():
                 yield number, line
-            parts = []
+            parts, length = [], 0
     if line := " ".join(parts).strip():  # the file ends amid a line that goes on
         yield number, line
 

@@ -32,6 +32,13 @@ OF_TEXTS = (
         "Put what belongs together into one file.",
     ),
     refused(
+        "too-many-entries",
+        "A mapping has more keys, or a list more items, than are read.",
+        "Geometry written out in YAML, or a program that wrote the same thing again and again.",
+        "Put large geometry into a mesh or a table file and name it in the deck, or use `repeat`.",
+        example="masses[100000]: is one item too many: a list has at most 100,000",
+    ),
+    refused(
         "nested-too-deeply",
         "Lists or mappings lie in each other at more levels than any deck needs.",
         "Unbalanced brackets, or a file that is no deck.",
@@ -273,7 +280,7 @@ OF_TABLES = (
         "geometry-too-large",
         "A geometry file is larger, or asks for more memory, than blocks of its size need.",
         "A damaged header that announces more than the file holds, numbers of nodes without end, insertions without "
-        "number, or a model of many gigabytes.",
+        "number, a line of millions of characters, or a model of many gigabytes.",
         "Export it anew, without packing; divide a large model into several files.",
     ),
     refused(

@@ -9,6 +9,7 @@ import pytest
 
 from mbla.model.geometry.dxf import read_dxf
 from mbla.model.geometry.geometry import Geometry, GeometryFileError
+from mbla.model.geometry.line_networks import enclosed_fields
 from mbla.model.geometry.repair import repair
 from tests.model.shapes import build_raw
 
@@ -145,3 +146,14 @@ def test_rubbish(tmp_path: Path, content: bytes) -> None:
     path.write_bytes(content)
     with pytest.raises(GeometryFileError, match=r"^is not a well-formed DXF file"):
         read_dxf(path)
+
+
+def test_lines_that_meet_without_end_are_refused() -> None:
+    at = np.arange(400.0)
+    across = [np.array([[x, -1.0], [x, 400.0]]) for x in at]
+    along = [np.array([[-1.0, y], [400.0, y]]) for y in at]
+    assert len(enclosed_fields(across[:50] + along[:50])[0]) == 49 * 49
+    with pytest.raises(GeometryFileError) as caught:
+        enclosed_fields(across + along)
+    assert caught.value.message.identifier == "geometry-too-large"
+    assert str(caught.value) == "has lines that meet each other more than 100,000 times"

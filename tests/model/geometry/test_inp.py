@@ -100,3 +100,12 @@ def test_malformed(tmp_path: Path, text: str, message: str) -> None:
     with pytest.raises(GeometryFileError) as caught:
         read(tmp_path, text)
     assert str(caught.value).startswith(message)
+
+
+def test_a_line_without_end_is_refused(tmp_path: Path) -> None:
+    path = tmp_path / "mesh.inp"
+    path.write_text("*NODE\n1, 0, 0, 0\n*ELEMENT, TYPE=C3D8\n" + "1, " * 400_000)
+    with pytest.raises(GeometryFileError) as caught:
+        read_inp(path)
+    assert caught.value.message.identifier == "geometry-too-large"
+    assert str(caught.value).startswith("line 4 is too long: ")

@@ -45,6 +45,22 @@ ITEMS = {
     "an arch of 10^12 voussoirs": (
         "arch: {shape: semicircular, span: 4, thickness: 0.3, width: 1, voussoirs: 1000000000000}"
     ),
+    "an arch of 10^18 voussoirs": (
+        "arch: {shape: semicircular, span: 4, thickness: 0.3, width: 1, voussoirs: 1000000, rings: 1000000, "
+        "units_across: 1000000}"
+    ),
+    "10^10 bricks in 10^500 copies": (
+        "wall: {unit: [0.4, 0.2, 0.1], length: 400, courses: 1000, repeat: ["
+        + ", ".join(["{count: 100000, translate: [0, 9, 0]}"] * 100)
+        + "]}"
+    ),
+    "a bridge of 10^12 voussoirs": (
+        "bridge: {spans: [5], shape: semicircular, thickness: 0.4, width: 3, voussoirs: 1000000, rings: 1000000, "
+        "abutments: {width: 2}, spandrels: none}"
+    ),
+    "10^11 blocks in stacks": (
+        "stack: {block: [1, 1, 1], count: 1000000, repeat: {count: 100000, translate: [2, 0, 0]}}"
+    ),
     "an arch of 10^9 rings": (
         "arch: {shape: semicircular, span: 4, thickness: 0.3, width: 1, voussoirs: 27, rings: 1000000000}"
     ),
@@ -70,6 +86,7 @@ GRID = ", ".join(
     for n in range(60)
 )
 """each of them is allowed, 50 million units together are not"""
+STACKS = ", ".join(["{stack: {material: stone, block: [1, 1, 1], count: 1000000}}"] * 3)
 
 
 def of_item(item: str) -> str:
@@ -81,6 +98,7 @@ def of_item(item: str) -> str:
 CASES = [
     *(deck(name, of_item(item)) for name, item in ITEMS.items()),
     deck("60 walls of a million units each", HEAD + SPACE + LOADS + f"blocks: [{GRID}]\n"),
+    deck("three stacks of a million blocks each", HEAD + SPACE + LOADS + f"blocks: [{STACKS}]\n"),
     deck(
         "contact points without end",
         BLOCK.replace("contacts: {joint: dry}", "contacts: {joint: dry, points: {spacing: 1.e-12}}"),

@@ -109,6 +109,16 @@ YAML = [
     deck("duplicate keys with an escape", BLOCK + '"mb\\x6ca": 1\n'),
     deck("1,000,000 duplicate keys", BLOCK + "expected: {" + "a: 1, " * 1_000_000 + "}\n"),
     deck("20,000 unknown keys", BLOCK + "".join(f"k{n}: 1\n" for n in range(20_000))),
+    deck("200,000 unknown keys", BLOCK + "".join(f"k{n}: 1\n" for n in range(200_000))),
+    deck(
+        "50 mappings of 1,000 unknown keys",
+        BLOCK
+        + "loads:\n"
+        + "".join(f"  l{m}: [{{{', '.join(f'k{n}: 1' for n in range(1000))}}}]\n" for m in range(50)),
+    ),
+    deck("100,000 wrong items", BLOCK + "masses: [" + "x, " * 100_000 + "]\n"),
+    deck("8,000,000 wrong items", BLOCK + "masses: [" + "x," * 8_000_000 + "]\n"),
+    deck("100,000 wrong numbers", with_text("min: [0, 0, 0]", "min: [" + "x, " * 100_000 + "]")),
     deck("20,000 wrong items", BLOCK + "masses: [" + "x, " * 20_000 + "]\n"),
     deck("10,000 wrong blocks", with_text("blocks:\n", "blocks:\n" + "  - {bax: {}}\n" * 10_000)),
     deck(

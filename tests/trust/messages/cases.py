@@ -20,7 +20,7 @@ import pytest
 
 from mbla import api
 from mbla.cli import main
-from mbla.deck import read_deck, sources, validation
+from mbla.deck import read_deck, reader, sources, validation
 from mbla.deck.include import confined
 from mbla.deck.types import DeckContent
 from mbla.errors import DeckError, Fault, Place
@@ -99,6 +99,12 @@ def name_with_a_zero_byte(folder: Path, patch: Patch) -> object:
 def deck_beyond_all_size(folder: Path, patch: Patch) -> object:
     patch.setattr(sources, "MAX_BYTES", 1024**2)
     return read_deck(write(folder, "#" * (1024**2 + 1)))
+
+
+@brings("too-many-entries")
+def list_beyond_all_length(folder: Path, patch: Patch) -> object:
+    patch.setattr(reader, "MOST_ITEMS", 2)
+    return read_deck(write(folder, changed("min: [0, 0, 0]", "min: [0, 0, 0, 0]")))
 
 
 @brings("geometry-too-large")

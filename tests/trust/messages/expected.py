@@ -6,6 +6,10 @@ EXPECTED: dict[str, tuple[str, ...]] = {
         "{folder}/deck.yaml:1:1 is larger than 1 MB: put large geometry in a mesh file (`mesh: {file: "
         "...}`)  [file-too-large]",
     ),
+    "list_beyond_all_length": (
+        "{folder}/deck.yaml:10:54 blocks[0].box.min[2]: is one item too many: a list has at most 100,000  "
+        "[too-many-entries]",
+    ),
     "geometry_beyond_all_size": (
         "{folder}/deck.yaml:10:49 blocks[0].mesh.file = wall.obj: is larger than 1 MB: divide it into several files  "
         "[geometry-too-large]",

@@ -11,7 +11,7 @@ from mbla.arrays import FloatArray
 from mbla.deck.items.masonry import Gable, Masonry
 from mbla.deck.tree import KeyPath
 from mbla.errors import Message
-from mbla.model.generators.amounts import copies_of, refuse_too_many
+from mbla.model.generators.amounts import Amount
 from mbla.model.generators.generator import ItemRefused, Part
 from mbla.model.generators.masonry.buttresses import PlacedButtress, buttress_leg
 from mbla.model.generators.masonry.leg import Leg, Slopes
@@ -29,20 +29,15 @@ class Wall:
     buttresses: Sequence[PlacedButtress]
 
 
-def check_number(item: Masonry, length: float, key: KeyPath, rises: Sequence[float] = ()) -> None:
-    """Refuse walls of far more units than can be handled.
+def amount_of_units(item: Masonry, length: float, key: KeyPath, rises: Sequence[float]) -> Amount:
+    """About how many units walls have.
 
     length : of all walls together
     rises  : of gables, and depths of buttresses [length]
-
-    Raises
-    ------
-    ItemRefused
-        at a key path below the item
     """
     courses = item.courses + max(rises, default=0.0) / min(item.unit[0], item.unit[2])
-    about = courses * item.leaves * length / min(item.unit[0], item.unit[1] if item.leaves > 1 else item.unit[0])
-    refuse_too_many(about, key, copies=copies_of(item))
+    number = courses * item.leaves * length / min(item.unit[0], item.unit[1] if item.leaves > 1 else item.unit[0])
+    return Amount(number, key)
 
 
 def fixed_levels(openings: Iterable[PlacedOpening], buttresses: Iterable[PlacedButtress]) -> list[int]:

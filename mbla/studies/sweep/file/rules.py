@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from typing import Any
 
@@ -17,6 +18,8 @@ EXACTLY_ONE: dict[type[Section], tuple[str, ...]] = {types.Parameter: WAYS, type
 
 FULL_CIRCLE = 360.0
 """degrees"""
+FARTHEST = 40
+"""deviations: no sample lies so far from the mean in double precision"""
 
 
 def _register_exactly_one(section: type[Section], keys: tuple[str, ...]) -> None:
@@ -95,6 +98,8 @@ def triangular(item: types.Triangular) -> Iterator[Finding]:
 def _cut_around_the_mean(section: type[Section]) -> None:
     @rule(section)
     def cut(item: Any) -> Iterator[Finding]:
+        if not math.isfinite(abs(item.mean) + FARTHEST * item.deviation):
+            yield ("deviation",), Message("out-of-bounds", f"must be so small that {FARTHEST} of them are a number")
         if item.least is not None and not item.least < item.mean:
             yield ("min",), Message("out-of-bounds", f"must be < {item.mean:g}, the mean")
         if item.greatest is not None and not item.greatest > item.mean:
