@@ -8,8 +8,10 @@ checked before HDF5 opens the file. So a file that was damaged or changed is fou
 
 from __future__ import annotations
 
+import io
 import re
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
 from typing import TYPE_CHECKING, Any
@@ -85,10 +87,8 @@ def write_results_hdf5(results: Results) -> bytes:
 
     Layout: schemas/results.md. It cannot fail for want of disk space; the caller writes the bytes.
     """
-    import h5py
-
     content = content_of(results)
-    with h5py.File("results.h5", "w", driver="core", backing_store=False, libver=("v110", "v110")) as file:
+    with _image() as (image, file):
         for name, value in root_attributes(results).items():
             _set_attribute(file, name, value)
         scales: dict[str, h5py.Dataset] = {}
@@ -97,8 +97,21 @@ def write_results_hdf5(results: Results) -> bytes:
                 _write_field(file, scales, path, field, content.pop(path), results.model.units)
         if content:
             raise AssertionError(f"not in the layout: {sorted(content)}")
-        file.flush()
-        return sealed(bytes(file.id.get_file_image()))
+    return sealed(image.getvalue())
+
+
+@contextmanager
+def _image() -> Iterator[tuple[io.BytesIO, h5py.File]]:
+    """A new file in memory, whole when the block is left.
+
+    HDF5's own image of a file, which its core driver gives, cannot be opened by releases before 2.0: the check sum of
+    its first block is not that of its bytes.
+    """
+    import h5py
+
+    image = io.BytesIO()
+    with h5py.File(image, "w", libver=("v110", "v110")) as file:
+        yield image, file
 
 
 def read_results_hdf5(path: Path) -> Results:
@@ -155,9 +168,7 @@ def _fields(cases: list[str]) -> list[tuple[str, Field]]:
 
 def write_labelled_hdf5(content: LabelledFile) -> bytes:
     """An HDF5 file of labelled arrays as bytes, as netCDF-4 has them; the same content gives the same bytes."""
-    import h5py
-
-    with h5py.File("labelled.h5", "w", driver="core", backing_store=False, libver=("v110", "v110")) as file:
+    with _image() as (image, file):
         for name, value in content.attributes.items():
             _set_attribute(file, name, value)
         scales = {name: _create_labelled(file, name, scale) for name, scale in content.scales.items()}
@@ -168,8 +179,7 @@ def write_labelled_hdf5(content: LabelledFile) -> bytes:
             for axis, dimension in enumerate(array.dimensions):
                 dataset.dims[axis].label = dimension
                 dataset.dims[axis].attach_scale(scales[dimension])
-        file.flush()
-        return bytes(file.id.get_file_image())
+    return image.getvalue()
 
 
 def _create_labelled(file: h5py.File, name: str, content: Labelled) -> h5py.Dataset:
@@ -191,7 +201,7 @@ def write_hdf5(content: PlainFile) -> bytes:
     """Any other HDF5 file as bytes, arrays compressed with checksums; the same content gives the same bytes."""
     import h5py
 
-    with h5py.File("plain.h5", "w", driver="core", backing_store=False, libver=("v110", "v110")) as file:
+    with _image() as (image, file):
         for path in content.links:  # whoever lists the groups of links finds them in this order
             for parent in reversed(PurePosixPath(path).parents[:-1]):
                 if str(parent) not in file:
@@ -204,8 +214,7 @@ def write_hdf5(content: PlainFile) -> bytes:
                 owner.attrs[name] = np.bytes_(value) if isinstance(value, str) else value
         for path, target in content.links.items():
             file[path] = h5py.SoftLink(target)
-        file.flush()
-        return bytes(file.id.get_file_image())
+    return image.getvalue()
 
 
 # --- writing ------------------------------------------------------------------------------------------------------
