@@ -95,7 +95,7 @@ def test_what_is_left_unbalanced_is_taken_from_the_static_bound(size: float, dry
 
 @pytest.mark.parametrize("size", [0.25, 1.0, 4.0])
 def test_what_is_beyond_yield_is_taken_as_well(size: float, dry: Line) -> None:
-    """Forces that balance 2 + off are 2 off beyond their friction at each of four corners: at most 2e-9 of the weight."""
+    """Forces that balance 2 + off are 2 off beyond friction at each of four corners: 2e-9 of the weight at most."""
     speed = math.hypot(0.125, 0.0625)
     static, _ = proved(dry, of_block(dry, 2.0 + 3.1e-8, 4.0 + 6.2e-8, size=size))
     assert static == pytest.approx(2.0 + 3.1e-8 * (1.0 - 8.0 * speed), abs=1e-12)

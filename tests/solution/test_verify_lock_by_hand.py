@@ -1,0 +1,116 @@
+"""Forces that carry every multiple of a live load on one block: right, and wrong in one thing."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from mbla.solution.verify_lock import lock_failures
+from tests.line import Line
+from tests.solution.by_hand import cube, loaded, on_ground
+
+# A block 1 x 1 x 0.5 on the ground, friction 1/2, pressed by 32 and pushed by 8 at its base: 8 N and 2 N a corner.
+
+
+def block(joint: str = "friction: 0.5") -> Line:
+    line = cube(joint)
+    return replace(line, load_case=loaded(line.load_case, (0, 0, -1e6, 0, 0, 0), (8, 0, -32, 0, -2, 0)))
+
+
+@pytest.fixture(scope="module")
+def dry() -> Line:
+    return block()
+
+
+def failures(line: Line, normal: float = 8.0, shear: float = 2.0, **changes: bool) -> tuple[str, ...]:
+    model = replace(line.model, **changes) if changes else line.model
+    lock = on_ground(model, line.contacts, (normal, -shear, 0))
+    return lock_failures(model, line.contacts, line.load_case, lock)
+
+
+def test_the_exact_forces(dry: Line) -> None:
+    assert failures(dry) == ()
+
+
+def size_of_the_load() -> float:
+    """The moment counts over the lever arm of 3/4."""
+    return float(np.sqrt(8.0**2 + 32.0**2 + (2.0 / 0.75) ** 2))
+
+
+@pytest.mark.parametrize("side", [1.0, -1.0])
+def test_a_millionth_of_the_live_load_may_be_left(side: float, dry: Line) -> None:
+    size = size_of_the_load()
+    assert failures(dry, 8.0 + 0.99e-6 * side * size / 4) == ()
+    for share in (1.01e-6, 0.25):
+        (failure,) = failures(dry, 8.0 + share * side * size / 4)
+        assert failure == (
+            f"the forces that should show that the structure locks leave {share:.2g} of the live load of block 0 "
+            "unbalanced"
+        )
+
+
+@pytest.mark.parametrize("normal", [8.0, -8.0])
+def test_forces_the_wrong_way_round(normal: float, dry: Line) -> None:
+    for shear in (2.0, -2.0):
+        assert (failures(dry, normal, shear) == ()) == (normal > 0 and shear > 0)
+
+
+def test_no_more_shear_than_friction(dry: Line) -> None:
+    """Without a normal force: 32 of a push alone, and a millionth of it at each corner."""
+    beyond = ("the forces that should show that the structure locks do not stay within the yield conditions",)
+    for shear, expected in ((4.0, ()), (4.1, beyond), (-4.1, beyond)):
+        case = loaded(dry.load_case, (0, 0, 0, 0, 0, 0), (4 * shear, 0, -32, 0, -shear, 0))
+        assert failures(replace(dry, load_case=case), shear=shear) == expected
+    for pull, expected in ((1e-6, ()), (1e-3, beyond), (8.0, beyond)):
+        case = loaded(dry.load_case, (0, 0, 0, 0, 0, 0), (0, 0, 4 * pull, 0, 0, 0))
+        if pull == 1e-6:
+            case = replace(case, live_load=case.live_load + np.array([[0, 0, -32, 0, 0, 0]]))
+        found = failures(replace(dry, load_case=case), -pull if pull != 1e-6 else 8 - pull, 0.0)
+        assert found == expected
+
+
+def test_excess_is_a_millionth_of_the_load(dry: Line) -> None:
+    """Of which the shear on each corner may be beyond its friction."""
+    for excess, held in ((0.99e-6, True), (1.01e-6, False)):
+        shear = 4.0 + excess * np.hypot(32.0, np.hypot(16.0, 4.0 / 0.75))
+        case = loaded(dry.load_case, (0, 0, 0, 0, 0, 0), (4 * shear, 0, -32, 0, -shear, 0))
+        assert (failures(replace(dry, load_case=case), shear=shear) == ()) == held
+
+
+def test_cohesion_and_tension_do_not_last() -> None:
+    mortar = block("friction: 0.5, cohesion: 1.e6, tensile_strength: 1.e6")
+    assert failures(mortar) == ()
+    case = loaded(mortar.load_case, (0, 0, 0, 0, 0, 0), (24, 0, -32, 0, -6, 0))
+    assert len(failures(replace(mortar, load_case=case), shear=6.0)) == 1
+
+
+def test_what_crushes_bears_nothing_for_ever() -> None:
+    weak = block("friction: 0.5, compressive_strength: 1.e9")
+    assert len(failures(weak)) == 1
+    assert "yield conditions" in failures(weak)[0]
+
+
+def test_without_a_live_load_on_what_can_move_there_is_nothing_to_carry(dry: Line) -> None:
+    none = ("there is no live load on blocks that can move",)
+    unloaded = replace(dry, load_case=loaded(dry.load_case, (0, 0, -32, 0, 0, 0), (0, 0, 0, 0, 0, 0)))
+    assert failures(unloaded, 0.0, 0.0) == none
+
+
+@pytest.mark.parametrize("number", [np.nan, np.inf])
+def test_numbers_that_are_none(number: float, dry: Line) -> None:
+    assert failures(dry, number) == ("the forces that should show that the structure locks are not finite",)
+
+
+def test_of_large_forces_more_may_be_rounding() -> None:
+    """Between two walls that press with 2^30 at each of eight corners: 1e-12 of that, and a millionth of the load."""
+    line = cube(supports="{ground: {x: 0}}, {ground: {point: [1, 0, 0], normal: [-1, 0, 0]}}")
+    line = replace(line, load_case=loaded(line.load_case, (0, 0, 0, 0, 0, 0), (0, 0, -32, 0, 0, 0)))
+    sign = np.where(line.contacts.bodies[line.contacts.interface_of_point][:, 1] == 0, 1.0, -1.0)
+    for share, held in ((0.99, True), (1.01, False)):
+        allowed = 1e-6 * 32 + 1e-12 * 8 * 2.0**30
+        hung = sign[:, None] * np.array([0.0, 0.0, (32.0 - share * allowed) / 8])
+        lock = np.einsum("pjx,px->pj", line.contacts.frames, hung)
+        lock[:, 0] = 2.0**30
+        assert (lock_failures(line.model, line.contacts, line.load_case, lock) == ()) == held
