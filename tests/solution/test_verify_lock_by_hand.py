@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from mbla.solution.verify_lock import lock_failures
-from tests.line import Line
+from tests.line import BLOCK, Line, line_of
 from tests.solution.by_hand import cube, loaded, on_ground
 
 # A block 1 x 1 x 0.5 on the ground, friction 1/2, pressed by 32 and pushed by 8 at its base: 8 N and 2 N a corner.
@@ -114,3 +114,44 @@ def test_of_large_forces_more_may_be_rounding() -> None:
         lock = np.einsum("pjx,px->pj", line.contacts.frames, hung)
         lock[:, 0] = 2.0**30
         assert (lock_failures(line.model, line.contacts, line.load_case, lock) == ()) == held
+
+
+@pytest.fixture(scope="module")
+def pair() -> Line:
+    """Two blocks side by side, pressed by 32 and by 2."""
+    text = BLOCK.replace(
+        "blocks:\n", "blocks:\n  - box: {group: light, material: stone, min: [5, 0, 0], max: [6, 1, 1]}\n"
+    )
+    line = line_of(text)
+    live = np.zeros((2, 6))
+    live[:, 2] = -32.0, -2.0
+    return replace(line, load_case=replace(line.load_case, live_load=live))
+
+
+@pytest.mark.parametrize(("block", "load"), [(0, 32.0), (1, 2.0)])
+def test_the_block_that_is_off_by_most_of_its_own_load_is_named(block: int, load: float, pair: Line) -> None:
+    contacts = pair.contacts
+    here = (contacts.bodies[contacts.interface_of_point] == block).any(axis=1)
+    lock = np.zeros((len(contacts.points), 3))
+    lock[:, 0] = np.where(here, load / 4, (34.0 - load) / 4)
+    assert lock_failures(pair.model, contacts, pair.load_case, lock) == ()
+    lock[here, 0] *= 1.25
+    lock[~here, 0] *= 1.125
+    (failure,) = lock_failures(pair.model, contacts, pair.load_case, lock)
+    assert f"leave 0.25 of the live load of block {block} " in failure
+
+
+def test_one_point_beyond_its_friction_is_enough(pair: Line) -> None:
+    """Two corners sheared against each other along the line between them, in balance."""
+    contacts = pair.contacts
+    lock = on_ground(pair.model, contacts, (0, 0, 0))
+    lock[:, 0] = np.where((contacts.bodies[contacts.interface_of_point] == 0).any(axis=1), 8.0, 0.5)
+    assert lock_failures(pair.model, contacts, pair.load_case, lock) == ()
+    light = np.flatnonzero(lock[:, 0] == 0.5)
+    first, second = light[0], light[1]
+    along = contacts.points[second] - contacts.points[first]
+    along /= np.linalg.norm(along)
+    lock[first, 1:] = 0.3 * (contacts.frames[first] @ along)[1:]
+    lock[second, 1:] = -0.3 * (contacts.frames[second] @ along)[1:]
+    (failure,) = lock_failures(pair.model, contacts, pair.load_case, lock)
+    assert "yield conditions" in failure

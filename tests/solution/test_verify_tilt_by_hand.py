@@ -73,6 +73,17 @@ def test_a_millionth_of_what_turns_may_be_off(side: float, line: Line) -> None:
         assert (failures(replace(case, dead_load=dead), 1.0) == ()) == right
 
 
+def test_small_loads_are_measured_by_themselves(line: Line) -> None:
+    case = by_angle(line, 30.0)
+    assert case.tilt is not None
+    table = replace(case.tilt, **{name: getattr(case.tilt, name) / 1024 for name in ("fixed", "turning", "across")})
+    for off, right in ((0.99e-6, True), (1.01e-6, False)):
+        dead = case.dead_load / 1024
+        dead[1, 4] += off * 32.0 / 1024
+        small = replace(case, tilt=table, dead_load=dead, live_load=case.live_load / 1024)
+        assert (failures(small, 1.0) == ()) == right
+
+
 def test_a_load_factor_that_is_no_tangent(line: Line) -> None:
     """Loads from the level table to 30 degrees, twice over."""
     (failure,) = failures(by_angle(line, 30.0), 2.0)
@@ -115,6 +126,13 @@ def test_its_live_load_turns_it_over(side: float, line: Line) -> None:
     for off in (1.01e-6, 0.5):
         assert never(line, 2.0, 4.0, side * off * 32) == (NOT_OVER,)
     assert never(line, 0.5, 4.0, 16.0) == (NOT_OVER, NOT_PROVED)
+
+
+def test_small_loads_that_do_not_turn_it_over(line: Line) -> None:
+    table = replace(tilt(upright=2.0), turning=DOWN / 1024, across=ACROSS / 1024)
+    for share, expected in ((1.0 + 0.4e-6, ()), (1.0 + 0.6e-6, (NOT_OVER,))):
+        case = replace(line.load_case, tilt=table, live_load=-2.0 * share * DOWN / 1024)
+        assert never_failures(case, found(static_bound=4.0)) == expected
 
 
 def test_what_else_is_wrong_stays_wrong(line: Line) -> None:
