@@ -16,7 +16,7 @@ from mbla.program.program import Program
 from mbla.solution.load_scale import load_scale
 from mbla.solution.proofs import associative_bounds, certificate_failures
 from mbla.solution.solution import Mechanics
-from tests.line import Line
+from tests.line import BLOCK, Line, line_of
 from tests.solution.by_hand import cube, loaded, on_ground, state
 
 # A block 1 x 1 x 0.5 on the ground, friction 1/2, weight 32 and a push of 8 λ at its base: it slides and rises by μ.
@@ -184,6 +184,35 @@ def test_models_of_some_thousand_blocks_are_repaired(dry: Line, mended: dict[str
     mended["motions"] = [rising(0.0625), rising(0.0625)]
     proved(dry, of_block(dry, 2.0, 4.0))
     assert mended["asked"] == 2
+
+
+def test_one_corner_beyond_yield_is_enough(dry: Line) -> None:
+    """Two corners sheared against each other along the line between them, in balance, beyond their friction of 4."""
+    found = of_block(dry, 0.0, 0.0)
+    points, frames = dry.contacts.points, dry.contacts.frames
+    along = points[1] - points[0]
+    for size, proves in ((3.9, True), (4.1, False)):
+        forces = found.contact_forces.copy()
+        for corner, side in ((0, size), (1, -size)):
+            forces[corner, 1:] = side * (frames[corner] @ along)[1:]
+        assert np.isfinite(proved(dry, replace(found, contact_forces=forces))[0]) == proves
+
+
+def test_one_block_out_of_balance_is_enough() -> None:
+    """Of two that slide beside each other, each with the load of the one."""
+    text = BLOCK.replace(
+        "blocks:\n", "blocks:\n  - box: {group: two, material: stone, min: [5, 0, 0], max: [6, 1, 2]}\n"
+    )
+    line = line_of(text)
+    loads = [np.array([load, load], dtype=float) for load in (DEAD, (8, 0, 0, 0, -8, 0))]
+    line = replace(line, load_case=replace(line.load_case, dead_load=loads[0], live_load=loads[1]))
+    motion = 0.5 * np.array([RISES, RISES])
+    forces = on_ground(line.model, line.contacts, (8, -4, 0))
+    assert proved(line, state(forces, motion, 2.0)) == pytest.approx((2.0, 2.0))
+    first = (line.contacts.bodies[line.contacts.interface_of_point] == 0).any(axis=1)
+    for here in (first, ~first):
+        short = forces * np.where(here, 1.0, 0.75)[:, None]
+        assert np.isnan(proved(line, state(short, motion, 2.0))[0])
 
 
 CLAMPED = "{ground: {x: 0}}, {ground: {point: [1, 0, 0], normal: [-1, 0, 0]}}"

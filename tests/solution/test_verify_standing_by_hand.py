@@ -9,7 +9,7 @@ import pytest
 
 from mbla.arrays import FloatArray
 from mbla.solution.verify_standing import standing_failures
-from tests.line import Line
+from tests.line import BLOCK, Line, line_of
 from tests.solution.by_hand import cube, loaded, on_ground
 
 # A block 1 x 1 x 0.5 on the ground, friction 1/2, weight 32 and a force of 8 along x at its base: it sinks by 8 and
@@ -113,8 +113,8 @@ def test_small_forces_are_measured_by_themselves(dry: Line) -> None:
     small = replace(
         dry, load_case=loaded(dry.load_case, (8 / 1024, 0, -32 / 1024, 0, -2 / 1024, 0), (0, 1, 0, 0, 0, 0))
     )
-    for factor, comes in ((1.0, True), (1.0 - 1e-6, False)):
-        settled = tuple(value * factor / 1024 for value in (2.0, 0, -8.0, 0, 0, 0))
+    for factor, comes in ((1.0, True), (1.0 - 8e-9, False)):
+        settled = (2.0 * factor / 1024, 0, -8.0 / 1024, 0, 0, 0)
         assert failures(small, (8 / 1024, -2 / 1024, 0), settled) == (() if comes else ASTRAY)
 
 
@@ -160,3 +160,69 @@ def test_guided_blocks_keep_to_their_guides(dry: Line, monkeypatch: pytest.Monke
     for off, told in ((1e-9, ()), (1.01e-9, ("guided blocks are displaced against their guides",))):
         monkeypatch.setattr("mbla.solution.verify_standing.off_guides", lambda *_, off=off: off)
         assert failures(dry) == told
+
+
+@pytest.mark.parametrize(("settled", "comes"), [((4.0, 0, -8.0, 0, 0, 0), True), ((4.0, 0, 8.0, 0, 0, 0), False)])
+def test_forces_may_be_far_less_than_what_displacements_ask_for(
+    settled: tuple[float, ...], comes: bool, dry: Line
+) -> None:
+    """A corner bears 1/2 and is sheared by 1/8."""
+    light = replace(dry, load_case=loaded(dry.load_case, (0.5, 0, -2, 0, -0.125, 0), (0, 1, 0, 0, 0, 0)))
+    assert failures(light, (0.5, -0.125, 0), settled) == (() if comes else ASTRAY)
+
+
+@pytest.fixture(scope="module")
+def row() -> Line:
+    """A fixed block, and two on the ground beside it that weigh 32 and 2."""
+    boxes = "".join(
+        f"  - box: {{group: {name}, material: stone, min: [{x}, 0, {z}], max: [{x + 1}, 1, {z + 1}]}}\n"
+        for name, x, z in (("post", 10, 1), ("light", 5, 0))
+    )
+    text = BLOCK.replace("blocks:\n", f"blocks:\n{boxes}").replace(
+        "{ground: {z: 0}}", "{ground: {z: 0}}, {blocks: post}"
+    )
+    line = line_of(text)
+    assert line.model.fixed.tolist() == [True, False, False]
+    dead = np.zeros((3, 6))
+    dead[1:, 2] = -2.0, -32.0
+    return replace(line, load_case=replace(line.load_case, dead_load=dead))
+
+
+def of_row(line: Line, share: tuple[float, float] = (1.0, 1.0)) -> tuple[FloatArray, FloatArray]:
+    """What bears these shares of both weights, and comes from sinking by 16."""
+    forces = np.zeros((len(line.contacts.points), 3))
+    light = (line.contacts.bodies[line.contacts.interface_of_point] == 1).any(axis=1)
+    forces[:, 0] = np.where(light, 0.5 * share[0], 8.0 * share[1])
+    settled = np.zeros((3, 6))
+    settled[1:, 2] = -16.0
+    return forces, settled
+
+
+def of_standing(line: Line, forces: FloatArray, settled: FloatArray) -> tuple[str, ...]:
+    return standing_failures(line.model, line.contacts, line.load_case, forces, settled)
+
+
+@pytest.mark.parametrize(("share", "block"), [((1.25, 1.125), 1), ((0.875, 0.75), 2)])
+def test_the_block_that_is_off_by_most_of_its_own_load_is_named(
+    share: tuple[float, float], block: int, row: Line
+) -> None:
+    assert of_standing(row, *of_row(row)) == ()
+    (failure,) = of_standing(row, *of_row(row, share))
+    assert failure == f"under the dead load alone 0.25 of the load of block {block} is not balanced"
+
+
+def test_one_point_beyond_its_friction_is_enough(row: Line) -> None:
+    """Two corners sheared against each other along the line between them, in balance."""
+    forces, settled = of_row(row)
+    first, second = np.flatnonzero(forces[:, 0] == 0.5)[:2]
+    along = row.contacts.points[second] - row.contacts.points[first]
+    for corner, side in ((first, 0.3), (second, -0.3)):
+        forces[corner, 1:] = side * (row.contacts.frames[corner] @ along)[1:]
+    assert of_standing(row, forces, settled) == (*BEYOND, *ASTRAY)
+
+
+@pytest.mark.parametrize("way", range(6))
+def test_fixed_blocks_stay(way: int, row: Line) -> None:
+    forces, settled = of_row(row)
+    settled[0, way] = -1e-12
+    assert of_standing(row, forces, settled) == ("fixed blocks are displaced",)
