@@ -100,6 +100,13 @@ def test_an_associative_factor_lies_between_its_bounds(size: float) -> None:
         assert "does not lie between its bounds 1 and 1" in failure
 
 
+def test_the_factor_reported_is_judged_and_not_that_of_the_state_beside_it() -> None:
+    """Forces that were asked for beside those of the proof have a load factor of their own."""
+    for reported, proved, right in ((1.0, 1.0, True), (1.0 + 2e-5, 1.0, False), (1.0 - 2e-5, 1.0, False)):
+        solution = replace(claim(answer(reported)), associative=answer(proved))
+        assert (failures_of(EXACT, solution, 1.0, 1.0, 1.0) == ()) == right
+
+
 def test_factors_exactly_as_far_from_their_bounds_as_allowed() -> None:
     for factor in (1e-5, -1e-5):
         assert failures(static=0.0, kinematic=0.0, factor=factor) == ()
