@@ -103,16 +103,17 @@ def test_numbers_that_are_none(number: float, dry: Line) -> None:
     assert failures(dry, number) == ("the forces that should show that the structure locks are not finite",)
 
 
-def test_of_large_forces_more_may_be_rounding() -> None:
-    """Between two walls that press with 2^30 at each of eight corners: 1e-12 of that, and a millionth of the load."""
+@pytest.mark.parametrize("pressure", [2.0**30, 2.0**36, 2.0**60])
+def test_of_large_forces_more_may_be_rounding_but_not_all_of_a_load(pressure: float) -> None:
+    """Between two walls that press at each of eight corners: 1e-12 of that, up to 1e-3 of the load, and 1e-6 of it."""
     line = cube(supports="{ground: {x: 0}}, {ground: {point: [1, 0, 0], normal: [-1, 0, 0]}}")
     line = replace(line, load_case=loaded(line.load_case, (0, 0, 0, 0, 0, 0), (0, 0, -32, 0, 0, 0)))
     sign = np.where(line.contacts.bodies[line.contacts.interface_of_point][:, 1] == 0, 1.0, -1.0)
-    for share, held in ((0.99, True), (1.01, False)):
-        allowed = 1e-6 * 32 + 1e-12 * 8 * 2.0**30
-        hung = sign[:, None] * np.array([0.0, 0.0, (32.0 - share * allowed) / 8])
+    allowed = 1e-6 * 32 + min(1e-12 * 8 * pressure, 1e-3 * 32)
+    for left, held in ((0.99 * allowed, True), (1.01 * allowed, False), (32.0, False)):
+        hung = sign[:, None] * np.array([0.0, 0.0, (32.0 - left) / 8])
         lock = np.einsum("pjx,px->pj", line.contacts.frames, hung)
-        lock[:, 0] = 2.0**30
+        lock[:, 0] = pressure
         assert (lock_failures(line.model, line.contacts, line.load_case, lock) == ()) == held
 
 
