@@ -46,7 +46,7 @@ def limits_of(
     return YieldLimits(*(np.broadcast_to(np.asarray(value, dtype=float), n_points).copy() for value in values))
 
 
-def own_points(dead: Sequence[float], live: Sequence[float], components: int = 2, **limits: Any) -> Program:
+def own_points(dead: Sequence[float], live: Sequence[float], components: Any = 2, **limits: Any) -> Program:
     """Bodies that rest each on one contact point of their own: velocities of rows are those of the points."""
     n_rows = len(dead)
     return Program(
@@ -76,7 +76,7 @@ def on_ground(model: Model, contacts: Contacts, pressed: Sequence[float]) -> Flo
     """Forces at the corners below a block, N and the force on the block along x and y, the same at each corner."""
     sign = np.where(contacts.bodies[contacts.interface_of_point][:, 1] < len(model.blocks), 1.0, -1.0)
     on_block = sign[:, None] * np.array([pressed[1], pressed[2], 0.0])
-    forces = np.einsum("pjx,px->pj", contacts.frames, on_block)
+    forces: FloatArray = np.einsum("pjx,px->pj", contacts.frames, on_block)
     forces[:, 0] = pressed[0]
     return forces
 

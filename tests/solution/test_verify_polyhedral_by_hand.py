@@ -52,12 +52,16 @@ def told(line: Line, monkeypatch: pytest.MonkeyPatch) -> dict[str, Any]:
         assert dilatancy.tolist() == [0.5] * 4
         if polygon:
             of["polygons"][name] = polygon[0]
-        return of["left"].get((name, "polygon" if polygon else "circle"), replace(EXACT, complementarity=1e-7))
+        left: Residuals = of["left"].get(
+            (name, "polygon" if polygon else "circle"), replace(EXACT, complementarity=1e-7)
+        )
+        return left
 
     def bounds(*arguments: Any) -> tuple[float, float]:
         assert arguments[3].contact_forces is of["inner"].contact_forces
         assert arguments[3].mechanism is of["outer"].mechanism
-        return of["bounds"]
+        found: tuple[float, float] = of["bounds"]
+        return found
 
     monkeypatch.setattr(MODULE, "residuals_of", residuals_of)
     monkeypatch.setattr(MODULE, "associative_bounds", bounds)
