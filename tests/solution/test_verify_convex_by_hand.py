@@ -11,11 +11,12 @@ import numpy as np
 import pytest
 
 from mbla.arrays import FloatArray
+from mbla.program.assemble import yield_limits
 from mbla.program.convex import ConvexProgram
 from mbla.solution.interface_laws import InterfaceLaws
 from mbla.solution.solution import Checks, Mechanics, Status
 from mbla.solution.verify_convex import convex_bounds, convex_lock_failures, verify_convex
-from tests.line import Line
+from tests.line import BLOCK, Line, line_of
 from tests.solution.by_hand import claim, cube, loaded, on_ground, state
 
 MODULE = import_module("mbla.solution.verify_convex")
@@ -230,6 +231,11 @@ def test_what_an_interface_takes_of_a_motion_its_corners_do_not(
         mechanics = state(forces, np.array([motion]), 1.0)
         mechanics = replace(mechanics, resultants=resultants, interface_motions=motions)
         checks = judged(case, mechanics, rule)
+        for name, arguments in laws["asked"]:
+            if name.endswith("power"):
+                share = crushing if name == "crushing_power" else torsion
+                assert arguments[-1] == pytest.approx(share * whole[None, :])
+        laws["asked"].clear()
         along = float(resultants[0] @ whole)
         of_torsion, of_crushing = abs(3.0 + torsion * along), abs(0.75 + crushing * along)
         dead = float(np.array(DEAD) @ np.array(motion))
@@ -319,7 +325,7 @@ def test_what_corners_may_be_beyond_yield(dry: Line) -> None:
 @pytest.mark.usefixtures("mended")
 @pytest.mark.parametrize("name", ["torsion_excess", "crushing_excess"])
 def test_what_the_interface_may_be_beyond_yield(name: str, dry: Line, laws: dict[str, Any]) -> None:
-    for excess, proves in ((6.3e-8, True), (6.5e-8, False), (1.0, False)):
+    for excess, proves in ((6.3e-8, True), (2e-9 * 32.0, True), (6.5e-8, False), (1.0, False)):
         laws[name] = excess
         assert np.isnan(proved(dry, answer(dry))[0]) == (not proves)
 
@@ -548,3 +554,20 @@ def test_a_lock_on_what_crushes(weak: Line) -> None:
     assert convex_lock_failures(weak.model, weak.contacts, none) == ()
     pressed = on_ground(weak.model, weak.contacts, (8, 0, 0))
     assert convex_lock_failures(weak.model, weak.contacts, pressed) == NOT_WITHIN
+
+
+def test_one_interface_that_crushes_is_enough() -> None:
+    """A block on the ground, and one beside it on ground that crushes."""
+    text = BLOCK.replace(
+        "blocks:\n", "blocks:\n  - box: {group: two, material: stone, min: [5, 0, 1], max: [6, 1, 2]}\n"
+    )
+    text = text.replace("{ground: {z: 0}}", "{ground: {z: 0}}, {ground: {z: 1}, joint: weak, blocks: two}").replace(
+        "joints: {", "joints: {weak: {friction: 0.5, compressive_strength: 64}, "
+    )
+    line = line_of(text, "parameters.h=0.5")
+    lock = on_ground(line.model, line.contacts, (8, 0, 0))
+    assert len(line.contacts) == 2
+    assert convex_lock_failures(line.model, line.contacts, lock) == NOT_WITHIN
+    weak = np.isfinite(yield_limits(line.model, line.contacts).compression)
+    lock[weak] = 0.0
+    assert convex_lock_failures(line.model, line.contacts, lock) == ()

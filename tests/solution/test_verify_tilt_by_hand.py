@@ -66,10 +66,10 @@ def test_a_false_angle(status: Status, line: Line) -> None:
 
 @pytest.mark.parametrize("side", [1.0, -1.0])
 def test_a_millionth_of_what_turns_may_be_off(side: float, line: Line) -> None:
-    for off, right in ((0.99e-6, True), (1.01e-6, False), (0.5, False)):
+    for off, right in ((0.99e-6, True), (1e-6, True), (1.01e-6, False), (0.5, False)):
         case = by_angle(line, 30.0)
         dead = case.dead_load.copy()
-        dead[1, 4] += side * off * 32.0
+        dead[1, 4] = side * (off * 32.0)
         assert (failures(replace(case, dead_load=dead), 1.0) == ()) == right
 
 
@@ -123,6 +123,7 @@ def test_a_table_that_bears_every_angle(line: Line) -> None:
 @pytest.mark.parametrize("side", [1.0, -1.0])
 def test_its_live_load_turns_it_over(side: float, line: Line) -> None:
     assert never(line, 2.0, 4.0, side * 0.99e-6 * 32) == ()
+    assert never(line, 2.0, 4.0, side * (1e-6 * 32.0)) == ()
     for off in (1.01e-6, 0.5):
         assert never(line, 2.0, 4.0, side * off * 32) == (NOT_OVER,)
     assert never(line, 0.5, 4.0, 16.0) == (NOT_OVER, NOT_PROVED)
