@@ -151,6 +151,13 @@ def test_sinking_into_the_ground(dry: Line) -> None:
     assert np.isnan([checks.static_bound, checks.kinematic_bound, checks.gap]).all()
 
 
+def test_opening_under_force_and_slip_without_friction_add_up(dry: Line) -> None:
+    """32 up by 1/16, and half of the friction missing: 2 and 1 of 2."""
+    checks = judged(dry, answer(dry, (8, -2, 0)), "non_associative", associative=None)
+    assert checks.slip_residual == pytest.approx(0.5)
+    assert checks.complementarity_residual == pytest.approx(1.5)
+
+
 @pytest.mark.usefixtures("mended")
 @pytest.mark.parametrize("name", ["torsion_excess", "crushing_excess"])
 def test_excess_of_the_interface(name: str, dry: Line, laws: dict[str, Any]) -> None:
