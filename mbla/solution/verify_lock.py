@@ -17,7 +17,7 @@ from mbla.model.model import LoadCase, Model
 from mbla.program.assemble import yield_limits
 from mbla.program.yield_conditions import YieldLimits
 from mbla.solution.guides import left_to_balance
-from mbla.solution.load_scale import load_scale, load_sizes
+from mbla.solution.load_scale import forces_on_blocks, load_scale, load_sizes
 from mbla.solution.statics import contact_resultants
 
 LASTING = 1e-6
@@ -26,6 +26,10 @@ carry a million times what they are asked for before it matters."""
 
 ROUNDING = 1e-12
 """The same over the forces on the block: of large forces in balance rounding leaves more than of small ones."""
+
+MOST = 1e-3
+"""What rounding may leave at most, over the mean live load of a block: beside forces large enough, any load would be
+rounding."""
 
 
 def lock_failures(model: Model, contacts: Contacts, load_case: LoadCase, lock: FloatArray) -> tuple[str, ...]:
@@ -39,7 +43,8 @@ def lock_failures(model: Model, contacts: Contacts, load_case: LoadCase, lock: F
     if not np.any(load_case.live_load[model.free]):
         return ("there is no live load on blocks that can move",)
     scale = load_scale(model, contacts, replace(load_case, dead_load=load_case.live_load), limits)
-    allowed = np.where(model.fixed, np.inf, scale.allowed(contacts, lock, LASTING, ROUNDING))
+    rounding = np.minimum(ROUNDING * forces_on_blocks(contacts, lock, len(model.blocks)), MOST * scale.mean)
+    allowed = np.where(model.fixed, np.inf, LASTING * scale.own + rounding)
     acting = contact_resultants(model, contacts, lock) + load_case.live_load
     unbalanced = load_sizes(left_to_balance(model, acting, scale.arms), scale.arms)
     failures = []

@@ -22,5 +22,5 @@ def peak_check(model: Model, contacts: Contacts, load_case: LoadCase, peak: Mech
     if peak is None:
         return np.nan
     residuals = residuals_of(model, contacts, load_case, peak, np.zeros(len(peak.contact_forces)))
-    carried = max(residuals.equilibrium, residuals.yielding) <= CARRIED
+    carried = residuals.equilibrium <= CARRIED and residuals.yielding <= CARRIED  # neither where it is no number
     return peak.load_factor if carried else np.nan

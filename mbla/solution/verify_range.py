@@ -33,9 +33,10 @@ def range_checks(model: Model, contacts: Contacts, load_case: LoadCase, solution
         return np.nan, np.nan
     limits = yield_limits(model, contacts)
     dilatancy = limits.dilatancy if solution.flow_rule == "dilatancy" else np.zeros_like(limits.dilatancy)
-    allowed = max(END_RESIDUAL, residuals_of(model, contacts, load_case, found, dilatancy).largest)
-    if not allowed <= MOST_RESIDUAL:
+    left = residuals_of(model, contacts, load_case, found, dilatancy).largest
+    if not left <= MOST_RESIDUAL:
         return np.nan, np.nan
+    allowed = max(END_RESIDUAL, left)
 
     def verified(end: Mechanics | None, sign: float) -> float:
         if end is None or sign * (end.load_factor - found.load_factor) < 0.0:

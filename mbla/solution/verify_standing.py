@@ -36,6 +36,9 @@ AGAINST = 1e-9
 """What may be off, over the largest force or displacement at any contact point: rounding leaves 1e-12 of it where whole
 structures settle far more than their joints."""
 
+HIDDEN = 1e6
+"""Displacement over the largest force that counts at most: beyond it any force would be within ``AGAINST``."""
+
 
 def standing_failures(
     model: Model, contacts: Contacts, load_case: LoadCase, forces: FloatArray, settlement: FloatArray
@@ -72,7 +75,10 @@ def standing_failures(
 
 
 def _astray(forces: FloatArray, displaced: FloatArray) -> float:
-    """How far a force is from any that its joint's displacement can bring about, over the largest of either."""
+    """How far a force is from any that its joint's displacement can bring about, over the largest of either.
+
+    Displacements count up to ``HIDDEN`` times the largest force.
+    """
     normal, shear = forces[:, 0], forces[:, 1:]
     closing, sliding = -displaced[:, 0], np.linalg.norm(displaced[:, 1:], axis=1)
     least, most = np.minimum(closing, 0.0), np.maximum(closing, 0.0)
@@ -80,5 +86,7 @@ def _astray(forces: FloatArray, displaced: FloatArray) -> float:
     direction = -displaced[:, 1:] / np.maximum(sliding, 1e-300)[:, None]
     along = np.clip((shear * direction).sum(axis=1), 0.0, sliding)
     shear_off = np.linalg.norm(shear - along[:, None] * direction, axis=1)
-    largest = float(max(np.abs(forces).max(initial=0.0), np.abs(displaced).max(initial=0.0)))
-    return float(max(np.abs(normal_off).max(initial=0.0), shear_off.max(initial=0.0))) / max(largest, 1e-300)
+    off = float(max(np.abs(normal_off).max(initial=0.0), shear_off.max(initial=0.0)))
+    force, displacement = float(np.abs(forces).max(initial=0.0)), float(np.abs(displaced).max(initial=0.0))
+    largest = min(max(force, displacement), HIDDEN * force)
+    return off / max(largest, 1e-300)

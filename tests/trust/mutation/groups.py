@@ -39,6 +39,7 @@ GROUPS = {
             "mbla/solution/certificate.py",
         ),
         tests=(
+            "tests/solution/test_*_by_hand.py",
             "tests/solution/test_residuals.py",
             "tests/solution/test_bounds.py",
             "tests/solution/test_verify*.py",
