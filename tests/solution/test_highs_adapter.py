@@ -135,7 +135,7 @@ def test_a_signal_stops_it(monkeypatch: pytest.MonkeyPatch) -> None:
     def held() -> Iterator[Callable[[], bool]]:
         yield lambda: True
 
-    monkeypatch.setattr(highs_adapter, "signals_held", held)
+    monkeypatch.setattr(highs_adapter, "held_signals", held)
     solution = highs(linear_program()).solve(1, 1.0)
     assert (solution.status, solution.solver_status) == (Status.TIME_LIMIT, "kInterrupt")
 

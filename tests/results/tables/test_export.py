@@ -49,7 +49,7 @@ def test_every_table_is_there_in_both_formats(folder: Path) -> None:
 @pytest.mark.parametrize("name", TABLES)
 def test_csv_reads_back_to_the_same_bits(results: Results, folder: Path, name: str) -> None:
     table = tables_of(results)[name]
-    read = pandas.read_csv(folder / f"tower_{name}.csv", float_precision="round_trip")
+    read = pandas.read_csv(folder / f"tower_{name}.csv", engine="python")
     assert tuple(read.columns) == table.header
     assert len(read) == len(table)
     for column, values in zip(table.kind.columns, table.values, strict=True):

@@ -15,9 +15,10 @@ import pytest
 from scipy import stats
 
 from mbla.arrays import FloatArray
-from mbla.errors import DeckError
 from mbla.studies.sweep.design.ways import WAYS
 from mbla.studies.sweep.design.ways.cut_normal import cut_normal
+from mbla.studies.sweep.design.ways.rounding import rounded_within
+from mbla.studies.sweep.design.ways.way import WayError
 from mbla.studies.sweep.file.content import Parameter
 from mbla.studies.sweep.file.ways import way_of
 from tests.studies.sweep.design.hand_made import column, drawn
@@ -58,8 +59,8 @@ def test_a_tail_far_from_the_mean_keeps_its_shape() -> None:
 
 
 def test_values_beyond_what_numbers_hold_are_refused() -> None:
-    with pytest.raises(DeckError, match=r"x\.normal: has values beyond what a number holds"):
-        drawn({"normal": {"mean": 1e308, "deviation": 1e308}}, 64)
+    with pytest.raises(WayError, match="has values beyond what a number holds"):
+        rounded_within([1.0, np.inf], 0.0, np.inf)
 
 
 def test_a_lognormal_of_any_deviation_has_values() -> None:
