@@ -159,15 +159,18 @@ def _article(name: str) -> str:
     return "an" if name[0] in "ae" else "a"
 
 
-@cache
 def _si_factor(unit: str, dimension: str) -> float:
     """Factor from a unit to the SI unit of a dimension (angles: degree)."""
     decimal = DECIMAL[dimension].get(unit)
-    return _factor_by_pint(unit, dimension) if decimal is None else decimal
+    factor = _factor_by_pint(unit, dimension) if decimal is None else decimal
+    if isinstance(factor, str):
+        raise ValueRefused("wrong-unit", factor)
+    return factor
 
 
-def _factor_by_pint(unit: str, dimension: str) -> float:
-    """The same of any unit."""
+@cache
+def _factor_by_pint(unit: str, dimension: str) -> float | str:
+    """The same of any unit, or what is wrong with it: kept as well, as pint takes a millisecond each time."""
     import pint
 
     registry = _registry()
@@ -175,21 +178,15 @@ def _factor_by_pint(unit: str, dimension: str) -> float:
     shown = dimension.replace("_", " ")
     try:
         parsed = registry.parse_units(unit.replace("·", "*").replace("°", "degree"))
-    except Exception as error:  # pint raises its own, tokenize's and plain errors on what it does not know
-        raise ValueRefused(
-            "wrong-unit", f'has an unknown unit "{unit}": write for example "{wanted.example}"'
-        ) from error
+    except Exception:  # pint raises its own, tokenize's and plain errors on what it does not know
+        return f'has an unknown unit "{unit}": write for example "{wanted.example}"'
     root = registry.Quantity(1.0, parsed).to_root_units()
     # To pint an angle is a plain ratio; `percent` must not pass for one.
     is_angle = "radian" in str(root.units)
     if parsed.dimensionality != registry.parse_units(wanted.si).dimensionality or is_angle != (dimension == "angle"):
         found = _measured(registry, parsed, is_angle)
-        raise ValueRefused(
-            "wrong-unit", f'is not {_article(shown)} {shown} but {found}: write for example "{wanted.example}"'
-        )
+        return f'is not {_article(shown)} {shown} but {found}: write for example "{wanted.example}"'
     try:
         return float(registry.Quantity(1.0, parsed).to(wanted.si).magnitude)
-    except pint.errors.PintError as error:
-        raise ValueRefused(
-            "wrong-unit", f'"{unit}" cannot be converted: write for example "{wanted.example}"'
-        ) from error
+    except pint.errors.PintError:
+        return f'"{unit}" cannot be converted: write for example "{wanted.example}"'
