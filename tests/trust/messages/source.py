@@ -6,6 +6,7 @@ import ast
 import inspect
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -51,8 +52,13 @@ def builders() -> set[str]:
         known |= found
 
 
-def sites() -> Iterator[Site]:
+@cache
+def sites() -> tuple[Site, ...]:
     """Every place at which a message or an error is made."""
+    return tuple(_sites())
+
+
+def _sites() -> Iterator[Site]:
     names = builders()
     for path, tree in SOURCES.items():
         if path.name == "errors.py" and path.parent == PACKAGE:

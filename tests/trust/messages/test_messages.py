@@ -105,7 +105,7 @@ def refusal_of(path: Path) -> DeckError:
 
 
 def test_no_error_is_made_without_an_identifier() -> None:
-    made = list(sites())
+    made = sites()
     assert len(made) > 400  # the walk finds them
     without = [site for site in made if site.identifier is None and not site.handed_on]
     # a table of messages by the names of pydantic gives their identifiers on
@@ -163,7 +163,7 @@ def test_every_error_as_it_is_printed(
         "by the printed line, and at least one test of its exact text, with its place where it is about a deck or a "
         "sweep file",
         {
-            "places in the program that make a message or an error": len(list(sites())),
+            "places in the program that make a message or an error": len(sites()),
             "identifiers": len(kinds),
             "identifiers with an entry": len(kinds & EXPLANATIONS.keys()),
             "printed errors compared with their exact text": len(lines),
