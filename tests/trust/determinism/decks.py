@@ -39,7 +39,7 @@ DECKS = (
     "ferris_wall_3",
     "ferris_wall_3_dilatancy",
     "ferris_wall_3_livesley",
-    "ferris_wall_3_lowest",
+    "ferris_wall_3_path",
     "ferris_wall_5",
     "glued_lintel",
     "groove",

@@ -15,7 +15,7 @@ from tests.trust.determinism.ways import FIRST, Left, Way, comma_locale, differe
 CLAIM = (
     "With a clock that stands still a deck gives the same files to the last byte: again, in another folder, with "
     "another hash seed, locale (decimal comma, POSIX), time zone, umask, with two threads, and beside other decks in "
-    "one process"
+    "one process; a search that is told to end by the clock is none of them"
 )
 AT_ONCE = 5
 """processes"""
