@@ -14,6 +14,7 @@ from mbla.deck.include import Reading, confined, read_files
 from mbla.deck.notices import notices_of
 from mbla.deck.overrides import apply_override
 from mbla.deck.references import check_references
+from mbla.deck.section import built
 from mbla.deck.tree import KeyPath, Tree
 from mbla.deck.types import DeckContent, UnitsSection
 from mbla.deck.units import Units
@@ -109,7 +110,7 @@ def _files(path: Path, text: str | None) -> tuple[Tree, Reading]:
 def _units(data: dict[str, Any]) -> Units:
     """Units of the deck; the defaults where they are at fault, which is reported with everything else."""
     try:
-        section = UnitsSection.model_validate(data.get("units", {}))
+        section = built(UnitsSection).model_validate(data.get("units", {}))
     except ValueError:
         return Units()
     return Units(section.length, section.force, section.mass)

@@ -17,6 +17,7 @@ from pydantic_core import PydanticCustomError
 
 from mbla.deck.wrong_values import wrong_values
 from mbla.errors import Message
+from mbla.signals import held_signals
 
 Finding: TypeAlias = tuple[tuple[str | int, ...], Message]
 """Key path below the section, and what is wrong there."""
@@ -34,6 +35,16 @@ def rule(section: type[S]) -> Callable[[Callable[[S], Iterator[Finding]]], Calla
         return function
 
     return register
+
+
+Model = TypeVar("Model", bound=BaseModel)
+
+
+def built(kind: type[Model]) -> type[Model]:
+    """A type whose validator is there; signals wait, as pydantic tells an interruption as a fault of the type."""
+    with held_signals():
+        kind.model_rebuild()
+    return kind
 
 
 class Section(BaseModel):

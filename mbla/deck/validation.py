@@ -12,6 +12,7 @@ from mbla.deck.fields import allowed_keys, description, sections_at
 from mbla.deck.names import PATTERNS
 from mbla.deck.refused_keys import refusal
 from mbla.deck.rules.exactly_one import KINDS
+from mbla.deck.section import built
 from mbla.deck.suggestions import did_you_mean, listed, unknown
 from mbla.deck.tree import KeyPath, MappingMarks, SequenceMarks, Tree, own_mark
 from mbla.deck.types import DeckContent
@@ -37,7 +38,7 @@ def validate(
     """
     wrong = WrongValues()
     try:
-        return root.model_validate(tree.data, context={"convert": convert, KEY: wrong}), []
+        return built(root).model_validate(tree.data, context={"convert": convert, KEY: wrong}), []
     except ValidationError as error:
         errors = _errors_of(error)
     except TooManyWrongError:
