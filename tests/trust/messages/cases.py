@@ -49,6 +49,7 @@ from mbla.studies.sweep.pictures.plot import SweepPictures, plot_sweep
 from mbla.studies.sweep.worker import child
 from mbla.studies.sweep.worker.supervised import SupervisedRunner
 from tests.deck.decks import BLOCK, changed, write
+from tests.results.changed_files import changing
 from tests.results.synthetic import tower_results
 from tests.solution.test_highs_adapter import ignored, linear_program
 from tests.studies.sweep.journal.points import HEADER, point
@@ -199,10 +200,8 @@ def result_of_zeros(folder: Path, patch: Patch) -> object:
 
 @brings("old-result-file")
 def result_of_an_earlier_layout(folder: Path, patch: Patch) -> object:
-    import h5py
-
     path = result(folder)
-    with h5py.File(path, "r+") as file:
+    with changing(path) as file:
         file.attrs["version"] = 1
     return command("show", str(path))
 

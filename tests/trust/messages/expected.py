@@ -42,7 +42,7 @@ EXPECTED: dict[str, tuple[str, ...]] = {
     "starter_over_an_earlier_deck": ("mbla: {folder}/deck.yaml: exists already; --force replaces it  [result-exists]",),
     "result_of_zeros": ("mbla: {folder}/a.h5: not an HDF5 file  [damaged-result-file]",),
     "result_of_an_earlier_layout": (
-        "mbla: {folder}/tower.h5: layout version 1, written by mbla 0.1.0; this mbla reads version 4: "
+        "mbla: {folder}/tower.h5: layout version 1, written by mbla 0.1.0; this mbla reads version 5: "
         "run the deck again; its text is in /deck/source_texts  [old-result-file]",
     ),
     "command_without_a_deck": ("mbla run: error: the following arguments are required: DECK  [command-line]",),
