@@ -30,8 +30,8 @@ def no_collection() -> Iterator[None]:
 def loading() -> Iterator[None]:
     """Import modules: the collector is paused, and passes over them, as over all else that is there, from then on.
 
-    Where none was new nothing is kept from it. Signals wait, as the libraries that are loaded do not let an
-    interruption through: pydantic tells it as a fault of the deck's types.
+    Where none was new nothing is kept from it. Signals wait, as libraries that are being loaded may tell an
+    interruption as an error of their own.
     """
     before = len(sys.modules)
     with no_collection(), held_signals():

@@ -104,11 +104,12 @@ def import_everything() -> None:
     import mbla.run_deck
     import mbla.studies.sweep.command
     import mbla.studies.sweep.file.read
+    from mbla.deck.section import built
     from mbla.deck.types import DeckContent
     from mbla.studies.sweep.file.content import SweepContent
 
-    DeckContent.model_rebuild()
-    SweepContent.model_rebuild()
+    built(DeckContent)
+    built(SweepContent)
     assert all((ezdxf, meshio, pint, mbla))
 
 
