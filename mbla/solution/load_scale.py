@@ -49,6 +49,10 @@ class LoadScale:
         """The scale of the lighter free block at every contact point, (n_points,)."""
         return self.of_lighter(contacts, self.block_scale(contacts, contact_forces))
 
+    def most_rounding(self, factor: float) -> float:
+        """What no scale is raised beyond for rounding of forces: those locked in may be as large as one likes."""
+        return self.mean + abs(factor) * self.live
+
     def of_lighter(self, contacts: Contacts, values: FloatArray) -> FloatArray:
         """The lesser of the values, (n_blocks,), of the free blocks at every contact point, (n_points,)."""
         scale = np.where(self.own > 0, values, np.inf)

@@ -33,7 +33,7 @@ PROVED_RESIDUAL = 2e-9
 
 ROUNDING = 1e-6
 """Share of the forces on a block that its scale is not less than there: thin light blocks pass on forces whose rounding
-is more than their weight."""
+is more than their weight. No more than the mean and the live load, or forces locked in would prove what one likes."""
 
 LARGE, LARGE_GAP = 30_000, 1e-5
 """Rows of equilibrium, 5,000 blocks in space, beyond which a mechanism that proves a load factor so close to the static
@@ -160,9 +160,8 @@ def _forces_prove(
     """Whether forces balance the loads within the yield conditions up to rounding."""
     unbalanced = unbalanced_loads(model, contacts, load_case, forces, factor, scale)
     excess = yield_violation(forces, limits)
-    rounding = ROUNDING * forces_on_blocks(
-        contacts, forces, len(scale.own)
-    )  # of each block: elsewhere they may be huge
+    passed_on = forces_on_blocks(contacts, forces, len(scale.own))  # of each block: elsewhere they may be huge
+    rounding = np.minimum(ROUNDING * passed_on, scale.most_rounding(factor))
     block_scale = np.maximum(scale.block_scale(contacts, forces), rounding)
     point_scale = scale.of_lighter(contacts, block_scale)
     return bool(np.all(unbalanced <= PROVED_RESIDUAL * block_scale) and np.all(excess <= PROVED_RESIDUAL * point_scale))

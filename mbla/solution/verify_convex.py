@@ -162,7 +162,7 @@ def _forces_prove(case: _Case, forces: FloatArray, factor: float) -> bool:
     """Whether forces balance the loads within all conditions up to rounding."""
     scale, contacts = case.scale, case.contacts
     unbalanced = unbalanced_loads(case.model, contacts, case.load_case, forces, factor, scale)
-    rounding = ROUNDING * float(np.abs(forces).max(initial=0.0))
+    rounding = min(ROUNDING * float(np.abs(forces).max(initial=0.0)), scale.most_rounding(factor))
     block_scale = np.maximum(scale.block_scale(contacts, forces), rounding)
     point_scale = np.maximum(scale.point_scale(contacts, forces), rounding)
     allowed = PROVED_RESIDUAL * point_scale

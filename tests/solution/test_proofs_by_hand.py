@@ -220,18 +220,18 @@ CLAMPED = "{ground: {x: 0}}, {ground: {point: [1, 0, 0], normal: [-1, 0, 0]}}"
 
 @pytest.mark.parametrize(("off", "proves"), [(0.9, True), (1.1, False)])
 def test_of_large_forces_more_may_be_rounding(off: float, proves: bool) -> None:
-    """Pressed between two walls with 2^30 at each of eight corners, which the weight hangs on: 1e-6 of the forces times
-    2e-9."""
+    """Pressed between two walls with 2^30 at each of eight corners, which the weight and a push of 2^23 hang on: 1e-6 of
+    the forces times 2e-9."""
     line = cube(supports=CLAMPED)
     line = replace(line, load_case=loaded(line.load_case, DEAD, (0, 8, 0, 0, 0, 0)))
     pressure = 2.0**30
     sign = np.where(line.contacts.bodies[line.contacts.interface_of_point][:, 1] == 0, 1.0, -1.0)
     allowed = 2e-9 * 1e-6 * 8 * pressure
-    hung = sign[:, None] * np.array([0.0, 0.0, (32.0 - off * allowed) / 8])
+    hung = sign[:, None] * np.array([0.0, -(2.0**20), (32.0 - off * allowed) / 8])
     forces = np.einsum("pjx,px->pj", line.contacts.frames, hung)
     forces[:, 0] = pressure
-    static, _ = proved(line, state(forces, np.array([(0, 0, 0, 0, 0, 0.0)]), 0.0))
-    assert (static == pytest.approx(0.0)) if proves else np.isnan(static)
+    static, _ = proved(line, state(forces, np.array([(0, 0, 0, 0, 0, 0.0)]), 2.0**20))
+    assert (static == pytest.approx(2.0**20)) if proves else np.isnan(static)
 
 
 def against_a_fall(line: Line, motion: tuple[float, ...]) -> tuple[str, ...]:
@@ -287,3 +287,16 @@ def test_the_first_motion_that_proves_it_counts_and_the_first_failure_is_told(
     assert against_a_fall(dry, (0, 0, 0, 0, 0, 0)) == NO_WORK
     mended["motions"] = mended["motions"][::-1]
     assert "closes joints" in against_a_fall(dry, (0, 0, 0, 0, 0, 0))[0]
+
+
+@pytest.mark.parametrize(("off", "proves"), [(7e-9, True), (4e-8, False)])
+def test_forces_locked_in_raise_no_bound(off: float, proves: bool) -> None:
+    """Corners sheared against each other by 1e8, beside which 3e-7 of the push is little, as it is not beside 32."""
+    bonded = block("friction: 0.5, cohesion: 1e10")
+    found = of_block(bonded, 2.0 + off, 4.0)
+    points, frames = bonded.contacts.points, bonded.contacts.frames
+    along = points[1] - points[0]
+    forces = found.contact_forces.copy()
+    for corner, side in ((0, 1e8), (1, -1e8)):
+        forces[corner, 1:] += side * (frames[corner] @ along)[1:]
+    assert np.isfinite(proved(bonded, replace(found, contact_forces=forces))[0]) == proves

@@ -416,12 +416,27 @@ def test_small_forces_charge_little(dry: Line) -> None:
 @pytest.mark.usefixtures("mended")
 @pytest.mark.parametrize(("off", "proves"), [(0.9, True), (1.1, False)])
 def test_of_large_forces_more_may_be_rounding(off: float, proves: bool) -> None:
-    """Pressed between two walls with 2^34 at each of eight corners, with the weight on them: 1e-6 of the largest force
-    times 2e-9."""
+    """Pressed between two walls with 2^34 at each of eight corners, with the weight and a push of 2^23 on them: 1e-6 of
+    the largest force times 2e-9."""
     line = cube(supports="{ground: {x: 0}}, {ground: {point: [1, 0, 0], normal: [-1, 0, 0]}}")
     line = replace(line, load_case=loaded(line.load_case, DEAD, (0, 8, 0, 0, 0, 0)))
     sign = np.where(line.contacts.bodies[line.contacts.interface_of_point][:, 1] == 0, 1.0, -1.0)
-    hung = sign[:, None] * np.array([0.0, 0.0, (32.0 - off * 2e-15 * 2.0**34) / 8])
+    hung = sign[:, None] * np.array([0.0, -(2.0**20), (32.0 - off * 2e-15 * 2.0**34) / 8])
+    forces = np.einsum("pjx,px->pj", line.contacts.frames, hung)
+    forces[:, 0] = 2.0**34
+    static, _ = proved(line, state(forces, np.zeros((1, 6)), 2.0**20))
+    assert (static == pytest.approx(2.0**20)) if proves else np.isnan(static)
+
+
+@pytest.mark.usefixtures("laws")
+@pytest.mark.usefixtures("mended")
+@pytest.mark.parametrize(("off", "proves"), [(0.9, True), (1.1, False)])
+def test_forces_locked_in_raise_no_bound(off: float, proves: bool) -> None:
+    """Without the push no more is rounding than 2e-9 of the weight, be the pressure what it may."""
+    line = cube(supports="{ground: {x: 0}}, {ground: {point: [1, 0, 0], normal: [-1, 0, 0]}}")
+    line = replace(line, load_case=loaded(line.load_case, DEAD, (0, 8, 0, 0, 0, 0)))
+    sign = np.where(line.contacts.bodies[line.contacts.interface_of_point][:, 1] == 0, 1.0, -1.0)
+    hung = sign[:, None] * np.array([0.0, 0.0, (32.0 - off * 2e-9 * 32.0) / 8])
     forces = np.einsum("pjx,px->pj", line.contacts.frames, hung)
     forces[:, 0] = 2.0**34
     static, _ = proved(line, state(forces, np.zeros((1, 6)), 0.0))
