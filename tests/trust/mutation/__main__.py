@@ -10,6 +10,7 @@ Exit status 1 where a survivor is not explained. An interrupt (Ctrl-C) ends a gr
 from __future__ import annotations
 
 import argparse
+import logging
 import sys
 import tempfile
 from pathlib import Path
@@ -26,6 +27,7 @@ def main() -> int:
     parser.add_argument("--seed", type=int, default=SEED, help="picks them")
     parser.add_argument("--output", type=Path, default=None, help="folder of the results as JSON")
     options = parser.parse_args()
+    logging.basicConfig(level=logging.INFO, format="%(message)s")
     with tempfile.TemporaryDirectory() as scratch:
         folder = options.output or Path(scratch)
         folder.mkdir(parents=True, exist_ok=True)

@@ -27,8 +27,13 @@ PASSED, FAILED, NOT_SWAPPED = 0, 1, 2
 class Forks:
     """Which mutants live, and which a test noticed.
 
-    longest : CPU seconds of a test with the right program, beyond which it is left out
+    longest : CPU seconds of a test with the right program, traced, beyond which it is left out
+
+    Pytest runs twice, quick tests first: what they notice costs little, and most is noticed by one of them.
     """
+
+    QUICK = 0.3
+    """CPU seconds of a quick test"""
 
     PATIENCE = 10.0
     """CPU seconds of tests that do not notice a mutant, after which it counts as a survivor"""
@@ -40,6 +45,8 @@ class Forks:
         self.left_out: list[str] = []
         self.files = {str(mutant.path) for mutant in self.alive}
         self.longest = longest
+        self.last_turn = False
+        self.done: set[str] = set()
         self.spent: dict[Mutant, float] = {}
         self.swapper: Swapper | None = None
 
@@ -53,25 +60,32 @@ class Forks:
     @pytest.hookimpl(tryfirst=True)
     def pytest_pyfunc_call(self, pyfuncitem: pytest.Function) -> bool:
         """The body of a test, its fixtures made: in forked processes only."""
+        test = pyfuncitem.nodeid
+        if test in self.done or not self.alive:
+            return True
         names = pyfuncitem._fixtureinfo.argnames
         arguments: dict[str, Any] = {name: pyfuncitem.funcargs[name] for name in names}
         folder = Folder(arguments.get("tmp_path"))
         body = lambda: pyfuncitem.obj(**arguments)  # noqa: E731
         lines: set[tuple[str, int]] = set()
         begun = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
-        if self.alive and self._right(body, lines) and folder.restored():
-            spent = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - begun
+        passed = self._right(body, lines) and folder.restored()
+        spent = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - begun
+        if not self.last_turn and not (passed and spent <= self.QUICK):
+            return True
+        self.done.add(test)
+        if passed:
             reached = [one for one in self.alive if any((str(one.path), line) in lines for line in one.lines)]
             files = {file for file, _ in lines}
             reached += [one for one in self.alive if one.named and str(one.path) in files]
             self.reached.update(reached)
             reached = [one for one in reached if self.spent.get(one, 0.0) < self.PATIENCE]
             if spent <= self.longest:
-                self._mutants(pyfuncitem.nodeid, body, reached, folder, spent)
+                self._mutants(test, body, reached, folder, spent)
             elif reached:
-                self.left_out.append(pyfuncitem.nodeid)
+                self.left_out.append(test)
         else:
-            self.left_out.append(pyfuncitem.nodeid)
+            self.left_out.append(test)
         return True
 
     def _right(self, body: Callable[[], object], lines: set[tuple[str, int]]) -> bool:
@@ -89,7 +103,7 @@ class Forks:
                 pipe.writelines(f"{line}\t{file}\n" for file, line in ran)
             return PASSED
 
-        status, said = _forked(traced, 600.0, read, write)
+        status, said = _forked(traced, 600.0, read, write, cpu=0.0 if self.last_turn else 2.0 * self.QUICK)
         lines.update((file, int(line)) for line, file in (text.split("\t") for text in said.splitlines()))
         return status == PASSED
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import importlib
 import json
+import logging
 import random
 from dataclasses import asdict, dataclass
 from pathlib import Path
@@ -15,6 +16,7 @@ from tests.trust.mutation.forks import Forks
 from tests.trust.mutation.groups import GROUPS, ROOT, Group
 from tests.trust.mutation.mutants import Mutant, mutants_of
 
+LOG = logging.getLogger(__name__)
 SAMPLE, SEED = 12, 1
 """mutants of each module, and the seed that picks them"""
 
@@ -74,11 +76,14 @@ def judged(group: Group, mutants: list[Mutant]) -> Judged:
     for path in files:
         importlib.import_module(module_name(path))
     forks = Forks(mutants, group.longest)
-    status = pytest.main(
-        ["-q", "-p", "no:cacheprovider", "-m", "not long and not trust", *map(str, group.test_files())], plugins=[forks]
-    )
-    if status not in (pytest.ExitCode.OK, pytest.ExitCode.TESTS_FAILED, pytest.ExitCode.INTERRUPTED):
-        raise RuntimeError(f"pytest ended with {status}")
+    tests = ["-q", "-p", "no:cacheprovider", "-m", "not long and not trust", *map(str, group.test_files())]
+    for forks.last_turn in (False, True):
+        status = pytest.main(tests, plugins=[forks])
+        if status not in (pytest.ExitCode.OK, pytest.ExitCode.TESTS_FAILED, pytest.ExitCode.INTERRUPTED):
+            raise RuntimeError(f"pytest ended with {status}")
+        if status == pytest.ExitCode.INTERRUPTED:
+            break
+        LOG.info("%d of %d mutants live", len(forks.alive), len(mutants))
     return Judged(
         modules=len(files),
         mutants=len(mutants),

@@ -63,7 +63,8 @@ def survivors(folder: Path, tests: str) -> list[str]:
         "from tests.trust.mutation.mutants import mutants_of\n"
         "path = Path('toy.py').resolve()\n"
         "forks = Forks(mutants_of(path, path.read_text()), 5.0)\n"
-        "pytest.main(['-q', '-p', 'no:cacheprovider', 'test_toy.py'], plugins=[forks])\n"
+        "for forks.last_turn in (False, True):\n"
+        "    pytest.main(['-q', '-p', 'no:cacheprovider', 'test_toy.py'], plugins=[forks])\n"
         "print(*(one.change for one in forks.alive), sep='\\n', file=sys.stderr)\n"
     )
     ended = subprocess.run([sys.executable, "-c", code], cwd=folder, capture_output=True, text=True, check=True)
