@@ -220,7 +220,7 @@ CLAMPED = "{ground: {x: 0}}, {ground: {point: [1, 0, 0], normal: [-1, 0, 0]}}"
 
 @pytest.mark.parametrize(("off", "proves"), [(0.9, True), (1.1, False)])
 def test_of_large_forces_more_may_be_rounding(off: float, proves: bool) -> None:
-    """Pressed between two walls with 2^30 at each of eight corners, which the weight and a push of 2^23 hang on: 1e-6 of
+    """Pressed between two walls with 2^30 at each of eight corners, which weight and a push of 2^23 hang on: 1e-6 of
     the forces times 2e-9."""
     line = cube(supports=CLAMPED)
     line = replace(line, load_case=loaded(line.load_case, DEAD, (0, 8, 0, 0, 0, 0)))

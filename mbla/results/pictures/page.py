@@ -11,6 +11,7 @@ import warnings
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
+from io import BytesIO
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
@@ -113,8 +114,10 @@ def open_page(path: Path, options: PictureOptions) -> Iterator[Page]:
     kind = format_of(path)
     with open_frames(options) as page:
         yield page
+        drawn = BytesIO()  # matplotlib tells of a PDF that it cannot write in words of its own
+        page.figure.savefig(drawn, format=kind, metadata=METADATA[kind])
         try:
-            page.figure.savefig(path, format=kind, metadata=METADATA[kind])
+            path.write_bytes(drawn.getbuffer())
         except OSError as error:
             raise FileError("file-not-written", f"{path}: {error.strerror or error}") from error
 

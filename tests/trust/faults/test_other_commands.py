@@ -103,7 +103,7 @@ class Scene:
         return True
 
 
-@pytest.mark.parametrize("name", ["check", "new"])
+@pytest.mark.parametrize("name", ["check", "new", "plot-pdf"])
 def test_a_write_that_fails(faulty: Commands, tmp_path: Path, name: str) -> None:
     assert Scene(faulty, tmp_path, COMMANDS[name]).fails("write", 2 if name == "check" else 1, "ENOSPC")
 

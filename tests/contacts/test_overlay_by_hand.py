@@ -1,0 +1,67 @@
+"""The mean plane of two planes, and the gap over it, beside the geometry of two planes."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from mbla.contacts.frames import frames_from_normals
+from mbla.contacts.overlay import Overlays, Planes, build_overlays, concatenate, gap_at, local_maps
+
+ANGLE = 0.1
+
+
+def overlay(height: float, size: float = 2.0, near: tuple[float, float, float] = (1.0, 0.5, 0.25)) -> Overlays:
+    """The plane z = 0 below one that rises along x, and is at a height above x = 0."""
+    tilted = np.array([[np.sin(ANGLE), 0.0, -np.cos(ANGLE)]])
+    return build_overlays(
+        bodies=np.array([[3, 7]]),
+        facets=np.array([[1, 2]]),
+        a=Planes(np.array([[5.0, -2.0, 0.0]]), np.array([[0.0, 0.0, 1.0]])),
+        b=Planes(np.array([[0.0, 4.0, height]]), tilted),
+        near=np.array([near]),
+        sizes=np.array([size]),
+    )
+
+
+@pytest.mark.parametrize("size", [0.5, 1.0, 2.0])
+@pytest.mark.parametrize("height", [-0.25, 0.0, 0.5])
+def test_the_mean_plane_is_halfway_and_the_gap_is_measured_across_it(height: float, size: float) -> None:
+    found = overlay(height, size)
+    normal = np.array([-np.sin(ANGLE / 2), 0.0, np.cos(ANGLE / 2)])
+    assert found.frames[0, 0] == pytest.approx(normal)
+    assert np.linalg.det(found.frames[0]) == pytest.approx(1.0)
+    assert np.cross(found.origins[0] - (1.0, 0.5, 0.25), normal) == pytest.approx(np.zeros(3))
+    for local in ((0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (-0.5, 2.0)):
+        point = found.origins[0] + size * np.array(local) @ found.frames[0, 1:]
+        below = -point[2] / normal[2]  # along the normal, down to z = 0
+        above = (height + point[0] * np.tan(ANGLE) - point[2]) / (normal[2] - normal[0] * np.tan(ANGLE))
+        assert above == pytest.approx(-below)
+        gap = gap_at(found, np.array([0]), np.array([local]))
+        assert gap == pytest.approx([(above - below) / size])
+
+
+def test_bodies_facets_and_sizes_are_kept() -> None:
+    found = concatenate([overlay(0.0), overlay(0.5, 1.0)])
+    assert len(found) == 2
+    assert found.sizes.tolist() == [2.0, 1.0]
+    assert found.bodies.tolist() == [[3, 7], [3, 7]]
+    assert found.facets.tolist() == [[1, 2], [1, 2]]
+    twice = found.take(np.array([1, 1, 0]))
+    assert twice.sizes.tolist() == [1.0, 1.0, 2.0]
+    for name in ("bodies", "facets", "origins", "frames", "gaps"):
+        values = getattr(found, name)
+        assert np.array_equal(getattr(twice, name), values[[1, 1, 0]])
+        assert np.array_equal(values[:1], getattr(overlay(0.0), name))
+
+
+def test_maps_from_a_facet_to_the_mean_plane() -> None:
+    """Points of a facet, written in its own frame, fall along the normal onto the mean plane."""
+    found = overlay(0.5)
+    origin = np.array([[0.3, -0.4, 0.7]])
+    frame = frames_from_normals(np.array([[0.6, 0.0, 0.8]]))
+    matrices, offsets = local_maps(found, origin, frame)
+    for flat in ((0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (2.0, -3.0)):
+        point = origin[0] + np.array(flat) @ frame[0, 1:]
+        expected = (point - found.origins[0]) @ found.frames[0, 1:].T / 2.0
+        assert matrices[0] @ flat + offsets[0] == pytest.approx(expected)
