@@ -1,0 +1,218 @@
+"""Programs in forces allow what the joint laws allow, point by point, and nothing else; so do velocities."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from mbla.arrays import FloatArray
+from mbla.program.associative_static import associative_static_form
+from mbla.program.fixed_mechanism import PointMotion, fixed_mechanism_form
+from mbla.program.kinematic import friction_polygon, kinematic_form
+from mbla.program.program import Program
+from mbla.program.static import LEAST_LIMIT, gravity_form, proximal_data, proximal_form
+from mbla.program.yield_conditions import YieldLimits, yield_violation
+from tests.program.random_points import balance, least_room, mixed_program, random_forces, slack
+
+BOTH = pytest.mark.parametrize("components", [2, 3])
+SEEDS = range(40)
+
+
+def one_point(program: Program, point: int) -> Program:
+    """The program with this point alone."""
+    c = program.components
+    limits = program.limits
+    fields = ("friction", "dilatancy", "cohesion", "tension", "compression")
+    return replace(
+        program,
+        equilibrium_matrix=program.equilibrium_matrix[:, c * point : c * point + c],
+        limits=YieldLimits(*(getattr(limits, name)[[point]] for name in fields)),
+    )
+
+
+def each_point(components: int) -> list[tuple[Program, FloatArray]]:
+    """Every kind of point by itself, with random forces on it."""
+    program, draw = mixed_program(components, 1), np.random.default_rng(2)
+    return [
+        (one_point(program, point), random_forces(program, draw)[[point]])
+        for _ in SEEDS
+        for point in range(program.n_points)
+    ]
+
+
+def within(program: Program, forces: FloatArray) -> bool:
+    return not yield_violation(forces, program.limits).any()
+
+
+@BOTH
+def test_gravity_form(components: int) -> None:
+    seen = set()
+    for program, forces in each_point(components):
+        form = gravity_form(program)
+        x = forces.ravel()
+        assert (least_room(form.cone_program, x) >= 0) == within(program, forces)
+        np.testing.assert_allclose(slack(form.cone_program, x)[:12], balance(program, forces, 0.0))
+        assert np.array_equal(form.forces(x), forces)
+        assert not form.cone_program.cost.any()
+        assert form.cone_program.quadratic is not None
+        assert form.cone_program.quadratic.tolist() == [1.0] * components
+        seen.add(within(program, forces))
+    assert seen == {False, True}
+
+
+@BOTH
+def test_proximal_form(components: int) -> None:
+    """Shear within given limits, normal forces within those of the law; the cost is least at the anchor."""
+    draw = np.random.default_rng(3)
+    for program, forces in each_point(components):
+        anchor, limit = random_forces(program, draw), draw.uniform(-0.25, 1.0, 1)
+        form = proximal_form(program, 2.0)
+        cost, rhs = proximal_data(form, 2.0, anchor, limit)
+        step = replace(form.cone_program, cost=cost, rhs=rhs)
+        x = np.append(forces.ravel(), 0.7)
+        law = program.limits
+        allowed = -law.tension[0] <= forces[0, 0] <= law.compression[0]
+        allowed &= bool(np.linalg.norm(forces[0, 1:]) <= max(limit[0], LEAST_LIMIT))
+        assert (least_room(step, x) >= 0) == allowed
+        np.testing.assert_allclose(slack(step, x)[:12], balance(program, forces, 0.7))
+        assert form.load_factor(x) == 0.7
+        assert np.array_equal(form.forces(x), forces)
+        assert step.quadratic is not None
+        value = cost @ x + 0.5 * step.quadratic @ x**2
+        apart = ((forces - anchor) ** 2).sum() - (anchor**2).sum()
+        assert value == pytest.approx(apart - 0.7)
+
+
+@BOTH
+def test_all_points_in_one_program(components: int) -> None:
+    """The rows of points lie one after the other, each beside its own forces."""
+    program = mixed_program(components, 4)
+    draw = np.random.default_rng(5)
+    inside = np.zeros((program.n_points, components))
+    inside[:, 0] = 0.25 * np.minimum(program.limits.compression, 1.0)
+    for point in range(program.n_points):
+        for _ in range(10):
+            forces = inside.copy()
+            forces[point] = random_forces(program, draw)[point]
+            allowed = within(program, forces)
+            assert (least_room(gravity_form(program).cone_program, forces.ravel()) >= 0) == allowed
+            form = associative_static_form(program)
+            sheared = (program.limits.friction > 0) | (program.limits.cohesion > 0)
+            if sheared[point]:
+                x = np.append(forces.ravel()[form.columns], 0.3)
+                assert (least_room(form.cone_program, x) >= 0) == allowed
+                np.testing.assert_allclose(slack(form.cone_program, x)[:12], balance(program, forces, 0.3))
+
+
+@BOTH
+def test_associative_form_in_forces(components: int) -> None:
+    for program, given in each_point(components):
+        sheared = bool(program.limits.friction[0] > 0 or program.limits.cohesion[0] > 0)
+        forces = given if sheared else given * np.eye(components)[0]
+        form = associative_static_form(program)
+        x = np.append(forces.ravel()[form.columns], 0.7)
+        assert np.array_equal(form.contact_forces(x), forces)
+        assert (least_room(form.cone_program, x) >= 0) == within(program, forces)
+        np.testing.assert_allclose(slack(form.cone_program, x)[:12], balance(program, forces, 0.7))
+        assert form.cone_program.cost @ x == -0.7
+
+
+@pytest.mark.parametrize(("circumscribed", "most"), [(False, 1.0), (True, 1.0 / np.cos(np.pi / 8))])
+def test_a_polygon_instead_of_the_circle(circumscribed: bool, most: float) -> None:
+    """Shear is bounded by the polygon turned about by half a turn: all of the circle or more, or no more than it."""
+    facets = friction_polygon(8, circumscribed)
+    for program, forces in each_point(3):
+        if not program.limits.friction[0] > 0:
+            continue
+        form = associative_static_form(program, facets)
+        assert form.cone_program.n_cones == 0
+        allowed = least_room(form.cone_program, np.append(forces.ravel(), 0.0)) >= 0
+        in_circle = within(program, forces)
+        far = within(program, forces / np.array([1.0, most, most]))
+        near = within(program, forces / np.array([1.0, np.cos(np.pi / 8), np.cos(np.pi / 8)]))
+        assert (in_circle <= allowed <= far) if circumscribed else (near <= allowed <= in_circle)
+
+
+def random_motion(program: Program, draw: np.random.Generator) -> PointMotion:
+    """A point that opens, crushes or neither, and slides or not."""
+    n, c = program.n_points, program.components
+    kind = draw.integers(0, 3, n)
+    shear = draw.normal(size=(n, c - 1))
+    crushes = (kind == 1) & np.isfinite(program.limits.compression)
+    return PointMotion(kind == 0, crushes, draw.random(n) < 0.5, shear / np.linalg.norm(shear, axis=1)[:, None])
+
+
+@BOTH
+def test_forces_under_a_given_mechanism(components: int) -> None:
+    draw = np.random.default_rng(6)
+    seen = set()
+    for program, _ in each_point(components):
+        law, motion = program.limits, random_motion(program, draw)
+        form = fixed_mechanism_form(program, motion)
+        y = draw.normal(size=form.expand.shape[1] + 1)
+        forces = form.forces(y)
+        normal, shear = forces[0, 0], forces[0, 1:]
+        strength = law.cohesion[0] + law.friction[0] * normal
+        if motion.opens[0]:
+            assert normal == -law.tension[0]
+        elif motion.crushes[0]:
+            assert normal == law.compression[0]
+        if motion.slides[0]:
+            assert shear == pytest.approx((max(strength, 0.0) if _held(motion) else strength) * motion.shear[0])
+        beyond = yield_violation(forces, law)[0] > 1e-12
+        if least_room(form.cone_program, y) >= 0:
+            assert not beyond
+            seen.add("allowed")
+        else:
+            assert beyond or (motion.slides[0] and strength < 0)
+            seen.add("not allowed")
+        np.testing.assert_allclose(slack(form.cone_program, y)[:12], balance(program, forces, form.load_factor(y)))
+        assert form.load_factor(y) == y[-1] == form.cone_program.cost @ y
+    assert seen == {"allowed", "not allowed"}
+
+
+def _held(motion: PointMotion) -> bool:
+    return bool(motion.opens[0] or motion.crushes[0])
+
+
+@BOTH
+def test_every_force_of_a_given_mechanism_is_there(components: int) -> None:
+    """As many unknowns as the law leaves free: the normal force at rest, and shear where it can be borne."""
+    draw = np.random.default_rng(7)
+    for program, _ in each_point(components):
+        law, motion = program.limits, random_motion(program, draw)
+        form = fixed_mechanism_form(program, motion)
+        normal = -law.tension[0] if motion.opens[0] else law.compression[0] if motion.crushes[0] else 1.0
+        sheared = not motion.slides[0] and law.cohesion[0] + law.friction[0] * normal > 0
+        assert form.expand.shape == (components, int(not _held(motion)) + (components - 1) * sheared)
+        assert np.linalg.matrix_rank(form.expand.toarray()) == form.expand.shape[1]
+
+
+@BOTH
+@pytest.mark.parametrize("reduce_dry", [True, False])
+def test_velocities_and_what_they_dissipate(components: int, reduce_dry: bool) -> None:
+    """With the least multipliers that allow the velocities the cost is dissipation less the power of the dead load."""
+    draw = np.random.default_rng(8)
+    seen = set()
+    for program, _ in each_point(components):
+        law = program.limits
+        form = kinematic_form(program, law, reduce_dry=reduce_dry)
+        u = draw.normal(size=12)
+        v = program.equilibrium_matrix.T @ u
+        sliding, n_p, n_d = np.linalg.norm(v[1:]), len(form.rows.frictional), len(form.rows.crushing)
+        crushed = max(law.friction[0] * sliding - v[0], 0.0) if n_d else 0.0
+        x = np.concatenate([u, np.full(n_p, sliding), np.full(n_d, crushed)])
+        allowed = v[0] + crushed >= law.friction[0] * sliding * (1 - 1e-12)
+        room = least_room(form.cone_program, x)
+        assert (room >= -1e-12 * (1 + sliding)) == allowed
+        assert slack(form.cone_program, x)[0] == pytest.approx(1.0 - program.live_load @ u)
+        opening = max(v[0] - law.friction[0] * sliding, 0.0)
+        dissipated = law.cohesion[0] * sliding + law.tension[0] * opening
+        dissipated += law.compression[0] * crushed if n_d else 0.0
+        if allowed:
+            assert form.cone_program.cost @ x == pytest.approx(dissipated - program.dead_load @ u)
+        assert np.array_equal(form.velocities(x), u)
+        seen.add(bool(allowed))
+    assert seen == {False, True}
