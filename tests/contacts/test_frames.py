@@ -33,3 +33,11 @@ def test_rounding_does_not_turn_the_tangents_of_a_bed_joint(tilt: float) -> None
     tilted = unit(np.array([[tilt, 0, 1], [-tilt, tilt, 1], [0, -tilt, 1]]))
     frames = frames_from_normals(tilted)
     np.testing.assert_allclose(frames[:, 1], np.broadcast_to([1, 0, 0], (3, 3)), atol=2 * tilt)
+
+
+def test_tangents_of_joints_that_are_nearly_level() -> None:
+    """Tangent 1 is x, made perpendicular to the normal."""
+    normals = unit(np.array([[0.009, 0, 1], [0.006, -0.005, -1], [-0.005, 0.005, 1]]))
+    frames = frames_from_normals(normals)
+    np.testing.assert_allclose(frames @ frames.transpose(0, 2, 1), np.broadcast_to(np.eye(3), (3, 3, 3)), atol=1e-15)
+    assert (frames[:, 1, 0] > 0.9999).all()

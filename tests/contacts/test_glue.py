@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from mbla.contacts import Contacts, find_contacts
-from mbla.contacts.glue import glue_blocks, held_model, solids_of
+from mbla.contacts.glue import glue_blocks, held_model, solid_sizes, solids_of
 from mbla.deck.types import ContactOverride, ContactsSection
 from mbla.model.model import LoadCase, Model
 from mbla.model.polyhedra import take_polyhedra
@@ -125,3 +125,29 @@ def test_blocks_that_are_glued_may_not_overlap_either() -> None:
     pair = boxes(([0, 0, 0], [1, 1, 1]), ([0, 0, 0.9], [1, 1, 2]))
     model = model_of(blocks_of(pair), grounds=(ground(),))
     assert len(find_contacts(model, ContactsSection(joint="glued")).report.overlaps) == 1
+
+
+def test_sizes_of_solids() -> None:
+    assert solid_sizes(np.array([0, 1, 0, 2, 2, 2, 3])).tolist() == [2, 3]
+    assert solid_sizes(np.array([0, 1])).tolist() == []
+    assert solid_sizes(None).tolist() == []
+
+
+def test_a_fixed_block_beside_one_that_glue_holds() -> None:
+    model = model_of(blocks_of(TOWER, GROUPS), fixed=[0], grounds=(ground(),))
+    overrides = [ContactOverride(between=pair, joint="glued") for pair in (("ground", "a"), ("a", "b"))]
+    contacts = find_contacts(model, ContactsSection(joint="dry", overrides=overrides))
+    assert held_model(model, contacts).fixed.tolist() == [True, True, False, False, False]
+    assert not model.fixed[1]
+
+
+def test_grounds_keep_their_order_behind_the_solids() -> None:
+    wall = ground(point=(0, 0, 0), normal=(1, 0, 0))
+    model = model_of(blocks_of(TOWER, GROUPS), grounds=(ground(), wall))
+    overrides = [ContactOverride(between=("d", "e"), joint="glued")]
+    contacts = find_contacts(model, ContactsSection(joint="dry", overrides=overrides))
+    assert contacts.bodies.tolist() == [[0, 1], [1, 2], [2, 3], [5, 0], *([6, block] for block in range(5))]
+    assert solids_of(model, contacts).contacts.bodies.tolist() == [
+        *([0, 1], [1, 2], [2, 3], [4, 0]),
+        *([5, block] for block in (0, 1, 2, 3, 3)),
+    ]

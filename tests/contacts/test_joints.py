@@ -180,3 +180,12 @@ def test_an_interface_at_the_limit_of_a_sloping_face() -> None:
     for orientation, law in (("bed", "mortar"), ("head", "dry")):
         given = ContactOverride.model_validate({"orientation": orientation, "joint": "mortar"})
         assert joints(find_contacts(model, ContactsSection(joint="dry", overrides=[given]))) == [law]
+
+
+@pytest.mark.parametrize(("top", "chosen"), [("0.4", [0.2, 0.4]), ("0.39", [0.2])])
+def test_a_box_holds_what_lies_on_its_border(top: str, chosen: list[float]) -> None:
+    """Centroids at 0.5, 0.5 and multiples of 0.2; the least corner is one of them as well."""
+    box = f"{{box: [[0, 0.5, 0.2], [0.5, 0.9, {top}]], joint: smooth}}"
+    line = line_of(f"{STACK}contacts: {{joint: dry, overrides: [{box}]}}\n")
+    smooth = line.contacts.joints == line.contacts.joint_names.index("smooth")
+    assert sorted(line.contacts.centroids[smooth, 2].tolist()) == pytest.approx(chosen, abs=1e-12)

@@ -129,3 +129,9 @@ def test_a_block_inside_another_is_called_that(turn: np.ndarray | None) -> None:
         "block[1] lies wholly inside block[0]: leave one of them out; a block has no hollows",
         "block[0] and block[2] overlap by 0.375 m, 0.13 of the block size: move them apart",
     ]
+
+
+def test_of_many_overlaps_the_first_are_told(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("mbla.contacts.overlaps.MOST_FAULTS", 2)
+    row = boxes(*(([0.9 * k, 0, 0], [0.9 * k + 1, 1, 1]) for k in range(6)))
+    assert overlaps_of(row).pairs.tolist() == [[0, 1], [1, 2], [2, 3]]

@@ -8,8 +8,10 @@ import numpy as np
 import pytest
 
 from mbla.contacts import ContactReport, find_contacts
+from mbla.contacts.near_misses import _on_same_facet
+from mbla.contacts.notices import overlap_messages
 from mbla.deck.units import Units
-from mbla.model.polyhedra import join_polyhedra
+from mbla.model.polyhedra import join_polyhedra, polyhedra_from_lists
 from tests.contacts.structures import any_rotation, blocks_of, boxes, contacts_of, ground, model_of, moved, section
 
 
@@ -153,3 +155,44 @@ def test_fixed_bodies_among_themselves_are_not_reported() -> None:
     report = contacts_of(pair, fixed=[0, 1]).report
     assert len(report.near_misses) == 0
     np.testing.assert_array_equal(report.isolated, [0, 1])
+
+
+def test_the_widest_sliver_is_told() -> None:
+    row = boxes(([0, 0, 0], [1, 1, 1]), ([0.9998, 0, 1], [2, 1, 2]), ([1.9993, 0, 0], [3, 1, 1]))
+    assert (
+        "2 common surfaces narrower than the tolerance of 0.001 dropped; the widest, between block[1] and block[2], "
+        "measures 0.0007 m"
+    ) in words(contacts_of(row).report)["slivers-dropped"]
+
+
+@pytest.mark.parametrize("order", [(0, 1, 2), (1, 2, 0), (2, 0, 1)])
+def test_a_pair_that_overlaps_is_no_near_miss_too(order: tuple[int, ...]) -> None:
+    """A hook that reaches into its neighbour at one place and nearly touches it at another; a third block apart."""
+    outline = [(0, 0), (1, 0), (1, 2.004), (3, 2.004), (3, 3), (0, 3)]
+    n = len(outline)
+    vertices = [[float(x), y, float(z)] for y in (0.0, 1.0) for x, z in outline]
+    sides = [list(reversed([k, (k + 1) % n, (k + 1) % n + n, k + n])) for k in range(n)]
+    faces = [list(range(n)), [n + k for k in reversed(range(n))], *sides]
+    parts = [polyhedra_from_lists([vertices], [faces]), boxes(([0.9, 0, 0], [3, 1, 2])), boxes(([9, 0, 0], [10, 1, 1]))]
+    report = contacts_of(join_polyhedra([parts[place] for place in order])).report
+    pair = sorted((order.index(0), order.index(1)))
+    assert report.overlaps.tolist() == [pair]
+    assert report.near_misses.tolist() == []
+
+
+def test_a_block_twice_in_one_place_lies_inside_the_other() -> None:
+    twice = boxes(([0, 0, 0], [1, 1, 1]), ([0, 0, 0], [1, 1, 1]))
+    model = model_of(blocks_of(twice))
+    report = find_contacts(model, section()).report
+    assert overlap_messages(model, report) == (
+        "block[0] lies wholly inside block[1]: leave one of them out; a block has no hollows",
+    )
+
+
+def test_near_misses_behind_contacts_of_the_same_facet() -> None:
+    """Rows that share a facet, beside all pairs looked at one by one; the ground is none."""
+    facets = np.array([3, -1, 0, 5, 3])
+    contacts = np.array([[-1, 3], [3, 0], [4, 2], [0, 7]])
+    miss, contact = _on_same_facet(facets, contacts)
+    pairs = [(m, c) for m, one in enumerate(facets) for c, two in enumerate(contacts) if one >= 0 and one in two]
+    assert sorted(zip(miss.tolist(), contact.tolist(), strict=True)) == sorted(pairs)
