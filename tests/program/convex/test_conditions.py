@@ -1,0 +1,119 @@
+"""The rows of torsion and crushing allow the resultants that the formulas of these modules allow, and no others."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+import scipy.sparse as sp
+
+from mbla.arrays import FloatArray
+from mbla.deck.types import AnalysisSection
+from mbla.program.convex.conditions import M1, M2, MN, ConditionRows, N
+from mbla.program.convex.crushing import CrushingLimits, crushing_limits, crushing_rows
+from mbla.program.convex.shapes import InterfaceShapes
+from mbla.program.convex.torsion import TorsionLimits, torsion_limits, torsion_rows
+from mbla.program.kinematic import ConeProgram
+from mbla.solution.clarabel_adapter import ClarabelProgram
+from mbla.solution.settings import solver_settings
+from tests.program.convex.test_shapes import shapes_of
+
+RECTANGLE = shapes_of((0, 0), (1.25, 0), (1.25, 0.75), (0, 0.75))
+TRIANGLE = shapes_of((0, 0), (1.0, 0), (0.25, 0.75))
+FORMS = pytest.mark.parametrize("shapes", [RECTANGLE, TRIANGLE], ids=["rectangle", "triangle"])
+
+
+def least_power(rows: ConditionRows, resultants: FloatArray) -> float:
+    """Least of r·(motion) + cost over the multipliers in their cones, as large as 1 at most: 0 where r is allowed."""
+    power = rows.motion.T @ resultants + rows.cost
+    n, first = len(power), np.cumsum(rows.cone_sizes) - rows.cone_sizes
+    heads = rows.cones[first].sum(axis=0)
+    order = np.argsort(rows.cone_sizes > 1, kind="stable")
+    where = [np.arange(first[k], first[k] + rows.cone_sizes[k]) for k in order]
+    cones = rows.cones[np.concatenate(where)]
+    n_lines = int((rows.cone_sizes == 1).sum())
+    program = ConeProgram(
+        cost=power,
+        matrix=sp.csc_array(sp.vstack([sp.csr_array(heads[None, :]), -cones])),
+        rhs=np.concatenate([[1.0], np.zeros(cones.shape[0])]),
+        n_half_lines=n_lines + 1,
+        n_cones=0,
+        n_equations=0,
+        further_cones=tuple(int(size) for size in rows.cone_sizes[order][n_lines:]),
+    )
+    assert program.matrix.shape[1] == n
+    found = ClarabelProgram(program, solver_settings(AnalysisSection()), lambda *_: None).solve(1, 1.0)
+    return float(power @ found.x)
+
+
+def torsion_allowed(limits: TorsionLimits, shapes: InterfaceShapes, r: FloatArray) -> bool:
+    """t² ≤ (R − m)(R + (1 − θ) m), m ≤ R, with the most that R may be."""
+    friction, cohesion, theta = limits.friction[0], limits.cohesion[0], limits.thetas[0]
+    moments = np.array([-r[M2], r[M1]])
+    slopes = shapes.edge_slopes()
+    if shapes.rectangles[0]:
+        reach = np.abs(limits.corners[:2] @ shapes.axes[0].T).max(axis=0)
+        ways = np.array([(one, two) for one in (1, -1) for two in (1, -1)]) / reach
+        slopes = ways @ shapes.axes[0]
+    share = min(friction * (r[N] - slope @ moments) + cohesion for slope in slopes)
+    strength = friction * r[N] + cohesion
+    share, twist = min(share, strength), abs(r[MN]) / limits.radii[0]
+    beyond = max(np.hypot(r[1], r[2]) - strength + share, 0.0)
+    return bool(share >= 0 and twist <= share and beyond**2 <= (share - twist) * (share + (1 - theta) * twist))
+
+
+def crushing_allowed(limits: CrushingLimits, rectangle: bool, r: FloatArray) -> bool:
+    """N³ ≤ F Q_1 Q_2 with the least bounds of each."""
+    normal = r[N] + limits.tension[0]
+    moments = np.array([-r[M2], r[M1]])
+    bounds = normal - limits.slopes @ moments
+    pair = (bounds[:2].min(), bounds[2:].min()) if rectangle else (bounds.min(), bounds.min())
+    return bool(normal >= 0 and min(pair) >= 0 and normal**3 <= limits.strength[0] * pair[0] * pair[1])
+
+
+def random_resultants(draw: np.random.Generator, normal: float, size: float) -> FloatArray:
+    return np.concatenate([[normal], draw.uniform(-size, size, 3), 0.3 * draw.uniform(-size, size, 2)])
+
+
+def agrees(rows: ConditionRows, r: FloatArray, allowed: bool) -> bool:
+    least = least_power(rows, r)
+    return least > -1e-7 if allowed else least < -1e-12
+
+
+@FORMS
+@pytest.mark.parametrize(("friction", "cohesion"), [(0.5, 0.0), (0.5, 0.25), (0.0, 0.5)])
+def test_torsion(shapes: InterfaceShapes, friction: float, cohesion: float) -> None:
+    limits = torsion_limits(shapes, np.array([friction]), np.array([cohesion]))
+    rows = torsion_rows(limits, 1)
+    draw, seen = np.random.default_rng(1), set()
+    for _ in range(60):
+        r = random_resultants(draw, draw.uniform(0.25, 2.0), 0.5)
+        r[MN] *= limits.radii[0]
+        allowed = torsion_allowed(limits, shapes, r)
+        assert agrees(rows, r, allowed), (r, allowed)
+        seen.add(allowed)
+    assert seen == {False, True}
+
+
+@FORMS
+@pytest.mark.parametrize("tension", [0.0, 0.25])
+def test_crushing(shapes: InterfaceShapes, tension: float) -> None:
+    rectangles, others = crushing_limits(shapes, np.array([2.0]), np.array([tension]))
+    rectangle = bool(shapes.rectangles[0])
+    limits = rectangles if rectangle else others
+    assert len(rectangles.interfaces) + len(others.interfaces) == 1
+    assert limits.strength.tolist() == [2.0 + tension]
+    rows = crushing_rows(rectangles, others, 1)
+    draw, seen = np.random.default_rng(2), set()
+    for _ in range(60):
+        r = random_resultants(draw, draw.uniform(-0.5, 2.5), 0.75)
+        allowed = crushing_allowed(limits, rectangle, r)
+        assert agrees(rows, r, allowed), (r, allowed)
+        seen.add(allowed)
+    assert seen == {False, True}
+
+
+def test_interfaces_without_the_condition_are_left_out() -> None:
+    none = np.array([0.0])
+    assert torsion_rows(torsion_limits(RECTANGLE, none, none), 1).cost.size == 0
+    rectangles, others = crushing_limits(RECTANGLE, np.array([np.inf]), none)
+    assert crushing_rows(rectangles, others, 1).cost.size == 0
