@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+import numpy as np
 import pytest
 
+from mbla.arrays import FloatArray
+from mbla.contacts.glued_guides import guides_at_odds
 from mbla.errors import DeckError
+from mbla.model.guides import Guides
 from tests.line import HEAD, case_of, factor_of
 
 TOWER = (
@@ -89,3 +93,28 @@ def test_a_body_on_a_support_that_gives_way() -> None:
     assert settlement is not None
     reaction = settlement.reaction(case.solution.mechanics.load_factor)
     assert reaction == pytest.approx(2 * 2000 * 9.81, rel=1e-6)
+
+
+def test_loads_that_cancel_on_one_body_beside_another_that_has_none() -> None:
+    """0.1 + 0.2 − 0.3 is no zero in binary."""
+    forces = ", ".join(f"{{force: [0, 0, {size}], on: {on}}}" for size, on in ((0.1, "b"), (0.2, "b"), (-0.3, "c")))
+    words = message(tower("[b,c]", case=f"{{live: [{forces}]}}"))
+    assert "the live loads have no effect" in words
+
+
+def guides_of(motions: list[FloatArray], bodies: list[int]) -> Guides:
+    return Guides(np.arange(len(motions)), np.array(bodies), np.array(motions))
+
+
+def test_guides_that_differ_in_one_motion_alone() -> None:
+    """Two blocks of one solid, one above the other; turning about y moves the upper one along x."""
+    label, arms = np.array([0, 0]), np.array([[0, 0, -0.5], [0, 0, 0.5]])
+    lower, upper = np.zeros((6, 6)), np.zeros((6, 6))
+    lower[:, 0], upper[:, 0] = (-0.5, 0, 0, 0, 1, 0), (0.5, 0, 0, 0, 1, 0)
+    assert guides_at_odds(guides_of([lower, upper], [0, 0]), label, arms) is None
+    assert guides_at_odds(guides_of([lower, upper], [0, 1]), label, arms) == (0, 1)
+    for off, odd in ((1e-12, None), (1e-3, (0, 1))):
+        slipped = upper.copy()
+        slipped[0, 0] += off
+        assert guides_at_odds(guides_of([lower, slipped], [0, 0]), label, arms) == odd
+    assert guides_at_odds(guides_of([lower, slipped], [0, 0]), np.array([0, 1]), arms) is None

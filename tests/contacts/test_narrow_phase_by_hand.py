@@ -121,3 +121,16 @@ def test_surfaces_that_are_given() -> None:
     flat = shapely.get_coordinates(found.polygons[0])[:3]
     in_space = found.overlays.origins[0] + flat @ found.overlays.frames[0, 1:]
     assert in_space == pytest.approx(np.array(triangle))
+
+
+@pytest.mark.parametrize("order", [(0, 1), (1, 0)])
+@pytest.mark.parametrize("side", range(6))
+def test_every_facet_has_a_size(side: int, order: tuple[int, int]) -> None:
+    """A cube covered on one side by a face four times as large: all of it, whichever of its facets that is."""
+    axis, up = side % 3, side // 3
+    least = np.full(3, -0.5)
+    least[axis] = 1.0 if up else -2.0
+    pair = [([0.0, 0.0, 0.0], [1.0, 1.0, 1.0]), (least.tolist(), (least + 2.0).tolist())]
+    found = found_between(*(pair[place] for place in order))
+    assert len(found) == 1
+    assert found.coverage == pytest.approx([1.0])

@@ -4,8 +4,15 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
 import pytest
+import shapely
 
+from mbla.contacts.corners import Corners
+from mbla.contacts.narrow_phase import Patches
+from mbla.contacts.outline_notices import outline_notices
+from mbla.contacts.overlay import Overlays
+from tests.contacts.structures import blocks_of, boxes, model_of, section
 from tests.line import line_of
 
 DRUMS = """\
@@ -41,3 +48,27 @@ def test_the_share_of_the_area_is_told() -> None:
 @pytest.mark.parametrize("overrides", [("parameters.n=24",), ("parameters.eps=1.e-5",)])
 def test_nothing_is_said_where_every_corner_stays(overrides: tuple[str, ...]) -> None:
     assert not remarks(*overrides)
+
+
+def told(*drawn: float) -> list[str]:
+    """Of three unit squares drawn by four, five and six corners, with these areas."""
+    n = len(drawn)
+    nothing = np.zeros(n)
+    overlays = Overlays(
+        np.array([[k, k + 1] for k in range(n)]), np.zeros((n, 2), dtype=np.int64), np.zeros((n, 3)),
+        np.zeros((n, 3, 3)), np.ones(n), np.zeros((n, 3)),
+    )  # fmt: skip
+    squares = np.array([shapely.box(0, 0, 1, 1)] * n, dtype=object)
+    patches = Patches(overlays, squares, np.ones(n), nothing, nothing, nothing)
+    counts = np.arange(n) + 4
+    corners = Corners(np.zeros((counts.sum(), 2)), np.append(0, np.cumsum(counts)), np.arange(n))
+    model = model_of(blocks_of(boxes(*(([k, 0, 0], [k + 1, 1, 1]) for k in range(n + 1)))))
+    return [one.message for one in outline_notices(model, section(), patches, corners, np.array(drawn))]
+
+
+def test_the_outline_that_changed_most_is_told() -> None:
+    (text,) = told(1.0, 0.97, 1.01)
+    assert "the area of 2 common surfaces, most that of block[1] and block[2], drawn by 5 corners, by 3 %" in text
+    (alone,) = told(1.0, 1.0, 1.0 - 1.1e-4)
+    assert "the area of 1 common surface, most that of block[2] and block[3], drawn by 6 corners, by 0.011 %" in alone
+    assert told(1.0, 1.0 + 0.9e-4, 1.0 - 0.9e-4) == []

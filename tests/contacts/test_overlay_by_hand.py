@@ -8,17 +8,18 @@ import pytest
 from mbla.contacts.frames import frames_from_normals
 from mbla.contacts.overlay import Overlays, Planes, build_overlays, concatenate, gap_at, local_maps
 
-ANGLE = 0.1
+ANGLE, TOWARDS = 0.1, np.array([0.6, 0.8])
+"""Of the upper plane, which rises along a direction between x and y."""
 
 
 def overlay(height: float, size: float = 2.0, near: tuple[float, float, float] = (1.0, 0.5, 0.25)) -> Overlays:
-    """The plane z = 0 below one that rises along x, and is at a height above x = 0."""
-    tilted = np.array([[np.sin(ANGLE), 0.0, -np.cos(ANGLE)]])
+    """The plane z = 0 below one that rises, and is at a height above the origin."""
+    tilted = np.array([[*(np.sin(ANGLE) * TOWARDS), -np.cos(ANGLE)]])
     return build_overlays(
         bodies=np.array([[3, 7]]),
         facets=np.array([[1, 2]]),
         a=Planes(np.array([[5.0, -2.0, 0.0]]), np.array([[0.0, 0.0, 1.0]])),
-        b=Planes(np.array([[0.0, 4.0, height]]), tilted),
+        b=Planes(np.array([[-8.0, 6.0, height]]), tilted),
         near=np.array([near]),
         sizes=np.array([size]),
     )
@@ -28,14 +29,15 @@ def overlay(height: float, size: float = 2.0, near: tuple[float, float, float] =
 @pytest.mark.parametrize("height", [-0.25, 0.0, 0.5])
 def test_the_mean_plane_is_halfway_and_the_gap_is_measured_across_it(height: float, size: float) -> None:
     found = overlay(height, size)
-    normal = np.array([-np.sin(ANGLE / 2), 0.0, np.cos(ANGLE / 2)])
+    normal = np.array([*(-np.sin(ANGLE / 2) * TOWARDS), np.cos(ANGLE / 2)])
     assert found.frames[0, 0] == pytest.approx(normal)
     assert np.linalg.det(found.frames[0]) == pytest.approx(1.0)
     assert np.cross(found.origins[0] - (1.0, 0.5, 0.25), normal) == pytest.approx(np.zeros(3))
     for local in ((0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (-0.5, 2.0)):
         point = found.origins[0] + size * np.array(local) @ found.frames[0, 1:]
         below = -point[2] / normal[2]  # along the normal, down to z = 0
-        above = (height + point[0] * np.tan(ANGLE) - point[2]) / (normal[2] - normal[0] * np.tan(ANGLE))
+        rises = np.tan(ANGLE)
+        above = (height + point[:2] @ TOWARDS * rises - point[2]) / (normal[2] - normal[:2] @ TOWARDS * rises)
         assert above == pytest.approx(-below)
         gap = gap_at(found, np.array([0]), np.array([local]))
         assert gap == pytest.approx([(above - below) / size])
