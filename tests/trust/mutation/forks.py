@@ -68,9 +68,9 @@ class Forks:
         folder = Folder(arguments.get("tmp_path"))
         body = lambda: pyfuncitem.obj(**arguments)  # noqa: E731
         lines: set[tuple[str, int]] = set()
-        begun = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
+        begun = _processor()
         passed = self._right(body, lines) and folder.restored()
-        spent = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - begun
+        spent = _processor() - begun
         if not self.last_turn and not (passed and spent <= self.QUICK):
             return True
         self.done.add(test)
@@ -126,8 +126,9 @@ class Forks:
         limit = 30.0 + 20.0 * spent
         for mutant in reached:
             wrong_codes(mutant)  # compiled here, once for all tests
+            begun = _processor()
             status, _ = _forked(lambda mutant=mutant: wrong(mutant), limit, cpu=2.0 + 3.0 * spent)  # type: ignore[misc]
-            self.spent[mutant] = self.spent.get(mutant, 0.0) + spent
+            self.spent[mutant] = self.spent.get(mutant, 0.0) + _processor() - begun
             if folder.restored() and status not in (PASSED, NOT_SWAPPED):
                 noticed.append(mutant)
         if not noticed:
@@ -157,6 +158,11 @@ class Folder:
             shutil.rmtree(self.path, ignore_errors=True)
             shutil.copytree(self.kept, self.path, symlinks=True)
         return True
+
+
+def _processor() -> float:
+    """Seconds of user time that processes forked here took, those that have ended."""
+    return resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
 
 
 def _tracer(files: set[str], ran: set[tuple[str, int]]) -> Callable[[FrameType, str, Any], Any]:
