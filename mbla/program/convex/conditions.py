@@ -75,9 +75,3 @@ def joined(conditions: Sequence[ConditionRows]) -> ConditionRows:
         cones=sp.csr_array(sp.block_diag([condition.cones for condition in conditions])),
         cone_sizes=np.concatenate([condition.cone_sizes for condition in conditions]),
     )
-
-
-def nothing(n_interfaces: int) -> ConditionRows:
-    """The condition that never applies."""
-    none = np.zeros(0, dtype=np.int64)
-    return ConditionRows(sp.csr_array((6 * n_interfaces, 0)), np.zeros(0), sp.csr_array((0, 0)), none)
