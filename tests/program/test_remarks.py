@@ -1,12 +1,17 @@
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
+from mbla.contacts import find_contacts
+from mbla.model.model import Joint
+from mbla.model.polyhedra import join_polyhedra
 from mbla.program.remarks import program_notices
 from mbla.results.series import factor_of
 from mbla.run_deck import RunOptions, run
+from tests.contacts.structures import blocks_of, boxes, ground, model_of, prism, section
 from tests.line import BLOCK, line_of
 
 
@@ -76,3 +81,23 @@ def test_the_excess_of_points_that_also_bear_tension(tmp_path: Path, parts: int)
     excess = moment - strengths * b * a * (h - a) / 2
     bound = strengths * b * h**2 / (8 * parts**2)
     assert 0.8 * bound < excess <= bound
+
+
+@pytest.mark.parametrize(("count", "words"), [(1, "1 interface with a"), (2, "2 interfaces with a")])
+def test_outlines_without_a_stress_block_are_counted(count: int, words: str) -> None:
+    """Prisms over an L on each other and on the ground, and a box beside them, which has one."""
+    outline = [[0, 0], [2, 0], [2, 1], [1, 1], [1, 2], [0, 2]]
+    tiers = [prism(outline, float(k), k + 1.0) for k in range(count)]
+    blocks = blocks_of(join_polyhedra([*tiers, boxes(([5, 0, 0], [6, 1, 1]))]))
+    model = model_of(blocks, grounds=(ground(),))
+    assert program_notices(model, find_contacts(model, section()), "convex") == ()
+    strong = replace(model, joints={"dry": Joint("dry", 0.65, compressive_strength=1e6)})
+    (notice,) = program_notices(strong, find_contacts(strong, section()), "convex")
+    assert notice.identifier == "crushing-by-points"
+    assert notice.message.startswith(words)
+
+
+def test_without_interfaces_there_is_nothing_to_say() -> None:
+    model = model_of(blocks_of(boxes(([0, 0, 0], [1, 1, 1]), ([5, 0, 0], [6, 1, 1]))))
+    for contact_model in ("concave", "convex"):
+        assert program_notices(model, find_contacts(model, section()), contact_model) == ()

@@ -1,0 +1,26 @@
+"""The size of a program with conditions on interfaces."""
+
+from __future__ import annotations
+
+import pytest
+
+from mbla.program.convex.assemble import assemble_convex
+from mbla.program.convex.size import size_of_convex
+from tests.line import BLOCK, WALL, line_of
+
+
+@pytest.mark.parametrize(
+    ("text", "strength", "of_each"),
+    [(WALL, (), (8, 2)), (BLOCK, (), (8, 2)), (BLOCK, ("joints.dry.compressive_strength=1e6",), (8 + 9, 2 + 3))],
+    ids=["wall", "block", "block that can crush"],
+)
+def test_every_interface_adds_the_unknowns_and_cones_of_its_conditions(
+    text: str, strength: tuple[str, ...], of_each: tuple[int, int]
+) -> None:
+    """Torsion: 8 unknowns, 2 cones; a stress block on a rectangle: 5 and one for each of 4 bounds, 3 cones."""
+    line = line_of(text, *strength)
+    size = size_of_convex(assemble_convex(line.model, line.contacts, line.load_case))
+    n_free, n_points, n = len(line.model.free), len(line.contacts.points), len(line.contacts)
+    assert size.unknowns == size.largest == 6 * n_free + of_each[0] * n
+    assert size.cones == n_points + of_each[1] * n
+    assert size.entries > line.program.equilibrium_matrix.nnz
