@@ -17,7 +17,7 @@ from mbla.program.yield_conditions import YieldLimits, yield_violation
 from tests.program.random_points import balance, least_room, mixed_program, random_forces, slack
 
 BOTH = pytest.mark.parametrize("components", [2, 3])
-SEEDS = range(12)
+SEEDS = range(6)
 
 
 def one_point(program: Program, point: int) -> Program:

@@ -25,7 +25,7 @@ from tests.solution.condensed.random_programs import (
 )
 from tests.solution.condensed.raw_programs import CERTAIN, disagreement, raw_programs, solved_by_both
 
-SHORT = range(60)
+SHORT = range(40)
 LONG = range(1000)
 
 UNUSUAL = 2.0
@@ -110,7 +110,7 @@ def compared_raw(seeds: range) -> tuple[Counter[tuple[str, str]], list[str]]:
 
 
 def test_single_cone_programs_have_the_same_optimum() -> None:
-    certain, disagreements = compared_raw(range(20))
+    certain, disagreements = compared_raw(range(10))
     assert disagreements == []
     for kind in ("kinematic", "reversed", "gravity", "proximal", "static"):
         assert certain[kind, "mbla"] >= certain[kind, "clarabel"] - 1, (kind, certain)
