@@ -126,11 +126,13 @@ def perforated_wall(number: int) -> Polyhedra:
     return cuboids(np.array(least), np.array(greatest))
 
 
-def moved(polyhedra: Polyhedra, scale: float = 1.0, turn: FloatArray | None = None, shift: float = 0.0) -> Polyhedra:
-    """Scaled, turned by a rotation matrix, and shifted along (1, 1, 1)."""
+def moved(
+    polyhedra: Polyhedra, scale: float = 1.0, turn: FloatArray | None = None, shift: float | Sequence[float] = 0.0
+) -> Polyhedra:
+    """Scaled, turned by a rotation matrix, and shifted along (1, 1, 1) or by a vector."""
     rotation = np.eye(3) if turn is None else turn
     return Polyhedra(
-        vertices=scale * polyhedra.vertices @ rotation.T + shift,
+        vertices=scale * polyhedra.vertices @ rotation.T + np.asarray(shift),
         vertex_start=polyhedra.vertex_start,
         loops=polyhedra.loops,
         loop_start=polyhedra.loop_start,
@@ -158,6 +160,11 @@ def prism(outline: Sequence[Sequence[float]], bottom: float, top: float) -> Poly
     faces: list[Sequence[int]] = [range(n), range(n, 2 * n)]
     faces += [[i, (i + 1) % n, n + (i + 1) % n, n + i] for i in range(n)]
     return polyhedra_from_lists([vertices], [faces])
+
+
+def profile(outline: Sequence[Sequence[float]]) -> Polyhedra:
+    """Prism from y = 0 to 1 over a simple polygon in the plane of x and z."""
+    return moved(prism(outline, -1.0, 0.0), turn=np.array([[1.0, 0, 0], [0, 0, -1.0], [0, 1.0, 0]]))
 
 
 def exported(name: str) -> Path | None:

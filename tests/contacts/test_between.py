@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 
@@ -93,11 +91,7 @@ def prism(outline: list[tuple[float, float]]) -> Polyhedra:
 def test_the_pair_farthest_apart_is_told() -> None:
     """A small pair with a wide gap for its size, and a large one with a wider one."""
     small, large = on_foot(2e-3, 0.2), on_foot(1e-3, 0.2)
-    both = join_polyhedra([moved(small, scale=0.25), _aside(large, 5.0)])
+    both = join_polyhedra([moved(small, scale=0.25), moved(large, shift=[5.0, 0.0, 0.0])])
     told = said(contacts_of(both, grounds=(ground(),), tolerance=4e-3))["thin-block-between"]
     assert told.startswith("2 common surfaces within the tolerance left out")
     assert "ground and block[3] stand 0.001 m, 0.001 of the block size apart on block[2], and others" in told
-
-
-def _aside(polyhedra: Polyhedra, along: float) -> Polyhedra:
-    return replace(polyhedra, vertices=polyhedra.vertices + np.array([along, 0.0, 0.0]))

@@ -10,7 +10,7 @@ from mbla.contacts.coplanar import facets_on_one_plane
 from mbla.contacts.facets import Facets, build_facets
 from mbla.model.blocks import Blocks
 from mbla.model.polyhedra import Polyhedra, join_polyhedra, polyhedra_from_lists
-from tests.contacts.structures import any_rotation, blocks_of, boxes, moved
+from tests.contacts.structures import any_rotation, blocks_of, boxes, moved, profile
 
 
 def cut_top(at: float = 0.25) -> Polyhedra:
@@ -54,11 +54,7 @@ def test_facets_are_numbered_in_order_of_blocks() -> None:
 def bracket() -> Blocks:
     """A block on two feet, whose soles lie on one plane but share no edge, and a box."""
     outline = [(0, 0), (1, 0), (1, 1), (2, 1), (2, 0), (3, 0), (3, 2), (0, 2)]
-    n = len(outline)
-    vertices = [[float(x), y, float(z)] for y in (0.0, 1.0) for x, z in outline]
-    sides = [[k, (k + 1) % n, (k + 1) % n + n, k + n] for k in range(n)]
-    faces = [list(range(n)), [n + k for k in reversed(range(n))], *[list(reversed(side)) for side in sides]]
-    return blocks_of(join_polyhedra([polyhedra_from_lists([vertices], [faces]), boxes(([5, 0, 0], [6, 1, 1]))]))
+    return blocks_of(join_polyhedra([profile(outline), boxes(([5, 0, 0], [6, 1, 1]))]))
 
 
 def test_two_soles_on_one_plane_are_one_facet() -> None:

@@ -11,8 +11,18 @@ from mbla.contacts import ContactReport, find_contacts
 from mbla.contacts.near_misses import _on_same_facet
 from mbla.contacts.notices import overlap_messages
 from mbla.deck.units import Units
-from mbla.model.polyhedra import join_polyhedra, polyhedra_from_lists
-from tests.contacts.structures import any_rotation, blocks_of, boxes, contacts_of, ground, model_of, moved, section
+from mbla.model.polyhedra import join_polyhedra
+from tests.contacts.structures import (
+    any_rotation,
+    blocks_of,
+    boxes,
+    contacts_of,
+    ground,
+    model_of,
+    moved,
+    profile,
+    section,
+)
 
 
 def words(report: ContactReport) -> dict[str, str]:
@@ -169,11 +179,7 @@ def test_the_widest_sliver_is_told() -> None:
 def test_a_pair_that_overlaps_is_no_near_miss_too(order: tuple[int, ...]) -> None:
     """A hook that reaches into its neighbour at one place and nearly touches it at another; a third block apart."""
     outline = [(0, 0), (1, 0), (1, 2.004), (3, 2.004), (3, 3), (0, 3)]
-    n = len(outline)
-    vertices = [[float(x), y, float(z)] for y in (0.0, 1.0) for x, z in outline]
-    sides = [list(reversed([k, (k + 1) % n, (k + 1) % n + n, k + n])) for k in range(n)]
-    faces = [list(range(n)), [n + k for k in reversed(range(n))], *sides]
-    parts = [polyhedra_from_lists([vertices], [faces]), boxes(([0.9, 0, 0], [3, 1, 2])), boxes(([9, 0, 0], [10, 1, 1]))]
+    parts = [profile(outline), boxes(([0.9, 0, 0], [3, 1, 2])), boxes(([9, 0, 0], [10, 1, 1]))]
     report = contacts_of(join_polyhedra([parts[place] for place in order])).report
     pair = sorted((order.index(0), order.index(1)))
     assert report.overlaps.tolist() == [pair]

@@ -142,11 +142,11 @@ def test_mechanisms_and_back(stack: Line) -> None:
     assert program.scaling.forces(forces).tolist() == (forces.reshape(2, 3) * program.scaling.force).tolist()
 
 
-def rows(dead: list[list[float]], live: list[list[float]], **changes: object) -> Program:
+def rows(dead: list[list[float]], live: list[list[float]], components: int = 3) -> Program:
     """A program with these loads of its blocks, and nothing else of interest."""
     n = sum(len(load) for load in dead)
     none = np.zeros(0)
-    program = Program(
+    return Program(
         equilibrium_matrix=sp.csr_array((n, 0)),
         dead_load=np.concatenate([np.array(load, dtype=float) for load in dead]),
         live_load=np.concatenate([np.array(load, dtype=float) for load in live]),
@@ -154,8 +154,8 @@ def rows(dead: list[list[float]], live: list[list[float]], **changes: object) ->
         free=np.arange(len(dead)),
         n_blocks=len(dead),
         scaling=Scaling(2.0, 5.0, np.ones(n)),
+        components=components,
     )
-    return replace(program, **changes)  # type: ignore[arg-type]
 
 
 SIX = [[3.0, 0, 0, 4.0, 0, 0], [0.0] * 6, [0, 0, 1.0, 0, 0, 0]]
@@ -184,19 +184,20 @@ def test_the_dead_load_that_moves(speed: float, moved: float) -> None:
     assert unloaded.moved_over_live(u) == pytest.approx(5.0 * abs(speed))
 
 
-def reduced(full: Program, ways: FloatArray, **changes: object) -> Program:
+def reduced(full: Program, ways: FloatArray, guided: bool = False, halved: bool = False) -> Program:
     program = rows([(ways.T @ full.dead_load).tolist()], [(ways.T @ full.live_load).tolist()])
     way = Reduction(full, sp.csr_array(ways), sp.csr_array((0, 0)))
-    return replace(program, n_blocks=full.n_blocks, free=full.free, reduction=way, **changes)  # type: ignore[arg-type]
+    of_full = replace(program, n_blocks=full.n_blocks, free=full.free)
+    return replace(of_full, reduction=way, guided=guided, halved=halved)
 
 
-@pytest.mark.parametrize("kind", ["guided", "halved"])
-def test_sizes_of_what_is_reduced_are_those_of_the_whole(kind: str) -> None:
+@pytest.mark.parametrize(("guided", "halved"), [(True, False), (False, True)])
+def test_sizes_of_what_is_reduced_are_those_of_the_whole(guided: bool, halved: bool) -> None:
     """A block that may move along one line only counts with what of its load does work there."""
     full = rows([[3.0, 0, 0, 4.0, 0, 0]], [[6.0, 8.0, 0, 0, 0, 0]])
     ways = np.zeros((6, 1))
     ways[0, 0] = 1.0
-    program = reduced(full, ways, **{kind: True})
+    program = reduced(full, ways, guided, halved)
     assert program.own_unit == pytest.approx(3.0 / 6.0)
     assert program.moved_over_live(np.array([0.1])) == pytest.approx(0.3)
     assert program.mechanism(np.array([2.0])).tolist() == [[10.0, 0, 0, 0, 0, 0]]
