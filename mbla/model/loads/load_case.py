@@ -12,7 +12,7 @@ from mbla.deck.rules.common import given
 from mbla.deck.rules.loads import LIVE_ONLY
 from mbla.deck.tree import KeyPath
 from mbla.deck.types import Load, LoadCaseSection
-from mbla.errors import Fault, Message
+from mbla.errors import Message
 from mbla.model.loads.kinds import LOAD_KINDS
 from mbla.model.loads.load_kind import AppliedLoad, LoadSite
 from mbla.model.loads.named_loads import Entry, entries_of
@@ -63,20 +63,30 @@ def build_load_cases(name: str, section: LoadCaseSection, site: LoadSite) -> tup
     dead_loads = section.dead
     if dead_loads is None:
         dead_loads = [Load.model_construct(gravity=(0.0, 0.0, -site.units.standard_gravity))]
+    with np.errstate(over="ignore", invalid="ignore"):  # loads beyond what a double holds are refused as such
+        return _load_cases(name, section, dead_loads, path, site)
+
+
+def _load_cases(
+    name: str, section: LoadCaseSection, dead_loads: Sequence[Load], path: KeyPath, site: LoadSite
+) -> tuple[LoadCase, ...]:
     before = len(site.faults)
     dead = _add_up(dead_loads, (*path, "dead"), site, live=False)
     live = _add_up(section.live or [], (*path, "live"), site, live=True)
     tilt, positions = _tilt(section, dead_loads, path, dead, live, site), _positions(name, section, path, site)
+    sound = len(site.faults) == before
     cases = []
     for position in positions:
         own = live if position is None else live.with_load(position.applied)
         if len(site.faults) == before and own.complete and section.live is not None:
-            _judge_case(position, path, section, dead, own, site)
+            _judge_live(position, path, own, site)
         words = (tuple(dead.words), tuple(own.words))
         case = LoadCase(name, dead.total, own.total, *words, tilt=tilt)
         if position is not None:
             case = replace(case, name=case_name(position.position), travel=position.position)
         cases.append(case)
+    if sound and dead.complete:
+        _judge_size((*path, "dead") if section.dead is not None else path, dead, site)
     return tuple(cases)
 
 
@@ -103,42 +113,34 @@ def _tilt(
     return tilt
 
 
-def _judge_case(
-    position: PositionLoad | None, path: KeyPath, section: LoadCaseSection, dead: _Sum, live: _Sum, site: LoadSite
-) -> None:
-    """Live loads must leave something on blocks that move, and all loads must be numbers to compute with."""
+def _judge_live(position: PositionLoad | None, path: KeyPath, live: _Sum, site: LoadSite) -> None:
+    """Live loads must leave something on blocks that move, and be numbers to compute with."""
     free = ~site.fixed
     if not free.any() or site.roster.partial:
         return
-    rest = np.abs(live.total[free]).max(initial=0.0)
-    if rest > CANCELLED * live.gross[free].max(initial=0.0):
-        place = (*path, "dead") if section.dead is not None else path
-        site.faults.extend(_beyond_computing((*path, "live"), live.total[free], site))
-        site.faults.extend(_beyond_computing(place, dead.total[free], site))
-    elif position is not None and site.fixed[position.applied.blocks].all():
+    if _judge_size((*path, "live"), live, site):
+        return
+    if np.abs(live.total[free]).max() > CANCELLED * live.gross[free].max():
+        return
+    words = "the live loads cancel each other: they have no effect"
+    if position is not None and site.fixed[position.applied.blocks].all():
         them = "the block does" if len(position.applied.blocks) == 1 else "the blocks do"
         words = f"{position.applied.words} has no effect: {them} not move; change the path"
-        site.refuse((*path, "live"), Message("live-load-without-effect", words))
-    else:
-        site.refuse(
-            (*path, "live"),
-            Message("live-load-without-effect", "the live loads cancel each other: they have no effect"),
-        )
+    site.refuse((*path, "live"), Message("live-load-without-effect", words))
 
 
-def _beyond_computing(path: KeyPath, loads: FloatArray, site: LoadSite) -> list[Fault]:
-    """Loads so small or so large that their squares leave the range of numbers."""
-    largest = float(np.abs(loads).max(initial=0.0))
+def _judge_size(path: KeyPath, loads: _Sum, site: LoadSite) -> bool:
+    """Whether loads on blocks that move are so small or so large that their squares leave the range of numbers."""
+    if site.roster.partial:
+        return False
+    largest = float(loads.gross[~site.fixed].max(initial=0.0))
     least, most = COMPUTABLE
     if largest == 0.0 or least <= largest <= most:
-        return []
-    size = f"{largest:.1e} {site.units.force}"
-    return [
-        site.roster.fault_at(
-            path,
-            Message("load-beyond-computing", f"the loads reach {size}: {least:.0e} to {most:.0e} can be computed with"),
-        )
-    ]
+        return False
+    size = f"{largest:.1e}" if np.isfinite(largest) else f"more than {np.finfo(np.float64).max:.1e}"
+    words = f"the loads reach {size} {site.units.force}: {least:.0e} to {most:.0e} can be computed with"
+    site.refuse(path, Message("load-beyond-computing", words))
+    return True
 
 
 def _add_up(loads: Sequence[Load], path: KeyPath, site: LoadSite, live: bool) -> _Sum:

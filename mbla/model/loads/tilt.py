@@ -42,7 +42,8 @@ def tilt_loads(load: TiltSection, dead: Sequence[Entry], dead_total: FloatArray,
     everywhere = np.arange(len(site.blocks))
     turning = mass_forces(everywhere, level, site)
     across = mass_forces(everywhere, -np.cross(axis, gravity), site)
-    if np.linalg.norm(level) <= ALONG * np.linalg.norm(gravity):
+    size = max(np.abs(gravity).max(), np.finfo(np.float64).tiny)  # so that squares do not overflow
+    if np.linalg.norm(level / size) <= ALONG * np.linalg.norm(gravity / size):
         what = "gravity lies along the axis" if gravity.any() else "there is no gravity among the dead loads"
         site.refuse((*path, "live", 0, "tilt"), Message("live-load-without-effect", f"nothing turns: {what}"))
     if others:
