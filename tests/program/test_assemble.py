@@ -3,6 +3,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from mbla.program.assemble import _scaling
 from mbla.program.equilibrium import equilibrium_matrix
 from mbla.solution.statics import contact_resultants, contact_velocities
 from tests.line import BLOCK, WALL, line_of
@@ -57,3 +58,13 @@ def test_load_factor_of_the_program_goes_back_to_that_of_the_model() -> None:
     physical = line.program.live_load / (scaling.row * scaling.live)
     assert physical[:3] == pytest.approx([10, 0, 0])
     assert np.linalg.norm(line.program.live_load) == pytest.approx(1.0)
+
+
+def test_unit_of_force_counts_moments_over_lever_arms_and_loaded_blocks_alone() -> None:
+    dead = np.array([[0, 0, 3.0, 8.0, 0, 0], [0, 0, 0, 0, 0, 0]])
+    live = np.array([[0, 0, 0, 0, 0, 0], [6.0, 0, 0, 0, 32.0, 0]])
+    scaling = _scaling(np.array([2.0, 4.0]), dead.ravel(), live.ravel())
+    assert scaling.force == pytest.approx(5.0)  # 3 and 8/2
+    assert scaling.live == pytest.approx(5.0 / np.sqrt(100.0 / 2))  # 6 and 32/4 on one of two blocks
+    assert scaling.row.reshape(2, 6) == pytest.approx(np.array([[1, 1, 1, 0.5, 0.5, 0.5], [1, 1, 1] + 3 * [0.25]]) / 5)
+    assert _scaling(np.array([2.0, 4.0]), 0.0 * dead.ravel(), live.ravel()).force == pytest.approx(10.0)

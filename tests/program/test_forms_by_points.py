@@ -9,11 +9,14 @@ import pytest
 
 from mbla.arrays import FloatArray
 from mbla.program.associative_static import associative_static_form
+from mbla.program.convex.assemble import assemble_convex, convex_form
+from mbla.program.convex.static import convex_proximal_form
 from mbla.program.fixed_mechanism import PointMotion, fixed_mechanism_form
 from mbla.program.kinematic import friction_polygon, kinematic_form
 from mbla.program.program import Program
 from mbla.program.static import LEAST_LIMIT, gravity_form, proximal_data, proximal_form
 from mbla.program.yield_conditions import YieldLimits, yield_violation
+from tests.line import BLOCK, WALL, line_of
 from tests.program.random_points import balance, least_room, mixed_program, random_forces, slack
 
 BOTH = pytest.mark.parametrize("components", [2, 3])
@@ -216,3 +219,52 @@ def test_velocities_and_what_they_dissipate(components: int, reduce_dry: bool) -
         assert np.array_equal(form.velocities(x), u)
         seen.add(bool(allowed))
     assert seen == {False, True}
+
+
+@pytest.mark.parametrize("text", [BLOCK, WALL], ids=["block", "wall"])
+def test_matrices_of_forms_hold_no_zeros_and_their_rows_in_order(text: str) -> None:
+    """Zeros that are stored fill the factors of the solver."""
+    line = line_of(text)
+    program, convex = line.program, assemble_convex(line.model, line.contacts, line.load_case)
+    nothing = np.zeros(program.n_points, dtype=bool)
+    still = PointMotion(nothing, nothing, nothing, np.zeros((program.n_points, 2)))
+    for number, form in enumerate(
+        (
+            kinematic_form(program, program.limits).cone_program,
+            associative_static_form(program).cone_program,
+            gravity_form(program).cone_program,
+            proximal_form(program, 1.0).cone_program,
+            fixed_mechanism_form(program, still).cone_program,
+            convex_form(convex).cone_program,
+            convex_proximal_form(convex, 1.0).cone_program,
+        )
+    ):
+        assert form.matrix.data.all(), number
+        assert form.matrix.has_canonical_format, number
+
+
+def test_the_weight_that_stabilises_conditions_grows_with_the_blocks_up_to_its_most() -> None:
+    line = line_of(WALL, "parameters.n=4")
+    convex = assemble_convex(line.model, line.contacts, line.load_case)
+    n_free = len(line.model.free)
+    assert convex_form(convex).cone_program.quadratic is None
+    for blocks, weight in ((n_free, 1e-9 * n_free), (5000, 1e-7)):
+        many = replace(convex, points=replace(convex.points, free=np.arange(blocks)))
+        quadratic = convex_form(many, stabilised=True).cone_program.quadratic
+        assert quadratic is not None
+        assert quadratic == pytest.approx(np.full(len(quadratic), weight))
+
+
+@BOTH
+def test_every_sliding_point_has_friction_at_its_normal_force(components: int) -> None:
+    """Under a mechanism in which all points slide, the first and the last alike."""
+    program = mixed_program(components, 3)
+    n = program.n_points
+    nothing, draw = np.zeros(n, dtype=bool), np.random.default_rng(4)
+    directions = draw.normal(size=(n, components - 1))
+    directions /= np.linalg.norm(directions, axis=1)[:, None]
+    form = fixed_mechanism_form(program, PointMotion(nothing, nothing, ~nothing, directions))
+    x = draw.uniform(1.0, 2.0, form.cone_program.matrix.shape[1])
+    forces = form.forces(x)
+    strength = program.limits.cohesion + program.limits.friction * forces[:, 0]
+    assert forces[:, 1:] == pytest.approx(strength[:, None] * directions)

@@ -101,3 +101,25 @@ def test_without_interfaces_there_is_nothing_to_say() -> None:
     model = model_of(blocks_of(boxes(([0, 0, 0], [1, 1, 1]), ([5, 0, 0], [6, 1, 1]))))
     for contact_model in ("concave", "convex"):
         assert program_notices(model, find_contacts(model, section()), contact_model) == ()
+
+
+@pytest.mark.parametrize("order", [("finer", "small"), ("small", "finer")])
+def test_one_interface_with_corners_alone_is_enough_for_the_warning(order: tuple[str, str]) -> None:
+    """A block 1 x 1 m has points between its corners at this spacing, one of 0.4 m has none."""
+    box = {
+        "finer": "  - box: {group: block, material: stone, min: [0, 0, 0], max: [1, 1, 1]}\n",
+        "small": "  - box: {group: block, material: stone, min: [3, 0, 0], max: [3.4, 0.4, 0.4]}\n",
+    }
+    start, rest = BLOCK.split("  - box")
+    text = start + "".join(box[name] for name in order) + rest[rest.index("supports:") :]
+    line = line_of(text, "joints.dry.compressive_strength=1e6", "contacts.points.spacing=0.5")
+    (notice,) = program_notices(line.model, line.contacts)
+    assert notice.identifier == "eccentric-crushing-overstated"
+    two = "".join(box["finer"].replace("[0, 0, 0]", f"[{x}, 0, 0]").replace("[1,", f"[{x + 1},") for x in (0, 3))
+    line = line_of(
+        start + two + rest[rest.index("supports:") :],
+        "joints.dry.compressive_strength=1e6",
+        "contacts.points.spacing=0.5",
+    )
+    (notice,) = program_notices(line.model, line.contacts)
+    assert notice.identifier == "crushing-at-points"

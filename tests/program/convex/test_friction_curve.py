@@ -116,3 +116,9 @@ def test_fitted_curves_do_not_depend_on_size_place_in_the_array_or_rotation() ->
     assert radii[0] == pytest.approx(1000 * radius[0], rel=1e-9)
     assert thetas[0] == pytest.approx(theta[0], abs=1e-6)
     assert radii[2] == pytest.approx(radius[0], rel=1e-9)
+
+
+def test_near_a_disc_the_curve_is_nearly_that_of_a_disc() -> None:
+    """About the middle of a disc of radius 1 the Hessian of ρ = 2/3 is the unit matrix: θ = 2 - 4/3 at the least."""
+    _, theta = fitted_curves(regular(24))
+    assert 0.6 < theta[0] < 0.95

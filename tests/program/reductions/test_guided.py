@@ -13,6 +13,7 @@ from mbla.deck.analysis import ReductionSwitches
 from mbla.model import build_model
 from mbla.program import assemble
 from mbla.program.reductions import reduce_program, unreduced
+from mbla.program.reductions.guided import _projector
 from mbla.solution import Status, solve, verified_status, verify
 from mbla.solution.settings import solver_settings
 
@@ -118,3 +119,9 @@ def test_mechanism_and_velocities_are_inverse_on_what_guides_allow(tmp_path: Pat
     block = model.guides.blocks[0]
     np.testing.assert_allclose(mechanism[block, 3:], 0.0, atol=1e-15)
     np.testing.assert_allclose(np.cross(mechanism[block, :3], [1, 2, 3]), 0.0, atol=1e-12 * abs(mechanism).max())
+
+
+def test_ways_of_a_body_are_told_from_rounding_whatever_the_unit_of_length() -> None:
+    ways = np.array([[1.0, 0, 1], [0, 1, 1], [0, 0, 0]])
+    for unit in (1e-13, 1.0, 1e13):
+        assert _projector(unit * ways) == pytest.approx(np.diag([1.0, 1, 0]), abs=1e-12)

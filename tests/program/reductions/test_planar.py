@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+import numpy as np
 import pytest
 
+from mbla.program.reductions.mirror import mirror_about
+from mbla.program.reductions.planar import planar_program
+from mbla.program.reductions.scene import scene_of
 from mbla.solution.solution import Status
-from tests.line import HEAD, case_of
+from tests.line import BLOCK, HEAD, case_of, line_of
 
 HALVES = """\
 parameters: {cut: 0.2}
@@ -69,3 +73,27 @@ def test_an_interface_and_its_image_may_name_their_blocks_in_opposite_orders(flo
     assert result.checks.equilibrium_residual < 1e-9
     assert result.solution.mechanics is not None
     assert result.solution.mechanics.load_factor == pytest.approx(1.48 / 4.0, rel=1e-6)  # about the edge of the ground
+
+
+@pytest.mark.parametrize("per_edge", [1, 2])
+def test_squares_of_forces_in_the_plane_add_up_to_half_of_those_in_it(per_edge: int) -> None:
+    """Two or three points one behind the other: least forces of the plane are those of the model."""
+    line = line_of(BLOCK, f"contacts.points.per_edge={per_edge}", "parameters.c=1000", "parameters.ft=500")
+    scene = scene_of(line.model, line.contacts, line.program)
+    mirror = mirror_about(scene, np.array([0.0, 1.0, 0.0]))
+    assert mirror is not None
+    program = planar_program(scene, mirror)
+    assert program.n_points == per_edge + 1
+    assert program.reduction is not None
+    forces = program.reduction.forces
+    behind = per_edge + 1
+    gram = (forces.T @ forces).toarray()
+    if per_edge == 1:
+        assert gram == pytest.approx(0.5 * np.eye(4))
+    else:
+        assert np.diag(gram) == pytest.approx(np.full(6, 0.5))
+    # all of the strength is there, whatever the unknowns
+    for strength, whole in ((program.limits.cohesion, 1000.0), (program.limits.tension, 500.0)):
+        shares = strength[:, None] * np.abs(forces[::3, ::2].toarray().T)
+        assert shares.sum() == pytest.approx(whole / (2000 * 9.81 * 2))
+        assert (shares > 0).sum() == behind * (per_edge + 1)

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+import scipy.sparse as sp
 
 from mbla.program.reductions import Reduced, StepState, reduce_program
 from mbla.program.reductions.parts import split_into_parts
-from mbla.program.reductions.repeated import like_which
+from mbla.program.reductions.repeated import _close_matrices, _margin, like_which
 from mbla.program.reductions.scene import scene_of
 from mbla.results.records.reduction_json import reductions_json
 from mbla.results.words.reduction_words import reduction_lines
@@ -196,3 +197,25 @@ def test_columns_mirrored_about_a_plane_of_the_deck() -> None:
 
 def test_far_from_the_origin_more_is_rounding() -> None:
     assert reduced(line_of(deck(column(0.0), column(3.0e4, y=2.0e4)))).like == (0, 0)
+
+
+def test_rounding_grows_with_the_distance_from_the_origin() -> None:
+    """Along whichever axis; from a distance on no more."""
+    for x, y, margin in ((0.0, 0.0, 1e-12), (3.0e4, 0.0, 5e-10), (0.0, 3.0e4, 5e-10), (3.0e8, 0.0, 1e-9)):
+        line = line_of(deck(column(x, y=y)))
+        assert _margin(scene_of(line.model, line.contacts, line.program)) == pytest.approx(margin, rel=0.5)
+
+
+def test_what_is_rounding_at_either_place_is_rounding() -> None:
+    """A part near the origin and one far away, in either order."""
+    for places in ((0.0, 3.0e4), (3.0e4, 0.0)):
+        line = line_of(deck(*(column(x, slender=1.0 + 1e-10 * (x > 0)) for x in places)))
+        assert reduced(line).like == (0, 0)
+
+
+def test_matrices_of_another_pattern_are_the_same_up_to_rounding() -> None:
+    one = sp.csr_array(np.array([[4.0, 0.0], [0.0, 2.0]]))
+    for off, same in ((1e-13, True), (1e-3, False)):
+        other = sp.csr_array(np.array([[4.0, off], [0.0, 2.0]]))
+        assert _close_matrices(one, other, 1e-12) is same
+        assert _close_matrices(other, one, 1e-12) is same

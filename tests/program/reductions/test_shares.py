@@ -10,6 +10,8 @@ import pytest
 
 from mbla.deck.analysis import ReductionSwitches
 from mbla.program.reductions import Reduced, reduce_program
+from mbla.program.reductions.scene import scene_of
+from mbla.program.reductions.shares import program_by_shares
 from mbla.solution.settings import SolverSettings
 from mbla.solution.standing import assess_dead_load
 from tests.line import BLOCK, WALL, Line, line_of, verified
@@ -86,3 +88,49 @@ def test_corners_are_all_alike() -> None:
     """Nothing is changed where interfaces have their corners only."""
     line = line_of(WALL, "load_cases.push.live=[{acceleration: [1, 0.3, 0]}]", "analysis.flow_rule=non_associative")
     assert reduced(line).parts == (line.program,)
+
+
+SMALL_ABOVE = BLOCK.replace(
+    "supports:",
+    '  - box: {group: cap, material: stone, min: [0.1, 0.1, "=h"], max: [0.5, 0.5, "=h+1"]}\nsupports:',
+)
+"""A block on the ground, and one on it that is smaller than the spacing of points."""
+
+
+def test_an_interface_with_its_corners_alone_stays_beside_one_with_more() -> None:
+    line = line_of(SMALL_ABOVE, "contacts.points.spacing=0.5")
+    scene = scene_of(line.model, line.contacts, line.program)
+    by_shares = program_by_shares(scene, scene.program)
+    assert by_shares.reduction is not None
+    stiffness = by_shares.reduction.forces.diagonal()[::3] ** 2
+    finer = (scene.bodies < 0).any(axis=1)
+    assert stiffness[~finer] == pytest.approx(np.ones(4))
+    shares = scene.areas[finer] / scene.areas[finer].mean()
+    assert len(np.unique(shares.round(9))) == 3
+    assert stiffness[finer] == pytest.approx(shares)
+
+
+def test_in_the_plane_points_stand_for_those_behind_them() -> None:
+    """A triangle over the ground, its axis in the plane: one point at its tip, two or more elsewhere."""
+    text = BLOCK.replace(
+        'box: {group: block, material: stone, min: [0, 0, 0], max: ["=b", 1, "=h"]}',
+        "polyhedron: {group: block, material: stone, vertices: [[0, 0, 0], [2, -1, 0], [2, 1, 0], [0, 0, 1],"
+        " [2, -1, 1], [2, 1, 1]], faces: [[0, 2, 1], [3, 4, 5], [0, 1, 4, 3], [1, 2, 5, 4], [2, 0, 3, 5]]}",
+    )
+    line = line_of(text, "contacts.points.per_edge=2", "analysis.flow_rule=non_associative")
+    (part,) = reduced(line).parts
+    assert part.components == 2
+    state = assess_dead_load(part, SETTINGS)
+    assert state.forces is not None
+    assert part.reduction is not None
+    forces = (part.reduction.forces @ state.forces.ravel()).reshape(-1, 2)
+    full = part.reduction.full
+    while full.reduction is not None:
+        forces = (full.reduction.forces @ forces.ravel()).reshape(-1, 3)
+        full = full.reduction.full
+    whole = scene_of(line.model, line.contacts, line.program)
+    # springs as stiff as the shares follow a plane: pressures are linear in the place
+    pressure = forces[:, 0] / whole.areas
+    plane = np.column_stack([np.ones(len(pressure)), whole.points[:, 0]])
+    fit, *_ = np.linalg.lstsq(plane, pressure, rcond=None)
+    assert plane @ fit == pytest.approx(pressure, rel=1e-6)

@@ -1,0 +1,127 @@
+"""The proximal step of the convex model allows, at given limits of friction, the forces that its formulas allow."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import scipy.sparse as sp
+
+from mbla.arrays import FloatArray
+from mbla.deck.types import AnalysisSection
+from mbla.program.convex.assemble import ConvexProgram, assemble_convex
+from mbla.program.convex.conditions import MN
+from mbla.program.convex.friction_limit import curve_size
+from mbla.program.convex.static import ConvexStaticForm, convex_proximal_data, convex_proximal_form
+from mbla.program.kinematic import ConeProgram
+from mbla.solution.clarabel_adapter import ClarabelProgram
+from mbla.solution.settings import solver_settings
+from tests.line import line_of
+from tests.program.convex.test_conditions import crushing_allowed
+from tests.program.convex.test_shapes import PRISM
+
+SETTINGS = solver_settings(AnalysisSection())
+OUTLINES = {
+    "rectangle": ((0, 0), (1.25, 0), (1.25, 0.75), (0, 0.75)),
+    "triangle": ((0, 0), (1.0, 0), (0.25, 0.75)),
+    "ell": ((0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2)),
+}
+STRENGTH = "compressive_strength: 2.e5"
+
+
+def convex_program(name: str, law: str) -> ConvexProgram:
+    """One block on the ground."""
+    outline = OUTLINES[name]
+    n = len(outline)
+    vertices = [[x, y, z] for z in (0, 1) for x, y in outline]
+    faces = [list(range(n)), list(range(n, 2 * n))]
+    faces += [[i, (i + 1) % n, n + (i + 1) % n, n + i] for i in range(n)]
+    line = line_of(PRISM.replace("VERTICES", str(vertices)).replace("FACES", str(faces)), f"joints.dry={{{law}}}")
+    return assemble_convex(line.model, line.contacts, line.load_case)
+
+
+def room(form: ConvexStaticForm, rhs: FloatArray, forces: FloatArray) -> float:
+    """How far inside of all cones the best helping unknowns bring the forces; below zero where none do."""
+    program = form.cone_program
+    first, n = program.n_equations, form.convex.points.n_points * 3
+    left = rhs[first:] - program.matrix[first:, :n] @ forces.ravel()
+    sizes = [1] * program.n_half_lines + [3] * program.n_cones + list(program.further_cones)
+    heads = np.zeros(len(left))
+    heads[np.cumsum(sizes) - sizes] = 1.0
+    helpers = program.matrix[first:, n:-1]
+    tail = np.flatnonzero(np.repeat(np.array(sizes) == 1, sizes))
+    order = np.concatenate([tail, np.flatnonzero(np.repeat(np.array(sizes) > 1, sizes))])
+    search = ConeProgram(
+        cost=np.append(np.zeros(helpers.shape[1]), -1.0),
+        matrix=sp.csc_array(sp.csr_array(sp.hstack([helpers, sp.csr_array(heads[:, None])]))[order]),
+        rhs=left[order],
+        n_half_lines=len(tail),
+        n_cones=0,
+        n_equations=0,
+        further_cones=tuple(size for size in sizes if size > 1),
+    )
+    return float(ClarabelProgram(search, SETTINGS, lambda *_: None).solve(1, 1.0).x[-1])
+
+
+def allowed(
+    convex: ConvexProgram, forces: FloatArray, limit: FloatArray, share: FloatArray, rest: FloatArray
+) -> FloatArray:
+    """What each condition leaves, by the formulas; below zero where it is broken."""
+    law, r = convex.points.limits, convex.resultants @ forces.ravel()
+    left = [forces[:, 0] + law.tension, law.compression - forces[:, 0], limit - np.linalg.norm(forces[:, 1:], axis=1)]
+    if len(share):
+        beyond = np.maximum(np.hypot(r[1], r[2]) - rest, 0.0)
+        twist = np.array([abs(r[MN])]) / convex.torsion.radii
+        left.append(share - curve_size(beyond, twist, convex.torsion.thetas))
+    for limits, rectangle in ((convex.rectangles, True), (convex.others, False)):
+        if len(limits.interfaces):
+            left.append(np.array([1.0 if crushing_allowed(limits, rectangle, r) else -1.0]))
+    return np.concatenate(left)
+
+
+@pytest.mark.parametrize("name", OUTLINES)
+@pytest.mark.parametrize(
+    "law",
+    [
+        "friction: 0.5",
+        f"friction: 0.5, {STRENGTH}",
+        f"friction: 0.5, cohesion: 20000, tensile_strength: 10000, {STRENGTH}",
+        f"friction: 0, {STRENGTH}",
+    ],
+    ids=["dry", "crushes", "mortar", "slippery"],
+)
+def test_forces_at_given_limits(name: str, law: str) -> None:
+    convex = convex_program(name, law)
+    form = convex_proximal_form(convex, 1.0)
+    draw, seen = np.random.default_rng(1), []
+    n, n_torsion = convex.points.n_points, len(convex.torsion.interfaces)
+    for _ in range(60):
+        forces = draw.normal(scale=0.3, size=(n, 3))
+        forces[:, 0] = draw.uniform(-0.1, 1.0 if draw.random() < 0.5 else 4.0, n)
+        limit = draw.uniform(0.25, 2.0, n)
+        share, rest = draw.uniform(0.05, 2.0, n_torsion), draw.uniform(0.0, 1.0, n_torsion)
+        if draw.random() < 0.5:
+            forces[:, 0] = np.abs(forces[:, 0])
+            forces[:, 1:] *= 0.2
+        _, rhs = convex_proximal_data(form, 1.0, np.zeros((n, 3)), limit, share, rest)
+        left = allowed(convex, forces, limit, share, rest)
+        if np.abs(left).min() > 1e-4:
+            good = bool((left > 0).all())
+            assert (room(form, rhs, forces) > 0) == good, left
+            seen.append(good)
+    assert set(seen) == {False, True}
+    assert len(seen) > 40
+
+
+def test_velocities_and_motions_are_read_from_their_rows() -> None:
+    convex = convex_program("rectangle", f"friction: 0.5, {STRENGTH}")
+    form = convex_proximal_form(convex, 1.0)
+    z = np.random.default_rng(3).normal(size=len(form.cone_program.rhs))
+    assert np.array_equal(form.velocities(z), z[:6])
+    tail = z[-form.conditions.shape[0] :]
+    zeroed = np.where(np.arange(len(tail)) < form.n_torsion, tail, 0.0)
+    torsion, crushing = form.motions(z)[0]
+    assert torsion == pytest.approx(form.conditions.T @ zeroed)
+    assert torsion + crushing == pytest.approx(form.conditions.T @ tail)
+    assert replace(form, n_torsion=0).motions(z)[0, 0] == pytest.approx(np.zeros(6))
