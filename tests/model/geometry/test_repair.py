@@ -207,3 +207,22 @@ def test_wild_coordinates_are_left_to_be_refused_by_block(wild: float) -> None:
     (defect,) = build_raw(geometry.polyhedra).defects
     assert defect.block == 1
     assert "not finite or exceeds" in defect.message
+
+
+def test_what_is_repaired_is_blocks_and_stays_as_it_is() -> None:
+    once = repaired(soup(box(), box((1, 0, 0), (2, 1, 1))))
+    assert once.cells
+    twice = repair(once, 1e-3)
+    assert volumes(twice) == pytest.approx([1, 1])
+    assert twice.polyhedra.loops.tolist() == once.polyhedra.loops.tolist()
+
+
+@pytest.mark.parametrize("order", [[0, 1, 2, 3], [0, 2, 1, 3], [3, 0, 2, 1]], ids=str)
+def test_a_face_listed_twice_goes_whatever_the_numbers_of_its_corners(order: list[int]) -> None:
+    vertices, faces = box()
+    number = [*order, *(corner + 4 for corner in order)]
+    renumbered = [vertices[number.index(corner)] for corner in range(8)]
+    faces = [[number[corner] for corner in face] for face in [*faces, faces[1][::-1]]]
+    geometry = repaired(raw((renumbered, faces)))
+    assert volumes(geometry) == [1]
+    assert told(geometry) == ["1 face listed twice was left out"]
