@@ -137,3 +137,18 @@ def test_rubbish(tmp_path: Path, content: bytes) -> None:
     path.write_bytes(content)
     with pytest.raises(GeometryFileError):
         read_compas_json(path)
+
+
+def test_one_face_of_two_corners_among_others_is_refused(tmp_path: Path) -> None:
+    entry = mesh()
+    entry["data"]["face"]["6"] = [0, 10]
+    with pytest.raises(GeometryFileError, match="a face has fewer than three corners"):
+        read(tmp_path, entry)
+
+
+@pytest.mark.parametrize("point", [[0.0, 0.0], [0.0, 0.0, 0.0, 1.0]])
+def test_a_polyhedron_over_points_that_are_not_in_space_is_refused(tmp_path: Path, point: list[float]) -> None:
+    vertices, faces = box()
+    shape = {"dtype": "compas.geometry/Polyhedron", "data": {"vertices": [point, *vertices[1:]], "faces": faces}}
+    with pytest.raises(GeometryFileError, match="is not a well-formed COMPAS JSON file"):
+        read(tmp_path, shape)

@@ -9,6 +9,7 @@ from mbla.model.geometry.cell_sets import join_cells
 from mbla.model.geometry.geometry import Geometry, GeometryFileError
 from mbla.model.geometry.inp import read_inp
 from mbla.model.geometry.repair import repair
+from mbla.model.polyhedra import cuboids
 from tests.model.shapes import box, build_raw
 
 LOW = "*NODE\n" + "".join(f"{i + 1}, {x}, {y}, {z}\n" for i, (x, y, z) in enumerate(box()[0]))
@@ -78,8 +79,6 @@ def test_cells_of_a_set_joined(tmp_path: Path) -> None:
 
 
 def test_cells_joined_to_a_ring_keep_its_hole(tmp_path: Path) -> None:
-    from mbla.model.polyhedra import cuboids
-
     least = np.array([[x, 0, z] for x in range(3) for z in range(3) if (x, z) != (1, 1)], dtype=float)
     geometry = join_cells(Geometry(cuboids(least, least + 1), cells=True))
     assert volumes(geometry) == pytest.approx([8])
@@ -109,3 +108,23 @@ def test_a_line_without_end_is_refused(tmp_path: Path) -> None:
         read_inp(path)
     assert caught.value.message.identifier == "geometry-too-large"
     assert str(caught.value).startswith("line 4 is too long: ")
+
+
+def test_a_set_made_of_several_ranges(tmp_path: Path) -> None:
+    apart = "*ELEMENT, TYPE=C3D8\n1, 1,2,3,4,5,6,7,8\n2, 5,6,7,8,9,10,11,12\n9, 1,2,3,4,9,10,11,12\n"
+    sets = "*ELSET, ELSET=both, GENERATE\n1, 1\n8, 10\n"
+    assert read(tmp_path, LOW + HIGH + apart + sets).names == ("both", "", "both")
+
+
+def test_cells_of_no_set_are_joined_beside_those_of_one() -> None:
+    least = np.array([[0, 0, 0], [0, 0, 1], [0, 0, 2]], dtype=float)
+    joined = join_cells(Geometry(cuboids(least, least + 1), names=("", "top", ""), cells=True))
+    assert joined.names == ("", "top")
+    assert volumes(joined) == pytest.approx([1, 1, 1])
+
+
+def test_cells_of_one_set_that_lie_apart_are_blocks_of_their_own() -> None:
+    least = np.array([[0, 0, 0], [0, 0, 1], [0, 0, 5]], dtype=float)
+    joined = join_cells(Geometry(cuboids(least, least + 1), cells=True))
+    assert len(joined.polyhedra) == 1
+    assert volumes(joined) == pytest.approx([2, 1])

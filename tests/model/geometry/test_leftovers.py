@@ -84,3 +84,11 @@ def test_an_object_of_which_nothing_is_left_is_refused_by_name(flat: object, mes
     (defect,) = build_raw(geometry.polyhedra).defects
     assert defect.block == 1
     assert message in defect.message
+
+
+@pytest.mark.parametrize(
+    ("key", "called"), [("b", "'b'"), ("k" * 40 + "rest", "'" + "k" * 40 + "'")], ids=["short", "long"]
+)
+def test_of_several_keys_the_one_that_is_there_twice_is_named(key: str, called: str) -> None:
+    with pytest.raises(ValueError, match=f"^an object has the key {called} twice$"):
+        parse_json(f'{{"a": 1, "{key}": 1, "c": 3, "{key}": 2}}'.encode())

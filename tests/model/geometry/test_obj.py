@@ -186,3 +186,34 @@ def test_a_line_without_end_is_refused_before_its_corners_are_read(tmp_path: Pat
         "is too long: with the lines that it continues it has more than 1,000,000 characters; "
         "no face has so many corners"
     )
+
+
+@pytest.mark.parametrize(
+    ("extra", "words"),
+    [
+        ("v 9 9 9\n", "1 of the 9 vertices of the file is"),
+        ("v 9 9 9\nv 8 8 8\n", "2 of the 10 vertices of the file are"),
+    ],
+)
+def test_vertices_that_no_face_uses_are_counted(tmp_path: Path, extra: str, words: str) -> None:
+    obj(tmp_path).write_text(f"{CUBE}{extra}{FACES}")
+    assert [(notice.identifier, notice.message) for notice in read_obj(obj(tmp_path)).notices] == [
+        ("file-vertices-unused", f"{words} used by no face: is the file whole?")
+    ]
+
+
+def test_a_single_face_is_read(tmp_path: Path) -> None:
+    obj(tmp_path).write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 3 1 2\n")
+    polyhedra = read_obj(obj(tmp_path)).polyhedra
+    assert polyhedra.vertices[polyhedra.loops].tolist() == [[0, 1, 0], [0, 0, 0], [1, 0, 0]]
+    assert len(polyhedra) == 1
+
+
+@pytest.mark.parametrize("before", ["", "# stones\n"])
+def test_the_longest_line_is_read_and_none_that_is_longer(tmp_path: Path, before: str) -> None:
+    line = "#" * LONGEST_LINE
+    obj(tmp_path).write_text(f"{before}{line}\n{CUBE}{FACES}")
+    assert len(read_obj(obj(tmp_path)).polyhedra) == 1
+    obj(tmp_path).write_text(f"{before}{line}#\n{CUBE}{FACES}")
+    with pytest.raises(GeometryFileError, match=rf"line {1 + before.count(chr(10))} is too long"):
+        read_obj(obj(tmp_path))

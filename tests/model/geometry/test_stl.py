@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from mbla.model.geometry import read_geometry
 from mbla.model.geometry.geometry import GeometryFileError
 from mbla.model.geometry.obj import read_obj
 from mbla.model.geometry.repair import repair
@@ -94,3 +95,46 @@ def test_malformed_text(tmp_path: Path, content: str, message: str) -> None:
     path.write_text(content)
     with pytest.raises(GeometryFileError, match=message):
         read_stl(path)
+
+
+def test_the_name_of_a_single_solid_names_no_block(tmp_path: Path) -> None:
+    path = tmp_path / "x.stl"
+    path.write_text(text("stone", box()))
+    assert read_stl(path).names == ()
+    path.write_text(text("stone", box()) + text("empty", (box()[0], [])))
+    assert read_stl(path).names == ()
+
+
+def test_solids_without_names_are_one_surface(tmp_path: Path) -> None:
+    vertices, faces = box()
+    path = tmp_path / "x.stl"
+    path.write_text(text("", (vertices, faces[:2])) + text("", (vertices, faces[2:])))
+    assert volumes(path) == [1]
+    assert len(read_stl(path).polyhedra) == 1
+    assert read_stl(path).names == ()
+
+
+def test_a_binary_file_without_triangles_holds_no_blocks(tmp_path: Path) -> None:
+    path = tmp_path / "x.stl"
+    path.write_bytes(bytes(84))
+    with pytest.raises(GeometryFileError) as caught:
+        read_geometry(path)
+    assert caught.value.message.identifier == "geometry-without-blocks"
+
+
+@pytest.mark.parametrize(
+    ("content", "message"),
+    [
+        (b"ten bytes.", "is not a well-formed STL file, it has 10 bytes"),
+        (
+            bytes(80) + b"\2\0\0\0" + bytes(50),
+            "is not a well-formed STL file: 2 triangles are announced, it has 134 bytes",
+        ),
+    ],
+)
+def test_neither_text_nor_binary(tmp_path: Path, content: bytes, message: str) -> None:
+    path = tmp_path / "x.stl"
+    path.write_bytes(content)
+    with pytest.raises(GeometryFileError) as caught:
+        read_stl(path)
+    assert str(caught.value) == message
