@@ -7,7 +7,7 @@ import ezdxf
 import numpy as np
 import pytest
 
-from mbla.model.geometry.dxf import read_dxf
+from mbla.model.geometry.dxf import DEEPEST, read_dxf
 from mbla.model.geometry.geometry import Geometry, GeometryFileError
 from mbla.model.geometry.line_networks import enclosed_fields
 from mbla.model.geometry.repair import repair
@@ -157,3 +157,40 @@ def test_lines_that_meet_without_end_are_refused() -> None:
         enclosed_fields(across + along)
     assert caught.value.message.identifier == "geometry-too-large"
     assert str(caught.value) == "has lines that meet each other more than 100,000 times"
+
+
+def nested(deepest: int) -> Any:
+    """A drawing of a square in so many blocks, each inserted into the next."""
+    document, space = drawing()
+    for depth in range(deepest):
+        block = document.blocks.new(f"b{depth}")
+        if depth:
+            block.add_blockref(f"b{depth - 1}", (0, 0))
+        else:
+            block.add_lwpolyline(SQUARE, close=True)
+    space.add_blockref(f"b{deepest - 1}", (3, 0))
+    return document
+
+
+def test_blocks_in_blocks_up_to_the_deepest(tmp_path: Path) -> None:
+    geometry = read(nested(DEEPEST), tmp_path)
+    assert areas(geometry) == pytest.approx([1])
+    assert geometry.polyhedra.vertices[:, 0].min() == 3
+    with pytest.raises(GeometryFileError, match="has a block that contains itself"):
+        read(nested(DEEPEST + 1), tmp_path)
+
+
+def test_lines_meet_in_plan_whatever_their_elevations(tmp_path: Path) -> None:
+    document, space = drawing()
+    for z, ((x, y), (u, v)) in enumerate(zip(SQUARE, SQUARE[1:] + SQUARE[:1], strict=True)):
+        space.add_line((x, y + 1e-8, z), (u, v - 1e-8, z))
+    assert areas(read(document, tmp_path)) == pytest.approx([1], rel=1e-6)
+
+
+@pytest.mark.parametrize("points", [[(2, 3)], [(2, 3), (2, 3)], [(2, 3), (3, 4)]])
+def test_a_closed_outline_without_area_is_refused(tmp_path: Path, points: list[tuple[float, float]]) -> None:
+    document, space = drawing()
+    space.add_lwpolyline(SQUARE, close=True)
+    space.add_lwpolyline(points, close=True, dxfattribs={"layer": "lost"})
+    with pytest.raises(GeometryFileError, match="a LWPOLYLINE on layer lost has no area: it is closed"):
+        read(document, tmp_path)

@@ -32,3 +32,14 @@ def test_refused(tmp_path: Path, kind: str, one: bytes, other: bytes, message: s
     (tmp_path / name).write_bytes(content.replace(one, other, 1))
     with pytest.raises(GeometryFileError, match=message):
         read_geometry(tmp_path / name)
+
+
+def test_corners_of_a_face_are_told_without_its_other_properties(tmp_path: Path) -> None:
+    path = tmp_path / "x.ply"
+    path.write_text(
+        "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+        "element face 2\nproperty list uchar int vertex_indices\nproperty uchar red\nproperty uchar blue\nend_header\n"
+        "0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 1 2 255 0\n4 0 1 2 255 0\n"
+    )
+    with pytest.raises(GeometryFileError, match=r"line 17 announces 4 corners and has 3$"):
+        read_geometry(path)

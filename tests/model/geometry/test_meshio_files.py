@@ -303,3 +303,18 @@ def test_a_vtu_file_that_announces_far_more_than_it_can_hold(tmp_path: Path) -> 
     assert str(caught.value) == (
         "announces 89,478,485 points, far more than its size can hold: damaged or packed; export it anew"
     )
+
+
+def test_what_a_library_says_of_a_malformed_file_is_told_in_200_characters(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def refuse(_: str) -> None:
+        raise ValueError("no " * 100)
+
+    path = tmp_path / "x.msh"
+    path.write_text("")
+    monkeypatch.setattr(meshio.gmsh, "read", refuse)
+    with pytest.raises(GeometryFileError) as caught:
+        read_geometry(path)
+    words = "is not a well-formed Gmsh .msh file: "
+    assert str(caught.value) == words + ("no " * 100)[:200]

@@ -1,0 +1,28 @@
+"""Names that a Gmsh file gives to its physical groups."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from mbla.model.geometry import read_geometry
+from tests.trust.geometry.formats import FORMATS
+from tests.trust.geometry.stones import arch
+
+
+@pytest.mark.parametrize("kind", ["msh", "msh cells"])
+def test_groups_name_their_blocks(tmp_path: Path, kind: str) -> None:
+    stones = arch()
+    ((name, content),) = FORMATS[kind].write(stones).items()
+    path = tmp_path / name
+    path.write_bytes(content)
+    assert read_geometry(path).names == tuple(stone.name for stone in stones)
+
+
+def test_groups_without_names_name_nothing(tmp_path: Path) -> None:
+    ((name, content),) = FORMATS["msh cells"].write(arch()).items()
+    before, _, rest = content.partition(b"$PhysicalNames")
+    path = tmp_path / name
+    path.write_bytes(before + rest.partition(b"$EndPhysicalNames\n")[2])
+    assert read_geometry(path).names == ()
