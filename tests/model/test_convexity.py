@@ -4,7 +4,9 @@ import numpy as np
 import pytest
 from scipy.spatial import ConvexHull
 
-from tests.model.shapes import L_OUTLINE, TETRAHEDRON, box, build, hull, moved, prism, rotation
+from mbla.model.convexity import find_convex
+from mbla.model.face_geometry import face_geometry
+from tests.model.shapes import L_OUTLINE, TETRAHEDRON, box, build, hull, moved, prism, raw, rotation
 
 
 @pytest.mark.parametrize("scale", [1e-6, 1.0, 1e6])
@@ -47,3 +49,11 @@ def test_huge_polyhedra_are_judged_as_large_ones(monkeypatch: pytest.MonkeyPatch
     assert set(large) == {True, False}
     monkeypatch.setattr("mbla.model.convexity.HUGE", 0)
     assert build(*shapes).blocks.convex.tolist() == large
+
+
+def test_huge_polyhedra_are_not_called_convex_where_nothing_is_allowed(monkeypatch: pytest.MonkeyPatch) -> None:
+    polyhedra = raw(box(), box())
+    monkeypatch.setattr("mbla.model.convexity.LARGE", 0)
+    monkeypatch.setattr("mbla.model.convexity.HUGE", 0)
+    convex = find_convex(polyhedra, face_geometry(polyhedra), np.array([0.0, 1e-3]))
+    assert convex.tolist() == [False, True]

@@ -90,3 +90,16 @@ def _on_klein_bottle(row: int, column: int, n: int) -> int:
 def test_random_orientations_are_repaired(seed: int) -> None:
     shape, volume = hull(seed, 40)
     assert build(shape).blocks.volumes == pytest.approx([volume])
+
+
+def test_no_face_of_a_sound_box_is_turned() -> None:
+    polyhedra = raw(box(), box((3, 0, 0), (4, 1, 1)))
+    turned, one_sided = faces_to_turn(polyhedra, find_edges(polyhedra))
+    assert turned.tolist() == [False] * 12
+    assert one_sided.tolist() == [False, False]
+
+
+def test_only_faces_that_disagree_with_the_first_of_their_block_are_turned() -> None:
+    polyhedra = raw(box(), with_faces_turned(box((3, 0, 0), (4, 1, 1)), {2, 5}))
+    turned, _ = faces_to_turn(polyhedra, find_edges(polyhedra))
+    assert np.flatnonzero(turned).tolist() == [8, 11]

@@ -113,3 +113,14 @@ def test_a_large_mesh_is_searched_by_its_boxes() -> None:
     assert built.blocks.convex.tolist() == [False]
     vertices[top] = [0.0, 0.0, -1.5]
     assert [d.message[:17] for d in build((vertices, faces)).defects] == ["intersects itself"]
+
+
+@pytest.mark.parametrize("shift", [1, 2])
+@pytest.mark.parametrize("sign", [1, -1])
+def test_a_spike_along_any_axis_is_found_to_touch(shift: int, sign: int) -> None:
+    """The search runs along x: a tip that ends where the face begins belongs to its candidates."""
+    turn = sign * np.roll(np.eye(3), shift, axis=0)
+    assert not build(moved(spiked(0.1), turn)).defects
+    (defect,) = build(moved(spiked(0.0), turn)).defects
+    assert defect.message.startswith("intersects itself")
+    assert defect.face == 0
