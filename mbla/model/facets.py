@@ -38,7 +38,7 @@ def find_facets(polyhedra: Polyhedra, edges: Edges, faces: FaceGeometry, allowed
         if not joined.any():
             break
         parts = connected_labels(pairs[joined], n_faces)
-        planar = _planar_parts(polyhedra, faces, parts, allowed) & (np.bincount(parts) > 1)
+        planar = _planar_parts(polyhedra, faces, parts, allowed)
         chosen = planar[parts]
         facet[chosen] = _first_faces(parts)[chosen]
         settled |= chosen
@@ -47,8 +47,6 @@ def find_facets(polyhedra: Polyhedra, edges: Edges, faces: FaceGeometry, allowed
 
 def _departures(polyhedra: Polyhedra, faces: FaceGeometry, pairs: IntArray) -> FloatArray:
     """Greatest distance of a corner of the second face of each pair from the plane of the first, (n_pairs,)."""
-    if not len(pairs):
-        return np.zeros(0)
     plane, other = pairs[:, 0], pairs[:, 1]
     counts = np.diff(polyhedra.loop_start)[other]
     corners = polyhedra.local_vertices[polyhedra.loops[items_of_rows(polyhedra.loop_start, other)]]

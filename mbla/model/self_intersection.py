@@ -132,8 +132,6 @@ def _edge_meets_face(
 
 def _corner_of_face(polyhedra: Polyhedra, ends: IntArray, face: IntArray) -> BoolArray:
     """True where an end of an edge is a corner of the face, (n_pairs, 2)."""
-    if not len(face):
-        return np.zeros((0, 2), dtype=bool)
     counts = np.diff(polyhedra.loop_start)[face]
     corners = polyhedra.loops[items_of_rows(polyhedra.loop_start, face)]
     same = np.repeat(ends, counts, axis=0) == corners[:, None]
@@ -163,8 +161,6 @@ def _inside(
     outline_counts: bool,
 ) -> BoolArray:
     """True where a point in the plane of a face lies inside its outline, and on it if that counts, (n_pairs,)."""
-    if not len(face):
-        return np.zeros(0, dtype=bool)
     tails, heads, start, axes = _plane_outlines(polyhedra, faces, face)
     counts = np.diff(start)
     place = np.repeat(np.einsum("ijk,ik->ij", axes, points - faces.centres[face]), counts, axis=0)
@@ -183,8 +179,6 @@ def _crosses_outline(
     polyhedra: Polyhedra, faces: FaceGeometry, face: IntArray, points: FloatArray, eps: FloatArray
 ) -> BoolArray:
     """True where an edge in the plane of a face crosses a side of its outline at an inner point of both, (n_pairs,)."""
-    if not len(face):
-        return np.zeros(0, dtype=bool)
     tails, heads, start, axes = _plane_outlines(polyhedra, faces, face)
     counts = np.diff(start)
     flat = np.einsum("ijk,imk->imj", axes, points - faces.centres[face][:, None, :])

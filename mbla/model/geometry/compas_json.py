@@ -237,7 +237,5 @@ def _surface(points: list[list[float]], faces: list[list[int]]) -> Polyhedra:
     if counts.size and counts.min() < 3:
         raise ValueError("a face has fewer than three corners")
     corners = np.fromiter(chain.from_iterable(faces), dtype=np.int64, count=int(counts.sum()))
-    if corners.size and not (corners.min() >= 0 and corners.max() < len(points)):
-        raise ValueError(f"a face names a vertex that does not exist; there are {len(points)}")
     coordinates = np.array(points, dtype=np.float64).reshape(-1, 3)
     return own_vertices(coordinates, corners, starts(counts), np.zeros(len(faces), dtype=np.int64))
