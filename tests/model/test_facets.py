@@ -5,7 +5,10 @@ import pytest
 from scipy.spatial import ConvexHull
 
 from mbla.model.build_blocks import blocks_from_polyhedra
-from tests.model.shapes import L_OUTLINE, Shape, box, build, moved, prism, rotation
+from mbla.model.face_geometry import face_geometry
+from mbla.model.facets import find_facets
+from mbla.model.orientation import find_edges
+from tests.model.shapes import L_OUTLINE, Shape, box, build, moved, prism, raw, rotation
 
 
 def triangulated_box(n: int = 1, bulge: float = 0.0) -> Shape:
@@ -116,3 +119,15 @@ def test_mantle_of_a_finely_faceted_ring_is_no_facet() -> None:
         faces.append([corner(0, 0, k + 1), corner(0, 1, k + 1), corner(0, 1, k), corner(0, 0, k)])
     ring = blocks_from_polyhedra([rim], [faces])
     assert len(set(ring.facet_of_face.tolist())) == 2 * n + 2
+
+
+@pytest.mark.parametrize(("share", "number"), [(1.002, 1), (0.998, 20)])
+def test_a_curved_strip_is_a_facet_by_its_distance_from_the_plane_fitted_to_it(share: float, number: int) -> None:
+    """A roof of 20 strips over an arc of 0.4; its ends leave the plane through the mean of its strips most."""
+    angles = np.linspace(-0.2, 0.2, 21)
+    heights = np.cos(angles)
+    farthest = np.mean(0.5 * (heights[1:] + heights[:-1])) - heights[0]
+    outline = [(float(np.sin(angle)), float(np.cos(angle))) for angle in angles[::-1]]
+    polyhedra = raw(prism([*outline, (-0.1, 0.0), (0.1, 0.0)]))
+    facet = find_facets(polyhedra, find_edges(polyhedra), face_geometry(polyhedra), np.array([share * farthest]))
+    assert len(set(facet[2:22].tolist())) == number
