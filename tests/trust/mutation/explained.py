@@ -81,4 +81,105 @@ EXPLAINED: dict[tuple[str, str, str], str] = {
         "_LARGE = 20_000",
         "20000 -> 20001",
     ): "where one way of doing it takes over from another with the same result",
+    (
+        "mbla/model/convexity.py",
+        "convex = np.zeros(len(polyhedra), dtype=bool)",
+        "np.zeros -> np.ones",
+    ): "every entry is overwritten",
+    (
+        "mbla/model/orientation.py",
+        "block_of_piece = np.zeros(labels.max() + 1, dtype=np.int64)",
+        "np.zeros -> np.ones",
+    ): "every entry is overwritten",
+    (
+        "mbla/model/geometry/duplicate_faces.py",
+        "codes = np.zeros(len(counts), dtype=np.int64)",
+        "np.zeros -> np.ones",
+    ): "every entry is overwritten",
+    (
+        "mbla/model/geometry/surfaces.py",
+        "angles = np.zeros(len(surface.loops))",
+        "np.zeros -> np.ones",
+    ): "read only where it is overwritten",
+    (
+        "mbla/model/geometry/gltf_accessors.py",
+        "return np.zeros((0, width))",
+        "np.zeros -> np.ones",
+    ): "has no entries",
+    (
+        "mbla/model/geometry/duplicate_faces.py",
+        "codes[rows] = used + inverse.reshape(-1)",
+        "1 -> 2",
+    ): "of a shape, any negative number is the length that is left",
+    (
+        "mbla/model/geometry/edge_lengths.py",
+        "return np.flatnonzero(counts[inverse.reshape(-1)] == 1)",
+        "1 -> 2",
+    ): "of a shape, any negative number is the length that is left",
+    (
+        "mbla/model/geometry/line_networks.py",
+        "labels = connected_labels(pairs.reshape(-1, 2).astype(np.int64), len(points))",
+        "1 -> 2",
+    ): "of a shape, any negative number is the length that is left",
+    (
+        "mbla/model/geometry/stl.py",
+        "return _geometry([np.array(each, dtype=np.float64).reshape(-1, 3, 3) for each in corners], names)",
+        "1 -> 2",
+    ): "of a shape, any negative number is the length that is left",
+    (
+        "mbla/model/geometry/surfaces.py",
+        "part = rank[codes.reshape(-1)]",
+        "1 -> 2",
+    ): "of a shape, any negative number is the length that is left",
+    (
+        "mbla/model/polyhedra.py",
+        "loops=(flat + vertex_start[:-1, None]).reshape(-1),",
+        "1 -> 2",
+    ): "of a shape, any negative number is the length that is left",
+    (
+        "mbla/model/polyhedra.py",
+        "[[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1]], dtype=bool",
+        "1 -> 2",
+    ): "a truth value: 2 is true, too",
+    (
+        "mbla/model/geometry/edge_lengths.py",
+        "keys = np.minimum(tails, heads) * len(polyhedra.vertices) + np.maximum(tails, heads)",
+        "np.minimum(tails, heads) * len(polyhedra.vertices) -> np.minimum(tails, heads) / len(polyhedra.vertices)",
+    ): "the lesser vertex as a fraction below one: as good a number for an edge",
+    (
+        "mbla/model/geometry/surfaces.py",
+        "keys = np.minimum(tails, heads) * len(surface.vertices) + np.maximum(tails, heads)",
+        "np.minimum(tails, heads) * len(surface.vertices) -> np.minimum(tails, heads) / len(surface.vertices)",
+    ): "the lesser vertex as a fraction below one: as good a number for an edge, in another order",
+    (
+        "mbla/model/geometry/surfaces.py",
+        "random = np.random.default_rng(0).integers(0, 2**63, size=int(codes.max()) + 1, dtype=np.uint64)",
+        "0 -> 1",
+    ): "other random numbers",
+    (
+        "mbla/model/defects.py",
+        "multipliers = np.array([73856093, 19349663, 83492791, 2654435761], dtype=np.int64)",
+        "19349663 -> 19349664",
+    ): "another hash; cells are compared themselves where it is equal",
+    (
+        "mbla/model/defects.py",
+        "for number, face in zip(blocks.tolist(), (flat[first] - polyhedra.face_start[blocks]).tolist(), strict=True):",
+        "True -> False",
+    ): "both have an entry for each of the blocks",
+    (
+        "mbla/model/facets.py",
+        "closes = lengths < STEEPEST  # the faces go round a curve, all the way round they cancel each other",
+        "lengths < STEEPEST -> lengths <= STEEPEST",
+    ): "a limit that is a rough one, met exactly",
+    (
+        "mbla/model/self_intersection.py",
+        "slope = np.divide(along[:, 0], along[:, 1], out=np.zeros(len(along)), where=rises)",
+        "np.zeros -> np.ones",
+    ): "read only where it is overwritten",
+    (
+        "mbla/model/self_intersection.py",
+        "clear = np.linalg.norm(arms - share[:, None] * along, axis=1) > np.repeat(eps, counts)",
+        "np.linalg.norm(arms - share[:, None] * along, axis=1) > np.repeat(eps, counts)"
+        " -> np.linalg.norm(arms - share[:, None] * along, axis=1) >= np.repeat(eps, counts)",
+    ): "a limit that is a rough one, met exactly",
 }
