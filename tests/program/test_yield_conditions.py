@@ -5,6 +5,7 @@ import pytest
 
 from mbla.arrays import FloatArray
 from mbla.program.yield_conditions import CONDITIONS, Crushing, TensionCutOff, YieldLimits, yield_violation
+from tests.program.random_points import mixed_program
 
 
 def limits_of(mu: float = 0.5, c: float = 0.0, ft: float = 0.0, fc: float = np.inf) -> YieldLimits:
@@ -53,3 +54,18 @@ def test_scaling_leaves_friction_and_unlimited_compression_alone() -> None:
     scaled = limits_of(mu=0.5, c=2.0, ft=1.0).scaled(10.0)
     assert (scaled.friction[0], scaled.cohesion[0], scaled.tension[0]) == (0.5, 20.0, 10.0)
     assert np.isinf(scaled.compression[0])
+
+
+def test_conditions_that_do_not_apply_are_implied_by_those_that_do() -> None:
+    draw = np.random.default_rng(1)
+    limits = mixed_program(3, 1).limits
+    n = len(limits.friction)
+    for _ in range(200):
+        forces = draw.normal(scale=0.5, size=(n, 3))
+        forces[draw.random((n, 3)) < 0.3] = 0.0
+        left = np.full(n, np.inf)
+        for condition in CONDITIONS:
+            demand = np.linalg.norm(forces[:, 1:], axis=1) if condition.bounds_shear else 0.0
+            room = condition.offset(limits) + condition.slope(limits) * forces[:, 0] - demand
+            left = np.where(condition.applies(limits), np.minimum(left, room), left)
+        assert np.array_equal(left >= 0, yield_violation(forces, limits) == 0)
