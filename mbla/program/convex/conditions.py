@@ -61,8 +61,6 @@ class Entries:
 
     def matrix(self, shape: tuple[int, int]) -> sp.csr_array:
         """All entries as a matrix."""
-        if not self.rows:
-            return sp.csr_array(shape)
         place = (np.concatenate(self.rows), np.concatenate(self.columns))
         return sp.csr_array(sp.coo_array((np.concatenate(self.values), place), shape=shape))
 

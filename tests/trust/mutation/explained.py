@@ -182,4 +182,162 @@ EXPLAINED: dict[tuple[str, str, str], str] = {
         "np.linalg.norm(arms - share[:, None] * along, axis=1) > np.repeat(eps, counts)"
         " -> np.linalg.norm(arms - share[:, None] * along, axis=1) >= np.repeat(eps, counts)",
     ): "a limit that is a rough one, met exactly",
+    (
+        "mbla/program/assemble.py",
+        "return np.asarray(values, dtype=np.float64)[joint] if len(joint) else np.zeros(0)",
+        "np.zeros -> np.ones",
+    ): "an empty array",
+    (
+        "mbla/program/fixed_mechanism.py",
+        "fixed = np.where(motion.opens, -limits.tension, np.where(motion.crushes, limits.compression, 0.0))",
+        "0.0 -> 1.0",
+    ): "read at points that open or crush alone",
+    (
+        "mbla/program/convex/friction_limit.py",
+        "sense, twist = np.where(trial[:, 2] < 0, -1.0, 1.0), np.abs(trial[:, 2])",
+        "trial[:, 2] < 0 -> trial[:, 2] <= 0",
+    ): "either sense of no twist",
+    (
+        "mbla/program/convex/shapes.py",
+        "rectangles, sides, axes = np.zeros(n, dtype=bool), np.zeros((n, 2)), np.zeros((n, 2, 2))",
+        "np.zeros -> np.ones",
+    ): "sides and axes of what is no rectangle, which nobody reads",
+    (
+        "mbla/program/convex/size.py",
+        "conditions = sum(int(np.count_nonzero(rows.cone_sizes > 1)) for rows in convex.conditions)",
+        "1 -> 2",
+    ): "no condition has a cone of dimension 2",
+    (
+        "mbla/program/program.py",
+        "return values.reshape(-1, 3 if program.components == 2 else 6)",
+        "1 -> 2",
+    ): "numpy takes any negative number for the length that is left",
+    (
+        "mbla/program/reductions/guided.py",
+        "row_of_block = np.full(len(model.blocks), -1, dtype=np.int64)",
+        "-1 -> 1",
+    ): "no fixed block is guided",
+    (
+        "mbla/program/reductions/guided.py",
+        "ways = guides.motions / scaling.row.reshape(-1, 6)[row_of_block[guides.blocks]][:, :, None] / scaling.force",
+        "guides.motions / scaling.row.reshape(-1, 6)[row_of_block[guides.blocks]][:, :, None] / scaling.force -> "
+        "guides.motions / scaling.row.reshape(-1, 6)[row_of_block[guides.blocks]][:, :, None] * scaling.force",
+    ): "ways of any length span the same space",
+    (
+        "mbla/program/reductions/guided.py",
+        "basis = left[:, size > DEPENDENT * size.max(initial=0.0)]",
+        "size > DEPENDENT * size.max(initial=0.0) -> size >= DEPENDENT * size.max(initial=0.0)",
+    ): "a rough limit met exactly",
+    (
+        "mbla/program/reductions/guided.py",
+        "n = projector.shape[0]",
+        "0 -> 1",
+    ): "a square matrix",
+    (
+        "mbla/program/reductions/guided.py",
+        "count, label = connected_components(projector, directed=False)",
+        "False -> True",
+    ): "directed graphs are connected weakly unless said otherwise",
+    (
+        "mbla/program/reductions/merged.py",
+        "return np.asarray(connected_components(graph, directed=False)[1], dtype=np.int64)",
+        "False -> True",
+    ): "directed graphs are connected weakly unless said otherwise",
+    (
+        "mbla/program/reductions/merged.py",
+        "turned = np.where(bodies[:, 0] <= bodies[:, 1], 1.0, -1.0)[:, None]",
+        "bodies[:, 0] <= bodies[:, 1] -> bodies[:, 0] > bodies[:, 1]",
+    ): "every normal turned: only differences of them are looked at",
+    (
+        "mbla/program/reductions/mirror.py",
+        "if length <= 1e-9 * largest**2 and length < 0.5:",
+        "length <= 1e-09 * largest ** 2 -> length < 1e-09 * largest ** 2",
+    ): "a rough limit met exactly",
+    (
+        "mbla/program/reductions/planar.py",
+        "areas = (scene.areas + scene.areas[mirror.point_of]) / 2  # cuts and points left out may make them unlike",
+        "2 -> 3",
+    ): "areas become shares in the next line",
+    (
+        "mbla/program/reductions/planar.py",
+        "interface = np.minimum(scene.interfaces, scene.interfaces[mirror.point_of])",
+        "np.minimum -> np.maximum",
+    ): "either number of an interface and its image names both",
+    (
+        "mbla/program/reductions/planar.py",
+        "new = np.diff(interface[order], prepend=-1) != 0",
+        "-1 -> 1",
+    ): "the first point begins a group by the next line",
+    (
+        "mbla/program/reductions/planar.py",
+        "new = np.diff(interface[order], prepend=-1) != 0",
+        "1 -> 2",
+    ): "the first point begins a group by the next line",
+    (
+        "mbla/program/reductions/planar.py",
+        "new |= np.diff(place[order], prepend=-np.inf) > BEHIND",
+        "-np.inf -> np.inf",
+    ): "the first point begins a group by the line before",
+    (
+        "mbla/program/reductions/points.py",
+        "return np.union1d(several_of_a_pair(scene), scene.interfaces[turns(scene) <= STRAIGHT_ON])",
+        "turns(scene) <= STRAIGHT_ON -> turns(scene) < STRAIGHT_ON",
+    ): "a rough limit met exactly",
+    (
+        "mbla/program/reductions/points.py",
+        "flat = (scene.points[group] - scene.points[group[0]]) @ scene.frames[group[0], 1:].T / scene.length",
+        "scene.points[group] - scene.points[group[0]] -> scene.points[group] + scene.points[group[0]]",
+    ): "a hull stays what it is wherever it is moved",
+    (
+        "mbla/program/reductions/repeated.py",
+        "near = np.abs(marks[others] - marks[number]).max(axis=1, initial=0.0) <= 1e3 * margin",
+        "1000.0 * margin -> 1000.0 / margin",
+    ): "marks only save looking at programs that cannot be the same",
+    (
+        "mbla/program/reductions/repeated.py",
+        "near = np.abs(marks[others] - marks[number]).max(axis=1, initial=0.0) <= 1e3 * margin",
+        "1000.0 -> 1001.0",
+    ): "marks only save looking at programs that cannot be the same",
+    (
+        "mbla/program/reductions/repeated.py",
+        "figures = [*(weights @ dead / n), *(weights @ live / (n * live_size)), *_distances(scene, planes)]",
+        "weights @ dead / n -> weights @ dead * n",
+    ): "marks only save looking at programs that cannot be the same",
+    (
+        "mbla/program/reductions/repeated.py",
+        "return float(scene.areas.mean()) if len(scene.areas) else 1.0",
+        "1.0 -> 2.0",
+    ): "divides no area",
+    (
+        "mbla/program/reductions/repeated.py",
+        "return bool(abs(x - y).max() <= margin * np.abs(x.data).max(initial=0.0))",
+        "abs(x - y).max() <= margin * np.abs(x.data).max(initial=0.0) -> "
+        "abs(x - y).max() < margin * np.abs(x.data).max(initial=0.0)",
+    ): "a rough limit met exactly",
+    (
+        "mbla/program/reductions/shares.py",
+        "if np.all(np.abs(share - 1.0) <= ALIKE):",
+        "np.abs(share - 1.0) <= ALIKE -> np.abs(share - 1.0) < ALIKE",
+    ): "a rough limit met exactly",
+    (
+        "mbla/program/reductions/shares.py",
+        "area = 1.0 / np.asarray(normals.T @ (1.0 / part.areas))",
+        "1.0 -> 2.0",
+    ): "areas become shares of their mean in the next lines",
+    (
+        "mbla/program/remarks.py",
+        "return np.asarray(np.isfinite(strengths)[contacts.joints] if len(contacts) else np.zeros(0, dtype=bool))",
+        "np.zeros -> np.ones",
+    ): "an empty array",
+    (
+        "mbla/program/remarks.py",
+        'turns[:] = np.einsum("ij,ij->i", step, step[following]) < 1 - STRAIGHT',
+        "np.einsum('ij,ij->i', step, step[following]) < 1 - STRAIGHT -> "
+        "np.einsum('ij,ij->i', step, step[following]) <= 1 - STRAIGHT",
+    ): "a rough limit met exactly",
+    (
+        "mbla/program/static.py",
+        "forces = sp.vstack([program.equilibrium_matrix, -half_lines, -shear])",
+        "-shear -> shear",
+    ): "a cone is the same seen from either side; its first entries are zero here",
 }
