@@ -8,6 +8,7 @@ from typing import Any, TypeVar
 import numpy as np
 
 from mbla.arrays import FloatArray
+from mbla.deck.analysis import ReductionSwitches
 from mbla.model.model import LoadCase
 from mbla.program.reductions import ProgramSize, ReductionStep, StepState
 from mbla.results.hdf5.case_content import (
@@ -142,6 +143,8 @@ def _reductions(get: dict[str, Any]) -> tuple[ReductionStep, ...]:
     columns = {when: [get[f"reductions/{name}_{when}"] for name in STEP_SIZES] for when in STEP_ENDS}
     sizes = {when: [ProgramSize(*row) for row in np.column_stack(of).tolist()] for when, of in columns.items()}
     found = get["reductions/name"], get["reductions/state"], get["reductions/found"].tolist()
+    if not set(found[0]) <= {"glued", *ReductionSwitches.model_fields}:
+        raise ValueError("name of a reduction")
     rows = zip(*found, sizes["before"], sizes["after"], strict=True)
     return tuple(ReductionStep(name, StepState(state), *row) for name, state, *row in rows)
 

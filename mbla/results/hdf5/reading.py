@@ -13,6 +13,9 @@ from mbla.results.hdf5.layout import SHARED_DIMENSIONS
 if TYPE_CHECKING:
     import h5py
 
+LARGEST = 1e150
+"""beyond it squares overflow; no run writes such numbers"""
+
 
 def text_of(value: Any) -> str:
     """Text as HDF5 gives it."""
@@ -40,8 +43,12 @@ def read_field(dataset: h5py.Dataset, path: str, field: Field, sizes: dict[str, 
     if dataset.dtype.kind != kinds[field.kind]:
         raise ValueError(f"{path} is of type {dataset.dtype}")
     array = np.asarray(dataset[()])
-    if field.kind == "float" and not field.open and not np.isfinite(array).all():
-        raise ValueError(f"{path} is not finite")
+    if field.kind == "float":
+        finite = np.isfinite(array)
+        if not field.open and not finite.all():
+            raise ValueError(f"{path} is not finite")
+        if np.any(np.abs(array[finite]) > LARGEST):
+            raise ValueError(f"{path} has numbers beyond {LARGEST:.0e}")
     if field.kind == "bool" and np.any(array > 1):
         raise ValueError(f"{path} is neither 0 nor 1")
     array = array.astype({"float": np.float64, "int": np.int64, "bool": np.bool_}[field.kind])

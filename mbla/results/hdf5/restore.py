@@ -22,6 +22,7 @@ from mbla.results.hdf5.case_content import Content
 from mbla.results.hdf5.case_restore import case_from
 from mbla.results.hdf5.content import BLOCK_ARRAYS, CONTACT_ARRAYS, REPORT_FIELDS, SETTLEMENT_FIELDS
 from mbla.results.hdf5.load_fields import RECORD_NAMES
+from mbla.results.hdf5.reading import LARGEST
 from mbla.results.results import DeckRecord, Results
 
 
@@ -33,6 +34,15 @@ def results_from(content: Content, attributes: dict[str, str | int]) -> Results:
     if len(load_cases) != len(names):
         raise ValueError("two load cases of one name")
     solved = [name for name in names if f"cases/{name}/status" in get]
+    model, contacts = _model(_part(get, "model/"), tuple(load_cases.values())), _contacts(_part(get, "contacts/"))
+    if not set(contacts.joint_names) <= set(model.joints):
+        raise ValueError("joint law of an interface")
+    if solved and model.fixed.all():
+        raise ValueError("results of a model in which no block can move")
+    for name in solved:
+        moving = ~model.of_case(load_cases[name]).fixed
+        if np.abs(load_cases[name].live_load[moving]).max(initial=0.0) < 1.0 / LARGEST:
+            raise ValueError(f"{name}: no live load on blocks that can move")
     return Results(
         deck=DeckRecord(
             name=get["deck/name"],
@@ -40,8 +50,8 @@ def results_from(content: Content, attributes: dict[str, str | int]) -> Results:
             overrides=tuple(get["deck/overrides"]),
             sha256=str(attributes["deck_sha256"]),
         ),
-        model=_model(_part(get, "model/"), tuple(load_cases.values())),
-        contacts=_contacts(_part(get, "contacts/")),
+        model=model,
+        contacts=contacts,
         cases=tuple(case_from(load_cases[name], _part(get, f"cases/{name}/")) for name in solved),
         notices=_notices(_part(get, "notices/")),
         provenance=dict(zip(get["provenance/names"], get["provenance/values"], strict=True)),

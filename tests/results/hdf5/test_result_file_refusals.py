@@ -15,6 +15,8 @@ from mbla.errors import FileError
 from mbla.results.hdf5.result_file import read_results_hdf5, write_results_hdf5
 from mbla.results.hdf5.seal import SEAL_BYTES, sealed
 from mbla.results.results import Results
+from mbla.run_deck import RunOptions, run
+from tests.line import BLOCK
 from tests.results.changed_files import change, changing, remove, replace_dataset
 from tests.results.synthetic import full_results, tower_results
 
@@ -106,6 +108,8 @@ def test_incomplete_file(path: Path) -> None:
         (lambda p: replace_dataset(p, "contacts/joints", np.zeros(2)), "type"),
         (lambda p: change(p, "model/volumes", np.nan), "not finite"),
         (lambda p: change(p, "cases/push_x/contact_forces", np.inf), "not finite"),
+        (lambda p: change(p, "cases/push_x/dead_load", -1e200), "beyond 1e+150"),
+        (lambda p: change(p, "cases/push_x/live_load", 0.0), "push_x: no live load on blocks that can move"),
         (lambda p: change(p, "model/fixed", 2), "neither 0 nor 1"),
         (lambda p: change(p, "model/loops", 24), "points outside vertex"),
         (lambda p: change(p, "contacts/bodies", -1), "points outside body"),
@@ -122,12 +126,23 @@ def test_incomplete_file(path: Path) -> None:
         (lambda p: change(p, "cases/push_x/solver", b"x"), "name of a solver"),
         (lambda p: change(p, "model/units", b"x"), "units"),
         (lambda p: change(p, "notices/severity", b"x"), "severity"),
-        (lambda p: change(p, "model/ground_joints", b"x"), "joint law"),
+        (lambda p: change(p, "model/ground_joints", b"x"), "joint law of a ground plane"),
+        (lambda p: change(p, "contacts/joint_names", b"x"), "joint law of an interface"),
+        (lambda p: change(p, "model/fixed", 1), "no block can move"),
     ],
 )
 def test_contradictions(path: Path, spoil: Any, words: Any) -> None:
     spoil(path)
     assert words in refused(path)
+
+
+def test_reductions_have_known_names(tmp_path: Path) -> None:
+    deck = tmp_path / "deck.yaml"
+    deck.write_text(BLOCK, encoding="utf-8")
+    run(deck, RunOptions())
+    path = tmp_path / "deck.out" / "deck.h5"
+    change(path, "cases/push/reductions/name", b"x")
+    assert "name of a reduction" in refused(path)
 
 
 @pytest.mark.parametrize(
