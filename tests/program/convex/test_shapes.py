@@ -1,11 +1,13 @@
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 import pytest
 
 from mbla.program.convex.friction_curve import disc_radius, fitted_curves
 from mbla.program.convex.shapes import InterfaceShapes, interface_shapes
-from tests.line import HEAD, WALL, line_of
+from tests.line import HEAD, WALL, Line, line_of
 
 PRISM = (
     HEAD
@@ -19,15 +21,18 @@ load_cases: {push: {live: [{acceleration: [1, 0, 0]}]}}
 )
 
 
-def shapes_of(*outline: tuple[float, float], text: str = PRISM, refine: int = 1) -> InterfaceShapes:
-    """The interface of a prism of this outline with the ground."""
+def prism_line(outline: Sequence[tuple[float, float]], *overrides: str, text: str = PRISM) -> Line:
+    """A prism of this outline on the ground."""
     n = len(outline)
     vertices = [[x, y, z] for z in (0, 1) for x, y in outline]
     faces = [list(range(n)), list(range(n, 2 * n))]
     faces += [[i, (i + 1) % n, n + (i + 1) % n, n + i] for i in range(n)]
-    deck = text.replace("VERTICES", str(vertices)).replace("FACES", str(faces))
-    line = line_of(deck, f"contacts.points.per_edge={refine}")
-    return interface_shapes(line.contacts)
+    return line_of(text.replace("VERTICES", str(vertices)).replace("FACES", str(faces)), *overrides)
+
+
+def shapes_of(*outline: tuple[float, float], text: str = PRISM, refine: int = 1) -> InterfaceShapes:
+    """The interface of a prism of this outline with the ground."""
+    return interface_shapes(prism_line(outline, f"contacts.points.per_edge={refine}", text=text).contacts)
 
 
 def test_rectangle_in_any_position() -> None:

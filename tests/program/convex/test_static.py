@@ -17,12 +17,11 @@ from mbla.program.convex.static import ConvexStaticForm, convex_proximal_data, c
 from mbla.program.kinematic import ConeProgram
 from mbla.solution.clarabel_adapter import ClarabelProgram
 from mbla.solution.settings import solver_settings
-from tests.line import line_of
 from tests.program.convex.test_conditions import crushing_allowed
-from tests.program.convex.test_shapes import PRISM
+from tests.program.convex.test_shapes import prism_line
 
 SETTINGS = solver_settings(AnalysisSection())
-OUTLINES = {
+OUTLINES: dict[str, tuple[tuple[float, float], ...]] = {
     "rectangle": ((0, 0), (1.25, 0), (1.25, 0.75), (0, 0.75)),
     "triangle": ((0, 0), (1.0, 0), (0.25, 0.75)),
     "ell": ((0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2)),
@@ -32,12 +31,7 @@ STRENGTH = "compressive_strength: 2.e5"
 
 def convex_program(name: str, law: str) -> ConvexProgram:
     """One block on the ground."""
-    outline = OUTLINES[name]
-    n = len(outline)
-    vertices = [[x, y, z] for z in (0, 1) for x, y in outline]
-    faces = [list(range(n)), list(range(n, 2 * n))]
-    faces += [[i, (i + 1) % n, n + (i + 1) % n, n + i] for i in range(n)]
-    line = line_of(PRISM.replace("VERTICES", str(vertices)).replace("FACES", str(faces)), f"joints.dry={{{law}}}")
+    line = prism_line(OUTLINES[name], f"joints.dry={{{law}}}")
     return assemble_convex(line.model, line.contacts, line.load_case)
 
 
