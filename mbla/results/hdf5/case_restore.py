@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any, TypeVar
+from typing import Any, TypeVar, get_args
 
 import numpy as np
 
 from mbla.arrays import FloatArray
-from mbla.deck.analysis import ReductionSwitches
+from mbla.deck.analysis import AnalysisSection, ReductionSwitches
 from mbla.model.model import LoadCase
 from mbla.program.reductions import ProgramSize, ReductionStep, StepState
 from mbla.results.hdf5.case_content import (
@@ -48,6 +48,9 @@ def case_from(load_case: LoadCase, get: dict[str, Any]) -> CaseResult:
     if answers["associative"] is None and get["flow_rule"] == "associative":
         answers["associative"] = answers["mechanics"]
     lower, upper = get["range"].tolist()
+    for name in ("flow_rule", "contact_model"):
+        if get[name] not in get_args(AnalysisSection.model_fields[name].annotation):
+            raise ValueError(f"{name} of a load case")
     solution = Solution(
         flow_rule=get["flow_rule"],
         status=Status(get["claimed_status"]),
