@@ -25,6 +25,9 @@ from mbla.results.hdf5.load_fields import RECORD_NAMES
 from mbla.results.hdf5.reading import LARGEST
 from mbla.results.results import DeckRecord, Results
 
+UNIT = 1e-6
+"""departure of the length of a normal from 1 that is rounding, generously"""
+
 
 def results_from(content: Content, attributes: dict[str, str | int]) -> Results:
     """Results from content and root attributes; ValueError where they contradict themselves."""
@@ -77,6 +80,8 @@ def _model(get: dict[str, Any], load_cases: tuple[LoadCase, ...]) -> Model:
     length, force, mass = get["units"]
     if length not in METRES or force not in NEWTONS or mass not in KILOGRAMS:
         raise ValueError("units of the model")
+    if min(get["volumes"].min(initial=1.0), get["densities"].min(initial=1.0)) < 1.0 / LARGEST:
+        raise ValueError("volume or density of a block")
     names = get["group_names"]
     groups = tuple(names[group] for group in get["groups"].tolist())
     return Model(
@@ -143,6 +148,8 @@ def _contacts(get: dict[str, Any]) -> Contacts:
     )
     if np.any((get["outline"] < 0) | (get["outline"] > np.diff(get["point_start"]))):
         raise ValueError("outline of an interface")
+    if np.any(np.abs(np.linalg.norm(get["normals"], axis=1) - 1.0) > UNIT):
+        raise ValueError("normal of an interface")
     arrays = {name: get[name] for name in CONTACT_ARRAYS}
     label = get.get("solid_of_block")
     if label is not None and not np.array_equal(np.unique(label), np.arange(label.max(initial=-1) + 1)):
