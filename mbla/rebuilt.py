@@ -2,7 +2,8 @@
 
 Residuals and bounds prove an answer for the arrays of a file. That these arrays are the structure that its deck
 describes is shown by the deck: blocks, contacts, joint laws and loads follow from its text. No other file is opened; a
-deck that needs others is judged by what its arrays must have in common (:mod:`mbla.results.coherence`).
+deck that needs others is judged by what its arrays must have in common alone (:mod:`mbla.results.coherence`), which
+every file that is read must have.
 """
 
 from __future__ import annotations
@@ -20,7 +21,6 @@ from mbla.deck.reading import sha256_of
 from mbla.errors import DeckError
 from mbla.model import Model, build_model
 from mbla.model.settlement import with_reference
-from mbla.results.coherence import incoherences
 from mbla.results.hdf5.case_content import Content, Value
 from mbla.results.hdf5.content import content_of
 from mbla.results.results import Results
@@ -46,7 +46,7 @@ def differences_from_deck(results: Results) -> tuple[tuple[str, ...], str]:
     The second is empty where it was.
     """
     deck = results.deck
-    differences = list(incoherences(results.model, results.contacts))
+    differences: list[str] = []
     if sha256_of([*(text for _, text in deck.sources), *deck.overrides]) != deck.sha256:
         differences.append("the hash of the deck is not that of its text")
     wrote = results.provenance.get("mbla", "")

@@ -15,6 +15,7 @@ ROUNDING = 1e-6
 """Difference over the size of a block, or of an area over the largest, that is no contradiction."""
 
 
+@np.errstate(over="ignore", invalid="ignore")  # what is no number is no agreement either
 def incoherences(model: Model, contacts: Contacts) -> tuple[str, ...]:
     """Where arrays of a model contradict each other, in words."""
     blocks = model.blocks
@@ -28,14 +29,14 @@ def incoherences(model: Model, contacts: Contacts) -> tuple[str, ...]:
         found.append("volumes of blocks are not those within their faces")
     extent = float(np.abs(blocks.vertices).max(initial=0.0))
     away = np.abs(centroids - blocks.centroids).max(axis=1)
-    if np.any(away > ROUNDING * blocks.sizes + 1e-9 * extent):
+    if not np.all(away <= ROUNDING * blocks.sizes + 1e-9 * extent):
         found.append("centroids of blocks are not those within their faces")
-    if _off(np.einsum("pix,pjx->pij", contacts.frames, contacts.frames), np.eye(3)) > ROUNDING:
+    if not _off(np.einsum("pix,pjx->pij", contacts.frames, contacts.frames), np.eye(3)) <= ROUNDING:
         found.append("frames of contact points are not orthonormal")
-    if _off(contacts.frames[:, 0], contacts.normals[contacts.interface_of_point]) > ROUNDING:
+    if not _off(contacts.frames[:, 0], contacts.normals[contacts.interface_of_point]) <= ROUNDING:
         found.append("frames of contact points do not follow the normals of interfaces")
     shares = row_sums(contacts.point_areas, contacts.point_start)
-    if _off(shares, contacts.areas) > ROUNDING * float(np.abs(contacts.areas).max(initial=0.0)):
+    if not _off(shares, contacts.areas) <= ROUNDING * float(np.abs(contacts.areas).max(initial=0.0)):
         found.append("areas of interfaces are not those of their contact points")
     return tuple(found)
 

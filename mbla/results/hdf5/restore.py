@@ -18,15 +18,13 @@ from mbla.model.blocks import Blocks
 from mbla.model.guides import NO_GUIDES, Guides
 from mbla.model.labels import BlockLabels
 from mbla.model.model import Ground, Joint, LoadCase, Model, Settlement, Tilt, TravelPosition
+from mbla.results.coherence import incoherences
 from mbla.results.hdf5.case_content import Content
 from mbla.results.hdf5.case_restore import case_from
 from mbla.results.hdf5.content import BLOCK_ARRAYS, CONTACT_ARRAYS, REPORT_FIELDS, SETTLEMENT_FIELDS
 from mbla.results.hdf5.load_fields import RECORD_NAMES
 from mbla.results.hdf5.reading import LARGEST
 from mbla.results.results import DeckRecord, Results
-
-UNIT = 1e-6
-"""departure of the length of a normal from 1 that is rounding, generously"""
 
 
 def results_from(content: Content, attributes: dict[str, str | int]) -> Results:
@@ -40,6 +38,9 @@ def results_from(content: Content, attributes: dict[str, str | int]) -> Results:
     model, contacts = _model(_part(get, "model/"), tuple(load_cases.values())), _contacts(_part(get, "contacts/"))
     if not set(contacts.joint_names) <= set(model.joints):
         raise ValueError("joint law of an interface")
+    contradictions = incoherences(model, contacts)
+    if contradictions:
+        raise ValueError("; ".join(contradictions))
     if solved and model.fixed.all():
         raise ValueError("results of a model in which no block can move")
     for name in solved:
@@ -80,8 +81,8 @@ def _model(get: dict[str, Any], load_cases: tuple[LoadCase, ...]) -> Model:
     length, force, mass = get["units"]
     if length not in METRES or force not in NEWTONS or mass not in KILOGRAMS:
         raise ValueError("units of the model")
-    if min(get["volumes"].min(initial=1.0), get["densities"].min(initial=1.0)) < 1.0 / LARGEST:
-        raise ValueError("volume or density of a block")
+    if get["densities"].min(initial=1.0) < 1.0 / LARGEST:
+        raise ValueError("density of a block")
     names = get["group_names"]
     groups = tuple(names[group] for group in get["groups"].tolist())
     return Model(
@@ -148,8 +149,6 @@ def _contacts(get: dict[str, Any]) -> Contacts:
     )
     if np.any((get["outline"] < 0) | (get["outline"] > np.diff(get["point_start"]))):
         raise ValueError("outline of an interface")
-    if np.any(np.abs(np.linalg.norm(get["normals"], axis=1) - 1.0) > UNIT):
-        raise ValueError("normal of an interface")
     arrays = {name: get[name] for name in CONTACT_ARRAYS}
     label = get.get("solid_of_block")
     if label is not None and not np.array_equal(np.unique(label), np.arange(label.max(initial=-1) + 1)):
