@@ -23,7 +23,7 @@ from mbla.results.hdf5.case_content import Content
 from mbla.results.hdf5.case_restore import case_from
 from mbla.results.hdf5.content import BLOCK_ARRAYS, CONTACT_ARRAYS, REPORT_FIELDS, SETTLEMENT_FIELDS
 from mbla.results.hdf5.load_fields import RECORD_NAMES
-from mbla.results.hdf5.reading import LARGEST
+from mbla.results.hdf5.reading import LARGEST_LOAD
 from mbla.results.results import DeckRecord, Results
 
 
@@ -45,7 +45,7 @@ def results_from(content: Content, attributes: dict[str, str | int]) -> Results:
         raise ValueError("results of a model in which no block can move")
     for name in solved:
         moving = ~model.of_case(load_cases[name]).fixed
-        if np.abs(load_cases[name].live_load[moving]).max(initial=0.0) < 1.0 / LARGEST:
+        if np.abs(load_cases[name].live_load[moving]).max(initial=0.0) < 1.0 / LARGEST_LOAD:
             raise ValueError(f"{name}: no live load on blocks that can move")
     return Results(
         deck=DeckRecord(
@@ -81,7 +81,7 @@ def _model(get: dict[str, Any], load_cases: tuple[LoadCase, ...]) -> Model:
     length, force, mass = get["units"]
     if length not in METRES or force not in NEWTONS or mass not in KILOGRAMS:
         raise ValueError("units of the model")
-    if get["densities"].min(initial=1.0) < 1.0 / LARGEST:
+    if get["densities"].min(initial=1.0) < 1.0 / LARGEST_LOAD:
         raise ValueError("density of a block")
     names = get["group_names"]
     groups = tuple(names[group] for group in get["groups"].tolist())
