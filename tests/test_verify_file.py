@@ -7,6 +7,7 @@ from typing import Any
 
 import pytest
 
+from mbla.errors import FileError
 from mbla.results.hdf5.result_file import read_results_hdf5
 from mbla.run_deck import run
 from mbla.run_options import RunOptions
@@ -65,6 +66,19 @@ def test_a_file_as_it_was_written_agrees(path: Path) -> None:
 def test_what_the_deck_or_the_mechanism_does_not_give(path: Path, name: str, factor: float, words: str) -> None:
     scaled(path, name, factor)
     assert words in differences(path)
+
+
+@pytest.mark.parametrize(
+    ("name", "words"),
+    [
+        ("model/vertices", "volumes of blocks are not those within their faces"),
+        ("contacts/areas", "areas of interfaces are not those of their contact points"),
+    ],
+)
+def test_arrays_that_contradict_each_other_are_not_even_read(path: Path, name: str, words: str) -> None:
+    scaled(path, name, 1.01)
+    with pytest.raises(FileError, match=words):
+        differences(path)
 
 
 @pytest.mark.parametrize(

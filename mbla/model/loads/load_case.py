@@ -53,6 +53,7 @@ class _Sum:
         return longer
 
 
+@np.errstate(over="ignore", invalid="ignore")  # loads beyond what a double holds are refused as such
 def build_load_cases(name: str, section: LoadCaseSection, site: LoadSite) -> tuple[LoadCase, ...]:
     """Dead and live load of one case, or of one for each position of a load that travels.
 
@@ -63,13 +64,6 @@ def build_load_cases(name: str, section: LoadCaseSection, site: LoadSite) -> tup
     dead_loads = section.dead
     if dead_loads is None:
         dead_loads = [Load.model_construct(gravity=(0.0, 0.0, -site.units.standard_gravity))]
-    with np.errstate(over="ignore", invalid="ignore"):  # loads beyond what a double holds are refused as such
-        return _load_cases(name, section, dead_loads, path, site)
-
-
-def _load_cases(
-    name: str, section: LoadCaseSection, dead_loads: Sequence[Load], path: KeyPath, site: LoadSite
-) -> tuple[LoadCase, ...]:
     before = len(site.faults)
     dead = _add_up(dead_loads, (*path, "dead"), site, live=False)
     live = _add_up(section.live or [], (*path, "live"), site, live=True)

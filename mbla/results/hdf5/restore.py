@@ -23,8 +23,10 @@ from mbla.results.hdf5.case_content import Content
 from mbla.results.hdf5.case_restore import case_from
 from mbla.results.hdf5.content import BLOCK_ARRAYS, CONTACT_ARRAYS, REPORT_FIELDS, SETTLEMENT_FIELDS
 from mbla.results.hdf5.load_fields import RECORD_NAMES
-from mbla.results.hdf5.reading import LARGEST_LOAD
 from mbla.results.results import DeckRecord, Results
+
+LEAST, MOST = 1e-120, 1e120
+"""of loads, which are squared; those of a deck lie within 1e-112 and 1e100. Also the least density"""
 
 
 def results_from(content: Content, attributes: dict[str, str | int]) -> Results:
@@ -45,7 +47,7 @@ def results_from(content: Content, attributes: dict[str, str | int]) -> Results:
         raise ValueError("results of a model in which no block can move")
     for name in solved:
         moving = ~model.of_case(load_cases[name]).fixed
-        if np.abs(load_cases[name].live_load[moving]).max(initial=0.0) < 1.0 / LARGEST_LOAD:
+        if np.abs(load_cases[name].live_load[moving]).max(initial=0.0) < LEAST:
             raise ValueError(f"{name}: no live load on blocks that can move")
     return Results(
         deck=DeckRecord(
@@ -81,7 +83,7 @@ def _model(get: dict[str, Any], load_cases: tuple[LoadCase, ...]) -> Model:
     length, force, mass = get["units"]
     if length not in METRES or force not in NEWTONS or mass not in KILOGRAMS:
         raise ValueError("units of the model")
-    if get["densities"].min(initial=1.0) < 1.0 / LARGEST_LOAD:
+    if get["densities"].min(initial=1.0) < LEAST:
         raise ValueError("density of a block")
     names = get["group_names"]
     groups = tuple(names[group] for group in get["groups"].tolist())
@@ -159,6 +161,8 @@ def _contacts(get: dict[str, Any]) -> Contacts:
 def _load_case(name: str, get: dict[str, Any]) -> LoadCase:
     get = {RECORD_NAMES.get(path, path): value for path, value in get.items()}
     travel, tilt = _part(get, "travel/"), _part(get, "tilt/")
+    if max(np.abs(get[load]).max(initial=0.0) for load in ("dead_load", "live_load")) > MOST:
+        raise ValueError(f"{name}: a load beyond {MOST:.0e}")
     settlement = None
     if "settlement/blocks" in get:
         settlement = Settlement(**{field: get[f"settlement/{field}"] for field in SETTLEMENT_FIELDS})

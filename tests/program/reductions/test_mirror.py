@@ -11,17 +11,12 @@ from mbla.deck.analysis import ReductionSwitches
 from mbla.program.reductions import reduce_program
 from mbla.program.reductions.half import half_of
 from mbla.program.reductions.mirror import mirror_about, mirror_candidates
-from mbla.program.reductions.scene import Scene, scene_of
 from tests.line import BLOCK, WALL, line_of
+from tests.program.reductions.scenes import scene
 
 TURNED = WALL.replace("courses:", "transform: [{rotate: {axis: [0, 0, 1], angle: 30}}], courses:")
 ALONG = np.array([np.cos(np.pi / 6), np.sin(np.pi / 6), 0.0])
 ACROSS = np.array([-np.sin(np.pi / 6), np.cos(np.pi / 6), 0.0])
-
-
-def scene(text: str, *overrides: str) -> Scene:
-    line = line_of(text, *overrides)
-    return scene_of(line.model, line.contacts, line.program)
 
 
 def push(*acceleration: float) -> str:

@@ -8,11 +8,11 @@ import pytest
 from mbla.deck.analysis import ReductionSwitches
 from mbla.program.reductions import reduce_program
 from mbla.program.reductions.parts import _unit_of_force, find_parts, split_into_parts
-from mbla.program.reductions.scene import scene_of
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Standing
 from mbla.solution.standing import assess_standing
 from tests.line import BLOCK, WALL, line_of, verified
+from tests.program.reductions.scenes import scene
 
 STEEP = WALL.replace("mu: 0.65, n: 5", "mu: 0.9, n: 4").replace("flow_rule: associative", "flow_rule: non_associative")
 
@@ -80,12 +80,11 @@ def test_parts_know_their_loads_and_strengths() -> None:
         "supports:", '  - box: {group: other, material: stone, min: [3, 0, 0], max: ["=3+b", 1, "=2*h"]}\nsupports:'
     )
     push = "load_cases.push.live=[{acceleration: [1, 0, 0], on: other}]"
-    line = line_of(text, push, "parameters.c=1000", "parameters.ft=500")
-    scene = scene_of(line.model, line.contacts, line.program)
-    parts = find_parts(scene)
+    whole = scene(text, push, "parameters.c=1000", "parameters.ft=500")
+    parts = find_parts(whole)
     assert parts.part_of_block.tolist() == [0, 1]
     assert parts.loaded.tolist() == [False, True]
-    alone = split_into_parts(scene)
+    alone = split_into_parts(whole)
     assert len(alone) == 2
     for part, weight in zip(alone, (2.0, 4.0), strict=True):
         unit = 2000 * 9.81 * weight
@@ -94,10 +93,9 @@ def test_parts_know_their_loads_and_strengths() -> None:
 
 
 def test_a_part_without_dead_load_has_the_unit_of_the_whole() -> None:
-    line = line_of(BLOCK, "load_cases.push.dead=[{gravity: [0, 0, 0]}]", "parameters.c=1000")
-    scene = scene_of(line.model, line.contacts, line.program)
+    whole = scene(BLOCK, "load_cases.push.dead=[{gravity: [0, 0, 0]}]", "parameters.c=1000")
     push = np.zeros(12)
     assert _unit_of_force(push.reshape(2, 6)) == 1.0
     push[[0, 3]] = 3.0, 4.0
     assert _unit_of_force(push.reshape(2, 6)) == 5.0  # of those that have one
-    assert split_into_parts(scene) == [scene]
+    assert split_into_parts(whole) == [whole]

@@ -7,9 +7,9 @@ import pytest
 
 from mbla.program.reductions.mirror import mirror_about
 from mbla.program.reductions.planar import planar_program
-from mbla.program.reductions.scene import scene_of
 from mbla.solution.solution import Status
-from tests.line import BLOCK, HEAD, case_of, line_of
+from tests.line import BLOCK, HEAD, case_of
+from tests.program.reductions.scenes import scene
 
 HALVES = """\
 parameters: {cut: 0.2}
@@ -78,11 +78,10 @@ def test_an_interface_and_its_image_may_name_their_blocks_in_opposite_orders(flo
 @pytest.mark.parametrize("per_edge", [1, 2])
 def test_squares_of_forces_in_the_plane_add_up_to_half_of_those_in_it(per_edge: int) -> None:
     """Two or three points one behind the other: least forces of the plane are those of the model."""
-    line = line_of(BLOCK, f"contacts.points.per_edge={per_edge}", "parameters.c=1000", "parameters.ft=500")
-    scene = scene_of(line.model, line.contacts, line.program)
-    mirror = mirror_about(scene, np.array([0.0, 1.0, 0.0]))
+    whole = scene(BLOCK, f"contacts.points.per_edge={per_edge}", "parameters.c=1000", "parameters.ft=500")
+    mirror = mirror_about(whole, np.array([0.0, 1.0, 0.0]))
     assert mirror is not None
-    program = planar_program(scene, mirror)
+    program = planar_program(whole, mirror)
     assert program.n_points == per_edge + 1
     assert program.reduction is not None
     forces = program.reduction.forces
@@ -93,7 +92,7 @@ def test_squares_of_forces_in_the_plane_add_up_to_half_of_those_in_it(per_edge: 
     else:
         assert np.diag(gram) == pytest.approx(np.full(6, 0.5))
     # all of the strength is there, whatever the unknowns
-    for strength, whole in ((program.limits.cohesion, 1000.0), (program.limits.tension, 500.0)):
+    for strength, expected in ((program.limits.cohesion, 1000.0), (program.limits.tension, 500.0)):
         shares = strength[:, None] * np.abs(forces[::3, ::2].toarray().T)
-        assert shares.sum() == pytest.approx(whole / (2000 * 9.81 * 2))
+        assert shares.sum() == pytest.approx(expected / (2000 * 9.81 * 2))
         assert (shares > 0).sum() == behind * (per_edge + 1)

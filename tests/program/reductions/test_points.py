@@ -8,8 +8,9 @@ import pytest
 from mbla.arrays import IntArray
 from mbla.program.reductions.points import without_inner_points
 from mbla.program.reductions.restrict import chosen_limits, restricted, selection
-from mbla.program.reductions.scene import Scene, part_of, scene_of
-from tests.line import BLOCK, HEAD, line_of
+from mbla.program.reductions.scene import Scene, part_of
+from tests.line import BLOCK, HEAD
+from tests.program.reductions.scenes import scene
 
 SADDLE = (
     HEAD
@@ -30,11 +31,6 @@ analysis: {flow_rule: associative}
 """
 )
 """A block that sits on another one and leans against its side: two planes between one pair of bodies."""
-
-
-def scene(text: str, *overrides: str) -> Scene:
-    line = line_of(text, *overrides)
-    return scene_of(line.model, line.contacts, line.program)
 
 
 def points_alone(whole: Scene, points: IntArray) -> Scene:

@@ -14,6 +14,7 @@ from mbla.results.records.reduction_json import reductions_json
 from mbla.results.words.reduction_words import reduction_lines
 from mbla.solution.solution import Solution, Status
 from tests.line import HEAD, Line, line_of, verified
+from tests.program.reductions.scenes import scene
 
 COLUMN = """\
   - box: {{group: foot, material: {stone}, min: [{x}, {y}, -0.2], max: [{x1}, {y1}, 0]}}
@@ -202,8 +203,7 @@ def test_far_from_the_origin_more_is_rounding() -> None:
 def test_rounding_grows_with_the_distance_from_the_origin() -> None:
     """Along whichever axis; from a distance on no more."""
     for x, y, margin in ((0.0, 0.0, 1e-12), (3.0e4, 0.0, 5e-10), (0.0, 3.0e4, 5e-10), (3.0e8, 0.0, 1e-9)):
-        line = line_of(deck(column(x, y=y)))
-        assert _margin(scene_of(line.model, line.contacts, line.program)) == pytest.approx(margin, rel=0.5)
+        assert _margin(scene(deck(column(x, y=y)))) == pytest.approx(margin, rel=0.5)
 
 
 def test_what_is_rounding_at_either_place_is_rounding() -> None:

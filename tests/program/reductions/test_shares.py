@@ -15,6 +15,7 @@ from mbla.program.reductions.shares import program_by_shares
 from mbla.solution.settings import SolverSettings
 from mbla.solution.standing import assess_dead_load
 from tests.line import BLOCK, WALL, Line, line_of, verified
+from tests.program.reductions.scenes import scene
 
 SETTINGS = SolverSettings(tolerance=1e-8)
 
@@ -98,14 +99,13 @@ SMALL_ABOVE = BLOCK.replace(
 
 
 def test_an_interface_with_its_corners_alone_stays_beside_one_with_more() -> None:
-    line = line_of(SMALL_ABOVE, "contacts.points.spacing=0.5")
-    scene = scene_of(line.model, line.contacts, line.program)
-    by_shares = program_by_shares(scene, scene.program)
+    whole = scene(SMALL_ABOVE, "contacts.points.spacing=0.5")
+    by_shares = program_by_shares(whole, whole.program)
     assert by_shares.reduction is not None
     stiffness = by_shares.reduction.forces.diagonal()[::3] ** 2
-    finer = (scene.bodies < 0).any(axis=1)
+    finer = (whole.bodies < 0).any(axis=1)
     assert stiffness[~finer] == pytest.approx(np.ones(4))
-    shares = scene.areas[finer] / scene.areas[finer].mean()
+    shares = whole.areas[finer] / whole.areas[finer].mean()
     assert len(np.unique(shares.round(9))) == 3
     assert stiffness[finer] == pytest.approx(shares)
 

@@ -102,7 +102,7 @@ class Renderer:
             actor.SetVisibility(loads)
         whole = self._render(camera, width, height)
         if not self._marks or shine == 0:
-            return _coarser(whole, whole.shape[0] // height)
+            return _coarser(whole, height)
         for actor in self._solid:
             actor.SetVisibility(False)
         marks = self._render(camera, width, height)
@@ -112,7 +112,7 @@ class Renderer:
         covered = np.flatnonzero(~white)  # a few of millions of pixels
         flat = whole.reshape(-1, 3)
         flat[covered] = np.round((1 - shine) * flat[covered] + shine * marks.reshape(-1, 3)[covered]).astype(np.uint8)
-        return _coarser(whole, whole.shape[0] // height)
+        return _coarser(whole, height)
 
     def _render(self, camera: Camera, width: int, height: int) -> ByteArray:
         """Pixels of the image or of a finer one, (FINER height, FINER width, 3), to be written to."""
@@ -162,8 +162,9 @@ def _rows(start: Any, items: Any) -> Any:
     return np.insert(np.ravel(items), start[:-1], np.diff(start))
 
 
-def _coarser(pixels: ByteArray, finer: int) -> FloatArray:
-    """Mean of each square of so many pixels, from 0 to 1."""
+def _coarser(pixels: ByteArray, height: int) -> FloatArray:
+    """The image of so many rows, each pixel the mean of a square of the finer ones, from 0 to 1."""
+    finer = pixels.shape[0] // height
     total = np.zeros((pixels.shape[0] // finer, pixels.shape[1] // finer, 3), dtype=np.uint16)
     for row in range(finer):
         for column in range(finer):
