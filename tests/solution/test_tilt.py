@@ -3,17 +3,20 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
 from mbla.model.model import LoadCase
 from mbla.program import assemble
-from mbla.solution import Status, verified_status, verify
+from mbla.solution import Status, tilt, verified_status, verify
 from mbla.solution.solution import Checks, Solution
 from mbla.solution.tilt import Answer, never_collapses, solve_tilt
 from mbla.solution.verify_tilt import never_failures, tilt_failures
 from tests.line import line_of, solution_of
+from tests.solution.by_hand import claim, found, state
 
 BLOCK = """mbla: 1
 units: {length: %(length)s, force: %(force)s, mass: %(mass)s}
@@ -210,3 +213,148 @@ def carrying(answer: Answer, load_factor: float) -> Solution:
     mechanics = answer.solution.mechanics
     assert mechanics is not None
     return replace(answer.solution, mechanics=replace(mechanics, load_factor=load_factor))
+
+
+def test_lifted_out_of_walls_after_turning_over() -> None:
+    """Smooth walls bear any load across; the joint below tears where -W cos t = f A, f A = 0.95 W."""
+    walls = "{joint: smooth, ground: {x: 0}}, {joint: smooth, ground: {point: [3, 0, 0], normal: [-1, 0, 0]}}, "
+    text = METRES.replace("supports: [", "supports: [" + walls).replace("joints: {", "joints: {smooth: {friction: 0}, ")
+    answer = turned(text, "parameters.f=41800", "parameters.c=41800")
+    assert angle(answer) == pytest.approx(math.degrees(math.acos(-0.95)), rel=1e-8)
+
+
+def test_in_a_closed_box_it_holds_at_every_angle() -> None:
+    """Grounds on all sides, friction alone: the level table bears any multiple, and so does the one turned over."""
+    grounds = (
+        "{ground: {x: 0}}, {ground: {point: [3, 0, 0], normal: [-1, 0, 0]}}, "
+        "{ground: {point: [0, 0, 2.2], normal: [0, 0, -1]}}, "
+    )
+    answer = turned(METRES.replace("supports: [", "supports: [" + grounds))
+    assert answer.load_case.tilt is not None
+    assert math.isnan(answer.load_case.tilt.angle)
+    assert verified_status(answer.solution, answer.checks) is Status.UNBOUNDED
+    assert any("angles tried: 90, 135, 180" in remark for remark in answer.solution.remarks)
+
+
+GROOVE = """mbla: 1
+parameters: {c: 4000, mu: 0.5, t: "=tan(radians(30))"}
+materials: {stone: {unit_weight: 20000}}
+joints: {bed: {friction: "=mu", cohesion: "=c"}}
+blocks:
+  - polyhedron:
+      material: stone
+      vertices: [[0, 0, 0], [9, 0, 0], [0, -1, "=t"], [0, 1, "=t"], [9, -1, "=t"], [9, 1, "=t"]]
+      faces: [[0, 2, 3], [1, 4, 5], [0, 1, 4, 2], [0, 1, 5, 3], [2, 3, 5, 4]]
+contacts: {joint: bed}
+supports:
+  - ground: {point: [0, 0, 0], normal: [0, 0.5, "=cos(radians(30))"]}
+  - ground: {point: [0, 0, 0], normal: [0, -0.5, "=cos(radians(30))"]}
+load_cases: {turn: {live: [{tilt: {axis: [0, 1, 0]}}]}}
+analysis: {flow_rule: non_associative, range: false}
+"""
+"""A wedge in a groove of two planes at 30 degrees, 1/cos 30 wide each, that is lifted at one end."""
+
+
+def test_secants_lead_to_the_angle_without_normality() -> None:
+    """W sin t = mu W cos t/cos b + 2 c A/L per length, W = 20000 tan b and A = 1/cos b; normality would lock it more."""
+    b, mu = math.radians(30), 0.5
+    slope = math.atan(mu / math.cos(b))
+    cohesion = 2 * 4000 / math.cos(b) / (20000 * math.tan(b))
+    expected = slope + math.asin(cohesion * math.cos(slope))
+    answer = turned(GROOVE)
+    assert angle(answer) == pytest.approx(math.degrees(expected), rel=1e-7)
+    assert angle(turned(GROOVE, "analysis.flow_rule=associative")) > angle(answer) + 1.0
+
+
+@pytest.mark.parametrize(("most", "status"), [(1, Status.NOT_VERIFIED), (3, Status.APPROXIMATE)])
+def test_an_angle_that_does_not_settle_is_no_answer(most: int, status: Status, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(tilt, "MOST_STEPS", most)
+    answer = turned(GROOVE)
+    assert answer.solution.status is status
+    assert "the angle did not settle: its load factor differs from 1 by" in answer.solution.reason
+
+
+# --- answers made up, as of a structure that may collapse on the way ------------------------------------------------
+
+
+def made(factor: float, crossing: float, *, static_bound: float = 0.1) -> tuple[Solution, Checks]:
+    """What a solver says of a line: its load factor, and the angle in degrees that its mechanism bounds."""
+    line = line_of(METRES, "parameters.c=4000")
+    table = line.load_case.tilt
+    assert table is not None
+    # across · u = factor/sin t and turning · u = 0: the circle leaves the line at t
+    size = float((table.across**2).sum())
+    mechanism = factor / math.sin(math.radians(crossing)) * table.across / size
+    bounding = state(np.zeros((4, 3)), mechanism, factor)
+    return claim(bounding), found(static_bound=static_bound)
+
+
+def searched(factors: Callable[[float], tuple[float, float]]) -> Answer:
+    """The search over made-up answers: load factor and bounding angle for every angle in degrees; nan: the level one."""
+    line = line_of(METRES, "parameters.c=4000")
+
+    def ask(case: LoadCase) -> tuple[Solution, Checks]:
+        assert case.tilt is not None
+        return made(*factors(case.tilt.angle))
+
+    return solve_tilt(line.model, line.contacts, line.load_case, ask)
+
+
+def test_a_line_made_up_is_left_where_it_says() -> None:
+    solution, checks = made(0.7, 25.0)
+    line = line_of(METRES, "parameters.c=4000")
+    assert line.load_case.tilt is not None
+    next_angle = Answer(line.load_case, solution, checks).next_angle(line.load_case.tilt)
+    assert math.degrees(next_angle) == pytest.approx(25.0, rel=1e-12)
+
+
+def tried(answer: Answer) -> str:
+    return next(remark for remark in answer.solution.remarks if "angles tried" in remark).split("angles tried: ")[1]
+
+
+def test_a_collapse_on_the_way_is_found_where_nothing_is_proved_of_the_way() -> None:
+    """The level table bears a tenth across, 60 degrees fit; at 30 the structure has fallen, from 20 on as it shows."""
+
+    def factors(degrees: float) -> tuple[float, float]:
+        if math.isnan(degrees):
+            return 0.5, 60.0
+        return (1.0, 60.0) if degrees > 59 else (0.5, 20.0) if degrees > 29 else (1.0 if degrees > 19 else 2.0, 20.0)
+
+    answer = searched(factors)
+    assert answer.load_case.tilt is not None
+    assert answer.load_case.tilt.angle == pytest.approx(20.0, rel=1e-9)
+    assert tried(answer) == "60, 7.5, 15, 22.5, 30, 20"
+    assert "That it does not collapse before was seen at 7 angles, not proved" in answer.solution.remarks
+
+
+def test_angles_before_are_looked_at_where_nothing_is_proved_of_them() -> None:
+    answer = searched(lambda degrees: (0.5 if math.isnan(degrees) else 1.0 if degrees > 59 else 2.0, 60.0))
+    assert answer.load_case.tilt is not None
+    assert answer.load_case.tilt.angle == pytest.approx(60.0, rel=1e-9)
+    assert tried(answer) == "60, 7.5, 15, 22.5, 30, 37.5, 45, 52.5"
+    assert "That it does not collapse before was seen at 7 angles, not proved" in answer.solution.remarks
+
+
+def test_a_table_that_falls_at_once_on_the_way_has_the_angle_zero() -> None:
+    def factors(degrees: float) -> tuple[float, float]:
+        return (0.5, 60.0) if math.isnan(degrees) else (1.0, 60.0) if degrees > 59 else (1e-9, 1e-6)
+
+    answer = searched(factors)
+    assert answer.load_case.tilt is not None
+    assert answer.load_case.tilt.angle == 0.0
+    assert tried(answer) == "60, 7.5"
+
+
+def test_a_probe_without_an_answer_ends_the_search() -> None:
+    """Nothing comes down across, and of 90 degrees the solver says nothing."""
+    line = line_of(METRES, "parameters.c=4000")
+
+    def ask(case: LoadCase) -> tuple[Solution, Checks]:
+        assert case.tilt is not None
+        level = math.isnan(case.tilt.angle)
+        return claim(None, Status.UNBOUNDED if level else Status.NUMERICAL_ERROR, reason="broke down"), found()
+
+    answer = solve_tilt(line.model, line.contacts, line.load_case, ask)
+    assert answer.solution.status is Status.NUMERICAL_ERROR
+    assert answer.solution.reason == "broke down"
+    assert tried(answer) == "90"
