@@ -8,16 +8,20 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from mbla.arrays import FloatArray
 from mbla.deck.analysis import ProximalScheme, ReductionSwitches
 from mbla.program.program import Program
 from mbla.program.reductions import reduce_program
-from mbla.solution.associative import solve_associative
+from mbla.solution import dilatancy, gravity
+from mbla.solution.associative import AssociativeResult, solve_associative
 from mbla.solution.dilatancy import solve_dilatancy
-from mbla.solution.law_state import SequenceResult
-from mbla.solution.proximal import solve_proximal
+from mbla.solution.law_state import LawState, SequenceResult
+from mbla.solution.proximal import ProximalRun, solve_proximal
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Status
+from mbla.solution.weakening import Outcome, Weakening
 from tests.line import BLOCK, HEAD, line_of, verified
+from tests.solution.failing_solver import said
 from tests.solution.test_proximal import FERRIS_3
 
 SETTINGS = SolverSettings(1e-8)
@@ -79,8 +83,8 @@ def test_a_wedge_in_a_groove_lifts_by_its_dilatancy(share: float) -> None:
     """
     mu, b = 0.84, math.radians(30)
     program = with_share(groove(mu, b), share)
-    dilatancy = math.tan(share * math.atan(mu))
-    w = dilatancy / math.sqrt(math.cos(b) ** 2 - (dilatancy * math.sin(b)) ** 2)
+    rise = math.tan(share * math.atan(mu))
+    w = rise / math.sqrt(math.cos(b) ** 2 - (rise * math.sin(b)) ** 2)
     s = math.hypot(1.0, w * math.sin(b))
     factor, result = solved(program)
     assert factor == pytest.approx(mu / (s * math.cos(b) - mu * w * math.sin(b) ** 2), rel=1e-8)
@@ -138,3 +142,95 @@ def test_a_deck_asks_for_dilatancy_and_it_is_verified() -> None:
     assert checks.complementarity_residual < 1e-9
     assert solution.mechanics is not None
     assert solution.mechanics.load_factor == pytest.approx(0.402487, abs=1e-5)
+
+
+# --- where the angle cannot be taken in one go: steps made up, as of a wall on which they creep ---------------------
+
+ANGLE, FRICTION = 0.25, math.atan(0.5)
+RAISED = [0.0, 0.25 * ANGLE, 0.5 * ANGLE, 0.75 * ANGLE, ANGLE]
+LOWERED = [FRICTION + share * (ANGLE - FRICTION) for share in (0.25, 0.5, 0.75, 1.0)]
+
+
+def sliding() -> tuple[Program, AssociativeResult]:
+    """A block with dilatancy, and its associative answer."""
+    program = line_of(BLOCK, "parameters.h=0.5").program
+    limits = replace(program.limits, dilatancy=np.full(program.n_points, math.tan(ANGLE)))
+    program = replace(program, limits=limits)
+    return program, solve_associative(program, SETTINGS, lambda record: None)
+
+
+def stepped(
+    monkeypatch: pytest.MonkeyPatch, residuals: dict[int, float], *, locked: bool = False
+) -> tuple[list[float], SequenceResult]:
+    """Angles that steps were taken with, and the result; ``residuals`` of the sequences by number, 2e-3 of others.
+
+    The load factor of each sequence is its number; one whose residual is not a number ends by the time limit.
+    """
+    program, associative = sliding()
+    angles: list[float] = []
+
+    def steps(run: ProximalRun, anchor: FloatArray, most: int) -> SequenceResult:
+        angles.append(float(np.arctan(run.stepper.slope[0])))
+        residual = residuals.get(len(angles), 2e-3)
+        if math.isnan(residual):
+            return SequenceResult(Status.TIME_LIMIT, None, "the time limit was reached", ())
+        found = LawState(anchor, np.zeros(len(program.live_load)), float(len(angles)), residual)
+        return SequenceResult(Status.SOLVED if residual <= 1e-6 else Status.APPROXIMATE, found, "", ())
+
+    monkeypatch.setattr(dilatancy, "steps_from", steps)
+    given = replace(associative, state=None) if locked else associative
+    return angles, solve_dilatancy(program, given, ProximalScheme(), SETTINGS, lambda record: None)
+
+
+@pytest.mark.parametrize(
+    ("residuals", "locked", "angles", "answer"),
+    [
+        ({6: 1e-9}, False, [ANGLE, *RAISED], 6.0),
+        ({}, True, [ANGLE, *RAISED], 1.0),
+        ({6: 1e-3}, True, [ANGLE, *RAISED], 6.0),
+        ({10: 1e-9}, False, [ANGLE, *RAISED, *LOWERED], 10.0),
+        ({6: 1e-3}, False, [ANGLE, *RAISED, *LOWERED], 6.0),
+        ({10: 1e-3}, False, [ANGLE, *RAISED, *LOWERED], 10.0),
+    ],
+)
+def test_an_angle_that_is_not_reached_at_once_is_raised_then_lowered(
+    residuals: dict[int, float], locked: bool, angles: list[float], answer: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """What fits the law is the answer, else what misses it least; from the friction angle only with forces of there."""
+    taken, result = stepped(monkeypatch, residuals, locked=locked)
+    assert taken == pytest.approx(angles)
+    assert result.state is not None
+    assert result.state.load_factor == answer
+    assert (result.status is Status.SOLVED) is (1e-9 in residuals.values())
+    assert ("reached from the forces of associative flow" in " ".join(result.remarks)) is (answer == 10.0)
+
+
+def test_steps_beyond_the_time_limit_are_the_last(monkeypatch: pytest.MonkeyPatch) -> None:
+    taken, result = stepped(monkeypatch, {1: math.nan})
+    assert taken == pytest.approx([ANGLE])
+    assert result.status is Status.TIME_LIMIT
+    taken, result = stepped(monkeypatch, {3: math.nan}, locked=True)
+    assert taken == pytest.approx([ANGLE, *RAISED[:2]])
+    assert result.state is not None
+    assert result.state.load_factor == 1.0
+
+
+@pytest.mark.parametrize(("residual", "remarked"), [(1e-9, True), (1e-3, False)])
+def test_another_state_is_remarked_on_where_it_fits_the_law(
+    residual: float, remarked: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    taken, result = stepped(monkeypatch, {1: 1e-9, 2: residual})
+    assert taken == pytest.approx([ANGLE, ANGLE])
+    assert result.state is not None
+    assert result.state.load_factor == 1.0
+    assert ("the load factor is not unique" in " ".join(result.remarks)) is remarked
+
+
+def test_a_dead_load_that_no_forces_carry_ends_the_scheme(monkeypatch: pytest.MonkeyPatch) -> None:
+    program, associative = sliding()
+    undecided = replace(associative, stress_free=Weakening(Outcome.UNDECIDED, None, np.nan, ""))
+    monkeypatch.setattr(gravity, "interior_point_solver", said(Status.UNBOUNDED))
+    result = solve_dilatancy(program, undecided, ProximalScheme(), SETTINGS, lambda record: None)
+    assert result.status is Status.NOT_VERIFIED
+    assert result.state is None
+    assert "ended without a solution (clarabel: said unbounded)" in result.reason

@@ -18,6 +18,7 @@ from mbla.solution.law_steps import (
     SHORTEST,
     Step,
     Stepper,
+    continued,
     continuing_step,
     lagged_step,
     next_step,
@@ -34,7 +35,7 @@ from mbla.solution.proximal import (
 )
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Status
-from mbla.solution.stiffness import stiffness_of
+from mbla.solution.stiffness import Stiffness, stiffness_of
 from tests.line import BLOCK, WALL, line_of
 
 RHO = 1e-3
@@ -158,3 +159,48 @@ def test_steps_that_come_no_closer_may_be_as_close_as_asked(
     assert result.status is Status.APPROXIMATE
     assert result.asked == asked
     assert ("came no closer" in result.reason) is (asked is None)
+
+
+def test_a_longer_step_that_ends_well_is_taken(monkeypatch: pytest.MonkeyPatch) -> None:
+    of = stepper()
+    before = step_before(of, shorter=2)
+    ended = InteriorResult(before.velocities, 0.3, before.forces, True, 7)
+    polished = LawStep(before.velocities, 0.4, before.forces, 1e-12, 2)
+    monkeypatch.setattr(law_steps, "continuing_step", lambda *arguments: (None, 5))
+    monkeypatch.setattr(law_steps, "_interior", lambda *arguments: ended)
+    monkeypatch.setattr(law_steps, "exact_step", lambda *arguments: polished)
+    step = next_step(of, before.forces, RHO, before, 1)
+    assert step is not None
+    assert (step.rho, step.load_factor, step.exact, step.shorter) == (before.rho / LONGER, 0.4, True, 0)
+    assert step.work == 5 + 7 + 2
+
+
+@pytest.mark.parametrize("good", [0, 1, 2])
+def test_repeated_steps_end_where_one_is_not_found(good: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    of = stepper()
+    before = step_before(of, shorter=0)
+    made: list[InteriorResult] = []
+
+    def interior(*arguments: object) -> InteriorResult:
+        made.append(InteriorResult(before.velocities, float(len(made)), before.forces, len(made) < good, 3))
+        return made[-1]
+
+    in_vain = LawStep(before.velocities, 9.0, before.forces, 1.0, 2)
+    monkeypatch.setattr(law_steps, "_interior", interior)
+    monkeypatch.setattr(law_steps, "exact_step", lambda *arguments: in_vain)
+    step = repeated_step(of, before.forces, RHO, before, 1)
+    assert len(made) == good + 1
+    if good == 0:
+        assert step is None
+    else:
+        assert step is not None
+        assert (step.load_factor, step.exact, step.work) == (good - 1.0, False, 5 * good)
+
+
+@pytest.mark.parametrize("solve", [None, lambda rhs: np.full_like(rhs, np.nan)], ids=["singular", "not finite"])
+def test_joints_that_cannot_go_on_as_before_say_so(solve: object, monkeypatch: pytest.MonkeyPatch) -> None:
+    of = stepper()
+    before = step_before(of, shorter=0)
+    monkeypatch.setattr(Stiffness, "factorized", lambda *arguments, **named: solve)
+    assert continued(of, before, before.forces) is None
+    assert continuing_step(of, before.forces, RHO, before) == (None, 0)

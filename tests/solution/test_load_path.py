@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import math
+import time
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 from mbla.deck.analysis import PathScheme
 from mbla.program.program import Program
+from mbla.solution import load_path
 from mbla.solution.associative import solve_associative
 from mbla.solution.law_state import SequenceResult
 from mbla.solution.load_path import solve_path
@@ -127,3 +130,66 @@ def test_a_deck_asks_for_the_path_and_its_end_is_verified() -> None:
     assert len(solution.path) > 10
     assert checks.complementarity_residual < 1e-9
     assert "load path" in {program.kind for program in solution.programs}
+
+
+# --- steps made up --------------------------------------------------------------------------------------------------
+
+
+def test_without_a_state_under_the_dead_load_there_is_no_path(monkeypatch: pytest.MonkeyPatch) -> None:
+    program = line_of(BLOCK).program
+    associative = solve_associative(program, SETTINGS, lambda record: None)
+    monkeypatch.setattr(load_path, "_step_at", lambda *arguments: None)
+    result = solve_path(program, associative, PathScheme(steps=5), SETTINGS, lambda record: None)
+    assert result.status is Status.NOT_VERIFIED
+    assert result.reason == "the path stalled: no state was found under the dead load"
+    assert result.state is None
+    settings = replace(SETTINGS, deadline=time.monotonic() + 1e6)
+    clock = SimpleNamespace(monotonic=lambda: math.inf, perf_counter=time.perf_counter)
+    monkeypatch.setattr(load_path, "time", clock)
+    result = solve_path(program, associative, PathScheme(steps=5), settings, lambda record: None)
+    assert result.status is Status.TIME_LIMIT
+    assert result.reason == "the time limit was reached"
+
+
+@pytest.mark.parametrize("looks", [0, 1, 3])
+def test_a_path_cut_short_says_how_far_it_came(looks: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The limit is reached after some looks at the clock, one for each step of a tenth."""
+    program = line_of(BLOCK, "parameters.h=0.5").program
+    associative = solve_associative(program, SETTINGS, lambda record: None)
+    deadline = time.monotonic() + 1e6
+    times = iter([0.0] * looks)
+    clock = SimpleNamespace(monotonic=lambda: next(times, 2.0 * deadline), perf_counter=time.perf_counter)
+    monkeypatch.setattr(load_path, "time", clock)
+    settings = replace(SETTINGS, deadline=deadline)
+    result = solve_path(program, associative, PathScheme(steps=5), settings, lambda record: None)
+    assert result.status is Status.TIME_LIMIT
+    assert [point.load_factor for point in result.path] == pytest.approx([0.1 * step for step in range(looks + 1)])
+    assert f"stalled at {0.1 * looks:.6g}," in result.reason
+    assert result.reason.endswith("the time limit was reached")
+    assert result.state is not None
+    assert program.scaling.load_factor(result.state.load_factor) == pytest.approx(0.1 * looks, abs=1e-8)
+
+
+@pytest.mark.parametrize(
+    ("residual", "share", "words"),
+    [
+        (1e-3, 1.0, "no mechanism that fits the law was found there"),
+        (1e-9, 1.2, "the mechanism that fits the law belongs to 0.6"),
+        (1e-9, 0.8, "it has a peak there, and falls to 0.4 before a mechanism fits the law"),
+    ],
+)
+def test_a_path_ends_where_a_mechanism_meets_it(
+    residual: float, share: float, words: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """What the steps with a free load factor come to is made up, from a block that slides at 0.5."""
+    program = line_of(BLOCK, "parameters.h=0.5").program
+    associative = solve_associative(program, SETTINGS, lambda record: None)
+    assert associative.state is not None
+    found = replace(associative.state, load_factor=share * associative.state.load_factor, residual=residual)
+    sequence = SequenceResult(Status.SOLVED, found, "", ())
+    monkeypatch.setattr(load_path, "steps_from", lambda *arguments: sequence)
+    monkeypatch.setattr(load_path, "SHORTEST", 1e-3)
+    result = solve_path(program, associative, PathScheme(steps=5), SETTINGS, lambda record: None)
+    assert result.status is Status.NOT_VERIFIED
+    assert result.reason.endswith(words)
+    assert result.path[-1].load_factor == pytest.approx(0.5, rel=1e-2)

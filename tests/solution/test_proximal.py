@@ -3,18 +3,23 @@
 from __future__ import annotations
 
 import math
+import time
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
+from mbla.solution import gravity, proximal
 from mbla.solution.associative import solve_associative
 from mbla.solution.law_steps import Stepper
-from mbla.solution.proximal import ProximalRun, gravity_state, steps_from
+from mbla.solution.proximal import ProximalRun, gravity_state, solve_proximal, steps_from
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Checks, Solution, Status
 from mbla.solution.stiffness import stiffness_of
+from mbla.solution.weakening import Outcome, Weakening
 from tests.line import BLOCK, HEAD, WALL, line_of, verified
+from tests.solution.failing_solver import said
 
 NON_ASSOCIATIVE = "analysis.flow_rule=non_associative"
 
@@ -137,6 +142,84 @@ def test_a_step_cut_short_by_the_time_limit_is_no_failure_of_the_scheme() -> Non
     assert isinstance(anchor, np.ndarray)
     run.stepper = replace(stepper, settings=replace(settings, deadline=0.0))
     assert steps_from(run, anchor, 10).status is Status.TIME_LIMIT
+
+
+def test_a_step_beyond_the_time_limit_is_the_last(monkeypatch: pytest.MonkeyPatch) -> None:
+    """It is made, and the best state so far is kept."""
+    program = line_of(FERRIS_3).program
+    settings = SolverSettings(1e-8, deadline=time.monotonic() + 1e6)
+    run = ProximalRun(
+        Stepper(stiffness_of(program), np.zeros(program.n_points), settings, lambda record: None), records=[]
+    )
+    anchor = gravity_state(run)
+    assert isinstance(anchor, np.ndarray)
+    clock = SimpleNamespace(monotonic=lambda: math.inf, perf_counter=time.perf_counter)
+    monkeypatch.setattr(proximal, "time", clock)
+    result = steps_from(run, anchor, 10)
+    assert result.status is Status.TIME_LIMIT
+    assert len(run.states) == 1
+    assert result.state is run.states[0]
+
+
+@pytest.mark.parametrize(
+    ("said_to_be", "status"),
+    [
+        (Status.NO_EQUILIBRIUM, Status.NOT_VERIFIED),
+        (Status.UNBOUNDED, Status.NOT_VERIFIED),
+        (Status.ITERATION_LIMIT, Status.ITERATION_LIMIT),
+    ],
+)
+def test_without_a_gravity_state_the_scheme_does_not_begin(
+    said_to_be: Status, status: Status, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """No springs say whether the block stands, and the solver says that nothing carries it."""
+    program, settings = line_of(BLOCK).program, SolverSettings(1e-8)
+    associative = solve_associative(program, settings, lambda record: None)
+    undecided = replace(associative, stress_free=Weakening(Outcome.UNDECIDED, None, np.nan, ""))
+    monkeypatch.setattr(gravity, "interior_point_solver", said(said_to_be))
+    result = solve_proximal(program, undecided, 10, settings, lambda record: None)
+    assert result.status is status
+    assert result.state is None
+    assert f"program {len(result.programs)} of the sequence ended without a solution" in result.reason
+
+
+def run_with(residuals: list[float], factors: list[float], wanted: float = 1e-8) -> ProximalRun:
+    """A run that has come to some states of a block."""
+    program = line_of(BLOCK).program
+    settings = SolverSettings(1e-8, residual=wanted)
+    stepper = Stepper(stiffness_of(program), np.zeros(program.n_points), settings, lambda record: None)
+    associative = solve_associative(program, settings, lambda record: None)
+    assert associative.state is not None
+    made = zip(residuals, factors, strict=True)
+    states = [replace(associative.state, residual=residual, load_factor=factor) for residual, factor in made]
+    return ProximalRun(stepper, [], states)
+
+
+@pytest.mark.parametrize(("peak", "remarked"), [(0.506, True), (0.504, False)])
+def test_a_peak_that_was_passed_is_remarked_on(peak: float, remarked: bool) -> None:
+    """By more than a hundredth of it."""
+    run = run_with([1e-12], [0.5])
+    live = run.program.scaling.live
+    run.peak = peak
+    result = proximal.finished(run, "")
+    assert result.status is Status.SOLVED
+    said_so = f"the load factor lies below {peak * live:.6g}, which the steps passed through" in " ".join(
+        result.remarks
+    )
+    assert said_so is remarked
+
+
+@pytest.mark.parametrize(("seen", "status"), [(1e-7, Status.SOLVED), (5e-5, Status.SOLVED), (5e-4, Status.APPROXIMATE)])
+def test_a_rough_state_is_solved_within_the_residual_of_a_warning(
+    seen: float, status: Status, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    run = run_with([seen], [0.5], wanted=1e-3)
+    monkeypatch.setattr(proximal, "residual_with_closing", lambda *arguments: seen)
+    result = proximal.rough_result(run.program, 0.0, run.states[0], 1e-3, ())
+    words = f"miss the law by {seen:.2g}, within the residual of 0.001 that was asked for"
+    assert result.status is status
+    assert (words in " ".join(result.remarks)) is (seen == 5e-5)
+    assert (words in result.reason, result.asked) == ((True, 1e-3) if seen == 5e-4 else (False, None))
 
 
 SLENDER = (

@@ -3,8 +3,16 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from mbla.deck.types import PublishedScheme
+from mbla.program.program import Program
+from mbla.solution import published
+from mbla.solution.associative import solve_associative
+from mbla.solution.law_state import SequenceResult
+from mbla.solution.published import solve_published
+from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Status
 from tests.line import BLOCK, WALL, line_of, load_factor, verified
+from tests.solution.failing_solver import said
 
 NON_ASSOCIATIVE = "analysis={flow_rule: non_associative, scheme: published}"
 
@@ -67,3 +75,48 @@ def test_cohesion_adds_to_friction() -> None:
     weight = 0.5 * 2000 * 9.81
     factor = load_factor(BLOCK, NON_ASSOCIATIVE, "parameters.h=0.5", "parameters.c=1000")
     assert factor == pytest.approx(0.5 + 1000 / weight, rel=1e-5)
+
+
+def sequence(program: Program, most: int = 4) -> SequenceResult:
+    """The sequence of at most a few programs, from a right associative answer."""
+    settings = SolverSettings(1e-8)
+    associative = solve_associative(program, settings, lambda record: None)
+    none = np.zeros(program.n_points)
+    scheme = PublishedScheme(max_programs=most)
+    return solve_published(program, associative, scheme, none, settings, lambda record: None)
+
+
+@pytest.mark.parametrize(
+    ("said_to_be", "status", "words"),
+    [
+        (Status.NO_EQUILIBRIUM, Status.NOT_VERIFIED, "the friction that belongs to the forces before does not carry"),
+        (Status.UNBOUNDED, Status.NOT_VERIFIED, "does not give way to the live load"),
+        (Status.NUMERICAL_ERROR, Status.NUMERICAL_ERROR, "ended without a solution (clarabel: said numerical_error)"),
+    ],
+)
+@pytest.mark.parametrize("after", [0, 2])
+def test_a_program_without_a_solution_breaks_the_sequence_off(
+    said_to_be: Status, status: Status, words: str, after: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """What it says is true of the joints made up for it only; the best state so far is kept."""
+    program = line_of(WALL, "parameters.n=4").program
+    monkeypatch.setattr(published, "interior_point_solver", said(said_to_be, after))
+    result = sequence(program)
+    assert result.status is status
+    assert f"program {len(result.programs)} of the sequence" in result.reason
+    assert words in result.reason
+    assert [record.status for record in result.programs if record.kind == "published"][after:] == [said_to_be]
+    assert (result.state is None) is (after == 0)
+
+
+def test_programs_short_of_their_tolerance_settle_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The load factor of a sliding block is right from the first program on."""
+    program = line_of(BLOCK, "parameters.h=0.5").program
+    assert sequence(program).status is Status.SOLVED
+    monkeypatch.setattr(published, "interior_point_solver", said(Status.APPROXIMATE))
+    result = sequence(program)
+    assert result.status is Status.APPROXIMATE
+    assert result.reason.startswith("its programs end short of the solver's tolerance (clarabel: said approximate); ")
+    assert "did not settle in 4 programs" in result.reason
+    assert result.state is not None
+    assert program.scaling.load_factor(result.state.load_factor) == pytest.approx(0.5, rel=1e-6)
