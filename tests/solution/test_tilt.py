@@ -256,7 +256,7 @@ analysis: {flow_rule: non_associative, range: false}
 
 
 def test_secants_lead_to_the_angle_without_normality() -> None:
-    """W sin t = mu W cos t/cos b + 2 c A/L per length, W = 20000 tan b and A = 1/cos b; normality would lock it more."""
+    """W sin t = mu W cos t/cos b + 2 c A/L per length, W = 20000 tan b, A = 1/cos b; normality locks it more."""
     b, mu = math.radians(30), 0.5
     slope = math.atan(mu / math.cos(b))
     cohesion = 2 * 4000 / math.cos(b) / (20000 * math.tan(b))
@@ -290,7 +290,7 @@ def made(factor: float, crossing: float, *, static_bound: float = 0.1) -> tuple[
 
 
 def searched(factors: Callable[[float], tuple[float, float]]) -> Answer:
-    """The search over made-up answers: load factor and bounding angle for every angle in degrees; nan: the level one."""
+    """The search over made-up answers: load factor and bounding angle for every angle in degrees, nan for level."""
     line = line_of(METRES, "parameters.c=4000")
 
     def ask(case: LoadCase) -> tuple[Solution, Checks]:

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from mbla.arrays import FloatArray
+from mbla.solution.interior import descent, saddle_matrix
 from mbla.solution.interior.central_path import central_path, first_point, residuals, state_of
 from mbla.solution.interior.condensed_matrix import matrix_map
 from mbla.solution.interior.descent import descend
@@ -70,3 +73,39 @@ def test_a_wall_comes_down_to_the_law_from_far_away() -> None:
     ]
     assert residual[0] > 0.1
     assert min(residual) < 1e-7
+
+
+@pytest.mark.parametrize("cause", ["not finite", "singular"])
+def test_a_descent_ends_where_its_system_breaks_down(cause: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    program = mixed_program()
+    path, pattern = central_path(program, 0.1, 2, None, 0.0), matrix_map(program)
+    point = first_point(path)
+    cost = local_cost(path, point, 0.5, 0.1)
+    if cause == "singular":
+        monkeypatch.setattr(saddle_matrix, "factorize", lambda *arguments, **named: None)
+    else:
+        cost = replace(cost, hessian=np.full_like(cost.hessian, np.inf))
+        monkeypatch.setattr(descent, "local_cost", lambda *arguments: cost)
+    with np.errstate(invalid="ignore", over="ignore"):
+        assert least_change(path, saddle_map(pattern), cost, residuals(path, point)) is None
+        assert list(descend(path, pattern, point, 10)) == []
+
+
+@pytest.mark.parametrize("outside", [1, 3])
+def test_a_step_that_ends_outside_is_halved(outside: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    program = mixed_program()
+    path, pattern = central_path(program, 0.1, 2, None, 0.0), matrix_map(program)
+    first = first_point(path)
+    whole = next(descend(path, pattern, first, 1))
+    answers = iter([False] * outside)
+    monkeypatch.setattr(descent, "inside", lambda *arguments: next(answers, True))
+    shorter = next(descend(path, pattern, first, 1))
+    moved = (shorter.load_factor - first.load_factor) / (whole.load_factor - first.load_factor)
+    assert moved == pytest.approx(0.5**outside, rel=1e-9)
+
+
+def test_a_descent_ends_where_every_step_leads_outside(monkeypatch: pytest.MonkeyPatch) -> None:
+    program = mixed_program()
+    path, pattern = central_path(program, 0.1, 2, None, 0.0), matrix_map(program)
+    monkeypatch.setattr(descent, "inside", lambda *arguments: False)
+    assert list(descend(path, pattern, first_point(path), 10)) == []

@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 
 from mbla.arrays import FloatArray
+from mbla.solution.interior import linearisation
 from mbla.solution.interior.central_path import CentralPath, PathVector, central_path, first_point, residuals
-from mbla.solution.interior.condensed_matrix import factorise, matrix_map
+from mbla.solution.interior.condensed_matrix import Factors, factorise, matrix_map
 from mbla.solution.interior.linearisation import linear_step
 from tests.solution.interior.structures import flat, mixed_program
 
@@ -78,3 +79,20 @@ def test_the_bordered_matrix_and_the_sign_of_its_determinant() -> None:
         assert factors.sign() == np.linalg.slogdet(dense)[0]
         signs.add(factors.sign())
     assert signs == {-1.0, 1.0}
+
+
+def test_a_matrix_that_is_not_finite_has_no_factors() -> None:
+    program = mixed_program()
+    assert factorise(matrix_map(program), np.full((4, 3, 3), np.nan)) is None
+
+
+@pytest.mark.parametrize("cause", ["singular", "not finite"])
+def test_without_an_answer_there_is_no_step(cause: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    program = mixed_program()
+    path = central_path(program, 0.2, 1, None, 0.0)
+    point = somewhere(path, 2)
+    if cause == "singular":
+        monkeypatch.setattr(linearisation, "factorise", lambda *arguments: None)
+    else:
+        monkeypatch.setattr(Factors, "solve", lambda factors, right: np.full_like(right, np.inf))
+    assert linear_step(path, matrix_map(program), point, residuals(path, point)) is None

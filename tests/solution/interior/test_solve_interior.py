@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 import time
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -17,9 +19,10 @@ from mbla.program import assemble
 from mbla.program.program import Program
 from mbla.program.reductions.reduce import reduce_program
 from mbla.solution.associative import AssociativeResult
+from mbla.solution.interior import one_try
 from mbla.solution.interior import solve_interior as scheme_module
 from mbla.solution.interior.one_try import Start
-from mbla.solution.interior.solve_interior import solve_interior
+from mbla.solution.interior.solve_interior import solve_interior, starts
 from mbla.solution.law_state import LawState, SequenceResult, law_state
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import IterationRecord, ProgramRecord, Status
@@ -200,6 +203,53 @@ def test_a_stalled_sequence_is_continued() -> None:
     assert result.programs[0] is before
     assert result.programs[1].program == 2
     assert result.state is good.state
+
+
+def stalled_at(program: Program, residual: float) -> SequenceResult:
+    """A sequence that came as close to the law as that."""
+    good = result_of(program).state
+    assert good is not None
+    return SequenceResult(Status.APPROXIMATE, replace(good, residual=residual), "stalled", ())
+
+
+def test_no_two_ways_to_begin_are_the_same() -> None:
+    first = list(itertools.islice(starts(), 13))
+    assert len({(begin.kappa, begin.noise, begin.seed) for begin in first}) == 13
+    assert [begin.seed for begin in first[4:]] == [2, 2, 2, 3, 3, 3, 4, 4, 4]
+
+
+def test_paths_that_cannot_be_begun_leave_what_there_was(monkeypatch: pytest.MonkeyPatch) -> None:
+    program = line_of(BLOCK).program
+    stalled = stalled_at(program, 1e-3)
+    monkeypatch.setattr(one_try, "follow", lambda *arguments: iter(()))
+    result = result_of(program, tries=3)
+    assert result.status is Status.NUMERICAL_ERROR
+    assert result.reason == "no interior path could be begun"
+    assert [record.kind for record in result.programs] == ["gravity", *["interior"] * 3]
+    assert all(record.status is Status.NOT_VERIFIED for record in result.programs[1:])
+    result = result_of(program, tries=2, start=stalled)
+    assert result.state is stalled.state
+    assert result.status is Status.APPROXIMATE
+
+
+def test_a_state_close_to_the_law_is_solved_with_a_remark(monkeypatch: pytest.MonkeyPatch) -> None:
+    program = line_of(BLOCK).program
+    stalled = stalled_at(program, 5e-5)
+    monkeypatch.setattr(one_try, "follow", lambda *arguments: iter(()))
+    result = result_of(program, start=stalled)
+    assert result.status is Status.SOLVED
+    assert result.state is stalled.state
+    words = "no interior path ended in a state of the exact law: forces and velocities miss it by 5e-05"
+    assert result.remarks == (words,)
+
+
+def test_the_time_limit_keeps_the_best_state() -> None:
+    program = line_of(BLOCK).program
+    stalled = stalled_at(program, 5e-5)
+    result = result_of(program, start=stalled, deadline=time.monotonic())
+    assert result.status is Status.TIME_LIMIT
+    assert result.state is stalled.state
+    assert result.reason.startswith("the time limit was reached; no interior path ended in a state of the exact law")
 
 
 def law_holds(program: Program, result: SequenceResult, residual: float) -> None:
