@@ -54,3 +54,45 @@ def test_without_live_load_the_matrix_alone_is_solved(monkeypatch: pytest.Monkey
         solve = bordered_solver(matrix, np.zeros(20), np.inf)
         assert solve is not None
         assert np.allclose(matrix @ solve(rhs)[:-1], rhs, atol=1e-8)
+
+
+def test_without_factors_there_is_no_solver(monkeypatch: pytest.MonkeyPatch) -> None:
+    matrix, live = with_mechanism(20, 1e-2)
+    monkeypatch.setattr(bordered_system, "factorize", lambda *arguments, **named: None)
+    assert bordered_solver(matrix, live, np.inf) is None
+
+
+def test_factors_that_give_no_numbers_are_not_used(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The border cannot be last then, and is taken with the matrix."""
+
+    class Broken:
+        def solve(self, rhs: FloatArray) -> FloatArray:
+            return np.full_like(rhs, np.nan)
+
+    monkeypatch.setattr(bordered_system, "CHOLESKY_FROM", 1)
+    monkeypatch.setattr(bordered_system, "_factors", lambda scaled: Broken())
+    matrix, live = with_mechanism(20, 1e-2)
+    rhs = np.arange(20.0)
+    solve = bordered_solver(matrix, live, np.inf)
+    assert solve is not None
+    found = solve(rhs)
+    assert np.abs(matrix @ found[:-1] + found[-1] * live - rhs).max() < 1e-8
+    assert live @ found[:-1] == pytest.approx(0.0, abs=1e-8)
+
+
+def test_a_row_without_entries_stays_at_rest(monkeypatch: pytest.MonkeyPatch) -> None:
+    """2 y_1 + y_2 + t = 1, y_1 + 2 y_2 + t = 4 and y_1 + y_2 = 0; nothing acts on the third unknown."""
+    matrix = sp.csc_array(np.array([[2.0, 1.0, 0.0], [1.0, 2.0, 0.0], [0.0, 0.0, 0.0]]))
+    for first in (1, 10**9):
+        monkeypatch.setattr(bordered_system, "CHOLESKY_FROM", first)
+        solve = bordered_solver(matrix, np.array([1.0, 1.0, 0.0]), np.inf)
+        assert solve is not None
+        assert solve(np.array([1.0, 4.0, 0.0])) == pytest.approx([-1.5, 1.5, 0.0, 2.5], rel=1e-9)
+
+
+@pytest.mark.parametrize(("good", "left"), [(1.0, 0.0), (0.6, 0.4**5), (0.4, 0.6)])
+def test_refinement_ends_where_it_is_good_does_not_help_or_has_gone_on_enough(good: float, left: float) -> None:
+    """A solver that finds a share of each answer: after four rounds of 0.6, 0.4^5 is left; of 0.4 none is made."""
+    rhs = np.array([1.0, -2.0])
+    x = bordered_system._refined(lambda b: good * b, lambda b, x: b - x, rhs)
+    assert rhs - x == pytest.approx(left * rhs, rel=1e-12, abs=1e-15)

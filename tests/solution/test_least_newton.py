@@ -1,15 +1,18 @@
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
 
+from mbla.arrays import FloatArray
 from mbla.program.program import Program
 from mbla.program.yield_conditions import yield_violation
 from mbla.solution.law_state import LawState
 from mbla.solution.least_newton import LeastFound, LeastProblem, least_by_newton
-from mbla.solution.stiffness import stiffness_of
+from mbla.solution.stiffness import Stiffness, stiffness_of
 from mbla.solution.unique_forces import least_forces, point_weights
 from tests.line import WALL, Line, line_of
 from tests.solution.test_unique_forces import SETTINGS, associative, ignored
@@ -67,3 +70,24 @@ def test_steps_that_are_not_enough_leave_forces_out_of_balance() -> None:
     found = solved(line, program, state, start=10.0, steps=1)
     assert found.steps == 1
     assert found.unbalanced > 1e-6
+
+
+@pytest.mark.parametrize("cause", ["singular", "not a number", "uphill"])
+def test_steps_that_lead_nowhere_leave_what_there_was(cause: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The shift grows with each until it is given up."""
+    line, program, state = wall()
+    factorized = Stiffness.factorized
+
+    def made(stiffness: Stiffness, *arguments: Any, **named: Any) -> Callable[[FloatArray], FloatArray] | None:
+        solve = factorized(stiffness, *arguments, **named)
+        if cause == "singular" or solve is None:
+            return None
+        share = np.nan if cause == "not a number" else -1e6
+        return lambda rhs: share * solve(rhs)
+
+    monkeypatch.setattr(Stiffness, "factorized", made)
+    found = solved(line, program, state)
+    assert 1 < found.steps < 200
+    assert found.load_factor == state.load_factor
+    assert not found.multipliers.any()
+    assert found.unbalanced > 1e-3

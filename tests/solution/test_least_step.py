@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 import scipy.sparse as sp
 
+from mbla.solution import least_step
 from mbla.solution.cone_vectors import ConeVectors
 from mbla.solution.least_step import Equilibrium, augmented_step, normal_step
 from tests.line import line_of_file
@@ -63,3 +64,15 @@ def test_structures_whose_forces_lie_on_their_cones_are_proved(deck: str) -> Non
     assert solution.mechanics is not None
     assert checks.static_bound == pytest.approx(checks.kinematic_bound, rel=1e-7)
     assert checks.kinematic_bound == pytest.approx(solution.mechanics.load_factor, rel=1e-6)
+
+
+@pytest.mark.parametrize("answer", [None, np.nan], ids=["singular", "not a number"])
+def test_without_an_answer_there_is_no_step(answer: float | None, monkeypatch: pytest.MonkeyPatch) -> None:
+    random = np.random.default_rng(5)
+    equilibrium = Equilibrium(sp.csr_array(random.normal(size=(12, 4))), random.normal(size=4), random.normal(size=4))
+    z = np.append(-0.7, inside(7, 0.5))
+    solve = None if answer is None else lambda rhs: np.full(len(rhs) + 1, answer)
+    monkeypatch.setattr(least_step, "bordered_solver", lambda *arguments: solve)
+    monkeypatch.setattr(least_step, "factorize", lambda *arguments: solve)
+    assert normal_step(equilibrium, CONES, z) is None
+    assert augmented_step(equilibrium, CONES, z) is None

@@ -11,6 +11,7 @@ from mbla.arrays import FloatArray
 from mbla.deck.analysis import ReductionSwitches
 from mbla.program.program import Program
 from mbla.program.reductions import reduce_program
+from mbla.solution import locking
 from mbla.solution.associative import solve_associative
 from mbla.solution.locking import locking_forces
 from mbla.solution.settings import SolverSettings
@@ -175,3 +176,23 @@ def test_numbers_that_are_none_are_refused(locked: tuple[Line, FloatArray]) -> N
     lock[0, 0] = np.nan
     (failure,) = lock_failures(line.model, line.contacts, line.load_case, lock)
     assert "not finite" in failure
+
+
+@pytest.mark.parametrize("failing", [1, 2, 3, 8, 9])
+def test_forces_that_cannot_be_repaired_are_sought_again(failing: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Without the smallest ones first, then nearer to the limit of friction; what is found is proved all the same."""
+    line = pushed(BEAM, "[1, 0, 0]")
+    repaired, tries = locking.repaired_forces, []
+
+    def repair(program: Program, forces: FloatArray, factor: float) -> tuple[FloatArray, float] | None:
+        tries.append(len(forces))
+        return None if len(tries) <= failing else repaired(program, forces, factor)
+
+    monkeypatch.setattr(locking, "repaired_forces", repair)
+    lock = locking_forces((line.program,), SETTINGS, lambda record: None)
+    assert len(tries) == min(failing + 1, 9)
+    if failing == 9:
+        assert lock is None
+    else:
+        assert lock is not None
+        assert lock_failures(line.model, line.contacts, line.load_case, lock) == ()

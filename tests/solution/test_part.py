@@ -1,0 +1,82 @@
+"""One part of a structure: what the flow rule of the analysis says where associative flow locks, or nothing loads it."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from mbla.solution import part
+from mbla.solution.boundedness import Boundedness, BoundednessResult
+from mbla.solution.law_state import SequenceResult
+from mbla.solution.part import PartResult, solve_part
+from mbla.solution.settings import SolverSettings
+from mbla.solution.solution import Status
+from tests.line import BLOCK, line_of
+from tests.solution.standing_structures import deck, plane, prism
+
+SETTINGS = SolverSettings(1e-8)
+ALONG = "load_cases.push.live=[{acceleration: [0, 1, 0]}]"
+
+
+def wedge(friction: float) -> str:
+    """A wedge in a groove of two planes at 30 degrees, pushed along it: with normality it locks from 1.732 on."""
+    c, s = math.cos(math.radians(30)), 0.5
+    outline = [(0, 0), (1, s / c), (-1, s / c)]
+    return deck(prism(outline, 4.0), plane(0, 0, -s, c) + plane(0, 0, s, c), f"friction: {friction}")
+
+
+def result_of(text: str, *overrides: str) -> PartResult:
+    line = line_of(text, *overrides)
+    return solve_part(line.program, line.deck.analysis, SETTINGS, lambda record: None)
+
+
+def test_livesleys_correction_needs_associative_forces() -> None:
+    result = result_of(wedge(2.0), ALONG, "analysis.flow_rule=livesley")
+    assert result.status is Status.UNBOUNDED
+    assert result.sequence is None
+
+
+@pytest.mark.parametrize("dilatancy", [5, 10, 50])
+def test_a_wedge_with_less_dilatancy_than_friction_may_slide_where_that_locks(dilatancy: float) -> None:
+    """mu / (s cos b - mu w sin^2 b), see ``test_dilatancy``."""
+    b, mu, rise = math.radians(30), 2.0, math.tan(math.radians(dilatancy))
+    result = result_of(wedge(mu), ALONG, "analysis.flow_rule=dilatancy", f"joints.dry.dilatancy={dilatancy}")
+    assert result.associative.status is Status.UNBOUNDED
+    assert result.status is Status.SOLVED
+    w = rise / math.sqrt(math.cos(b) ** 2 - (rise * math.sin(b)) ** 2)
+    s = math.hypot(1.0, w * math.sin(b))
+    assert result.state is not None
+    factor = result.program.scaling.load_factor(result.state.load_factor)
+    assert factor == pytest.approx(mu / (s * math.cos(b) - mu * w * math.sin(b) ** 2), rel=1e-7)
+
+
+def test_a_wedge_for_which_no_state_with_dilatancy_is_found_stays_locked(monkeypatch: pytest.MonkeyPatch) -> None:
+    nothing = SequenceResult(Status.APPROXIMATE, None, "did not come to rest", ())
+    monkeypatch.setattr(part, "_by_law", lambda *arguments: nothing)
+    result = result_of(wedge(2.0), ALONG, "analysis.flow_rule=dilatancy", "joints.dry.dilatancy=10")
+    assert result.status is Status.UNBOUNDED
+    assert result.sequence is None
+
+
+def test_what_may_lock_without_dilatancy_too_has_no_verified_answer(monkeypatch: pytest.MonkeyPatch) -> None:
+    doubtful = BoundednessResult(Boundedness.DOUBTFUL, None, "whether it locks is doubtful")
+    monkeypatch.setattr(part, "non_associative_bounded", lambda *arguments: doubtful)
+    result = result_of(wedge(2.0), ALONG)
+    assert result.status is Status.NOT_VERIFIED
+    assert result.reason == "whether it locks is doubtful"
+    assert result.sequence is None
+
+
+@pytest.mark.parametrize("weight", [0.0, 1.0])
+def test_a_part_without_live_load_has_only_to_stand(weight: float) -> None:
+    line = line_of(BLOCK)
+    program = line.program
+    unloaded = replace(program, live_load=np.zeros_like(program.live_load), dead_load=weight * program.dead_load)
+    result = solve_part(unloaded, line.deck.analysis, SETTINGS, lambda record: None)
+    assert not result.loaded
+    assert result.status is Status.UNBOUNDED
+    assert result.reason == ("no live load acts on it" if weight else "")
+    assert bool(result.programs) is bool(weight)
