@@ -16,6 +16,7 @@ from mbla.solution.lowest import solve_lowest
 from mbla.solution.solution import Status
 from mbla.solution.sparse_mechanism import Nearness, sparse_mechanism
 from tests.line import BLOCK, WALL, line_of
+from tests.solution.failing_solver import said
 from tests.solution.planar import planar_program
 from tests.solution.test_factor_range import SETTINGS, opening, solved
 
@@ -136,3 +137,61 @@ def test_no_mechanism_fits_forces_inside_their_cones(wall: tuple[Program, LawSta
     inside = np.tile([1.0, 0.0], (program.n_points, 1))
     weights = np.ones(program.n_points)
     assert sparse_mechanism(program, inside, Nearness(1e-7, 0.0), weights, 1.0, SETTINGS) is None
+
+
+# --- single tries, with what the lower end of a mechanism is made up ------------------------------------------------
+
+
+def search_of(program: Program, state: LawState) -> lowest._Search:
+    return lowest._Search(program, state, np.random.default_rng(1), [], lambda record: None)
+
+
+@pytest.mark.parametrize(
+    ("share", "residual", "kept", "best"),
+    [
+        (0.9, 1e-9, True, 0.9),
+        (0.9, 1e-3, False, 1.0),
+        (1.1, 1e-9, False, 1.0),
+        (1.0 + 1e-6, 1e-9, True, 1.0),
+        (1.0 - 1e-6, 1e-9, True, 1.0 - 1e-6),
+        (1e-9, 1e-9, False, 1.0),
+    ],
+)
+def test_a_lower_end_is_kept_where_it_is_no_higher_and_fits_the_law(
+    share: float, residual: float, kept: bool, best: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """What needs no live load is counted and left out; a fall worth a line gets one, a smaller one none."""
+    program = line_of(BLOCK, "parameters.h=0.5").program
+    state = solved(program)
+    search = search_of(program, state)
+    made = replace(state, load_factor=share * state.load_factor, residual=residual)
+    monkeypatch.setattr(lowest, "law_state", lambda *arguments: made)
+    monkeypatch.setattr(lowest, "unbalanced", lambda *arguments: 0.0)
+    search.stale = 7
+    assert search._descend(state.velocities, state.forces, lowest.SOLVER) is kept
+    assert (search.here is made) is kept
+    assert search.best.load_factor == pytest.approx(best * state.load_factor, rel=1e-12)
+    assert [record.kind for record in search.records] == ["lowest"] * (share == 0.9 and kept)
+    assert search.needless == (1 if share == 1e-9 else 0)
+    assert search.stale == (0 if share == 0.9 and kept else 7)
+    words = search.words(state, LowestScheme())
+    assert ("1 of the mechanisms tried needed no live load at all" in words[-1]) is (share == 1e-9)
+
+
+def test_without_an_answer_a_try_is_in_vain(monkeypatch: pytest.MonkeyPatch) -> None:
+    program = line_of(BLOCK, "parameters.h=0.5").program
+    state = solved(program)
+    search = search_of(program, state)
+    monkeypatch.setattr(lowest, "interior_point_solver", said(Status.NUMERICAL_ERROR))
+    assert not search._descend(state.velocities, state.forces, lowest.SOLVER)
+    assert search._extreme_forces(lowest.SOLVER) is state.forces
+    assert search.best is state
+
+
+def test_the_time_limit_of_the_analysis_ends_the_search() -> None:
+    program = line_of(BLOCK, "parameters.h=0.5").program
+    start = SequenceResult(Status.SOLVED, solved(program), "", ())
+    settings = replace(SETTINGS, deadline=0.0)
+    result = solve_lowest(program, start, LowestScheme(seconds=600.0), settings, lambda record: None)
+    assert "0 mechanisms tried" in result.remarks[-1]
+    assert result.state is start.state

@@ -1,4 +1,4 @@
-"""One part of a structure: what the flow rule of the analysis says where associative flow locks, or nothing loads it."""
+"""One part of a structure: what the flow rule says where associative flow locks, and a part that nothing loads."""
 
 from __future__ import annotations
 
