@@ -151,3 +151,11 @@ def test_grounds_keep_their_order_behind_the_solids() -> None:
         *([0, 1], [1, 2], [2, 3], [4, 0]),
         *([5, block] for block in (0, 1, 2, 3, 3)),
     ]
+
+
+def test_without_glue_every_block_is_the_first_of_its_own_solid() -> None:
+    model = model_of(blocks_of(TOWER, GROUPS), grounds=(ground(),))
+    solids = solids_of(model, find_contacts(model, ContactsSection(joint="dry")))
+    assert solids.first_blocks.tolist() == [0, 1, 2, 3, 4]
+    held, contacts = glued(("a", "b"), ("d", "e"))
+    assert solids_of(held, contacts).first_blocks.tolist() == [0, 2, 3]

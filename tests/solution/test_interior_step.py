@@ -11,11 +11,11 @@ from mbla.program.program import Program
 from mbla.program.static import gravity_form, proximal_data, proximal_form
 from mbla.solution.clarabel_adapter import ClarabelProgram
 from mbla.solution.exact_law import exact_step
-from mbla.solution.interior_joints import exact_law, lagged_law
+from mbla.solution.interior_joints import Iterate, Joints, StepProblem, exact_law, lagged_law
 from mbla.solution.interior_step import interior_step
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import IterationRecord
-from mbla.solution.stiffness import stiffness_of
+from mbla.solution.stiffness import Stiffness, stiffness_of
 from tests.line import BLOCK, WALL, line_of
 from tests.solution.test_dilatancy import wall_3
 
@@ -113,3 +113,23 @@ def test_every_iteration_is_logged() -> None:
     assert [record.iteration for record in records] == list(range(result.iterations + 1))
     assert {record.program for record in records} == {7}
     assert records[-1].load_factor == pytest.approx(program.scaling.load_factor(result.load_factor), rel=1e-9)
+
+
+@pytest.mark.parametrize("cause", ["singular", "not finite"])
+def test_a_step_without_a_system_ends_where_it_begins(cause: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    program = line_of(BLOCK).program
+    law, anchor = exact_law(program, np.zeros(program.n_points)), gravity(program)
+    if cause == "singular":
+        monkeypatch.setattr(Stiffness, "factorized", lambda *arguments, **named: None)
+    else:
+        made = Joints.of
+
+        def broken(step: StepProblem, now: Iterate) -> Joints:
+            joints = made(step, now)
+            return replace(joints, tangents=np.full_like(joints.tangents, np.nan))
+
+        monkeypatch.setattr(Joints, "of", broken)
+    result = interior_step(stiffness_of(program), law, anchor, 1e-2, 0.1, silent, 1)
+    assert not result.converged
+    assert result.iterations == 0
+    assert result.load_factor == 0.1

@@ -8,13 +8,18 @@ import numpy as np
 import pytest
 
 from mbla.program.yield_conditions import yield_violation
+from mbla.solution import gravity
+from mbla.solution import limit_point as limit_point_module
 from mbla.solution.associative import solve_associative
 from mbla.solution.factor_range import unbalanced
 from mbla.solution.law_state import LawState
-from mbla.solution.limit_point import LimitPoint, limit_point
+from mbla.solution.limit_point import STEPS, LimitPoint, limit_point
 from mbla.solution.mechanics import mechanics_of
+from mbla.solution.solution import Status
 from mbla.solution.verify_peak import peak_check
+from mbla.solution.weakening import Outcome, Weakening
 from tests.line import BLOCK, HEAD, Line, line_of
+from tests.solution.failing_solver import said
 from tests.solution.planar import planar_program
 from tests.solution.test_factor_range import FERRIS_3, SETTINGS, solved
 
@@ -110,3 +115,31 @@ def test_a_keystone_upside_down_carries_no_live_load() -> None:
     assert found.peak is not None
     assert found.peak.load_factor == 0.0
     assert "no live load is carried" in found.remark
+
+
+def test_without_a_gravity_state_no_path_is_followed(monkeypatch: pytest.MonkeyPatch) -> None:
+    program = line_of(BLOCK).program
+    state = solved(program)
+    monkeypatch.setattr(gravity, "interior_point_solver", said(Status.NUMERICAL_ERROR))
+    undecided = Weakening(Outcome.UNDECIDED, None, np.nan, "")
+    found = limit_point(program, state, SETTINGS, lambda record: None, 5, known=undecided)
+    assert found.peak is None
+    assert "no gravity state was found to start from" in found.remark
+
+
+def test_a_peak_that_moves_with_the_steps_is_that_of_the_shortest(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Higher by a tenth each time the steps are made shorter."""
+    program = line_of(BLOCK, "parameters.h=0.5").program
+    state = solved(program)
+    heights = iter(1.0 + 0.1 * np.arange(1, 1 + len(STEPS)))
+
+    def follow(*arguments: object) -> limit_point_module._Path:
+        peak = replace(state, load_factor=state.load_factor * float(next(heights)))
+        return limit_point_module._Path(program, peak, fell=True)
+
+    monkeypatch.setattr(limit_point_module, "_follow", follow)
+    found = limit_point(program, state, SETTINGS, lambda record: None, 5)
+    assert found.peak is not None
+    assert found.peak.load_factor == pytest.approx((1.0 + 0.1 * len(STEPS)) * state.load_factor)
+    assert found.change == pytest.approx(0.1 / (1.0 + 0.1 * len(STEPS)))
+    assert [record.program for record in found.programs] == list(range(5, 5 + len(STEPS)))

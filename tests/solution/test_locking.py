@@ -13,6 +13,7 @@ from mbla.program.program import Program
 from mbla.program.reductions import reduce_program
 from mbla.solution import locking
 from mbla.solution.associative import solve_associative
+from mbla.solution.force_repair import repaired_forces
 from mbla.solution.locking import locking_forces
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Status
@@ -182,11 +183,11 @@ def test_numbers_that_are_none_are_refused(locked: tuple[Line, FloatArray]) -> N
 def test_forces_that_cannot_be_repaired_are_sought_again(failing: int, monkeypatch: pytest.MonkeyPatch) -> None:
     """Without the smallest ones first, then nearer to the limit of friction; what is found is proved all the same."""
     line = pushed(BEAM, "[1, 0, 0]")
-    repaired, tries = locking.repaired_forces, []
+    tries: list[int] = []
 
     def repair(program: Program, forces: FloatArray, factor: float) -> tuple[FloatArray, float] | None:
         tries.append(len(forces))
-        return None if len(tries) <= failing else repaired(program, forces, factor)
+        return None if len(tries) <= failing else repaired_forces(program, forces, factor)
 
     monkeypatch.setattr(locking, "repaired_forces", repair)
     lock = locking_forces((line.program,), SETTINGS, lambda record: None)

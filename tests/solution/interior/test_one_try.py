@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
 
 from mbla.program.program import Program
+from mbla.solution.exact_law import LawStep, exact_step
 from mbla.solution.interior import one_try, polish
 from mbla.solution.interior.arc_length import Stage
 from mbla.solution.interior.central_path import PathVector, central_path, first_point, state_of
@@ -111,9 +113,13 @@ def test_exact_steps_are_ended_by_their_number(monkeypatch: pytest.MonkeyPatch) 
     state = state_of(program, point)
     monkeypatch.setattr(polish, "MOST_STEPS", 1)
     monkeypatch.setattr(polish, "EXACT", 0.0)
-    steps = []
-    exact = polish.exact_step
-    monkeypatch.setattr(polish, "exact_step", lambda *arguments: steps.append(arguments[3]) or exact(*arguments))
+    steps: list[float] = []
+
+    def step(*arguments: Any) -> LawStep:
+        steps.append(arguments[3])
+        return exact_step(*arguments)
+
+    monkeypatch.setattr(polish, "exact_step", step)
     best, count = polished(program, stiffness_of(program), state, polish.STEPS)
     size = float((state.forces**2).sum())
     assert [rho * size for rho in steps] == pytest.approx(polish.STEPS)

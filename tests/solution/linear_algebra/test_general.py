@@ -6,6 +6,8 @@ import numpy as np
 import pytest
 import scipy.sparse as sp
 
+from mbla.errors import SolverError
+from mbla.solution.linear_algebra import general
 from mbla.solution.linear_algebra.general import GeneralFactorization
 from mbla.solution.linear_algebra.mkl import mkl_works
 
@@ -59,3 +61,45 @@ def test_factors_that_are_gone_are_not_used() -> None:
 
 def test_small_matrices_are_left_to_superlu() -> None:
     assert GeneralFactorization(*pattern_of(chain(1))).library == "superlu"
+
+
+class Dense:
+    """In the place of MKL: dense factors, and none of a matrix whose first entry is zero."""
+
+    def __init__(self, runtime: object, n: int, pointers: np.ndarray, indices: np.ndarray, kind: object) -> None:
+        self.n, self.pointers, self.indices, self.analysed = n, pointers, indices, False
+        self.matrix = np.zeros((n, n))
+
+    def analyse(self) -> None:
+        self.analysed = True
+
+    def factorize(self, data: np.ndarray) -> bool:
+        assert self.analysed
+        self.matrix = sp.csc_array((data, self.indices, self.pointers), shape=(self.n, self.n)).toarray()
+        return bool(data[0] != 0.0)
+
+    def solve(self, rhs: np.ndarray) -> np.ndarray:
+        return np.asarray(np.linalg.solve(self.matrix, rhs))
+
+
+def test_factors_of_pardiso_hold_until_the_next_and_superlu_steps_in(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(general, "mkl_library", object)
+    monkeypatch.setattr(general, "mkl_works", lambda: True)
+    monkeypatch.setattr(general, "Pardiso", Dense)
+    factors, rhs = GeneralFactorization(*pattern_of(chain(0)), "pardiso"), np.arange(61.0)
+    first = factors.factorize(chain(1))
+    assert first is not None
+    assert first(rhs) == pytest.approx(np.linalg.solve(chain(1).toarray(), rhs), rel=1e-9, abs=1e-11)
+    other = chain(2)
+    other.data[0] = 0.0
+    second = factors.factorize(other)
+    assert second is not None
+    assert second(rhs) == pytest.approx(np.linalg.solve(other.toarray(), rhs), rel=1e-9, abs=1e-11)
+    with pytest.raises(ValueError, match="overwritten"):
+        first(rhs)
+
+
+def test_pardiso_cannot_be_had_where_mkl_is_not(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(general, "mkl_library", lambda: None)
+    with pytest.raises(SolverError, match="MKL is not installed"):
+        GeneralFactorization(*pattern_of(chain(0)), "pardiso")

@@ -1,9 +1,12 @@
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pytest
 import scipy.sparse as sp
 
+from mbla.solution.linear_algebra import superlu
 from mbla.solution.linear_algebra.superlu import factorize
 
 
@@ -35,3 +38,20 @@ def test_what_cannot_be_factorised_on_its_diagonal_is_factorised_with_exchanges(
 @pytest.mark.parametrize("symmetric", [True, False])
 def test_a_singular_matrix_has_no_solver(symmetric: bool) -> None:
     assert factorize(sp.csc_array(np.array([[1.0, 1.0], [1.0, 1.0]])), symmetric=symmetric) is None
+
+
+def test_factors_that_give_no_numbers_are_made_again_with_exchanges(monkeypatch: pytest.MonkeyPatch) -> None:
+    matrix, real = sp.csc_array(np.diag([1.0, 2.0])), superlu._solver
+    made: list[Any] = []
+
+    def solver(factors: Any) -> Any:
+        made.append(factors)
+        return (lambda rhs: np.full_like(rhs, np.nan)) if len(made) == 1 else real(factors)
+
+    monkeypatch.setattr(superlu, "_solver", solver)
+    solve = superlu.factorize(matrix, symmetric=True)
+    assert solve is not None
+    assert solve(np.array([1.0, 1.0])) == pytest.approx([1.0, 0.5])
+    assert len(made) == 2
+    made.clear()
+    assert superlu.factorize(matrix) is None

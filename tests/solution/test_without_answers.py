@@ -1,0 +1,186 @@
+"""Stages of the solution of which the next one below gives no answer: what each of them says then."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from importlib import import_module
+
+import numpy as np
+import pytest
+import scipy.sparse as sp
+
+from mbla.solution import boundedness, flow, force_repair, lagged_limits, light_blocks, livesley, spring_newton, verify
+from mbla.solution.associative import AssociativeResult, solve_associative
+from mbla.solution.boundedness import Boundedness, non_associative_bounded
+from mbla.solution.exact_law import exact_step
+from mbla.solution.force_repair import repaired_forces
+from mbla.solution.lagged_limits import convex_minimum
+from mbla.solution.law_state import SequenceResult
+from mbla.solution.livesley import solve_livesley
+from mbla.solution.polyhedral import _claim
+from mbla.solution.settings import SolverSettings
+from mbla.solution.solution import Status
+from mbla.solution.spring_newton import newton_step
+from mbla.solution.spring_problem import SpringProblem, joints_at, spring_problem
+from mbla.solution.stiffness import Stiffness, stiffness_of
+from mbla.solution.weakening import Outcome, Weakening
+from tests.line import BLOCK, line_of, solution_of
+from tests.solution.by_hand import claim
+from tests.solution.failing_solver import said
+
+solve = import_module("mbla.solution.solve")  # the package has the function of that name
+SETTINGS = SolverSettings(1e-8)
+PRESSED = "load_cases.push.live=[{acceleration: [0, 0, -1]}]"
+
+
+@pytest.mark.parametrize(
+    ("said_to_be", "status"),
+    [(Status.UNBOUNDED, Status.NOT_VERIFIED), (Status.ITERATION_LIMIT, Status.ITERATION_LIMIT)],
+)
+def test_a_correction_without_a_solution_says_nothing_of_the_structure(
+    said_to_be: Status, status: Status, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    program = line_of(BLOCK).program
+    associative = solve_associative(program, SETTINGS, lambda record: None)
+    monkeypatch.setattr(livesley, "cone_solver", said(said_to_be))
+    result = solve_livesley(program, associative, SETTINGS, lambda record: None)
+    assert result.status is status
+    assert result.state is None
+    assert result.reason == f"the correction ended without a solution (clarabel: said {said_to_be})"
+
+
+@pytest.mark.parametrize("answer", [None, np.nan], ids=["singular", "not a number"])
+def test_a_step_of_the_law_without_a_direction_stays(answer: float | None, monkeypatch: pytest.MonkeyPatch) -> None:
+    program = line_of(BLOCK).program
+    stiffness, slope = stiffness_of(program), np.zeros(program.n_points)
+    anchor = np.ones((program.n_points, 3))
+    found = None if answer is None else lambda rhs: np.full_like(rhs, answer)
+    monkeypatch.setattr(Stiffness, "factorized", lambda *arguments, **named: found)
+    step = exact_step(stiffness, slope, anchor, 1e-2, np.zeros(6), 0.1, 10)
+    assert not step.velocities.any()
+    assert (step.load_factor, step.factorizations) == (0.1, 1)
+    assert step.residual > 1e-3
+
+
+def test_forces_whose_correction_is_no_number_are_not_repaired(monkeypatch: pytest.MonkeyPatch) -> None:
+    program = line_of(BLOCK).program
+    state = solve_associative(program, SETTINGS, lambda record: None).state
+    assert state is not None
+    assert repaired_forces(program, state.forces, state.load_factor) is not None
+    nothing = np.full(len(program.live_load) + 1, np.nan)
+    monkeypatch.setattr(force_repair, "bordered_solver", lambda *arguments: lambda rhs: nothing)
+    assert force_repair._static_correction(program, state.forces, state.load_factor) is None
+    rough = state.forces + 1e-3
+    assert repaired_forces(program, rough, state.load_factor) is None
+
+
+def on_springs() -> SpringProblem:
+    program = line_of(BLOCK).program
+    springs = sp.csr_array(sp.eye_array(6, format="csr"))
+    return spring_problem(program.equilibrium_matrix, program.dead_load, program.limits, springs, None)
+
+
+def test_joints_on_springs_without_a_tangent_have_no_step(monkeypatch: pytest.MonkeyPatch) -> None:
+    problem = on_springs()
+    joints = joints_at(problem, 1e-3, np.zeros(6), None)
+    assert newton_step(problem, 1e-3, joints, lagged=False) is not None
+    monkeypatch.setattr(spring_newton, "factors_on_the_diagonal", lambda *arguments: None)
+    assert newton_step(problem, 1e-3, joints, lagged=False) is None
+
+
+@pytest.mark.parametrize("share", [None, -1.0], ids=["no step", "uphill"])
+def test_a_minimum_that_no_step_leads_to_is_not_gone_to(share: float | None, monkeypatch: pytest.MonkeyPatch) -> None:
+    problem, start = on_springs(), np.full(6, 1e-3)
+    limit = joints_at(problem, 1e-3, start, None).limit
+    assert not np.array_equal(convex_minimum(problem, 1e-3, start, limit), start)
+
+    def step(*arguments: object, lagged: bool) -> np.ndarray | None:
+        right = newton_step(*arguments, lagged=lagged)  # type: ignore[arg-type]
+        return None if share is None or right is None else share * right
+
+    monkeypatch.setattr(lagged_limits, "newton_step", step)
+    assert np.array_equal(convex_minimum(problem, 1e-3, start, limit), start)
+
+
+def test_springs_that_decide_nothing_leave_it_in_doubt_whether_it_locks(monkeypatch: pytest.MonkeyPatch) -> None:
+    undecided = Weakening(Outcome.UNDECIDED, 0, 0.5, "the time limit was reached")
+    monkeypatch.setattr(boundedness, "weaken_springs", lambda *arguments: undecided)
+    result = non_associative_bounded(line_of(BLOCK, PRESSED).program, SETTINGS)
+    assert result.verdict is Boundedness.DOUBTFUL
+    assert result.block == 0
+    assert result.reason.endswith("whether it does so without is doubtful: the time limit was reached")
+
+
+def test_the_default_scheme_does_not_go_on_beyond_the_time_limit(monkeypatch: pytest.MonkeyPatch) -> None:
+    late = SequenceResult(Status.TIME_LIMIT, None, "the time limit was reached", ())
+    monkeypatch.setattr(flow, "solve_proximal", lambda *arguments: late)
+    solution = solution_of(line_of(BLOCK, "analysis.flow_rule=non_associative"))
+    assert solution.status is Status.TIME_LIMIT
+    assert solution.reason == "the time limit was reached"
+    assert not {"interior"} & {record.kind for record in solution.programs}
+
+
+@pytest.mark.parametrize("sides", [4, 8])
+def test_livesleys_correction_takes_the_friction_polyhedron_that_is_asked_for(sides: int) -> None:
+    """A square with its corners along the push has all of the friction there."""
+    polyhedral = f"analysis={{flow_rule: livesley, friction_cone: polyhedral, sides: {sides}, standing: false}}"
+    solution = solution_of(line_of(BLOCK, "parameters.h=0.5", polyhedral))
+    assert solution.mechanics is not None
+    assert "livesley" in {record.kind for record in solution.programs}
+    assert 0.5 * np.cos(np.pi / sides) - 1e-6 <= solution.mechanics.load_factor <= 0.5 + 1e-6
+
+
+def test_a_lock_without_forces_that_prove_it_is_not_verified(monkeypatch: pytest.MonkeyPatch) -> None:
+    line = line_of(BLOCK, PRESSED)
+    assert solution_of(line).status is Status.UNBOUNDED
+    monkeypatch.setattr(solve, "locking_forces", lambda *arguments: None)
+    solution = solution_of(line)
+    assert solution.status is Status.NOT_VERIFIED
+    assert solution.reason == solve.LOCK_NOT_PROVED
+    checks = verify(line.model, line.contacts, line.load_case, claim(None, Status.UNBOUNDED))
+    assert checks.failures == ("no forces are given that carry every multiple of the live load",)
+
+
+def test_ranges_of_forces_are_left_out_of_parts_of_which_nothing_is_known(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The first block tips at 0.5; of the other one, which would slide at 0.9, no forces are found there."""
+    other = "  - box: {group: other, material: stone, min: [9, 0, 0], max: [10, 1, 1]}\n"
+    line = line_of(BLOCK.replace("supports:", other + "supports:"), "parameters.mu=0.9", "analysis.force_ranges=true")
+    known = solution_of(line).force_ranges
+    assert known is not None
+    assert np.isfinite(known).all()
+    monkeypatch.setattr(solve, "at_rest", lambda *arguments: None)
+    ranges = solution_of(line).force_ranges
+    assert ranges is not None
+    others = (line.contacts.bodies == 1).any(axis=1)
+    assert others.sum() == 1
+    assert np.isnan(ranges).all(axis=1).tolist() == others.tolist()
+
+
+@pytest.mark.parametrize("open_one", ["inner", "outer"])
+def test_a_polyhedron_that_was_not_decided_leaves_the_cone_undecided(open_one: str) -> None:
+    program = line_of(BLOCK).program
+    decided = solve_associative(program, SETTINGS, lambda record: None)
+    late = AssociativeResult(Status.TIME_LIMIT, None, None, "the time limit was reached", ())
+    pair = (late, decided) if open_one == "inner" else (decided, late)
+    result = _claim(8, *pair)
+    assert result.status is Status.TIME_LIMIT
+    assert result.state is None
+    assert result.reason == late.reason
+
+
+def test_states_that_miss_the_law_less_but_too_much_are_not_taken(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Nor is there another one to try without associative forces."""
+    program = line_of(BLOCK, "parameters.h=0.5").program
+    associative = solve_associative(program, SETTINGS, lambda record: None)
+    state = associative.state
+    assert state is not None
+    rough = SequenceResult(Status.APPROXIMATE, replace(state, residual=1e-2), "rough", ())
+    none = replace(associative, state=None)
+    candidates = list(light_blocks._candidates(program, none, 0.0, state))
+    assert len(candidates) == light_blocks.MOST_STEPS
+    better = replace(state, residual=1e-4)
+    monkeypatch.setattr(light_blocks, "_candidates", lambda *arguments: iter([better]))
+    assert light_blocks.sharpened(program, none, 0.0, rough) is rough
+    good = replace(state, residual=1e-9)
+    monkeypatch.setattr(light_blocks, "_candidates", lambda *arguments: iter([better, good]))
+    assert light_blocks.sharpened(program, none, 0.0, rough).status is Status.SOLVED
