@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from mbla.program.program import Program
+from mbla.program.static import StaticForm
 from mbla.solution import associative
 from mbla.solution.associative import AssociativeResult, solve_associative
 from mbla.solution.associative_form import in_velocities
@@ -121,3 +122,16 @@ def test_where_no_solver_says_whether_it_falls_nothing_is_claimed(monkeypatch: p
     assert result.status is Status.TIME_LIMIT
     assert result.certificate is None
     assert [record.kind for record in result.programs] == ["gravity", "gravity"]
+
+
+@pytest.mark.parametrize("sense", [1.0, -1.0])
+def test_the_motion_of_a_fall_is_found_in_either_sense(sense: float, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A ray of the dual may come with either sign: the dead load does work in one of them."""
+    program = line_of(HANGING, ACROSS).program
+    run = AssociativeRun(program, SETTINGS, lambda record: None, 1, [])
+    velocities = StaticForm.velocities
+    monkeypatch.setattr(StaticForm, "velocities", lambda form, z: sense * velocities(form, z))
+    result = associative._locked_both_ways(run, SETTINGS)
+    assert result.status is Status.NO_EQUILIBRIUM
+    assert result.certificate is not None
+    assert program.dead_load @ result.certificate > 0.0

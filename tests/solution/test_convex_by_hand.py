@@ -122,3 +122,16 @@ def test_what_stands_by_self_stress_alone_has_no_load_factor_without_dilatancy(m
         assert solution.status is status
         assert solution.standing is held
         assert (solution.reason == ONLY_BY_SELF_STRESS) is (rule == "non_associative")
+
+
+@pytest.mark.parametrize("rule", ["associative", "non_associative"])
+def test_a_block_that_hangs_on_a_guide_without_an_interface_is_moved_by_any_push(rule: str) -> None:
+    """A pendulum about an axis above it: at rest under its weight, and nothing resists."""
+    text = BLOCK.replace("{ground: {z: 0}}", "{blocks: block, turn: {axis: [0, 1, 0], about: [0.5, 0, 3]}}")
+    line = line_of(text)
+    assert len(line.contacts) == 0
+    solution, checks = convex_of(line, rule)
+    assert solution.status is Status.SOLVED
+    assert checks.verified
+    assert solution.mechanics is not None
+    assert solution.mechanics.load_factor == pytest.approx(0.0, abs=1e-12)

@@ -122,9 +122,10 @@ def test_the_default_scheme_does_not_go_on_beyond_the_time_limit(monkeypatch: py
 
 @pytest.mark.parametrize("sides", [4, 8])
 def test_livesleys_correction_takes_the_friction_polyhedron_that_is_asked_for(sides: int) -> None:
-    """A square with its corners along the push has all of the friction there."""
-    polyhedral = f"analysis={{flow_rule: livesley, friction_cone: polyhedral, sides: {sides}, standing: false}}"
-    solution = solution_of(line_of(BLOCK, "parameters.h=0.5", polyhedral))
+    """An inscribed polygon has all of the friction at its corners, and cos(π/sides) of it between them."""
+    spatial = "reductions: {planar: false, mirror: false, points: false}"
+    polyhedral = f"friction_cone: polyhedral, sides: {sides}, standing: false, {spatial}"
+    solution = solution_of(line_of(BLOCK, "parameters.h=0.5", f"analysis={{flow_rule: livesley, {polyhedral}}}"))
     assert solution.mechanics is not None
     assert "livesley" in {record.kind for record in solution.programs}
     assert 0.5 * np.cos(np.pi / sides) - 1e-6 <= solution.mechanics.load_factor <= 0.5 + 1e-6

@@ -106,7 +106,9 @@ def test_every_interface_of_a_wall_is_a_rectangle() -> None:
 
 
 def test_where_nothing_touches_there_are_no_shapes() -> None:
-    line = prism_line([(0, 0), (1, 0), (1, 1), (0, 1)], "supports=[{blocks: block, turn: {axis: [0, 1, 0], about: [0, 0, 0]}}]")
+    line = prism_line(
+        [(0, 0), (1, 0), (1, 1), (0, 1)], "supports=[{blocks: block, turn: {axis: [0, 1, 0], about: [0, 0, 0]}}]"
+    )
     shapes = interface_shapes(line.contacts)
     assert len(line.contacts) == 0
     assert (len(shapes.radii), len(shapes.corners), len(shapes.rectangles)) == (0, 0, 0)
