@@ -156,3 +156,13 @@ def test_the_deck_s_solver_is_taken_and_cones_are_refused_in_words() -> None:
     assert not is_linear(cones)
     assert {other_solver(name, linear_program()) for name in ("mbla", "clarabel", "highs")} == {"highs", "clarabel"}
     assert {other_solver(name, cones) for name in ("mbla", "clarabel")} == {"clarabel", "mbla"}
+
+
+def test_a_search_for_a_ray_that_is_stopped_says_by_what(monkeypatch: pytest.MonkeyPatch) -> None:
+    held = highs(linear_program())
+    solution = held.solve(1, 1.0)
+    run = held._run(held._dual_ray())
+    monkeypatch.setattr(HighsProgram, "_run", lambda held, linear: replace(run, status="kTimeLimit"))
+    stopped = held._with_ray(solution)
+    assert stopped.status is Status.TIME_LIMIT
+    assert stopped.iterations == solution.iterations + run.iterations

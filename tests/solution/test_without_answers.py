@@ -21,7 +21,7 @@ from mbla.solution.polyhedral import _claim
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Status
 from mbla.solution.spring_newton import newton_step
-from mbla.solution.spring_problem import SpringProblem, joints_at, spring_problem
+from mbla.solution.spring_problem import PATTERN_FROM, LatePattern, SpringProblem, joints_at, spring_problem
 from mbla.solution.stiffness import Stiffness, stiffness_of
 from mbla.solution.weakening import Outcome, Weakening
 from tests.line import BLOCK, line_of, solution_of
@@ -86,6 +86,9 @@ def test_joints_on_springs_without_a_tangent_have_no_step(monkeypatch: pytest.Mo
     assert newton_step(problem, 1e-3, joints, lagged=False) is not None
     monkeypatch.setattr(spring_newton, "factors_on_the_diagonal", lambda *arguments: None)
     assert newton_step(problem, 1e-3, joints, lagged=False) is None
+    late = replace(problem, pattern=LatePattern(line_of(BLOCK).program))
+    monkeypatch.setattr(Stiffness, "factorized", lambda *arguments, **named: None)
+    assert [newton_step(late, 1e-3, joints, lagged=False) for _ in range(PATTERN_FROM + 1)][-1] is None
 
 
 @pytest.mark.parametrize("share", [None, -1.0], ids=["no step", "uphill"])

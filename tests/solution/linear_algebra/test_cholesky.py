@@ -242,3 +242,10 @@ def test_the_best_for_the_size(monkeypatch: pytest.MonkeyPatch, there: set[str],
 def test_a_small_matrix_looks_for_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(cholesky, "_fault", lambda library: pytest.fail(f"looked for {library}"))
     assert factorization(definite(50)[0]).library == "qdldl"
+
+
+def test_pardiso_is_not_made_where_mkl_is_not(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(cholesky, "mkl_library", lambda: None)
+    one = SymmetricPattern(1, np.zeros(1, dtype=np.int32), np.array([0, 1], dtype=np.int32))
+    with pytest.raises(ImportError, match="the package mkl is not installed"):
+        cholesky._made("pardiso", one)
