@@ -6,13 +6,15 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 
-from mbla.results.pictures.options import PictureOptions
-from mbla.results.pictures.palette import CASES, HINGE, OPEN
+from mbla.model.model import Settlement
+from mbla.results.pictures.options import VIEWS, PictureOptions
+from mbla.results.pictures.palette import CASES, HINGE, LIVE_LOAD, OPEN
 from mbla.results.pictures.plane.sheet import round_length
 from mbla.results.pictures.plot import draw_picture
 from mbla.results.pictures.scene import Scene, scene_of
 from mbla.results.results import CaseResult, Results
-from mbla.solution.solution import Mechanics, Status
+from mbla.solution.solution import Mechanics, Standing, StandingResult, Status
+from tests.results.pictures.rows_and_columns import row_of_blocks
 from tests.results.synthetic import full_model, tower_results
 
 NAMED = "{http://www.w3.org/2000/svg}"
@@ -213,3 +215,88 @@ def test_what_crushes_is_no_opening(tmp_path: Path) -> None:
     assert "crushing" in texts
     whole, _ = drawn(tmp_path, "mechanism")
     assert "crushing" not in whole
+
+
+def turned(results: Results, angle: float) -> Results:
+    """The same structure, and its loads, turned about the vertical by an angle in degrees."""
+    cosine, sine = np.cos(np.deg2rad(angle)), np.sin(np.deg2rad(angle))
+    turn = np.array([[cosine, sine, 0], [-sine, cosine, 0], [0, 0, 1]])  # of rows
+    blocks, contacts, case = results.model.blocks, results.contacts, results.cases[0]
+    blocks = replace(
+        blocks,
+        vertices=blocks.vertices @ turn,
+        centroids=blocks.centroids @ turn,
+        added_mass_points=blocks.added_mass_points @ turn,
+        face_normals=blocks.face_normals @ turn,
+    )
+    contacts = replace(
+        contacts,
+        points=contacts.points @ turn,
+        centroids=contacts.centroids @ turn,
+        frames=contacts.frames @ turn,
+    )
+    live = case.load_case.live_load.reshape(-1, 2, 3) @ turn
+    load_case = replace(case.load_case, live_load=live.reshape(-1, 6))
+    mechanics = mechanics_of(results)
+    motion = (mechanics.mechanism.reshape(-1, 2, 3) @ turn).reshape(-1, 6)
+    case = replace(
+        case, load_case=load_case, solution=replace(case.solution, mechanics=replace(mechanics, mechanism=motion))
+    )
+    model = replace(results.model, blocks=blocks, load_cases=(load_case,))
+    return replace(results, model=model, contacts=contacts, cases=(case,))
+
+
+@pytest.mark.parametrize(
+    ("angle", "view", "name"),
+    [
+        (0, None, "x"),
+        (0, "back", "-x"),
+        (90, "right", "y"),
+        (90, "left", "-y"),
+        (30, None, "(0.866, 0.5, 0)"),
+    ],
+)
+def test_the_axis_across_the_page_has_its_name_or_its_numbers(
+    tmp_path: Path, angle: float, view: str | None, name: str
+) -> None:
+    options: dict[str, Any] = {} if view is None else {"view": VIEWS[view]}
+    texts, svg = drawn(tmp_path, "model", turned(row_of_blocks(2), angle), **options)
+    assert "<image" not in svg
+    assert texts[texts.index("z") - 1] == name
+
+
+@pytest.mark.parametrize(("motion", "arrow"), [([0, 0, -1, 0, 0, 0], True), ([0, 0, 0, 0, 1, 0], False)])
+def test_a_support_that_gives_way_is_named_and_has_an_arrow_where_it_moves(
+    tmp_path: Path, motion: list[float], arrow: bool
+) -> None:
+    """The entry of the legend takes the colour twice; one that only turns has no direction to show."""
+    results = tower_results()
+    given = Settlement(np.array([2]), np.array([motion], float), False, "settlement of brick[0]", 1.0, 1.0)
+    load_case = replace(results.model.load_cases[0], settlement=given)
+    results = replace(results, cases=(replace(results.cases[0], load_case=load_case),))
+    texts, svg = drawn(tmp_path, "forces", results)
+    assert "settlement of brick[0]" in texts
+    uses = svg.lower().count(LIVE_LOAD.lower())
+    without = svg.lower().split('<g id="legend_1">')[1].count(LIVE_LOAD.lower())
+    assert (uses > without) == arrow
+
+
+def test_without_mechanism_and_motion_the_figure_says_that_it_is_at_rest(tmp_path: Path) -> None:
+    results = tower_results()
+    case = results.cases[1]
+    still = replace(case, solution=replace(case.solution, certificate=None))
+    texts, _ = drawn(tmp_path, "mechanism", results, still)
+    assert "drawn at rest: there is no mechanism" in texts
+    assert not {"before it moves", "hinge", "opening", "part 1"} & set(texts)
+
+
+def test_forces_of_the_dead_load_alone_are_told_as_such(tmp_path: Path) -> None:
+    """Found when it was asked whether the structure stands; others may do so too."""
+    results = tower_results()
+    case = results.cases[1]
+    found = StandingResult(Standing.YES, 0, "", mechanics_of(results).contact_forces, np.zeros((3, 6)))
+    case = replace(case, solution=replace(case.solution, standing=found), status=Status.NOT_VERIFIED)
+    texts, _ = drawn(tmp_path, "forces", results, case)
+    assert "contact forces under the dead load alone; others may do so too" in texts
+    assert {"11.2 N", "5.59 N", "1.12 N"} <= set(texts)
+    assert "NOT VERIFIED: no result" in texts
