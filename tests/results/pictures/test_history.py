@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 
 from mbla.model.model import TravelPosition
-from mbla.results.pictures.history import _keep_to_the_middle, draw_history, draw_series
+from mbla.results.pictures.history import MOST_NAMED, _keep_to_the_middle, draw_history, draw_series
 from mbla.results.pictures.options import PictureOptions
 from mbla.results.pictures.scene import scene_of
 from mbla.results.results import CaseResult, Results
 from mbla.results.series import series_of
-from mbla.solution.solution import Status
+from mbla.solution.solution import IterationRecord, ProgramRecord, Status
 from tests.results.synthetic import full_results, tower_results
 
 
@@ -91,3 +91,50 @@ def test_worst_position(tmp_path: Path) -> None:
     scene = scene_of(results, results.cases[0], PictureOptions(), "history")
     draw_series(path, scene, series_of(results.cases)[0], PictureOptions())
     assert "worst at position 4, 4.5 m along the path: 0.4" in texts(path)
+
+
+def test_a_case_without_a_load_factor_has_none_in_its_diagram(tmp_path: Path) -> None:
+    """Its only program found no load factor either: residuals are drawn, no line of an answer."""
+    results = tower_results()
+    solution = results.cases[0].solution
+    programs = (replace(solution.programs[0], load_factor=float("nan")),)
+    case = replace(results.cases[0], solution=replace(solution, mechanics=None, programs=programs))
+    shown = history(tmp_path, results, replace(case, status=Status.NOT_VERIFIED))
+    assert {"gap", "primal residual", "dual residual", "iteration", "1 associative"} <= set(shown)
+    assert not any(text.startswith(("load factor 0", "not a result")) for text in shown)
+
+
+def test_of_many_programs_those_with_room_are_named(tmp_path: Path) -> None:
+    """One iteration each: every second name is left out."""
+    results, count = tower_results(), 2 * MOST_NAMED
+    solution = results.cases[0].solution
+    record = ProgramRecord(1, "published", Status.SOLVED, 0.5, 1e-6, 1, 0.01, "clarabel", "qdldl")
+    programs = tuple(replace(record, program=i + 1) for i in range(count))
+    iterations = tuple(IterationRecord(i + 1, 0, 0.5, 0.1, 1e-3, 1e-4, 0.9, 0.001) for i in range(count))
+    case = replace(results.cases[0], solution=replace(solution, programs=programs, iterations=iterations))
+    shown = history(tmp_path, results, case)
+    assert [text for text in shown if text.endswith(" published")] == [
+        f"{number} published" for number in range(1, count, 2)
+    ]
+
+
+def test_series_in_which_every_position_is_carried(tmp_path: Path) -> None:
+    results = series_results()
+    results = replace(results, cases=tuple(replace(case, status=Status.UNBOUNDED) for case in results.cases))
+    path = tmp_path / "series.svg"
+    scene = scene_of(results, results.cases[0], PictureOptions(), "history")
+    draw_series(path, scene, series_of(results.cases)[0], PictureOptions())
+    shown = texts(path)
+    assert "any multiple is carried" in shown
+    assert not {"no result", "worst", "approximate"} & set(shown)
+    assert not any(text.startswith(("NOT VERIFIED", "worst at")) for text in shown)
+
+
+def test_a_position_with_larger_residuals_is_told_apart(tmp_path: Path) -> None:
+    results = series_results()
+    statuses = (Status.SOLVED, Status.APPROXIMATE, Status.SOLVED, Status.SOLVED)
+    cases = tuple(replace(case, status=status) for case, status in zip(results.cases, statuses, strict=True))
+    path = tmp_path / "series.svg"
+    scene = scene_of(results, cases[0], PictureOptions(), "history")
+    draw_series(path, scene, series_of(cases)[0], PictureOptions())
+    assert {"load factor", "approximate", "worst"} <= set(texts(path))

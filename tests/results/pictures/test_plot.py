@@ -10,9 +10,11 @@ import pytest
 
 from mbla.cli import main
 from mbla.errors import FileError, UsageError
+from mbla.model.model import TravelPosition
 from mbla.results.hdf5.result_file import write_results_hdf5
+from mbla.results.pictures.animation import displacements
 from mbla.results.pictures.options import VIEWS, PictureOptions
-from mbla.results.pictures.palette import HINGE
+from mbla.results.pictures.palette import CASES, HINGE
 from mbla.results.pictures.plot import pictures_of, plot_case, plot_results
 from mbla.results.pictures.space import can_draw
 from mbla.results.results import Results
@@ -172,3 +174,43 @@ def test_a_run_with_plots_writes_what_the_command_draws(tmp_path: Path, results:
         "tower_model.png",
         *(f"tower_{case.load_case.name}{kind}.png" for case in results.cases for kind in ("", "_forces")),
     }
+
+
+def test_a_result_without_cases_has_no_pictures(tmp_path: Path, results: Results) -> None:
+    """A run that was stopped before its first case writes the rest of its files."""
+    written = write_outputs(replace(results, cases=()), tmp_path, "tower", False, False, 2, True)
+    assert not [name for name in written if name.endswith(".png")]
+    assert pictures_of(results, (), PictureOptions()) == []
+
+
+def test_positions_of_a_travelling_load_have_a_history_of_their_own(tmp_path: Path, results: Results) -> None:
+    """Chosen by the name in the deck; one position alone is no series."""
+    cases = []
+    for position in (1, 2):
+        travel = TravelPosition("train", position, 2, np.array([1.0 * position, 0, 0]), 1.5 * position, 1)
+        load_case = replace(results.cases[0].load_case, name=f"train@{position}", travel=travel)
+        cases.append(replace(results.cases[0], load_case=load_case))
+    travelled = replace(results, cases=tuple(cases))
+    options = PictureOptions(kinds=("history",), format="svg", case="train")
+    names = [path.name for path in plot_results(travelled, tmp_path, "tower", options)]
+    assert names == ["tower_train@1_history.svg", "tower_train@2_history.svg", "tower_train_history.svg"]
+    assert "load case train: load factor over 2 positions" in (tmp_path / names[-1]).read_text()
+    alone = pictures_of(travelled, cases[:1], options)
+    assert [picture.name for picture in alone] == ["_train@1_history"]
+
+
+def test_a_picture_of_the_model_of_one_case_shows_its_loads_alone(tmp_path: Path, results: Results) -> None:
+    plot_case(results, results.cases[0], tmp_path / "one.svg", "model")
+    svg = (tmp_path / "one.svg").read_text()
+    assert "live load: acceleration (1, 0, 0) g on all blocks" in svg
+    assert "fall" not in svg
+    assert CASES[1].lower() not in svg.lower()
+
+
+@pytest.mark.skipif(not can_draw(), reason="this machine has no OpenGL")
+def test_a_film_goes_to_a_file_of_its_own(tmp_path: Path, results: Results, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("mbla.results.pictures.animation.displacements", lambda: displacements(2))
+    target = tmp_path / "film.gif"
+    options = replace(IN_SPACE, animate="gif", case="push_x", size=(200, 200))
+    assert plot_results(results, target, "tower", options) == [target]
+    assert target.read_bytes().startswith(b"GIF8")
