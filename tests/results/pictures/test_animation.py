@@ -1,3 +1,4 @@
+import sys
 from dataclasses import replace
 from pathlib import Path
 
@@ -102,3 +103,22 @@ def test_other_names_and_cases_at_rest_are_refused(tmp_path: Path, results: Resu
 def test_a_place_that_cannot_be_written(tmp_path: Path, results: Results) -> None:
     with pytest.raises(FileError, match="missing"):
         write_animation(results, results.cases[0], tmp_path / "missing" / "a.gif", SMALL)
+
+
+@needs_opengl
+@pytest.mark.usefixtures("short")
+def test_a_film_whose_name_is_taken_by_a_folder_is_not_written(tmp_path: Path, results: Results) -> None:
+    (tmp_path / "a.gif").mkdir()
+    with pytest.raises(FileError, match=r"a\.gif: Is a directory"):
+        write_animation(results, results.cases[0], tmp_path / "a.gif", SMALL)
+
+
+@needs_opengl
+@pytest.mark.usefixtures("short")
+def test_mp4_without_its_extra_says_what_to_install(
+    tmp_path: Path, results: Results, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setitem(sys.modules, "imageio_ffmpeg", None)
+    with pytest.raises(UsageError, match=r"MP4 needs an extra .* pip install 'mbla\[pictures\]'"):
+        write_animation(results, results.cases[0], tmp_path / "a.mp4", SMALL)
+    assert not list(tmp_path.iterdir())

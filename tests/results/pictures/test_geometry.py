@@ -1,3 +1,5 @@
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -76,3 +78,15 @@ def test_arrow_points_where_the_load_pushes(model: Model) -> None:
 )
 def test_thin_structures_are_seen_from_the_front(extents: list[float], travel: list[float], axis: int | None) -> None:
     assert front_axis(np.array(extents, float), np.array(travel, float)) == axis
+
+
+@pytest.mark.parametrize("pushes", [(0.0, 0.0), (1.0, -1.0)])
+def test_a_load_without_a_resultant_has_no_arrow(model: Model, pushes: tuple[float, float]) -> None:
+    """Start and tip are one point, above the middle of the box."""
+    live = np.zeros((3, 6))
+    live[1:, 0] = pushes
+    start, tip = live_load_arrow(
+        model, replace(model.load_cases[0], live_load=live), np.zeros(3), np.array([5.0, 1, 3]), 0.5
+    )
+    assert (start == tip).all()
+    assert start == pytest.approx([2.5, 0.5, 3.175])

@@ -108,3 +108,26 @@ def test_one_accelerated_block_whose_force_acts_off_its_centroid_has_an_arrow_th
     assert not marks.uniform
     assert not len(marks.moments)
     assert marks.tips[0, 2] == pytest.approx(model.blocks.centroids[1, 2] + up)
+
+
+@pytest.mark.parametrize("factor", [0.0, 1.0])
+def test_an_acceleration_of_nothing_is_no_arrow(factor: float) -> None:
+    """Nothing is loaded, or what is loaded has no mass."""
+    model = tower_model()
+    blocks = replace(model.blocks, densities=0 * model.blocks.densities)
+    loads = factor * wrench([1, 0, 0], [4.5, 0.5, 0.25], 2)
+    marks = load_marks(replace(model, blocks=blocks), loads, ("acceleration (1, 0, 0) g on brick[0]",))
+    assert not marks.uniform
+    assert not marks.acceleration.any()
+    assert marks.blocks.tolist() == [2] * bool(factor)
+
+
+def test_accelerations_that_differ_from_block_to_block_are_forces() -> None:
+    """As of a tilt about different points: no two blocks have the same force for their mass."""
+    model = tower_model()
+    loads = np.zeros((3, 6))
+    loads[1:, 0] = model.blocks.masses[1:] * [1.0, 2.0]
+    marks = load_marks(model, loads, ("acceleration (1, 0, 0) g on 2 blocks times 0.1 to 0.2, by height",))
+    assert not marks.uniform
+    assert marks.blocks.tolist() == [1, 2]
+    assert marks.forces == pytest.approx(loads[1:, :3])
