@@ -13,6 +13,7 @@ from mbla.results.explanations.explanations import EXPLANATIONS
 from mbla.results.outcome import notices_of
 from mbla.results.records.json_record import results_json
 from mbla.results.report import report
+from mbla.results.report.case_content import alarm_of
 from mbla.results.report.figures import Figure, Figures
 from mbla.results.report.report import report_html, report_path, write_report
 from mbla.results.results import CaseResult, Results
@@ -163,6 +164,13 @@ def test_an_unbounded_case_that_is_not_proved_looks_bad() -> None:
     case = results.cases[0]
     page = page_of(replace(results, cases=(replace(case, checks=replace(case.checks, verified=False)),)))
     assert page.within(page.one("table", id="verdicts"), "tr")[1].attributes["class"] == "bad"
+
+
+def test_a_case_stopped_before_anything_was_found_has_no_figures_to_warn_of() -> None:
+    case = tower_results().cases[0]
+    stopped = replace(case, status=Status.TIME_LIMIT, solution=replace(case.solution, mechanics=None))
+    assert alarm_of(stopped) == "there is no load factor."
+    assert alarm_of(replace(case, status=Status.TIME_LIMIT)).endswith("the best that was reached, and no result.")
 
 
 def test_a_solved_case_raises_no_alarm() -> None:

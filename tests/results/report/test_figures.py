@@ -1,0 +1,141 @@
+"""Which pictures a report has, how they are called, and what stands in the place of those that cannot be drawn."""
+
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from mbla.errors import UsageError
+from mbla.model.model import TravelPosition
+from mbla.results.pictures.options import PictureOptions
+from mbla.results.report.figures import case_figures, model_figures, series_figures
+from mbla.results.results import CaseResult, Results
+from mbla.results.series import series_of
+from mbla.solution.solution import Status
+from tests.results.synthetic import tower_results
+
+
+@pytest.fixture
+def asked(monkeypatch: pytest.MonkeyPatch) -> list[tuple[str, PictureOptions]]:
+    """Pictures that were asked for, by kind and options; they are empty files."""
+    found: list[tuple[str, PictureOptions]] = []
+
+    def draw(path: Path, scene: object, kind: str, options: PictureOptions) -> None:
+        found.append((f"{kind}{path.suffix}", options))
+        path.write_bytes(b"")
+
+    monkeypatch.setattr("mbla.results.pictures.plot.draw_picture", draw)
+    return found
+
+
+def changed(status: Status, **changes: Any) -> tuple[Results, CaseResult]:
+    """The first case with another status and something else of its solution."""
+    results = tower_results()
+    case = results.cases[0]
+    return results, replace(case, status=status, solution=replace(case.solution, status=status, **changes))
+
+
+@pytest.mark.parametrize(
+    ("status", "changes", "captions"),
+    [
+        (
+            Status.SOLVED,
+            {},
+            [
+                "Mechanism of load case push_x",
+                "Contact forces and lines of thrust of load case push_x",
+                "Iteration history of load case push_x: load factor and residuals",
+            ],
+        ),
+        (
+            Status.NOT_VERIFIED,
+            {"iterations": ()},
+            [
+                "Best iterate, no result, of load case push_x",
+                "Contact forces of the best iterate, no result, of load case push_x",
+            ],
+        ),
+        (
+            Status.UNBOUNDED,
+            {"mechanics": None, "lock": np.ones((8, 3)), "iterations": ()},
+            ["Structure at rest of load case push_x", "Forces that lock of load case push_x"],
+        ),
+        (
+            Status.NO_EQUILIBRIUM,
+            {"mechanics": None, "certificate": np.ones((3, 6)), "iterations": ()},
+            ["Motion that shows the lack of equilibrium of load case push_x"],
+        ),
+    ],
+)
+@pytest.mark.usefixtures("asked")
+def test_captions_say_what_the_pictures_are(status: Status, changes: dict[str, Any], captions: list[str]) -> None:
+    found = case_figures(*changed(status, **changes))
+    assert [picture.caption for picture in found.pictures] == captions
+    assert found.missing == ""
+
+
+def test_pictures_in_space_have_one_view_that_is_looked_for_once(
+    monkeypatch: pytest.MonkeyPatch, asked: list[tuple[str, PictureOptions]]
+) -> None:
+    views: list[object] = []
+
+    def view_of(scene: object) -> tuple[float, float]:
+        views.append(scene)
+        return 12.0, 34.0
+
+    monkeypatch.setattr("mbla.results.pictures.plane.flat.flat_of", lambda scene, options, kind: None)
+    monkeypatch.setattr("mbla.results.pictures.space.picture.view_of_case", view_of)
+    results = tower_results()
+    assert case_figures(results, results.cases[0]).view == (12.0, 34.0)
+    assert [(kind, options.view) for kind, options in asked] == [
+        ("mechanism.png", (12.0, 34.0)),
+        ("forces.png", (12.0, 34.0)),
+        ("history.svg", None),
+    ]
+    assert len(views) == 1
+    model_figures(results, (56.0, 7.0))
+    assert asked[-1] == ("model.png", replace(PictureOptions(), view=(56.0, 7.0)))
+    assert len(views) == 1
+
+
+def test_what_the_machine_cannot_draw_is_said_in_its_place(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The others are there."""
+
+    def draw(path: Path, scene: object, kind: str, options: object) -> None:
+        if kind == "mechanism":
+            raise UsageError("no-opengl", "pictures need OpenGL")
+        path.write_bytes(b"")
+
+    monkeypatch.setattr("mbla.results.pictures.plot.draw_picture", draw)
+    results = tower_results()
+    found = case_figures(results, results.cases[0])
+    assert [picture.caption.split()[0] for picture in found.pictures] == ["Contact", "Iteration"]
+    assert found.missing.startswith("pictures need OpenGL")
+
+
+def test_without_cases_there_is_no_picture_of_the_model() -> None:
+    found = model_figures(replace(tower_results(), cases=()))
+    assert found.pictures == ()
+    assert found.missing == ""
+
+
+@pytest.mark.parametrize("positions", [1, 3])
+def test_several_positions_of_a_travelling_load_have_a_diagram(positions: int) -> None:
+    results = tower_results()
+    cases = []
+    for i in range(positions):
+        travel = TravelPosition("train", i + 1, positions, np.array([1.0 * i, 0, 0]), 1.5 * i, 1)
+        cases.append(
+            replace(results.cases[0], load_case=replace(results.cases[0].load_case, name=f"train@{i}", travel=travel))
+        )
+    results = replace(results, cases=tuple(cases))
+    found = series_figures(results, series_of(cases)[0])
+    assert [picture.caption for picture in found.pictures] == ["Travelling load train"] * (positions > 1)
+    for picture in found.pictures:
+        assert picture.words == "Load factor at each position"
+        assert picture.source.startswith("data:image/svg+xml;base64,")
+    assert [picture.caption for picture in case_figures(results, cases[0]).pictures] == [
+        f"{what} of load case train@0" for what in ("Mechanism", "Contact forces and lines of thrust")
+    ]
