@@ -122,3 +122,14 @@ def test_json_names_the_case() -> None:
     notices = results_json(results)["notices"]
     assert [set(notice) for notice in notices[:2]] == [{"severity", "identifier", "message"}] * 2
     assert (notices[-1]["identifier"], notices[-1]["case"]) == ("no-equilibrium", "fall")
+
+
+def test_what_is_said_twice_is_one_notice() -> None:
+    """Two failures in the same words; a remark that is the reason of a case without an answer."""
+    case = replace(push(), checks=replace(push().checks, failures=("it leaks", "it leaks")))
+    assert len(found_notices(case)) == 1
+    solution = replace(push().solution, reason="it rains", remarks=("it rains", "it snows"))
+    stopped = replace(push(), status=Status.NOT_VERIFIED, solution=solution)
+    assert [notice.message for notice in found_notices(stopped)] == ["push_x: it rains", "push_x: it snows"]
+    solved = replace(push(), solution=solution)
+    assert [notice.message for notice in found_notices(solved)] == ["push_x: it rains", "push_x: it snows"]

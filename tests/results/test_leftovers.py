@@ -40,3 +40,26 @@ def test_a_torn_or_strange_line_of_a_mark_removes_nothing(tmp_path: Path, line: 
     remove_new(folder, marker)
     assert (tmp_path / "mine").exists()
     assert (folder / "mine").exists()
+
+
+@pytest.mark.parametrize(
+    ("error", "exists"), [(None, True), (PermissionError, True), (OverflowError, True), (ProcessLookupError, False)]
+)
+def test_a_process_of_another_user_is_alive(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, error: type[BaseException] | None, exists: bool
+) -> None:
+    """Its files are left alone; those of one that is gone are removed."""
+    monkeypatch.undo()
+
+    def kill(process: int, number: int) -> None:
+        assert number == 0
+        if error is not None:
+            raise error
+
+    monkeypatch.setattr("mbla.results.leftovers.os.getpid", lambda: 4242)
+    new = temporary_path(tmp_path / "a.h5", "new")
+    new.touch()
+    monkeypatch.undo()
+    monkeypatch.setattr("mbla.results.leftovers.os.kill", kill)
+    clear_leftovers(tmp_path)
+    assert new.exists() is exists

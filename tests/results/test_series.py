@@ -7,21 +7,25 @@ import math
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from mbla.errors import UsageError
 from mbla.exit_status import exit_code
 from mbla.expected import differences
+from mbla.model.model import TravelPosition
 from mbla.results.hdf5.result_file import read_results_hdf5
 from mbla.results.records.json_record import json_line, results_json
 from mbla.results.results import Results
 from mbla.results.series import factor_of, series_of
 from mbla.results.tilt_angle import angle_bounds, angle_of
 from mbla.results.words.listing import listing
+from mbla.results.words.series_words import worst_words
 from mbla.results.words.summary import summary_lines
 from mbla.run_deck import RunOptions, run
 from mbla.solution.solution import Status
 from mbla.verify_file import verify_results
+from tests.results.synthetic import tower_results
 
 DECK = """mbla: 1
 materials: {stone: {unit_weight: 25000}}
@@ -130,3 +134,17 @@ def test_cases_by_name(folder: Path) -> None:
     assert [case.load_case.name for case in one.cases] == ["crane@5"]
     with pytest.raises(UsageError, match="it has crane, table"):
         run(folder / "beam.yaml", RunOptions(cases=("crane@9",), force=True))
+
+
+def test_no_position_that_any_load_brings_down_is_said_so() -> None:
+    case = tower_results().cases[0]
+    cases = []
+    for i in range(3):
+        travel = TravelPosition("train", i + 1, 3, np.array([1.0 * i, 0, 0]), 1.5 * i, 1)
+        load_case = replace(case.load_case, name=f"train@{i + 1}", travel=travel)
+        cases.append(replace(case, load_case=load_case, status=Status.UNBOUNDED))
+    (series,) = series_of(cases)
+    words = "train: no multiple of the load brings the structure down at any position"
+    assert worst_words(tower_results().model, series) == words
+    (some,) = series_of(cases[:2])
+    assert worst_words(tower_results().model, some) == f"{words} among the 2 positions solved"

@@ -229,3 +229,58 @@ def test_what_is_no_regular_file_is_told_in_plain_words(tmp_path: Path) -> None:
         with pytest.raises(FileError, match=words) as caught:
             read_results_hdf5(tmp_path / name)
         assert "synchronously" not in str(caught.value)
+
+
+def test_a_sealed_file_that_is_no_hdf5_is_refused(path: Path, image: bytes) -> None:
+    """By its first bytes; with these right and the next ones wrong it is damaged."""
+    path.write_bytes(sealed(b"mbla: 1\n" * 100))
+    assert refused(path) == f"{path}: not an HDF5 file"
+    path.write_bytes(sealed(image[:8] + b"\xff" * 40 + image[48:-SEAL_BYTES]))
+    assert refused(path).startswith(f"{path}: damaged: ")
+
+
+def test_a_dataset_elsewhere_or_none_at_all_is_refused(path: Path, image: bytes) -> None:
+    """A group in its place, one of another file, one that says it is far larger than the file."""
+    with changing(path) as file:
+        del file["model/volumes"]
+        file.create_group("model/volumes")
+    assert "model/volumes is not a dataset" in refused(path)
+    other = path.with_name("other.h5")
+    with h5py.File(other, "w") as file:
+        file["volumes"] = np.ones(3)
+    path.write_bytes(image)
+    with changing(path) as file:
+        del file["model/volumes"]
+        file["model/volumes"] = h5py.ExternalLink("other.h5", "volumes")
+    assert "model/volumes stands in another file" in refused(path)
+    path.write_bytes(image)
+    with changing(path) as file:
+        del file["model/volumes"]
+        file.create_dataset("model/volumes", shape=(10**10,), dtype=float, chunks=(1024,))
+    assert "model/volumes claims 80000000000 bytes" in refused(path)
+
+
+@pytest.mark.parametrize(
+    ("name", "array", "words"),
+    [
+        ("model/load_cases", b"fall", "two load cases of one name"),
+        ("model/guided_bodies", np.array([1]), "guided blocks and bodies"),
+        ("model/position_names", None, "names of the positions of blocks"),
+        ("contacts/solid_of_block", np.array([0, 1, 3]), "numbers of rigid bodies"),
+        ("cases/push_x/settlement/unit", 0.0, "settlement of a support"),
+        ("cases/push_x/standing/falls", np.array([0, 1]), "more than one block that falls first"),
+    ],
+)
+def test_contradictions_that_no_table_can_tell(tmp_path: Path, name: str, array: Any, words: str) -> None:
+    path = tmp_path / "full.h5"
+    path.write_bytes(write_results_hdf5(full_results()))
+    with changing(path) as file:
+        old = file[name][...]
+        if array is None:
+            array = old[::-1]
+        if np.shape(array) in ((), np.shape(old)):
+            file[name][...] = array
+        else:
+            del file[name]
+            file[name] = array
+    assert words in refused(path)

@@ -132,3 +132,12 @@ def test_tables_as_frames() -> None:
     assert frames["cases"]["load_factor"].tolist()[0] == 0.5
     with pytest.raises(UsageError, match="stones"):
         Run(tower_results()).to_frames(["stones"])
+
+
+def test_the_associative_load_factor_and_the_view_of_the_only_case() -> None:
+    run = one()
+    assert run.cases[0].associative_load_factor == 0.5
+    assert run.show()._repr_html_() == run.cases[0].show()._repr_html_()
+    assert np.isnan(one(associative=None).cases[0].associative_load_factor)
+    with pytest.raises(UsageError, match="2 load cases"):
+        Run(tower_results()).show()

@@ -14,13 +14,14 @@ from mbla.results.paraview.layout import ANIMATION, ARRAYS, CELLS, SUPPORTS, arr
 from mbla.results.paraview.load_file import DEAD, GUIDE, LIVE, REACTION, load_vectors
 from mbla.results.paraview.mesh_files import MESH_FILES
 from mbla.results.paraview.scene import Scene, scene_of
-from mbla.results.paraview.thrust_file import LINE, POINT
+from mbla.results.paraview.script import case_record
+from mbla.results.paraview.thrust_file import LINE, POINT, write_thrust_vtu
 from mbla.results.results import Results
 from mbla.run_deck import RunOptions, run
-from mbla.solution.solution import ContactMode
+from mbla.solution.solution import ContactMode, Status
 from mbla.solution.statics import contact_velocities
 from tests.results.reading import read_vtk, vtk_array, vtk_volumes
-from tests.results.synthetic import tower_mechanics, tower_results
+from tests.results.synthetic import full_results, tower_mechanics, tower_results
 
 PAGE = Path(__file__).parents[3] / "schemas" / "results.md"
 LABELS = {"member", *POSITIONS}
@@ -246,3 +247,34 @@ def test_a_hinge_about_a_corner_is_a_vertex(tmp_path: Path) -> None:
     assert mesh.points.tolist() == [[1, 1, 1]]
     assert mesh.cell_data["interface"][0].tolist() == [0]
     assert abs(mesh.cell_data["rotation"][0][0]) > 0
+
+
+def test_what_a_case_does_not_have_is_not_written(tmp_path: Path) -> None:
+    """Without a mechanism no hinges, without forces no thrust, without a case no views and no use of friction."""
+    results = tower_results()
+    falls = scene_of(results, results.cases[1])
+    assert falls.forces is None
+    assert falls.torsion_use is None
+    with pytest.raises(ValueError, match="has no thrust"):
+        write_thrust_vtu(tmp_path / "thrust.vtu", falls)
+    with pytest.raises(ValueError, match="has no hinges"):
+        write_hinges_vtu(tmp_path / "hinges.vtu", falls)
+    model = Scene(results.model, results.contacts, None)
+    assert model.torsion_use is None
+    with pytest.raises(ValueError, match="those of a load case"):
+        case_record(results, model, {})
+    assert not list(tmp_path.iterdir())
+
+
+def test_forces_that_lock_leave_guides_the_live_load_alone() -> None:
+    """No dead load: the guide takes what the contacts leave of the live load."""
+    results = tower_results()
+    model = full_results().model
+    case = results.cases[0]
+    forces = tower_mechanics().contact_forces
+    solution = replace(case.solution, mechanics=None, status=Status.UNBOUNDED, lock=0 * forces)
+    load_case = replace(case.load_case, settlement=None)
+    locked = replace(case, load_case=load_case, solution=solution, status=Status.UNBOUNDED)
+    results = replace(results, model=replace(model, load_cases=(load_case,)), cases=(locked,))
+    (guide,) = (each for each in load_vectors(scene_of(results, locked)) if each.kind == GUIDE)
+    assert guide.forces == pytest.approx(-load_case.live_load[model.guides.blocks, :3])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from dataclasses import replace
 from pathlib import Path
 
@@ -11,6 +12,7 @@ import pytest
 
 from mbla.deck.units import Units
 from mbla.errors import UsageError
+from mbla.model.model import TravelPosition
 from mbla.results.outcome import notices_of
 from mbla.results.results import Results
 from mbla.results.tables.tables import TABLES, tables_of, tables_page
@@ -174,3 +176,24 @@ def test_frames_carry_units_and_meanings(results: Results) -> None:
 def test_unknown_names_are_refused(results: Results, names: list[str], cases: list[str], words: str) -> None:
     with pytest.raises(UsageError, match=words):
         tables_of(results, names, cases)
+
+
+def test_a_column_that_a_table_does_not_have(results: Results) -> None:
+    with pytest.raises(KeyError, match="colour"):
+        tables_of(results)["blocks"]["colour"]
+
+
+def test_frames_without_pandas_say_what_to_install(results: Results, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "pandas", None)
+    with pytest.raises(UsageError, match=r"tables for pandas: .*pip install"):
+        tables_of(results)["blocks"].to_pandas()
+
+
+def test_positions_of_a_travelling_load_that_was_not_asked_for_are_left_out(results: Results) -> None:
+    """The other case has no positions."""
+    first, second = results.cases
+    travel = TravelPosition("train", 1, 1, np.zeros(3), 0.0, 1)
+    moved = replace(first, load_case=replace(first.load_case, travel=travel))
+    travelled = replace(results, cases=(moved, second))
+    assert len(tables_of(travelled)["series"]) == 1
+    assert len(tables_of(travelled, cases=[second.load_case.name])["series"]) == 0

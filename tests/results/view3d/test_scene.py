@@ -7,12 +7,15 @@ import numpy as np
 import pytest
 
 from mbla.model.blocks import Blocks
+from mbla.model.model import LoadCase, Settlement
 from mbla.results.results import Results
-from mbla.results.view3d.arrow import load_arrow
+from mbla.results.view3d.arrow import BESIDE, load_arrow
+from mbla.results.view3d.colours import MOST_NAMES, by_part
 from mbla.results.view3d.marks import HINGE
 from mbla.results.view3d.scene import eye_of, light_from, packed, scene_of, shades
 from mbla.solution.solution import Status
-from tests.results.synthetic import cuboids, full_results, tower_results
+from tests.results.pictures.rows_and_columns import row_of_blocks
+from tests.results.synthetic import cuboids, full_results, tower_model, tower_results
 
 KINDS = {"f4": "<f4", "i4": "<i4", "u1": "u1"}
 
@@ -197,3 +200,56 @@ def test_arrow_of_a_settlement_stands_beside_its_support_and_moves_with_it(scale
     np.testing.assert_allclose(tip - start, [0, 0, -0.5], atol=1e-12)
     assert start[0] > 4
     np.testing.assert_allclose((start + tip)[1:] / 2, [0.5, 0.5])
+
+
+def settling(motion: list[float], block: int = 1) -> LoadCase:
+    """A load case in which one block gives way."""
+    settlement = Settlement(np.array([block]), np.array([motion], float), False, "settlement", 1.0, 1.0)
+    return replace(tower_model().load_cases[0], settlement=settlement)
+
+
+def test_the_arrow_of_a_settlement_stands_at_the_outer_side_of_its_support() -> None:
+    """The brick is at the right end of the structure: the arrow is right of it and points down; it moves with it."""
+    model = tower_model()
+    arrow = load_arrow(model, settling([0, 0, -2, 0, 0, 0], 2), np.zeros(3), np.ones(3), 0.5)
+    assert (arrow.name, arrow.block) == ("settlement", 2)
+    assert len(arrow.pairs)
+    assert arrow.points[:, 0].mean() > 5.0
+    assert np.ptp(arrow.points[:, 2]) == pytest.approx(0.5)
+
+
+def test_the_arrow_of_a_support_in_the_middle_stands_before_it() -> None:
+    """A block in the middle of three: on the side of -y."""
+    model = row_of_blocks(3).model
+    arrow = load_arrow(model, settling([0, 0, -1, 0, 0, 0]), np.zeros(3), np.ones(3), 0.4)
+    assert arrow.points[:, 1].mean() == pytest.approx(-BESIDE * 0.4, abs=0.02)
+    assert arrow.points[:, 0].mean() == pytest.approx(2.5, abs=0.1)
+
+
+def test_a_support_that_only_turns_and_a_load_that_cancels_have_no_arrow() -> None:
+    model = tower_model()
+    turning = load_arrow(model, settling([0, 0, 0, 0, 1, 0]), np.zeros(3), np.ones(3), 0.5)
+    live = np.zeros((3, 6))
+    live[1:, 0] = [1.0, -1.0]
+    cancelling = load_arrow(model, replace(model.load_cases[0], live_load=live), np.zeros(3), np.ones(3), 0.5)
+    for arrow in (turning, cancelling):
+        assert not len(arrow.pairs)
+        assert arrow.block == -1
+
+
+def test_the_view_of_a_load_without_direction_has_no_arrow() -> None:
+    results = tower_results()
+    assert scene_of(results, results.cases[0])["arrow"] is not None
+    live = np.zeros((3, 6))
+    live[1:, 0] = [1.0, -1.0]
+    load_case = replace(results.cases[0].load_case, live_load=live)
+    assert scene_of(results, replace(results.cases[0], load_case=load_case))["arrow"] is None
+
+
+def test_of_many_parts_the_first_are_named_and_the_others_counted() -> None:
+    """Each of the blocks is a part; together with what rests there are more names than room."""
+    model = row_of_blocks(MOST_NAMES + 4).model
+    legend = by_part(model, np.arange(1, MOST_NAMES + 5)).legend
+    assert len(legend) == MOST_NAMES
+    assert legend[-1][0].startswith("and ")
+    assert legend[-1][0].endswith(" more")

@@ -68,3 +68,10 @@ def test_many_pairs_are_counted() -> None:
     pairs = np.tile([[0, 1]], (MOST_ROWS + 7, 1))
     text = findings(near_misses=pairs, near_miss_gaps=np.linspace(0.002, 0.01, len(pairs)))
     assert "and 7 more" in text
+
+
+def test_pairs_that_were_not_checked_have_their_names_alone() -> None:
+    """The first of them; the others are counted."""
+    alone = " ".join(findings(unchecked=np.array([[1, 2]] * (MOST_ROWS + 3))).split())
+    assert alone.count("tower[0]/brick[0]") == MOST_ROWS
+    assert "and 3 more" in alone

@@ -1,5 +1,6 @@
 """The sentences on a failure, on the wall of the tutorial and on results made by hand."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -10,8 +11,9 @@ from mbla.results.collapse.failure import failure_of
 from mbla.results.words.direction_words import way_words
 from mbla.results.words.failure_words import failure_sentences
 from mbla.results.words.place_words import region_words
+from mbla.results.words.who_words import part_name
 from tests.line import line_of_file, verified
-from tests.results.synthetic import tower_model
+from tests.results.synthetic import tower_contacts, tower_mechanics, tower_model
 
 WALL = Path("decks/tutorials/wall.yaml")
 MODEL = tower_model()
@@ -90,3 +92,23 @@ def test_regions_by_the_extents_of_the_structure() -> None:
         (share[:, 0] >= 0, "part"),
     ):
         assert region_words(line.model, np.flatnonzero(chosen)) == words
+
+
+def test_a_mechanism_in_which_nothing_moves_is_told_in_one_sentence() -> None:
+    contacts = tower_contacts()
+    still = replace(
+        tower_mechanics(),
+        mechanism=np.zeros((3, 6)),
+        contact_velocities=np.zeros((8, 3)),
+        modes=np.zeros(8, dtype=np.int64),
+    )
+    collapse = collapse_of(MODEL, contacts, CASE, still)
+    failure = failure_of(MODEL, contacts, collapse, still)
+    assert failure_sentences(MODEL, contacts, CASE, collapse, failure) == ["No block moves."]
+
+
+def test_parts_by_their_numbers() -> None:
+    """One of two free blocks moves."""
+    contacts, mechanics = tower_contacts(), tower_mechanics()
+    failure = failure_of(MODEL, contacts, collapse_of(MODEL, contacts, CASE, mechanics), mechanics)
+    assert [part_name(MODEL, failure, number) for number in (0, 1)] == ["what rests", "part 1"]

@@ -113,3 +113,8 @@ def test_angle_of_a_table_whose_load_factor_is_no_tangent(results: Results, fact
     lines = summary_lines(replace(tilted, cases=tilted.cases[2:]))
     assert lines[1].split() == ["load", "case", "status", "angle", "[degree]", "associative"]
     assert lines[2].split() == ["tilted", "solved", angle, "-"]
+
+
+def test_a_result_without_cases_has_its_model_alone(results: Results) -> None:
+    lines = summary_lines(replace(results, cases=(), notices=()))
+    assert lines == ["tower.yaml: 3 blocks, 2 interfaces, 8 contact points, weight 65 N"]

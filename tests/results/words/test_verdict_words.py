@@ -4,8 +4,10 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
+from mbla.model.model import Settlement, Tilt
 from mbla.results.hdf5.result_file import read_results_hdf5, write_results_hdf5
 from mbla.results.records.json_record import results_json
 from mbla.results.results import CaseResult, Results
@@ -159,3 +161,49 @@ def test_everything_reads_the_same_from_the_file(tmp_path: Path) -> None:
     back = read_results_hdf5(path)
     assert listing(back) == listing(results)
     assert results_json(back) == results_json(results)
+
+
+SETTLEMENT = Settlement(np.array([0]), np.array([[0.0, 0, -1, 0, 0, 0]]), False, "settlement of base[0]", 30.0, 20.0)
+TILT = Tilt(np.array([0.0, 1.0, 0.0]), np.zeros((3, 6)), np.zeros((3, 6)), np.zeros((3, 6)), NAN, True, np.inf)
+
+
+@pytest.mark.parametrize(
+    ("load", "solution", "words"),
+    [
+        (
+            {"settlement": SETTLEMENT},
+            {},
+            "no least reaction: the structure holds the support back however hard that pulls away from it",
+        ),
+        (
+            {"tilt": TILT},
+            {"flow_rule": "associative"},
+            "no angle of collapse: it bears gravity turned by every angle up to 180 degrees",
+        ),
+        (
+            {"tilt": TILT},
+            {"lock": np.ones((8, 3))},
+            "no angle of collapse: it bears gravity turned by every angle up to 180 degrees",
+        ),
+        (
+            {"tilt": TILT},
+            {},
+            "no angle of collapse: it bears gravity turned by every angle up to 180 degrees by associative flow; "
+            "undecided for non-associative flow",
+        ),
+    ],
+)
+def test_what_no_settlement_and_no_tilt_brings_down_is_told(
+    load: dict[str, Any], solution: dict[str, Any], words: str
+) -> None:
+    case = case_with(Status.UNBOUNDED, solution={"mechanics": None, **solution})
+    case = replace(case, load_case=replace(case.load_case, **load))
+    assert verdict(MODEL, case) == words
+
+
+def test_an_angle_without_bounds_stands_alone() -> None:
+    """Nothing is proved of associative flow: no line of bounds, no nan."""
+    case = case_with(solution={"associative": None})
+    text = text_of(replace(case, load_case=replace(case.load_case, tilt=TILT)))
+    assert "angle 26.565051 degrees" in text
+    assert "angle, associative bounds" not in text
