@@ -16,6 +16,8 @@ from mbla.solution.verify import GAP_TOLERANCE
 from tests.extremes.outcome import Scene, results_of
 from tests.extremes.shapes import PEBBLE, SLENDER
 from tests.extremes.weights import SIDE_BY_SIDE
+from tests.results.no_contacts import without_contacts
+from tests.results.synthetic import tower_results
 
 
 def slender(width: float, friction: float, rule: str = "associative", contact_model: str = "convex") -> Results:
@@ -123,3 +125,9 @@ def test_friction_that_is_next_to_none_is_named_where_a_case_is_not_settled(fric
     notices = magnitude_notices(results.model, results.contacts, stuck, doubtful=False)
     assert [notice.identifier for notice in notices] == ["magnitudes-far-apart"] * named
     assert all("friction of 1e-09 is next to none" in notice.message for notice in notices)
+
+
+def test_without_contacts_no_magnitudes_are_compared() -> None:
+    results = tower_results()
+    case = replace(results.cases[0], status=Status.NOT_VERIFIED)
+    assert magnitude_notices(results.model, without_contacts(results.contacts), case, doubtful=False) == []

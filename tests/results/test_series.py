@@ -13,7 +13,7 @@ import pytest
 from mbla.errors import UsageError
 from mbla.exit_status import exit_code
 from mbla.expected import differences
-from mbla.model.model import TravelPosition
+from mbla.model.model import Tilt, TravelPosition
 from mbla.results.hdf5.result_file import read_results_hdf5
 from mbla.results.records.json_record import json_line, results_json
 from mbla.results.results import Results
@@ -148,3 +148,12 @@ def test_no_position_that_any_load_brings_down_is_said_so() -> None:
     assert worst_words(tower_results().model, series) == words
     (some,) = series_of(cases[:2])
     assert worst_words(tower_results().model, some) == f"{words} among the 2 positions solved"
+
+
+def test_an_angle_that_was_not_found_has_no_bounds() -> None:
+    """A tilt whose angle no tangent gives, and a case without an associative answer."""
+    tilt = Tilt(np.array([0.0, 1.0, 0.0]), np.zeros((3, 6)), np.zeros((3, 6)), np.zeros((3, 6)), math.nan, False, 1.0)
+    case = tower_results().cases[0]
+    tilted = replace(case, load_case=replace(case.load_case, tilt=tilt))
+    for each in (tilted, replace(tilted, solution=replace(tilted.solution, associative=None)), case):
+        assert np.isnan(angle_bounds(each)).all()

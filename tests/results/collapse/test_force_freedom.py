@@ -8,6 +8,8 @@ import pytest
 
 from mbla.results.collapse.force_freedom import force_freedom, why_undetermined
 from tests.line import BLOCK, HEAD, case_of, line_of, line_of_file, verified
+from tests.results.no_contacts import without_contacts
+from tests.results.synthetic import tower_contacts, tower_mechanics, tower_model
 
 WALL = (
     HEAD
@@ -111,3 +113,9 @@ def test_what_is_too_large_says_so(monkeypatch: pytest.MonkeyPatch) -> None:
     moved = replace(line.model, title="another")  # what is kept of the model is not asked
     assert force_freedom(moved, line.contacts, solution.mechanics, 2) is None
     assert "more than 2 equations" in why_undetermined(moved, line.contacts, solution.mechanics, 2)
+
+
+def test_without_contacts_there_is_nothing_to_determine() -> None:
+    contacts = without_contacts(tower_contacts())
+    assert force_freedom(tower_model(), contacts, tower_mechanics(), 3) is None
+    assert why_undetermined(tower_model(), contacts, tower_mechanics(), 3) == "there are no contacts"

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from dataclasses import MISSING, fields, replace
 from pathlib import Path
+from typing import Any
 
 import h5py
 import numpy as np
 import pytest
 
 from mbla.deck.units import Units
+from mbla.results.hdf5.content import content_of
 from mbla.results.hdf5.result_file import read_results_hdf5, write_results_hdf5
 from mbla.results.results import Results
 from tests.results.changed_files import change, changing
@@ -141,3 +143,21 @@ def test_a_changed_value_is_read_as_changed(path: Path) -> None:
     assert mechanics is not None
     assert mechanics.load_factor == 0.75
     assert mechanics.contact_forces[0, 0] == 99.0
+
+
+@pytest.mark.parametrize(
+    ("gaps", "words"),
+    [(np.ones(3), "contacts/gaps: 3 along interface, which has 2"), (np.ones((2, 1)), "the layout has 1")],
+)
+def test_results_that_contradict_themselves_are_not_written(gaps: Any, words: str) -> None:
+    results = tower_results()
+    with pytest.raises(AssertionError, match=words):
+        write_results_hdf5(replace(results, contacts=replace(results.contacts, gaps=gaps)))
+
+
+def test_what_the_layout_does_not_have_is_not_written(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(
+        "mbla.results.hdf5.result_file.content_of", lambda results: {**content_of(results), "model/colour": "red"}
+    )
+    with pytest.raises(AssertionError, match=r"not in the layout: \['model/colour'\]"):
+        write_results_hdf5(tower_results())

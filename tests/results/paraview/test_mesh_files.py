@@ -9,10 +9,11 @@ import numpy as np
 import pytest
 
 from mbla.deck.selectors import POSITIONS
+from mbla.results.files import OutputFolder
 from mbla.results.paraview.hinge_file import write_hinges_vtu
 from mbla.results.paraview.layout import ANIMATION, ARRAYS, CELLS, SUPPORTS, arrays_of, arrays_table
 from mbla.results.paraview.load_file import DEAD, GUIDE, LIVE, REACTION, load_vectors
-from mbla.results.paraview.mesh_files import MESH_FILES
+from mbla.results.paraview.mesh_files import MESH_FILES, write_model_vtu
 from mbla.results.paraview.scene import Scene, scene_of
 from mbla.results.paraview.script import case_record
 from mbla.results.paraview.thrust_file import LINE, POINT, write_thrust_vtu
@@ -20,6 +21,8 @@ from mbla.results.results import Results
 from mbla.run_deck import RunOptions, run
 from mbla.solution.solution import ContactMode, Status
 from mbla.solution.statics import contact_velocities
+from tests.results.no_contacts import without_contacts
+from tests.results.pictures.rows_and_columns import row_of_blocks
 from tests.results.reading import read_vtk, vtk_array, vtk_volumes
 from tests.results.synthetic import full_results, tower_mechanics, tower_results
 
@@ -278,3 +281,16 @@ def test_forces_that_lock_leave_guides_the_live_load_alone() -> None:
     results = replace(results, model=replace(model, load_cases=(load_case,)), cases=(locked,))
     (guide,) = (each for each in load_vectors(scene_of(results, locked)) if each.kind == GUIDE)
     assert guide.forces == pytest.approx(-load_case.live_load[model.guides.blocks, :3])
+
+
+@pytest.mark.parametrize("held", [True, False])
+def test_supports_have_a_file_where_there_are_any(tmp_path: Path, held: bool) -> None:
+    """Blocks on the ground, and the same with nothing below them."""
+    results = row_of_blocks(2)
+    if not held:
+        results = replace(results, contacts=without_contacts(results.contacts))
+    with OutputFolder(tmp_path, "row") as out:
+        write_model_vtu(results, out)
+    names = {path.name for path in tmp_path.glob("*.vtu")}
+    assert "row_blocks.vtu" in names
+    assert ("row_supports.vtu" in names) is held

@@ -6,6 +6,7 @@ import pytest
 
 from mbla.results.needs import CaseNeeds
 from mbla.results.records.json_record import check_json, json_line, results_json, verification_json
+from mbla.results.records.power_json import powers_json
 from mbla.results.results import Results
 from mbla.solution.solution import Standing, StandingResult, Status
 from tests.results.synthetic import STEP, full_results, tower_results
@@ -221,3 +222,17 @@ def test_the_failure_as_it_is_told() -> None:
     assert (line["start"], line["end"], line["length"]) == ([1.0, 0.0, 1.0], [1.0, 1.0, 1.0], 1.0)
     assert mechanism["sliding_planes"] == mechanism["cracks"] == []
     assert mechanism["enough"] == {"moving_blocks": 1, "interfaces": 1, "bearing_blocks": 0, "left_out_blocks": 1}
+
+
+def test_powers_are_relative_to_that_of_the_own_load() -> None:
+    """Twice the push does twice the work; of a load that works against its own mechanism nothing is said."""
+    results = tower_results("associative")
+    model, case = results.model, results.cases[0]
+    twice = replace(model.load_cases[1], live_load=2 * model.load_cases[1].live_load)
+    told = powers_json(replace(model, load_cases=(model.load_cases[0], twice)), case)
+    assert told == pytest.approx({"push_x": 1.0, "fall": 2.0})
+    against = replace(case.load_case, live_load=-case.load_case.live_load)
+    assert powers_json(model, replace(case, load_case=against)) is None
+    with pytest.raises(KeyError, match="push_y"):
+        results.case("push_y")
+    assert results.case("push_x") is case

@@ -14,6 +14,7 @@ from mbla.results.view3d.colours import MOST_NAMES, by_part
 from mbla.results.view3d.marks import HINGE
 from mbla.results.view3d.scene import eye_of, light_from, packed, scene_of, shades
 from mbla.solution.solution import Status
+from tests.results.no_contacts import without_contacts
 from tests.results.pictures.rows_and_columns import row_of_blocks
 from tests.results.synthetic import cuboids, full_results, tower_model, tower_results
 
@@ -253,3 +254,12 @@ def test_of_many_parts_the_first_are_named_and_the_others_counted() -> None:
     assert len(legend) == MOST_NAMES
     assert legend[-1][0].startswith("and ")
     assert legend[-1][0].endswith(" more")
+
+
+def test_blocks_that_touch_nothing_have_no_marks() -> None:
+    """What falls is shown all the same."""
+    results = tower_results()
+    apart = replace(results, contacts=without_contacts(results.contacts))
+    found = scene_of(apart, apart.cases[1])
+    assert found["marks"] == []
+    assert found["motion"] is not None
