@@ -19,7 +19,7 @@ Row = Mapping[str, Any]
 
 
 def grid(levels: Mapping[str, Sequence[Any]], solve: Callable[..., Row | float], **changes: Any) -> SweepTable:
-    """Every value of each parameter with every value of the others; ``azimuth`` is one of directions."""
+    """Every value of each parameter with every value of the others; ``azimuth`` and ``to_azimuth`` are directions."""
     rows = [dict(zip(levels, values, strict=True)) for values in product(*levels.values())]
     position = list(product(*(range(len(values)) for values in levels.values())))
     dimensions = [(name, len(values)) for name, values in levels.items()]
@@ -38,6 +38,21 @@ def sample(
     return table_of(rows, solve, [(sampling, len(rows))], position, own, **changes)
 
 
+def sphere(
+    directions: Sequence[tuple[float, float]], levels: Mapping[str, Sequence[Any]], solve: Callable[..., Row | float]
+) -> SweepTable:
+    """Azimuths and elevations over a sphere, each with every value of the other parameters."""
+    places = list(product(range(len(directions)), *(range(len(values)) for values in levels.values())))
+    rows = [
+        {"to_azimuth": directions[first][0], "to_elevation": directions[first][1]}
+        | {name: values[i] for (name, values), i in zip(levels.items(), rest, strict=True)}
+        for first, *rest in places
+    ]
+    dimensions = [("to", len(directions)), *((name, len(values)) for name, values in levels.items())]
+    own = {"to_azimuth": "to", "to_elevation": "to"} | {name: name for name in levels}
+    return table_of(rows, solve, dimensions, places, own)
+
+
 def table_of(
     rows: Sequence[Mapping[str, Any]],
     solve: Callable[..., Row | float],
@@ -54,7 +69,8 @@ def table_of(
     parts: list[tuple[SweepColumn, Any]] = [(_column("point", "int", "number"), np.arange(1, len(rows) + 1))]
     for name, dimension in dimension_of.items():
         values = [row[name] for row in rows]
-        role = name if name in ("azimuth", "elevation") else "parameter"
+        angle = name.rpartition("_")[2]
+        role = angle if angle in ("azimuth", "elevation") else "parameter"
         kind = _kind(values)
         parts.append((_column(name, kind, role, dimension, random=dimension == samples), _values(kind, values)))
     states = [None if r["status"] is None else "failed" if r["status"] in NO_ANSWER else "done" for r in results]

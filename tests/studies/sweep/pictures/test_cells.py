@@ -48,3 +48,27 @@ def test_medians_in_rank(rows: tuple[Row | float, ...], answer: Answer, median: 
     cell = cell_of(*rows)
     assert cell.answer == answer
     assert cell.value == pytest.approx(median, rel=1e-15, nan_ok=True)
+
+
+SLIDES, HINGES = ({"status": "solved", "load_factor": 0.5, "mechanism.class": name} for name in ("sliding", "hinging"))
+
+
+@pytest.mark.parametrize(
+    ("rows", "answer", "place"),
+    [
+        ((SLIDES, SLIDES), Answer.VALUE, 1.0),
+        ((SLIDES, HINGES), Answer.MIXED, np.nan),
+        ((SLIDES, FALLEN), Answer.MIXED, np.nan),
+        ((FALLEN, FALLEN), Answer.NO_EQUILIBRIUM, np.nan),
+        ((FALLEN, FAILED), Answer.MIXED, np.nan),
+    ],
+)
+def test_texts_of_several_points_are_a_text_where_all_have_it(
+    rows: tuple[Row, ...], answer: Answer, place: float
+) -> None:
+    """Beside them are points that hinge, which comes before sliding in the alphabet."""
+    table = grid({"mu": [0.5, 0.6], "case": [0.0, 1.0]}, lambda mu, case: rows[int(case)] if mu == 0.5 else HINGES)
+    view = view_of(table, chosen_results(table, "mechanism.class")[0], by="mu")
+    cell = pooled(view.answers, view.axes[:1]).part(0)
+    assert cell.answer == answer
+    assert [cell.value, cell.low, cell.high] == pytest.approx([place] * 3, nan_ok=True)

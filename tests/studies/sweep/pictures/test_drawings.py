@@ -6,20 +6,13 @@ from typing import Any
 import numpy as np
 import pytest
 
-from mbla.results.pictures.options import PictureOptions
 from mbla.studies.sweep.answers import Answer
 from mbla.studies.sweep.pictures.marks import MARKS
 from mbla.studies.sweep.pictures.plot import SweepPictures, plot_sweep
 from mbla.studies.sweep.pictures.polar import closes
 from mbla.studies.sweep.pictures.sphere import nearest_direction
-from mbla.studies.sweep.tables.sweep_table import SweepTable
+from tests.studies.sweep.pictures.drawing import SMALL, draw, lines_with, words
 from tests.studies.sweep.pictures.hand_made import FAILED, FALLEN, UNBOUNDED, Row, grid, sample, table_of
-
-SMALL = PictureOptions(size=(800, 500))
-
-
-def draw(table: SweepTable, tmp_path: Path, kind: str, **changes: Any) -> None:
-    plot_sweep(table, tmp_path, SweepPictures((kind,), page=SMALL, **changes))
 
 
 def arch(mu: float, thickness: float) -> Row | float:
@@ -29,14 +22,6 @@ def arch(mu: float, thickness: float) -> Row | float:
 
 
 ARCH = {"mu": [0.2, 0.4, 0.6, 0.8], "thickness": [0.1, 0.2, 0.3]}
-
-
-def lines_with(axes: Any, marker: str) -> list[Any]:
-    return [line for line in axes.lines if line.get_marker() == marker and line.get_markerfacecolor() == "none"]
-
-
-def words(figure: Any) -> str:
-    return " ".join(text.get_text() for text in figure.texts)
 
 
 def test_curves_are_the_table_and_break_where_a_point_has_no_value(tmp_path: Path, figures: list[Any]) -> None:

@@ -61,6 +61,7 @@ def test_all_is_all_that_fit() -> None:
         (drawn(), {"kinds": ("polar",)}, "no parameter is a direction"),
         (drawn(5), {"kinds": ("tornado",)}, "5 points with a verified value; correlations of samples need 10"),
         (plane(), {"kinds": ("curve",), "result": "mechanism.class"}, "the result is text; map and scatter show it"),
+        (plane(), {"kinds": ("tornado",), "result": "mechanism.class"}, "the result is text; map and scatter show it"),
         (plane(), {"result": "load_facter"}, "did you mean load_factor"),
         (plane(), {"by": "thicknes"}, "did you mean thickness"),
         (grid({"mu": [0.5]}, lambda mu: mu), {"kinds": ("scatter",)}, "no parameter has two values"),
@@ -123,6 +124,14 @@ def test_the_command_writes_into_the_folder_of_the_sweep_and_replaces(
         assert capsys.readouterr().out.splitlines() == [str(wanted)]
     assert wanted.read_bytes().startswith(b"\x89PNG")
     assert [0.2, 0.2] in [list(line.get_xdata()) for line in figures[0].axes[0].lines]  # the demand of the record
+
+
+def test_all_kinds_of_the_command_are_those_that_the_sweep_fits(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["sweep-plot", "--kind", "all", "--size", "800x500", str(folder)]) == 0
+    written = [Path(line).name for line in capsys.readouterr().out.splitlines()]
+    assert written == [f"sweep_{kind}_load_factor.png" for kind in ("curve", "scatter", "distribution")]
 
 
 @pytest.mark.parametrize(

@@ -1,0 +1,37 @@
+"""Pictures of tables made by hand, and what stands in them."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from mbla.results.pictures.options import PictureOptions
+from mbla.studies.sweep.pictures.plot import SweepPictures, plot_sweep
+from mbla.studies.sweep.tables.sweep_table import SweepTable
+
+SMALL = PictureOptions(size=(800, 500))
+
+
+def draw(table: SweepTable, folder: Path, kind: str, **changes: Any) -> None:
+    """A picture of one kind, small unless ``page`` says otherwise."""
+    plot_sweep(table, folder, SweepPictures((kind,), **{"page": SMALL} | changes))
+
+
+def lines_with(axes: Any, marker: str) -> list[Any]:
+    """Lines of hollow markers of a kind."""
+    return [line for line in axes.lines if line.get_marker() == marker and line.get_markerfacecolor() == "none"]
+
+
+def words(figure: Any) -> str:
+    """Title, counts and notes."""
+    return " ".join(" ".join(text.get_text() for text in figure.texts).split())
+
+
+def names_in_legend(figure: Any) -> list[str]:
+    """What the legend below the diagrams names."""
+    return [text.get_text() for legend in figure.legends for text in legend.get_texts()]
+
+
+def names_along(axes: Any, which: str) -> list[str]:
+    """Names at the ticks along ``x`` or ``y``."""
+    return [text.get_text() for text in getattr(axes, f"get_{which}ticklabels")()]
