@@ -14,6 +14,8 @@ import mbla
 from mbla.cli import main
 from mbla.deck import read_deck
 from mbla.studies.interact.command import factor_ratio, file_name, question_of
+from mbla.studies.interact.study import plan_of, study_points
+from mbla.studies.interact.words import conclusions
 from mbla.studies.sweep.outcome import Outcome
 from mbla.studies.sweep.plan import Plan, Task
 from tests.studies.interact.hand_made import Asked, ThisProcess, question, solved, written
@@ -111,6 +113,37 @@ def test_an_interruption_before_the_first_point_writes_nothing(tmp_path: Path, m
     assert not (tmp_path / "block.out").exists()
 
 
+@pytest.mark.parametrize("after", [0, 1])
+def test_an_interruption_before_the_angles_are_known_writes_nothing(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, after: int
+) -> None:
+    """Of two loads each is solved alone first."""
+    monkeypatch.setattr("mbla.studies.interact.command.engine_for", lambda _: Interrupted(after))
+    arguments = ["--loads", "push", "top", "--set", "parameters.mu=0.4", "-q"]
+    assert main(["interact", str(written(tmp_path)), *arguments]) == 130
+    assert not (tmp_path / "block.out").exists()
+
+
+def test_the_points_of_two_loads_are_those_of_their_ratio(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The flat block slides under either at 0.4 of its weight; the second load is twice as large."""
+    monkeypatch.setattr("mbla.studies.interact.command.engine_for", lambda _: Interrupted(9))
+    settings = [
+        "--set",
+        "parameters.mu=0.4",
+        "--set",
+        "parameters.h=1",
+        "--set",
+        "load_cases.top.live=[{acceleration: [0, 2, 0]}]",
+    ]
+    arguments = ["--loads", "push", "top", "--directions", "3", "--json", *settings]
+    assert main(["interact", str(written(tmp_path)), *arguments]) == 0
+    points = json.loads(capsys.readouterr().out)["points"]
+    assert [point["angle"] for point in points] == pytest.approx([0.0, math.degrees(math.atan(0.5)), 90.0], rel=1e-5)
+    assert [point["load_factor"] for point in points][::2] == pytest.approx([0.4, 0.2], rel=1e-5)
+
+
 @pytest.mark.parametrize(
     ("arguments", "status", "words"),
     [
@@ -152,3 +185,19 @@ def test_points_of_two_loads_of_different_size_lie_evenly(tmp_path: Path) -> Non
     assert ratio == pytest.approx(alone.points[1].load_factor / alone.points[0].load_factor, rel=1e-12)
     angles = question_of(deck, asked, ratio).angles
     assert angles == pytest.approx((0.0, math.degrees(math.atan(ratio)), 90.0), rel=1e-12)
+
+
+def test_each_point_is_reported_as_it_comes(tmp_path: Path) -> None:
+    """Whatever their order."""
+    path = written(tmp_path)
+    deck, told = read_deck(path), list[tuple[int, int]]()
+    wanted = question_of(deck, Asked(case="push", directions=3))
+    study_points(deck, (), wanted, plan_of(path, (), wanted), ThisProcess(), lambda *done: told.append(done))
+    assert told == [(1, 3), (2, 3), (3, 3)]
+
+
+def test_vertical_parts_leave_no_domain_and_that_is_told(tmp_path: Path) -> None:
+    study = solved(tmp_path, case="slanted", directions=2)
+    assert study.domain is None
+    told = "no safe domain is drawn: with vertical parts the loads do not lie in one plane through the dead load"
+    assert told in conclusions(study)

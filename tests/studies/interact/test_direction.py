@@ -61,6 +61,15 @@ def test_with_vertical_parts_there_is_no_plane_of_two_loads(tmp_path: Path) -> N
     assert "vertical parts stay as they are" in asked.words[0]
 
 
+def test_the_names_of_a_deck_are_left_alone(tmp_path: Path) -> None:
+    """A load case of the deck may have the name that the load along x would take."""
+    own = ["load_cases.interact_0={live: [{acceleration: [0, 1, 0]}]}"]
+    asked = question(tmp_path, own, case="push", directions=4)
+    assert asked.pair == ("interact_0_", "interact_90")
+    along_x, _ = live_load(tmp_path, [*own, *asked.fixed], "interact_0_")
+    assert along_x == pytest.approx([WEIGHT, 0, 0, 0, 0, 0], abs=1e-9)
+
+
 @pytest.mark.parametrize(
     ("asked", "words"),
     [
@@ -80,5 +89,13 @@ def test_refusals(tmp_path: Path, asked: dict[str, Any], words: str) -> None:
 
 
 def test_half_of_a_structure_is_refused(tmp_path: Path) -> None:
+    level = direction_question(read_deck(written(tmp_path), ["symmetry=[{z: 2}]"]), "push", 4)
+    assert level.angles == (0.0, 90.0, 180.0, 270.0)  # halves one above the other are pushed the same way
     with pytest.raises(UsageError, match=r"symmetry\.0: the deck gives half of the structure"):
         direction_question(read_deck(written(tmp_path), ["symmetry=[{y: 2}]"]), "push", 4)
+
+
+def test_a_support_that_gives_way_has_no_live_load_to_turn(tmp_path: Path) -> None:
+    sinks = ["load_cases.sinks={settlement: {on: block, direction: [0, 0, -1]}}"]
+    with pytest.raises(UsageError, match="load case sinks: a support gives way, there is no live load; .* needs one"):
+        direction_question(read_deck(written(tmp_path), sinks), "sinks", 4)
