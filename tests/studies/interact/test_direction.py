@@ -97,5 +97,5 @@ def test_half_of_a_structure_is_refused(tmp_path: Path) -> None:
 
 def test_a_support_that_gives_way_has_no_live_load_to_turn(tmp_path: Path) -> None:
     sinks = ["load_cases.sinks={settlement: {on: block, direction: [0, 0, -1]}}"]
-    with pytest.raises(UsageError, match="load case sinks: a support gives way, there is no live load; .* needs one"):
+    with pytest.raises(UsageError, match=r"load case sinks: a support gives way, there is no live load; .* needs one"):
         direction_question(read_deck(written(tmp_path), sinks), "sinks", 4)

@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
 
+from mbla.deck.units import Units
 from mbla.studies.measurement import Measurement
 from mbla.studies.setting import Setting
-from mbla.studies.tradeoff.ladder_run import RungRun
+from mbla.studies.tradeoff.advice import advice
+from mbla.studies.tradeoff.ladder_run import Limits, RungRun
 from mbla.studies.tradeoff.rung import Rung
+from mbla.studies.tradeoff.study import Study
+from mbla.studies.tradeoff.trade import case_trades
 
 SOLVED = Measurement("push", "solved", "answer", verified=True, answer=0.5, accuracy=1e-9, wall=1.0)
 
@@ -33,3 +38,19 @@ def ladder() -> list[RungRun]:
         run_of("solver: clarabel", measured(0.5, 0.1, status="not_verified", verified=False)),
         run_of("flow_rule: associative", measured(0.5, 0.1), model="flow_rule"),
     ]
+
+
+def study_of(runs: Sequence[RungRun], case: str = "push", positions: int = 0) -> Study:
+    """The study of one load case that these runs make; with positions of a load that travels."""
+    trades = case_trades([(case, positions)], runs)
+    return Study(
+        deck="a.yaml", title="A", overrides=(), units=Units(), flow_rule="associative", wanted=1e-4, limits=Limits(),
+        runs=tuple(runs), trades=trades, advices=(advice(trades, 1e-4),), seconds=1.0, provenance={"mbla": "0"},
+    )  # fmt: skip
+
+
+def travelling(name: str, *factors: float) -> RungRun:
+    """A rung under the positions of a load that travels."""
+    return run_of(
+        name, *(measured(factor, 1.0, case=f"axle_{i}", series="axle") for i, factor in enumerate(factors, 1))
+    )

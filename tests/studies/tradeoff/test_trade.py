@@ -126,6 +126,7 @@ def test_verdicts_without_a_figure() -> None:
     assert distance(none, none) == 0.0
     assert math.isnan(distance(replace(none, verified=False), none))
     assert math.isnan(distance(measured(0.5, 1.0), none))
+    assert math.isnan(distance(measured(0.5, 1.0, kind="angle"), measured(0.5, 1.0)))
     runs = [run_of("accuracy: reference", none), run_of("accuracy: draft", replace(none, wall=0.1))]
     assert names_on_front(trade_of(runs)) == {"accuracy: draft"}
     words = advice([trade_of(runs)], 1e-4).sentence

@@ -2,27 +2,19 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 
-from mbla.deck.units import Units
-from mbla.studies.tradeoff.advice import advice
-from mbla.studies.tradeoff.ladder_run import Limits, RungRun
+import pytest
+
+from mbla.studies.measurement import Measurement
+from mbla.studies.tradeoff.ladder_run import RungRun
 from mbla.studies.tradeoff.rung import Rung
-from mbla.studies.tradeoff.study import Study
-from mbla.studies.tradeoff.trade import case_trades
 from mbla.studies.tradeoff.words import study_lines
-from tests.studies.tradeoff.hand_made import ladder, measured, run_of
+from tests.studies.tradeoff.hand_made import ladder, measured, run_of, study_of
 
 WIDE = 100
 """columns of a terminal in which the tables of verified runs do not wrap"""
-
-
-def study_of(runs: list[RungRun]) -> Study:
-    trades = case_trades([("push", 0)], runs)
-    return Study(
-        deck="a.yaml", title="A", overrides=(), units=Units(), flow_rule="associative", wanted=1e-4, limits=Limits(),
-        runs=tuple(runs), trades=trades, advices=(advice(trades, 1e-4),), seconds=1.0, provenance={},
-    )  # fmt: skip
 
 
 def lines_of(runs: list[RungRun]) -> list[str]:
@@ -75,3 +67,67 @@ def test_what_was_not_run_is_told_once_and_why() -> None:
     assert "  solver: highs: does not apply: highs solves linear programs only" in told
     assert "  polyhedron: 4 sides, polyhedron: 8 sides: applies to flow_rule: associative only" in told
     assert "  scheme: path: failed: broke" in told
+
+
+LOCKED = measured(math.nan, 1.0, verdict="locked_in", accuracy=math.nan)
+"""A structure that stands only by self-stress."""
+
+
+def heading(lines: list[str]) -> str:
+    """What the distances are held against, on one line."""
+    told = " ".join(" ".join(lines).split())
+    return told[told.index("load case push") : told.index(" setting ")]
+
+
+@pytest.mark.parametrize(
+    ("reference", "words"),
+    [
+        (measured(0.5, 2.0), "errors are relative to accuracy: reference, good to 1.0e-09"),
+        (measured(0.5, 2.0, range_lower=0.5, range_upper=0.5),
+         "errors are relative to accuracy: reference, good to 1.0e-09"),
+        (measured(0.5, 2.0, range_lower=0.4, range_upper=0.6),
+         "errors are relative to accuracy: reference, good to 1.0e-09; its mechanism allows of load factors from 0.4 "
+         "to 0.6, all within the joint law"),
+        (measured(0.5, 2.0, verified=False, status="not_verified"),
+         "errors are relative to accuracy: draft, the sharpest that is verified (accuracy: reference is not), good to "
+         "1.0e-06"),
+        (LOCKED, "all are held against accuracy: reference: stands only by self-stress"),
+    ],
+)  # fmt: skip
+def test_what_errors_are_relative_to(reference: Measurement, words: str) -> None:
+    draft = run_of("accuracy: draft", measured(0.5, 0.1, accuracy=1e-6))
+    assert heading(lines_of([run_of("accuracy: reference", reference), draft])) == f"load case push: {words}"
+
+
+def test_of_runs_that_are_not_verified_the_sharpest_is_named_and_that_it_is_not() -> None:
+    """Beside what it says nothing is on the front."""
+    doubtful = {"verified": False, "status": "approximate"}
+    runs = [
+        run_of("accuracy: reference", measured(0.5, 2.0, accuracy=1e-3, **doubtful)),
+        run_of("accuracy: draft", measured(0.5, 0.1, accuracy=1e-2, **doubtful)),
+    ]
+    lines = lines_of(runs)
+    assert heading(lines) == (
+        "load case push: errors are relative to accuracy: reference, which is NOT VERIFIED, good to 1.0e-03"
+    )
+    assert row_of(lines, "accuracy: reference").endswith("approximate")
+    assert not [line for line in lines if line.startswith("*")]
+
+
+@pytest.mark.parametrize(
+    ("reference", "other", "error", "mark"),
+    [
+        (measured(0.5, 2.0), measured(0.5, 1.0), "<1.0e-09", ""),
+        (measured(0.5, 2.0), measured(0.5, 1.0, verified=False), "<1.0e-09", "not verified"),
+        (measured(0.5, 2.0), measured(math.nan, 1.0, status="unbounded", verdict="unbounded"), "-", "unbounded"),
+        (measured(0.5, 2.0), LOCKED, "-", "stands only by self-stress"),
+        (measured(0.5, 2.0), replace(LOCKED, verified=False), "-", "stands only by self-stress, not verified"),
+        (LOCKED, LOCKED, "same", "stands only by self-stress"),
+    ],
+)
+def test_error_and_mark_of_a_run(reference: Measurement, other: Measurement, error: str, mark: str) -> None:
+    lines = lines_of([run_of("accuracy: reference", reference), run_of("form: static", other)])
+    row = row_of(lines, "form: static")
+    assert row[2:].split()[7] == error
+    assert row.endswith(mark or row.split()[-1])
+    assert ("not verified" in row) == ("not verified" in mark)
