@@ -316,6 +316,21 @@ def test_files_that_a_point_names_count(tmp_path: Path, settings: dict[str, obje
     assert a.key_of({"parameters.mu": 1.0}) == b.key_of({"parameters.mu": 1.0})
 
 
+def test_a_file_that_several_points_name_is_read_once(tmp_path: Path) -> None:
+    """What a sweep is made of does not change while its points are numbered."""
+    base = with_tables(tmp_path, -1, -2)
+    settings = {"load_cases.push_x.live.0.table": "more.csv"}
+    first = base.key_of(settings)
+    (tmp_path / "more.csv").unlink()
+    assert base.key_of(settings) == first
+
+
+def test_a_text_that_names_no_file_is_no_deck(tmp_path: Path) -> None:
+    text = GOOD.replace("deck: deck.yaml", f"deck: {'a' * 4001}")
+    with pytest.raises(DeckError, match=r"sweep\.yaml:3:7 deck = .*: is not a file name"):
+        base_of(tmp_path, text)
+
+
 def test_a_file_that_is_missing_is_a_fault_of_its_point(tmp_path: Path) -> None:
     base = with_tables(tmp_path, -1, -2)
     settings = {"load_cases.push_x.live.0.table": "none.csv"}

@@ -210,3 +210,7 @@ def test_a_result_that_is_none_is_refused(result: str, words: str) -> None:
 def test_a_design_without_a_sample_is_refused() -> None:
     with pytest.raises(UsageError, match="random design"):
         fragility_of(replace(table_of([solved([0.1])]), samples=""), "load_factor", (0.1,), 0.95)
+
+
+def test_without_demands_there_is_no_text_of_a_file() -> None:
+    assert fragility_csv(()) == ""

@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from mbla.results.words.text import WIDTH
-from mbla.studies.sweep.words import NAMED, result_lines
+from mbla.studies.sweep.tables.from_outcomes import sweep_table
+from mbla.studies.sweep.words import NAMED, failure_lines, result_lines, sweep_lines
 from tests.studies.sweep.pictures.hand_made import FALLEN, Row, grid
+from tests.studies.sweep.tables import synthetic
 
 UNSURE = {"status": "not_verified", "load_factor": None, "static_bound": 9.0, "mechanism.class": None}
 
@@ -66,3 +70,34 @@ def test_many_extreme_points_are_counted_and_every_line_has_room() -> None:
     assert sum(line.startswith("  point ") for line in lines) == NAMED
     assert "  14 further points: see sweep.csv" in lines
     assert max(map(len, lines)) <= WIDTH
+
+
+def test_of_many_texts_the_most_common_are_told() -> None:
+    """Eight of ten, each as often as it is there."""
+    table = grid({"n": list(range(11))}, lambda n: {"status": f"state {min(n, 9)}", "load_factor": 1.0})
+    told = " ".join(" ".join(result_lines(table)).split())
+    assert told.startswith("status state 9 2, " + ", ".join(f"state {n} 1" for n in range(7)) + ", 2 others result")
+
+
+def test_notices_of_the_deck_stand_between_results_and_time() -> None:
+    notice = {"severity": "warning", "message": "joint dry of the deck is not used"}
+    points = {"all": 5, "done": 4, "failed": 1, "unfinished": 0, "left_out": 1}
+    record = {"sweep": "wall.sweep.yaml", "title": "", "deck": "wall.yaml", "points": points, "notices": [notice],
+              "time": {"total": 4.0}}  # fmt: skip
+    lines = [" ".join(line.split()) for line in sweep_lines(record, synthetic.table())]
+    assert lines[:2] == ["wall.sweep.yaml: wall.yaml", "points 5: 4 done, 1 failed; constraints left out 1 more"]
+    assert lines[-3:-1] == ["failed: point 4: mu 0.7, t 0.1 m, seed 4: not verified", f"warning: {notice['message']}"]
+    assert lines[-1] == "time 4 s"
+
+
+def test_of_many_failures_the_first_are_told_and_the_others_counted() -> None:
+    """The first five of seven, of which no reason is known."""
+    found = synthetic.outcomes()
+    failed = replace(found["key4"], reason="")
+    design = synthetic.design()
+    points = tuple(replace(point, number=i) for i, point in enumerate((*design.points, *design.points[:2]), 1))
+    table = sweep_table("", replace(design, points=points), (), {"key": failed}, ["key"] * 7)
+    lines = [" ".join(line.split()) for line in failure_lines(table)]
+    assert len(lines) == 6
+    assert lines[0] == "failed: point 1: mu 0.5, t 0.1 m, seed 4: no reason known"
+    assert lines[-1] == "and 2 other failed points; column reason of sweep.csv has why"

@@ -76,6 +76,11 @@ def test_levels_that_cannot_be_told_apart_are_refused(way: str) -> None:
     assert len(caught.value.faults) == 1
 
 
+def test_a_range_wider_than_numbers_is_refused() -> None:
+    with pytest.raises(DeckError, match=r"x\.linear: has ends that numbers do not tell apart, or lie too far apart"):
+        levels({"linear": {"from": -1.7e308, "to": 1.7e308, "points": 5}})
+
+
 ENDS = {"from": 1, "to": 2}
 
 

@@ -105,6 +105,15 @@ def test_write(tmp_path: Path) -> None:
         write_main([])
 
 
+def test_the_module_writes_into_the_repository(monkeypatch: pytest.MonkeyPatch) -> None:
+    written: list[tuple[object, ...]] = []
+    monkeypatch.setattr("mbla.studies.sweep.file.schema.write_generated", lambda *what: written.append(what))
+    write_main(["--write"])
+    ((folder, name, text, *_),) = written
+    assert (folder, name) == (REPOSITORY, "sweep")
+    assert json.loads(str(text)) == sweep_schema()
+
+
 def test_readme_is_up_to_date() -> None:
     text = (REPOSITORY / "README.md").read_text(encoding="utf-8")
     assert with_sweep_key_reference(text) == text

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from dataclasses import replace
 from pathlib import Path
+from zlib import crc32
 
 import pandas as pd
 import pytest
@@ -14,7 +15,7 @@ from mbla.results.explanations.explanations import EXPLANATIONS
 from mbla.studies.sweep.journal import Journal, JournalHeader
 from mbla.studies.sweep.journal.header import header_text
 from mbla.studies.sweep.journal.reading import read_journal
-from mbla.studies.sweep.journal.rows import row_of
+from mbla.studies.sweep.journal.rows import read_row, row_of
 from mbla.studies.sweep.outcome import DONE, FAILED, Outcome
 from tests.studies.sweep.journal.points import HEADER, as_read, point
 
@@ -181,6 +182,30 @@ def test_a_row_with_another_number_of_columns_is_broken(path: Path) -> None:
     row = row_of(replace(HEADER, columns=("status",)), POINTS[0][0], replace(POINTS[0][1], results={}))
     path.write_bytes(path.read_bytes() + row)
     assert "has another number of columns" in refusal(path)
+
+
+@pytest.mark.parametrize(
+    ("cell", "text", "words"),
+    [
+        (0, '"ab"c', "a quotation mark is out of place"),
+        (0, r'"a\qb"', r"\\q is no sign of a text"),
+        (0, "7", "is no row of a journal"),
+        (1, "0.5", "is no row of a journal"),
+        (2, '"begun"', "is no row of a journal"),
+        (4, "", "is no row of a journal"),
+        (6, "3", "is no row of a journal"),
+    ],
+)
+def test_a_row_with_a_right_check_sum_and_wrong_cells_is_broken(path: Path, cell: int, text: str, words: str) -> None:
+    """As a program would write it that knows the check sum but not the cells."""
+    good = ['"key"', "99", '"failed"', "4", '""', "1", "0.5", "", "", "", '"{}"']
+    lines = []
+    for cells in (good, [*good[:cell], text, *good[cell + 1 :]]):
+        body = ",".join(cells).encode("utf-8") + b","
+        lines.append(body + b'"%08x"\n' % crc32(body))
+    assert read_row(HEADER, lines[0]).key == "key"
+    path.write_bytes(path.read_bytes() + lines[1])
+    assert re.search(words, refusal(path))
 
 
 def test_a_deleted_row_is_a_point_to_be_solved(path: Path) -> None:

@@ -6,6 +6,7 @@ from mbla.studies.sweep.answers import Answer, answers_of
 from mbla.studies.sweep.pictures.marks import count_words
 from mbla.studies.sweep.pictures.view import chosen_results
 from tests.studies.sweep.pictures.hand_made import FAILED, FALLEN, UNBOUNDED, Row, grid
+from tests.studies.sweep.tables import synthetic
 
 STATES: dict[str, dict[str, Any]] = {
     "solved": {"status": "solved", "load_factor": 0.5, "static_bound": 0.49},
@@ -64,3 +65,11 @@ def test_of_other_results_nothing_lies_below_every_value() -> None:
     assert (factor.below.sum(), factor.above.sum()) == (1, 1)
     assert not hinges.below.any()
     assert np.array_equal(hinges.of(Answer.NO_EQUILIBRIUM), factor.below)
+
+
+def test_a_result_of_the_run_has_no_state_of_a_load_case() -> None:
+    """A weight is known though the load case has no equilibrium; of a point that is not verified it is not there."""
+    swept = synthetic.table()
+    found = answers_of(swept, chosen_results(swept, "model.total_weight")[0])
+    assert found.answer.tolist() == [Answer.VALUE, Answer.NONE, Answer.VALUE, Answer.FAILED, Answer.VALUE]
+    assert found.values[found.good].tolist() == [65.0, 65.0, 65.0]

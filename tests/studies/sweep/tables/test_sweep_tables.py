@@ -105,6 +105,19 @@ def test_a_missing_outcome_is_an_error_of_the_caller() -> None:
     assert sweep_json(RUN, found)["points"] == {"all": 5, "done": 4, "failed": 0, "unfinished": 1, "left_out": 1}
 
 
+def test_a_table_that_would_not_fit_its_design_is_an_error_of_the_caller() -> None:
+    twice = result_columns(("load_factor",), ("push",), Units()) * 2
+    with pytest.raises(AssertionError, match="columns of one name: load_factor"):
+        sweep_table("", design(), twice, outcomes(), keys())
+    with pytest.raises(AssertionError, match="4 keys of 5 points"):
+        sweep_table("", design(), (), outcomes(), keys()[:4])
+
+
+def test_a_table_has_no_column_of_another_name() -> None:
+    with pytest.raises(KeyError, match="load_facter"):
+        table()["load_facter"]
+
+
 @pytest.mark.parametrize(("kind", "value"), [("int", 0.5), ("float", True), ("bool", 1), ("float", "0.5")])
 def test_values_of_another_kind_are_refused(kind: str, value: object) -> None:
     with pytest.raises(ValueError, match=f"column of kind {kind}"):
@@ -113,6 +126,7 @@ def test_values_of_another_kind_are_refused(kind: str, value: object) -> None:
 
 def test_lists_and_objects_are_text() -> None:
     assert as_text([1, 0.5, [True, "a"]]) == "[1, 0.5, [true, a]]"
+    assert as_text({"box": {"min": [0, 1], "name": None}}) == "{box: {min: [0, 1], name: null}}"
     assert column_values("text", [[1, 2], "", None]).tolist() == ["[1, 2]", None, None]
 
 
@@ -271,9 +285,18 @@ def _csv(change: Callable[[str], str]) -> Callable[[Path], None]:
     return apply
 
 
+def _without_state(folder: Path) -> None:
+    """A column of every table has another name, in both files."""
+    _record(lambda record: next(c for c in record["columns"] if c["name"] == "state").update(name="stat"))(folder)
+    _csv(lambda text: text.replace(",state,", ",stat,", 1))(folder)
+
+
 @pytest.mark.parametrize(
     ("change", "words"),
     [
+        (_without_state, "columns are missing"),
+        (lambda folder: (folder / "sweep.csv").write_bytes(b"point\xff"), r"sweep\.csv: is no CSV: .*utf-8"),
+        (_csv(lambda text: text + '"point'), r"sweep\.csv: is no CSV: unexpected end of data"),
         (lambda folder: (folder / "sweep.csv").unlink(), r"sweep\.csv: there is none"),
         (lambda folder: (folder / "sweep.json").unlink(), r"sweep\.json: there is none"),
         (lambda folder: (folder / "sweep.json").write_text("{"), r"sweep\.json: is no JSON"),
