@@ -69,6 +69,8 @@ def test_all_load_cases_unless_some_are_named(tmp_path: Path) -> None:
         ("load_cases.push_x.live.0.moment", "N*cm"),
         ("load_cases.push_x.live.0.line.force_per_length", "N/cm"),
         ("load_cases.push_x.dead", ""),
+        ("load_cases.push_x.live.0.on", ""),  # a section, or the name of a group in its place
+        ("blocks.0.arch.group", ""),
         ("contacts.points.rounding", "cm"),
         ("contacts.points.per_edge", ""),
         ("analysis.time_limit", "s"),
@@ -83,6 +85,12 @@ def test_unit_of_key(tmp_path: Path, key: str, unit: str) -> None:
 def test_no_key(tmp_path: Path) -> None:
     with pytest.raises(RefusedError, match="unknown key thick in blocks"):
         path_of_key(base_of(tmp_path).tree.data, "blocks.0.arch.thick")
+
+
+def test_a_whole_list_of_the_deck_may_change(tmp_path: Path) -> None:
+    base = base_of(tmp_path, GOOD + "  s: {key: masses, values: [[]]}\n")
+    assert base.paths["s"] == (("masses",),)
+    assert base.units["s"] == ""
 
 
 def test_texts_with_units_of_their_own_have_no_unit_of_the_column(tmp_path: Path) -> None:

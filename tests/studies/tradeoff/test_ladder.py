@@ -76,3 +76,10 @@ def test_a_rung_that_was_stopped_says_by_which_limit(
     assert (run.end, run.words, run.expired) == ("stopped", words, expired)
     assert [measurement.answer for measurement in run.measurements] == [0.5]
     assert told == [(1, 1, "accuracy: draft", ""), (1, 1, "accuracy: draft", "push")]
+
+
+def test_without_a_listener_nothing_is_told_and_the_rest_is_the_same(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(ladder_run, "MeasuringProcess", Answers)
+    rungs = [Rung("accuracy: draft"), Rung("form: static", unfit="does not fit")]
+    ends = [(run.end, run.words) for run in run_ladder(Path("a.yaml"), (), (), rungs, Limits(each=1.0), None)]
+    assert ends == [("stopped", "stopped after 1 s"), ("unfit", "does not fit")]
