@@ -54,6 +54,15 @@ def locking_forces(parts: Sequence[Program], settings: SolverSettings, log: Log)
     return None
 
 
+def locks_at_dilatancy(program: Program, settings: SolverSettings, log: Log) -> bool:
+    """Whether forces within cones of the dilatancy angles carry every multiple of the live load, as the solver finds.
+
+    Then no mechanism that dilates by these angles gains work from the live load.
+    """
+    flat = replace(program, limits=replace(program.limits, friction=program.limits.dilatancy))
+    return any(_least_forces(flat, share, settings, log) is not None for share in FRICTIONS)
+
+
 def _least_forces(program: Program, share: float, settings: SolverSettings, log: Log) -> FloatArray | None:
     """Least forces, (n_points, components), with a share of the friction."""
     lasting = lasting_limits(program.limits)

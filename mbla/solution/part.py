@@ -16,11 +16,15 @@ from mbla.solution.certificate import cleaned_certificate
 from mbla.solution.cone_solution import Log
 from mbla.solution.factor_range import FactorRange
 from mbla.solution.law_state import LawState, SequenceResult
+from mbla.solution.locking import locks_at_dilatancy
 from mbla.solution.polyhedral import solve_polyhedral, solve_with_opinion
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import ProgramRecord, StandingResult, Status
 from mbla.solution.standing import DeadLoadState, stress_free_state
 
+NO_MECHANISM_AT_DILATANCY = (
+    "the solver finds no mechanism at the dilatancy angle either in which the live load does work"
+)
 APART = "with associative flow {}"
 
 
@@ -167,6 +171,8 @@ def _locked_by_dilatancy(
     if analysis.flow_rule == "livesley":
         return result
     if analysis.flow_rule == "dilatancy":
+        if locks_at_dilatancy(program, settings, log):
+            return replace(result, associative=replace(associative, reason=NO_MECHANISM_AT_DILATANCY))
         sequence = _by_law(program, associative, analysis, settings, log)
         return replace(result, sequence=sequence) if sequence.status is Status.SOLVED else result
     decision = non_associative_bounded(program, settings)

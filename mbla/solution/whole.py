@@ -101,13 +101,6 @@ def to_full(program: Program, state: LawState) -> tuple[Program, LawState]:
     return program, state
 
 
-def velocities_to_full(program: Program, velocities: FloatArray) -> FloatArray:
-    """Velocities of a program in that of the whole model."""
-    while program.reduction is not None:
-        velocities, program = program.reduction.velocities @ velocities, program.reduction.full
-    return velocities
-
-
 def at_rest(program: Program, load_factor: float, settings: SolverSettings, log: Log) -> LawState | None:
     """Least forces that carry the load, no motion; None where the solver finds none."""
     load = program.dead_load + load_factor * program.live_load

@@ -53,6 +53,15 @@ def test_a_wedge_with_less_dilatancy_than_friction_may_slide_where_that_locks(di
     assert factor == pytest.approx(mu / (s * math.cos(b) - mu * w * math.sin(b) ** 2), rel=1e-7)
 
 
+@pytest.mark.parametrize("dilatancy", [60.5, 62])
+def test_a_wedge_whose_dilatancy_locks_it_has_no_load_factor(dilatancy: float) -> None:
+    """Steps of the law end at factors of a million there, which are none."""
+    result = result_of(wedge(2.0), ALONG, "analysis.flow_rule=dilatancy", f"joints.dry.dilatancy={dilatancy}")
+    assert result.status is Status.UNBOUNDED
+    assert result.sequence is None
+    assert result.associative.reason == part.NO_MECHANISM_AT_DILATANCY
+
+
 def test_a_wedge_for_which_no_state_with_dilatancy_is_found_stays_locked(monkeypatch: pytest.MonkeyPatch) -> None:
     nothing = SequenceResult(Status.APPROXIMATE, None, "did not come to rest", ())
     monkeypatch.setattr(part, "_by_law", lambda *arguments: nothing)
