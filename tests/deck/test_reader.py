@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from mbla.deck.reader import MAX_DEPTH, MOST_ITEMS, MOST_KEYS, read_yaml
 from mbla.deck.sources import SourceText
 from mbla.deck.tree import FILE_SHIFT, OFFSET_MASK, MappingMarks, SequenceMarks, Tree
-from mbla.errors import Message
+from mbla.errors import MOST_FAULTS, Message
 
 
 def read(text: str) -> tuple[object, list[str]]:
@@ -170,3 +170,10 @@ def test_json_is_read_as_json(value: object) -> None:
     if not control:
         assert document.faults == []
     assert document.data == value
+
+
+def test_reading_ends_after_a_thousand_faults() -> None:
+    _, faults = read("[" + "~, " * (MOST_FAULTS + 500) + "]")
+    assert len(faults) == MOST_FAULTS + 1
+    assert faults[0] == "deck:1:2 [0] = ~: has no value: give one, or leave the key out"
+    assert faults[-1] == f"deck:1:{3 * MOST_FAULTS - 1} is read no further after 1000 faults"

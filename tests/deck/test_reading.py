@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import errno
 import gc
 from pathlib import Path
 
@@ -221,3 +222,19 @@ def _faults(path: Path) -> tuple[Fault, ...]:
     except DeckError as error:
         return error.faults or (Fault(Place("", 0, 0), "", Message("not-yaml", "")),)
     return ()
+
+
+def test_file_that_may_not_be_opened(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    path = write(tmp_path, FRAGMENTS)
+    write(tmp_path, "v 0 0 0\n", "crossvault.obj")
+    deck = read_deck(path)
+
+    def refuse(self: Path, mode: str) -> None:
+        raise PermissionError(errno.EACCES, "Permission denied")
+
+    monkeypatch.setattr(Path, "open", refuse)
+    with pytest.raises(DeckError) as caught:
+        deck.resolve_file(("blocks", 1, "mesh", "file"), "crossvault.obj")
+    assert str(caught.value) == (
+        f"{path}:10:49 blocks[1].mesh.file = crossvault.obj: cannot be opened: Permission denied"
+    )

@@ -122,3 +122,10 @@ def test_readme_is_up_to_date() -> None:
     if "<!-- keys:begin -->" in text:
         assert with_key_reference(text) == text
     assert key_reference().count("####") >= 20
+
+
+def test_command_writes_when_told(monkeypatch: pytest.MonkeyPatch) -> None:
+    written: list[str] = []
+    monkeypatch.setattr("mbla.deck.schema.write_schema", lambda: written.append("schema and key reference"))
+    main(["--write"])
+    assert written == ["schema and key reference"]

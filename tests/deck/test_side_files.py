@@ -66,6 +66,10 @@ def test_of_a_value_below_the_deck() -> None:
     assert list(side_files("a.obj", ("blocks", 0, "mesh", "file", "more"))) == []
 
 
+def test_what_is_no_name_stands_for_no_file() -> None:
+    assert list(side_files({"blocks": [{"mesh": {"file": 7}}], "contacts": {"table": ["c.csv"]}})) == []
+
+
 def find_value(path: tuple[str | int, ...]) -> list[tuple[Any, Any]]:
     value: Any = DECK
     for key in path:

@@ -84,3 +84,9 @@ def test_device() -> None:
 def test_name_with_null_byte() -> None:
     with pytest.raises(FileError, match="cannot be opened"):
         read_deck("a\0b")
+
+
+@pytest.mark.skipif(not Path("/proc/self/mem").exists(), reason="the system shows no memory as a file")
+def test_file_that_opens_and_cannot_be_read() -> None:
+    with pytest.raises(FileError, match=r"^/proc/self/mem: cannot be read: Input/output error$"):
+        read_deck("/proc/self/mem")

@@ -152,3 +152,26 @@ def test_a_polyhedron_over_points_that_are_not_in_space_is_refused(tmp_path: Pat
     shape = {"dtype": "compas.geometry/Polyhedron", "data": {"vertices": [point, *vertices[1:]], "faces": faces}}
     with pytest.raises(GeometryFileError, match="is not a well-formed COMPAS JSON file"):
         read(tmp_path, shape)
+
+
+def test_a_transformation_that_is_no_matrix(tmp_path: Path) -> None:
+    entry = mesh()
+    entry["data"]["transformation"] = {"dtype": "compas.geometry/Translation", "data": {"matrix": [[1, 0, 0]]}}
+    with pytest.raises(GeometryFileError) as caught:
+        read(tmp_path, entry)
+    words = "is not a well-formed COMPAS JSON file: a transformation has not four by four numbers"
+    assert str(caught.value) == words
+
+
+def test_what_holds_no_object_is_passed_over(tmp_path: Path) -> None:
+    entry = mesh()
+    entry["data"]["transformation"] = "none"
+    document = [{"dtype": "compas.geometry/Frame", "data": [0, 1]}, {"dtype": "compas.data/Data"}, 7, entry]
+    assert heights(read(tmp_path, document)) == [0.5]
+
+
+def test_transformations_of_an_object_and_of_what_it_is_in_apply_in_turn(tmp_path: Path) -> None:
+    inner = mesh()
+    inner["data"]["transformation"] = translation(0, 0, 2)
+    outer = {"data": {"transformation": translation(0, 0, 5), "geometry": inner}, "dtype": "x/Element"}
+    assert heights(read(tmp_path, outer)) == [7.5]

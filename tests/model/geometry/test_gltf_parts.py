@@ -100,3 +100,80 @@ def test_numbers_that_begin_before_their_view_or_amid_a_number_are_refused(
     base["accessors"][1]["byteOffset"] = of_accessor
     with pytest.raises(GeometryFileError, match=f"begins at byte {first}, where no number of 2 bytes can begin"):
         written(tmp_path, base)
+
+
+def refusal(folder: Path, content: dict[str, Any]) -> str:
+    with pytest.raises(GeometryFileError) as caught:
+        written(folder, content)
+    return str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("entry", "message"),
+    [
+        ({"rotation": [0, 0, 0, 0]}, "a rotation is the zero quaternion"),
+        ({"scale": [2]}, "a scale has not three numbers"),
+        ({"translation": [1, 2]}, "a translation has not three numbers"),
+    ],
+)
+def test_a_place_that_is_none(tmp_path: Path, entry: dict[str, Any], message: str) -> None:
+    words = refusal(tmp_path, document([{"mesh": 0} | entry]))
+    assert words == f"is not a well-formed glTF file: {message}"
+
+
+@pytest.mark.parametrize(
+    ("accessor", "keys", "message"),
+    [
+        (0, {"type": "VEC2"}, "a position has not three coordinates"),
+        (0, {"count": 7}, "a triangle names a point that does not exist; there are 7"),
+        (0, {"count": -1}, "accessor 0 has a count of -1"),
+        (0, {"count": True}, "accessor 0 has a count of True"),
+        (1, {"count": 35}, "its triangles have 35 corners, which three do not divide"),
+        (1, {"count": 37}, "a buffer is shorter than the document says"),
+        (1, {"componentType": 5122}, "accessor 1 has no whole numbers of corners"),
+        (1, {"normalized": True}, "accessor 1 has no whole numbers of corners"),
+        (1, {"type": "VEC3", "count": 12}, "accessor 1 has no whole numbers of corners"),
+    ],
+)
+def test_numbers_that_are_no_points_or_corners(
+    tmp_path: Path, accessor: int, keys: dict[str, Any], message: str
+) -> None:
+    base = document([{"mesh": 0}])
+    base["accessors"][accessor] |= keys
+    assert refusal(tmp_path, base) == f"is not a well-formed glTF file: {message}"
+
+
+def test_points_without_values(tmp_path: Path) -> None:
+    base = document([{"mesh": 0}])
+    del base["accessors"][0]["bufferView"]
+    words = "is not a well-formed glTF file: accessor 0 has no values: no bufferView for its count of 8"
+    assert refusal(tmp_path, base) == words
+
+
+def test_a_buffer_that_is_not_base_64(tmp_path: Path) -> None:
+    base = document([{"mesh": 0}], buffers=[{"byteLength": 168, "uri": "data:application/octet-stream;base64,ab!"}])
+    assert refusal(tmp_path, base).startswith("is not a well-formed glTF file: a buffer is not base 64: ")
+
+
+def test_a_file_without_scenes_shows_the_nodes_that_are_no_children(tmp_path: Path) -> None:
+    nodes: list[dict[str, Any]] = [{"mesh": 0}, {"children": [0], "translation": [0, 0, 3]}, {"name": "camera"}]
+    base = document(nodes)
+    del base["scenes"], base["scene"]
+    assert boxes(written(tmp_path, base)) == [pytest.approx([1, 0.5, 0.5, 3.5])]
+
+
+def test_objects_without_triangles_and_meshes_that_deform_are_told(tmp_path: Path) -> None:
+    primitive = document([])["meshes"][0]["primitives"][0]
+    meshes = [
+        {"name": "cube", "primitives": [primitive | {"targets": [{"POSITION": 0}]}]},
+        {"name": "nothing", "primitives": []},
+        {"name": "axis", "primitives": [primitive | {"mode": 1}]},
+    ]
+    base = document([{"mesh": number} for number in range(3)], meshes=meshes, scenes=[{"nodes": [0, 1, 2]}])
+    geometry = written(tmp_path, base)
+    assert geometry.names == ("cube",)
+    assert [str(notice.message) for notice in geometry.notices] == [
+        "1 object was left out, without faces: nothing",
+        "1 set of points or lines was left out: no block",
+        "the file has skinned or morphed meshes: they are taken as they are without deformation",
+    ]

@@ -43,3 +43,10 @@ def test_corners_of_a_face_are_told_without_its_other_properties(tmp_path: Path)
     )
     with pytest.raises(GeometryFileError, match=r"line 17 announces 4 corners and has 3$"):
         read_geometry(path)
+
+
+PLY = (
+    "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+    "element face 4\n%send_header\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n%s\n%s\n%s\n%s\n"
+)
+CORNERS = ("3 0 2 1", "3 0 1 3", "3 0 3 2", "3 1 2 3")

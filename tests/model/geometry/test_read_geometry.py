@@ -76,3 +76,13 @@ def test_a_file_beyond_the_largest_size_is_refused_unread(tmp_path: Path, monkey
 def test_a_missing_file_is_told_as_such(tmp_path: Path) -> None:
     with pytest.raises(GeometryFileError, match="cannot be read: No such file or directory"):
         read_geometry(tmp_path / "none.obj")
+
+
+@pytest.mark.parametrize("suffix", [".obj", ".ply", ".stl", ".msh", ".inp", ".gltf", ".glb", ".json"])
+def test_a_folder_by_the_name_of_a_file_cannot_be_read(tmp_path: Path, suffix: str) -> None:
+    path = tmp_path / f"blocks{suffix}"
+    path.mkdir()
+    with pytest.raises(GeometryFileError) as caught:
+        read_geometry(path)
+    assert str(caught.value) == "cannot be read: Is a directory"
+    assert caught.value.message.identifier == "file-unreadable"
