@@ -175,3 +175,18 @@ def test_transformations_of_an_object_and_of_what_it_is_in_apply_in_turn(tmp_pat
     inner["data"]["transformation"] = translation(0, 0, 2)
     outer = {"data": {"transformation": translation(0, 0, 5), "geometry": inner}, "dtype": "x/Element"}
     assert heights(read(tmp_path, outer)) == [7.5]
+
+
+def test_a_mesh_without_content_is_told(tmp_path: Path) -> None:
+    geometry = read(tmp_path, [mesh("a"), {"dtype": "compas.datastructures/Mesh", "data": {}, "name": "nothing"}])
+    assert geometry.names == ("a",)
+    assert [notice.message for notice in geometry.notices] == ["1 object was left out, without faces: nothing"]
+
+
+def test_elements_that_a_model_lists_are_placed_by_those_above_them(tmp_path: Path) -> None:
+    elements = [
+        {"guid": "pier", "data": {"transformation": translation(0, 0, 5)}},
+        {"guid": "stone", "data": {"transformation": translation(0, 0, 2), "geometry": mesh()}},
+    ]
+    tree = {"root": {"element": "pier", "children": [{"element": "stone"}]}}
+    assert heights(read(tmp_path, {"data": {"elements": elements, "tree": tree}, "dtype": "m/Model"})) == [7.5]

@@ -194,3 +194,24 @@ def test_a_closed_outline_without_area_is_refused(tmp_path: Path, points: list[t
     space.add_lwpolyline(points, close=True, dxfattribs={"layer": "lost"})
     with pytest.raises(GeometryFileError, match="a LWPOLYLINE on layer lost has no area: it is closed"):
         read(document, tmp_path)
+
+
+def test_a_million_copies_of_a_block_are_refused(tmp_path: Path) -> None:
+    document, space = drawing()
+    document.blocks.new("stone").add_lwpolyline(SQUARE, close=True)
+    reference = space.add_blockref("stone", (0, 0))
+    reference.grid(size=(1000, 1000), spacing=(2, 2))
+    with pytest.raises(GeometryFileError) as caught:
+        read(document, tmp_path)
+    assert caught.value.message.identifier == "geometry-too-large"
+    assert str(caught.value) == "inserts blocks more than 20000 times"
+
+
+@pytest.mark.parametrize("points", [[], [(1, 1)]])
+def test_a_polyline_of_less_than_two_points_is_nothing(tmp_path: Path, points: list[tuple[int, int]]) -> None:
+    document, space = drawing()
+    space.add_lwpolyline(points)
+    space.add_lwpolyline(SQUARE, close=True)
+    geometry = read(document, tmp_path)
+    assert areas(geometry) == [pytest.approx(1)]
+    assert geometry.notices == ()

@@ -318,3 +318,42 @@ def test_what_a_library_says_of_a_malformed_file_is_told_in_200_characters(
         read_geometry(path)
     words = "is not a well-formed Gmsh .msh file: "
     assert str(caught.value) == words + ("no " * 100)[:200]
+
+
+VTU = (
+    '<VTKFile type="UnstructuredGrid" version="1.0" byte_order="LittleEndian"><UnstructuredGrid>'
+    '<Piece NumberOfPoints="4" NumberOfCells="1"><Points>'
+    '<DataArray type="Float64" NumberOfComponents="{components}" format="ascii">{points}</DataArray></Points><Cells>'
+    '<DataArray type="Int64" Name="connectivity" format="ascii">0 1 2 3</DataArray>'
+    '<DataArray type="Int64" Name="offsets" format="ascii">4</DataArray>'
+    '<DataArray type="UInt8" Name="types" format="ascii">9</DataArray></Cells></Piece></UnstructuredGrid></VTKFile>'
+)
+
+
+def test_points_in_a_plane_lie_at_height_zero(tmp_path: Path) -> None:
+    path = tmp_path / "plane.vtu"
+    path.write_text(VTU.format(components=2, points="0 0 1 0 1 1 0 1"))
+    assert read_geometry(path).polyhedra.vertices.tolist() == [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]
+
+
+def test_points_on_a_line_are_refused(tmp_path: Path) -> None:
+    path = tmp_path / "line.vtu"
+    path.write_text(VTU.format(components=1, points="0 1 2 3"))
+    with pytest.raises(GeometryFileError) as caught:
+        read_geometry(path)
+    assert str(caught.value) == "the points have neither two nor three coordinates"
+
+
+def test_single_points_are_left_out_without_a_word(tmp_path: Path) -> None:
+    points, cells = grid()
+    path = tmp_path / "wall.vtu"
+    write_mesh(path, points, [("vertex", np.array([[0], [1]])), ("hexahedron", cells)])
+    assert blocks_of(path).notices == ()
+    assert volumes(path) == pytest.approx([1] * 9)
+
+
+def test_a_mesh_without_points_holds_no_blocks(tmp_path: Path) -> None:
+    path = tmp_path / "empty.ply"
+    write_mesh(path, np.empty((0, 3)), [], file_format="ply")
+    with pytest.raises(GeometryFileError, match=r"^the file holds no blocks: "):
+        read_geometry(path)

@@ -26,3 +26,14 @@ def test_groups_without_names_name_nothing(tmp_path: Path) -> None:
     path = tmp_path / name
     path.write_bytes(before + rest.partition(b"$EndPhysicalNames\n")[2])
     assert read_geometry(path).names == ()
+
+
+def test_groups_of_faces_beside_cells_name_no_block(tmp_path: Path) -> None:
+    text = (
+        '$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n2 1 "foot"\n3 2 "stone"\n$EndPhysicalNames\n'
+        "$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n$EndNodes\n"
+        "$Elements\n2\n1 2 2 1 1 1 2 3\n2 4 2 2 1 1 2 3 4\n$EndElements\n"
+    )
+    path = tmp_path / "stone.msh"
+    path.write_text(text)
+    assert read_geometry(path).names == ("stone",)
