@@ -175,3 +175,10 @@ def test_names_come_late() -> None:
     with pytest.raises(AttributeError, match="solve"):
         mbla.solve  # type: ignore[attr-defined] # noqa: B018
     assert all(getattr(mbla, name) is not None for name in mbla.__all__)
+
+
+def test_public_names_are_listed_and_others_refused() -> None:
+    assert dir(mbla) == sorted(mbla.__all__)
+    assert all(getattr(mbla, name) is not None for name in dir(mbla))
+    with pytest.raises(AttributeError, match=r"^module 'mbla' has no attribute 'solve'$"):
+        mbla.solve  # type: ignore[attr-defined]  # noqa: B018

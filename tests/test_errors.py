@@ -4,7 +4,10 @@ from __future__ import annotations
 
 import pickle
 
-from mbla.errors import DeckError, Fault, Message, Place
+import pytest
+
+from mbla.errors import DeckError, Fault, FileError, Message, Place
+from mbla.failures import identifiers_of
 
 
 def test_a_deck_error_keeps_its_faults_between_processes() -> None:
@@ -13,3 +16,22 @@ def test_a_deck_error_keeps_its_faults_between_processes() -> None:
     copy = pickle.loads(pickle.dumps(error))
     assert copy.faults == error.faults
     assert str(copy) == str(error)
+
+
+def test_a_fault_without_identifier_is_refused_where_it_is_made() -> None:
+    with pytest.raises(TypeError) as caught:
+        Fault(Place("a.yaml", 1, 1), "blocks", "is missing")  # type: ignore[arg-type]
+    assert str(caught.value) == "a fault takes a Message, which has an identifier, not 'is missing'"
+
+
+@pytest.mark.parametrize(
+    ("error", "identifier"),
+    [
+        (FileError("file-missing", "a.yaml: does not exist"), "file-missing"),
+        (MemoryError(), "out-of-memory"),
+        (PermissionError(), "file-system"),
+        (KeyError("a"), "internal-error"),
+    ],
+)
+def test_every_error_has_an_identifier(error: Exception, identifier: str) -> None:
+    assert identifiers_of(error) == [identifier]
