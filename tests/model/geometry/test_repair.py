@@ -226,3 +226,10 @@ def test_a_face_listed_twice_goes_whatever_the_numbers_of_its_corners(order: lis
     geometry = repaired(raw((renumbered, faces)))
     assert volumes(geometry) == [1]
     assert told(geometry) == ["1 face listed twice was left out"]
+
+
+@pytest.mark.parametrize("indexed", [False, True])
+def test_of_nothing_nothing_is_left(indexed: bool) -> None:
+    geometry = repair(Geometry(join_polyhedra([]), indexed=indexed), 1e-3, 0.1)
+    assert len(geometry.polyhedra) == 0
+    assert geometry.notices == ()
