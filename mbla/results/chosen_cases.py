@@ -17,7 +17,9 @@ def chosen_cases(results: Results, names: Sequence[str] | None) -> tuple[CaseRes
     return tuple(case for case in results.cases if names is None or case.load_case.name in names)
 
 
-def no_such_case(results: Results, name: str) -> UsageError:
-    """The error for a name that the result does not have."""
+def no_such_case(results: Results, name: str | None) -> UsageError:
+    """The error for a name that the result does not have, or for any case where it has none."""
+    if name is None:
+        return UsageError("unknown-load-case", "the result has no load case")
     known = ", ".join(case.load_case.name for case in results.cases) or "none"
     return UsageError("unknown-load-case", f"no load case {name} in the result; it has {known}")

@@ -37,7 +37,7 @@ def _deck(comparison: Comparison) -> list[str]:
     shown = comparison.deck[:MOST_LINES]
     lines += [f"  {line}" for line in shown] if shown else sentence("The texts are the same.")
     if len(comparison.deck) > len(shown):
-        lines += sentence(f"and {len(comparison.deck) - len(shown)} more lines; --json has them all")
+        lines += sentence(f"and {counted(len(comparison.deck) - len(shown), 'more line')}; --json has them all")
     for letter, overrides in zip("AB", comparison.overrides, strict=True):
         if comparison.overrides[0] != comparison.overrides[1]:
             lines += sentence(f"changed by the user in {letter}: {', '.join(overrides) or 'nothing'}")
@@ -121,7 +121,7 @@ def _case(case: CaseComparison) -> list[str]:
             f"reaction of {change.support}: changes by {vector(change.change, size)}, {share:.2g} of the loads"
         )
     if len(case.reactions) > MOST_NAMED:
-        lines += sentence(f"and {len(case.reactions) - MOST_NAMED} more reactions")
+        lines += sentence(f"and {counted(len(case.reactions) - MOST_NAMED, 'more reaction')}")
     return lines + sentence(f"solved in {case.seconds[0]:.3g} s in A, {case.seconds[1]:.3g} s in B")
 
 
@@ -153,7 +153,9 @@ def _modes(case: CaseComparison) -> list[str]:
         place = f"{change.bodies} at {vector(change.centroid, size)}"
         lines += sentence(f"interface {place}: {change.modes[0]} in A, {change.modes[1]} in B", "    ")
     if len(modes.interfaces) > MOST_NAMED:
-        lines += sentence(f"and {len(modes.interfaces) - MOST_NAMED} more interfaces; --json has them all", "    ")
+        lines += sentence(
+            f"and {counted(len(modes.interfaces) - MOST_NAMED, 'more interface')}; --json has them all", "    "
+        )
     return lines
 
 

@@ -23,7 +23,7 @@ WARNING = "#B00020"
 """marks figures that are no result"""
 
 GROUPS = ("#F2C36B", "#A6D3F0", "#7CC7AE", "#F4EE9B", "#7FB2D6", "#EDAE86", "#E3BAD1", "#D9D9D9")
-"""light tints of the eight, for groups of blocks in their order; what follows begins again, with a hatch"""
+"""light tints of the eight, for groups of blocks in their order; what follows begins again"""
 
 
 def rgb(colour: str) -> tuple[float, float, float]:

@@ -70,7 +70,7 @@ def _chosen_cases(results: Results, name: str | None) -> list[CaseResult]:
     chosen = [each for each in results.cases if name in (None, each.load_case.name)]
     chosen = chosen or [each for each in results.cases if name == each.load_case.deck_name]
     if not chosen:
-        raise no_such_case(results, name or "")
+        raise no_such_case(results, name)
     return chosen
 
 

@@ -8,7 +8,7 @@ from mbla.model.model import Model
 from mbla.results.results import CaseResult
 from mbla.results.series import Series, factor_of, position_of
 from mbla.results.words.answer_words import status_name
-from mbla.results.words.text import heading, number, sentence, table, vector
+from mbla.results.words.text import counted, heading, number, sentence, table, vector
 
 
 def series_lines(model: Model, series: Series) -> list[str]:
@@ -21,7 +21,7 @@ def series_lines(model: Model, series: Series) -> list[str]:
 
 def worst_words(model: Model, series: Series) -> str:
     """``worst at position 6 of 21, (1.2, 0.5, 3) m: load factor 2.31``."""
-    among = "" if series.complete else f" among the {len(series.cases)} positions solved"
+    among = "" if series.complete else f" among the {counted(len(series.cases), 'position')} solved"
     if series.worst is None:
         unknown = [case for case in series.cases if not factor_of(case) > 0]
         if not unknown:

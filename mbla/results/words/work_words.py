@@ -5,7 +5,7 @@ from __future__ import annotations
 from mbla.contacts.contacts import Contacts
 from mbla.model.model import LoadCase, Model
 from mbla.results.collapse.work import Work, dissipated_by_joint, loads_by_group
-from mbla.results.words.text import sentence, table
+from mbla.results.words.text import counted, sentence, table
 from mbla.solution.solution import Mechanics
 
 MOST_ROWS = 20
@@ -72,5 +72,5 @@ def _group_table(model: Model, load_case: LoadCase, mechanics: Mechanics, work: 
     rows = [row for row in shares if float(row[1]) or float(row[2])]
     if len(rows) < 2:
         return []
-    more = sentence(f"and {len(rows) - MOST_ROWS} more groups") if len(rows) > MOST_ROWS else []
+    more = sentence(f"and {counted(len(rows) - MOST_ROWS, 'more group')}") if len(rows) > MOST_ROWS else []
     return table(["group", "live load [%]", "into its dead load [%]"], rows[:MOST_ROWS]) + more

@@ -12,6 +12,7 @@ from mbla.results.pictures.plane.flat import Flat, face_polygons, seen_edges
 from mbla.results.pictures.plane.sheet import Sheet
 from mbla.results.pictures.scene import Scene
 from mbla.results.pictures.tints import tint_of_part
+from mbla.results.words.text import counted
 
 FIXED_HATCH, GUIDE_HATCH = "////", "oo"
 MANY = 300
@@ -86,7 +87,7 @@ def colours_by_group(sheet: Sheet, scene: Scene) -> list[str]:
     for name, colour in list(of_group.items())[:MOST_GROUPS]:
         sheet.name_area(name, facecolor=colour, edgecolor=INK, linewidth=0.5)
     if len(of_group) > MOST_GROUPS:
-        sheet.name(f"and {len(of_group) - MOST_GROUPS} more groups", linestyle="none")
+        sheet.name(f"and {counted(len(of_group) - MOST_GROUPS, 'more group')}", linestyle="none")
     return [of_group[name] for name in blocks.groups]
 
 

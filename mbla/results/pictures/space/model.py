@@ -10,6 +10,7 @@ from mbla.results.pictures.space.drawing import Drawing
 from mbla.results.pictures.space.loads import all_load_arrows
 from mbla.results.pictures.space.shapes import Shape, rgb
 from mbla.results.pictures.space.structure import SLAB, block_faces, edge_lines, grounds
+from mbla.results.words.text import counted
 
 MOST_GROUPS = 10
 """names of groups in a legend"""
@@ -26,7 +27,7 @@ def model_drawing(scene: Scene) -> Drawing:
     free_groups = dict.fromkeys(group for group, held in zip(blocks.groups, fixed, strict=True) if not held)
     names = list(free_groups)
     legend = [(name, tint[name]) for name in names[:MOST_GROUPS]]
-    notes = (f"and {len(names) - MOST_GROUPS} more groups",) if len(names) > MOST_GROUPS else ()
+    notes = (f"and {counted(len(names) - MOST_GROUPS, 'more group')}",) if len(names) > MOST_GROUPS else ()
     if fixed.any():
         legend.append(("fixed blocks", FIXED_BLOCK))
     if scene.slabs:

@@ -9,6 +9,7 @@ import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.results.pictures.options import PictureOptions
+from mbla.results.words.text import counted
 from mbla.studies.sweep.answers import Answer, answers_of
 from mbla.studies.sweep.pictures.axes import Axis
 from mbla.studies.sweep.pictures.cells import NO_POINT, Cells, pooled
@@ -23,8 +24,8 @@ MARKERS = ("o", "s", "^", "D", "v", "P", "<", "X", ">", "p")
 
 def refusal(view: View) -> str:
     """Why there can be no curves, or nothing."""
-    if view.answers.categories:
-        return "the result is text; map and scatter show it"
+    if view.text_refused:
+        return view.text_refused
     return "" if view.axes else "no parameter has two values of a grid; scatter shows samples"
 
 
@@ -168,5 +169,6 @@ def _notes(view: View, chosen: list[Axis], cells: Cells, bounds: Any) -> list[st
     if bounds:
         notes.append("band: static to kinematic bound")
     if (cells.answer == NO_POINT).any():
-        notes.append(f"{(cells.answer == NO_POINT).sum()} combinations have no point")
+        empty = int((cells.answer == NO_POINT).sum())
+        notes.append(f"{counted(empty, 'combination')} {'has' if empty == 1 else 'have'} no point")
     return notes

@@ -54,8 +54,8 @@ class Cumulative:
 
 def refusal(view: View) -> str:
     """Why there can be no distribution, or nothing."""
-    if view.answers.categories:
-        return "the result is text; map and scatter show it"
+    if view.text_refused:
+        return view.text_refused
     count = len(_groups(view))
     if count > MOST_CURVES:
         return f"{count} combinations of the other parameters; {MOST_CURVES} have room, choose one with --by"

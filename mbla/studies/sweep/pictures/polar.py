@@ -29,15 +29,13 @@ LEAST_ROOM = 1e-9
 
 def refusal(view: View) -> str:
     """Why there can be no polar diagram, or nothing."""
-    if view.answers.categories and _azimuth(view) is None:
-        return "the result is text; map and scatter show it"
+    if view.text_refused:
+        return view.text_refused
     if sphere.directions(view) is not None:
         return sphere.refusal(view)
     column = _azimuth(view)
     if column is None:
         return "no parameter is a direction around the horizon of a grid, or over a sphere"
-    if view.answers.categories:
-        return "the result is text; map and scatter show it"
     return "" if len(axis_of(view.table, column).levels) > 2 else "needs three directions"
 
 

@@ -105,8 +105,7 @@ def dress(sheet: Sheet, axes: Any, x: str = "", y: str = "", title: str = "") ->
     axes.tick_params(labelsize=sheet.small, colors=INK)
     axes.grid(visible=True, color="#DDDDDD", linewidth=0.6, zorder=0)
     axes.set_axisbelow(True)
-    if axes.name == "rectilinear":
-        axes.spines[["top", "right"]].set_visible(False)
+    axes.spines[["top", "right"]].set_visible(False)
     for text in (
         axes.set_xlabel(x, fontsize=sheet.small, color=INK),
         axes.set_ylabel(y, fontsize=sheet.small, color=INK),

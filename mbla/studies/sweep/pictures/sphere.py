@@ -35,8 +35,6 @@ def directions(view: View) -> tuple[FloatArray, FloatArray] | None:
 
 def refusal(view: View) -> str:
     """Why there can be no map of the sphere, or nothing."""
-    if view.answers.categories:
-        return "the result is text; scatter shows it"
     others = len(view.table.dimensions) - 1
     if others:
         sizes = [dimension.size for dimension in view.table.dimensions]

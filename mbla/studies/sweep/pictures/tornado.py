@@ -29,8 +29,8 @@ INTERVAL = f"{CONFIDENCE:.0%} interval"
 
 def refusal(view: View) -> str:
     """Why there can be no tornado, or nothing."""
-    if view.answers.categories:
-        return "the result is text; map and scatter show it"
+    if view.text_refused:
+        return view.text_refused
     if view.sampled:
         good = int(view.answers.good.sum())
         if good < LEAST_POINTS:

@@ -41,9 +41,13 @@ class View:
         """Parameters that are sampled."""
         return tuple(column for column in design_columns(self.table) if is_sampled(self.table, column.dimension))
 
-    def only(self, numeric: bool) -> tuple[Axis, ...]:
-        """Axes that are numbers, or those that are not."""
-        return tuple(axis for axis in self.axes if axis.categorical is not numeric)
+    @property
+    def text_refused(self) -> str:
+        """Why there can be no picture of numbers where the result is text, and what shows it; or nothing."""
+        if not self.answers.categories:
+            return ""
+        shown = "map and scatter show it" if len(self.axes) > 1 else "scatter shows it"
+        return f"the result is text; {shown}"
 
 
 def view_of(table: SweepTable, result: SweepColumn, by: str = "", demands: tuple[float, ...] = ()) -> View:

@@ -98,12 +98,13 @@ def test_without_ground_there_is_no_slab() -> None:
     assert lines.points[:, 2].max() == pytest.approx(0.0)
 
 
-def test_of_many_groups_the_others_are_counted() -> None:
-    drawing = model_drawing(scene(row_of_blocks(MOST_GROUPS + 2), "model"))
+@pytest.mark.parametrize(("more", "told"), [(1, "and 1 more group"), (2, "and 2 more groups")])
+def test_of_many_groups_the_others_are_counted(more: int, told: str) -> None:
+    drawing = model_drawing(scene(row_of_blocks(MOST_GROUPS + more), "model"))
     names = [name for name, _ in drawing.legend]
     assert names[:MOST_GROUPS] == [f"group {i + 1}" for i in range(MOST_GROUPS)]
     assert f"group {MOST_GROUPS + 1}" not in names
-    assert drawing.notes == ("and 2 more groups",)
+    assert drawing.notes == (told,)
 
 
 @pytest.mark.parametrize("sense", [1.0, -1.0])

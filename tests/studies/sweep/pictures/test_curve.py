@@ -105,13 +105,16 @@ def test_of_several_points_a_line_is_the_median_and_the_band_their_range(tmp_pat
     assert "static to kinematic" not in words(figures[0])
 
 
-def test_combinations_without_a_point_are_counted(tmp_path: Path, figures: list[Any]) -> None:
-    places = [(0, 0), (1, 0), (1, 1), (2, 0)]
+@pytest.mark.parametrize(("more", "told"), [([], "2 combinations have"), ([(2, 1)], "1 combination has")])
+def test_combinations_without_a_point_are_counted(
+    tmp_path: Path, figures: list[Any], more: list[tuple[int, int]], told: str
+) -> None:
+    places = [(0, 0), (1, 0), (1, 1), (2, 0), *more]
     rows = [{"mu": 1.0 + i, "thickness": 1.0 + j} for i, j in places]
     table = table_of(rows, lambda mu, thickness: mu, [("mu", 3), ("thickness", 2)], places,
                      {"mu": "mu", "thickness": "thickness"})  # fmt: skip
     draw(table, tmp_path, "curve", by="mu")
     first, second = curves(figures[0].axes[0])
     assert first.get_ydata().tolist() == [1.0, 2.0, 3.0]
-    assert np.array_equal(second.get_ydata(), [np.nan, 2.0, np.nan], equal_nan=True)
-    assert "2 combinations have no point" in words(figures[0])
+    assert np.array_equal(second.get_ydata(), [np.nan, 2.0, 3.0 if more else np.nan], equal_nan=True)
+    assert f"{told} no point" in words(figures[0])

@@ -95,7 +95,7 @@ def test_a_far_value_does_not_make_hundreds_of_bars(tmp_path: Path, figures: lis
         (over_heights(13, lambda height, mu: mu), {},
          "13 combinations of the other parameters; 12 have room, choose one with --by"),
         (over_heights(2, lambda height, mu: mu), {"result": "mechanism.class"},
-         "the result is text; map and scatter show it"),
+         "the result is text; scatter shows it"),
     ],
 )  # fmt: skip
 def test_what_is_not_drawn_is_refused_with_the_reason(swept: SweepTable, changes: Any, told: str) -> None:

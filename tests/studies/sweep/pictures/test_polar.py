@@ -64,8 +64,10 @@ def text_of(**values: float) -> Row:
 @pytest.mark.parametrize(
     ("swept", "result", "told"),
     [
-        (grid({"azimuth": QUARTERS}, text_of), "mechanism.class", "the result is text; map and scatter show it"),
-        (grid({"mu": [1.0, 2.0]}, text_of), "mechanism.class", "the result is text; map and scatter show it"),
+        (grid({"azimuth": QUARTERS}, text_of), "mechanism.class", "the result is text; scatter shows it"),
+        (grid({"mu": [1.0, 2.0]}, text_of), "mechanism.class", "the result is text; scatter shows it"),
+        (grid({"azimuth": QUARTERS, "mu": [1.0, 2.0]}, text_of), "mechanism.class",
+         "the result is text; map and scatter show it"),
         (grid({"azimuth": QUARTERS[:2]}, text_of), None, "needs three directions"),
         (sphere(OVER[:2], {}, text_of), None, "needs three directions"),
         (sphere(OVER, {"mu": [1.0, 2.0]}, text_of), None,
