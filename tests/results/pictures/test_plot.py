@@ -181,7 +181,7 @@ def test_a_result_without_cases_has_no_pictures(tmp_path: Path, results: Results
     written = write_outputs(replace(results, cases=()), tmp_path, "tower", False, False, 2, True)
     assert not [name for name in written if name.endswith(".png")]
     assert pictures_of(results, (), PictureOptions()) == []
-    with pytest.raises(UsageError, match="^the result has no load case"):
+    with pytest.raises(UsageError, match=r"^the result has no load case"):
         plot_results(replace(results, cases=()), tmp_path, "tower")
 
 
