@@ -11,7 +11,7 @@ import logging
 import re
 import zlib
 from collections.abc import Iterator, Mapping, Sequence
-from functools import partial
+from functools import cache, partial
 from itertools import chain
 from pathlib import Path
 from types import SimpleNamespace
@@ -33,17 +33,15 @@ from mbla.model.geometry.mesh_counts import (
     refuse_other_lines,
     refuse_other_sections,
 )
+from mbla.model.geometry.vtu_cells import CELLS, VARIABLE, checked_cells, refuse_other_faces
 from mbla.model.geometry.welding import own_vertices
 from mbla.model.polyhedra import Polyhedra, join_polyhedra, polyhedra_from_cells
 
 SURFACE_CELLS = {"triangle": 3, "VTK_LAGRANGE_TRIANGLE": 3, "quad": 4, "VTK_LAGRANGE_QUADRILATERAL": 4, "polygon": 0}
 """number of corners; 0 where it is that of the cell"""
 WORDS = {"ply": "PLY", "vtu": "VTU", "gmsh": "Gmsh .msh"}
-PIXEL = (0, 1, 3, 2)
-"""corners of a VTK pixel in order around it"""
-
-
 WITHOUT_DIMENSION = {"wedge12": 3, "wedge15": 3, "pyramid13": 3, "hexahedron24": 3, "penta_prism": 3, "hexa_prism": 3}
+WITHOUT_DIMENSION |= {"quad6": 2, "triangle7": 2}
 """cells that meshio's readers know and its mesh does not, for want of a number of dimensions"""
 COMPRESSION = 1
 """level of zlib in VTU files, which meshio cannot be told: coordinates and forces hardly get smaller by a higher one
@@ -101,7 +99,7 @@ def _read(source: str | io.BytesIO, file_format: str) -> tuple[Geometry, Any]:
     volumes = [
         block for block in mesh.cells if _shape(block.type) in VOLUME_CELLS or block.type.startswith("polyhedron")
     ]
-    surfaces = [block for block in mesh.cells if _shape(block.type) in SURFACE_CELLS or block.type == "pixel"]
+    surfaces = [block for block in mesh.cells if _shape(block.type) in SURFACE_CELLS]
     used = volumes or surfaces
     left_out = [block for block in mesh.cells if not any(block is other for other in used)]
     notices = [*remarks, *_left_out(left_out, bool(volumes)), *unused_points(len(points), _rows_of(mesh))]
@@ -154,7 +152,7 @@ def _mesh(source: str | io.BytesIO, file_format: str) -> tuple[Any, list[Notice]
         with contextlib.redirect_stdout(printed), contextlib.redirect_stderr(printed), np.errstate(all="ignore"):
             # the reader itself: meshio.read prints, and ends the program, where a file is malformed
             mesh = getattr(meshio, file_format).read(source)
-    except MemoryError:
+    except (GeometryFileError, MemoryError):
         raise
     except OSError as error:
         raise GeometryFileError("file-unreadable", f"cannot be read: {error.strerror or error}") from error
@@ -166,14 +164,28 @@ def _mesh(source: str | io.BytesIO, file_format: str) -> tuple[Any, list[Notice]
     return mesh, [Notice("warning", "mesh-file-remarks", words[:500])] if words else []
 
 
+@cache
 def _meshio() -> Any:
     """The library, imported late, for it takes half a second, and completed."""
     import meshio
+    from meshio._common import num_nodes_per_cell
     from meshio._mesh import topological_dimension
     from meshio.vtu import _vtu
 
     for kind, dimension in WITHOUT_DIMENSION.items():
         topological_dimension.setdefault(kind, dimension)
+    for number in CELLS.keys() - VARIABLE:
+        num_nodes_per_cell.setdefault(*CELLS[number])
+    cells_of, polyhedra_of = _vtu.vtk_cells_from_data, _vtu._polyhedron_cells_from_data
+
+    def checked_cells_of(points: IntArray, offsets: IntArray, types: IntArray, data: Any) -> Any:
+        return cells_of(*checked_cells(points, offsets, types), data) if len(types) else ([], {})
+
+    def checked_polyhedra_of(offsets: IntArray, faces: IntArray, ends: IntArray, data: Any) -> Any:
+        refuse_other_faces(faces, ends)
+        return polyhedra_of(offsets, faces, ends, data)
+
+    _vtu.vtk_cells_from_data, _vtu._polyhedron_cells_from_data = checked_cells_of, checked_polyhedra_of
     _vtu.zlib = SimpleNamespace(compress=partial(zlib.compress, level=COMPRESSION), decompress=zlib.decompress)
     return meshio
 
@@ -218,8 +230,6 @@ def _polyhedron_cells(points: FloatArray, cells: Any) -> Polyhedra:
 
 def _surface_cells(block: Any) -> Iterator[Sequence[int]]:
     rows = np.asarray(block.data, dtype=np.int64)
-    if block.type == "pixel":
-        rows = rows[:, PIXEL]
     count = SURFACE_CELLS.get(_shape(block.type), 0)
     yield from (rows[:, :count] if count else rows).tolist()
 

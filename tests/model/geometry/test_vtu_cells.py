@@ -1,0 +1,161 @@
+"""Cells of VTU files: those of too many or too few points are refused, pixels and voxels turned into what they are."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from mbla.model.geometry import read_geometry
+from mbla.model.geometry.geometry import Geometry, GeometryFileError
+from mbla.model.geometry.meshio_files import write_mesh
+from mbla.model.geometry.repair import repair
+from mbla.model.geometry.vtu_cells import BY_AXES, CELLS, VARIABLE
+from tests.model.shapes import box, build_raw
+
+CUBE = [list(map(float, corner)) for corner in box()[0]]
+ALONG_AXES = [[x, y, z] for z in (0, 1) for y in (0, 1) for x in (0, 1)]
+
+
+def vtu(
+    path: Path,
+    points: Sequence[Sequence[float]],
+    cells: Sequence[int],
+    offsets: Sequence[int],
+    types: Sequence[int],
+    kind: str = "Int64",
+) -> Geometry:
+    """What is read of a file of these lists.
+
+    kind : of numbers of the offsets
+    """
+    lists = {"connectivity": ("Int64", cells), "offsets": (kind, offsets), "types": ("UInt8", types)}
+    arrays = [
+        f'<DataArray type="{each}" Name="{name}" format="ascii">{" ".join(map(str, values))} </DataArray>'
+        for name, (each, values) in lists.items()
+    ]
+    places = " ".join(str(value) for point in points for value in point)
+    path.write_text(
+        '<VTKFile type="UnstructuredGrid" version="1.0" byte_order="LittleEndian"><UnstructuredGrid>'
+        f'<Piece NumberOfPoints="{len(points)}" NumberOfCells="{len(types)}"><Points>'
+        f'<DataArray type="Float64" NumberOfComponents="3" format="ascii">{places}</DataArray></Points>'
+        f"<Cells>{''.join(arrays)}</Cells></Piece></UnstructuredGrid></VTKFile>"
+    )
+    return read_geometry(path)
+
+
+def volumes(geometry: Geometry) -> list[float]:
+    built = build_raw(geometry.polyhedra)
+    assert not built.defects
+    return [float(volume) for volume in built.blocks.volumes]
+
+
+@pytest.mark.parametrize(
+    ("cells", "offsets", "types", "message"),
+    [
+        (range(7), [7], [12], "cell 0 (from 0), a hexahedron, has 7 points and needs 8"),
+        ([*range(8), *range(7)], [8, 15], [12, 12], "cell 1 (from 0), a hexahedron, has 7 points and needs 8"),
+        ([*range(8), 0, *range(8)], [8, 17], [12, 12], "cell 1 (from 0), a hexahedron, has 9 points and needs 8"),
+        ([*range(8), *range(3)], [8, 11], [12, 10], "cell 1 (from 0), a tetra, has 3 points and needs 4"),
+        ([*range(8), *range(4)], [4, 3], [10, 10], "cell 1 (from 0), a tetra, has -1 points and needs 4"),
+        (range(2), [2], [7], "cell 0 (from 0), a polygon, has 2 points and needs at least 3"),
+        (range(3), [3], [70], "cell 0 (from 0), a VTK_LAGRANGE_QUADRILATERAL, has 3 points and needs at least 4"),
+        (range(7), [8], [12], "its cells have 8 points by their offsets and 7 in their list"),
+        ([0, *range(8)], [8], [12], "its cells have 8 points by their offsets and 9 in their list"),
+    ],
+)
+@pytest.mark.parametrize("kind", ["Int32", "Int64"])
+def test_cells_of_too_few_and_too_many_points(
+    tmp_path: Path, cells: Sequence[int], offsets: list[int], types: list[int], message: str, kind: str
+) -> None:
+    with pytest.raises(GeometryFileError) as caught:
+        vtu(tmp_path / "x.vtu", CUBE, cells, offsets, types, kind)
+    assert str(caught.value) == f"is not a well-formed VTU file: {message}"
+
+
+@pytest.mark.parametrize("kind", [0, 4, 75, 99])
+def test_a_type_that_is_not_read_is_named(tmp_path: Path, kind: int) -> None:
+    with pytest.raises(GeometryFileError) as caught:
+        vtu(tmp_path / "x.vtu", CUBE, [*range(8), 0, 1, 2], [8, 11], [12, kind])
+    words = f"cell 1 (from 0) cannot be read: it is of VTK type {kind}; export the mesh without such cells"
+    assert str(caught.value) == words
+
+
+@pytest.mark.parametrize("kind", ["UInt8", "UInt64", "Int32"])
+def test_whole_cells_of_two_types(tmp_path: Path, kind: str) -> None:
+    geometry = vtu(tmp_path / "x.vtu", CUBE, [*range(8), 0, 1, 3, 4], [8, 12], [12, 10], kind)
+    assert volumes(geometry) == pytest.approx([1, 1 / 6])
+
+
+def test_voxels_are_hexahedra(tmp_path: Path) -> None:
+    geometry = vtu(tmp_path / "x.vtu", [*CUBE, *ALONG_AXES], range(16), [8, 16], [12, 11])
+    assert geometry.cells
+    assert volumes(geometry) == pytest.approx([1, 1])
+
+
+def test_pixels_are_quadrilaterals(tmp_path: Path) -> None:
+    faces = [[0, 1, 2, 3], [4, 5, 6, 7], [0, 1, 4, 5], [2, 3, 6, 7], [0, 2, 4, 6], [1, 3, 5, 7]]
+    corners = [corner for face in faces for corner in face]
+    geometry = vtu(tmp_path / "x.vtu", ALONG_AXES, corners, range(4, 25, 4), [8] * 6)
+    assert volumes(repair(geometry, 1e-3)) == pytest.approx([1])
+
+
+@pytest.mark.parametrize("kind", sorted(CELLS))
+def test_every_type_is_read_or_left_out(tmp_path: Path, kind: int) -> None:
+    """A tetrahedron beside it, so that there is a block."""
+    name, nodes = CELLS[kind]
+    points = [*CUBE, *([0.1 * i, 0.2 * i, 3.0 + i] for i in range(20))]
+    corners = [0, 1, 3, 4, *range(nodes)]
+    geometry = vtu(tmp_path / "x.vtu", points, corners, [4, 4 + nodes], [10, kind])
+    left_out = [notice.message for notice in geometry.notices if notice.identifier == "mesh-cells-left-out"]
+    read = CELLS[BY_AXES[kind][0]][0] if kind in BY_AXES else name
+    assert len(geometry.polyhedra) == (2 if not left_out and kind != 1 else 1)
+    assert not left_out or left_out[0].startswith(f"cells were left out: 1 of type {read};")
+
+
+def test_cells_of_a_variable_number_of_points(tmp_path: Path) -> None:
+    assert {CELLS[kind][0].rpartition("_")[0] for kind in VARIABLE} == {"", "VTK_LAGRANGE"}
+    points = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 2, 0]]
+    geometry = vtu(tmp_path / "x.vtu", points, [0, 1, 2, 0, 1, 2, 3, 4], [3, 8], [7, 7])
+    assert np.diff(geometry.polyhedra.loop_start).tolist() == [3, 5]
+
+
+def test_a_file_of_points_alone_holds_no_blocks(tmp_path: Path) -> None:
+    with pytest.raises(GeometryFileError, match=r"^the file holds no blocks: "):
+        vtu(tmp_path / "x.vtu", CUBE, [], [], [])
+
+
+@pytest.mark.parametrize(
+    ("number", "other"),
+    [(0, 7), (0, 5), (0, -1), (1, 5), (1, 3), (1, -4), (1, 99), (26, 5), (26, 3), ("end", 30), ("end", 32)],
+)
+def test_polyhedra_of_too_few_and_too_many_faces_or_points(tmp_path: Path, number: int | str, other: int) -> None:
+    """One of the numbers of faces and of points is another, or where the faces of the first polyhedron end."""
+    vertices, faces = box()
+    path = tmp_path / "cells.vtu"
+    cells = [[np.array(face) + first for face in faces] for first in (0, 8)]
+    points = np.concatenate([np.array(vertices, dtype=float), np.array(vertices, dtype=float) + 5])
+    write_mesh(path, points, [("polyhedron8", cells)])
+    assert volumes(read_geometry(path)) == pytest.approx([1, 1])
+    listed = [n for cell in cells for n in (6, *(n for face in cell for n in (4, *face.tolist())))]
+    ends = [31, 62]
+    if isinstance(number, int):
+        listed[number] = other
+    else:
+        ends[0] = other
+    text = path.read_text()
+    for name, values in (("faces", listed), ("faceoffsets", ends)):
+        text = re.sub(
+            f'<DataArray[^>]*Name="{name}"[^>]*>[^<]*',
+            f'<DataArray type="Int64" Name="{name}" format="ascii">{" ".join(map(str, values))}',
+            text,
+        )
+    path.write_text(text)
+    with pytest.raises(GeometryFileError) as caught:
+        read_geometry(path)
+    assert str(caught.value) == (
+        "is not a well-formed VTU file: the faces of polyhedron 0 (from 0) have more or fewer points than they announce"
+    )
