@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable
 from pathlib import Path
 
@@ -38,12 +39,17 @@ LEAST_MEMORY, MEMORY_PER_BYTE = 96 * 1024**2, 60
 """bytes that reading may take: libraries believe the sizes that files announce, and unpack what is packed"""
 
 
+def _unreadable(error: OSError) -> GeometryFileError:
+    return GeometryFileError("file-unreadable", f"cannot be read: {error.strerror or error}")
+
+
 def _read_within_memory(reader: Callable[[Path], Geometry], path: Path) -> Geometry:
     """What a reader gives, in memory that is in proportion to the size of the file where the system can hold it to."""
     try:
-        size = path.stat().st_size
+        with path.open("rb") as file:  # a folder, and a file without permission, are refused here
+            size = os.fstat(file.fileno()).st_size
     except OSError as error:
-        raise GeometryFileError("file-unreadable", f"cannot be read: {error.strerror or error}") from error
+        raise _unreadable(error) from error
     if size > LARGEST_FILE:
         words = f"is larger than {LARGEST_FILE // 1024**2} MB: divide it into several files"
         raise GeometryFileError("geometry-too-large", words)
@@ -51,6 +57,8 @@ def _read_within_memory(reader: Callable[[Path], Geometry], path: Path) -> Geome
     try:
         with limited(most):
             return reader(path)
+    except OSError as error:
+        raise _unreadable(error) from error
     except MemoryError as error:
         raise GeometryFileError(
             "geometry-too-large",
@@ -64,7 +72,7 @@ def read_geometry(path: Path) -> Geometry:
     Raises
     ------
     GeometryFileError
-        for unknown extensions, malformed files, and files without blocks
+        for unknown extensions, files that cannot be read, malformed ones, and files without blocks
     """
     reader = READERS.get(path.suffix.lower())
     if reader is None:

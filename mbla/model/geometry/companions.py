@@ -17,5 +17,5 @@ def companions(path: Path) -> list[Path]:
             unquote(each["uri"]) for each in document["buffers"] if not each.get("uri", "data:").startswith("data:")
         ]
         return [file for name in names if (file := (path.parent / name).resolve()).is_file()]
-    except (ValueError, TypeError, KeyError, AttributeError):
+    except (OSError, RecursionError, ValueError, TypeError, KeyError, AttributeError):
         return []

@@ -65,8 +65,6 @@ def read_compas_json(path: Path) -> Geometry:
         document = parse_json(path.read_bytes())
         found = _Found()
         _collect(document, _Context(), found)
-    except OSError as error:
-        raise GeometryFileError("file-unreadable", f"cannot be read: {error.strerror or error}") from error
     except RecursionError as error:
         raise GeometryFileError("geometry-file", "is not a COMPAS file: its JSON is nested too deeply") from error
     except (KeyError, IndexError, TypeError, ValueError, AttributeError, OverflowError) as error:

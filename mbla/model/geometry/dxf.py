@@ -67,7 +67,9 @@ def read_dxf(path: Path) -> Geometry:
     except (GeometryFileError, MemoryError):
         raise
     except Exception as error:  # damaged files let all kinds of exceptions through, some when an entity is looked at
-        reason = " ".join(str(getattr(error, "strerror", None) or error).split())
+        if isinstance(error, OSError) and error.strerror:
+            raise
+        reason = " ".join(str(error).split())
         raise GeometryFileError("geometry-file", f"is not a well-formed DXF file: {reason}"[:300]) from error
     notices = _close_networks(drawing)
     if not drawing.outlines:

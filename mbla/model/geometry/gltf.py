@@ -45,8 +45,6 @@ def read_gltf(path: Path) -> Geometry:
         document, binary = _parts(path.read_bytes())
         _check_version(document)
         return _geometry(document, Buffers(document, binary, path.parent))
-    except OSError as error:
-        raise GeometryFileError("file-unreadable", f"cannot be read: {error.strerror or error}") from error
     except (KeyError, IndexError, TypeError, ValueError, AttributeError, OverflowError, struct.error) as error:
         reason = f"lacks {error}" if isinstance(error, KeyError) else str(error)
         raise GeometryFileError("geometry-file", f"is not a well-formed glTF file: {reason}"[:300]) from error

@@ -68,7 +68,11 @@ class Buffers:
             raise GeometryFileError(
                 "file-missing", f"its buffer {name[:100]} is missing: a .gltf needs the .bin written with it"
             )
-        return path.read_bytes()
+        try:
+            return path.read_bytes()
+        except OSError as error:
+            words = f"its buffer {name[:100]} cannot be read: {error.strerror or error}"
+            raise GeometryFileError("file-unreadable", words) from error
 
 
 def read_accessor(document: dict[str, Any], number: int, buffers: Buffers) -> FloatArray:

@@ -84,10 +84,7 @@ def read_inp(path: Path) -> Geometry:
     GeometryFileError
         for malformed lines, with their number, and for cards that are not followed
     """
-    try:
-        text = path.read_text(encoding="utf-8", errors="replace")
-    except OSError as error:
-        raise GeometryFileError("file-unreadable", f"cannot be read: {error.strerror or error}") from error
+    text = path.read_text(encoding="utf-8", errors="replace")
     content = _read(text)
     if text.strip() and not content.nodes and not content.elements:
         raise GeometryFileError("geometry-file", "is not a well-formed Abaqus or CalculiX .inp file: it has no nodes")

@@ -50,10 +50,7 @@ COMPRESSION = 1
 
 def read_ply(path: Path) -> Geometry:
     """Closed parts of a PLY surface."""
-    try:
-        header, end, body = path.read_bytes().partition(b"end_header")
-    except OSError as error:
-        raise GeometryFileError("file-unreadable", f"cannot be read: {error.strerror or error}") from error
+    header, end, body = path.read_bytes().partition(b"end_header")
     if not end:  # meshio would look for it for ever
         raise GeometryFileError("geometry-file", "is not a well-formed PLY file: its header has no end")
     # both names are in use, meshio knows one
@@ -152,10 +149,8 @@ def _mesh(source: str | io.BytesIO, file_format: str) -> tuple[Any, list[Notice]
         with contextlib.redirect_stdout(printed), contextlib.redirect_stderr(printed), np.errstate(all="ignore"):
             # the reader itself: meshio.read prints, and ends the program, where a file is malformed
             mesh = getattr(meshio, file_format).read(source)
-    except (GeometryFileError, MemoryError):
+    except (GeometryFileError, MemoryError, OSError):
         raise
-    except OSError as error:
-        raise GeometryFileError("file-unreadable", f"cannot be read: {error.strerror or error}") from error
     except (Exception, SystemExit) as error:  # the readers let all kinds of exceptions through
         reason = " ".join(f"{printed.getvalue()} {error}".split())
         reason = f": {reason[:200]}" if reason and reason != type(error).__name__ else ""

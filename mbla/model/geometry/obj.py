@@ -119,12 +119,9 @@ def _lines(path: Path) -> Iterator[tuple[int, str]]:
     Raises
     ------
     GeometryFileError
-        for a file that cannot be read, or a line that is too long
+        for a line that is too long
     """
-    try:
-        text = path.read_text(encoding="utf-8", errors="replace")
-    except OSError as error:
-        raise GeometryFileError("file-unreadable", f"cannot be read: {error.strerror}") from error
+    text = path.read_text(encoding="utf-8", errors="replace")
     number = length = 0
     parts: list[str] = []
     for number, raw in enumerate(text.splitlines(), start=1):

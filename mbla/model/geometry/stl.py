@@ -25,10 +25,7 @@ def read_stl(path: Path) -> Geometry:
     GeometryFileError
         for files that are neither, or end amid a triangle
     """
-    try:
-        content = path.read_bytes()
-    except OSError as error:
-        raise GeometryFileError("file-unreadable", f"cannot be read: {error.strerror or error}") from error
+    content = path.read_bytes()
     n_triangles = int.from_bytes(content[80:HEADER], "little") if len(content) >= HEADER else -1
     if (
         n_triangles >= 0 and len(content) == HEADER + TRIANGLE * n_triangles

@@ -20,3 +20,5 @@ def test_none_for_others_and_for_what_cannot_be_read(tmp_path: Path) -> None:
     for name, text in (("a.obj", "v 0 0 0"), ("b.gltf", "no"), ("c.gltf", "[]"), ("d.gltf", '{"buffers": 3}')):
         (tmp_path / name).write_text(text, encoding="utf-8")
         assert companions(tmp_path / name) == []
+    (tmp_path / "folder.gltf").mkdir()
+    assert companions(tmp_path / "folder.gltf") == []

@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import base64
+import errno
 import json
 import struct
 from pathlib import Path
@@ -11,6 +12,7 @@ import pytest
 
 from mbla.model.geometry.geometry import Geometry, GeometryFileError
 from mbla.model.geometry.gltf import read_gltf
+from mbla.model.geometry.gltf_accessors import Buffers
 from mbla.model.geometry.repair import repair
 from tests.model.shapes import box, build_raw
 
@@ -90,6 +92,18 @@ def test_binary_file_with_its_own_buffer(tmp_path: Path) -> None:
     path.write_bytes(path.read_bytes()[:-20])
     with pytest.raises(GeometryFileError, match="ends amid a chunk"):
         read_gltf(path)
+
+
+def test_a_buffer_that_cannot_be_read_is_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def refuse(_: Path) -> bytes:
+        raise PermissionError(errno.EACCES, "Permission denied")
+
+    (tmp_path / "part.bin").write_bytes(b"")
+    monkeypatch.setattr(Path, "read_bytes", refuse)
+    with pytest.raises(GeometryFileError) as caught:
+        Buffers({"buffers": [{"byteLength": 168, "uri": "part.bin"}]}, None, tmp_path)[0]
+    assert str(caught.value) == "its buffer part.bin cannot be read: Permission denied"
+    assert caught.value.message.identifier == "file-unreadable"
 
 
 def test_a_buffer_beside_the_file(tmp_path: Path) -> None:

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import contextlib
+import errno
 from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 
 from mbla.model import geometry
-from mbla.model.geometry import LEAST_MEMORY, MEMORY_PER_BYTE, read_geometry
+from mbla.model.geometry import LEAST_MEMORY, MEMORY_PER_BYTE, READERS, read_geometry
 from mbla.model.geometry.geometry import Geometry, GeometryFileError
 
 TRIANGLE = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
@@ -78,7 +79,7 @@ def test_a_missing_file_is_told_as_such(tmp_path: Path) -> None:
         read_geometry(tmp_path / "none.obj")
 
 
-@pytest.mark.parametrize("suffix", [".obj", ".ply", ".stl", ".msh", ".inp", ".gltf", ".glb", ".json"])
+@pytest.mark.parametrize("suffix", READERS)
 def test_a_folder_by_the_name_of_a_file_cannot_be_read(tmp_path: Path, suffix: str) -> None:
     path = tmp_path / f"blocks{suffix}"
     path.mkdir()
@@ -86,3 +87,29 @@ def test_a_folder_by_the_name_of_a_file_cannot_be_read(tmp_path: Path, suffix: s
         read_geometry(path)
     assert str(caught.value) == "cannot be read: Is a directory"
     assert caught.value.message.identifier == "file-unreadable"
+
+
+@pytest.mark.skipif(not Path("/proc/self/mem").exists(), reason="no file that can be opened and not read")
+@pytest.mark.parametrize("suffix", READERS)
+def test_a_file_that_can_be_opened_and_not_read(tmp_path: Path, suffix: str) -> None:
+    path = tmp_path / f"blocks{suffix}"
+    path.symlink_to("/proc/self/mem")
+    with pytest.raises(GeometryFileError) as caught:
+        read_geometry(path)
+    assert str(caught.value) == "cannot be read: Input/output error"
+    assert caught.value.message.identifier == "file-unreadable"
+
+
+@pytest.mark.parametrize("suffix", READERS)
+def test_a_file_without_permission(tmp_path: Path, suffix: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Whoever runs the tests may read it, so the system's answer is put in its place."""
+
+    def refuse(path: Path, *_: object) -> None:
+        raise PermissionError(errno.EACCES, "Permission denied", str(path))
+
+    path = tmp_path / f"blocks{suffix}"
+    path.write_bytes(b"")
+    monkeypatch.setattr(Path, "open", refuse)
+    with pytest.raises(GeometryFileError) as caught:
+        read_geometry(path)
+    assert str(caught.value) == "cannot be read: Permission denied"
