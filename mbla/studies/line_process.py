@@ -31,7 +31,8 @@ LAST_WORDS = 2000
 class LineProcess:
     """One process after the other under one command; ``stop`` must be called in the end.
 
-    status : exit status of the last one of which ``death`` was asked, negative for a signal
+    status : exit status of the last one of which ``death`` was asked, negative for a signal; 0 where it had to be
+             stopped
     """
 
     def __init__(self, command: Sequence[str], environment: Mapping[str, str] | None = None) -> None:
@@ -89,9 +90,10 @@ class LineProcess:
         assert self._process is not None
         try:
             self.status = self._process.wait(PATIENCE)
+            words = self.words_of(self.status)
         except subprocess.TimeoutExpired:
             self.status = 0
-        words = self.words_of(self.status)
+            words = self._with_last_words("its process closed its output and did not end")
         self.stop()
         return words
 
@@ -101,8 +103,10 @@ class LineProcess:
             name = signal.Signals(-code).name if -code in list(signal.Signals) else f"signal {-code}"
             memory = ", as the system does where memory runs out" if name == "SIGKILL" else ""
             return f"its process was ended by {name}{memory}"
-        said = self.last_words()
-        return f"its process ended with status {code}" + (f": {said}" if said else "")
+        return self._with_last_words(f"its process ended with status {code}")
+
+    def _with_last_words(self, words: str) -> str:
+        return f"{words}: {said}" if (said := self.last_words()) else words
 
     def last_words(self) -> str:
         """The last line that it wrote to standard error; empty where there is none."""

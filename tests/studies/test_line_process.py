@@ -53,12 +53,15 @@ def test_an_answer_that_does_not_come_in_time() -> None:
     assert not process.runs()
 
 
-def test_one_that_closed_its_output_and_does_not_end_is_ended(monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.mark.parametrize(("says", "told"), [("", ""), ("print('tired', file=sys.stderr); ", ": tired")])
+def test_one_that_closed_its_output_and_does_not_end_is_ended(
+    monkeypatch: pytest.MonkeyPatch, says: str, told: str
+) -> None:
     monkeypatch.setattr(line_process, "PATIENCE", 0.1)
-    process = process_that("os.close(1); time.sleep(60)")
+    process = process_that(f"{says}os.close(1); time.sleep(60)")
     assert process.next(time.monotonic() + 30.0) is None
     assert process.runs()
-    assert process.death() == "its process ended with status 0"
+    assert process.death() == f"its process closed its output and did not end{told}"
     assert not process.runs()
 
 
