@@ -89,22 +89,19 @@ def refuse_other_lines(header: bytes, body: bytes) -> None:
 
 def refuse_other_length(header: bytes, body: bytes, mesh: Any) -> None:
     """GeometryFileError where a binary PLY file is longer or shorter than what was read of it."""
-    if b"list" in _properties(header, b"vertex"):
-        return
     widths = [
         WIDTHS[kind.decode()] for kind in re.findall(rb"property\s+(?!list)(\S+)", _properties(header, b"vertex"))
     ]
-    of_face = _properties(header, b"face")
-    single = [WIDTHS[kind.decode()] for kind in re.findall(rb"property\s+(?!list)(\S+)", of_face)]
     lists = [
-        (WIDTHS[a.decode()], WIDTHS[b.decode()]) for a, b in re.findall(rb"property\s+list\s+(\S+)\s+(\S+)", of_face)
+        (WIDTHS[a.decode()], WIDTHS[b.decode()])
+        for a, b in re.findall(rb"property\s+list\s+(\S+)\s+(\S+)", _properties(header, b"face"))
     ]
     if len(lists) != 1:
         return
     ((of_count, of_corner),) = lists
     cells = counts_of(mesh).cells
     corners = sum(int(np.size(block.data)) for block in mesh.cells)
-    length = len(mesh.points) * sum(widths) + cells * (of_count + sum(single)) + corners * of_corner
+    length = len(mesh.points) * sum(widths) + cells * of_count + corners * of_corner
     there = len(body) - 1 - body.startswith(b"\r\n")
     if there != length:
         raise GeometryFileError(

@@ -33,6 +33,7 @@ from mbla.model.geometry.mesh_counts import (
     refuse_other_lines,
     refuse_other_sections,
 )
+from mbla.model.geometry.ply_header import readable_header
 from mbla.model.geometry.vtu_cells import CELLS, VARIABLE, checked_cells, refuse_other_faces
 from mbla.model.geometry.welding import own_vertices
 from mbla.model.polyhedra import Polyhedra, join_polyhedra, polyhedra_from_cells
@@ -53,9 +54,8 @@ def read_ply(path: Path) -> Geometry:
     header, end, body = path.read_bytes().partition(b"end_header")
     if not end:  # meshio would look for it for ever
         raise GeometryFileError("geometry-file", "is not a well-formed PLY file: its header has no end")
-    # both names are in use, meshio knows one
-    header = re.sub(rb"(property\s+list\s+\S+\s+\S+\s+)vertex_index\b", rb"\1vertex_indices", header)
     as_text = re.search(rb"\sformat\s+ascii\b", header) is not None
+    header = readable_header(header, as_text)
     if as_text:
         refuse_other_lines(header, body)
     geometry, mesh = _read(io.BytesIO(header + end + body), "ply")

@@ -43,28 +43,3 @@ def test_corners_of_a_face_are_told_without_its_other_properties(tmp_path: Path)
     )
     with pytest.raises(GeometryFileError, match=r"line 17 announces 4 corners and has 3$"):
         read_geometry(path)
-
-
-PLY = (
-    "ply\nformat {form} 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
-    "{points}element face 4\n{faces}property list uchar int vertex_indices\nend_header\n"
-)
-MARKS = "property list uchar uchar marks\n"
-
-
-@pytest.mark.parametrize(
-    ("form", "points", "faces", "reason"),
-    [
-        ("ascii", "", "property uchar red\n", ""),
-        ("binary_little_endian", MARKS, "", ": 'list uchar uchar'"),
-    ],
-)
-def test_ply_with_properties_that_the_reader_does_not_follow(
-    tmp_path: Path, form: str, points: str, faces: str, reason: str
-) -> None:
-    path = tmp_path / "x.ply"
-    body = "0 0 0\n1 0 0\n0 1 0\n0 0 1\n" + "".join(f"9 3 {a}\n" for a in ("0 2 1", "0 1 3", "0 3 2", "1 2 3"))
-    path.write_text(PLY.format(form=form, points=points, faces=faces) + body)
-    with pytest.raises(GeometryFileError) as caught:
-        read_geometry(path)
-    assert str(caught.value) == f"is not a well-formed PLY file{reason}"
