@@ -14,7 +14,7 @@ from tests.decks.folder import DECKS, ROOT
 from tests.line import BLOCK
 from tests.trust.counts import record_counts
 from tests.trust.supply.environments import LOWEST, NEWEST, environment, wheel
-from tests.trust.supply.exercise import attempts_in, exercise, guarded
+from tests.trust.supply.exercise import SWEEP, attempts_in, exercise, guarded
 from tests.trust.supply.own_tests import own_tests, read_ends
 
 CLAIM = (
@@ -61,6 +61,15 @@ def test_a_run_and_its_report_need_no_network(tmp_path: Path) -> None:
         assert done.returncode == 0, done.stderr
     assert attempts_in(tmp_path) == ()
     assert loads_of((tmp_path / "block.html").read_text(encoding="utf-8")) == []
+
+
+def test_a_sweep_in_two_processes_needs_no_network(tmp_path: Path) -> None:
+    """Dask asks for the way to a well-known machine to find the address of its own, unless it is told."""
+    (tmp_path / "block.yaml").write_text(BLOCK, encoding="utf-8")
+    (tmp_path / "sweep.yaml").write_text(SWEEP.replace("decks/tutorials/block.yaml", "block.yaml"), encoding="utf-8")
+    done = guarded(Path(sys.executable), ("-m", "mbla", "sweep", "sweep.yaml", "-j", "2", "-q"), tmp_path, SOURCES)
+    assert (done.returncode, done.stderr) == (0, "")
+    assert attempts_in(tmp_path) == ()
 
 
 def test_tests_that_fail_are_found(tmp_path: Path) -> None:

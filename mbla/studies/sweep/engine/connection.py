@@ -124,6 +124,7 @@ class Connection:
         """Workers inside this program, each with a process for its points: no port at which others find a scheduler."""
         dask, workers = self.dask, self._options.workers
         self._stack.enter_context(dask.configured(QUIET))
+        dask.inside._ip = LOOPBACK.split(":")[0]  # it would look for the way to another machine to find its own address
         node = {"protocol": "inproc://", "dashboard": False, "dashboard_address": LOOPBACK}
         cluster = dask.SpecCluster(
             scheduler={"cls": dask.Scheduler, "options": node},
@@ -242,6 +243,7 @@ def dask_parts() -> Any:
 
         from dask import config
         from distributed import Client, Scheduler, Security, SpecCluster, Worker
+        from distributed.comm.inproc import global_manager
         from distributed.scheduler import KilledWorker
     except ImportError as error:
         raise UsageError("extra-missing", MISSING) from error
@@ -254,6 +256,7 @@ def dask_parts() -> Any:
         KilledWorker=KilledWorker,
         cancelled=(Cancelled, CancelledError),
         configured=config.set,
+        inside=global_manager,
     )
 
 
