@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from dataclasses import dataclass
 from functools import cache
@@ -105,7 +106,12 @@ class Units:
             raise ValueRefused("wrong-unit", "must be a number without a unit")
         length, force, mass = DIMENSIONS[dimension].powers
         size = METRES[self.length] ** length * NEWTONS[self.force] ** force * KILOGRAMS[self.mass] ** mass
-        return number * (_si_factor(unit, dimension) / size)
+        value = number * (_si_factor(unit, dimension) / size)
+        if not math.isfinite(value):
+            raise ValueRefused("not-a-number", "is too large for a number")
+        if number and not value:
+            raise ValueRefused("not-a-number", "is too small for a number other than 0")
+        return value
 
 
 _TERM = r"[A-Za-zµμ°]{1,24}(?:(?:\^|\*\*)-?[1-9]|[²³])?"
@@ -180,13 +186,15 @@ def _factor_by_pint(unit: str, dimension: str) -> float | str:
         parsed = registry.parse_units(unit.replace("·", "*").replace("°", "degree"))
     except Exception:  # pint raises its own, tokenize's and plain errors on what it does not know
         return f'has an unknown unit "{unit}": write for example "{wanted.example}"'
-    root = registry.Quantity(1.0, parsed).to_root_units()
-    # To pint an angle is a plain ratio; `percent` must not pass for one.
-    is_angle = "radian" in str(root.units)
-    if parsed.dimensionality != registry.parse_units(wanted.si).dimensionality or is_angle != (dimension == "angle"):
-        found = _measured(registry, parsed, is_angle)
-        return f'is not {_article(shown)} {shown} but {found}: write for example "{wanted.example}"'
     try:
-        return float(registry.Quantity(1.0, parsed).to(wanted.si).magnitude)
-    except pint.errors.PintError:
-        return f'"{unit}" cannot be converted: write for example "{wanted.example}"'
+        root = registry.Quantity(1.0, parsed).to_root_units()
+        # To pint an angle is a plain ratio; `percent` must not pass for one.
+        is_angle = "radian" in str(root.units)
+        fits = parsed.dimensionality == registry.parse_units(wanted.si).dimensionality
+        if not fits or is_angle != (dimension == "angle"):
+            found = _measured(registry, parsed, is_angle)
+            return f'is not {_article(shown)} {shown} but {found}: write for example "{wanted.example}"'
+        factor = float(registry.Quantity(1.0, parsed).to(wanted.si).magnitude)
+    except (pint.errors.PintError, ArithmeticError):  # a logarithm in a product, a power beyond what a double holds
+        factor = 0.0
+    return factor if 0.0 < factor < math.inf else f'"{unit}" cannot be converted: write for example "{wanted.example}"'

@@ -37,6 +37,7 @@ SI = Units()
         (SI, " 5 kg / m^3 ", "density", 5.0),
         (SI, "100 m^-3 kg", "density", 100.0),
         (SI, "3 m\n", "length", 3.0),
+        (SI, "0 ym", "length", 0.0),
     ],
 )
 def test_conversion(units: Units, text: str, dimension: str, expected: float) -> None:
@@ -74,6 +75,18 @@ def test_example_of_every_dimension_is_one(dimension: str) -> None:
         ("3 " + "m*" * 8 + "m", "length", "must be a number"),
         ("1,5 m", "length", "must be a number"),
         ("٣ m", "length", "must be a number"),
+        ("5 dB*m", "length", r'"dB\*m" cannot be converted: write for example "30 cm"'),
+        ("5 dBm*s/m", "length", "cannot be converted"),
+        ("5 decade*m", "length", "cannot be converted"),
+        ("5 octave*m", "length", "cannot be converted"),
+        ("5 Np*m", "length", "cannot be converted"),
+        ("5 dB^2*m", "length", "cannot be converted"),
+        ("5 dB rad", "angle", 'cannot be converted: write for example "0.5 rad"'),
+        ("1 Ym^9*Ym^9*m^-9*m^-8", "length", "cannot be converted"),
+        ("1 ym^9*ym^9*m^-9*m^-8", "length", "cannot be converted"),
+        ("1 Ym^9/ym^9*m", "length", "cannot be converted"),
+        ("1e300 Ym", "length", "is too large for a number"),
+        ("-1e-310 ym", "length", "is too small for a number other than 0"),
     ],
 )
 def test_refusals(text: str, dimension: str, message: str) -> None:
