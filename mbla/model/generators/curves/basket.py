@@ -28,7 +28,7 @@ class Basket:
 
     @property
     def side_radius(self) -> float:
-        """Radius of the side arcs [length]; positive where ``rise`` exceeds ``least_rise``."""
+        """Radius of the side arcs [length]; positive where the rise exceeds k a."""
         k = _rise_over_half_span(self.side_angle)
         return (self.rise - k * self.span / 2) / (1 - k)
 
@@ -71,11 +71,6 @@ class Basket:
         beyond = np.maximum(np.abs(parameters) - (END - self.side_angle), 0.0)
         length = self.middle_radius * np.abs(parameters) + (self.side_radius - self.middle_radius) * beyond
         return np.asarray(np.sign(parameters) * length, dtype=np.float64)
-
-
-def least_rise(span: float, side_angle: float) -> float:
-    """Rise [length] at which the side arcs would have no radius; [rad]."""
-    return _rise_over_half_span(side_angle) * span / 2
 
 
 def _rise_over_half_span(side_angle: float) -> float:
