@@ -8,7 +8,7 @@ abutments and the top of the spandrels, less the openings under the chords of th
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 
 import numpy as np
@@ -73,7 +73,9 @@ def _units_of_spandrels(item: BridgeItem) -> float:
     top = max(rises) + item.thickness + item.cover
     gaps = 0.0 if item.piers is None else item.piers.width * (len(item.spans) - 1)
     length = sum(item.spans) + gaps + 2 * item.abutments.width
-    return length * top / (item.unit[0] * item.unit[1]) if math.isfinite(length * top) else 0.0
+    if not math.isfinite(length + top):
+        return 0.0
+    return max(length / item.unit[0], 1.0) * max(top / item.unit[1], 1.0)
 
 
 def generate_bridge(item: BridgeItem, site: Site) -> Generated:
@@ -206,12 +208,12 @@ def _across(item: BridgeItem, count: int) -> FloatArray:
 def _spandrels(item: BridgeItem, frame: _Frame) -> list[_Row]:
     assert item.unit is not None  # rules of the deck
     assert item.cover is not None
-    masonry = Masonry(*item.unit)
     outline = _outline(frame)
     crowns = np.array([section.line(-1)[:, 1].max() for section in frame.sections])
     top = float(crowns.max()) + item.cover
-    if not np.isfinite(top):
+    if not np.isfinite(top + frame.right - frame.left):
         return []  # coordinates beyond what a double holds: the voussoirs are refused
+    masonry = Masonry(*item.unit, extent=min(top, frame.right - frame.left))
     shelves = np.array([springer[:, 1].max() for springer in frame.springers if springer is not None])
     beds = bed_levels(outline, top, crowns, shelves, masonry)
     polygons: list[FloatArray] = []
@@ -265,8 +267,13 @@ def _along_both_faces(
 def _parapets(item: BridgeItem, frame: _Frame, masonry: Masonry, top: float, course: int) -> _Row:
     """One course on both faces, in bond with the course under it."""
     assert item.parapets is not None
+    height = item.parapets.height
+    if top + height == top:
+        message = f"is lost beside {top:g}, the height of the spandrels: make it larger"
+        raise ItemRefused([(("parapets", "height"), Message("out-of-bounds", message))])
+    masonry = replace(masonry, extent=min(masonry.extent, height))
     bond = bond_of_course(frame.left, frame.right, course % 2 == 1, masonry.length)
     outline = Outline(np.array([[frame.left, top], [frame.right, top]]))
-    polygons, _ = course_pieces(outline, Course(top, top + item.parapets.height, bond), masonry)
+    polygons, _ = course_pieces(outline, Course(top, top + height, bond), masonry)
     labels = {"course": np.full(len(polygons), course), "unit": np.arange(len(polygons))}
     return _along_both_faces(item, "parapet", polygons, labels, item.parapets.thickness)

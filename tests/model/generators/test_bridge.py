@@ -152,6 +152,13 @@ def test_parapets_stand_on_the_spandrels() -> None:
     assert contacts_of(made) == pytest.approx(contacts_of(bare) + beds, rel=1e-9)
 
 
+def test_units_may_be_larger_than_any_bridge() -> None:
+    """What is rounding is measured by the bridge then, and not by the units."""
+    large, larger = (sections(bridge(unit=unit)) for unit in ([100.0, 100.0], [1e306, 1e307]))
+    for one, other in zip(large, larger, strict=True):
+        assert np.array_equal(one, other)
+
+
 def test_bare_arches() -> None:
     made = bridge(spandrels="none", unit=None, cover=None)
     assert [part.member for part in made.parts] == ["voussoir", "voussoir", "pier", "abutment", "springer"]

@@ -29,15 +29,24 @@ UPRIGHT = 0.5
 SNAP = 0.02
 """beds and joints this close to a corner of the outline go through it, in units: no faces that are slivers"""
 SAME = 1e-9
-"""in heights of a unit: rounding"""
+"""rounding, in heights of a unit, or of what is built where that is less"""
 
 
 @dataclass(frozen=True)
 class Masonry:
-    """Length and height of a unit [length]."""
+    """Length and height of a unit, and the distance that is rounding [length].
+
+    extent : of what is built of it, at least; units may be larger
+    """
 
     length: float
     height: float
+    extent: float
+
+    @property
+    def same(self) -> float:
+        """Distance of two places that are one."""
+        return SAME * min(self.height, self.extent)
 
 
 def bed_levels(outline: Outline, top: float, crowns: FloatArray, shelves: FloatArray, masonry: Masonry) -> FloatArray:
@@ -90,7 +99,7 @@ def course_pieces(
     outline: Outline, course: Course, masonry: Masonry
 ) -> tuple[list[FloatArray], tuple[tuple[float, float], ...]]:
     """Polygons of a course from left to right, counter-clockwise; and the pits that it leaves to the course above."""
-    same = SAME * masonry.height
+    same = masonry.same
     ends = outline.points[[0, -1], 0]
     marks = np.concatenate([ends[:1], outline.crossings(course.high, same), ends[1:]])
     pieces, pits = [], []
@@ -123,7 +132,7 @@ def _snapped(bed: float, marks: FloatArray, within: float) -> float:
 
 def _cut(outline: Outline, course: Course, ends: tuple[float, float], masonry: Masonry) -> list[FloatArray]:
     """A stretch of a course, cut by those joints of the bond that leave no slivers."""
-    same = SAME * masonry.height
+    same = masonry.same
     corners = outline.points[outline.points[:, 1] > course.low + same, 0]
     places = np.array([_snapped(place, corners, SNAP * masonry.length) for place in course.bond.tolist()])
     places = places[(places > ends[0] + same) & (places < ends[1] - same)]
