@@ -71,6 +71,7 @@ def _joints(item: PavilionVaultItem, section: HalfSection, course: int) -> tuple
     found = []
     for stretched in (1.0, section.stretch):
         reach = stretched * section.profile(course)[:, 0].min() - SHORTEST * item.unit
+        reach = np.fmin(reach, max(item.bay))  # infinite, or no number, where a radius is beyond what a double holds
         steps = np.arange(int(max(reach, 0.0) / item.unit) + 1) + (0.5 if shifted else 0.0)
         right = item.unit * steps[item.unit * steps <= reach]
         found.append(np.unique(np.concatenate([-right, right])) if len(right) else np.zeros(1))

@@ -29,7 +29,7 @@ def _left_of(corners: FloatArray, start: FloatArray, end: FloatArray) -> FloatAr
     direction = end - start
     side = direction[0] * (corners[:, 1] - start[1]) - direction[1] * (corners[:, 0] - start[0])
     side[np.abs(side) <= SAME_PLACE * np.ptp(corners, axis=0).max() * np.abs(direction).max()] = 0.0
-    if (side >= 0).all():
+    if (side >= 0).all() or not np.isfinite(side).all():  # blocks as large as that are refused by their coordinates
         return corners
     kept: list[FloatArray] = []
     for a, b, at_a, at_b in zip(corners, np.roll(corners, -1, axis=0), side, np.roll(side, -1), strict=True):

@@ -116,7 +116,7 @@ def _headers_from(start: float, unit: float, width: float, length: float) -> Pat
 
 def _regular(first: float, unit: float, length: float) -> FloatArray:
     """Joints from the first on, the last of them beyond the end."""
-    count = max(int(np.ceil((length - first) / unit)), 0) + 1
+    count = int(max(np.ceil((length - first) / unit), 0.0)) + 1
     return first + unit * np.arange(count, dtype=np.float64)
 
 
