@@ -15,6 +15,9 @@ from mbla.errors import Message
 SIDE_ANGLE = 60.0
 """of a basket arch [degrees] unless given"""
 
+LEAST_WHOLE = 1e-100
+"""of chords through points, whose inverse and its powers a spline needs; blocks are larger by far"""
+
 SHAPES_WITH = {
     "span": ("semicircular", "segmental", "pointed", "elliptic", "catenary", "basket"),
     "rise": ("segmental", "pointed", "elliptic", "catenary", "basket"),
@@ -53,6 +56,9 @@ def arch_points(arch: types.ArchItem) -> Iterator[Finding]:
     whole = sum(chords)  # infinite where beyond what a double holds
     if not math.isfinite(whole):
         yield ("points",), Message("arch-shape", "the points lie too far apart to be told by a number: use other units")
+        return
+    if 0 < whole < LEAST_WHOLE:
+        yield ("points",), Message("arch-shape", "the points lie too close together to compute with: use other units")
         return
     for number, chord in enumerate(chords):
         if chord <= ROUNDING * whole:
