@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 
 from mbla.deck import types
@@ -96,7 +97,7 @@ def check_buttress(wall: types.Masonry, buttress: Buttress, length: float) -> It
             Message("out-of-bounds", f"must be <= {length - buttress.at:g}, so that the buttress ends within the wall"),
         )
     sloped = buttress.slope / wall.unit[2]
-    if abs(sloped - round(sloped)) > ROUNDING * max(sloped, 1.0):
+    if not math.isfinite(sloped) or abs(sloped - round(sloped)) > ROUNDING * max(sloped, 1.0):
         yield ("slope",), Message("out-of-bounds", f"must be a whole number of courses of {wall.unit[2]:g}")
     elif buttress.courses is None and round(sloped) >= wall.courses:
         yield ("slope",), Message("wall-shape", "must leave a level part: it is as high as the wall")

@@ -18,8 +18,8 @@ from mbla.model.generators.masonry.walls import Wall, amount_of_units, fixed_lev
 
 def amount_wall(item: WallItem) -> Amount:
     """About how many units such an item has."""
-    rises = [*([item.gable.rise] if item.gable else []), *(buttress.depth for buttress in item.buttresses)]
-    return amount_of_units(item, item.length, ("length",), rises)
+    gables = [] if item.gable is None else [item.gable]
+    return amount_of_units(item, item.length, ("length",), gables, item.buttresses)
 
 
 def generate_wall(item: WallItem, site: Site) -> Generated:

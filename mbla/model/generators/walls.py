@@ -34,8 +34,8 @@ def amount_walls(item: WallsItem) -> Amount:
 
 
 def _amount(item: WallsItem, lines: Sequence[Line]) -> Amount:
-    rises = [*(gable.rise for gable in item.gables), *(buttress.depth for buttress in item.buttresses)]
-    return amount_of_units(item, sum(line.whole_length for line in lines), ("plan",), rises)
+    length = sum(line.whole_length for line in lines)
+    return amount_of_units(item, length, ("plan",), item.gables, item.buttresses)
 
 
 def generate_walls(item: WallsItem, site: Site) -> Generated:

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from mbla.arrays import FloatArray
-from mbla.deck.items.masonry import Gable, Masonry
+from mbla.deck.items.masonry import Buttress, Gable, Masonry
 from mbla.deck.tree import KeyPath
 from mbla.errors import Message
 from mbla.model.generators.amounts import Amount
@@ -29,15 +29,18 @@ class Wall:
     buttresses: Sequence[PlacedButtress]
 
 
-def amount_of_units(item: Masonry, length: float, key: KeyPath, rises: Sequence[float]) -> Amount:
+def amount_of_units(
+    item: Masonry, length: float, key: KeyPath, gables: Sequence[Gable], buttresses: Sequence[Buttress]
+) -> Amount:
     """About how many units walls have.
 
     length : of all walls together
-    rises  : of gables, and depths of buttresses [length]
     """
-    courses = item.courses + max(rises, default=0.0) / min(item.unit[0], item.unit[2])
-    number = courses * item.leaves * length / min(item.unit[0], item.unit[1] if item.leaves > 1 else item.unit[0])
-    return Amount(number, key)
+    unit, width, height = item.unit
+    courses = item.courses + max((gable.rise for gable in gables), default=0.0) / height
+    along = item.leaves * max(length / min(unit, width if item.leaves > 1 else unit), 1.0)
+    across = sum(max((buttress.depth + item.leaves * width) / unit, 1.0) for buttress in buttresses)
+    return Amount(courses * (along + across), key)
 
 
 def fixed_levels(openings: Iterable[PlacedOpening], buttresses: Iterable[PlacedButtress]) -> list[int]:
