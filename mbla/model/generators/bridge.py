@@ -225,6 +225,9 @@ def _spandrels(item: BridgeItem, frame: _Frame) -> list[_Row]:
         polygons += pieces
         levels += [course] * len(pieces)
         units += list(range(len(pieces)))
+    if not polygons:
+        message = "is too large for what lies above the arches: take a smaller unit, or more cover"
+        raise ItemRefused([(("unit",), Message("out-of-bounds", message))])
     labels = {"course": np.array(levels, dtype=np.int64), "unit": np.array(units, dtype=np.int64)}
     rows = _in_place(item, polygons, labels)
     if item.parapets is not None:
