@@ -87,7 +87,13 @@ def shape_keys(section: Section, shape: str, keys: tuple[str, ...]) -> Iterator[
 def range_of_rise(
     shape: str, span: float, rise: float, side_angle: float | None, path: tuple[str | int, ...]
 ) -> Iterator[Finding]:
-    """A pointed arch is more than a semicircle high, a basket arch less, and high enough for its side arcs."""
+    """A pointed arch is more than a semicircle high, a basket arch less, and high enough for its side arcs.
+
+    No arch is so flat that its rise over its span is none.
+    """
+    if not rise / span:
+        yield path, Message("out-of-bounds", f"is lost beside the span, {span:g}: make it larger")
+        return
     if shape == "pointed" and rise <= span / 2 * (1 + ROUNDING):
         yield path, Message("out-of-bounds", f"must be > {span / 2:g}, half the span, for a pointed arch")
     if shape == "basket":

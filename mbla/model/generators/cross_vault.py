@@ -117,7 +117,8 @@ def _joints(
     found = []
     for end, stretched in zip(ends, (1.0, stretch), strict=True):
         least = stretched * profile[:, 0].max() + SHORTEST * item.unit
-        steps = np.arange(int(max(end - least, 0.0) / item.unit) + 1)[::-1] + (0.5 if shifted else 1.0)
+        # a profile beyond what a double holds is no number; its blocks are refused
+        steps = np.arange(int(max(np.fmin(end - least, end), 0.0) / item.unit) + 1)[::-1] + (0.5 if shifted else 1.0)
         joints = end - item.unit * steps
         found.append(np.append(joints[joints > least], end))
     return found[0], found[1]
