@@ -79,6 +79,8 @@ def check_openings(wall: types.WallItem | types.WallsItem, number: int, length: 
                     f"must be < {min(room, half):g}: half the opening, and the height of the arch in courses",
                 ),
             )
+        elif not opening.arch.rise / half:
+            yield path, Message("out-of-bounds", f"is lost beside half the opening, {half:g}: make it larger")
 
 
 def check_gable(gable: Gable, length: float) -> Iterator[Finding]:
