@@ -13,6 +13,7 @@ import pytest
 from mbla.studies.interact.picture import ROOM, draw_study
 from mbla.studies.interact.point import Point
 from mbla.studies.interact.question import TWO_LOADS
+from tests.studies.drawn import names_in_legend, places
 from tests.studies.interact.hand_made import around, point, study
 
 pytest.importorskip("matplotlib")
@@ -40,14 +41,6 @@ def drawn(folder: Path, figures: list[Any], points: Sequence[Point], *kind: str)
     """The figure of a study."""
     draw_study(folder / "diagram.png", study(points, *kind))
     return figures[-1]
-
-
-def names_in_legend(figure: Any) -> list[str]:
-    return [text.get_text() for legend in figure.legends for text in legend.get_texts()]
-
-
-def places(line: Any) -> list[tuple[float, float]]:
-    return [(float(x), float(y)) for x, y in zip(*line.get_data(), strict=True)]
 
 
 def test_of_two_loads_the_factors_are_the_coordinates(tmp_path: Path, figures: list[Any]) -> None:

@@ -13,6 +13,7 @@ from mbla.results.pictures.options import PictureOptions
 from mbla.results.pictures.palette import GHOST, VERMILION
 from mbla.studies.tradeoff.ladder_run import RungRun
 from mbla.studies.tradeoff.picture import draw_trade
+from tests.studies.drawn import places
 from tests.studies.tradeoff.hand_made import ladder, measured, run_of, study_of
 
 pytest.importorskip("matplotlib")
@@ -22,10 +23,6 @@ def drawn(folder: Path, figures: list[Any], runs: list[RungRun], **page: Any) ->
     """The figure of a study of one load case."""
     draw_trade(folder / "trade.png", "A block", study_of(runs).trades[0], "Take what you like.", PictureOptions(**page))
     return figures[-1]
-
-
-def places(line: Any) -> list[tuple[float, float]]:
-    return [(float(x), float(y)) for x, y in zip(*line.get_data(), strict=True)]
 
 
 def told(figure: Any) -> str:

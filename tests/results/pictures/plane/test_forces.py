@@ -1,35 +1,18 @@
 """Marks on the forces of a plane figure."""
 
-from collections.abc import Iterator
-from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from mbla.results.pictures.options import PictureOptions
-from mbla.results.pictures.page import open_page
 from mbla.results.pictures.palette import THRUST, rgb
-from mbla.results.pictures.plane.flat import flat_of
 from mbla.results.pictures.plane.forces import draw_forces
-from mbla.results.pictures.plane.sheet import Sheet, new_sheet
 from mbla.results.pictures.scene import Scene, scene_of
+from tests.results.pictures.plane.sheets import OPTIONS, drawn_alone
 from tests.results.pictures.rows_and_columns import column_of_blocks, row_of_blocks
 
-OPTIONS = PictureOptions()
 FRICTION = 0.65
-
-
-@contextmanager
-def forces(folder: Path, scene: Scene) -> Iterator[Sheet]:
-    """A sheet with the forces of a scene alone."""
-    flat = flat_of(scene, OPTIONS)
-    assert flat is not None
-    with open_page(folder / "page.svg", OPTIONS) as page:
-        sheet = new_sheet(page, scene.size)
-        draw_forces(sheet, flat, scene)
-        yield sheet
 
 
 def pressed(right: float, shear: float = 0.0) -> Scene:
@@ -50,7 +33,7 @@ def pressed(right: float, shear: float = 0.0) -> Scene:
 )
 def test_eccentric_forces_are_marked_where_they_act(tmp_path: Path, right: float, mark: str) -> None:
     """The joint reaches from x = 0 to 1, so that the force acts at x = its share on the right."""
-    with forces(tmp_path, pressed(right)) as sheet:
+    with drawn_alone(tmp_path, pressed(right), draw_forces) as sheet:
         marks = [name for name in sheet.handles if not name.endswith(" N")]
         assert marks == [mark] * bool(mark)
         dots = [each.get_offsets().tolist() for each in sheet.axes.collections[1:]]
@@ -59,12 +42,12 @@ def test_eccentric_forces_are_marked_where_they_act(tmp_path: Path, right: float
 
 @pytest.mark.parametrize(("shear", "used"), [(0.99, False), (1.0, True)])
 def test_a_joint_at_the_limit_of_friction_is_marked(tmp_path: Path, shear: float, used: bool) -> None:
-    with forces(tmp_path, pressed(0.5, shear)) as sheet:
+    with drawn_alone(tmp_path, pressed(0.5, shear), draw_forces) as sheet:
         assert ("all friction used" in sheet.handles) == used
 
 
 def test_the_key_tells_the_forces_by_their_widths(tmp_path: Path) -> None:
-    with forces(tmp_path, pressed(0.5)) as sheet:
+    with drawn_alone(tmp_path, pressed(0.5), draw_forces) as sheet:
         assert list(sheet.handles) == ["4 N", "2 N", "0.4 N"]
         widths = [sheet.handles[name].get_linewidth() for name in ("4 N", "2 N", "0.4 N")]
         assert widths[1] / widths[0] == pytest.approx(0.5**0.5)
@@ -74,7 +57,7 @@ def test_the_key_tells_the_forces_by_their_widths(tmp_path: Path) -> None:
 def test_a_chain_of_blocks_has_a_line_of_thrust(tmp_path: Path) -> None:
     """Three joints with their forces at x = 0.5, 0.6 and 0.8, from the lowest up."""
     results = column_of_blocks(0.5, 0.6, 0.8)
-    with forces(tmp_path, scene_of(results, results.cases[0], OPTIONS, "forces")) as sheet:
+    with drawn_alone(tmp_path, scene_of(results, results.cases[0], OPTIONS, "forces"), draw_forces) as sheet:
         assert list(sheet.handles)[:2] == ["line of thrust", "outside the middle third"]
         lines = [each for each in sheet.axes.collections if hasattr(each, "get_segments")]
         (drawn,) = (each for each in lines if tuple(each.get_colors()[0][:3]) == rgb(THRUST))
@@ -83,5 +66,5 @@ def test_a_chain_of_blocks_has_a_line_of_thrust(tmp_path: Path) -> None:
 
 
 def test_blocks_without_a_chain_have_none(tmp_path: Path) -> None:
-    with forces(tmp_path, pressed(0.5)) as sheet:
+    with drawn_alone(tmp_path, pressed(0.5), draw_forces) as sheet:
         assert "line of thrust" not in sheet.handles

@@ -1,7 +1,6 @@
 """What a plane figure draws at joints, found among the artists of its sheet."""
 
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -10,33 +9,19 @@ import numpy as np
 import pytest
 
 from mbla.arrays import FloatArray
-from mbla.results.pictures.options import PictureOptions
-from mbla.results.pictures.page import open_page
 from mbla.results.pictures.palette import SLIDE, rgb
-from mbla.results.pictures.plane.flat import flat_of
 from mbla.results.pictures.plane.joint_marks import LARGE, draw_joint_marks
-from mbla.results.pictures.plane.sheet import Sheet, new_sheet
+from mbla.results.pictures.plane.sheet import Sheet
 from mbla.results.pictures.scene import Scene, scene_of
 from mbla.solution.solution import ContactMode
 from tests.line import BLOCK, case_of, line_of
+from tests.results.pictures.plane.sheets import OPTIONS, drawn_alone
 from tests.results.synthetic import tower_mechanics, tower_results
 
-OPTIONS = PictureOptions()
 FALLS = 1
 """place of the case without equilibrium"""
 SLIP = 0.65
 """lift over slip of an associative joint of the tower"""
-
-
-@contextmanager
-def marked(folder: Path, scene: Scene) -> Iterator[Sheet]:
-    """A sheet with the marks of a scene alone."""
-    flat = flat_of(scene, OPTIONS)
-    assert flat is not None
-    with open_page(folder / "page.svg", OPTIONS) as page:
-        sheet = new_sheet(page, scene.size)
-        draw_joint_marks(sheet, flat, scene)
-        yield sheet
 
 
 def moving(motion: list[float], modes: Sequence[int]) -> Scene:
@@ -75,7 +60,7 @@ def test_a_block_that_slides_has_an_arrow_above_the_joint_and_the_ground_one_bel
     text = BLOCK.replace("acceleration: [1,", f"acceleration: [{push},").replace("associative", "non_associative")
     model, case = case_of(text, "parameters.mu=0.2")
     results = replace(tower_results(), model=model, contacts=line_of(text).contacts, cases=(case,))
-    with marked(tmp_path, scene_of(results, case, OPTIONS, "mechanism")) as sheet:
+    with drawn_alone(tmp_path, scene_of(results, case, OPTIONS, "mechanism"), draw_joint_marks) as sheet:
         assert list(sheet.handles) == ["sliding"]
         arrows = sliding_arrows(sheet)
         assert [np.sign(tip[1]) * np.sign(step[0]) for tip, step in arrows] == [push, push]
@@ -90,14 +75,14 @@ def test_without_equilibrium_what_slides_is_marked_alike(tmp_path: Path) -> None
     """The tower slides up the slope of its friction: no failure is told, and every sliding joint has its arrows."""
     scene = falling([1, 0, SLIP, 0, 0, 0])
     assert scene.failure is None
-    with marked(tmp_path, scene) as sheet:
+    with drawn_alone(tmp_path, scene, draw_joint_marks) as sheet:
         assert list(sheet.handles) == ["sliding"]
         assert len(sliding_arrows(sheet)) == 2
 
 
 def test_without_equilibrium_hinges_are_large(tmp_path: Path) -> None:
     """The tower turns about its edge at (1, 1): no listing tells which hinges matter."""
-    with marked(tmp_path, falling([1, 0, 0.5, 0, 1, 0])) as sheet:
+    with drawn_alone(tmp_path, falling([1, 0, 0.5, 0, 1, 0]), draw_joint_marks) as sheet:
         assert list(sheet.handles) == ["opening", "hinge"]
         (dots,) = (each for each in sheet.axes.collections if each.get_zorder() == 6)
         assert dots.get_offsets().tolist() == [pytest.approx([1.0, 1.0], abs=0.02)]
@@ -107,7 +92,7 @@ def test_without_equilibrium_hinges_are_large(tmp_path: Path) -> None:
 def test_a_joint_that_opens_at_one_end_and_crushes_at_the_other_shows_both(tmp_path: Path) -> None:
     """The tower turns about the middle of its joint: one triangle opens, one overlaps, and they meet there."""
     closed, opens = ContactMode.STICK, ContactMode.OPEN
-    with marked(tmp_path, moving([1, 0, 0, 0, 1, 0], [opens, closed, closed, opens])) as sheet:
+    with drawn_alone(tmp_path, moving([1, 0, 0, 0, 1, 0], [opens, closed, closed, opens]), draw_joint_marks) as sheet:
         assert {"opening", "crushing"} <= set(sheet.handles)
         gap, overlap = (each for each in sheet.axes.collections if each.get_zorder() == 3)
         assert (gap.get_hatch(), overlap.get_hatch()) == ("xxxx", "....")
@@ -120,5 +105,5 @@ def test_a_joint_that_opens_at_one_end_and_crushes_at_the_other_shows_both(tmp_p
 
 def test_a_joint_that_slides_and_tilts_shows_what_overlaps_and_no_opening(tmp_path: Path) -> None:
     """Its mode is sliding, whatever its other end does."""
-    with marked(tmp_path, moving([3, 0, 0, 0, 1, 0], 4 * [ContactMode.SLIDE])) as sheet:
+    with drawn_alone(tmp_path, moving([3, 0, 0, 0, 1, 0], 4 * [ContactMode.SLIDE]), draw_joint_marks) as sheet:
         assert set(sheet.handles) == {"crushing", "sliding"}

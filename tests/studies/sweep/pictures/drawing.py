@@ -27,11 +27,6 @@ def words(figure: Any) -> str:
     return " ".join(" ".join(text.get_text() for text in figure.texts).split())
 
 
-def names_in_legend(figure: Any) -> list[str]:
-    """What the legend below the diagrams names."""
-    return [text.get_text() for legend in figure.legends for text in legend.get_texts()]
-
-
 def names_along(axes: Any, which: str) -> list[str]:
     """Names at the ticks along ``x`` or ``y``."""
     return [text.get_text() for text in getattr(axes, f"get_{which}ticklabels")()]

@@ -6,7 +6,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from tests.studies.sweep.pictures.drawing import draw, lines_with, names_along, names_in_legend, words
+from tests.studies.drawn import names_in_legend
+from tests.studies.sweep.pictures.drawing import draw, lines_with, names_along, words
 from tests.studies.sweep.pictures.hand_made import FAILED, FALLEN, Row, grid, sphere, table_of
 
 

@@ -12,7 +12,8 @@ from mbla.studies.sweep.pictures.distribution import MOST_BINS, cumulative
 from mbla.studies.sweep.pictures.plot import SweepPictures, pictures_of
 from mbla.studies.sweep.pictures.view import chosen_results
 from mbla.studies.sweep.tables.sweep_table import SweepTable
-from tests.studies.sweep.pictures.drawing import draw, names_in_legend, words
+from tests.studies.drawn import names_in_legend
+from tests.studies.sweep.pictures.drawing import draw, words
 from tests.studies.sweep.pictures.hand_made import FAILED, FALLEN, UNBOUNDED, Row, grid, sample, table_of
 
 

@@ -12,7 +12,8 @@ from mbla.results.pictures.palette import GROUPS
 from mbla.studies.sweep.pictures.axes import value_words
 from mbla.studies.sweep.pictures.map import NO_POINT_COLOUR
 from mbla.studies.sweep.pictures.plot import SweepPictures, pictures_of
-from tests.studies.sweep.pictures.drawing import draw, names_along, names_in_legend, words
+from tests.studies.drawn import names_in_legend
+from tests.studies.sweep.pictures.drawing import draw, names_along, words
 from tests.studies.sweep.pictures.hand_made import FAILED, Row, grid, table_of
 
 FINE = list(np.linspace(0.1, 1.6, 16))

@@ -10,7 +10,8 @@ from mbla.errors import UsageError
 from mbla.studies.sweep.pictures.plot import SweepPictures, pictures_of
 from mbla.studies.sweep.pictures.sphere import MOST_DOTS
 from mbla.studies.sweep.tables.sweep_table import SweepTable
-from tests.studies.sweep.pictures.drawing import draw, lines_with, names_along, names_in_legend
+from tests.studies.drawn import names_in_legend
+from tests.studies.sweep.pictures.drawing import draw, lines_with, names_along
 from tests.studies.sweep.pictures.hand_made import FAILED, Row, grid, sample, sphere, table_of
 
 QUARTERS = [0.0, 90.0, 180.0, 270.0]

@@ -9,7 +9,8 @@ import pytest
 from mbla.errors import UsageError
 from mbla.results.pictures.palette import BLUE, CASES
 from mbla.studies.sweep.pictures.plot import SweepPictures, pictures_of
-from tests.studies.sweep.pictures.drawing import draw, names_along, names_in_legend, words
+from tests.studies.drawn import names_in_legend
+from tests.studies.sweep.pictures.drawing import draw, names_along, words
 from tests.studies.sweep.pictures.hand_made import FALLEN, Row, grid, sample
 
 BONDS = ["stack", "running", "flemish"]
