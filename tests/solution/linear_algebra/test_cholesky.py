@@ -13,6 +13,7 @@ from mbla.arrays import FloatArray
 from mbla.errors import SolverError
 from mbla.solution.linear_algebra import SymmetricPattern, cholesky, factorization, installed, lower_triangle
 from mbla.solution.linear_algebra.cholesky import LIBRARIES
+from tests.solution.linear_algebra.matrices import random_matrix
 
 EVERY = [
     pytest.param(name, marks=pytest.mark.skipif(name not in installed(), reason=f"{name} is not installed"))
@@ -24,7 +25,7 @@ every_library = pytest.mark.parametrize("library", EVERY)
 def definite(n: int, seed: int = 1, spread: float = 0.0) -> tuple[SymmetricPattern, FloatArray]:
     """Random B D Bᵀ + I·1e-3 of n unknowns, three to a block, D over that many decades."""
     rng = np.random.default_rng(seed)
-    half = sp.random_array((n, 2 * n), density=min(1.0, 3.0 / n), rng=rng)
+    half = random_matrix((n, 2 * n), min(1.0, 3.0 / n), rng)
     weights = sp.diags_array(10.0 ** rng.uniform(-spread / 2, spread / 2, 2 * n))
     return lower_triangle(sp.csc_array(half @ weights @ half.T + 1e-3 * sp.eye_array(n)))
 
@@ -125,6 +126,7 @@ def test_a_right_hand_side_of_another_length_is_refused(library: str) -> None:
 
 
 DIGEST = """
+from tests.solution.linear_algebra.matrices import random_matrix
 from tests.solution.linear_algebra.test_cholesky import digest
 print(digest("{}"))
 """

@@ -5,11 +5,12 @@ import pytest
 import scipy.sparse as sp
 
 from mbla.solution.linear_algebra import SymmetricPattern, lower_triangle
+from tests.solution.linear_algebra.matrices import random_matrix
 
 
 def test_triangle_and_back() -> None:
     rng = np.random.default_rng(1)
-    half = sp.random_array((30, 20), density=0.1, rng=rng)
+    half = random_matrix((30, 20), 0.1, rng)
     matrix = sp.csc_array(half @ half.T)  # some diagonal entries are not stored
     pattern, values = lower_triangle(matrix)
     assert np.array_equal(pattern.matrix(values).toarray(), matrix.toarray())

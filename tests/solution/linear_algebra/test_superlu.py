@@ -8,11 +8,12 @@ import scipy.sparse as sp
 
 from mbla.solution.linear_algebra import superlu
 from mbla.solution.linear_algebra.superlu import factorize
+from tests.solution.linear_algebra.matrices import random_matrix
 
 
 def bordered(rng: np.random.Generator) -> sp.csc_array:
     """A definite matrix with a border and a zero in its corner."""
-    half = sp.random_array((40, 60), density=0.1, rng=rng)
+    half = random_matrix((40, 60), 0.1, rng)
     definite = half @ half.T + 1e-3 * sp.eye_array(40)
     column = sp.csc_array(rng.normal(size=(40, 1)))
     blocks: list[list[sp.sparray | None]] = [[definite, column], [column.T, None]]
