@@ -44,9 +44,8 @@ def nearest_words(model: Model, part: IntArray) -> str:
 
 def _nearest_pair(least: FloatArray, greatest: FloatArray, part: IntArray, others: IntArray) -> tuple[float, int, int]:
     """Distance of the two nearest boxes, one of the part and one of the others, and their blocks."""
-    for _ in range(2):  # each side by the box around what is left of the other
-        part = _nearest_to(least, greatest, part, others)
-        others = _nearest_to(least, greatest, others, part)
+    part = _nearest_to(least, greatest, part, others)
+    others = _nearest_to(least, greatest, others, part)  # by the box around what is left of the part
     apart = np.maximum(least[part, None] - greatest[None, others], least[None, others] - greatest[part, None])
     gaps = np.linalg.norm(np.maximum(apart, 0.0), axis=2)
     own, other = np.unravel_index(int(np.argmin(gaps)), gaps.shape)

@@ -152,14 +152,13 @@ def _isolated(model: Model, report: ContactReport) -> list[Notice]:
     if not len(report.isolated):
         return []
     text = f"{_count(len(report.isolated), 'block')} without any contact: {_names(model, report.isolated)}"
-    adrift = [part for part in report.unsupported if len(part) == 1 and int(part[0]) in set(report.isolated.tolist())]
+    adrift = [part for part in report.unsupported if len(part) == 1]
     text += nearest_words(model, adrift[0]) if adrift else ""
     return [Notice("warning", "isolated-blocks", text)]
 
 
 def _unsupported(model: Model, report: ContactReport) -> list[Notice]:
-    isolated = set(report.isolated.tolist())
-    parts = [part for part in report.unsupported if len(part) > 1 or int(part[0]) not in isolated]
+    parts = [part for part in report.unsupported if len(part) > 1]  # one alone is an isolated block
     if not parts:
         return []
     text = (

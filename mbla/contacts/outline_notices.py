@@ -26,8 +26,7 @@ def outline_notices(
     corners : those that stay
     drawn   : (n_patches,) area within these, relative like the outlines
     """
-    whole = areas(patches.polygons)
-    changes = np.abs(drawn / np.where(whole > 0, whole, 1.0) - 1.0)
+    changes = np.abs(drawn / areas(patches.polygons) - 1.0)
     simpler = int((changes > SEEN).sum())
     if not simpler:
         return []

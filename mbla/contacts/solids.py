@@ -10,7 +10,7 @@ from mbla.arrays import FloatArray, IntArray, starts
 from mbla.contacts.frames import frames_from_normals
 from mbla.contacts.ragged import rows_and_items
 from mbla.model.blocks import Blocks
-from mbla.model.ragged import ranges, row_maxima
+from mbla.model.ragged import ranges
 
 
 class Solid:
@@ -41,7 +41,6 @@ def triangulate_blocks(blocks: Blocks, chosen: IntArray) -> dict[int, IntArray]:
     arms = blocks.vertices[blocks.loops[corner]] - blocks.vertices[blocks.loops[first]][row]
     tangents = frames_from_normals(blocks.face_normals[faces])[:, 1:]
     flat = np.einsum("ki,kai->ka", arms, tangents[row])
-    flat /= row_maxima(np.abs(flat).max(axis=1), starts(count))[row, None]
     of_face = starts(count)
     triangles: dict[int, list[IntArray]] = {}
     for number, block in enumerate(blocks.block_of_face[faces].tolist()):

@@ -83,6 +83,16 @@ def test_a_dry_joint_inside_of_a_rigid_body_is_left_out() -> None:
     assert contacts.report.fixed_contacts == 0
 
 
+@pytest.mark.parametrize("fixed", [[], [1], [0, 1]])
+def test_a_dry_joint_between_blocks_that_glue_or_a_support_holds_is_left_out(fixed: list[int]) -> None:
+    """Two cubes side by side on the ground, glued to it where they are not fixed, and one more on both."""
+    row = boxes(([0, 0, 0], [1, 1, 1]), ([1, 0, 0], [2, 1, 1]), ([0, 0, 1], [2, 1, 2]))
+    model = model_of(blocks_of(row, ["a", "b", "c"]), fixed=fixed, grounds=(ground(),))
+    overrides = [ContactOverride(between=("ground", ["a", "b"]), joint="glued")]
+    contacts = find_contacts(model, ContactsSection(joint="dry", overrides=overrides))
+    assert contacts.bodies.tolist() == [[0, 2], [1, 2]]
+
+
 def test_numbers_do_not_depend_on_the_order_of_blocks() -> None:
     order = [3, 1, 4, 0, 2]
     model = model_of(blocks_of(take_polyhedra(TOWER, np.array(order)), [GROUPS[i] for i in order]), grounds=(ground(),))

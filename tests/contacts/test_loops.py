@@ -14,9 +14,10 @@ def test_convexity_of_loops() -> None:
     notched: list[list[float]] = [[0, 0], [1, 0], [0.5, 0.5], [1, 1], [0, 1]]
     flat_corner: list[list[float]] = [[0, 0], [0.5, 0], [1, 0], [1, 1], [0, 1]]
     turned = square[::-1]
-    loops = [square, turned, flat_corner, notched, star]
+    twice = [*square[:2], *square[1:]]
+    loops = [square, turned, flat_corner, notched, star, twice, twice[::-1]]
     start = np.concatenate([[0], np.cumsum([len(loop) for loop in loops])])
-    assert convex_loops(np.concatenate(loops), start).tolist() == [True, True, True, False, False]
+    assert convex_loops(np.concatenate(loops), start).tolist() == [True, True, True, False, False, True, True]
 
 
 def test_areas_of_loops_have_the_sign_of_their_turn() -> None:

@@ -54,6 +54,13 @@ def test_verdicts(width: float, gap: float, coverage: float, verdict: str, side:
     assert lengths == {name: int(name == verdict) for name in lengths}
 
 
+@pytest.mark.parametrize("side", [1.0, -1.0])
+@pytest.mark.parametrize("tolerance", [1e-6, 1e-3, 0.1])
+def test_a_gap_of_the_tolerance_but_for_rounding_is_a_contact(tolerance: float, side: float) -> None:
+    gap = side * (tolerance + 0.9e-12)
+    assert len(judge(patch(1.0, gap, gap), tolerance).contacts) == 1
+
+
 @pytest.mark.parametrize(("low", "high", "near"), [(0.0, 0.1999, 1), (0.0, 0.2001, 0), (-0.15, 0.15, 1)])
 def test_gaps_that_open_are_near_by_their_middle(low: float, high: float, near: int) -> None:
     assert len(judge(patch(1.0, low, high), TOLERANCE).near_misses) == near
@@ -91,6 +98,15 @@ def test_a_facet_over_the_ground(height: float, found: int) -> None:
     if found:
         assert patches.gaps == pytest.approx([0.0, height])
         assert patches.overlays.frames[1, 0].tolist() == [0, 0, 1]
+
+
+def test_a_share_of_the_ground_is_never_the_smaller_one() -> None:
+    """A large block that stands on it, and after it a small one that does not."""
+    blocks = blocks_of(boxes(([0, 0, 0], [2, 2, 1]), ([5, 0, 9], [5.1, 0.1, 9.1])))
+    facets, pairs = build_facets(blocks), find_block_pairs(blocks, TOLERANCE)
+    found = find_patches(blocks, facets, pairs, (ground(),), TOLERANCE)
+    assert found.overlays.bodies.tolist() == [[2, 0]]
+    assert found.coverage == pytest.approx([1.0])
 
 
 def test_surfaces_that_are_given() -> None:

@@ -120,6 +120,23 @@ def test_block_that_is_no_closed_solid_is_said_to_be_unchecked() -> None:
     assert "overlap-not-checked" in {notice.identifier for notice in report.notices}
 
 
+def test_of_blocks_with_a_plane_between_them_neither_need_be_a_closed_solid() -> None:
+    """The boxes around them overlap, for they are turned."""
+    for gap, unchecked in ((0.0, []), (-0.5, [[0, 1]])):
+        pair = boxes(([0, 0, 0], [1, 1, 1]), ([0, 0, 1 + gap], [1, 1, 2 + gap]))
+        blocks = blocks_of(moved(pair, turn=any_rotation(4)))
+        loops = blocks.loops.copy()
+        loops[:4] = loops[4:8]  # one face twice, its opposite missing
+        report = find_contacts(model_of(replace(blocks, loops=loops)), section()).report
+        assert report.unchecked.tolist() == unchecked
+
+
+@pytest.mark.parametrize("shift", [1e6, 1e8])
+def test_the_depth_far_from_the_origin(shift: float) -> None:
+    pair = boxes(([0, 0, 0], [1, 1, 1]), ([0, 0, 0.75], [1, 1, 1.75]))
+    assert overlaps_of(moved(pair, shift=shift)).depths == pytest.approx([0.5 / 3], rel=1e-14)
+
+
 @pytest.mark.parametrize("turn", [None, any_rotation(4)], ids=["along the axes", "turned"])
 def test_a_block_inside_another_is_called_that(turn: np.ndarray | None) -> None:
     three = boxes(([0, 0, 0], [3, 3, 3]), ([1, 1, 1], [2, 2, 2.5]), ([2.5, 0, 0], [5, 3, 3]))

@@ -20,6 +20,7 @@ from tests.contacts.structures import (
     ground,
     model_of,
     moved,
+    prism,
     profile,
     section,
 )
@@ -66,6 +67,19 @@ def test_neighbours_but_one_in_a_pile_of_tiles_are_no_near_misses() -> None:
     pile = boxes(*(([0, 0, 0.01 * i], [1, 1, 0.01 * (i + 1)]) for i in range(4)))
     report = contacts_of(moved(pile, turn=any_rotation(2)), fixed=[0], tolerance=1e-2).report
     assert len(report.near_misses) == 0
+
+
+@pytest.mark.parametrize("turn", [None, any_rotation(2)], ids=["along the axes", "turned"])
+def test_neighbours_but_one_of_tiles_like_an_l_are_no_near_misses(turn: np.ndarray | None) -> None:
+    """The middle of what they share lies in the notch."""
+    outline = [[0, 0], [4, 0], [4, 0.4], [1, 0.4], [1, 4], [0, 4]]
+    pile = join_polyhedra([prism(outline, 0.01 * i, 0.01 * (i + 1)) for i in range(3)])
+    contacts = contacts_of(moved(pile, turn=turn), fixed=[0], tolerance=1e-2)
+    assert contacts.bodies.tolist() == [[0, 1], [1, 2]]
+    assert len(contacts.report.near_misses) == 0
+    apart = pile.vertices + np.repeat([[0, 0, 0], [9, 0, 0], [0, 0, 0]], 12, axis=0)
+    report = contacts_of(moved(replace(pile, vertices=apart), turn=turn), fixed=[0], tolerance=1e-2).report
+    assert report.near_misses.tolist() == [[0, 2]]
 
 
 def test_near_miss_beside_a_contact_of_the_same_pair() -> None:
