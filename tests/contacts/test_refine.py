@@ -87,6 +87,18 @@ def test_surfaces_that_are_not_convex(refine: int, polygon: shapely.Polygon) -> 
     assert len(np.unique(points.points.round(9), axis=0)) >= len(points.points) - refine
 
 
+@pytest.mark.parametrize("refine", [2, 7])
+def test_areas_add_up_where_a_hole_touches_an_edge_between_its_corners(refine: int) -> None:
+    """The edge that comes last, x = 0.9: divided by seven, points on it lie at more than that by rounding."""
+    polygon = shapely.Polygon([[0, 0], [0.9, 0], [0.9, 4], [0, 4]], [[[0.9, 1.25], [0.45, 3], [0.45, 0.5]]])
+    corners = needed_corners(np.array([polygon], dtype=object), 1e-6)
+    area, centroid = areas_and_centroids(corners, 1)
+    points, _ = interface_points(corners, centroid, np.ones(1), ContactPoints(per_edge=refine))
+    assert points.outline.tolist() == [4 * refine]
+    assert points.areas.sum() == pytest.approx(area[0], rel=1e-12)
+    assert points.areas @ points.points == pytest.approx(area[0] * centroid[0], rel=1e-12)
+
+
 def test_all_kinds_together() -> None:
     kinds = [L_SHAPE, SQUARE, WITH_HOLE, shapely.box(1, 1, 2, 3), L_SHAPE, RHOMBOID]
     together, _ = found(3, 0.0, *kinds)

@@ -82,6 +82,36 @@ EXPLAINED: dict[tuple[str, str, str], str] = {
         "20000 -> 20001",
     ): "where one way of doing it takes over from another with the same result",
     (
+        "mbla/contacts/joints.py",
+        "bed = np.abs(normals[:, 2]) > BED + ROUNDING",
+        "np.abs(normals[:, 2]) > BED + ROUNDING -> np.abs(normals[:, 2]) >= BED + ROUNDING",
+    ): "a rough limit met exactly",
+    (
+        "mbla/contacts/outline_notices.py",
+        "simpler = int((changes > SEEN).sum())",
+        "changes > SEEN -> changes >= SEEN",
+    ): "a rough limit met exactly",
+    (
+        "mbla/contacts/overlaps.py",
+        "extents = np.zeros(len(facets))",
+        "np.zeros -> np.ones",
+    ): "read only where it is overwritten: at facets of the first blocks",
+    (
+        "mbla/contacts/overlaps.py",
+        "if thickness > tolerance:",
+        "thickness > tolerance -> thickness >= tolerance",
+    ): "a rough limit met exactly",
+    (
+        "mbla/contacts/polygons.py",
+        "rows = np.flatnonzero((counts >= width) & (counts < 2 * width))",
+        "counts < 2 * width -> counts <= 2 * width",
+    ): "rows of just twice the width are united again, whole, in the next round",
+    (
+        "mbla/contacts/polygons.py",
+        "turned = signed_areas(corners[rows.ravel()], 3 * np.arange(len(rows) + 1)) < 0",
+        "0 -> 1",
+    ): "the library gives every triangle clockwise: all of them are turned, whatever their size",
+    (
         "mbla/model/convexity.py",
         "convex = np.zeros(len(polyhedra), dtype=bool)",
         "np.zeros -> np.ones",
