@@ -153,7 +153,7 @@ def _triangulated_points(
     node_polygon = np.repeat(row, nodes.shape[1])
     key = places(np.concatenate([edge_polygon, node_polygon]), np.concatenate([edge_points, nodes.reshape(-1, 2)]))
     on_edge, at_node = key[: len(edge_points)], key[len(edge_points) :]
-    shares = np.bincount(at_node, third.ravel(), minlength=int(key.max(initial=-1)) + 1)
+    shares = np.bincount(at_node, third.ravel())  # the last of all places is a corner, which is a node
     inside, first = np.unique(at_node, return_index=True)
     new = ~np.isin(inside, on_edge)
     inside, first = inside[new], first[new]

@@ -89,7 +89,7 @@ def test_surfaces_that_are_not_convex(refine: int, polygon: shapely.Polygon) -> 
 
 @pytest.mark.parametrize("refine", [2, 7])
 def test_areas_add_up_where_a_hole_touches_an_edge_between_its_corners(refine: int) -> None:
-    """The edge that comes last, x = 0.9: divided by seven, points on it lie at more than that by rounding."""
+    """The edge at x = 0.9: where it is divided by seven, some points on it lie beyond by rounding."""
     polygon = shapely.Polygon([[0, 0], [0.9, 0], [0.9, 4], [0, 4]], [[[0.9, 1.25], [0.45, 3], [0.45, 0.5]]])
     corners = needed_corners(np.array([polygon], dtype=object), 1e-6)
     area, centroid = areas_and_centroids(corners, 1)

@@ -72,7 +72,7 @@ def test_neighbours_but_one_in_a_pile_of_tiles_are_no_near_misses() -> None:
 @pytest.mark.parametrize("turn", [None, any_rotation(2)], ids=["along the axes", "turned"])
 def test_neighbours_but_one_of_tiles_like_an_l_are_no_near_misses(turn: np.ndarray | None) -> None:
     """The middle of what they share lies in the notch."""
-    outline = [[0, 0], [4, 0], [4, 0.4], [1, 0.4], [1, 4], [0, 4]]
+    outline = [[0.0, 0.0], [4.0, 0.0], [4.0, 0.4], [1.0, 0.4], [1.0, 4.0], [0.0, 4.0]]
     pile = join_polyhedra([prism(outline, 0.01 * i, 0.01 * (i + 1)) for i in range(3)])
     contacts = contacts_of(moved(pile, turn=turn), fixed=[0], tolerance=1e-2)
     assert contacts.bodies.tolist() == [[0, 1], [1, 2]]
