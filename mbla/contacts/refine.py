@@ -110,12 +110,15 @@ def divided(corners: Corners, centroids: FloatArray, star: BoolArray, parts: Int
     )
 
 
+def _outer(corners: Corners) -> BoolArray:
+    """Which corners are of the outer ring of their polygon, which comes first, (n_corners,)."""
+    first = np.diff(corners.polygon_of_ring, prepend=-1) != 0
+    return np.repeat(first, np.diff(corners.ring_start))
+
+
 def _outline(corners: Corners, n: int) -> IntArray:
-    """Corners of the outer ring of each polygon, which comes first, (n,); 0 for polygons that have none here."""
-    polygons, first_ring = np.unique(corners.polygon_of_ring, return_index=True)
-    outline = np.zeros(n, dtype=np.int64)
-    outline[polygons] = np.diff(corners.ring_start)[first_ring]
-    return outline
+    """Corners of the outer ring of each polygon, (n,); 0 for polygons that have none here."""
+    return np.bincount(corners.polygon_of_corner[_outer(corners)], minlength=n)
 
 
 def _at_corners(corners: Corners, n: int) -> InterfacePoints:
@@ -159,12 +162,16 @@ def _triangulated_points(
     inside, first = inside[new], first[new]
     # where a hole touches the outline two points share one place, and its area
     edge_areas = shares[on_edge] / np.bincount(on_edge, minlength=len(shares))[on_edge]
+    # an edge that a hole touches between its corners is divided on either side of that place, by points inside
+    kept = edge_areas > 0.0
+    outline = np.bincount(edge_polygon[kept & np.repeat(_outer(corners), parts)], minlength=n_polygons)
+    edge_points, edge_polygon, edge_areas = edge_points[kept], edge_polygon[kept], edge_areas[kept]
     polygon = np.concatenate([edge_polygon, node_polygon[first]])
     order = np.argsort(polygon, kind="stable")
     return InterfacePoints(
         points=np.concatenate([edge_points, nodes.reshape(-1, 2)[first]])[order],
         polygon=polygon[order],
-        outline=parts * _outline(corners, n_polygons),
+        outline=outline,
         areas=np.concatenate([edge_areas, shares[inside]])[order],
     )
 
