@@ -128,7 +128,7 @@ def _outlines(
     outlines: Polygons = faces[starts(counts.astype(np.int64))[:-1]].copy()
     _unite(outlines, faces, facet, (counts > 1) & ~joined, None)
     lost = np.abs(areas(outlines) - np.bincount(facet, weights=areas(faces))) > _LOST * areas(outlines)
-    _unite(outlines, faces, facet, (counts > 1) & (joined | lost), _GRID)
+    _unite(outlines, faces, facet, joined | lost, _GRID)
     return _scaled(outlines, sizes)
 
 

@@ -79,6 +79,41 @@ def test_gap_of_rounding_beside_a_block_stays_a_contact() -> None:
     assert "thin-block-between" not in said(contacts)
 
 
+@pytest.mark.parametrize(("depth", "rests_on"), [(0.4, "plate"), (0.6, "ground")])
+def test_a_plate_that_has_sunk_into_the_block_above_by_more_than_half_carries_nothing(
+    depth: float, rests_on: str
+) -> None:
+    """Sunk that far it is no block between: what is around it is the ground."""
+    thickness = 1e-5
+    plate = boxes(([-0.1, -0.1, 0], [0.1, 0.1, thickness]))
+    block = boxes(([-0.5, -0.5, (1 - depth) * thickness], [0.5, 0.5, 1]))
+    contacts = contacts_of(join_polyhedra([plate, block]), grounds=(ground(),))
+    assert pairs(contacts) == ([[0, 1], [2, 0]] if rests_on == "plate" else [[2, 0], [2, 1]])
+
+
+def test_a_block_that_has_sunk_into_the_ground_by_less_than_the_tolerance_rests_on_it() -> None:
+    contacts = contacts_of(boxes(([0, 0, -5e-4], [1, 1, 1])), grounds=(ground(),))
+    assert pairs(contacts) == [[1, 0]]
+    assert contacts.areas == pytest.approx([1.0])
+
+
+@pytest.mark.parametrize("scale", [0.01, 1.0, 1000.0])
+def test_feet_at_the_edge_of_a_block_hold_it_off_the_ground_in_any_unit(scale: float) -> None:
+    block = boxes(([-5, -5, 1e-3], [5, 5, 10]))
+    feet = boxes(([3, -1, 0], [5, 1, 1e-3]), ([-5, -1, 0], [-3, 1, 1e-3]))
+    contacts = contacts_of(moved(join_polyhedra([block, feet]), scale=scale), grounds=(ground(),))
+    assert pairs(contacts) == [[0, 1], [0, 2], [3, 1], [3, 2]]
+
+
+@pytest.mark.parametrize("others", range(7))
+def test_a_thin_block_is_between_those_on_one_side_of_it_alone(others: int) -> None:
+    """The lower of two plates lies just above the ground: the upper one, behind it, does not hold it off."""
+    plates = boxes(([0, 0, 1e-4], [1, 1, 1.5e-4]), ([0, 0, 1.5e-4], [1, 1, 2.5e-4]))
+    far_away = [boxes(([10 + 2 * i, 0, 5], [11 + 2 * i, 1, 6])) for i in range(others)]
+    contacts = contacts_of(join_polyhedra([plates, *far_away]), grounds=(ground(),), tolerance=1e-2)
+    assert pairs(contacts) == [[0, 1], [2 + others, 0]]
+
+
 def prism(outline: list[tuple[float, float]]) -> Polyhedra:
     """A block from y = 0 to 1 over an outline in x and z, counter-clockwise."""
     count = len(outline)

@@ -19,8 +19,8 @@ from mbla.contacts.broad_phase import (
 )
 from mbla.contacts.facets import build_facets
 from mbla.model.blocks import Blocks
-from mbla.model.polyhedra import polyhedra_from_lists
-from tests.contacts.structures import blocks_of, boxes
+from mbla.model.polyhedra import join_polyhedra, polyhedra_from_lists
+from tests.contacts.structures import blocks_of, boxes, profile
 
 TOLERANCE = 0.01
 CUBE = ((0.0, 0.0, 0.0), (1.0, 1.0, 1.0))
@@ -117,6 +117,24 @@ def test_facets_beside_each_other(aside: float, near: bool) -> None:
     """The upper cube stands beside the lower one's top: its box is near, and so is the top's."""
     found = facet_pairs(blocks_of(boxes(CUBE, cube_at((aside, 0.0, 1.0)))))
     assert (([0.0, 0.0, 1.0], [0.0, 0.0, -1.0]) in found) == near
+
+
+@pytest.mark.parametrize("axis", [0, 1, 2])
+def test_blocks_that_touch_are_looked_at_however_small_the_tolerance(axis: int) -> None:
+    up = np.eye(3)[axis]
+    found = facet_pairs(blocks_of(boxes(CUBE, cube_at(up))), 1e-20)
+    assert found == [(up.tolist(), [-part if part else 0.0 for part in up.tolist()])]
+
+
+def test_facets_far_from_each_other_are_no_pair_though_each_is_near_the_other_block() -> None:
+    """Two blocks with two feet each stand on each other's feet, one pair of them a little higher than the other."""
+    feet = [(0, 1), (1, 1), (1, 0), (2, 0), (2, 1.02), (3, 1.02)]
+    lower, upper = (
+        profile([(0, -1), (3, -1), *feet[::-1]]),
+        profile([*feet[:2], (1, 2), (2, 2), *feet[4:], (3, 3), (0, 3)]),
+    )
+    found = facet_pairs(blocks_of(join_polyhedra([lower, upper])))
+    assert found == 2 * [([0.0, 0.0, 1.0], [0.0, 0.0, -1.0])]
 
 
 def wedge(slope: float, lift: float) -> Blocks:

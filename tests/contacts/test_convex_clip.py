@@ -41,6 +41,12 @@ def test_orientation_of_either_does_not_matter() -> None:
             assert area(clip(first, second)) == pytest.approx(0.375, rel=1e-15)
 
 
+@pytest.mark.parametrize("scale", [1e-6, 1.0, 1e6])
+def test_size_of_both_does_not_matter(scale: float) -> None:
+    common = area(clip(scale * SQUARE, scale * shifted(0.25, 0.5)))
+    assert common / scale**2 == pytest.approx(0.375, rel=1e-14)
+
+
 def test_polygons_apart_have_nothing_in_common() -> None:
     assert len(clip(SQUARE, shifted(2.0, 0.0))) == 0
 

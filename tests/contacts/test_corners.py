@@ -32,6 +32,22 @@ def test_collinear_and_double_corners_go() -> None:
     assert len(corners.points) == 4
 
 
+def test_a_corner_that_is_listed_three_times_is_left_once() -> None:
+    outline: Outline = [[0, 0], [1, 0], [1, 1], [1, 1], [1, 1], [0, 1]]
+    corners = needed_corners(polygons(outline), 1e-3)
+    assert corners.points.tolist() == [[0, 0], [1, 0], [1, 1], [0, 1]]
+
+
+@pytest.mark.parametrize("mirrored", [False, True])
+def test_the_tip_of_a_thin_tongue_stays(mirrored: bool) -> None:
+    """It lies far beyond the corner after it, though hardly off the line to that."""
+    outline: Outline = [[0, 0], [1, 0], [0.6, 1e-4], [0.6, 1], [0, 1]]
+    if mirrored:
+        outline = [[1 - x, y] for x, y in outline]
+    corners = needed_corners(polygons(outline), 1e-3)
+    assert sorted(corners.points.tolist()) == sorted([float(x), float(y)] for x, y in outline)
+
+
 def test_small_steps_go_and_large_ones_stay() -> None:
     step: Outline = [[0, 0], [0.5, 0], [0.5, 9e-4], [1, 9e-4], [1, 1], [0, 1]]
     assert len(needed_corners(polygons(step), 1e-3).points) == 4
@@ -98,6 +114,14 @@ def test_outline_that_would_cross_itself_keeps_its_corners(neck: float) -> None:
     corners = needed_corners(polygons(outline), 1e-3)
     assert shapely.Polygon(corners.points).is_valid
     assert areas_and_centroids(corners, 1)[0] == pytest.approx([2.0], abs=1e-3)
+
+
+def test_outline_that_would_cross_itself_without_collinear_corners_keeps_even_those() -> None:
+    """A tip from above reaches by a hair into a dent in the side below it."""
+    tip, dent = [1, 1 - 1e-11], [1, 1 - 2e-11]
+    outline: Outline = [[0, 0], [0.5, 0], [3, 0], [3, 3], [1, 3], tip, [2, 2], [2, 1], dent, [0, 1]]
+    assert len(needed_corners(polygons(outline), 1e-3).points) == len(outline)
+    assert len(needed_corners(polygons([*outline[:5], [1, 1.5], *outline[6:]]), 1e-3).points) == len(outline) - 2
 
 
 def test_corners_on_both_sides_of_a_hairline_neck() -> None:

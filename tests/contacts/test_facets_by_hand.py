@@ -8,7 +8,6 @@ import shapely
 
 from mbla.contacts.coplanar import facets_on_one_plane
 from mbla.contacts.facets import Facets, build_facets
-from mbla.model.blocks import Blocks
 from mbla.model.polyhedra import Polyhedra, join_polyhedra, polyhedra_from_lists
 from tests.contacts.structures import any_rotation, blocks_of, boxes, moved, profile
 
@@ -51,14 +50,30 @@ def test_facets_are_numbered_in_order_of_blocks() -> None:
     assert facets.blocks.tolist() == [0] * 6 + [1] * 6 + [2] * 6
 
 
-def bracket() -> Blocks:
-    """A block on two feet, whose soles lie on one plane but share no edge, and a box."""
-    outline = [(0, 0), (1, 0), (1, 1), (2, 1), (2, 0), (3, 0), (3, 2), (0, 2)]
-    return blocks_of(join_polyhedra([profile(outline), boxes(([5, 0, 0], [6, 1, 1]))]))
+@pytest.mark.parametrize("beside", [2.0, 1e7])
+def test_the_middle_of_a_facet_does_not_hang_on_how_large_the_other_blocks_are(beside: float) -> None:
+    facets = build_facets(blocks_of(join_polyhedra([cut_top(), boxes(([5, 0, 0], [5 + beside, beside, beside]))])))
+    top = np.flatnonzero((facets.normals[:, 2] > 0.99) & (facets.blocks == 0))
+    assert facets.origins[top] == pytest.approx(np.array([[1.0, 0.5, 1.0]]))
+
+
+def test_corners_of_a_facet_of_two_faces_are_not_moved() -> None:
+    turn = any_rotation(5)
+    facets = build_facets(blocks_of(moved(cut_top(), turn=turn)))
+    top = top_of(facets, turn @ [0, 0, 1])
+    flat = shapely.get_coordinates(facets.polygons[top])
+    found = facets.origins[top] + flat @ facets.frames[top, 1:]
+    corners = np.array([[x, y, 1] for x in (0, 0.5, 2) for y in (0, 1)]) @ turn.T
+    assert np.linalg.norm(found[:, None] - corners, axis=2).min(axis=1).max() < 1e-14
+
+
+def bracket() -> Polyhedra:
+    """A block on two feet, whose soles lie on one plane but share no edge."""
+    return profile([(0, 0), (1, 0), (1, 1), (2, 1), (2, 0), (3, 0), (3, 2), (0, 2)])
 
 
 def test_two_soles_on_one_plane_are_one_facet() -> None:
-    blocks = bracket()
+    blocks = blocks_of(join_polyhedra([bracket(), boxes(([5, 0, 0], [6, 1, 1]))]))
     corners = blocks.vertices[blocks.loops]
     centres = np.add.reduceat(corners, blocks.loop_start[:-1]) / np.diff(blocks.loop_start)[:, None]
     joined = facets_on_one_plane(blocks, centres)
@@ -72,3 +87,8 @@ def test_two_soles_on_one_plane_are_one_facet() -> None:
     assert facets.convex[facets.blocks == 1].all()
     alone = boxes(([0, 0, 0], [1, 1, 1]))
     assert len(build_facets(blocks_of(alone))) == 6
+
+
+def test_soles_on_one_plane_are_one_facet_of_any_block() -> None:
+    facets = build_facets(blocks_of(join_polyhedra([boxes(([5, 0, 0], [6, 1, 1])), bracket()])))
+    assert facets.facet_start.tolist() == [0, 6, 15]
