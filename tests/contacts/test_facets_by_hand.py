@@ -6,8 +6,10 @@ import numpy as np
 import pytest
 import shapely
 
+from mbla.arrays import IntArray
 from mbla.contacts.coplanar import facets_on_one_plane
 from mbla.contacts.facets import Facets, build_facets
+from mbla.contacts.polygons import Polygons, union_by_row
 from mbla.model.polyhedra import Polyhedra, join_polyhedra, polyhedra_from_lists
 from tests.contacts.structures import any_rotation, blocks_of, boxes, moved, profile
 
@@ -65,6 +67,17 @@ def test_corners_of_a_facet_of_two_faces_are_not_moved() -> None:
     found = facets.origins[top] + flat @ facets.frames[top, 1:]
     corners = np.array([[x, y, 1] for x in (0, 0.5, 2) for y in (0, 1)]) @ turn.T
     assert np.linalg.norm(found[:, None] - corners, axis=2).min(axis=1).max() < 1e-14
+
+
+def test_what_uniting_faces_without_a_grid_loses_is_found_again(monkeypatch: pytest.MonkeyPatch) -> None:
+    def losing(polygons: Polygons, row: IntArray, n_rows: int, grid: float | None = None) -> Polygons:
+        if grid is None:
+            return np.asarray(polygons[np.unique(row, return_index=True)[1]])
+        return union_by_row(polygons, row, n_rows, grid)
+
+    monkeypatch.setattr("mbla.contacts.facets.union_by_row", losing)
+    facets = build_facets(blocks_of(cut_top()))
+    assert shapely.area(facets.polygons) == pytest.approx([2, 2, 2, 1, 2, 1])
 
 
 def bracket() -> Polyhedra:

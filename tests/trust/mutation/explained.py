@@ -62,6 +62,22 @@ EXPLAINED: dict[tuple[str, str, str], str] = {
         "4 -> 5",
     ): "more room in tables of corners that need less",
     (
+        "mbla/contacts/convex_clip.py",
+        "clockwise = area < 0",
+        "area < 0 -> area <= 0",
+    ): "a polygon of no area is a line there and back: turned round it is the same, and so is what it leaves",
+    (
+        "mbla/contacts/convex_clip.py",
+        "return np.take_along_axis(points, source[..., None], axis=1), counts > 0",
+        "0 -> 1",
+    ): "never one: of what is cut two crossings are left with each run of corners, of what is not all corners",
+    (
+        "mbla/contacts/glued_guides.py",
+        "differs = np.abs(motions - motions[first[row]]).max(axis=(1, 2), initial=0.0) > AGREE * size",
+        "np.abs(motions - motions[first[row]]).max(axis=(1, 2), initial=0.0) > AGREE * size"
+        " -> np.abs(motions - motions[first[row]]).max(axis=(1, 2), initial=0.0) >= AGREE * size",
+    ): "a rough limit met exactly; no guide is without a motion, so that it is above zero",
+    (
         "mbla/contacts/between.py",
         "least, most = np.full(face.max() + 1, np.inf), np.full(face.max() + 1, -np.inf)",
         "1 -> 2",
