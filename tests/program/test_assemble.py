@@ -68,3 +68,13 @@ def test_unit_of_force_counts_moments_over_lever_arms_and_loaded_blocks_alone() 
     assert scaling.live == pytest.approx(5.0 / np.sqrt(100.0 / 2))  # 6 and 32/4 on one of two blocks
     assert scaling.row.reshape(2, 6) == pytest.approx(np.array([[1, 1, 1, 0.5, 0.5, 0.5], [1, 1, 1] + 3 * [0.25]]) / 5)
     assert _scaling(np.array([2.0, 4.0]), 0.0 * dead.ravel(), live.ravel()).force == pytest.approx(10.0)
+
+
+@pytest.mark.parametrize("size", [2.0**-20, 1.0, 2.0**20])
+def test_units_grow_with_the_loads_however_small_these_are(size: float) -> None:
+    dead, live = np.zeros((2, 6)), np.zeros((2, 6))
+    dead[:, 2], live[:, 0] = (0.25, 0.75), 2.0
+    scaling = _scaling(np.ones(2), size * dead.ravel(), live.ravel())
+    assert (scaling.force, scaling.live) == pytest.approx((0.5 * size, 0.25 * size))
+    weightless = _scaling(np.ones(2), 0.0 * dead.ravel(), size * live.ravel())
+    assert (weightless.force, weightless.live) == pytest.approx((2.0 * size, 1.0))

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from mbla.arrays import FloatArray
-from mbla.program.associative_static import polygon_sides
+from mbla.program.associative_static import associative_static_form, polygon_sides
 from mbla.program.kinematic import friction_polygon
 from mbla.program.program import Program
 from mbla.solution.associative import solve_associative
@@ -98,3 +98,12 @@ def test_shear_where_a_joint_carries_none_is_no_unknown() -> None:
     form = in_forces(program)
     assert form.cone_program.n_cones == 0
     assert form.cone_program.matrix.shape[1] == program.n_points + 1
+
+
+@pytest.mark.parametrize("facets", [None, friction_polygon(4, circumscribed=False)], ids=["cones", "polygon"])
+def test_cohesion_without_friction_stores_no_zeros(facets: FloatArray | None) -> None:
+    """Zeros that are stored fill the factors of the solver."""
+    form = associative_static_form(line_of(SMOOTH).program, facets)
+    assert form.cone_program.n_cones + form.cone_program.n_half_lines > 0
+    assert form.cone_program.matrix.data.all()
+    assert form.cone_program.matrix.has_canonical_format

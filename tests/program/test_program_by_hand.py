@@ -10,7 +10,7 @@ import scipy.sparse as sp
 
 from mbla.arrays import FloatArray
 from mbla.program.assemble import assemble, yield_limits
-from mbla.program.equilibrium import equilibrium_matrix, lever_arms
+from mbla.program.equilibrium import _arms, equilibrium_matrix, lever_arms
 from mbla.program.program import Program, Reduction, Scaling
 from mbla.program.yield_conditions import YieldLimits
 from tests.line import BLOCK, Line, line_of
@@ -69,6 +69,12 @@ def test_lever_arms(stack: Line) -> None:
     assert lever_arms(stack.model, stack.contacts, np.array([1])) == pytest.approx(arms_by_hand()[1:])
     apart = line_of(STACK.replace("min: [0.25, 0, 2], max: [1.25, 1, 2.5]", "min: [5, 0, 2], max: [6, 1, 2.5]"))
     assert lever_arms(apart.model, apart.contacts, np.array([1])) == pytest.approx([0.5 ** (1 / 3)])
+
+
+def test_the_lever_arm_of_a_block_with_one_contact_point_is_its_distance() -> None:
+    centroids, sizes = np.array([[0.0, 0, 0], [0, 0, 5.0]]), np.array([7.0, 9.0])
+    arms = _arms(centroids, sizes, np.array([[2, 0]]), np.array([[3.0, 0, 4.0]]), np.array([0, 1]))
+    assert arms.tolist() == [5.0, 9.0]
 
 
 def test_limits_are_the_laws_by_area(stack: Line) -> None:

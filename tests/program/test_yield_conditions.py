@@ -54,6 +54,7 @@ def test_scaling_leaves_friction_and_unlimited_compression_alone() -> None:
     scaled = limits_of(mu=0.5, c=2.0, ft=1.0).scaled(10.0)
     assert (scaled.friction[0], scaled.cohesion[0], scaled.tension[0]) == (0.5, 20.0, 10.0)
     assert np.isinf(scaled.compression[0])
+    assert limits_of(fc=4.0).scaled(10.0).compression[0] == 40.0
 
 
 def test_conditions_that_do_not_apply_are_implied_by_those_that_do() -> None:

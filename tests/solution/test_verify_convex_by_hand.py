@@ -303,7 +303,16 @@ def test_what_is_stored_of_interfaces_must_be_there(name: str, dry: Line) -> Non
 
 
 def test_forces_of_nothing_have_resultants_of_nothing(dry: Line) -> None:
-    assert RESULTANTS not in judged(dry, answer(dry, (0, 0, 0))).failures
+    nothing = answer(dry, (0, 0, 0))
+    assert RESULTANTS not in judged(dry, nothing).failures
+    assert RESULTANTS in judged(dry, replace(nothing, resultants=np.full((1, 6), 2.0**-40))).failures
+
+
+def test_resultants_of_small_forces_are_judged_by_these(dry: Line) -> None:
+    right = answer(dry, (8 * 2.0**-40, -4 * 2.0**-40, 0))
+    assert right.resultants is not None
+    assert RESULTANTS not in judged(dry, right).failures
+    assert RESULTANTS in judged(dry, replace(right, resultants=2.0 * right.resultants)).failures
 
 
 # Bounds.
@@ -335,6 +344,21 @@ def test_what_the_interface_may_be_beyond_yield(name: str, dry: Line, laws: dict
     for excess, proves in ((6.3e-8, True), (2e-9 * 32.0, True), (6.5e-8, False), (1.0, False)):
         laws[name] = excess
         assert np.isnan(proved(dry, answer(dry))[0]) == (not proves)
+
+
+@pytest.mark.usefixtures("mended")
+@pytest.mark.parametrize("name", ["torsion_excess", "crushing_excess"])
+def test_one_interface_beyond_yield_is_enough_to_prove_nothing(name: str, laws: dict[str, Any]) -> None:
+    """Hung between two walls: the weight needs half of the friction."""
+    line = cube(supports="{ground: {x: 0}}, {ground: {point: [1, 0, 0], normal: [-1, 0, 0]}}")
+    line = replace(line, load_case=loaded(line.load_case, DEAD, (0, 8, 0, 0, 0, 0)))
+    sign = np.where(line.contacts.bodies[line.contacts.interface_of_point][:, 1] == 0, 1.0, -1.0)
+    forces = np.einsum("pjx,px->pj", line.contacts.frames, sign[:, None] * np.array([0.0, 0.0, 4.0]))
+    forces[:, 0] = 16.0
+    for excess, proves in (([-1.0, -1.0], True), ([-1.0, 1.0], False), ([1.0, -1.0], False), ([1.0, 1.0], False)):
+        laws[name] = excess
+        static, _ = proved(line, state(forces, np.zeros((1, 6)), 0.0))
+        assert (static == pytest.approx(0.0)) if proves else np.isnan(static)
 
 
 def test_forces_that_cannot_be_mended_prove_nothing(dry: Line, mended: dict[str, Any]) -> None:

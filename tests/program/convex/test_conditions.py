@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 import scipy.sparse as sp
 
 from mbla.arrays import FloatArray
 from mbla.deck.types import AnalysisSection
+from mbla.program.convex.assemble import resultants_map
 from mbla.program.convex.conditions import M1, M2, MN, ConditionRows, N
 from mbla.program.convex.crushing import CrushingLimits, crushing_limits, crushing_rows
 from mbla.program.convex.shapes import InterfaceShapes
@@ -15,7 +18,7 @@ from mbla.program.convex.torsion import TorsionLimits, torsion_limits, torsion_r
 from mbla.program.kinematic import ConeProgram
 from mbla.solution.clarabel_adapter import ClarabelProgram
 from mbla.solution.settings import solver_settings
-from tests.program.convex.test_shapes import shapes_of
+from tests.program.convex.test_shapes import prism_line, shapes_of
 
 RECTANGLE = shapes_of((0, 0), (1.25, 0), (1.25, 0.75), (0, 0.75))
 TRIANGLE = shapes_of((0, 0), (1.0, 0), (0.25, 0.75))
@@ -117,3 +120,11 @@ def test_interfaces_without_the_condition_are_left_out() -> None:
     assert torsion_rows(torsion_limits(RECTANGLE, none, none), 1).cost.size == 0
     rectangles, others = crushing_limits(RECTANGLE, np.array([np.inf]), none)
     assert crushing_rows(rectangles, others, 1).cost.size == 0
+
+
+@pytest.mark.parametrize("size", [2.0**-60, 2.0**30])
+def test_moments_of_the_smallest_interface_are_forces_by_arms(size: float) -> None:
+    contacts = prism_line([(0, 0), (1.25, 0), (1.25, 0.75), (0, 0.75)]).contacts
+    scaled = replace(contacts, points=size * contacts.points, centroids=size * contacts.centroids)
+    lengths = np.array([1.0, 1.0, 1.0, size, size, size])
+    assert np.array_equal(resultants_map(scaled).toarray(), lengths[:, None] * resultants_map(contacts).toarray())

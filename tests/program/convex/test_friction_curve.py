@@ -122,3 +122,9 @@ def test_near_a_disc_the_curve_is_nearly_that_of_a_disc() -> None:
     """About the middle of a disc of radius 1 the Hessian of ρ = 2/3 is the unit matrix: θ = 2 - 4/3 at the least."""
     _, theta = fitted_curves(regular(24))
     assert 0.6 < theta[0] < 0.95
+
+
+@pytest.mark.parametrize("name", ["square", "two to one"])
+def test_a_fitted_curve_of_a_rectangle_is_as_sharp_as_the_closed_form(name: str) -> None:
+    sides = np.ptp(SHAPES[name], axis=1)
+    assert fitted_curves(SHAPES[name])[1] == pytest.approx(rectangle_curve(sides)[1], abs=1e-6)

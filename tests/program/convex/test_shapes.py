@@ -63,6 +63,15 @@ def test_points_on_edges_are_no_corners() -> None:
     assert refined.radii == pytest.approx(plain.radii, rel=1e-12)
 
 
+def test_small_interfaces_have_the_same_corners() -> None:
+    """Sides of a few ten-thousandths of the unit of length."""
+    outline, size = np.array([(0, 0), (1, 0), (1, 0.75), (0, 0.75)]), 2.0**-12
+    large, small = (shapes_of(*[(float(x), float(y)) for x, y in scale * outline]) for scale in (1.0, size))
+    assert small.rectangles.all()
+    assert small.corners == pytest.approx(size * large.corners)
+    assert small.radii == pytest.approx(size * large.radii)
+
+
 def test_angle_has_the_hull_for_its_edges_and_itself_for_its_friction() -> None:
     angle = ((0, 0), (1, 0), (1, 0.4), (0.4, 0.4), (0.4, 1), (0, 1))
     shapes = shapes_of(*angle)

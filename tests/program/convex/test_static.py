@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from dataclasses import replace
 
 import numpy as np
@@ -13,12 +14,13 @@ from mbla.deck.types import AnalysisSection
 from mbla.program.convex.assemble import ConvexProgram, assemble_convex
 from mbla.program.convex.conditions import MN
 from mbla.program.convex.friction_limit import curve_size
+from mbla.program.convex.shapes import local_points
 from mbla.program.convex.static import ConvexStaticForm, convex_proximal_data, convex_proximal_form
 from mbla.program.kinematic import ConeProgram
 from mbla.solution.clarabel_adapter import ClarabelProgram
 from mbla.solution.settings import solver_settings
 from tests.program.convex.test_conditions import crushing_allowed
-from tests.program.convex.test_shapes import prism_line
+from tests.program.convex.test_shapes import PRISM, prism_line
 
 SETTINGS = solver_settings(AnalysisSection())
 OUTLINES: dict[str, tuple[tuple[float, float], ...]] = {
@@ -106,6 +108,26 @@ def test_forces_at_given_limits(name: str, law: str) -> None:
             seen.append(good)
     assert set(seen) == {False, True}
     assert len(seen) > 40
+
+
+def test_each_of_two_rectangles_has_bounds_of_its_own() -> None:
+    """Two like blocks: the one that is pressed a quarter of a side off its middle bears half of its strength."""
+    text = PRISM.replace(
+        "blocks:\n", "blocks:\n  - box: {group: two, material: stone, min: [5, 0, 0], max: [6.25, 0.75, 1]}\n"
+    )
+    line = prism_line(OUTLINES["rectangle"], f"joints.dry={{friction: 0.5, {STRENGTH}}}", text=text)
+    convex = assemble_convex(line.model, line.contacts, line.load_case)
+    form = convex_proximal_form(convex, 1.0)
+    strength = float(convex.rectangles.strength[0])
+    ones = np.ones(2)
+    _, rhs = convex_proximal_data(form, 1.0, np.zeros((8, 3)), np.ones(8), ones, ones)
+    arms = local_points(line.contacts).reshape(2, 4, 2)
+    for pressed, axis, way in itertools.product((0, 1), (0, 1), (1.0, -1.0)):
+        for share, held in ((0.45, True), (0.55, False)):
+            forces = np.zeros((2, 4, 3))
+            forces[:, :, 0] = share * strength / 4
+            forces[pressed, :, 0] *= 1.0 + 0.5 * np.sign(way * arms[pressed, :, axis])
+            assert (room(form, rhs, forces.reshape(8, 3)) > 0) == held
 
 
 def test_velocities_and_motions_are_read_from_their_rows() -> None:

@@ -14,3 +14,12 @@ def test_rounding_of_the_largest_entry_is_left_out() -> None:
     assert matrix.data.tolist() == [-4.0, 1e-3]
     assert matrix.shape == (2, 3)
     assert tidy(sp.coo_array((2, 3))).nnz == 0
+
+
+def test_entries_come_in_order() -> None:
+    given = sp.csr_array((np.array([3.0, 1.0, 4.0]), np.array([2, 0, 1]), np.array([0, 2, 3])), shape=(2, 3))
+    assert not given.has_sorted_indices
+    for matrix in (given, sp.csc_array(given), sp.coo_array(given)):
+        clean = tidy(matrix)
+        assert clean.has_canonical_format
+        assert clean.toarray().tolist() == [[1.0, 0.0, 3.0], [0.0, 4.0, 0.0]]
