@@ -64,7 +64,6 @@ def associative_static_form(program: Program, facets: FloatArray | None = None) 
     load = np.concatenate([program.live_load, np.zeros(forces.shape[0] - len(program.live_load))])
     matrix = sp.csc_array(sp.hstack([forces, sp.csr_array(load[:, None])]))
     matrix.eliminate_zeros()
-    matrix.sort_indices()
     cone_program = ConeProgram(
         cost=np.append(np.zeros(len(columns)), -1.0),
         matrix=matrix,

@@ -181,9 +181,7 @@ def _below(first: FloatArray, matrix: sp.csc_array) -> sp.csc_array:
     entries, indices = np.empty(len(rest)), np.zeros(len(rest), dtype=matrix.indices.dtype)
     entries[top], entries[rest] = first[first != 0.0], matrix.data
     indices[rest] = matrix.indices + 1
-    whole = sp.csc_array((entries, indices, pointers), shape=(matrix.shape[0] + 1, matrix.shape[1]))
-    whole.sort_indices()
-    return whole
+    return sp.csc_array((entries, indices, pointers), shape=(matrix.shape[0] + 1, matrix.shape[1]))
 
 
 @shared("kinematic form")

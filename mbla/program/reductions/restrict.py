@@ -76,5 +76,4 @@ def tidy(matrix: sp.sparray) -> sp.csr_array:
     largest = np.abs(clean.data).max(initial=0.0)
     clean.data[np.abs(clean.data) < 1e-14 * largest] = 0.0
     clean.eliminate_zeros()
-    clean.sort_indices()
     return clean

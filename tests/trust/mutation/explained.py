@@ -27,6 +27,12 @@ EXPLAINED: dict[tuple[str, str, str], str] = {
         "False -> True",
     ): "directed graphs are connected weakly unless said otherwise",
     (
+        "mbla/solution/verify_lock.py",
+        "if np.any(_lasting_excess(lock, limits) > scale.of_lighter(contacts, allowed)):",
+        "_lasting_excess(lock, limits) > scale.of_lighter(contacts, allowed) -> "
+        "_lasting_excess(lock, limits) >= scale.of_lighter(contacts, allowed)",
+    ): "a rough limit met exactly; it is never zero, blocks without a live load have the mean of the others'",
+    (
         "mbla/contacts/contacts.py",
         "return {name: int(count) for name, count in zip(self.joint_names, counts, strict=True)}",
         "True -> False",
@@ -238,6 +244,11 @@ EXPLAINED: dict[tuple[str, str, str], str] = {
         "fixed = np.where(motion.opens, -limits.tension, np.where(motion.crushes, limits.compression, 0.0))",
         "0.0 -> 1.0",
     ): "read at points that open or crush alone",
+    (
+        "mbla/program/convex/crushing.py",
+        "alpha, beta_0, beta_2 = first[:, None] + np.arange(2), first + 2, first + 3",
+        "2 -> 3",
+    ): "a third α that nobody reads",
     (
         "mbla/program/convex/friction_limit.py",
         "sense, twist = np.where(trial[:, 2] < 0, -1.0, 1.0), np.abs(trial[:, 2])",
