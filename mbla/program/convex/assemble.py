@@ -99,7 +99,9 @@ def assemble_convex(model: Model, contacts: Contacts, load_case: LoadCase) -> Co
 
 def resultants_map(contacts: Contacts) -> sp.csr_array:
     """The map from contact forces to the resultants of the interfaces, (6 n_interfaces, 3 n_points)."""
-    x1, x2 = local_points(contacts).T
+    arms = local_points(contacts)
+    arms[np.abs(arms) < 1e-14 * np.hypot(*arms.T).max(initial=0.0)] = 0.0
+    x1, x2 = arms.T
     interface = contacts.interface_of_point
     point = np.arange(len(interface))
     one = np.ones(len(interface))
@@ -109,8 +111,6 @@ def resultants_map(contacts: Contacts) -> sp.csr_array:
     columns = np.concatenate([3 * point + column for _, column, _ in terms])
     values = np.concatenate([value for _, _, value in terms])
     shape = (6 * len(contacts), 3 * len(interface))
-    size = np.hypot(x1, x2).max(initial=0.0)
-    values[np.abs(values) < 1e-14 * size] = 0.0
     return sp.csr_array(sp.coo_array((values, (rows, columns)), shape=shape))
 
 
