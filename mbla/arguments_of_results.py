@@ -88,7 +88,9 @@ def add_export(commands: Any) -> None:
     command.add_argument("result", type=Path, metavar="RESULT.h5")
     command.add_argument("--csv", action="store_true", help="CSV, units in the header (what is written by default)")
     command.add_argument("--parquet", action="store_true", help="Parquet (extra mbla[tables])")
-    command.add_argument("--vtkhdf", action="store_true", help="VTKHDF for ParaView, one file per load case")
+    command.add_argument(
+        "--vtkhdf", action="store_true", help="VTKHDF for ParaView with VTK 9.6 or later, one file per load case"
+    )
     command.add_argument(
         "-o", "--output", type=Path, metavar="DIR", help="folder of the files (default: that of the result)"
     )

@@ -49,7 +49,7 @@ def test_every_table_is_there_in_both_formats(folder: Path) -> None:
 @pytest.mark.parametrize("name", TABLES)
 def test_csv_reads_back_to_the_same_bits(results: Results, folder: Path, name: str) -> None:
     table = tables_of(results)[name]
-    read = pandas.read_csv(folder / f"tower_{name}.csv", engine="python")
+    read = pandas.read_csv(folder / f"tower_{name}.csv", engine="python", dtype=str)  # its own numbers lose bits
     assert tuple(read.columns) == table.header
     assert len(read) == len(table)
     for column, values in zip(table.kind.columns, table.values, strict=True):
@@ -58,7 +58,9 @@ def test_csv_reads_back_to_the_same_bits(results: Results, folder: Path, name: s
             assert ["" if pandas.isna(cell) else cell for cell in back] == values.tolist()
         else:
             expected = np.ma.filled(values.astype(float), np.nan)
-            assert np.array_equal(back.to_numpy(dtype=float), expected, equal_nan=True), column.name
+            named = {"True": "1", "False": "0", "": "nan"}
+            figures = [float(named.get(cell, cell)) for cell in back.fillna("")]
+            assert np.array_equal(figures, expected, equal_nan=True), column.name
 
 
 def test_csv_is_rfc_4180(folder: Path) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
@@ -21,6 +22,10 @@ from tests.results.shapes import BRICK, PYRAMID, TETRA, WEDGE, blocks_of
 from tests.results.synthetic import tower_results
 
 pytest.importorskip("vtkmodules.vtkIOHDF")
+pytestmark = pytest.mark.skipif(
+    tuple(map(int, version("vtk").split(".")[:2])) < (9, 7),
+    reason="readers of VTK up to 9.5 do not come back from polyhedra, and 9.6 sees wedges inside out",
+)
 
 
 @pytest.fixture(scope="module")
