@@ -1,10 +1,14 @@
 """VTU and VTKHDF files read back by vtk."""
 
 import warnings
+from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+
+WEDGE = 13
+"""number of the cell type"""
 
 
 def read_vtk(path: Path) -> Any:
@@ -37,7 +41,16 @@ def grid_volumes(grid: Any) -> Any:
     sizes.SetInputData(grid)
     sizes.Update()
     array = sizes.GetOutput().GetCellData().GetArray("Volume")
-    return np.array([array.GetValue(i) for i in range(array.GetNumberOfTuples())])
+    volumes = np.array([array.GetValue(i) for i in range(array.GetNumberOfTuples())])
+    if vtk_version() < (9, 7):  # wedges had the other sign until then
+        wedges = [grid.GetCellType(i) == WEDGE for i in range(len(volumes))]
+        volumes[wedges] *= -1
+    return volumes
+
+
+def vtk_version() -> tuple[int, ...]:
+    """Of the vtk that is installed, its first two numbers."""
+    return tuple(map(int, version("vtk").split(".")[:2]))
 
 
 def vtk_array(data: Any, name: str) -> Any:
