@@ -190,7 +190,8 @@ def test_every_force_of_a_given_mechanism_is_there(components: int) -> None:
         normal = -law.tension[0] if motion.opens[0] else law.compression[0] if motion.crushes[0] else 1.0
         sheared = not motion.slides[0] and law.cohesion[0] + law.friction[0] * normal > 0
         assert form.expand.shape == (components, int(not _held(motion)) + (components - 1) * sheared)
-        assert np.linalg.matrix_rank(form.expand.toarray()) == form.expand.shape[1]
+        kept = form.expand.shape[1]
+        assert kept == 0 or np.linalg.matrix_rank(form.expand.toarray()) == kept
 
 
 @BOTH
