@@ -9,11 +9,10 @@ from mbla.errors import FileError, UsageError
 from mbla.results.pictures.animation import FRAMES_PER_SECOND, displacements, fitted_options, write_animation
 from mbla.results.pictures.options import PictureOptions
 from mbla.results.pictures.plot import plot_results
-from mbla.results.pictures.space import can_draw
 from mbla.results.results import Results
+from tests.results.opengl import needs_opengl
 from tests.results.synthetic import tower_results
 
-needs_opengl = pytest.mark.skipif(not can_draw(), reason="this machine has no OpenGL")
 SMALL = PictureOptions(size=(200, 202), view=(-60.0, 25.0))
 
 

@@ -16,9 +16,9 @@ from mbla.results.pictures.animation import displacements
 from mbla.results.pictures.options import VIEWS, PictureOptions
 from mbla.results.pictures.palette import CASES, HINGE
 from mbla.results.pictures.plot import pictures_of, plot_case, plot_results
-from mbla.results.pictures.space import can_draw
 from mbla.results.results import Results
 from mbla.results.write import write_outputs
+from tests.results.opengl import needs_opengl
 from tests.results.synthetic import tower_results
 
 IN_SPACE = PictureOptions(kinds=("mechanism",), view=VIEWS["iso"])
@@ -52,7 +52,7 @@ def test_without_opengl_the_machine_is_told_what_it_lacks(
     assert not list(tmp_path.glob("*.png"))
 
 
-@pytest.mark.skipif(not can_draw(), reason="this machine has no OpenGL")
+@needs_opengl
 def test_pictures_show_the_structure_and_its_hinge(tmp_path: Path, results: Results) -> None:
     paths = plot_results(results, tmp_path / "pictures", "tower", IN_SPACE)
     assert [path.name for path in paths] == ["tower_push_x.png", "tower_fall.png"]
@@ -64,7 +64,7 @@ def test_pictures_show_the_structure_and_its_hinge(tmp_path: Path, results: Resu
     assert near(falling, HINGE) < 20
 
 
-@pytest.mark.skipif(not can_draw(), reason="this machine has no OpenGL")
+@needs_opengl
 def test_one_file_for_one_case(tmp_path: Path, results: Results) -> None:
     target = tmp_path / "mine.png"
     assert plot_results(results, target, "tower", replace(IN_SPACE, case="push_x")) == [target]
@@ -209,7 +209,7 @@ def test_a_picture_of_the_model_of_one_case_shows_its_loads_alone(tmp_path: Path
     assert CASES[1].lower() not in svg.lower()
 
 
-@pytest.mark.skipif(not can_draw(), reason="this machine has no OpenGL")
+@needs_opengl
 def test_a_film_goes_to_a_file_of_its_own(tmp_path: Path, results: Results, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("mbla.results.pictures.animation.displacements", lambda: displacements(2))
     target = tmp_path / "film.gif"

@@ -13,7 +13,6 @@ from typing import Any
 import numpy as np
 import pytest
 
-from mbla.results.pictures.space.renderer import can_draw
 from mbla.results.records.json_record import results_json
 from mbla.results.report import report as report_module
 from mbla.results.report.figures import Figures
@@ -21,6 +20,7 @@ from mbla.results.report.report import write_report
 from mbla.results.results import Results
 from mbla.results.words.text import number
 from tests.browser import Visit, visited
+from tests.results.opengl import needs_opengl
 from tests.results.synthetic import tower_results
 
 WIDTHS = (1280, 390)
@@ -141,7 +141,7 @@ def test_it_prints_with_the_deck_opened(browser: Any, report: Path, tmp_path: Pa
         assert re.search(r"^ *1 ?/ ?\d+$", text, re.MULTILINE)
 
 
-@pytest.mark.skipif(not can_draw(), reason="the machine has no OpenGL")
+@needs_opengl
 def test_pictures_are_painted(browser: Any, report: Path) -> None:
     pytest.importorskip("pyvista")
     opened = open_report(browser, report)

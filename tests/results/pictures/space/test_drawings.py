@@ -26,10 +26,10 @@ from mbla.results.pictures.space.views import USUAL, best_view
 from mbla.results.pictures.tints import tint_of_part
 from mbla.results.results import Results
 from mbla.solution.solution import ContactMode
+from tests.results.opengl import needs_opengl
 from tests.results.pictures.rows_and_columns import column_of_blocks, row_of_blocks
 from tests.results.synthetic import cuboids, tower_results
 
-needs_opengl = pytest.mark.skipif(not can_draw(), reason="this machine has no OpenGL")
 SMALL = PictureOptions(size=(400, 250), view=(-60.0, 25.0))
 
 

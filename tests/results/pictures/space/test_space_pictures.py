@@ -12,7 +12,7 @@ from mbla.results.collapse.force_freedom import ForceFreedom
 from mbla.results.pictures.options import PictureOptions
 from mbla.results.pictures.palette import FIXED_BLOCK, HINGE, OPEN, SLIDE, WARNING, group_colours
 from mbla.results.pictures.scene import Scene, scene_of
-from mbla.results.pictures.space import can_draw, forces
+from mbla.results.pictures.space import forces
 from mbla.results.pictures.space.camera import fitted
 from mbla.results.pictures.space.forces import forces_drawing, ramp, resultant_rods
 from mbla.results.pictures.space.joints import joint_marks
@@ -27,9 +27,9 @@ from mbla.results.pictures.tints import tint_of_part
 from mbla.results.results import Results
 from mbla.solution.solution import Status
 from tests.line import BLOCK, case_of, line_of
+from tests.results.opengl import needs_opengl
 from tests.results.synthetic import tower_results
 
-needs_opengl = pytest.mark.skipif(not can_draw(), reason="this machine has no OpenGL")
 SMALL = PictureOptions(size=(400, 250), view=(-60.0, 25.0))
 
 
