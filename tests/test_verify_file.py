@@ -68,6 +68,26 @@ def test_what_the_deck_or_the_mechanism_does_not_give(path: Path, name: str, fac
     assert words in differences(path)
 
 
+@pytest.mark.parametrize("factor", [1e50, 1e100, 1e160, 1e300])
+@pytest.mark.parametrize(
+    "name",
+    [
+        "model/friction",
+        "cases/push/contact_forces",
+        "cases/push/contact_velocities",
+        "cases/push/mechanism",
+        "cases/push/associative/contact_forces",
+        "cases/push/associative/mechanism",
+        "cases/push/load_factor",
+        "cases/push/associative/load_factor",
+    ],
+)
+def test_numbers_whose_squares_are_beyond_numbers_are_disagreed_with(path: Path, name: str, factor: float) -> None:
+    """Without a warning on the way."""
+    scaled(path, name, factor)
+    assert differences(path)
+
+
 @pytest.mark.parametrize(
     ("name", "words"),
     [

@@ -17,10 +17,11 @@ TINY = 1e-100
 """Stands for zero slack: its square and the square of its inverse are within the range of numbers."""
 
 
+@np.errstate(over="ignore", invalid="ignore")
 def force_metric(limits: YieldLimits, x: FloatArray) -> sp.csr_array:
     """Inverse Hessian of the barriers of all yield conditions at forces strictly inside, block-diagonal.
 
-    Points without shear strength keep T = 0.
+    Points without shear strength keep T = 0. Not finite where squares of forces are beyond the range of numbers.
     """
     mu, s = limits.friction, limits.cohesion + limits.friction * x[:, 0]
     t = x[:, 1:]
@@ -41,8 +42,12 @@ def force_metric(limits: YieldLimits, x: FloatArray) -> sp.csr_array:
     return block_diagonal(inverse)
 
 
+@np.errstate(over="ignore", invalid="ignore")
 def velocity_hessian(friction: FloatArray, v: FloatArray) -> FloatArray:
-    """Hessian of −log(v_N² − μ² ‖v_T‖²) at velocities strictly inside; −log v_N² where μ = 0."""
+    """Hessian of −log(v_N² − μ² ‖v_T‖²) at velocities strictly inside; −log v_N² where μ = 0.
+
+    Not finite where squares of velocities are beyond the range of numbers.
+    """
     squared = friction**2
     det = np.maximum(v[:, 0] ** 2 - squared * (v[:, 1:] ** 2).sum(axis=1), TINY)
     hessian = _cone_hessian(np.column_stack([-v[:, 0], squared[:, None] * v[:, 1:]]), det)

@@ -59,7 +59,8 @@ def _kinematic_correction(program: Program, u: FloatArray, opening: float) -> Fl
     target[:, 0] = np.maximum(v[:, 0], mu * np.linalg.norm(v[:, 1:], axis=1) + opening * speed)
     weights = velocity_hessian(mu, target)
     # joints that can crush need not open: they only keep the velocity from straying
-    weights[np.isfinite(program.limits.compression)] = np.eye(program.components) / speed**2
+    weak = 1.0 / (speed * speed)  # not **, which raises beyond numbers
+    weights[np.isfinite(program.limits.compression)] = weak * np.eye(program.components)
     metric = block_diagonal(weights)
     solve = bordered_solver(sp.csc_array(matrix @ metric @ matrix.T), program.live_load, np.inf)
     if solve is None:

@@ -78,3 +78,11 @@ def test_points_without_shear_strength_keep_their_shear() -> None:
     metric = force_metric(limits_of(0.0, 0.0, 0.0, np.inf), np.array([[2.0, 0.0, 0.0]])).toarray()
     assert metric[0, 0] == pytest.approx(4.0)
     assert not metric[1:].any()
+
+
+@both_spaces
+def test_forces_and_velocities_beyond_their_squares_give_metrics_that_are_told_as_none(components: int) -> None:
+    """Nothing is warned of: who asks sees that they are not finite."""
+    huge = np.array([[1e200, 3e199, 1e199]])[:, :components]
+    assert not np.isfinite(force_metric(limits_of(0.6, 1e200, 0.0, np.inf), huge).data).all()
+    assert not np.isfinite(velocity_hessian(np.array([0.7]), huge)).all()

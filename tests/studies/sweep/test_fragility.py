@@ -8,13 +8,14 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from scipy.stats import binomtest, lognorm, norm, qmc
+from scipy.stats import binomtest, lognorm, norm
 
 from mbla.arrays import FloatArray
 from mbla.deck.units import Units
 from mbla.errors import UsageError
 from mbla.results.records.json_record import json_line
 from mbla.studies.sweep.design.design import Design, DesignColumn, Dimension, Point
+from mbla.studies.sweep.design.sampling import quantiles
 from mbla.studies.sweep.fragility import fragility_of, interval
 from mbla.studies.sweep.fragility_words import fragility_csv, fragility_json, fragility_lines
 from mbla.studies.sweep.outcome import DONE, FAILED, Outcome
@@ -96,7 +97,7 @@ def test_the_interval_holds_its_confidence_over_many_samples(confidence: float) 
 
 def test_the_interval_is_too_wide_for_a_latin_hypercube() -> None:
     """The friction alone is sampled: every sample has nearly the same count, so that the interval always holds."""
-    draws = [FRICTION.ppf(qmc.LatinHypercube(1, rng=seed).random(POINTS)[:, 0]) for seed in range(200)]
+    draws = [FRICTION.ppf(quantiles("latin_hypercube", POINTS, seed, ["mu"])[:, 0]) for seed in range(200)]
     assert coverage(draws, 0.5) == 1.0
 
 

@@ -165,9 +165,9 @@ def test_pandas_reads_both_tables(folder: Path) -> None:
     assert frame.attrs["meanings"]["mu"] == "friction"
     assert frame["load_factor"].isna().tolist() == [False, True, False, True, False]
     assert frame.groupby("mu")["state"].count().tolist() == [3, 2]
-    text = pandas.read_csv(folder / "sweep.csv", engine="python")
-    assert text["t [m]"].tolist() == frame["t"].tolist()
-    assert text["load_factor"].equals(frame["load_factor"])
+    text = pandas.read_csv(folder / "sweep.csv", dtype=str)  # numbers of its own lose bits in some versions
+    assert text["t [m]"].astype(float).tolist() == frame["t"].tolist()
+    assert text["load_factor"].astype(float).equals(frame["load_factor"])
 
 
 def test_xarray_opens_the_file_along_the_axes_of_the_design(folder: Path) -> None:
@@ -241,7 +241,7 @@ def test_probabilities_stand_in_the_record_and_in_a_file_of_their_own(tmp_path: 
     record = write_tables(tmp_path, False, RUN, table(), TableFiles(), found)
     assert [each["at"] for each in record["fragility"]] == [{"mu": 0.5}, {"mu": 0.7}]
     assert "sweep_fragility.csv" in record["files"]
-    frame = pandas.read_csv(tmp_path / "sweep_fragility.csv", engine="python")
+    frame = pandas.read_csv(tmp_path / "sweep_fragility.csv")
     assert frame["below"].tolist() == [2, 0]  # that which does not stand, and the tiny one
     assert frame["unknown"].tolist() == [0, 1]
     left = _only(tmp_path, "sweep_fragility.csv")
