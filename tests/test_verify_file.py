@@ -14,6 +14,7 @@ from mbla.run_options import RunOptions
 from mbla.verify_file import verify_results
 from tests.line import BLOCK
 from tests.results.changed_files import change, changing
+from tests.solution.convex_structures import TWIST
 
 NON_ASSOCIATIVE = BLOCK.replace("flow_rule: associative", "flow_rule: non_associative")
 
@@ -85,6 +86,21 @@ def test_what_the_deck_or_the_mechanism_does_not_give(path: Path, name: str, fac
 def test_numbers_whose_squares_are_beyond_numbers_are_disagreed_with(path: Path, name: str, factor: float) -> None:
     """Without a warning on the way."""
     scaled(path, name, factor)
+    assert differences(path)
+
+
+@pytest.mark.parametrize("name", ["load_factor", "resultants", "torsion_motions", "mechanism"])
+def test_resultants_and_motions_of_interfaces_beyond_numbers_are_disagreed_with(tmp_path: Path, name: str) -> None:
+    deck = tmp_path / "deck.yaml"
+    deck.write_text(TWIST, encoding="utf-8")
+    run(deck, RunOptions(overrides=("parameters.e1=0.3",)))
+    path = tmp_path / "deck.out" / "deck.h5"
+    scaled(path, f"cases/couple/{name}", 1e200)
+    assert differences(path)
+
+
+def test_points_of_contact_beyond_numbers_are_disagreed_with(path: Path) -> None:
+    scaled(path, "contacts/points", 1e160)
     assert differences(path)
 
 
