@@ -5,9 +5,11 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
 from mbla.errors import FileError
+from mbla.results.hdf5.reading import MOST
 from mbla.results.hdf5.result_file import read_results_hdf5
 from mbla.run_deck import run
 from mbla.run_options import RunOptions
@@ -17,6 +19,7 @@ from tests.results.changed_files import change, changing
 from tests.solution.convex_structures import TWIST
 
 NON_ASSOCIATIVE = BLOCK.replace("flow_rule: associative", "flow_rule: non_associative")
+LARGE = MOST / 2
 
 
 @pytest.fixture(scope="module")
@@ -46,6 +49,12 @@ def scaled(path: Path, name: str, factor: float) -> None:
         file[name][...] = file[name][()] * factor
 
 
+def enlarged(path: Path, name: str, largest: float) -> None:
+    with changing(path) as file:
+        values = np.asarray(file[name][()])
+        file[name][...] = values * (largest / np.abs(values).max())
+
+
 def test_a_file_as_it_was_written_agrees(path: Path) -> None:
     results, disagreements = verify_results(read_results_hdf5(path))
     assert disagreements == ()
@@ -69,7 +78,7 @@ def test_what_the_deck_or_the_mechanism_does_not_give(path: Path, name: str, fac
     assert words in differences(path)
 
 
-@pytest.mark.parametrize("factor", [1e50, 1e100, 1e160, 1e300])
+@pytest.mark.parametrize("largest", [1e50, 1e100, LARGE])
 @pytest.mark.parametrize(
     "name",
     [
@@ -83,24 +92,26 @@ def test_what_the_deck_or_the_mechanism_does_not_give(path: Path, name: str, fac
         "cases/push/associative/load_factor",
     ],
 )
-def test_numbers_whose_squares_are_beyond_numbers_are_disagreed_with(path: Path, name: str, factor: float) -> None:
+def test_numbers_near_the_end_of_all_are_disagreed_with(path: Path, name: str, largest: float) -> None:
     """Without a warning on the way."""
-    scaled(path, name, factor)
+    enlarged(path, name, largest)
     assert differences(path)
 
 
 @pytest.mark.parametrize("name", ["load_factor", "resultants", "torsion_motions", "mechanism"])
-def test_resultants_and_motions_of_interfaces_beyond_numbers_are_disagreed_with(tmp_path: Path, name: str) -> None:
+def test_resultants_and_motions_of_interfaces_near_the_end_of_all_numbers_are_disagreed_with(
+    tmp_path: Path, name: str
+) -> None:
     deck = tmp_path / "deck.yaml"
     deck.write_text(TWIST, encoding="utf-8")
     run(deck, RunOptions(overrides=("parameters.e1=0.3",)))
     path = tmp_path / "deck.out" / "deck.h5"
-    scaled(path, f"cases/couple/{name}", 1e200)
+    enlarged(path, f"cases/couple/{name}", LARGE)
     assert differences(path)
 
 
-def test_points_of_contact_beyond_numbers_are_disagreed_with(path: Path) -> None:
-    scaled(path, "contacts/points", 1e160)
+def test_points_of_contact_near_the_end_of_all_numbers_are_disagreed_with(path: Path) -> None:
+    enlarged(path, "contacts/points", LARGE)
     assert differences(path)
 
 

@@ -22,6 +22,8 @@ from mbla.errors import ValueRefused
 EXPRESSION_PATTERN = "^="
 QUANTITY_PATTERN = r"^(=|\s*[-+]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][-+]?[0-9]+)? *[A-Za-zµμ°])"
 """What a JSON Schema can see of expressions and of strings with a unit."""
+STRONGEST = 1e100
+"""in the deck's unit of stress, of strengths: squares of forces are beyond the range of numbers not far from there"""
 
 
 @dataclass(frozen=True)
@@ -112,8 +114,8 @@ ForcePerLength: TypeAlias = Annotated[float, Quantity("force_per_length")]
 PositiveMass: TypeAlias = Annotated[float, Quantity("mass", gt=0)]
 Stress: TypeAlias = Annotated[float, Quantity("stress")]
 UnitWeight: TypeAlias = Annotated[float, Quantity("unit_weight")]
-NonNegativeStress: TypeAlias = Annotated[float, Quantity("stress", ge=0)]
-PositiveStress: TypeAlias = Annotated[float, Quantity("stress", gt=0)]
+NonNegativeStress: TypeAlias = Annotated[float, Quantity("stress", ge=0, le=STRONGEST)]
+PositiveStress: TypeAlias = Annotated[float, Quantity("stress", gt=0, le=STRONGEST)]
 PositiveDensity: TypeAlias = Annotated[float, Quantity("density", gt=0)]
 PositiveUnitWeight: TypeAlias = Annotated[float, Quantity("unit_weight", gt=0)]
 Acceleration: TypeAlias = Annotated[float, Quantity("acceleration")]

@@ -125,8 +125,7 @@ def _static_correction(program: Program, x: FloatArray, factor: float) -> tuple[
     weights = force_metric(replace(limits, friction=np.minimum(limits.friction, np.maximum(STEEP, needed))), x)
     matrix = program.equilibrium_matrix
     normal = sp.csc_array(matrix @ weights @ matrix.T)
-    size = 1e-4 * max(abs(factor), 1e-3)
-    solve = bordered_solver(normal, program.live_load, size * size)  # not **, which raises beyond numbers
+    solve = bordered_solver(normal, program.live_load, (1e-4 * max(abs(factor), 1e-3)) ** 2)
     if solve is None:
         return None
     delta, delta_factor = np.zeros_like(x), 0.0

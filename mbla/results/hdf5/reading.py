@@ -14,6 +14,10 @@ if TYPE_CHECKING:
     import h5py
 
 
+MOST = 1e152
+"""of any number: its square is one, too. Loads and strengths of a deck reach 1e100, its lengths lie within 1e±50"""
+
+
 def text_of(value: Any) -> str:
     """Text as HDF5 gives it."""
     return value.decode("utf-8") if isinstance(value, bytes) else str(value)
@@ -25,7 +29,7 @@ def strings(dataset: h5py.Dataset) -> list[str]:
 
 
 def read_field(dataset: h5py.Dataset, path: str, field: Field, sizes: dict[str, int]) -> Value:
-    """One dataset, with the type, the dimensions and the finiteness that the layout asks for."""
+    """One dataset, with the type, the dimensions and the range of numbers that the layout asks for."""
     if dataset.ndim != len(field.dims):
         raise ValueError(f"{path} has {dataset.ndim} dimensions instead of {len(field.dims)}")
     for name, size in zip(field.dims, dataset.shape, strict=True):
@@ -42,6 +46,8 @@ def read_field(dataset: h5py.Dataset, path: str, field: Field, sizes: dict[str, 
     array = np.asarray(dataset[()])
     if field.kind == "float" and not field.open and not np.isfinite(array).all():
         raise ValueError(f"{path} is not finite")
+    if field.kind == "float" and np.any(np.isfinite(array) & (np.abs(array) > MOST)):
+        raise ValueError(f"{path} is beyond {MOST:g}")
     if field.kind == "bool" and np.any(array > 1):
         raise ValueError(f"{path} is neither 0 nor 1")
     array = array.astype({"float": np.float64, "int": np.int64, "bool": np.bool_}[field.kind])
