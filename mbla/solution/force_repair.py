@@ -106,7 +106,8 @@ def _pulled_inside(program: Program, x: FloatArray) -> FloatArray:
     """
     inside, limits = x.copy(), program.limits
     largest = np.minimum(max(float(np.abs(x[:, 0]).max(initial=0.0)), 1e-288), least_carried(program, x))
-    apex = np.where(limits.friction > 0, limits.cohesion / np.maximum(limits.friction, 1e-300), np.inf)
+    frictional = limits.friction > 0
+    apex = np.divide(limits.cohesion, limits.friction, out=np.full_like(limits.cohesion, np.inf), where=frictional)
     lower, upper = -np.minimum(limits.tension, apex), limits.compression
     room = np.minimum(MARGIN * largest, 0.25 * (upper - lower))
     inside[:, 0] = np.clip(x[:, 0], lower + room, upper - room)
@@ -125,7 +126,8 @@ def _static_correction(program: Program, x: FloatArray, factor: float) -> tuple[
     weights = force_metric(replace(limits, friction=np.minimum(limits.friction, np.maximum(STEEP, needed))), x)
     matrix = program.equilibrium_matrix
     normal = sp.csc_array(matrix @ weights @ matrix.T)
-    solve = bordered_solver(normal, program.live_load, (1e-4 * max(abs(factor), 1e-3)) ** 2)
+    free = 1e-4 * max(abs(factor), 1e-3)
+    solve = bordered_solver(normal, program.live_load, free * free)  # not **, which raises beyond numbers
     if solve is None:
         return None
     delta, delta_factor = np.zeros_like(x), 0.0

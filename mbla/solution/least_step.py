@@ -72,7 +72,8 @@ def normal_step(equilibrium: Equilibrium, cones: ConeVectors, z: FloatArray) -> 
     """The step by normal equations; None where they cannot be solved."""
     matrix, weights = equilibrium.matrix, cones.inverse_hessian(z[1:])
     normal = sp.csc_array(matrix.T @ weights @ matrix)
-    solve = bordered_solver(normal, equilibrium.live, _free_change(z) ** 2)
+    free = _free_change(z)
+    solve = bordered_solver(normal, equilibrium.live, free * free)  # not **, which raises beyond numbers
     if solve is None:
         return None
     step = np.zeros_like(z)

@@ -161,3 +161,13 @@ def test_joints_stronger_than_their_loads_by_millions_have_a_static_bound(streng
     assert checks.static_bound == pytest.approx(exact, rel=1e-6)
     assert checks.static_bound <= exact * (1 + 1e-9)
     assert checks.kinematic_bound >= exact * (1 - 1e-9)
+
+
+def test_forces_of_frictionless_joints_far_stronger_than_their_loads_are_repaired() -> None:
+    """The cone of such a joint has no end: one was looked for at a tension beyond numbers, with a warning."""
+    line = line_of(BLOCK, "parameters.mu=0", "parameters.c=1e+20")
+    forces = np.zeros((line.program.n_points, 3))
+    forces[:, 0] = -line.program.dead_load.min() / line.program.n_points
+    repaired = repaired_forces(line.program, 0.9 * forces, 0.0)
+    assert repaired is not None
+    assert line.program.scaling.load_factor(repaired[1]) == pytest.approx(0.0, abs=1e-9)

@@ -15,7 +15,8 @@ if TYPE_CHECKING:
 
 
 MOST = 1e152
-"""of any number: its square is one, too. Loads and strengths of a deck reach 1e100, its lengths lie within 1e±50"""
+"""of numbers that have a unit: their squares are numbers, too. Loads and strengths of a deck reach 1e100, its lengths
+lie within 1e±50; load factors of programs that diverged may be of any size"""
 
 
 def text_of(value: Any) -> str:
@@ -46,7 +47,7 @@ def read_field(dataset: h5py.Dataset, path: str, field: Field, sizes: dict[str, 
     array = np.asarray(dataset[()])
     if field.kind == "float" and not field.open and not np.isfinite(array).all():
         raise ValueError(f"{path} is not finite")
-    if field.kind == "float" and np.any(np.isfinite(array) & (np.abs(array) > MOST)):
+    if field.kind == "float" and field.unit != "1" and np.any(np.isfinite(array) & (np.abs(array) > MOST)):
         raise ValueError(f"{path} is beyond {MOST:g}")
     if field.kind == "bool" and np.any(array > 1):
         raise ValueError(f"{path} is neither 0 nor 1")
