@@ -1,4 +1,4 @@
-"""All checks in one command: format, lint, types, tests on all cores; options go to pytest.
+"""All checks in one command: format, lint, types and tests, these two on all cores; options go to pytest.
 
 ::
 
@@ -16,10 +16,11 @@ ROOT = Path(__file__).parents[1]
 CHECKS = (
     ("ruff", "format", "--check", "."),
     ("ruff", "check", "."),
-    ("mypy",),
+    ("mypy", "--num-workers", "auto"),
     ("pytest", "-rs", "-n", "auto", "--dist", "loadfile"),
 )
-"""-rs: what was skipped, and why: a machine without a browser or OpenGL tests less"""
+"""mypy on all cores: on one it takes minutes; -rs: what was skipped, and why: a machine without a browser or OpenGL
+tests less"""
 
 
 def main() -> int:
