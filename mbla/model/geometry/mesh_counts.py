@@ -20,6 +20,8 @@ WIDTHS |= {f"{kind}{bits}": bits // 8 for kind in ("int", "uint", "float") for b
 """bytes of the types of PLY"""
 SECTIONS = {b"Nodes": "node", b"Elements": "element"}
 """sections of a Gmsh file of version 2 that begin with their number of lines"""
+DIGITS = 18
+"""most of a number that is looked at: Python itself reads none of more than 4,300"""
 
 
 @dataclass(frozen=True)
@@ -38,17 +40,26 @@ def counts_of(mesh: Any) -> Counts:
 def announced_in_ply(header: bytes) -> Counts:
     """What the header of a PLY file announces."""
     points, faces = (re.search(rb"element\s+" + name + rb"\s+(\d+)", header) for name in (b"vertex", b"face"))
-    return Counts(int(points[1]) if points else 0, int(faces[1]) if faces else 0)
+    return Counts(*(_number(found[1], "PLY") if found else 0 for found in (points, faces)))
 
 
 def announced_in_vtu(path: Path) -> Counts:
     """What all pieces of a VTU file announce."""
     pieces = re.findall(rb"<Piece\b[^>]*>", path.read_bytes())
     points, cells = (
-        sum(int(number) for piece in pieces for number in re.findall(name + rb"\s*=\s*[\"'](-?\d+)", piece))
+        sum(_number(text, "VTU") for piece in pieces for text in re.findall(name + rb"\s*=\s*[\"'](-?\d+)", piece))
         for name in (b"NumberOfPoints", b"NumberOfCells")
     )
     return Counts(points, cells)
+
+
+def _number(text: bytes, words: str) -> int:
+    """What a file announces; GeometryFileError where that has more digits than anything in a file could need."""
+    if len(text) > DIGITS:
+        raise GeometryFileError(
+            "geometry-file", f"is not a well-formed {words} file: it announces a number of {len(text)} digits"
+        )
+    return int(text)
 
 
 def refuse_other_counts(words: str, announced: Counts, read: Counts) -> None:
@@ -73,13 +84,12 @@ def refuse_other_lines(header: bytes, body: bytes) -> None:
             f"is not a well-formed PLY file: it announces {counted(announced.points, 'vertex')} and "
             f"{counted(announced.cells, 'face')}, a line each, and has {counted(len(lines), 'line')}",
         )
-    if len(re.findall(rb"property\s+list", header)) != 1 or not re.search(
-        rb"element\s+face\s+\d+\s+property\s+list", header
-    ):
+    if not re.search(rb"element\s+face\s+\d+\s+property\s+list", header):
         return  # where the corners stand in a line, the reader knows
     others = _properties(header, b"face").count(b"property") - 1
     for number, fields in lines[announced.points :]:
-        if not fields[0].isdigit() or len(fields) != int(fields[0]) + 1 + others:
+        corners = int(fields[0]) if fields[0].isdigit() and len(fields[0]) <= DIGITS else None
+        if corners is None or len(fields) != corners + 1 + others:
             raise GeometryFileError(
                 "geometry-file",
                 f"is not a well-formed PLY file: line {number} announces {fields[0].decode(errors='replace')[:20]} "
@@ -87,27 +97,46 @@ def refuse_other_lines(header: bytes, body: bytes) -> None:
             )
 
 
+def refuse_too_short(header: bytes, body: bytes) -> None:
+    """GeometryFileError where a binary PLY file cannot hold what its header announces, before room is made for it."""
+    of_vertex, lists = _widths(header)
+    announced = announced_in_ply(header)
+    least = announced.points * of_vertex + announced.cells * sum(of_count for of_count, _ in lists)
+    if least > len(body):
+        raise GeometryFileError(
+            "geometry-file",
+            f"is not a well-formed PLY file: it announces {counted(announced.points, 'vertex')} and "
+            f"{counted(announced.cells, 'face')}, which take more than the {_length(body)} bytes that it has",
+        )
+
+
 def refuse_other_length(header: bytes, body: bytes, mesh: Any) -> None:
     """GeometryFileError where a binary PLY file is longer or shorter than what was read of it."""
-    widths = [
-        WIDTHS[kind.decode()] for kind in re.findall(rb"property\s+(?!list)(\S+)", _properties(header, b"vertex"))
-    ]
-    lists = [
-        (WIDTHS[a.decode()], WIDTHS[b.decode()])
-        for a, b in re.findall(rb"property\s+list\s+(\S+)\s+(\S+)", _properties(header, b"face"))
-    ]
+    of_vertex, lists = _widths(header)
     if len(lists) != 1:
         return
     ((of_count, of_corner),) = lists
     cells = counts_of(mesh).cells
     corners = sum(int(np.size(block.data)) for block in mesh.cells)
-    length = len(mesh.points) * sum(widths) + cells * of_count + corners * of_corner
-    there = len(body) - 1 - body.startswith(b"\r\n")
-    if there != length:
+    length = len(mesh.points) * of_vertex + cells * of_count + corners * of_corner
+    if _length(body) != length:
         raise GeometryFileError(
             "geometry-file",
-            f"is not a well-formed PLY file: what its header announces takes {length} bytes, it has {there}",
+            f"is not a well-formed PLY file: what its header announces takes {length} bytes, it has {_length(body)}",
         )
+
+
+def _widths(header: bytes) -> tuple[int, list[tuple[int, int]]]:
+    """Bytes of a vertex, and of the number and each corner of a face, of every list of its."""
+    vertex, face = _properties(header, b"vertex"), _properties(header, b"face")
+    widths = [WIDTHS.get(kind.decode(), 0) for kind in re.findall(rb"property\s+(?!list)(\S+)", vertex)]
+    lists = re.findall(rb"property\s+list\s+(\S+)\s+(\S+)", face)
+    return sum(widths), [(WIDTHS.get(count.decode(), 0), WIDTHS.get(corner.decode(), 0)) for count, corner in lists]
+
+
+def _length(body: bytes) -> int:
+    """Bytes after the line that ends the header."""
+    return len(body) - 1 - body.startswith(b"\r\n")
 
 
 def _properties(header: bytes, element: bytes) -> bytes:

@@ -32,6 +32,7 @@ from mbla.model.geometry.mesh_counts import (
     refuse_other_length,
     refuse_other_lines,
     refuse_other_sections,
+    refuse_too_short,
 )
 from mbla.model.geometry.ply_header import readable_header
 from mbla.model.geometry.vtu_cells import CELLS, VARIABLE, checked_cells, refuse_other_faces
@@ -58,6 +59,8 @@ def read_ply(path: Path) -> Geometry:
     header = readable_header(header, as_text)
     if as_text:
         refuse_other_lines(header, body)
+    else:
+        refuse_too_short(header, body)
     geometry, mesh = _read(io.BytesIO(header + end + body), "ply")
     refuse_other_counts(WORDS["ply"], announced_in_ply(header), counts_of(mesh))
     if not as_text:

@@ -71,6 +71,15 @@ def test_assembly_of_version_1_with_supports(tmp_path: Path) -> None:
     assert [notice.identifier for notice in geometry.notices] == ["mesh-supports-marked"]
 
 
+@pytest.mark.parametrize(("said", "support"), [(True, True), (False, False), (None, False), ("yes", False)])
+def test_a_support_is_one_that_says_so(tmp_path: Path, said: object, support: bool) -> None:
+    """By itself or by its attributes."""
+    for where in ("itself", "attributes"):
+        one = mesh("a", 0, 1)
+        (one["value"]["attributes"] if where == "attributes" else one["value"])["is_support"] = said
+        assert read(tmp_path, [one, mesh("b", 1, 1)]).names == ("support" if support else "a", "b")
+
+
 def test_assembly_of_version_2(tmp_path: Path) -> None:
     parts = {
         str(i): {"part": {"dtype": "compas.datastructures/Part", "data": {"attributes": {"shape": mesh(f"p{i}", i)}}}}

@@ -75,6 +75,15 @@ def test_arcs_become_chords(tmp_path: Path) -> None:
     assert circle < np.pi
 
 
+def test_an_arc_alone_encloses_nothing(tmp_path: Path) -> None:
+    document, space = drawing()
+    space.add_lwpolyline(SQUARE, close=True)
+    space.add_arc((5, 5), 1.0, 0, 270)
+    geometry = read(document, tmp_path)
+    assert areas(geometry) == pytest.approx([1.0])
+    assert [notice.identifier for notice in geometry.notices] != []
+
+
 def test_blocks_are_inserted_where_they_are_referenced(tmp_path: Path) -> None:
     document, space = drawing()
     unit = document.blocks.new("unit")

@@ -236,10 +236,11 @@ def test_both_names_of_the_list_of_corners_in_ply(tmp_path: Path) -> None:
     assert volumes(path) == pytest.approx([1] * 9)
 
 
-def test_a_cell_that_names_a_missing_point(tmp_path: Path) -> None:
+@pytest.mark.parametrize("missing", [9, 4, -1])
+def test_a_cell_that_names_a_missing_point(tmp_path: Path, missing: int) -> None:
     path = tmp_path / "bad.vtu"
-    write_mesh(path, np.zeros((4, 3)), [("tetra", np.array([[0, 1, 2, 9]]))])
-    with pytest.raises(GeometryFileError, match="names point 9, which does not exist; there are 4"):
+    write_mesh(path, np.zeros((4, 3)), [("tetra", np.array([[0, 1, 2, missing]]))])
+    with pytest.raises(GeometryFileError, match=f"names point {missing}, which does not exist; there are 4"):
         read_geometry(path)
 
 
@@ -275,6 +276,14 @@ def test_write_mesh_says_which_file_it_could_not_write(tmp_path: Path) -> None:
     path = tmp_path / "nowhere" / "out.vtu"
     with pytest.raises(FileError, match=r"out\.vtu: cannot be written: No such file"):
         write_mesh(path, np.zeros((1, 3)), [("vertex", np.array([[0]]))])
+
+
+def test_what_a_library_says_while_it_writes_is_logged(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+) -> None:
+    monkeypatch.setattr(meshio, "write", lambda *_, **__: print("not\nas it was"))  # noqa: T201
+    write_mesh(tmp_path / "out.vtu", np.zeros((1, 3)), [("vertex", np.array([[0]]))])
+    assert caplog.messages == [f"{tmp_path / 'out.vtu'}: not as it was"]
 
 
 def test_meshio_is_imported_only_when_needed() -> None:

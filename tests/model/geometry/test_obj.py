@@ -151,6 +151,7 @@ def test_file_without_faces_has_no_blocks(tmp_path: Path) -> None:
         (CUBE + "f 1 2 0", "line 9 cannot be read: there is no vertex 0, 8 precede this line"),
         (CUBE + "f 1 2 9", "line 9 cannot be read: there is no vertex 9, 8 precede this line"),
         (CUBE + "f 1 2 -9", "line 9 cannot be read: there is no vertex -9, 8 precede this line"),
+        (50 * "w", f"line 1 cannot be read: '{40 * 'w'}' is no keyword of OBJ"),
         (CUBE + "f 1 2 a", "line 9 cannot be read: invalid literal for int() with base 10: 'a'"),
     ],
 )

@@ -74,6 +74,16 @@ def test_a_file_beyond_the_largest_size_is_refused_unread(tmp_path: Path, monkey
     assert str(caught.value) == "is larger than 2 MB: divide it into several files"
 
 
+def test_a_file_of_the_largest_size_is_read(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    path = tmp_path / "x.obj"
+    path.write_text(TRIANGLE)
+    monkeypatch.setattr(geometry, "LARGEST_FILE", len(TRIANGLE))
+    assert len(read_geometry(path).polyhedra) == 1
+    monkeypatch.setattr(geometry, "LARGEST_FILE", len(TRIANGLE) - 1)
+    with pytest.raises(GeometryFileError, match="is larger than 0 MB"):
+        read_geometry(path)
+
+
 def test_a_missing_file_is_told_as_such(tmp_path: Path) -> None:
     with pytest.raises(GeometryFileError, match="cannot be read: No such file or directory"):
         read_geometry(tmp_path / "none.obj")

@@ -114,6 +114,13 @@ def test_solids_without_names_are_one_surface(tmp_path: Path) -> None:
     assert read_stl(path).names == ()
 
 
+def test_one_name_among_solids_keeps_them_apart(tmp_path: Path) -> None:
+    path = tmp_path / "x.stl"
+    path.write_text(text("", box()) + text("second", box((1, 0, 0), (3, 1, 1))))
+    assert read_stl(path).names == ("", "second")
+    assert volumes(path) == [1, 2]
+
+
 def test_a_binary_file_without_triangles_holds_no_blocks(tmp_path: Path) -> None:
     path = tmp_path / "x.stl"
     path.write_bytes(bytes(84))
