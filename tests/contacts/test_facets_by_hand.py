@@ -8,7 +8,7 @@ import shapely
 
 from mbla.arrays import IntArray
 from mbla.contacts.coplanar import facets_on_one_plane
-from mbla.contacts.facets import Facets, build_facets
+from mbla.contacts.facets import Facets, _face_areas, build_facets
 from mbla.contacts.polygons import Polygons, union_by_row
 from mbla.model.polyhedra import Polyhedra, join_polyhedra, polyhedra_from_lists
 from tests.contacts.structures import any_rotation, blocks_of, boxes, moved, profile
@@ -105,3 +105,10 @@ def test_two_soles_on_one_plane_are_one_facet() -> None:
 def test_soles_on_one_plane_are_one_facet_of_any_block() -> None:
     facets = build_facets(blocks_of(join_polyhedra([boxes(([5, 0, 0], [6, 1, 1])), bracket()])))
     assert facets.facet_start.tolist() == [0, 6, 15]
+
+
+def test_a_face_without_area_still_has_a_weight() -> None:
+    line = np.array([[-1.0, -1.0, -1.0], [-2.0, -2.0, -2.0], [-3.0, -3.0, -3.0]])
+    square = np.array([[0.0, 0.0, 0.0], [2.0, 0.0, 0.0], [2.0, 2.0, 0.0], [0.0, 2.0, 0.0]])
+    areas = _face_areas(np.concatenate([line, square]), np.array([0, 3, 7]), np.array([[0.0, 0.0, 1.0]] * 2))
+    assert areas == pytest.approx([27e-12, 4.0])

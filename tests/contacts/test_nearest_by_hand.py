@@ -88,3 +88,15 @@ def test_of_many_blocks_only_the_nearest_are_compared(monkeypatch: pytest.Monkey
     others = [at(4.0 + 3.0 * x, 0.0, 0.0) for x in range(4)]
     assert words([0, 1, 2, 3], *part, *others).startswith("; nearest to it is b4[0], 3 m from b0[0]")
     assert words([4, 5, 6, 7], *part, *others).startswith("; nearest to it is b0[0], 3 m from b4[0]")
+
+
+def test_the_box_around_many_reaches_to_its_farthest(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Of the part only the block that is nearest to the whole box of the others is looked at."""
+    monkeypatch.setattr(import_module("mbla.contacts.nearest"), "MOST", 1)
+    others = [at(0.0, 0.0, 0.0), at(10.0, 0.0, 0.0)]
+    assert words([2, 3], *others, at(11.5, 0.0, 0.0), at(-3.0, 0.0, 0.0)).startswith(
+        "; nearest to it is b1[0], 0.5 m from b2[0]"
+    )
+    assert words([2, 3], *others, at(13.0, 0.0, 0.0), at(-1.5, 0.0, 0.0)).startswith(
+        "; nearest to it is b0[0], 0.5 m from b3[0]"
+    )

@@ -71,4 +71,5 @@ def test_the_outline_that_changed_most_is_told() -> None:
     assert "the area of 2 common surfaces, most that of block[1] and block[2], drawn by 5 corners, by 3 %" in text
     (alone,) = told(1.0, 1.0, 1.0 - 1.1e-4)
     assert "the area of 1 common surface, most that of block[2] and block[3], drawn by 6 corners, by 0.011 %" in alone
+    assert "by 75 %" in told(0.25)[0]
     assert told(1.0, 1.0 + 0.9e-4, 1.0 - 0.9e-4) == []

@@ -9,7 +9,7 @@ import pytest
 
 from mbla.contacts import ContactReport, find_contacts
 from mbla.contacts.near_misses import _on_same_facet
-from mbla.contacts.notices import overlap_messages
+from mbla.contacts.notices import _by_tolerance, overlap_messages
 from mbla.deck.units import Units
 from mbla.model.polyhedra import join_polyhedra
 from tests.contacts.structures import (
@@ -216,3 +216,11 @@ def test_near_misses_behind_contacts_of_the_same_facet() -> None:
     miss, contact = _on_same_facet(facets, contacts)
     pairs = [(m, c) for m, one in enumerate(facets) for c, two in enumerate(contacts) if one >= 0 and one in two]
     assert sorted(zip(miss.tolist(), contact.tolist(), strict=True)) == sorted(pairs)
+
+
+def test_a_tolerance_that_a_deck_may_not_give_is_not_advised() -> None:
+    """Decks allow 0.1 and no more; a twentieth more than what is needed, rounded, is advised."""
+    assert _by_tolerance(0.09, "above {:.2g}") == "above 0.095"
+    assert _by_tolerance(0.0944, "above {:.2g}") == "above 0.099"
+    assert _by_tolerance(0.0952, "above {:.2g}") == ""
+    assert _by_tolerance(0.2, "above {:.2g}") == ""

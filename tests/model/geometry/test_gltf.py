@@ -12,7 +12,7 @@ import pytest
 
 from mbla.model.geometry.geometry import Geometry, GeometryFileError
 from mbla.model.geometry.gltf import read_gltf
-from mbla.model.geometry.gltf_accessors import Buffers
+from mbla.model.geometry.gltf_accessors import Buffers, read_accessor
 from mbla.model.geometry.repair import repair
 from tests.model.shapes import box, build_raw
 
@@ -196,3 +196,10 @@ def test_rubbish(tmp_path: Path, content: bytes) -> None:
     path.write_bytes(content)
     with pytest.raises(GeometryFileError):
         read_gltf(path)
+
+
+def test_values_of_an_accessor_are_rows_unless_they_are_single_numbers(tmp_path: Path) -> None:
+    content = document([{"mesh": 0}])
+    buffers = Buffers(content, None, tmp_path)
+    assert read_accessor(content, 0, buffers).shape == POINTS.shape
+    assert read_accessor(content, 1, buffers).tolist() == TRIANGLES.reshape(-1).tolist()

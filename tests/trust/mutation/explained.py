@@ -397,4 +397,45 @@ EXPLAINED: dict[tuple[str, str, str], str] = {
         "forces = sp.vstack([program.equilibrium_matrix, -half_lines, -shear])",
         "-shear -> shear",
     ): "a cone is the same seen from either side; its first entries are zero here",
+    (
+        "mbla/model/geometry/dxf.py",
+        'raise GeometryFileError("geometry-file", f"is not a well-formed DXF file: {reason}"[:300]) from error',
+        "300 -> 301",
+    ): "one letter more of a message",
+    (
+        "mbla/model/geometry/gltf.py",
+        "surfaces.append(own_vertices(placed, triangles.reshape(-1), 3 * np.arange(len(triangles) + 1), block))",
+        "1 -> 2",
+    ): "of a shape, any negative number is the length that is left",
+    (
+        "mbla/model/geometry/stl.py",
+        "complete = True",
+        "True -> False",
+    ): "a file is read as text where its first word is solid, which sets it",
+    (
+        "mbla/model/geometry/stl.py",
+        "triangles.reshape(-1, 3), np.array([0, 3 * n]), np.arange(3 * n), 3 * np.arange(n + 1), np.array([0, n])",
+        "1 -> 2",
+    ): "starts of faces beyond the last one are not looked at where parts are joined",
+    (
+        "mbla/contacts/facets.py",
+        "_unite(outlines, faces, facet, (counts > 1) & ~joined, None)",
+        "counts > 1 -> counts >= 1",
+    ): "a face united with no other is that face; it takes time",
+    (
+        "mbla/contacts/refine.py",
+        'points=np.einsum("gc,pcx->pgx", weights, spots).reshape(-1, 2),',
+        "1 -> 2",
+    ): "of a shape, any negative number is the length that is left",
+    (
+        "mbla/program/kinematic.py",
+        "cut_off_p = _selection(np.where(p_column[rows.cut_off] >= 0, p_column[rows.cut_off], -1), "
+        "beta[rows.cut_off], n_p)",
+        "1 -> 2",
+    ): "any negative number is no column",
+    (
+        "mbla/program/fixed_mechanism.py",
+        "cost=np.append(np.zeros(expand.shape[1]), 1.0),",
+        "1.0 -> 2.0",
+    ): "twice the cost is least at the same place, and the load factor is read from there",
 }
