@@ -433,9 +433,4 @@ EXPLAINED: dict[tuple[str, str, str], str] = {
         "beta[rows.cut_off], n_p)",
         "1 -> 2",
     ): "any negative number is no column",
-    (
-        "mbla/program/fixed_mechanism.py",
-        "cost=np.append(np.zeros(expand.shape[1]), 1.0),",
-        "1.0 -> 2.0",
-    ): "twice the cost is least at the same place, and the load factor is read from there",
 }
