@@ -87,8 +87,8 @@ def read_vtu(path: Path) -> Geometry:
 
 def read_msh(path: Path) -> Geometry:
     """Volume cells, or closed parts of surfaces, of a Gmsh file."""
+    refuse_other_sections(path)  # before room is made for what they announce
     geometry, _ = _read(str(path), "gmsh")
-    refuse_other_sections(path)
     return geometry
 
 

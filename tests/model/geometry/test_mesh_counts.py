@@ -24,6 +24,13 @@ from tests.trust.geometry.stones import arch
         ("vtu cells", b'Cells="9', b'Cells="10', "is not a well-formed VTU file"),
         ("vtu cells", b"12 12 12", b"12 99 12", "cell 1 .from 0. cannot be read: it is of VTK type 99; "),
         ("msh cells", b"$Elements\n9", b"$Elements\n8", "announces 8 elements and has 9 elements"),
+        ("msh", b"$Nodes\n72", b"$Nodes\n1000000000000", "announces 1000000000000 nodes and has 72 nodes"),
+        (
+            "msh cells",
+            b"$Elements\n9",
+            b"$Elements\n1000000000000",
+            "announces 1000000000000 elements and has 9 elements",
+        ),
     ],
 )
 def test_refused(tmp_path: Path, kind: str, one: bytes, other: bytes, message: str) -> None:
