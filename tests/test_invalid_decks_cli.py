@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import re
 import shutil
 from pathlib import Path
@@ -24,9 +25,15 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return copy
 
 
-def contents(folder: Path) -> dict[str, bytes | None]:
-    """Everything below a folder, and the bytes of what is a file."""
-    return {str(path): path.read_bytes() if path.is_file() else None for path in folder.rglob("*")}
+def contents(folder: Path) -> dict[str, tuple[int, ...]]:
+    """Everything below a folder; of a file what changes when it is written: node, size, time of last change."""
+    found: dict[str, tuple[int, ...]] = {}
+    for where, folders, files in os.walk(folder):
+        found |= {f"{where}/{name}": () for name in folders}
+        for entry in (Path(where, name) for name in files):
+            seen = entry.stat()
+            found[str(entry)] = (seen.st_ino, seen.st_size, seen.st_mtime_ns)
+    return found
 
 
 def test_there_are_decks_of_both_stages() -> None:
