@@ -16,6 +16,13 @@ CHROMIUM = next((path for path in map(shutil.which, filter(None, NAMES)) if path
 ARGUMENTS = ("--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader")
 """without a sandbox, as tests may run as root; WebGL by software"""
 
+PATIENCE = 120_000
+"""milliseconds for a page to load or to show what is waited for"""
+PAUSE, PICTURES = 300, 100
+"""milliseconds before a picture is taken, and how many are taken until something has changed"""
+VISIBLE = 30
+"""of 255: what is more is a change of colour"""
+
 
 @dataclass
 class Visit:
@@ -32,10 +39,21 @@ class Visit:
         with Image.open(io.BytesIO(self.page.locator(selector).first.screenshot())) as image:
             return np.asarray(image)[..., :3].astype(int)
 
+    def changed(self, selector: str, before: Any, count: int) -> Any:
+        """The same after more than so many of its pixels have changed; a busy machine draws late, and is waited for."""
+        picture = before
+        for _ in range(PICTURES):
+            self.page.wait_for_timeout(PAUSE)
+            picture = self.pixels(selector)
+            if (np.abs(before - picture).max(axis=2) > VISIBLE).sum() > count:
+                return picture
+        raise AssertionError(f"{selector} has not changed in more than {count} pixels")
+
 
 def visited(browser: Any, address: str, width: int = 900, height: int = 800) -> Visit:
     """A page that was loaded from an address."""
     page = browser.new_page(viewport={"width": width, "height": height})
+    page.set_default_timeout(PATIENCE)
     visit = Visit(page)
     page.on("request", lambda request: visit.requests.append(request.url))
     page.on("pageerror", lambda error: visit.errors.append(str(error)))

@@ -223,7 +223,7 @@ def test_the_associative_load_factor_is_the_greater(name: str, mu: float) -> Non
     assert solution.mechanics.load_factor > 0.5 * solution.associative.load_factor
 
 
-@settings(max_examples=20, deadline=None, derandomize=True)
+@settings(max_examples=20, derandomize=True)
 @given(
     axis=st.tuples(*[st.floats(-1, 1)] * 3).filter(lambda axis: np.linalg.norm(axis) > 0.1),
     angle=st.floats(-180, 180),

@@ -51,14 +51,14 @@ analysis: {{flow_rule: {flow_rule}, published: {{tolerance: 1.e-6}}}}
 """A wedge between planes of different inclination that meet along y."""
 
 
-@settings(max_examples=25, deadline=None, derandomize=True)
+@settings(max_examples=25, derandomize=True)
 @given(mu=st.floats(0.05, 1.5), degrees=st.floats(0, 360), d=st.floats(0.4, 3.0))
 def test_sliding_is_the_same_in_every_direction(mu: float, degrees: float, d: float) -> None:
     overrides = (f"parameters.mu={mu!r}", f"parameters.t={math.radians(degrees)!r}", f"parameters.d={d!r}")
     assert load_factor(BLOCK, *overrides) == pytest.approx(mu, rel=SAME)
 
 
-@settings(max_examples=25, deadline=None, derandomize=True)
+@settings(max_examples=25, derandomize=True)
 @given(degrees=st.floats(0, 360), d=st.floats(0.4, 3.0), h=st.floats(4.0, 20.0))
 def test_rocking_is_about_the_edge_that_the_resultant_meets(degrees: float, d: float, h: float) -> None:
     t = math.radians(degrees)

@@ -82,7 +82,7 @@ def convex_polygon(seed: int, corners: int) -> FloatArray:
     return np.asarray(shapely.get_coordinates(hull)[:-1])
 
 
-@settings(deadline=None, max_examples=60)
+@settings(max_examples=60)
 @given(st.lists(st.tuples(st.integers(0, 10**6), st.integers(3, 40)), min_size=2, max_size=12))
 def test_agrees_with_a_general_overlay(seeds: list[tuple[int, int]]) -> None:
     polygons = [convex_polygon(*seed) for seed in seeds]

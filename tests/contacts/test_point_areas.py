@@ -63,7 +63,7 @@ def test_polygons_of_all_kinds_together() -> None:
         np.testing.assert_allclose(together[polygon == i], shares(kind)[2], rtol=1e-12)
 
 
-@settings(deadline=None, max_examples=50)
+@settings(max_examples=50)
 @given(st.integers(0, 10**6), st.integers(4, 30))
 def test_random_convex_polygons(seed: int, count: int) -> None:
     points = np.random.default_rng(seed).normal(size=(count, 2))

@@ -94,7 +94,7 @@ def counted(piece: dict[Cell, int]) -> dict[tuple[int, int], list[int]]:
 
 
 @pytest.mark.parametrize("turned", [False, True])
-@settings(deadline=None, max_examples=12)
+@settings(max_examples=12)
 @given(st.integers(0, 10**6))
 def test_every_common_surface_of_a_puzzle_is_found(turned: bool, seed: int) -> None:
     piece = puzzle(seed, 4)

@@ -27,7 +27,7 @@ def array(*polygons: shapely.Geometry) -> Polygons:
     return found
 
 
-@settings(deadline=None, max_examples=40)
+@settings(max_examples=40)
 @given(st.integers(0, 10**6), st.integers(0, 60))
 def test_box_pairs_agree_with_all_against_all(seed: int, count: int) -> None:
     rng = np.random.default_rng(seed)

@@ -112,7 +112,7 @@ def test_all_kinds_together() -> None:
         np.testing.assert_allclose(together.areas[together.polygon == i], alone.areas, rtol=1e-12)
 
 
-@settings(deadline=None, max_examples=30)
+@settings(max_examples=30)
 @given(st.integers(0, 10**6), st.integers(4, 20), st.integers(1, 6), st.floats(0.0, 0.9))
 def test_random_convex_polygons(seed: int, count: int, refine: int, inset: float) -> None:
     points = np.random.default_rng(seed).normal(size=(count, 2))

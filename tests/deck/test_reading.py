@@ -206,7 +206,7 @@ PIECES = st.sampled_from(
 )
 
 
-@settings(max_examples=300, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(max_examples=300, suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow])
 @given(st.integers(0, len(BLOCK)), st.integers(0, 30), st.lists(PIECES, max_size=3).map(" ".join))
 def test_damaged_deck_gives_nothing_but_faults(tmp_path: Path, at: int, length: int, piece: str) -> None:
     text = BLOCK[:at] + piece + BLOCK[at + length :]

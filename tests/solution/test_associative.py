@@ -23,7 +23,7 @@ every_reduction = pytest.mark.parametrize(
 )
 
 
-@settings(deadline=None, max_examples=25)
+@settings(max_examples=25)
 @given(mu=st.floats(0.05, 3.0), slenderness=st.floats(0.1, 10.0))
 def test_a_block_slides_or_rocks(mu: float, slenderness: float) -> None:
     factor = load_factor(BLOCK, f"parameters.mu={mu!r}", f"parameters.h={slenderness!r}")

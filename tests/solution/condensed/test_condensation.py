@@ -19,7 +19,7 @@ from mbla.solution.condensed.program import fits
 from mbla.solution.condensed.scaling import Scaling
 from tests.solution.condensed.vectors import Known, inside, known_program, known_static_program
 
-quick = settings(max_examples=25, deadline=None, derandomize=True)
+quick = settings(max_examples=25, derandomize=True)
 seeds = st.integers(0, 2**32 - 1)
 
 

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from mbla.solution.condensed.cones import ConeProduct, determinant
 from tests.solution.condensed.vectors import inside, program_order, vector_of
 
-quick = settings(max_examples=40, deadline=None, derandomize=True)
+quick = settings(max_examples=40, derandomize=True)
 seeds = st.integers(0, 2**32 - 1)
 products = st.builds(ConeProduct, st.integers(0, 6), st.integers(0, 6)).filter(lambda product: product.degree > 0)
 distances = st.sampled_from([1.0, 1e-3, 1e-8, 1e-12])

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from mbla.arrays import FloatArray, IntArray
 from mbla.solution.condensed.products import PlacedProducts, alike, dense_rows, placed_products
 
-quick = settings(max_examples=40, deadline=None, derandomize=True)
+quick = settings(max_examples=40, derandomize=True)
 seeds = st.integers(0, 2**32 - 1)
 
 

@@ -36,7 +36,7 @@ from tests.solution.condensed.vectors import Known, known_program, known_static_
 
 Make = Callable[[int, bool], Known]
 
-quick = settings(max_examples=25, deadline=None, derandomize=True)
+quick = settings(max_examples=25, derandomize=True)
 
 seeds = st.integers(0, 2**32 - 1)
 

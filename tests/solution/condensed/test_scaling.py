@@ -11,7 +11,7 @@ from mbla.solution.condensed.cones import ConeProduct
 from mbla.solution.condensed.scaling import Scaling
 from tests.solution.condensed.vectors import inside, vector_of
 
-quick = settings(max_examples=40, deadline=None, derandomize=True)
+quick = settings(max_examples=40, derandomize=True)
 seeds = st.integers(0, 2**32 - 1)
 products = st.builds(ConeProduct, st.integers(0, 6), st.integers(0, 6)).filter(lambda product: product.degree > 0)
 distances = st.sampled_from([1.0, 1e-2, 1e-5, 1e-10])

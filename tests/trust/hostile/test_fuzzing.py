@@ -25,7 +25,7 @@ FOLDER = os.environ.get("MBLA_FUZZING_FOLDER")
 """where a run that was interrupted left its records, and where this one leaves its own"""
 
 
-@settings(max_examples=40, deadline=None, suppress_health_check=list(HealthCheck), derandomize=True)
+@settings(max_examples=40, suppress_health_check=list(HealthCheck), derandomize=True)
 @given(file=files())
 def test_a_changed_file_is_refused_in_clear_words_or_is_a_model(tmp_path_factory: Any, file: tuple[str, bytes]) -> None:
     folder = tmp_path_factory.mktemp("given")

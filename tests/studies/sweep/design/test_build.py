@@ -146,7 +146,7 @@ def designs(draw: st.DrawFn) -> tuple[dict[str, Any], list[dict[str, Any]]]:
     return parameters, parts
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 @given(designs(), st.booleans())
 def test_a_design_is_the_product_of_its_parts(drawn: tuple[dict[str, Any], list[dict[str, Any]]], cut: bool) -> None:
     parameters, parts = drawn
