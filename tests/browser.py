@@ -19,7 +19,7 @@ ARGUMENTS = ("--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--ena
 PATIENCE = 120_000
 """milliseconds for a page to load or to show what is waited for"""
 PAUSE, PICTURES = 300, 100
-"""milliseconds before a picture is taken, and how many are taken until something has changed"""
+"""milliseconds before a picture is taken, and how many are taken until nothing moves any more"""
 VISIBLE = 30
 """of 255: what is more is a change of colour"""
 
@@ -39,15 +39,24 @@ class Visit:
         with Image.open(io.BytesIO(self.page.locator(selector).first.screenshot())) as image:
             return np.asarray(image)[..., :3].astype(int)
 
-    def changed(self, selector: str, before: Any, count: int) -> Any:
-        """The same after more than so many of its pixels have changed; a busy machine draws late, and is waited for."""
-        picture = before
+    def still(self, selector: str, unlike: Any = None, count: int = 0) -> Any:
+        """The same when it looks twice alike, and in more than so many pixels unlike an earlier picture, if given.
+
+        A busy machine draws late, and is waited for; AssertionError where it is not so in the end.
+        """
+        last = self.pixels(selector)
         for _ in range(PICTURES):
             self.page.wait_for_timeout(PAUSE)
-            picture = self.pixels(selector)
-            if (np.abs(before - picture).max(axis=2) > VISIBLE).sum() > count:
-                return picture
-        raise AssertionError(f"{selector} has not changed in more than {count} pixels")
+            before, last = last, self.pixels(selector)
+            if not different(before, last) and (unlike is None or different(unlike, last) > count):
+                return last
+        raise AssertionError(f"{selector} still moves, or has not changed in more than {count} pixels")
+
+
+def different(one: Any, other: Any) -> int:
+    """Pixels of two pictures of one size that an eye tells apart."""
+    assert one.shape == other.shape
+    return int((np.abs(one - other).max(axis=2) > VISIBLE).sum())
 
 
 def visited(browser: Any, address: str, width: int = 900, height: int = 800) -> Visit:

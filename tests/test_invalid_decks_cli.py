@@ -25,14 +25,14 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return copy
 
 
-def contents(folder: Path) -> dict[str, tuple[int, ...]]:
-    """Everything below a folder; of a file what changes when it is written: node, size, time of last change."""
-    found: dict[str, tuple[int, ...]] = {}
+def contents(folder: Path) -> dict[str, tuple[int, int] | None]:
+    """Everything below a folder, and of a file its node and time of last change, which no write leaves as they are."""
+    found: dict[str, tuple[int, int] | None] = {}
     for where, folders, files in os.walk(folder):
-        found |= {f"{where}/{name}": () for name in folders}
-        for entry in (Path(where, name) for name in files):
-            seen = entry.stat()
-            found[str(entry)] = (seen.st_ino, seen.st_size, seen.st_mtime_ns)
+        found |= {f"{where}/{name}": None for name in folders}
+        for path in (Path(where, name) for name in files):
+            seen = path.stat()
+            found[str(path)] = (seen.st_ino, seen.st_ctime_ns)
     return found
 
 

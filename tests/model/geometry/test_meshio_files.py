@@ -281,7 +281,7 @@ def test_write_mesh_says_which_file_it_could_not_write(tmp_path: Path) -> None:
 def test_what_a_library_says_while_it_writes_is_logged(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
 ) -> None:
-    monkeypatch.setattr(meshio, "write", lambda *_, **__: print("not\nas it was"))  # noqa: T201
+    monkeypatch.setattr(meshio, "write", lambda *_, **__: sys.stdout.write("not\nas it was\n"))
     write_mesh(tmp_path / "out.vtu", np.zeros((1, 3)), [("vertex", np.array([[0]]))])
     assert caplog.messages == [f"{tmp_path / 'out.vtu'}: not as it was"]
 

@@ -11,7 +11,7 @@ import pytest
 from mbla.results.results import Results
 from mbla.results.view3d.view import page_html, view_html
 from mbla.solution.solution import Status
-from tests.browser import PAUSE, PICTURES, Visit, visited
+from tests.browser import Visit, visited
 from tests.results.synthetic import tower_results
 
 PLOT = ".mbla-view3d-plot"
@@ -32,13 +32,8 @@ def visit(browser: Any, results: Results, tmp_path_factory: pytest.TempPathFacto
     return found
 
 
-def settled(visit: Visit) -> Any:
-    visit.page.wait_for_timeout(400)
-    return visit.pixels(PLOT)
-
-
 def test_the_structure_is_drawn_and_nothing_else_is_asked_for(visit: Visit) -> None:
-    picture = settled(visit)
+    picture = visit.still(PLOT)
     assert (picture.min(axis=2) < 250).mean() > 0.05
     orange = (picture[..., 0] - picture[..., 2] > 60).sum()
     assert orange > 2000  # the tower, which is the part that moves
@@ -47,14 +42,14 @@ def test_the_structure_is_drawn_and_nothing_else_is_asked_for(visit: Visit) -> N
 
 
 def test_it_turns_with_the_mouse(visit: Visit) -> None:
-    before = settled(visit)
+    before = visit.still(PLOT)
     box = visit.page.locator(PLOT).bounding_box()
     x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
     visit.page.mouse.move(x, y)
     visit.page.mouse.down()
     visit.page.mouse.move(x + 150, y + 40, steps=5)
     visit.page.mouse.up()
-    visit.changed(PLOT, before, 5000)
+    visit.still(PLOT, before, 5000)
     assert visit.errors == []
 
 
@@ -64,28 +59,24 @@ def test_slider_moves_the_tower_as_the_pictures_do(visit: Visit, results: Result
 
     blocks = results.model.blocks
     for time in ("1", "0.5", "0"):
-        expected = moved_vertices(blocks, float(time) * drawn_motion(results.model, results.cases[0]))
         visit.page.locator("input[type=range]").fill(time)
-        for _ in range(PICTURES):
-            visit.page.wait_for_timeout(PAUSE)
-            drawn = visit.page.evaluate(
-                f"(() => {{ const mesh = document.querySelector('{PLOT}').data[0];"
-                "return [mesh.x, mesh.y, mesh.z].map((values) => Array.from(values)); })()"
-            )
-            if np.allclose(np.transpose(drawn), expected, rtol=0.0, atol=1e-6):
-                break
-        np.testing.assert_allclose(np.transpose(drawn), expected, rtol=0.0, atol=1e-6)
+        visit.still(PLOT)
+        drawn = visit.page.evaluate(
+            f"(() => {{ const mesh = document.querySelector('{PLOT}').data[0];"
+            "return [mesh.x, mesh.y, mesh.z].map((values) => Array.from(values)); })()"
+        )
+        expected = moved_vertices(blocks, float(time) * drawn_motion(results.model, results.cases[0]))
+        np.testing.assert_allclose(np.transpose(drawn), expected, atol=1e-6)
 
 
 def test_colours_and_layers_can_be_chosen(visit: Visit) -> None:
-    before = settled(visit)
+    before = visit.still(PLOT)
     visit.page.select_option("select", "group")
-    visit.changed(PLOT, before, 2000)
-    coloured = settled(visit)
+    coloured = visit.still(PLOT, before, 2000)
     assert visit.page.locator(".mbla-view3d-legend").inner_text().split() == ["base", "brick", "tower"]
     visit.page.get_by_label("resultants").check()
     assert visit.page.get_by_label("see through blocks").is_checked()
-    visit.changed(PLOT, coloured, 2000)
+    visit.still(PLOT, coloured, 2000)
     assert visit.errors == []
 
 
