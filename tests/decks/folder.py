@@ -19,7 +19,7 @@ from mbla.deck import Deck, read_deck
 
 ROOT = Path(__file__).parents[2]
 DECKS = ROOT / "decks"
-FOLDERS = ("tutorials", "benchmarks", "structures", "tradeoff", "sweeps/base")
+FOLDERS = ("tutorials", "benchmarks", "structures", "regressions", "tradeoff", "sweeps/base")
 PATHS = tuple(sorted(path for folder in FOLDERS for path in DECKS.glob(f"{folder}/*.yaml")))
 LONG = (
     "structures/arch_bridge",
