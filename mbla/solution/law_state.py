@@ -57,7 +57,9 @@ def law_state(
     """A state with its residual, the largest of three.
 
     Excess over the yield conditions, in mean block loads; closing velocity over the largest contact speed, where the
-    joint cannot crush; share of the power balance that the law (dilatancy ``slope``, a tangent) does not explain.
+    joint cannot crush; share of the power balance that the law (dilatancy ``slope``, a tangent) does not explain. A
+    joint under force that lifts by less than its sliding takes part in the last; what normal forces do where joints
+    close is of second order close to the law, and left out.
     """
     limits = program.limits
     v, surplus, unexplained, balance = _unexplained(program, slope, forces, velocities, load_factor)
@@ -65,7 +67,9 @@ def law_state(
     capacity = np.where(crushable, limits.compression, forces[:, 0])
     unexplained += np.abs((capacity - forces[:, 0]) * np.maximum(-surplus, 0.0))
     speed = max(float(np.linalg.norm(v, axis=1).max(initial=0.0)), 1e-300)
-    closing = float(np.where(crushable, 0.0, np.maximum(-v[:, 0], 0.0)).max(initial=0.0)) / speed
+    closes = np.maximum(-v[:, 0], 0.0)
+    unexplained += np.abs(forces[:, 0]) * np.where(crushable, 0.0, np.maximum(-surplus - closes, 0.0))
+    closing = float(np.where(crushable, 0.0, closes).max(initial=0.0)) / speed
     excess = float(yield_violation(forces, limits).max(initial=0.0))
     return LawState(forces, velocities, load_factor, max(excess, closing, float(unexplained.sum()) / balance))
 
@@ -73,7 +77,7 @@ def law_state(
 def residual_with_closing(program: Program, slope: FloatArray | float, state: LawState) -> float:
     """The residual of a state as verification sees it: what normal forces do where joints close counts too.
 
-    Close to the law that is of second order, and ``law_state`` leaves it out; of a rough state it may be the most.
+    ``law_state`` leaves it out; of a rough state it may be the most.
     """
     _, surplus, unexplained, balance = _unexplained(program, slope, state.forces, state.velocities, state.load_factor)
     closing = np.where(np.isfinite(program.limits.compression), 0.0, np.maximum(-surplus, 0.0))

@@ -234,3 +234,17 @@ def test_a_dead_load_that_no_forces_carry_ends_the_scheme(monkeypatch: pytest.Mo
     assert result.status is Status.NOT_VERIFIED
     assert result.state is None
     assert "ended without a solution (clarabel: said unbounded)" in result.reason
+
+
+@pytest.mark.parametrize("box", ["[2, 2, 0.5]", "[9, 9, 0.1]", "[1, 1, 1]"])
+@pytest.mark.parametrize("dilatancy", [1, 3, 5, 10, 15, 20, 25, 26])
+def test_one_block_slides_at_its_friction_with_every_dilatancy(box: str, dilatancy: float) -> None:
+    text = HEAD + (
+        f"joints: {{dry: {{friction: 0.5, dilatancy: {dilatancy}}}}}\n"
+        f"blocks:\n  - box: {{group: a, material: stone, min: [0, 0, 0], max: {box}}}\n"
+        "supports: [{ground: {z: 0}}]\n"
+        "load_cases: {push: {live: [{acceleration: [0.8, 0.6, 0]}]}}\n"
+        "analysis: {flow_rule: dilatancy}\n"
+    )
+    factor, _ = solved(line_of(text).program)
+    assert factor == pytest.approx(0.5, rel=1e-8)

@@ -51,3 +51,17 @@ def test_next_to_nothing_is_measured_on_the_blocks_that_move() -> None:
     assert program.scaling.load_factor(program.moved_over_live(velocities)) == pytest.approx(1.0)
     velocities[0] = velocities[6]
     assert program.moved_over_live(velocities) == pytest.approx(program.dead_over_live)
+
+
+@pytest.mark.parametrize("lift", [0.5, 0.25, 0.0])
+def test_a_joint_that_lifts_by_less_than_its_sliding_misses_the_law(lift: float) -> None:
+    """Friction holds and nothing closes: the weight does not do the work that a dilatancy of 0.5 wants of it."""
+    program = line_of(BLOCK).program
+    slides = sliding(program, 0.5, 1.0)
+    velocities = slides.velocities.copy()
+    velocities[2] = lift * velocities[0]
+    weight, balance = -float(program.dead_load[2]), 0.5 * -float(program.dead_load[2])
+    expected = weight * (0.5 - lift) * velocities[0] / (balance * velocities[0])
+    state = law_state(program, 0.5, slides.forces, velocities, 0.5)
+    assert state.residual == pytest.approx(expected, abs=1e-12)
+    assert residual_with_closing(program, 0.5, state) == pytest.approx(expected, abs=1e-12)
