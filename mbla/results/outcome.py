@@ -70,19 +70,33 @@ def range_of(case: CaseResult) -> tuple[float, float] | None:
 
 def range_is_a_point(ends: tuple[float, float], rounding: float = 0.0) -> bool:
     """Whether both ends are known and one figure, or no further apart than the rounding of both."""
-    return bool(abs(ends[1] - ends[0]) <= max(UNIQUE * max(abs(ends[0]), abs(ends[1])), rounding))
+    size = max(abs(ends[0]), abs(ends[1]))
+    return bool(np.isfinite(size) and abs(ends[1] - ends[0]) <= max(UNIQUE * size, rounding))
 
 
-def range_of_several(model: Model, case: CaseResult) -> tuple[float, float] | None:
-    """Both ends of the range where they are known, and further apart than rounding."""
-    ends = range_of(case)
-    if ends is None or not np.isfinite(ends).all() or range_is_a_point(ends, rounding_of(model, case)):
+def extent_of(model: Model, case: CaseResult) -> tuple[float, float] | None:
+    """Least and greatest load factor that were found: its own, verified ends of its range, ends of other tries.
+
+    None where the case has no result, and where all are one figure as far as the residual of the state tells. The
+    greatest is inf where forces that fit the mechanism carry any multiple.
+    """
+    own = result_of(case)
+    if own is None:
         return None
-    return ends
+    found = [own.load_factor, *(range_of(case) or ()), *(case.solution.spread or ())]
+    extent = float(np.nanmin(found)), float(np.nanmax(found))
+    accuracy = np.nan_to_num(law_residual(case.checks)) * abs(own.load_factor)
+    return None if range_is_a_point(extent, max(rounding_of(model, case), accuracy)) else extent
+
+
+def least_and_greatest(model: Model, case: CaseResult) -> tuple[float, float]:
+    """Least and greatest load factor that were found, the same figure where there is one; nan without a result."""
+    own = result_of(case)
+    return extent_of(model, case) or ((np.nan, np.nan) if own is None else (own.load_factor, own.load_factor))
 
 
 def factor_unique(model: Model, case: CaseResult) -> bool | None:
-    """True where a theorem says so (associative flow), False where two verified factors differ, None if not known.
+    """True where a theorem says so (associative flow), False where factors that were found differ, None if not known.
 
     A range that is a point says that this mechanism has one factor; another mechanism may have another.
     """
@@ -90,7 +104,7 @@ def factor_unique(model: Model, case: CaseResult) -> bool | None:
         return None
     if case.solution.flow_rule == "associative":
         return True
-    return None if range_of_several(model, case) is None else False
+    return None if extent_of(model, case) is None else False
 
 
 def law_residual(checks: Checks) -> float:

@@ -57,7 +57,7 @@ PATIENCE = 15
 ten courses creep between 1e-3 and 1e-2 for as many steps as they are given."""
 
 SPREAD_STEPS = 10
-"""Last steps that give the spread of a load factor that did not come to rest."""
+"""Last steps that give the spread of a load factor that did not come to rest: those that fit the law as its state."""
 
 
 @dataclass(frozen=True)
@@ -215,7 +215,8 @@ def _finished(run: _Run) -> ConvexSequence:
         f"the steps did not come to rest in {len(run.of_steps)} programs: "
         f"forces and motions miss the law by {best.residual:.2g}"
     )
-    factors = [state.load_factor for state in run.states[-SPREAD_STEPS:]]
+    fits = max(WARNED, best.residual)
+    factors = [state.load_factor for state in (best, *run.states[-SPREAD_STEPS:]) if state.residual <= fits]
     spread = (min(factors), max(factors))
     if best.residual <= WARNED:
         return ConvexSequence(Status.SOLVED, best, "", records, spread, (words,))

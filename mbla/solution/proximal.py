@@ -86,7 +86,7 @@ MOST_WORK = 600
 many as an interior path takes. On a cross vault of 184 blocks 900 more had brought nothing."""
 
 SPREAD_STEPS = 10
-"""Last steps that give the spread of a load factor that did not come to rest."""
+"""Last steps that give the spread of a load factor that did not come to rest: those that fit the law as its state."""
 
 
 NO_FORCE = 1e-15
@@ -287,7 +287,8 @@ def finished(run: ProximalRun, cause: str) -> SequenceResult:
         )
     if best.residual <= SOLVED:
         return SequenceResult(Status.SOLVED, best, "", tuple(run.records), remarks=tuple(remarks))
-    factors = [state.load_factor for state in run.states[-SPREAD_STEPS:]]
+    fits = max(WARNED, best.residual)
+    factors = [state.load_factor for state in (best, *run.states[-SPREAD_STEPS:]) if state.residual <= fits]
     spread, wanted, slope = (min(factors), max(factors)), run.stepper.settings.residual, run.stepper.slope
     if is_rough_enough(run.program, slope, best, wanted):
         rough = rough_result(run.program, slope, best, wanted, tuple(run.records))

@@ -8,9 +8,9 @@ import pytest
 
 from mbla.results.findings import found_notices
 from mbla.results.magnitudes import magnitude_notices, rounding_of
-from mbla.results.outcome import factor_unique, notices_of, range_of
+from mbla.results.outcome import extent_of, factor_unique, notices_of, range_of
 from mbla.results.results import Results
-from mbla.results.words.verdict_words import range_summary, uniqueness_words, verdict
+from mbla.results.words.verdict_words import uniqueness_words, verdict
 from mbla.solution.solution import Status
 from mbla.solution.verify import GAP_TOLERANCE
 from tests.extremes.outcome import Scene, results_of
@@ -112,7 +112,7 @@ def test_ends_of_a_range_that_rounding_could_have_parted_are_one_figure() -> Non
     (case,) = results.cases
     least, greatest = range_of(case) or (0.0, 0.0)
     assert 1e-5 * greatest < greatest - least < rounding_of(results.model, case)
-    assert not range_summary(results.model, case)
+    assert extent_of(results.model, case) is None
     assert "every distribution of forces has the same load factor" in uniqueness_words(results.model, case)
     assert factor_unique(results.model, case) is None
 

@@ -15,7 +15,7 @@ from mbla.results.comparison.joints import ModeComparison, compare_modes
 from mbla.results.comparison.matching import Matching
 from mbla.results.comparison.mechanisms import angle_between
 from mbla.results.comparison.units import Factors
-from mbla.results.outcome import associative_of, law_residual, range_of, result_of
+from mbla.results.outcome import associative_of, extent_of, law_residual, least_and_greatest, range_of, result_of
 from mbla.results.results import CaseResult, Results
 from mbla.results.tilt_angle import angle_of
 from mbla.results.words.settlement_words import reaction_of, reaction_unit
@@ -45,7 +45,7 @@ class CaseComparison:
 
     settings  : flow rule and scheme in A and in B
     answers   : load factor, angle and reaction, those that the case has
-    figures   : associative factor, bounds, range and peak
+    figures   : least and greatest found, associative factor, bounds, range and peak
     angle     : degrees between the mechanisms; None where they cannot be compared
     angle_of  : what is compared: ``mechanism``, or ``motion without equilibrium``; why not where it is not
     modes     : None where one of the two has no mechanism that is a result
@@ -151,10 +151,14 @@ def _figures(model: Model, case: CaseResult, other: CaseResult, tolerance: float
     least = least_factor(model, case.load_case)
     none = (math.nan, math.nan)
     ranges = [range_of(each) or none for each in (case, other)]
+    several = extent_of(model, case) is not None or extent_of(model, other) is not None
+    extents = [least_and_greatest(model, each) if several else none for each in (case, other)]
     values = {
         "associative load factor": [_factor(associative_of(each)) for each in (case, other)],
         "static bound": [each.checks.static_bound for each in (case, other)],
         "kinematic bound": [each.checks.kinematic_bound for each in (case, other)],
+        "least load factor found": [ends[0] for ends in extents],
+        "greatest load factor found": [ends[1] for ends in extents],
         "range, lower end": [ends[0] for ends in ranges],
         "range, upper end": [ends[1] for ends in ranges],
         "peak": [each.checks.peak_load_factor for each in (case, other)],

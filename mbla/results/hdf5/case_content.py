@@ -11,6 +11,7 @@ from mbla.contacts.contacts import Contacts
 from mbla.model.model import Model
 from mbla.results.collapse.collapse import collapse_of
 from mbla.results.hdf5.mechanism_fields import MECHANICS_GROUPS
+from mbla.results.outcome import least_and_greatest
 from mbla.results.results import CaseResult
 from mbla.solution.solution import Mechanics, ReductionStep, Solution, StandingResult
 
@@ -76,6 +77,8 @@ def case_content(model: Model, contacts: Contacts, case: CaseResult) -> Content:
     settlement = case.load_case.settlement
     if settlement is not None and solution.mechanics is not None:
         content["reaction"] = settlement.reaction(solution.mechanics.load_factor)
+    least, greatest = least_and_greatest(model, case)
+    content |= {"least_load_factor": least, "greatest_load_factor": greatest}
     return content | _answers(case) | _collapse(model, contacts, case) | _further(solution)
 
 

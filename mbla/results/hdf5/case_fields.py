@@ -195,6 +195,13 @@ CHECKS = (
             ),
         ),
     ),
+    *_numbers(
+        "extent",
+        (
+            ("least_load_factor", "least load factor that was found; the load factor where that is the only one"),
+            ("greatest_load_factor", "the greatest of them, inf: there is no limit"),
+        ),
+    ),
     Field(
         f"{CASE}/range",
         "float",

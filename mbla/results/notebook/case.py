@@ -13,7 +13,7 @@ from mbla.results.collapse.failure import failure_of
 from mbla.results.collapse.thrust import Thrust, thrust_of
 from mbla.results.notebook.picture import Picture, case_picture
 from mbla.results.notebook.view import View
-from mbla.results.outcome import associative_of, range_of, result_of
+from mbla.results.outcome import associative_of, least_and_greatest, range_of, result_of
 from mbla.results.results import CaseResult, Results
 from mbla.results.tilt_angle import angle_of
 from mbla.results.words.mechanism_words import mechanism_summary
@@ -57,6 +57,16 @@ class Case:
     def load_factor(self) -> float:
         """By the deck's flow rule; nan where there is none (see ``reason``)."""
         return _factor(result_of(self.record))
+
+    @property
+    def least_load_factor(self) -> float:
+        """The least that was found, load_factor where there is no other; nan where there is none."""
+        return least_and_greatest(self.model, self.record)[0]
+
+    @property
+    def greatest_load_factor(self) -> float:
+        """The greatest that was found; inf where forces that fit the mechanism carry any multiple."""
+        return least_and_greatest(self.model, self.record)[1]
 
     @property
     def associative_load_factor(self) -> float:

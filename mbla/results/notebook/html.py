@@ -7,8 +7,8 @@ from html import escape
 from typing import TYPE_CHECKING
 
 from mbla.errors import MblaError
-from mbla.results.outcome import associative_of, result_of
-from mbla.results.words.answer_words import answer_figure, answer_head, bound_figures, range_figures, status_words
+from mbla.model.model import Model
+from mbla.results.words.answer_words import answer_columns, bound_figures, status_words
 from mbla.results.words.verdict_words import bound_words, reasons
 from mbla.solution.solution import Status
 
@@ -29,27 +29,22 @@ def run_html(run: Run) -> str:
     warnings = "".join(f'<p style="color: {ALARM}">{escape(str(each))}</p>' for each in run.warnings)
     pictured = run.pictured
     picture = "" if pictured is None else _picture(pictured)
-    return f"<div><strong>{title}</strong>{_table(run.cases)}{warnings}{picture}</div>"
+    return f"<div><strong>{title}</strong>{_table(run.records.model, run.cases)}{warnings}{picture}</div>"
 
 
 def case_html(case: Case) -> str:
     """The same of one load case."""
     title = escape(case.results.model.title or case.results.deck.name)
-    return f"<div><strong>{title}</strong>{_table([case])}{_picture(case)}</div>"
+    return f"<div><strong>{title}</strong>{_table(case.results.model, [case])}{_picture(case)}</div>"
 
 
-def _table(cases: Sequence[Case]) -> str:
-    answers = list(dict.fromkeys(answer_head(case.model, case.record.load_case) for case in cases))
-    heads = ["load case", "status", *answers, "range for this mechanism", "associative", "static bound"]
-    rows = [_row([*heads, "kinematic bound"], "th")]
-    for case in cases[:MOST_ROWS]:
-        record = case.record
-        head = answer_head(case.model, record.load_case)
-        own = answer_figure(record.load_case, result_of(record))
-        figures = [own if answer == head else "" for answer in answers]
-        associative = answer_figure(record.load_case, associative_of(record))
-        cells = [case.name, status_words(case.status), *figures, range_figures(record), associative]
-        rows.append(_row([*cells, *bound_figures(record)], "td", alarm=case.status not in SURE))
+def _table(model: Model, cases: Sequence[Case]) -> str:
+    shown = cases[:MOST_ROWS]
+    heads, figures = answer_columns(model, [case.record for case in shown])
+    rows = [_row(["load case", "status", *heads, "static bound", "kinematic bound"], "th")]
+    for case, own in zip(shown, figures, strict=True):
+        cells = [case.name, status_words(case.status), *own, *bound_figures(case.record)]
+        rows.append(_row(cells, "td", alarm=case.status not in SURE))
     if len(cases) > MOST_ROWS:
         rows.append(_row([f"and {len(cases) - MOST_ROWS} more"], "td"))
     return f"<table>{''.join(rows)}</table>"

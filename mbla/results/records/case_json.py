@@ -7,7 +7,7 @@ from typing import Any
 
 from mbla.contacts.contacts import Contacts
 from mbla.model.model import Model
-from mbla.results.outcome import associative_of, best_iterate, factor_unique, range_of, result_of
+from mbla.results.outcome import associative_of, best_iterate, factor_unique, least_and_greatest, range_of, result_of
 from mbla.results.records.mechanism_json import mechanism_json, mechanism_on_demand
 from mbla.results.records.numbers import number
 from mbla.results.records.power_json import powers_json
@@ -66,8 +66,11 @@ def _load_factors(model: Model, case: CaseResult) -> dict[str, Any]:
     """The load factor, what it means, and everything that stands beside it."""
     solution, checks = case.solution, case.checks
     mechanics, associative, ends = result_of(case), associative_of(case), range_of(case)
+    least, greatest = least_and_greatest(model, case)
     return {
         "load_factor": None if mechanics is None else number(mechanics.load_factor),
+        "least_load_factor": number(least),
+        "greatest_load_factor": number(greatest),
         "angle": number(angle_of(case)),
         "angle_bounds": _angle_bounds(case),
         "reaction": reaction_json(case),

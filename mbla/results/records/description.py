@@ -71,6 +71,12 @@ CASE = (
     Key("cases[].flow_rule", "string", "flow rule of the load factor"),
     Key("cases[].scheme", "string?", "how a flow without normality was solved"),
     Key("cases[].load_factor", "number?", "load factor; null where the case has no result"),
+    Key(
+        "cases[].least_load_factor",
+        "number?",
+        "least load factor that was found; the load factor where that is the only one",
+    ),
+    Key("cases[].greatest_load_factor", "number?", "the greatest of them; null besides: there is no limit"),
     Key("cases[].angle", "number?", "tilting table: angle of collapse", "degree"),
     Key("cases[].angle_bounds", "list?", "tilting table: angle certainly borne, angle certainly not"),
     Key("cases[].angle_bounds[]", "number?", "an angle", "degree"),

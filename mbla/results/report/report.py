@@ -24,7 +24,7 @@ from mbla.results.words.contact_words import contact_lines, finding_lines
 from mbla.results.words.listing import model_lines, settings_lines
 from mbla.results.words.series_words import series_lines
 from mbla.results.words.text import counted, number
-from mbla.results.words.verdict_words import bound_words, range_summary, reasons, verdict
+from mbla.results.words.verdict_words import bound_words, reasons, verdict
 
 SUFFIXES = (".html", ".htm")
 
@@ -126,5 +126,5 @@ def _warning_words(shown: Results) -> str:
 def _in_words(results: Results, case: CaseResult) -> tuple[str, str, list[str]]:
     """Name, verdict and what stands beside it: the words of the terminal."""
     model = results.model.of_case(case.load_case)
-    beside = (range_summary(model, case), *reasons(case), bound_words(model, case))
+    beside = (*reasons(case), bound_words(model, case))
     return case.load_case.name, f"{verdict(model, case)}.", [text for text in beside if text]

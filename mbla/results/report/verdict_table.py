@@ -1,13 +1,12 @@
-"""The table at the head of a report: every load case with its status, answer, bounds and range."""
+"""The table at the head of a report: every load case with its status, answer and bounds."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
-from mbla.results.outcome import associative_of, result_of
 from mbla.results.report.case_content import tone_of
 from mbla.results.results import CaseResult, Results
-from mbla.results.words.answer_words import answer_figure, answer_head, bound_figures, range_figures, status_words
+from mbla.results.words.answer_words import answer_columns, bound_figures, status_words
 
 
 @dataclass(frozen=True)
@@ -30,22 +29,14 @@ class VerdictTable:
 
 
 def verdict_table(results: Results) -> VerdictTable:
-    """A column for each kind of answer, and beside them range where one has any, associative answer and its bounds."""
-    model = results.model
-    answers = tuple(dict.fromkeys(answer_head(model, case.load_case) for case in results.cases))
-    ranges = any(range_figures(case) != "-" for case in results.cases)
-    rows = tuple(_row(results, case, i + 1, answers, ranges) for i, case in enumerate(results.cases))
-    beside = ("range for this mechanism",) if ranges else ()
-    return VerdictTable((*answers, *beside, "associative", "static bound", "kinematic bound"), rows)
-
-
-def _row(results: Results, case: CaseResult, number: int, answers: tuple[str, ...], ranges: bool) -> VerdictRow:
-    head = answer_head(results.model, case.load_case)
-    own = answer_figure(case.load_case, result_of(case))
-    figures = (
-        *(own if answer == head else "" for answer in answers),
-        *((range_figures(case),) if ranges else ()),
-        answer_figure(case.load_case, associative_of(case)),
-        *bound_figures(case),
+    """The answers of every case, the associative ones with their bounds."""
+    heads, figures = answer_columns(results.model, results.cases)
+    rows = tuple(
+        _row(case, number, (*own, *bound_figures(case)))
+        for number, (case, own) in enumerate(zip(results.cases, figures, strict=True), start=1)
     )
+    return VerdictTable((*heads, "static bound", "kinematic bound"), rows)
+
+
+def _row(case: CaseResult, number: int, figures: tuple[str, ...]) -> VerdictRow:
     return VerdictRow(f"case-{number}", case.load_case.name, status_words(case.status), tone_of(case), figures)

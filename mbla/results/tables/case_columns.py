@@ -9,7 +9,7 @@ import numpy as np
 from mbla.results.collapse.interface_modes import InterfaceMode
 from mbla.results.collapse.rigid_parts import moving_share
 from mbla.results.hdf5.field import UnitKind
-from mbla.results.outcome import associative_of, best_iterate, factor_unique, range_of, result_of
+from mbla.results.outcome import associative_of, best_iterate, factor_unique, least_and_greatest, range_of, result_of
 from mbla.results.tables.case_rows import CaseRows, case_rows
 from mbla.results.tables.column import Column, Values, as_text, bools, floats, ints, texts
 from mbla.results.tables.table import TableKind
@@ -64,6 +64,10 @@ def _standing(rows: CaseRows) -> str:
     return "" if standing is None else standing.verdict.value
 
 
+def _extent(end: int) -> Callable[[CaseRows], float]:
+    return lambda rows: least_and_greatest(rows.model, rows.case)[end]
+
+
 def _range_end(end: int) -> Callable[[CaseRows], float | None]:
     def value(rows: CaseRows) -> float | None:
         ends = range_of(rows.case)
@@ -110,6 +114,10 @@ VERDICT: tuple[Column[CaseRows], ...] = (
 
 FACTORS: tuple[Column[CaseRows], ...] = (
     _number("load_factor", "load factor; empty where the case has no result", lambda r: _factor(result_of(r.case))),
+    _number(
+        "least_load_factor", "least load factor that was found; the load factor where that is the only one", _extent(0)
+    ),
+    _number("greatest_load_factor", "the greatest of them; inf: there is no limit", _extent(1)),
     _text("factor_unique", "whether it is the only one: yes, no, empty: not known", _unique),
     _number("associative_load_factor", "by associative flow", lambda r: _factor(associative_of(r.case))),
     _number(

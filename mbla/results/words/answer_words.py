@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
+from dataclasses import replace
 
 from mbla.model.model import LoadCase, Model
-from mbla.results.outcome import range_of
+from mbla.results.outcome import associative_of, extent_of, result_of
 from mbla.results.results import CaseResult
 from mbla.results.tilt_angle import angle_at, angle_bounds
 from mbla.results.words.settlement_words import reaction_figure, reaction_unit
@@ -49,15 +51,38 @@ def bound_figures(case: CaseResult) -> tuple[str, str]:
     return _of_factor(case.load_case, case.checks.static_bound), _of_factor(case.load_case, case.checks.kinematic_bound)
 
 
-def range_figures(case: CaseResult) -> str:
-    """``0.56 .. 0.6``: verified ends of the range for the mechanism found, as the answer of the case."""
-    ends = range_of(case)
-    if ends is None:
-        return "-"
-    figures = [_of_factor(case.load_case, end) for end in ends]
-    if case.load_case.settlement is not None:  # the greater the loss, the less the reaction
-        figures.reverse()
-    return " .. ".join(figures)
+def answer_columns(model: Model, cases: Sequence[CaseResult]) -> tuple[list[str], list[list[str]]]:
+    """Heads and, for each case, figures: of every kind of answer, the least and the greatest found, the associative.
+
+    Least and greatest are there where some case has several figures; a case with one has it in both.
+    """
+    answers = list(dict.fromkeys(answer_head(model, case.load_case) for case in cases))
+    several = any(extent_of(model, case) is not None for case in cases)
+    rows = []
+    for case in cases:
+        own = answer_figure(case.load_case, result_of(case))
+        figures = [own if head == answer_head(model, case.load_case) else "" for head in answers]
+        ends = extent_figures(model, case) if several else ()
+        rows.append([*figures, *ends, answer_figure(case.load_case, associative_of(case))])
+    return [*answers, *(LEAST_AND_GREATEST if several else ()), "associative"], rows
+
+
+LEAST_AND_GREATEST = ("least found", "greatest found")
+
+
+def extent_figures(model: Model, case: CaseResult) -> tuple[str, str]:
+    """The least and the greatest answer that were found, six digits; the answer twice where it is the only one."""
+    own, extent = result_of(case), extent_of(model, case)
+    if own is None or extent is None:
+        figure = answer_figure(case.load_case, own)
+        return figure, figure
+    figures = [answer_figure(case.load_case, replace(own, load_factor=end)) for end in in_order(case.load_case, extent)]
+    return figures[0], figures[1]
+
+
+def in_order(load_case: LoadCase, ends: tuple[float, float]) -> tuple[float, float]:
+    """Load factors of the least and the greatest answer: the greater the loss, the less the reaction."""
+    return ends if load_case.settlement is None else (ends[1], ends[0])
 
 
 def _of_factor(load_case: LoadCase, load_factor: float) -> str:

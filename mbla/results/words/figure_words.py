@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 from mbla.model.model import Model
-from mbla.results.outcome import associative_of, best_iterate, locked_in, range_of, result_of
+from mbla.results.outcome import associative_of, best_iterate, extent_of, locked_in, range_of, result_of
 from mbla.results.results import CaseResult
 from mbla.results.tilt_angle import angle_bounds, angle_of
-from mbla.results.words.answer_words import status_name
+from mbla.results.words.answer_words import LEAST_AND_GREATEST, answer_head, extent_figures, status_name
 from mbla.results.words.settlement_words import settlement_lines
 from mbla.results.words.solver_words import solver_lines
 from mbla.results.words.text import counted, entry, number, sentence, small
@@ -17,7 +17,12 @@ from mbla.solution.solution import Checks, Mechanics, ModelSize, Status
 
 def figures(model: Model, case: CaseResult) -> list[str]:
     """Load factors by both flow rules, bounds, residuals, size of the program, verdict of the verification."""
-    lines = entry("status", status_name(case.status)) + settlement_lines(model, case) + _factors(case) + _bounds(case)
+    lines = (
+        entry("status", status_name(case.status))
+        + settlement_lines(model, case)
+        + _factors(model, case)
+        + _bounds(case)
+    )
     for name, value, measure in residual_figures(case.checks):
         if not np.isnan(value):
             lines += entry(name, f"{small(value)}   {measure}")
@@ -27,7 +32,7 @@ def figures(model: Model, case: CaseResult) -> list[str]:
     return lines + solver_lines(case.solution) + _verification(case)
 
 
-def _factors(case: CaseResult) -> list[str]:
+def _factors(model: Model, case: CaseResult) -> list[str]:
     """The factor by the deck's flow rule with all that surrounds it, then the associative one."""
     solution = case.solution
     own, best, associative = result_of(case), best_iterate(case), associative_of(case)
@@ -38,6 +43,9 @@ def _factors(case: CaseResult) -> list[str]:
     if best is not None:
         lines += entry(f"best iterate, {rule}", f"{number(best.load_factor)}   (no load factor)")
     lines += _angle(case)
+    if extent_of(model, case) is not None:
+        for which, figure in zip(LEAST_AND_GREATEST, extent_figures(model, case), strict=True):
+            lines += entry(f"{answer_head(model, case.load_case)}, {which}", figure)
     ends = range_of(case)
     if ends is not None:
         lines += entry("range for this mechanism", f"{_digits(ends[0])} .. {_digits(ends[1])}   (verified)")

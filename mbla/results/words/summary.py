@@ -2,22 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
-from mbla.model.model import Model
 from mbla.results.collapse.collapse import Collapse, collapse_of
 from mbla.results.collapse.failure import failure_of
-from mbla.results.outcome import associative_of, result_of
+from mbla.results.outcome import result_of
 from mbla.results.results import CaseResult, Results
 from mbla.results.series import series_of
-from mbla.results.words.answer_words import answer_figure, answer_head, status_words
+from mbla.results.words.answer_words import answer_columns, status_words
 from mbla.results.words.certificate_words import fall_summary
 from mbla.results.words.failure_words import failure_sentences
 from mbla.results.words.mechanism_words import mechanism_summary
 from mbla.results.words.notice_words import warning_summary
 from mbla.results.words.series_words import worst_words
 from mbla.results.words.text import counted, number, sentence, table
-from mbla.results.words.verdict_words import bound_words, range_summary, reasons, verdict
+from mbla.results.words.verdict_words import bound_words, reasons, verdict
 from mbla.solution.solution import Mechanics
 
 DETAIL = "    "
@@ -41,22 +38,14 @@ def _table(results: Results) -> list[str]:
     """Status and answer of every case; the associative answer beside it where the deck's flow rule is another."""
     if not results.cases:
         return []
-    rules = {case.solution.flow_rule for case in results.cases} - {"associative"}
-    answers = list(dict.fromkeys(answer_head(results.model, case.load_case) for case in results.cases))
-    head = ["load case", "status", *answers, *(["associative"] if rules else [])]
-    return table(head, [_row(results.model, case, answers)[: len(head)] for case in results.cases], left=2)
-
-
-def _row(model: Model, case: CaseResult, answers: Sequence[str]) -> list[str]:
-    """A cell for each kind of answer, filled in that of the case; the associative answer is of the same kind."""
-    own = answer_figure(case.load_case, result_of(case))
-    figures = [own if answer == answer_head(model, case.load_case) else "" for answer in answers]
-    return [
-        case.load_case.name,
-        status_words(case.status),
-        *figures,
-        answer_figure(case.load_case, associative_of(case)),
+    heads, rows = answer_columns(results.model, results.cases)
+    if all(case.solution.flow_rule == "associative" for case in results.cases):
+        heads.pop()
+    rows = [
+        [case.load_case.name, status_words(case.status), *row[: len(heads)]]
+        for case, row in zip(results.cases, rows, strict=True)
     ]
+    return table(["load case", "status", *heads], rows, left=2)
 
 
 def _heaviest(results: Results, case: CaseResult, mechanics: Mechanics, collapse: Collapse) -> list[str]:
@@ -79,6 +68,6 @@ def _in_words(results: Results, case: CaseResult) -> list[str]:
         lines += _heaviest(results, case, mechanics, collapse)
     if solution.mechanics is None and solution.certificate is not None:
         lines += fall_summary(model, results.contacts, case.load_case, solution.certificate)
-    for why in (range_summary(model, case), *reasons(case), bound_words(model, case)):
+    for why in (*reasons(case), bound_words(model, case)):
         lines += sentence(why, DETAIL)
     return lines

@@ -10,16 +10,16 @@ from mbla.results.magnitudes import rounding_of
 from mbla.results.outcome import (
     associative_of,
     best_iterate,
+    extent_of,
     law_residual,
     locked_in,
     range_is_a_point,
     range_of,
-    range_of_several,
     result_of,
 )
 from mbla.results.results import CaseResult
 from mbla.results.tilt_angle import tilt_words
-from mbla.results.words.answer_words import status_name
+from mbla.results.words.answer_words import in_order, status_name
 from mbla.results.words.settlement_words import reaction_words
 from mbla.results.words.text import number, small
 from mbla.solution.solution import Status
@@ -74,12 +74,26 @@ def verdict(model: Model, case: CaseResult) -> str:
         highest = load_factor_words(model, case.load_case, outer.load_factor)
         known = "verified" if verified else "approximate"
         return f"collapses between {value} and {highest}, with the inscribed and the circumscribed polyhedron, {known}"
-    known = f"{value}, verified" if verified else f"about {value}, approximate"
+    known = _with_extent(model, case, f"{value}, verified" if verified else f"about {value}, approximate")
+    moves = "follows its support" if case.load_case.settlement is not None else "collapses"
     if np.isfinite(case.checks.peak_load_factor):
         peak = load_factor_words(model, case.load_case, case.checks.peak_load_factor)
-        moves = "follows its support" if case.load_case.settlement is not None else "collapses"
         return f"{moves} at {peak}, the peak of its load path; once moving it carries {known}"
-    return f"follows its support at {known}" if case.load_case.settlement is not None else f"collapses at {known}"
+    return f"{moves} at {known}" if extent_of(model, case) is None else f"{moves} {known}"
+
+
+def _with_extent(model: Model, case: CaseResult, known: str) -> str:
+    """A load factor; where others were found, the least and the greatest of all before it."""
+    extent = extent_of(model, case)
+    if extent is None:
+        return known
+    least, greatest = (load_factor_words(model, case.load_case, end) for end in in_order(case.load_case, extent))
+    found = f"between {least} (least found) and {greatest} (greatest found)"
+    if np.isinf(extent[1]):
+        settles = case.load_case.settlement is not None
+        found = f"from {greatest} (greatest found) down" if settles else f"from {least} (least found) up"
+        found += " without limit"
+    return f"{found}; the state told here at {known}"
 
 
 def _known_words(model: Model, case: CaseResult, load_factor: float) -> str:
@@ -186,15 +200,6 @@ def uniqueness_words(model: Model, case: CaseResult) -> str:
         f"The {what} is not unique: for this mechanism alone there are forces that fit the law at every {noun} "
         f"from {value(ends[0])} to {value(ends[1])}, and other mechanisms may reach {lower}{above}."
     )
-
-
-def range_summary(model: Model, case: CaseResult) -> str:
-    """``not unique: 0.639 g to 0.643 g for this mechanism``; nothing where that is not known."""
-    ends = range_of_several(model, case)
-    if ends is None:
-        return ""
-    least, greatest = (load_factor_words(model, case.load_case, end) for end in ends)
-    return f"not unique: {least} to {greatest} for this mechanism, verified"
 
 
 def _ends(ends: tuple[float, float]) -> str:

@@ -19,7 +19,14 @@ OF_RUN = ("model", "settings", "time")
 OWN_COLUMNS = ("point", "state", "exit_code", "reason", "tries", "seconds")
 """columns that every table of a sweep has beside those of parameters and results"""
 STATUS = "status"
-FACTORS = ("load_factor", "static_bound", "kinematic_bound", "associative_load_factor")
+FACTORS = (
+    "load_factor",
+    "least_load_factor",
+    "greatest_load_factor",
+    "static_bound",
+    "kinematic_bound",
+    "associative_load_factor",
+)
 """results that are load factors: they have a place on their axis for a structure that does not stand, and for one that
 no load brings down, which their status tells"""
 UNBOUNDED = "unbounded"

@@ -187,18 +187,20 @@ def test_a_structure_that_hangs_together_by_self_stress_has_no_load_factor_witho
 
 
 @pytest.mark.parametrize(
-    ("lower", "upper", "ends", "unique"),
+    ("lower", "upper", "ends", "least", "greatest", "unique"),
     [
-        (0.45, 0.52, [0.45, 0.52], False),
-        (0.5, 0.5, [0.5, 0.5], None),
-        (0.45, float("nan"), [0.45, None], None),
-        (float("nan"), float("nan"), None, None),
+        (0.45, 0.52, [0.45, 0.52], 0.45, 0.52, False),
+        (0.5, 0.5, [0.5, 0.5], 0.5, 0.5, None),
+        (0.45, float("nan"), [0.45, None], 0.45, 0.5, False),
+        (0.45, float("inf"), [0.45, None], 0.45, None, False),
+        (float("nan"), float("nan"), None, 0.5, 0.5, None),
     ],
 )
-def test_range_and_uniqueness(lower: float, upper: float, ends: Any, unique: Any) -> None:
+def test_range_and_uniqueness(lower: float, upper: float, ends: Any, least: Any, greatest: Any, unique: Any) -> None:
     """Equal ends show one factor for this mechanism, not that no other mechanism has another."""
     case = results_json(with_first(checks={"lower": lower, "upper": upper}))["cases"][0]
     assert (case["range"], case["factor_unique"]) == (ends, unique)
+    assert (case["least_load_factor"], case["greatest_load_factor"]) == (least, greatest)
 
 
 def test_the_associative_factor_is_unique() -> None:

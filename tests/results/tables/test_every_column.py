@@ -239,6 +239,9 @@ def case_rows(results: Results) -> list[dict[str, Any]]:
         row["range_lower"], row["range_upper"] = (
             (checks.lower, checks.upper) if figures(case) == "result" else (np.nan, np.nan)
         )
+        ends = [checks.lower, checks.upper, *(solution.spread or ())] if figures(case) == "result" else []
+        known = [end for end in (row["load_factor"], *ends) if not np.isnan(end)] or [np.nan]
+        row["least_load_factor"], row["greatest_load_factor"] = min(known), max(known)
         row["spread_lower"], row["spread_upper"] = solution.spread or (np.nan, np.nan)
         row["programs"] = len(solution.programs)
         row["iterations"] = sum(program.iterations for program in solution.programs)

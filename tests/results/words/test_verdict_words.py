@@ -11,6 +11,7 @@ from mbla.model.model import Settlement, Tilt
 from mbla.results.hdf5.result_file import read_results_hdf5, write_results_hdf5
 from mbla.results.records.json_record import results_json
 from mbla.results.results import CaseResult, Results
+from mbla.results.words.answer_words import answer_columns
 from mbla.results.words.listing import listing
 from mbla.results.words.summary import summary_lines
 from mbla.results.words.text import WIDTH
@@ -63,8 +64,64 @@ def test_a_verified_range_stands_among_the_figures_and_in_the_summary() -> None:
     text = text_of(case)
     assert "range for this mechanism 0.45 .. 0.52 (verified)" in text
     assert "scheme proximal load factor, non_associative 0.5 " in text
-    summary = " ".join(summary_lines(replace(RESULTS, cases=(case,))))
-    assert "not unique: 0.45 g to 0.52 g for this mechanism, verified" in summary
+    assert "load factor, least found 0.45 load factor, greatest found 0.52" in text
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        (
+            {"checks": {"lower": 0.45, "upper": 0.52}},
+            "collapses between 0.45 g (least found) and 0.52 g (greatest found); the state told here at 0.5 g, "
+            "verified",
+        ),
+        (
+            {"checks": {"lower": 0.45}, "solution": {"spread": (0.44, 0.5)}},
+            "collapses between 0.44 g (least found) and 0.5 g (greatest found); the state told here at 0.5 g, verified",
+        ),
+        (
+            {"checks": {"lower": 0.45, "upper": np.inf}},
+            "collapses from 0.45 g (least found) up without limit; the state told here at 0.5 g, verified",
+        ),
+        (
+            {"checks": {"lower": 0.45, "upper": 0.52, "peak_load_factor": 0.6}},
+            "collapses at 0.6 g, the peak of its load path; once moving it carries between 0.45 g (least found) and "
+            "0.52 g (greatest found); the state told here at 0.5 g, verified",
+        ),
+        ({"solution": {"spread": (0.499, 0.501)}, "checks": {"slip_residual": 5e-3}}, "collapses at 0.5 g, verified"),
+        ({"checks": {"lower": 0.5, "upper": 0.5}}, "collapses at 0.5 g, verified"),
+    ],
+)
+def test_the_sentence_begins_with_the_least_that_was_found_and_the_greatest(
+    changes: dict[str, Any], words: str
+) -> None:
+    """Figures that lie no further apart than the residual of the state are one."""
+    assert verdict(MODEL, case_with(**changes)) == words
+
+
+@pytest.mark.parametrize(
+    ("upper", "words"),
+    [
+        (0.52, "between a reaction of 19.6 N (least found) and a reaction of 21 N (greatest found); the state told"),
+        (np.inf, "from a reaction of 21 N (greatest found) down without limit; the state told"),
+    ],
+)
+def test_of_a_support_that_gives_way_the_least_is_the_least_reaction(upper: float, words: str) -> None:
+    """reaction = 30 - 20 load factor."""
+    case = case_with(checks={"lower": 0.45, "upper": upper})
+    case = replace(case, load_case=replace(case.load_case, settlement=SETTLEMENT))
+    assert verdict(MODEL, case).startswith(f"follows its support {words}")
+
+
+def test_the_table_has_the_least_and_the_greatest_where_a_case_has_several() -> None:
+    ranged = case_with(checks={"lower": 0.45, "upper": 0.52})
+    heads, rows = answer_columns(MODEL, [FIRST, ranged, RESULTS.cases[1]])
+    assert heads == ["load factor", "least found", "greatest found", "associative"]
+    assert [row[:3] for row in rows] == [["0.5", "0.5", "0.5"], ["0.5", "0.45", "0.52"], ["-", "-", "-"]]
+    assert answer_columns(MODEL, [FIRST])[0] == ["load factor", "associative"]
+    table = summary_lines(replace(RESULTS, cases=(ranged,)))
+    assert table[1].split() == ["load", "case", "status", *" ".join(heads).split()]
+    assert table[2].split()[2:5] == ["0.5", "0.45", "0.52"]
 
 
 def test_a_range_that_was_not_verified_says_so() -> None:
