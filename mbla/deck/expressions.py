@@ -1,5 +1,8 @@
 """``"=..."`` strings: arithmetic over the deck's parameters, evaluated on a short list of Python's syntax nodes.
 
+Angles are in degrees, as everywhere in a deck: ``sin``, ``cos`` and ``tan`` take them, ``asin``, ``acos``, ``atan`` and
+``atan2`` give them. ``pi`` in the angle of a function is refused, for it was meant for radians.
+
 Every number is a float; a result that is not finite, or an operation that Python refuses, is an error. Nothing but
 the names and nodes listed here is ever looked at, so that a deck from a stranger cannot do more than arithmetic.
 """
@@ -21,15 +24,18 @@ MAX_DEPTH = 40
 _LONGEST_CYCLE = 10
 
 CONSTANTS: dict[str, float] = {"pi": math.pi, "e": math.e}
+OF_ANGLES: dict[str, Callable[[float], float]] = {
+    "sin": lambda angle: math.sin(math.radians(angle)),
+    "cos": lambda angle: math.cos(math.radians(angle)),
+    "tan": lambda angle: math.tan(math.radians(angle)),
+}
 FUNCTIONS: dict[str, Callable[..., float]] = {
     "sqrt": math.sqrt,
-    "sin": math.sin,
-    "cos": math.cos,
-    "tan": math.tan,
-    "asin": math.asin,
-    "acos": math.acos,
-    "atan": math.atan,
-    "atan2": math.atan2,
+    **OF_ANGLES,
+    "asin": lambda sine: math.degrees(math.asin(sine)),
+    "acos": lambda cosine: math.degrees(math.acos(cosine)),
+    "atan": lambda tangent: math.degrees(math.atan(tangent)),
+    "atan2": lambda y, x: math.degrees(math.atan2(y, x)),
     "exp": math.exp,
     "log": math.log,
     "abs": abs,
@@ -38,8 +44,6 @@ FUNCTIONS: dict[str, Callable[..., float]] = {
     "floor": math.floor,
     "ceil": math.ceil,
     "round": round,
-    "radians": math.radians,
-    "degrees": math.degrees,
 }
 _ARGUMENTS = {"atan2": (2, 2), "log": (1, 2), "min": (2, 16), "max": (2, 16)}
 _BINARY: dict[type[ast.operator], Callable[[float, float], Any]] = {
@@ -242,6 +246,7 @@ def evaluate(node: ast.expr, value_of: Callable[[str], float], depth: int) -> fl
             operands = (evaluate(left, value_of, depth + 1), evaluate(right, value_of, depth + 1))
             return _number(_BINARY[type(sign)], operands, "operation")
         case ast.Call(func=ast.Name(id=name), args=args, keywords=[]):
+            _refuse_radians(name, args)
             return _call(name, [evaluate(argument, value_of, depth + 1) for argument in args])
         case _:
             raise ExpressionError(
@@ -249,6 +254,16 @@ def evaluate(node: ast.expr, value_of: Callable[[str], float], depth: int) -> fl
                 "holds something other than numbers, parameters, + - * / % **, parentheses and functions "
                 f"({', '.join(FUNCTIONS)})",
             )
+
+
+def _refuse_radians(name: str, arguments: list[ast.expr]) -> None:
+    """Conversions from and to radians, and pi in an angle: whoever writes them expects functions of radians."""
+    if name in ("radians", "degrees"):
+        words = f"{name} is not needed: angles of sin, cos, tan, asin, acos, atan and atan2 are in degrees"
+        raise ExpressionError("wrong-expression", words)
+    inside = (node for argument in arguments for node in ast.walk(argument))
+    if name in OF_ANGLES and any(isinstance(node, ast.Name) and node.id == "pi" for node in inside):
+        raise ExpressionError("wrong-expression", f"{name} takes degrees: write 180 for pi in its angle")
 
 
 def _call(name: str, arguments: list[float]) -> float:

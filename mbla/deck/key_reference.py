@@ -22,7 +22,8 @@ def key_reference() -> str:
     """A table for every section of the deck: key, value with its unit, default, meaning."""
     introduction = (
         "Units: L, F and M stand for the deck's units of length, force and mass. Wherever a number is asked for, "
-        'an expression `"=..."` may stand; where it has a unit, also a text such as `"18 kN/m^3"`.\n'
+        'an expression `"=..."` may stand; where it has a unit, also a text such as `"18 kN/m^3"`. '
+        "Angles are in degrees, in expressions too: sin, cos and tan take degrees, asin, acos, atan and atan2 give them.\n"
     )
     return "\n".join([introduction, *section_tables(DeckContent, "deck")])
 

@@ -31,7 +31,7 @@ def deck_text(thickness: float, voussoirs: int, mu: float) -> str:
     points = [f'["=x-r*cos({i + 0.5}*d)", 0.25, "=r*sin({i + 0.5}*d)"]' for i in range(voussoirs)]
     lines = [
         HEAD,
-        f'parameters: {{d: "=pi/{voussoirs}", r: "=sin(d/2)/(d/2)", x: {1 - thickness / 2!r}}}',
+        f'parameters: {{d: "=180/{voussoirs}", r: "=sin(d/2)/(d*pi/360)", x: {1 - thickness / 2!r}}}',
         f"joints: {{dry: {{friction: {mu!r}}}}}",
         "blocks:",
         f'  - arch: {{material: stone, shape: semicircular, span: "=2*x", thickness: {thickness!r}, width: 0.5,',

@@ -54,7 +54,7 @@ analysis: {{flow_rule: {flow_rule}, published: {{tolerance: 1.e-6}}}}
 @settings(max_examples=25, derandomize=True)
 @given(mu=st.floats(0.05, 1.5), degrees=st.floats(0, 360), d=st.floats(0.4, 3.0))
 def test_sliding_is_the_same_in_every_direction(mu: float, degrees: float, d: float) -> None:
-    overrides = (f"parameters.mu={mu!r}", f"parameters.t={math.radians(degrees)!r}", f"parameters.d={d!r}")
+    overrides = (f"parameters.mu={mu!r}", f"parameters.t={degrees!r}", f"parameters.d={d!r}")
     assert load_factor(BLOCK, *overrides) == pytest.approx(mu, rel=SAME)
 
 
@@ -63,7 +63,7 @@ def test_sliding_is_the_same_in_every_direction(mu: float, degrees: float, d: fl
 def test_rocking_is_about_the_edge_that_the_resultant_meets(degrees: float, d: float, h: float) -> None:
     t = math.radians(degrees)
     edges = [side / abs(share) for side, share in ((1.0, math.cos(t)), (d, math.sin(t))) if abs(share) > 1e-12]
-    overrides = ("parameters.mu=2", f"parameters.t={t!r}", f"parameters.d={d!r}", f"parameters.h={h!r}")
+    overrides = ("parameters.mu=2", f"parameters.t={degrees!r}", f"parameters.d={d!r}", f"parameters.h={h!r}")
     assert load_factor(BLOCK, *overrides) == pytest.approx(min(edges) / h, rel=SAME)
 
 
@@ -85,7 +85,7 @@ def test_an_unequal_groove_with_associative_flow(b1: float, b2: float, mu: float
 
     (_, q), _, success, message = fsolve(lack, np.array([0.0, mu]), xtol=1e-13, full_output=True)
     assert success == 1, message
-    assert load_factor(_wedge(one, two, mu, "associative")) == pytest.approx(q, rel=SAME)
+    assert load_factor(_wedge(b1, b2, mu, "associative")) == pytest.approx(q, rel=SAME)
 
 
 @pytest.mark.parametrize(("b1", "b2", "mu"), [(20, 40, 0.5), (30, 60, 0.4), (15, 25, 0.7)])
@@ -93,7 +93,7 @@ def test_an_unequal_groove_without_dilatancy(b1: float, b2: float, mu: float) ->
     """N1 = W sin b2/sin(b1 + b2), N2 = W sin b1/sin(b1 + b2), both sliding along the line of intersection."""
     one, two = math.radians(b1), math.radians(b2)
     exact = mu * (math.sin(one) + math.sin(two)) / math.sin(one + two)
-    solution, checks, status = verified(line_of(_wedge(one, two, mu, "non_associative")))
+    solution, checks, status = verified(line_of(_wedge(b1, b2, mu, "non_associative")))
     assert solution.mechanics is not None
     assert solution.mechanics.load_factor == pytest.approx(exact, rel=1e-4), (status, checks.failures)
 
@@ -119,5 +119,5 @@ def test_an_eccentric_push_turns_and_slides(lever: float, mu: float) -> None:
     assert load_factor(text, f"parameters.mu={mu}") == pytest.approx(exact, rel=SAME)
 
 
-def _wedge(one: float, two: float, mu: float, flow_rule: str) -> str:
-    return HEAD + WEDGE.format(mu=mu, b1=one, b2=two, flow_rule=flow_rule)
+def _wedge(b1: float, b2: float, mu: float, flow_rule: str) -> str:
+    return HEAD + WEDGE.format(mu=mu, b1=b1, b2=b2, flow_rule=flow_rule)

@@ -63,7 +63,7 @@ def _head(case: Case) -> Iterator[str]:
     yield "# Generated: tests/decks/centre_line_arches.py."
     yield "mbla: 1"
     yield f"title: {title}"
-    yield f'parameters: {{{numbers}, d: "=pi/{VOUSSOIRS}", r: "=sin(d/2)/(d/2)", xc: "=1-t/2"}}'
+    yield f'parameters: {{{numbers}, d: "=180/{VOUSSOIRS}", r: "=sin(d/2)/(d*pi/360)", xc: "=1-t/2"}}'
 
 
 def _structure() -> Iterator[str]:

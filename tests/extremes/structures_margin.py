@@ -24,11 +24,11 @@ def _tolerance(factor: float) -> float:
 INCLINE = (
     HEAD
     + """\
-parameters: {mu: 0.5, more: 0, a: "=atan(mu) + more"}
+parameters: {mu: 0.5, more: 0, a: "=atan(mu) + more*180/pi"}
 joints: {dry: {friction: "=mu"}}
 blocks:
   - box: {group: block, material: stone, min: [-0.5, -0.5, 0], max: [0.5, 0.5, 0.2],
-          transform: {rotate: {axis: [0, -1, 0], angle: "=degrees(a)"}}}
+          transform: {rotate: {axis: [0, -1, 0], angle: "=a"}}}
 supports: [{ground: {point: [0, 0, 0], normal: ["=-sin(a)", 0, "=cos(a)"]}}]
 load_cases: {down: {live: [{acceleration: [-1, 0, 0]}]}}
 """

@@ -40,7 +40,7 @@ TWIST = BLOCK.replace(
 WEDGE = (
     HEAD.replace("0.6", "1.8")
     + """\
-parameters: {b: "=radians(30)", t: "=0.5*tan(b)"}
+parameters: {b: 30, t: "=0.5*tan(b)"}
 blocks:
   - polyhedron:
       group: wedge

@@ -40,7 +40,7 @@ contacts: {joint: bed}
 supports: [{ground: {z: 0}}]
 load_cases:
   turn: {live: [{tilt: {axis: [0, 1, 0]}}]}
-  slope: {dead: [{gravity: ["=9.81*sin(radians(t))", 0, "=-9.81*cos(radians(t))"]}], live: [{acceleration: [1, 0, 0]}]}
+  slope: {dead: [{gravity: ["=9.81*sin(t)", 0, "=-9.81*cos(t)"]}], live: [{acceleration: [1, 0, 0]}]}
 analysis: {flow_rule: associative}
 """
 
@@ -237,7 +237,7 @@ def test_in_a_closed_box_it_holds_at_every_angle() -> None:
 
 
 GROOVE = """mbla: 1
-parameters: {c: 4000, mu: 0.5, t: "=tan(radians(30))"}
+parameters: {c: 4000, mu: 0.5, t: "=tan(30)"}
 materials: {stone: {unit_weight: 20000}}
 joints: {bed: {friction: "=mu", cohesion: "=c"}}
 blocks:
@@ -247,8 +247,8 @@ blocks:
       faces: [[0, 2, 3], [1, 4, 5], [0, 1, 4, 2], [0, 1, 5, 3], [2, 3, 5, 4]]
 contacts: {joint: bed}
 supports:
-  - ground: {point: [0, 0, 0], normal: [0, 0.5, "=cos(radians(30))"]}
-  - ground: {point: [0, 0, 0], normal: [0, -0.5, "=cos(radians(30))"]}
+  - ground: {point: [0, 0, 0], normal: [0, 0.5, "=cos(30)"]}
+  - ground: {point: [0, 0, 0], normal: [0, -0.5, "=cos(30)"]}
 load_cases: {turn: {live: [{tilt: {axis: [0, 1, 0]}}]}}
 analysis: {flow_rule: non_associative, range: false}
 """
