@@ -23,7 +23,8 @@ def key_reference() -> str:
     introduction = (
         "Units: L, F and M stand for the deck's units of length, force and mass. Wherever a number is asked for, "
         'an expression `"=..."` may stand; where it has a unit, also a text such as `"18 kN/m^3"`. '
-        "Angles are in degrees, in expressions too: sin, cos and tan take degrees, asin, acos, atan and atan2 give them.\n"
+        "Angles are in degrees, in expressions too: sin, cos and tan take degrees, asin, acos, atan and atan2 give "
+        "them.\n"
     )
     return "\n".join([introduction, *section_tables(DeckContent, "deck")])
 

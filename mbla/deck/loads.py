@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import Annotated, Literal, TypeAlias
 
-from pydantic import Field
+from pydantic import Discriminator, Field, Tag
 
 from mbla.deck.names import Name
 from mbla.deck.quantities import (
@@ -111,11 +111,19 @@ class Tilt(Section):
     )
 
 
+Gravity: TypeAlias = Annotated[
+    Annotated[Literal["none"], Tag("name")] | Annotated[tuple[Acceleration, Acceleration, Acceleration], Tag("list")],
+    Discriminator(lambda value: "name" if isinstance(value, str) else "list"),
+]
+
+
 class Load(Section):
     """One load of exactly one kind; dead or live, save `travel` and `tilt`, which are live only."""
 
-    gravity: tuple[Acceleration, Acceleration, Acceleration] | None = Field(
-        None, description="gravitational acceleration, in the deck's unit of length per s^2"
+    gravity: Gravity | None = Field(
+        None,
+        description="gravitational acceleration, in the deck's unit of length per s^2, in place of 9.81 m/s^2 along "
+        "-z; `none` among the dead loads of a structure without weight",
     )
     acceleration: Direction | None = Field(
         None, description="mass-proportional load in units of g = 9.81 m/s^2, pointing where it pushes"
@@ -157,7 +165,9 @@ class SettlementSection(Section):
 class LoadCaseSection(Section):
     """Dead loads stay, live loads are multiplied by the load factor; or a support gives way under the dead loads."""
 
-    dead: list[Load] | None = Field(None, description="gravity of 9.81 m/s^2 along -z unless given")
+    dead: list[Load] | None = Field(
+        None, description="what acts beside gravity, which is 9.81 m/s^2 along -z unless a load `gravity` is among them"
+    )
     live: list[Load] | None = Field(None, min_length=1, description="the loads that the load factor multiplies")
     settlement: SettlementSection | None = Field(
         None,

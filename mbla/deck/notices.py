@@ -25,7 +25,7 @@ def notices_of(tree: Tree, content: DeckContent, units: Units, parameters: Param
 def _gravity(tree: Tree, content: DeckContent, units: Units) -> Iterator[Notice]:
     """Gravity far from 9.81 m/s2: mostly a deck in mm whose gravity is still in m."""
     for path, load in _loads(content):
-        if load.gravity is None or not any(load.gravity):
+        if load.gravity is None or load.gravity == "none" or not any(load.gravity):
             continue
         size = math.hypot(*load.gravity) * METRES[units.length]
         if abs(size - STANDARD_GRAVITY) > GRAVITY_TOLERANCE * STANDARD_GRAVITY:

@@ -23,6 +23,7 @@ from mbla.model.blocks import Blocks
 from mbla.model.build_blocks import Labels, build_blocks
 from mbla.model.guides import Guides
 from mbla.model.labels import BlockLabels, join_labels
+from mbla.model.loads.gravity import vector_of, with_gravity
 from mbla.model.loads.named_loads import entries_of
 from mbla.model.mirror import Mirror, find_mirror
 from mbla.model.mirrored_blocks import halves_joined, polyhedra_of, reflected
@@ -76,21 +77,22 @@ def symmetry_faults(deck: Deck, model: Model) -> list[Fault]:
 def _loads_across(deck: Deck, section: LoadCaseSection, path: KeyPath, mirror: Mirror) -> list[Fault]:
     """Loads on masses that are not their own mirror image, and kinds of loads that have no image."""
     faults = []
-    for key, loads in (("dead", section.dead or []), ("live", section.live or [])):
-        for entry in entries_of(loads, (*path, key), deck.content.loads):
-            kind = given(entry.load, EXACTLY_ONE[Load])[0]
-            if kind in AT_PLACES:
+    dead = entries_of(section.dead or [], (*path, "dead"), deck.content.loads)
+    live = entries_of(section.live or [], (*path, "live"), deck.content.loads)
+    for entry in (*with_gravity(dead, path, deck.units), *live):
+        kind = given(entry.load, EXACTLY_ONE[Load])[0]
+        if kind in AT_PLACES:
+            continue
+        message = f"is no load that can be mirrored about {mirror.label}: give the whole structure"
+        if kind in ON_MASSES:
+            value = np.array(vector_of(entry.load) if kind == "gravity" else entry.load.acceleration)
+            if abs(float(value @ mirror.normal)) <= ACROSS * np.abs(value).max():
                 continue
-            message = f"is no load that can be mirrored about {mirror.label}: give the whole structure"
-            if kind in ON_MASSES:
-                value = np.array(getattr(entry.load, kind))
-                if abs(float(value @ mirror.normal)) <= ACROSS * np.abs(value).max():
-                    continue
-                message = (
-                    f"acts across the plane of symmetry {mirror.label}: the other half would have to be pushed the "
-                    "other way; give the whole structure"
-                )
-            faults.append(deck.fault_at((*entry.path, kind), Message("symmetry-broken", message)))
+            message = (
+                f"acts across the plane of symmetry {mirror.label}: the other half would have to be pushed the "
+                "other way; give the whole structure"
+            )
+        faults.append(deck.fault_at((*entry.path, kind), Message("symmetry-broken", message)))
     return faults
 
 

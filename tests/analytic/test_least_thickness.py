@@ -42,6 +42,7 @@ def deck_text(thickness: float, voussoirs: int, mu: float) -> str:
     ]
     for kind, force in loads.items():
         lines.append(f"    {kind}:")
+        lines += ["      - {gravity: none}"] if kind == "dead" else []
         lines += [
             f"      - {{force: {force}, on: {{group: arch, index: {i}}}, at: {point}}}"
             for i, point in enumerate(points)

@@ -110,7 +110,10 @@ def test_long_cycle_is_shortened() -> None:
         ("=exp(1000)", "too large"),
         ("=sqrt(-1)", r"sqrt\(-1\) is not defined"),
         ("=log(0)", r"log\(0\) is not defined"),
-        ("=tan(radians(20))", "radians is not needed: angles of sin, cos, tan, asin, acos, atan and atan2 are in degrees"),
+        (
+            "=tan(radians(20))",
+            "radians is not needed: angles of sin, cos, tan, asin, acos, atan and atan2 are in degrees",
+        ),
         ("=degrees(atan(1))", "degrees is not needed"),
         ("=cos(2*pi/n)", "cos takes degrees: write 180 for pi in its angle"),
         ("=acos(2)", r"acos\(2\) is not defined"),

@@ -128,6 +128,7 @@ WORDS: dict[type[Section], list[str]] = {
         (LIVE, "[{acceleration: [1, 0, 0], on: block}]"),
         (LIVE, "[{force: [1, 0, 0], on: {group: block, index: 0}}]"),
         (LIVE, LIVE + "\n    dead: []"),
+        (LIVE, LIVE + "\n    dead: [{gravity: none}]"),
         ("{ground: {z: 0}}", "{blocks: block, fixed: [x, rz]}"),
         (
             "{ground: {z: 0}}",

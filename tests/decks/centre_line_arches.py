@@ -93,6 +93,8 @@ def _loads() -> Iterator[str]:
     yield "  push_x:"
     for kind, force in (("dead", "[0, 0, -1]"), ("live", "[1, 0, 0]")):
         yield f"    {kind}:"
+        if kind == "dead":
+            yield "      - {gravity: none}"
         for i in range(VOUSSOIRS):
             angle = f"{i + 0.5:g}*d"
             point = f'["=xc-r*cos({angle})", "=w/2", "=r*sin({angle})"]'

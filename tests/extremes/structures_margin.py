@@ -127,7 +127,7 @@ load_cases: {push: {live: [{acceleration: [1, 0, 0]}]}}
 """
 )
 
-WEIGHTLESS = BLOCK.replace("load_cases: {push: {", "load_cases: {push: {dead: [], ")
+WEIGHTLESS = BLOCK.replace("load_cases: {push: {", "load_cases: {push: {dead: [{gravity: none}], ")
 
 
 def _no_margin() -> list[Scene]:

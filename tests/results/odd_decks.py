@@ -165,7 +165,7 @@ load_cases: {pull: {live: [{force: [0, 0, -1000], on: hanging, at: [0.5, 0.5, 0]
     "weightless": (
         STACK.replace(
             "{live: [{acceleration: [1, 0, 0]}]}",
-            "{dead: [{force: [0, 0, -1000], on: top, at: [0.5, 0.5, 3]}],"
+            "{dead: [{gravity: none}, {force: [0, 0, -1000], on: top, at: [0.5, 0.5, 3]}],"
             " live: [{force: [1000, 0, 0], on: top, at: [0.5, 0.5, 3]}]}",
         ),
         (),
@@ -173,7 +173,7 @@ load_cases: {pull: {live: [{force: [0, 0, -1000], on: hanging, at: [0.5, 0.5, 0]
     "weightless_unloaded": (
         BLOCK.replace(
             "{live: [{acceleration: [1, 0, 0]}]}",
-            "{dead: [], live: [{force: [1000, 0, 0], on: block, at: [0.5, 0.5, 2]}]}",
+            "{dead: [{gravity: none}], live: [{force: [1000, 0, 0], on: block, at: [0.5, 0.5, 2]}]}",
         ),
         (),
     ),

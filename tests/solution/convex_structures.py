@@ -46,7 +46,7 @@ blocks:
 supports: [{ground: {z: 0}}]
 load_cases:
   press:
-    dead: [{force: [0, 0, -1000], on: block, at: POINT}]
+    dead: [{gravity: none}, {force: [0, 0, -1000], on: block, at: POINT}]
     live: [{force: [0, 0, -1000], on: block, at: POINT}]
 analysis: {flow_rule: associative, contact_model: convex}
 """

@@ -162,7 +162,7 @@ def test_live_loads_tiny_and_huge_against_the_dead_load(force: float) -> None:
 
 
 def test_without_any_dead_load_there_is_the_strength_of_the_joints() -> None:
-    text = BLOCK.replace("push: {live", "push: {dead: [], live")
+    text = BLOCK.replace("push: {live", "push: {dead: [{gravity: none}], live")
     assert load_factor(text, NO_STANDING) == 0.0
     bonded = ("parameters.c=1000", "parameters.ft=500", NO_STANDING)
     # rocking about an edge, f_t on each of the two far corners and the near ones at their edge: f_t b/2 = λ W h/2

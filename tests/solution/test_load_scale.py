@@ -36,7 +36,7 @@ def test_a_block_has_to_balance_its_load_and_what_presses_on_it_up_to_the_mean()
 
 
 def test_without_dead_load_the_strength_of_the_joints_is_the_scale() -> None:
-    text = PAIR.replace("push: {live", "push: {dead: [], live")
+    text = PAIR.replace("push: {live", "push: {dead: [{gravity: none}], live")
     bonded = scale_of(line_of(text, "parameters.c=300", "parameters.ft=100"))
     assert bonded.own == pytest.approx(2 * [(300 + 100) * (1 + 3) / 2])  # on areas of 1 and 3 m²
     dry = scale_of(line_of(text, "parameters.h=1"))

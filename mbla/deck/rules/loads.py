@@ -148,7 +148,7 @@ def _without_effect(load: types.Load) -> Iterator[tuple[str | int, ...]]:
         yield ("factor",)
     for key in ("gravity", "acceleration", "force", "moment"):
         value = getattr(load, key)
-        if value is not None and is_zero(value):
+        if value == "none" or (value is not None and is_zero(value)):
             yield (key,)
     if load.line is not None and is_zero(load.line.force_per_length):
         yield ("line", "force_per_length")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -13,6 +13,7 @@ from mbla.deck.rules.loads import LIVE_ONLY
 from mbla.deck.tree import KeyPath
 from mbla.deck.types import Load, LoadCaseSection
 from mbla.errors import Message
+from mbla.model.loads.gravity import with_gravity
 from mbla.model.loads.kinds import LOAD_KINDS
 from mbla.model.loads.load_kind import AppliedLoad, LoadSite
 from mbla.model.loads.named_loads import Entry, entries_of
@@ -57,16 +58,15 @@ class _Sum:
 def build_load_cases(name: str, section: LoadCaseSection, site: LoadSite) -> tuple[LoadCase, ...]:
     """Dead and live load of one case, or of one for each position of a load that travels.
 
-    Gravity of 9.81 m/s2 along -z is the dead load unless the deck gives one. Adds to ``site.faults`` what no load can
-    be made of, and live loads without effect, which are those that act on fixed blocks only or cancel each other.
+    Gravity of 9.81 m/s2 along -z is one of the dead loads unless the deck gives another, or none. Adds to
+    ``site.faults`` what no load can be made of, and live loads without effect, which are those that act on fixed
+    blocks only or cancel each other.
     """
     path: KeyPath = ("load_cases", name)
-    dead_loads = section.dead
-    if dead_loads is None:
-        dead_loads = [Load.model_construct(gravity=(0.0, 0.0, -site.units.standard_gravity))]
+    dead_loads = with_gravity(entries_of(section.dead or [], (*path, "dead"), site.named), path, site.units)
     before = len(site.faults)
-    dead = _add_up(dead_loads, (*path, "dead"), site, live=False)
-    live = _add_up(section.live or [], (*path, "live"), site, live=True)
+    dead = _add_up(dead_loads, site, live=False)
+    live = _add_up(entries_of(section.live or [], (*path, "live"), site.named), site, live=True)
     tilt, positions = _tilt(section, dead_loads, path, dead, live, site), _positions(name, section, path, site)
     sound = len(site.faults) == before
     cases = []
@@ -94,13 +94,13 @@ def _positions(name: str, section: LoadCaseSection, path: KeyPath, site: LoadSit
 
 
 def _tilt(
-    section: LoadCaseSection, dead_loads: Sequence[Load], path: KeyPath, dead: _Sum, live: _Sum, site: LoadSite
+    section: LoadCaseSection, dead_loads: Sequence[Entry], path: KeyPath, dead: _Sum, live: _Sum, site: LoadSite
 ) -> Tilt | None:
     """Loads of a tilting table; what it turns them by first stands in for the live load."""
     load = section.live[0].tilt if section.live else None
     if load is None:
         return None
-    tilt = tilt_loads(load, list(entries_of(dead_loads, (*path, "dead"), site.named)), dead.total, path, site)
+    tilt = tilt_loads(load, dead_loads, dead.total, path, site)
     live.total += tilt.across
     live.gross += np.abs(tilt.across)
     live.words.append(f"tilt about {vector(load.axis)}")
@@ -137,10 +137,10 @@ def _judge_size(path: KeyPath, loads: _Sum, site: LoadSite) -> bool:
     return True
 
 
-def _add_up(loads: Sequence[Load], path: KeyPath, site: LoadSite, live: bool) -> _Sum:
+def _add_up(entries: Iterable[Entry], site: LoadSite, live: bool) -> _Sum:
     shape = (len(site.fixed), 6)
     result = _Sum(np.zeros(shape), np.zeros(shape))
-    for entry in entries_of(loads, path, site.named):
+    for entry in entries:
         if given(entry.load, LIVE_ONLY):
             continue
         applied = _apply(entry, site)

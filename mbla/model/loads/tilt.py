@@ -19,6 +19,7 @@ from mbla.deck.tree import KeyPath
 from mbla.deck.types import Tilt as TiltSection
 from mbla.errors import Message
 from mbla.model.loads.blocks_under import unit
+from mbla.model.loads.gravity import vector_of
 from mbla.model.loads.load_kind import LoadSite
 from mbla.model.loads.mass_forces import mass_forces
 from mbla.model.loads.named_loads import Entry
@@ -35,7 +36,7 @@ def tilt_loads(load: TiltSection, dead: Sequence[Entry], dead_total: FloatArray,
     others = False
     for entry in dead:
         if entry.load.gravity is not None:
-            gravity += entry.factor * np.array(entry.load.gravity)
+            gravity += entry.factor * np.array(vector_of(entry.load))
         else:
             others = True
     level = gravity - (gravity @ axis) * axis

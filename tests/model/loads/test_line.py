@@ -27,7 +27,7 @@ TWO_STOREYS = [
 
 
 def model(folder: Path, line: str, blocks: list[str], more: str = "", supports: str = "[{ground: {z: 0}}]") -> Model:
-    loads = f"dead: [{{line: {{{line}}}{more}}}], live: [{{acceleration: [1, 0, 0]}}]"
+    loads = f"dead: [{{gravity: none}}, {{line: {{{line}}}{more}}}], live: [{{acceleration: [1, 0, 0]}}]"
     return build_model(deck(folder, blocks, supports, loads))
 
 
@@ -78,6 +78,7 @@ def test_each_block_of_the_top_course_gets_its_length(tmp_path: Path) -> None:
     assert load[top, 2] == pytest.approx([-3, -4, -4, -4, -4])
     assert not load[~top].any()
     assert case_of(found).dead_words == (
+        "no gravity",
         "line load (0, 0, -10) N/m from (0.1, 0.1, 0.6) to (2, 0.1, 0.6) m on 5 blocks",
     )
 

@@ -92,9 +92,17 @@ def test_loads_add_up(tmp_path: Path) -> None:
 
 
 def test_no_dead_load_at_all(tmp_path: Path) -> None:
-    found = case(tmp_path, "dead: [], live: [{acceleration: [1, 0, 0]}]")
+    found = case(tmp_path, "dead: [{gravity: none}], live: [{acceleration: [1, 0, 0]}]")
     assert not found.dead_load.any()
-    assert found.dead_words == ()
+    assert found.dead_words == ("no gravity",)
+
+
+@pytest.mark.parametrize(("dead", "pushed"), [("[]", 0), ("[{force: [1, 0, 0], on: {group: top, index: 0}}]", 1)])
+def test_gravity_acts_beside_dead_loads_without_it(tmp_path: Path, dead: str, pushed: float) -> None:
+    found = case(tmp_path, f"dead: {dead}, live: [{{acceleration: [0, 0, -1]}}]")
+    assert found.dead_load[:, 2] == pytest.approx(found.live_load[:, 2])
+    assert found.dead_load[1, 0] == pushed
+    assert found.dead_words[0] == "gravity (0, 0, -9.81) m/s2"
 
 
 def test_loads_on_fixed_blocks_are_kept(tmp_path: Path) -> None:
@@ -103,7 +111,7 @@ def test_loads_on_fixed_blocks_are_kept(tmp_path: Path) -> None:
 
 
 def test_dead_force_on_a_fixed_block_is_remarked_on(tmp_path: Path) -> None:
-    found = model(tmp_path, "dead: [{force: [0, 0, -5], on: base}], live: [{acceleration: [1, 0, 0]}]")
+    found = model(tmp_path, "dead: [{gravity: none}, {force: [0, 0, -5], on: base}], live: [{acceleration: [1, 0, 0]}]")
     assert found.load_cases[0].dead_load[0].tolist() == [0, 0, -5, 0, 0, 0]
     assert [(notice.severity, notice.identifier) for notice in found.notices] == [("warning", "dead-load-on-support")]
 

@@ -41,6 +41,15 @@ def test_factors_multiply_through_names(tmp_path: Path) -> None:
     )
 
 
+def test_gravity_acts_where_no_named_load_says_otherwise(tmp_path: Path) -> None:
+    loads = "wind: [{acceleration: [0, 0.5, 0]}], floating: [{gravity: none}, {loads: wind}]"
+    weighed = model(tmp_path, loads, "dead: [{loads: wind}], live: [{acceleration: [0, 0, -1]}]").load_cases[0]
+    assert weighed.dead_load[:, 2] == pytest.approx(weighed.live_load[:, 2])
+    floating = model(tmp_path, loads, "dead: [{loads: floating}], live: [{loads: wind}]").load_cases[0]
+    assert floating.dead_load == pytest.approx(floating.live_load)
+    assert floating.dead_words == ("no gravity", "acceleration (0, 0.5, 0) g")
+
+
 def test_a_fault_in_a_named_load_is_told_once_where_it_stands(tmp_path: Path) -> None:
     loads = "far: [{line: {from: [0, 0.5, 1], to: [9, 0.5, 1], force_per_length: [0, 0, -1]}}]"
     with pytest.raises(DeckError) as caught:

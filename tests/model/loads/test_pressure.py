@@ -24,7 +24,7 @@ HELD = "box: {group: held, material: stone, min: [90, 90, 90], max: [91, 91, 91]
 
 
 def model(folder: Path, pressure: str, blocks: list[str], supports: str = GROUND, more: str = "") -> Model:
-    loads = f"dead: [{{pressure: {{{pressure}}}{more}}}], live: [{{acceleration: [1, 0, 0]}}]"
+    loads = f"dead: [{{gravity: none}}, {{pressure: {{{pressure}}}{more}}}], live: [{{acceleration: [1, 0, 0]}}]"
     return build_model(deck(folder, blocks, supports, loads))
 
 
@@ -126,7 +126,7 @@ def test_box_and_angle_choose_faces(tmp_path: Path) -> None:
     for within, faces in ((4.9, 0), (5.1, 2), (40, 8), (89, 18)):
         pressure = f"normal: [0, 0, 1], within: {within}, value: 1"
         if faces:
-            words = model(tmp_path, pressure, arch, "[]").load_cases[0].dead_words[0]
+            words = model(tmp_path, pressure, arch, "[]").load_cases[0].dead_words[1]
             assert f"on {faces} faces" in words
         else:
             with pytest.raises(DeckError, match="no face of these blocks lies so"):
@@ -151,7 +151,7 @@ def test_units(tmp_path: Path, units: str, length: float, force: float) -> None:
     size = [each * length for each in (2, 3, 4)]
     box = [f"box: {{group: dam, material: stone, min: [0, 0, 0], max: {size}}}"]
     pressure = "pressure: {normal: [-1, 0, 0], level: 3 m, per_depth: 10 kN/m^3}"
-    text = f"dead: [{{{pressure}}}], live: [{{acceleration: [1, 0, 0]}}]"
+    text = f"dead: [{{gravity: none}}, {{{pressure}}}], live: [{{acceleration: [1, 0, 0]}}]"
     found = load_about(build_model(deck(tmp_path, box, GROUND, text, units)), [0, 0, 0])
     assert found[:3] == pytest.approx(metres[:3] * force, abs=1e-9)
     assert found[3:] == pytest.approx(metres[3:] * force * length, abs=1e-6)
@@ -167,4 +167,4 @@ def test_units(tmp_path: Path, units: str, length: float, force: float) -> None:
     ],
 )
 def test_words_of_the_listing(tmp_path: Path, keys: str, words: str) -> None:
-    assert model(tmp_path, f"normal: [-1, 0, 0], {keys}", DAM).load_cases[0].dead_words == (words,)
+    assert model(tmp_path, f"normal: [-1, 0, 0], {keys}", DAM).load_cases[0].dead_words == ("no gravity", words)

@@ -17,7 +17,9 @@ BLOCKS = ["box: {group: low, material: stone, min: [0, 0, 0], max: [1, 1, 1]}"] 
 def model(folder: Path, rows: str, kind: str = "live") -> Model:
     (folder / "loads.csv").write_text(rows)
     loads = (
-        "live: [{table: loads.csv}]" if kind == "live" else "dead: [{table: loads.csv}], live: [{gravity: [1, 0, 0]}]"
+        "live: [{table: loads.csv}]"
+        if kind == "live"
+        else "dead: [{gravity: none}, {table: loads.csv}], live: [{gravity: [1, 0, 0]}]"
     )
     return build_model(deck(folder, BLOCKS, loads=loads))
 
@@ -36,7 +38,10 @@ def test_forces_with_points_and_moments_add_up(tmp_path: Path) -> None:
 def test_without_points_forces_act_at_centroids(tmp_path: Path) -> None:
     case = model(tmp_path, "group;index;fx;fy;fz\nhigh;0;1,5;0;0\n", "dead").load_cases[0]
     assert case.dead_load[1].tolist() == [1.5, 0, 0, 0, 0, 0]
-    assert case.dead_words == ("1 row of loads.csv: forces on 1 block",)
+    assert case.dead_words == (
+        "no gravity",
+        "1 row of loads.csv: forces on 1 block",
+    )
 
 
 @pytest.mark.parametrize(

@@ -56,4 +56,4 @@ def test_gravity_along_the_axis_turns_nothing(tmp_path: Path) -> None:
 
 def test_without_gravity_nothing_turns(tmp_path: Path) -> None:
     with pytest.raises(DeckError, match="nothing turns: there is no gravity among the dead loads"):
-        model(tmp_path, "[0, 1, 0]", "dead: [{force: [5, 6, 7], on: base}], ")
+        model(tmp_path, "[0, 1, 0]", "dead: [{gravity: none}, {force: [5, 6, 7], on: base}], ")

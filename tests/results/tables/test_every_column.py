@@ -32,7 +32,7 @@ blocks:
 supports: [{ground: {z: 0}}]
 load_cases:
   push: {live: [{acceleration: [1, 0, 0]}]}
-  lift: {dead: [{force: [0, 0, 100], on: {group: pile, index: 1}}], live: [{acceleration: [1, 0, 0]}]}
+  lift: {dead: [{gravity: none}, {force: [0, 0, 100], on: {group: pile, index: 1}}], live: [{acceleration: [1, 0, 0]}]}
   press: {live: [{acceleration: [0, 0, -1]}]}
 """
 SPATIAL = """\
@@ -47,7 +47,7 @@ blocks:
 supports: [{ground: {z: 0}}]
 load_cases:
   across:
-    dead: [{force: [0, 0, -90], on: {group: wall, index: 0}, at: [0.05, 0.04, 0.2]}]
+    dead: [{gravity: none}, {force: [0, 0, -90], on: {group: wall, index: 0}, at: [0.05, 0.04, 0.2]}]
     live: [{acceleration: [0.3, 1, 0]}, {force: [0, 40, 0], on: {group: wall, index: 1}, at: [0.4, 0.2, 0.15]}]
 analysis: {flow_rule: associative}
 """
