@@ -2,18 +2,18 @@
 
 import sys
 
-from mbla.signals import held_signals
+from mbla.signals import Terminated, hear_termination, held_signals
 
 
 def command() -> int:
     """Load the command line and run it; the exit status. An interruption before it is there is told as later ones."""
     try:
-        with held_signals():
-            from mbla.cli import main
-    except KeyboardInterrupt:
-        sys.stderr.write("mbla: interrupted\n")
-        return 130
-    return main()
+        hear_termination()
+        with held_signals():  # it gives them back when all is loaded
+            from mbla import cli
+    except (KeyboardInterrupt, Terminated) as error:
+        return cli.failed(error, {}, cli.wants_json(sys.argv[1:]))
+    return cli.main()
 
 
 if __name__ == "__main__":

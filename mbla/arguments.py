@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 import argparse
+import sys
+from collections.abc import Sequence
+from itertools import takewhile
 from typing import Any, NoReturn
 
 from mbla import __version__
 from mbla.arguments_of_decks import add_check, add_run
 from mbla.arguments_of_results import add_diff, add_export, add_plot, add_report, add_result_commands
 from mbla.arguments_of_studies import add_interact, add_sweep, add_sweep_plot, add_tradeoff
+from mbla.errors import UsageError
 
 EXIT_STATUS = """\
 exit status:
@@ -24,10 +28,18 @@ MBLA_TRACEBACK=1 in the environment shows where an internal error arose.
 
 
 class _Parser(argparse.ArgumentParser):
-    """Tells what is wrong with the identifier that ``mbla explain`` knows."""
+    """Raises what is wrong, after the line that says how the command is used."""
 
     def error(self, message: str) -> NoReturn:
-        super().error(f"{message}  [command-line]")
+        self.print_usage(sys.stderr)
+        command = self.prog.partition(" ")[2]
+        raise UsageError("command-line", f"{command}: {message}" if command else message)
+
+
+def wants_json(arguments: Sequence[str]) -> bool:
+    """Whether ``--json``, which may be shortened, is among arguments that need not be right otherwise."""
+    options = takewhile(lambda argument: argument != "--", arguments)
+    return any(len(option) > len("--j") and "--json".startswith(option) for option in options)
 
 
 def build_parser() -> argparse.ArgumentParser:

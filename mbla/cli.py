@@ -10,23 +10,22 @@ import argparse
 import json
 import os
 import shlex
-import signal
 import sys
 import time
 import traceback
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
-from types import FrameType
-from typing import TYPE_CHECKING, Any, NoReturn
+from typing import TYPE_CHECKING, Any
 
 from mbla import result_commands, study_commands, sweep_commands
-from mbla.arguments import build_parser
+from mbla.arguments import build_parser, wants_json
 from mbla.collector import loading
 from mbla.errors import DeckError, FileError, MblaError, UsageError
-from mbla.failures import failure_record, lines_of, with_notes, words_of
+from mbla.failures import failure_record, lines_of, words_of
 from mbla.given_deck import read_given_deck, refuse_unfit_name, run_options
 from mbla.memory_limit import refuse_too_low_limits
 from mbla.run_options import RunOptions
+from mbla.signals import Terminated
 from mbla.streams import drop_output, prepare_streams
 from mbla.terminal import clear_line, rewrite_line, say
 from mbla.threads import limit_threads
@@ -35,42 +34,38 @@ if TYPE_CHECKING:
     from mbla.run_deck import Progress
 
 WORST_FIRST = (1, 6, 7, 3, 4, 5)
-STUDIES = {"sweep": "sweep", "interact": "deck", "tradeoff": "deck"}
-"""commands whose JSON object stands for the whole run, and the argument that it is about"""
-
-
-class Terminated(BaseException):
-    """SIGTERM arrived."""
+ABOUT = {
+    "show": {"result": "result"},
+    "verify": {"result": "result"},
+    "diff": {"first": "first", "second": "second"},
+    "sweep": {"sweep": "sweep"},
+    "interact": {"deck": "deck"},
+    "tradeoff": {"deck": "deck"},
+}
+"""commands with one JSON object for the whole: by its keys the arguments with the files that it is about"""
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run the command; the exit status is the return value (argparse exits by itself on --help and wrong usage)."""
-    options = build_parser().parse_args(arguments)
-    limit_threads(getattr(options, "threads", 1))
-    if signal.getsignal(signal.SIGTERM) is not signal.SIG_IGN:
-        signal.signal(signal.SIGTERM, _terminate)
+    """Run the command; the exit status is the return value (argparse exits by itself on --help and --version)."""
+    given = sys.argv[1:] if arguments is None else list(arguments)
+    as_json, options = wants_json(given), argparse.Namespace()
     try:
-        prepare_streams(json_lines=getattr(options, "json", False))
+        prepare_streams(json_lines=as_json)
+        options = build_parser().parse_args(given)
+        limit_threads(getattr(options, "threads", 1))
         _refuse_vanished_folder()
         refuse_too_low_limits()
         status = COMMANDS[options.command](options)
         sys.stdout.flush()
         return status
-    except KeyboardInterrupt as interruption:
-        return say(with_notes("mbla: interrupted", interruption), 130)
-    except Terminated as termination:
-        return say(with_notes("mbla: terminated", termination), 143)
     except BrokenPipeError:  # the reader of our output went away: not our error, but the output is not whole
         drop_output()
         return FileError.exit_status
-    except Exception as error:
+    except (Exception, KeyboardInterrupt, Terminated) as error:
         if isinstance(error, OSError) and error.filename is None:
             drop_output()
-        status = _failed(error)
-        if options.command in STUDIES and options.json:
-            about = STUDIES[options.command]
-            print(json.dumps(failure_record(getattr(options, about), error, status, about)), flush=True)
-        return status
+        about = ABOUT.get(getattr(options, "command", ""), {})
+        return failed(error, {key: getattr(options, name) for key, name in about.items()}, as_json)
 
 
 # --- commands on decks --------------------------------------------------------------------------------------------
@@ -90,14 +85,16 @@ def _run(options: argparse.Namespace) -> int:
 
         results = run_and_write(content, run, progress, time.perf_counter() - seconds)
         clear_line(progress)
-        if options.json:
-            print(json_line(results_json(results)), flush=True)
-        words = sys.stderr if options.json else sys.stdout
+        record = json_line(results_json(results)) if options.json else ""
         if options.verbose:
-            print(listing(results), end="", file=words, flush=True)
+            words = listing(results)
         elif not options.quiet:
-            lines = [*summary_lines(results), f"  files: {run.folder_for(deck)}/"]
-            print("\n".join(lines), file=words, flush=True)
+            words = "\n".join([*summary_lines(results), f"  files: {run.folder_for(deck)}/", ""])
+        else:
+            words = ""
+        if options.json:
+            print(record, flush=True)
+        print(words, end="", file=sys.stderr if options.json else sys.stdout, flush=True)
         return results.exit_code
 
     _refuse_shared_folder(options.decks, run)
@@ -188,18 +185,18 @@ def _each_deck(options: argparse.Namespace, one: Callable[[Path], int], progress
             raise
         except Exception as error:
             clear_line(progress)
-            codes.append(_failed(error))
-            if options.json:
-                print(json.dumps(failure_record(deck, error, codes[-1])), flush=True)
+            codes.append(failed(error, {"deck": deck}, options.json))
     return next((code for code in WORST_FIRST if code in codes), codes[0] if len(set(codes)) == 1 else max(codes))
 
 
-def _failed(error: Exception) -> int:
-    """Say what went wrong in one line per fault; the exit status."""
+def failed(error: BaseException, about: Mapping[str, Path], as_json: bool) -> int:
+    """Say what went wrong in one line per fault, and as a JSON object where that is wanted; the exit status."""
     status, _ = words_of(error)
     text = "\n".join(lines_of(error))
     if status == MblaError.exit_status and os.environ.get("MBLA_TRACEBACK"):
         traceback.print_exception(error)
+    if as_json:
+        print(json.dumps(failure_record(error, about)), flush=True)
     return say(text if isinstance(error, DeckError) else f"mbla: {text}", status)
 
 
@@ -208,10 +205,6 @@ def _refuse_vanished_folder() -> None:
         Path.cwd()
     except OSError:
         raise FileError("current-folder-gone", "the current folder does not exist any more") from None
-
-
-def _terminate(number: int, frame: FrameType | None) -> NoReturn:
-    raise Terminated
 
 
 def _progress() -> Progress | None:

@@ -2,15 +2,25 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 from mbla import __version__
 from mbla.errors import DeckError, FileError, LimitError, MblaError
+from mbla.signals import Terminated
+
+SIGNALS: dict[type[BaseException], tuple[int, str]] = {
+    KeyboardInterrupt: (130, "interrupted"),
+    Terminated: (143, "terminated"),
+}
+"""exit status and word of the signals that end a command"""
 
 
-def identifiers_of(error: Exception) -> list[str]:
+def identifiers_of(error: BaseException) -> list[str]:
     """The identifier of an error, or of each fault of a deck; ``mbla explain`` says what it means."""
+    if type(error) in SIGNALS:
+        return [f"exit-{SIGNALS[type(error)][0]}"]
     if isinstance(error, DeckError):
         return [fault.identifier for fault in error.faults]
     if isinstance(error, MblaError):
@@ -20,7 +30,7 @@ def identifiers_of(error: Exception) -> list[str]:
     return ["file-system" if isinstance(error, OSError) else "internal-error"]
 
 
-def lines_of(error: Exception) -> list[str]:
+def lines_of(error: BaseException) -> list[str]:
     """What went wrong as it is printed: a line for each fault of a deck, else one text, its identifier in brackets."""
     if isinstance(error, DeckError):
         return [fault.line() for fault in error.faults]
@@ -28,8 +38,10 @@ def lines_of(error: Exception) -> list[str]:
     return [f"{with_notes(words_of(error)[1], error)}  [{identifier}]"]
 
 
-def words_of(error: Exception) -> tuple[int, str]:
+def words_of(error: BaseException) -> tuple[int, str]:
     """Exit status, and what went wrong in words."""
+    if type(error) in SIGNALS:
+        return SIGNALS[type(error)]
     if isinstance(error, MblaError):
         return error.exit_status, str(error)
     if isinstance(error, MemoryError):
@@ -45,12 +57,15 @@ def with_notes(text: str, error: BaseException) -> str:
     return "; ".join([text, *getattr(error, "__notes__", ())])
 
 
-def failure_record(path: Path, error: Exception, code: int, about: str = "deck") -> dict[str, Any]:
-    """The object that ``--json`` prints of a deck that could not be run, or of what else it is about."""
+def failure_record(error: BaseException, about: Mapping[str, Path]) -> dict[str, Any]:
+    """The object that ``--json`` prints where a command failed.
+
+    about : files that it is about, by the keys of their names (``deck``, ``result``); none where that is not known
+    """
     return {
         "mbla": __version__,
-        about: path.name,
-        "exit_code": code,
+        **{key: path.name or str(path) for key, path in about.items()},
+        "exit_code": words_of(error)[0],
         "errors": lines_of(error),
         "identifiers": identifiers_of(error),
     }

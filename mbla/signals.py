@@ -12,9 +12,24 @@ import signal
 import threading
 from collections.abc import Callable, Iterator
 from types import FrameType
+from typing import NoReturn
 
 _HELD = (signal.SIGTERM, signal.SIGINT)
 """given back in this order: where the first interrupts that, the process ends"""
+
+
+class Terminated(BaseException):
+    """SIGTERM arrived; to SIGTERM what KeyboardInterrupt is to SIGINT."""
+
+
+def hear_termination() -> None:
+    """SIGTERM raises Terminated from here on. Where it is ignored from the start it stays so, as SIGINT does."""
+    if signal.getsignal(signal.SIGTERM) is not signal.SIG_IGN:
+        signal.signal(signal.SIGTERM, _terminate)
+
+
+def _terminate(number: int, frame: FrameType | None) -> NoReturn:
+    raise Terminated
 
 
 @contextlib.contextmanager

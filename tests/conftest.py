@@ -1,8 +1,9 @@
-"""What tests of several folders share: examples drawn at random without a limit of time, a browser, and a line at the
-end that says whether there was one."""
+"""What tests of several folders share: examples drawn at random without a limit of time, interruptions, a browser, and
+a line at the end that says whether there was one."""
 
 from __future__ import annotations
 
+import signal
 from collections.abc import Iterator
 from typing import Any
 
@@ -14,6 +15,14 @@ from tests.browser import ARGUMENTS, CHROMIUM, PATIENCE
 # A machine whose processors are busy elsewhere is no fault of what is tested: 7 ms took 265 ms on one, and failed.
 settings.register_profile("untimed", deadline=None, suppress_health_check=[HealthCheck.too_slow])
 settings.load_profile("untimed")
+
+
+@pytest.fixture(scope="session", autouse=True)
+def interruptible() -> Iterator[None]:
+    """SIGINT interrupts, here and in processes that tests start: a shell begins jobs in the background without it."""
+    earlier = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, earlier)
 
 
 @pytest.fixture(scope="session")

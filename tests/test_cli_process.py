@@ -43,7 +43,6 @@ def test_signals_end_the_run_and_keep_the_earlier_result(tmp_path: Path, number:
     process = subprocess.Popen(
         [sys.executable, "-m", "mbla", "run", str(deck), *long],
         stderr=subprocess.PIPE,
-        preexec_fn=lambda: signal.signal(number, signal.SIG_DFL),  # shells start background jobs with SIGINT ignored
     )
     deadline = time.monotonic() + 60
     while (folder / "wall.sta").read_bytes().count(b"\n") < 5 or (folder / "wall.sta").read_bytes() == before[
@@ -60,6 +59,21 @@ def test_signals_end_the_run_and_keep_the_earlier_result(tmp_path: Path, number:
     assert process.returncode == status
     assert b"Traceback" not in err
     assert {path.name: path.read_bytes() for path in folder.iterdir()} == before
+
+
+def test_a_run_in_the_background_of_a_script_is_not_interrupted(tmp_path: Path) -> None:
+    """Shells start such with SIGINT ignored, and so it stays, as under nohup."""
+    deck = written(tmp_path / "wall.yaml", WALL)
+    process = subprocess.Popen(
+        [sys.executable, "-m", "mbla", "run", str(deck), "-q"],
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_IGN),
+    )
+    deadline = time.monotonic() + 60
+    while not (tmp_path / "wall.out" / "wall.sta").exists():
+        assert time.monotonic() < deadline
+        time.sleep(0.02)
+    process.send_signal(signal.SIGINT)
+    assert process.wait(60) == 0
 
 
 def test_names_and_titles_in_any_script_whatever_the_terminal_speaks(tmp_path: Path) -> None:

@@ -68,7 +68,7 @@ OF_USAGE = (
         "The command line cannot be understood.",
         "An unknown command or option, a missing argument, a value that an option does not take.",
         "mbla COMMAND --help lists what there is.",
-        example="mbla run: error: the following arguments are required: DECK",
+        example="mbla: run: the following arguments are required: DECK",
     ),
     _error(
         "deck-invalid",

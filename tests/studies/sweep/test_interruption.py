@@ -25,7 +25,11 @@ def interrupt(path: Path, number: signal.Signals, options: Sequence[str] = ()) -
             command.await_rows(3)
             ended = command.end(number)
         assert ended.status == status
-        said = re.search(rf"^mbla: {word}; (\d+) finished points? in the journal, --resume goes on$", ended.said, re.M)
+        said = re.search(
+            rf"^mbla: {word}; (\d+) finished points? in the journal, --resume goes on  \[exit-{status}\]$",
+            ended.said,
+            re.M,
+        )
         assert said, ended.said
         assert rows_in(folder) - int(said[1]) in (0, 1)  # it may come between writing a row and counting it
         assert [each.name for each in folder.iterdir()] == ["journal.csv"]

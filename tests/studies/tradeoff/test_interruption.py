@@ -79,7 +79,7 @@ def test_before_anything_was_measured_nothing_is_left(
 ) -> None:
     monkeypatch.setattr(LeftAfter, "answered", 0)
     assert main(command) == 130
-    assert capsys.readouterr().err == "mbla: interrupted\n"
+    assert capsys.readouterr().err == "mbla: interrupted  [exit-130]\n"
     assert not Path(command[1]).with_suffix(".out").exists()
 
 

@@ -15,6 +15,7 @@ from pathlib import Path
 from typing import Any
 
 from mbla.cli import main
+from mbla.signals import hear_termination
 from tests.trust.faults.shim import Shim
 
 IMPORTED = (
@@ -42,6 +43,7 @@ def _run(command: dict[str, Any], shim: Shim | None) -> None:
         os.dup2(descriptor, number)
         os.close(descriptor)
     signal.signal(signal.SIGINT, signal.default_int_handler)
+    hear_termination()
     for name, most in command["limits"].items():
         limit = most + (_address_space() if name == "RLIMIT_AS" else 0)
         resource.setrlimit(getattr(resource, name), (limit, limit))

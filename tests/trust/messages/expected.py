@@ -45,7 +45,7 @@ EXPECTED: dict[str, tuple[str, ...]] = {
         "mbla: {folder}/tower.h5: layout version 1, written by mbla 0.1.0; this mbla reads version 5: "
         "run the deck again; its text is in /deck/source_texts  [old-result-file]",
     ),
-    "command_without_a_deck": ("mbla run: error: the following arguments are required: DECK  [command-line]",),
+    "command_without_a_deck": ("mbla: run: the following arguments are required: DECK  [command-line]",),
     "two_decks_of_one_name": (
         "mbla: two of the decks would write the same result files: give them different names or folders  "
         "[same-result-files]",
