@@ -11,6 +11,7 @@ from mbla.contacts import Contacts, find_contacts
 from mbla.contacts.broad_phase import PairsRefused
 from mbla.contacts.glue import Solids, held_model, solids_of
 from mbla.contacts.glue_findings import glue_findings
+from mbla.contacts.held_twice import SupportsAtOdds
 from mbla.contacts.interface_points import PointsRefused
 from mbla.contacts.notices import overlap_messages
 from mbla.deck import Deck, read_deck
@@ -204,6 +205,8 @@ def contacts_of(deck: Deck, model: Model) -> Contacts:
         contacts = find_contacts(model, deck.contacts)
     except PairsRefused as refused:
         raise DeckError([deck.fault_at(("blocks",), refused.message)]) from refused
+    except SupportsAtOdds as refused:
+        raise DeckError([deck.fault_at(("supports",), refused.message)]) from refused
     except PointsRefused as refused:
         raise DeckError([deck.fault_at(("contacts", "points", "spacing"), refused.message)]) from refused
     faults = [

@@ -189,6 +189,12 @@ def intersect(first: Polygons, second: Polygons, convex: BoolArray) -> Polygons:
     return common
 
 
+def difference(first: Polygons, second: Polygons) -> Polygons:
+    """What of each polygon lies outside of another, (n,); may be empty, or in several parts."""
+    left: Polygons = shapely.difference(first, second, grid_size=_GRID)
+    return left
+
+
 def _intersect_convex(first: Polygons, second: Polygons) -> Polygons:
     points, start = clip_convex(*_open_loops(first), *_open_loops(second))
     counts = np.diff(start)

@@ -14,6 +14,7 @@ from mbla.contacts.corners import areas_and_centroids, needed_corners
 from mbla.contacts.facets import Facets, build_facets
 from mbla.contacts.given import patches_of
 from mbla.contacts.glue import Glue, glue_blocks
+from mbla.contacts.held_twice import counted_once
 from mbla.contacts.interface_points import interface_points
 from mbla.contacts.joints import Sites, joints_of_interfaces
 from mbla.contacts.narrow_phase import Patches, Verdicts, find_patches, judge
@@ -38,6 +39,11 @@ def find_contacts(model: Model, section: ContactsSection) -> Contacts:
     Tolerances are relative to block size, the cube root of the volume of the smaller block of a pair. Contacts between
     two bodies that are both fixed are counted in the report and left out: nothing depends on their forces. So are open
     interfaces, and those inside of the rigid bodies that glued ones make. Of joint laws only the names count.
+
+    Raises
+    ------
+    PairsRefused, PointsRefused, SupportsAtOdds
+        for too many pairs of blocks or points, and for pieces of a face that two bodies hold at odds
     """
     laws = {name: Joint(name, 0.0) for name in model.joints}
     return _found(replace(model, title="", load_cases=(), notices=(), joints=laws), section)
@@ -57,7 +63,11 @@ def _found(model: Model, section: ContactsSection) -> Contacts:
     glue = glue_blocks(model, bodies[laws.glued])
     inside = laws.glued | _inside(model, glue, bodies)
     rows = np.flatnonzero(~laws.open & ~inside)
-    kept = movable.take(rows)
+    kept, source, twice = counted_once(
+        model, glue.held | model.fixed, movable.take(rows), laws, rows, section.tolerance
+    )
+    order = _order(kept, np.ones(len(kept), dtype=bool))
+    kept, rows = kept.take(order), rows[source[order]]
     corners = needed_corners(kept.polygons, section.tolerance)
     _, centroid = areas = areas_and_centroids(corners, len(kept))
     simpler = outline_notices(model, section, kept, corners, areas[0])
@@ -72,7 +82,7 @@ def _found(model: Model, section: ContactsSection) -> Contacts:
         glued_bodies=bodies[inside & ~laws.open],
         glue=glue,
     )
-    report = build_report(model, section, findings, [*notices, *simpler, *left_alone])
+    report = build_report(model, section, findings, [*notices, *twice, *simpler, *left_alone])
     return _contacts(kept, areas, found, laws.in_use(rows), report, glue.solid_of_block)
 
 

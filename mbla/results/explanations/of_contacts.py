@@ -53,6 +53,17 @@ OF_CONTACTS = (
         "Nothing, if the thin block is meant. Leave out blocks that are there only by rounding.",
     ),
     Explanation(
+        "supports-in-one-plane",
+        "notice",
+        "Two supports hold the same piece of a face: it was counted once.",
+        "Each piece of a face has one interface, so that cohesion and strengths count once: the load factor is right.",
+        "A ground that is given twice, or a fixed block whose face lies in the plane of a ground.",
+        "Nothing, if both are meant: the block, or the earlier ground, has the piece, the ground the rest of the face. "
+        "Else leave one of them out, or name the blocks that the ground carries with blocks.",
+        example="footing[0] and ground z = 0 hold the same piece of a face of pier[0]: it is counted once",
+        says=("hold the same piece of a face",),
+    ),
+    Explanation(
         "outlines-simplified",
         "notice",
         "Corners of common surfaces that lie within the tolerance of the outline are left out, and the area shows it.",

@@ -226,6 +226,16 @@ OF_ITEMS = (
         "Give gravity as dead load.",
     ),
     refused(
+        "supports-at-odds",
+        "Two bodies hold the same piece of a face, and nothing says which of them does.",
+        "Grounds of different joints in one plane, a ground and a fixed block of different joints, or a ground in the "
+        "plane of a block that can move. Counted twice, strengths would be too high.",
+        "Leave one of them out, name the blocks that a ground carries with blocks, or give one of the two interfaces "
+        "the joint open in contacts.overrides.",
+        "by different joints, ",
+        example="footing[0] and ground z = 0 hold the same piece of a face of pier[0], by different joints",
+    ),
+    refused(
         "support-held-twice",
         "A block is held in two ways that contradict each other.",
         "Two items of supports name it, or glue ties it to what moves otherwise.",

@@ -1,0 +1,145 @@
+"""Pieces of a face that two bodies hold: a ground and what lies in its plane, a footing or another ground.
+
+Each of them alone would hold the piece with all of its cohesion, tensile and compressive strength; both together would
+count these twice. Of two supports with one joint law the earlier one has the piece, blocks before grounds, and the
+later ground what lies beside it: the piece is counted once. With different laws, or where one of the two can move,
+nothing says which of them holds it, and the deck is refused.
+
+Blocks alone cannot hold a piece twice: they would overlap.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from mbla.arrays import BoolArray, IntArray
+from mbla.contacts.joints import Laws
+from mbla.contacts.narrow_phase import Patches
+from mbla.contacts.overlay import local_maps
+from mbla.contacts.polygons import (
+    Polygons,
+    connected_parts,
+    difference,
+    intersect,
+    map_polygons,
+    union_by_row,
+    widths,
+)
+from mbla.contacts.ragged import rows_and_items
+from mbla.errors import Notice, Refusal
+from mbla.model.model import Model
+
+_ONE_FACE = 0.99
+"""Cosine of the angle between two normals of common surfaces of one face."""
+_APART = 2.0
+"""Distance of the planes of two common surfaces of one face, in tolerances: each is within one of the face."""
+_WHOLE = 1e-9
+"""Relative: a width that is the tolerance up to rounding is as wide."""
+
+
+class SupportsAtOdds(Refusal):
+    """A piece of a face is on two bodies and nothing says which of them holds it; the message has both."""
+
+
+def counted_once(
+    model: Model, still: BoolArray, patches: Patches, laws: Laws, rows: IntArray, tolerance: float
+) -> tuple[Patches, IntArray, list[Notice]]:
+    """Common surfaces without what other supports hold of them, the row that each comes from, and a notice on them.
+
+    still : (n_blocks,) blocks that do not move
+    laws  : joint laws; those of the patches are at ``rows``
+
+    Raises
+    ------
+    SupportsAtOdds
+        for a piece between bodies of which one can move, or with two joint laws
+    """
+    every = np.arange(len(patches))
+    later, earlier, common = _shared(patches, len(model.blocks), tolerance)
+    if not len(later):
+        return patches, every, []
+    bodies = patches.overlays.bodies
+    other = np.where(bodies[earlier, 0] == bodies[later, 1], bodies[earlier, 1], bodies[earlier, 0])
+    moving = ~np.append(still, np.ones(len(model.grounds), dtype=bool))[other]
+    at_odds = np.flatnonzero(moving | (laws.rows[rows[later]] != laws.rows[rows[earlier]]))
+    if len(at_odds):
+        raise SupportsAtOdds("supports-at-odds", _at_odds(model, patches, laws, rows, later[at_odds], earlier[at_odds]))
+    cut = patches.polygons.copy()
+    chosen, row = np.unique(later, return_inverse=True)
+    order = np.argsort(row, kind="stable")
+    cut[chosen] = difference(cut[chosen], union_by_row(common[order], row[order].astype(np.int64), len(chosen)))
+    parts, source = connected_parts(cut)
+    wide = ~np.isin(source, chosen) | (widths(parts) >= tolerance * (1 - _WHOLE))
+    parts, source = parts[wide], source[wide]
+    left = replace(patches.take(source), polygons=parts, widths=widths(parts))
+    return left, source, [_told(model, patches, later, earlier)]
+
+
+def _shared(patches: Patches, n_blocks: int, tolerance: float) -> tuple[IntArray, IntArray, Polygons]:
+    """Pairs of patches on one piece of a face, of a ground and of an earlier body, and the piece as the ground has it.
+
+    The first of each pair is of a ground, the second of a block or of an earlier ground.
+    """
+    overlays, n = patches.overlays, len(patches)
+    of_ground = np.flatnonzero(overlays.bodies[:, 0] >= n_blocks)
+    blocks = np.concatenate([overlays.bodies[:, 0], overlays.bodies[:, 1]])
+    by_block = np.argsort(blocks, kind="stable")
+    ordered = blocks[by_block]
+    carried = overlays.bodies[of_ground, 1]
+    first = np.searchsorted(ordered, carried, side="left")
+    row, item = rows_and_items(first, np.searchsorted(ordered, carried, side="right") - first)
+    later, sided = of_ground[row], by_block[item]
+    earlier, sign = (
+        sided % n,
+        np.where(sided < n, -1.0, 1.0),
+    )  # normals lead from a to b: away from the block if it is a
+    cosine = sign * np.einsum("ki,ki->k", overlays.frames[later, 0], overlays.frames[earlier, 0])
+    away = np.einsum("ki,ki->k", overlays.origins[earlier] - overlays.origins[later], overlays.frames[later, 0])
+    body = overlays.bodies[earlier, 0]
+    keep = (body < n_blocks) | (body < overlays.bodies[later, 0])
+    keep &= (cosine > _ONE_FACE) & (np.abs(away) <= _APART * tolerance * overlays.sizes[later])
+    later, earlier = later[keep], earlier[keep]
+    matrices, offsets = local_maps(overlays.take(later), overlays.origins[earlier], overlays.frames[earlier])
+    matrices = matrices * overlays.sizes[earlier, None, None]
+    others = map_polygons(patches.polygons[earlier], matrices, offsets)
+    common = intersect(patches.polygons[later], others, np.zeros(len(later), dtype=bool))
+    wide = widths(common) >= tolerance * (1 - _WHOLE)
+    return later[wide], earlier[wide], common[wide]
+
+
+def _names(model: Model, patches: Patches, later: int, earlier: int) -> tuple[str, str, str]:
+    """The block, the body that holds it first, and the ground."""
+    bodies = patches.overlays.bodies
+    ground, block = (int(body) for body in bodies[later])
+    (other,) = (int(body) for body in bodies[earlier] if body != block)
+    return model.body_name(block), model.body_name(other), model.body_name(ground)
+
+
+def _told(model: Model, patches: Patches, later: IntArray, earlier: IntArray) -> Notice:
+    block, other, ground = _names(model, patches, int(later[0]), int(earlier[0]))
+    more = f", and {len(later) - 1} more such pieces are held twice" if len(later) > 1 else ""
+    text = f"{_both(other, ground)} hold the same piece of a face of {block}: it is counted once, on {other}{more}"
+    return Notice("notice", "supports-in-one-plane", text)
+
+
+def _both(other: str, ground: str) -> str:
+    """Both by their names, told apart where these are alike."""
+    return f"{ground} and another {ground}" if other == ground else f"{other} and {ground}"
+
+
+def _at_odds(model: Model, patches: Patches, laws: Laws, rows: IntArray, later: IntArray, earlier: IntArray) -> str:
+    block, other, ground = _names(model, patches, int(later[0]), int(earlier[0]))
+    law, other_law = (laws.names[laws.rows[rows[pair[0]]]] for pair in (later, earlier))
+    why = f"{other} can move" if law == other_law else f"by different joints, {other_law} and {law}"
+    more = f" (and {len(later) - 1} more pieces)" if len(later) > 1 else ""
+    apart = (
+        ""
+        if int(patches.overlays.bodies[earlier[0], 0]) >= len(model.blocks)
+        else (", or leave out one of the two interfaces by the joint open in contacts.overrides")
+    )
+    return (
+        f"{_both(other, ground)} hold the same piece of a face of {block}{more}, {why}: leave one of them out, or name "
+        f"the blocks that the ground carries with blocks{apart}"
+    )
