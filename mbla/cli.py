@@ -87,7 +87,7 @@ def _run(options: argparse.Namespace) -> int:
         clear_line(progress)
         record = json_line(results_json(results)) if options.json else ""
         if options.verbose:
-            words = listing(results)
+            words = listing(results, every_position=content.content.output.positions == "all")
         elif not options.quiet:
             words = "\n".join([*summary_lines(results), f"  files: {run.folder_for(deck)}/", ""])
         else:

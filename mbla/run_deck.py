@@ -73,8 +73,7 @@ def run_and_write(deck: Deck, options: RunOptions, progress: Progress | None, st
     with OutputFolder(options.folder_for(deck.path), stem, options.force) as out:
         status_file = StatusFile(out.open_live(f"{stem}.sta"), title_of(deck))
         results = solve_deck(deck, options, status_file, progress, started)
-        output = deck.content.output
-        return write_results(results, out, output.vtu, output.frames, output.plots)
+        return write_results(results, out, deck.content.output)
 
 
 def solve_deck(

@@ -118,6 +118,9 @@ class OutputSection(Section):
     plots: Switch = Field(
         False, description="pictures of model, mechanisms and forces beside the results, as of ``mbla plot``"
     )
+    positions: Literal["worst", "all"] = Field(
+        "worst", description="positions of a travelling load that have files, pictures and a section of the listing"
+    )
 
 
 class Expectation(Section):

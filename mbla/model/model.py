@@ -45,21 +45,38 @@ class Ground:
 
 @dataclass(frozen=True)
 class TravelPosition:
-    """Where a travelling load stands in a load case.
+    """Where a travelling load, a force or the axles of a vehicle, stands in a load case.
 
-    series   : name of the load case in the deck, which became one for each position
-    number   : of the position, from 1; ``count`` of them
-    point    : (3,) m, where the foremost of its forces on the path is
-    distance : of that from the beginning of the path m
-    block    : the block that carries that one
+    series    : name of the load case in the deck, which became one for each position
+    number    : of the position, from 1; ``count`` of them
+    points    : (n_axles, 3) m, where each axle stands, the first one first; off the path straight on from its ends
+    distances : (n_axles,) m, of each from the beginning of the path; negative before it
+    forces    : (n_axles, 3) N; those that are off the path do not act
+    blocks    : (n_axles,) that carry them; -1 off the path
     """
 
     series: str
     number: int
     count: int
-    point: FloatArray
-    distance: float
-    block: int
+    points: FloatArray
+    distances: FloatArray
+    forces: FloatArray
+    blocks: IntArray
+
+    @property
+    def point(self) -> FloatArray:
+        """Where the first axle stands, (3,) m."""
+        return np.asarray(self.points[0])
+
+    @property
+    def distance(self) -> float:
+        """Of the first axle from the beginning of the path, m."""
+        return float(self.distances[0])
+
+    @property
+    def acting(self) -> BoolArray:
+        """Axles that are on the path, (n_axles,)."""
+        return np.asarray(self.blocks >= 0)
 
 
 @dataclass(frozen=True)

@@ -9,12 +9,19 @@ from mbla.results.results import CaseResult, Results
 
 
 def chosen_cases(results: Results, names: Sequence[str] | None) -> tuple[CaseResult, ...]:
-    """Cases by name in the order of the deck, None for all; UsageError for a name that the result does not have."""
-    known = [case.load_case.name for case in results.cases]
+    """Cases by name in the order of the deck, None for all; UsageError for a name that the result does not have.
+
+    The name of a load that travels stands for all its positions.
+    """
+    known = {name for case in results.cases for name in _names(case)}
     for name in names or ():
         if name not in known:
             raise no_such_case(results, name)
-    return tuple(case for case in results.cases if names is None or case.load_case.name in names)
+    return tuple(case for case in results.cases if names is None or not _names(case).isdisjoint(names))
+
+
+def _names(case: CaseResult) -> set[str]:
+    return {case.load_case.name, case.load_case.deck_name}
 
 
 def no_such_case(results: Results, name: str | None) -> UsageError:

@@ -28,7 +28,9 @@ from mbla.signals import held_signals
 
 RESULT_SUFFIXES = (".h5", ".lst", ".json", ".sta")
 """files STEM + suffix that make an earlier result"""
-OWN_FILES = r"(\.(h5|lst|json|sta|html|svg|pdf|png|gif|mp4)|_[A-Za-z0-9_.-]+\.(vtu|pvd|py|html|svg|pdf|png|gif|mp4))"
+OWN_FILES = (
+    r"(\.(h5|lst|json|sta|html|svg|pdf|png|gif|mp4)|_[A-Za-z0-9_.@-]+\.(vtu|csv|pvd|py|html|svg|pdf|png|gif|mp4))"
+)
 """what may follow the stem in the name of a file that a result lists as its own"""
 
 

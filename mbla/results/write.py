@@ -3,19 +3,25 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
+from mbla.deck.types import OutputSection
 from mbla.results.files import OutputFolder
 from mbla.results.hdf5.result_file import write_results_hdf5
 from mbla.results.paraview.mesh_files import write_mesh_files
 from mbla.results.records.json_record import json_line, results_json
-from mbla.results.results import Results
+from mbla.results.results import CaseResult, Results
+from mbla.results.series import series_of, told_cases
+from mbla.results.tables.csv_file import table_csv
+from mbla.results.tables.history_columns import SERIES
+from mbla.results.tables.tables import tables_of
 from mbla.results.words.case_words import find_failure
 from mbla.results.words.listing import listing
 
 
-def write_results(results: Results, out: OutputFolder, vtu: bool, frames: int, plots: bool) -> Results:
+def write_results(results: Results, out: OutputFolder, output: OutputSection) -> Results:
     """Write every file of a run into an open output folder.
 
     Parameters
@@ -23,10 +29,9 @@ def write_results(results: Results, out: OutputFolder, vtu: bool, frames: int, p
     results
         ``time["write"]`` is set here, to the seconds spent on finding how the cases fail (``write/failure``), VTU files
         and pictures, and so is ``files``.
-    vtu, frames
-        Files for ParaView, and the frames of each animation.
-    plots
-        The pictures that ``mbla plot`` makes unless told otherwise: model, and mechanism and forces of each load case.
+    output
+        What the deck asks for: files for ParaView and the frames of their animations; the pictures that ``mbla plot``
+        makes unless told otherwise; whether every position of a travelling load has them, or the worst.
 
     Returns
     -------
@@ -44,32 +49,34 @@ def write_results(results: Results, out: OutputFolder, vtu: bool, frames: int, p
     for case in results.cases:
         find_failure(results.model, results.contacts, case)
     told = time.perf_counter()
-    if vtu:
-        write_mesh_files(results, out, frames)
-    if plots:
-        _write_pictures(results, out)
+    every_position = output.positions == "all"
+    shown = replace(results, cases=results.cases if every_position else told_cases(results.cases))
+    if output.vtu:
+        write_mesh_files(shown, out, output.frames)
+    if output.plots:
+        _write_pictures(results, shown.cases, out)
+    if series_of(results.cases):
+        out.write_text(f"{out.stem}_positions.csv", table_csv(tables_of(results, (SERIES.name,))[SERIES.name]))
     files = sorted({*out.names, *(f"{out.stem}.{suffix}" for suffix in ("lst", "h5", "json"))})
     seconds = {"write": time.perf_counter() - begin, "write/failure": told - begin}
     results = replace(results, time=results.time | seconds, files=tuple(files))
-    out.write_text(f"{out.stem}.lst", listing(results))
+    out.write_text(f"{out.stem}.lst", listing(results, every_position=every_position))
     out.write_bytes(f"{out.stem}.h5", write_results_hdf5(results))
     out.write_text(f"{out.stem}.json", json_line(results_json(results)) + "\n")
     return results
 
 
-def write_outputs(
-    results: Results, folder: Path, stem: str, force: bool, vtu: bool, frames: int, plots: bool
-) -> tuple[str, ...]:
+def write_outputs(results: Results, folder: Path, stem: str, force: bool, output: OutputSection) -> tuple[str, ...]:
     """Write every file of a run to a folder; the names written. Raises as ``write_results`` and ``OutputFolder`` do."""
     with OutputFolder(folder, stem, force) as out:
-        write_results(results, out, vtu, frames, plots)
+        write_results(results, out, output)
     return out.names
 
 
-def _write_pictures(results: Results, out: OutputFolder) -> None:
+def _write_pictures(results: Results, cases: Sequence[CaseResult], out: OutputFolder) -> None:
     from mbla.results.pictures.options import PictureOptions
     from mbla.results.pictures.plot import pictures_of
 
-    for picture in pictures_of(results, results.cases, PictureOptions()):
+    for picture in pictures_of(results, cases, PictureOptions()):
         with out.writing(f"{out.stem}{picture.name}.png") as path:
             picture.write(path)

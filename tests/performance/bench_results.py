@@ -17,6 +17,7 @@ from tempfile import TemporaryDirectory
 
 import numpy as np
 
+from mbla.deck.types import OutputSection
 from mbla.model.model import LoadCase
 from mbla.results.hdf5.result_file import read_results_hdf5, write_results_hdf5
 from mbla.results.paraview.cells import block_cells
@@ -94,7 +95,7 @@ def steps(results: Results, folder: Path) -> dict[str, Callable[[], object]]:
         "parquet": lambda: export_results(results, folder, "wall", Formats(parquet=True), force=True),
         "vtkhdf": lambda: export_results(results, folder, "wall", Formats(vtkhdf=True), force=True),
         f"all files, {FRAMES} frames": lambda: write_outputs(
-            results, folder / "all", "wall", True, True, FRAMES, False
+            results, folder / "all", "wall", True, OutputSection(frames=FRAMES)
         ),
     }
 

@@ -268,12 +268,19 @@ def full_solution(solution: Solution) -> Solution:
     )
 
 
+def standing_at(number: int, count: int, point: Any, distance: float, behind: Any = ()) -> TravelPosition:
+    """A force of 1 N on the tower that travels, or the first axle of a vehicle along x; the others are off the path."""
+    axles = np.array([0.0, *behind])
+    points, forces = np.asarray(point, float) - axles[:, None] * [1.0, 0, 0], np.tile([0.0, 0, -1], (len(axles), 1))
+    return TravelPosition("train", number, count, points, distance - axles, forces, np.where(axles > 0, -1, 1))
+
+
 def full_model(model: Model) -> Model:
     """The tower with a settlement in its first load case, a tilt and a path in the last, and a guide."""
     arrays = np.arange(54.0).reshape(3, 3, 6)
     not_run = replace(
         model.load_cases[2],
-        travel=TravelPosition("train", 2, 12, np.array([1.0, 2.0, 3.0]), 2.5, 1),
+        travel=standing_at(2, 12, np.array([1.0, 2.0, 3.0]), 2.5),
         tilt=Tilt(np.array([0.0, 1.0, 0.0]), arrays[0], arrays[1], arrays[2], 12.5, False, np.inf),
     )
     sinking = np.array([[0.0, 0, -1, 0, 0, 0]])

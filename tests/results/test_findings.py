@@ -7,7 +7,6 @@ from dataclasses import replace
 import pytest
 
 from mbla.errors import Notice
-from mbla.model.model import TravelPosition
 from mbla.results.findings import FAILURES, REMARKS, UNKNOWN_FAILURE, UNKNOWN_REMARK, finding_of, found_notices
 from mbla.results.outcome import notices_of
 from mbla.results.records.json_record import results_json
@@ -16,7 +15,7 @@ from mbla.results.words.listing import listing
 from mbla.results.words.summary import summary_lines
 from mbla.solution.interior.solve_interior import ONE_OF_MANY
 from mbla.solution.solution import Status
-from tests.results.synthetic import full_results, tower_results
+from tests.results.synthetic import full_results, standing_at, tower_results
 
 
 def push() -> CaseResult:
@@ -87,7 +86,7 @@ def test_what_is_claimed_but_not_verified() -> None:
 
 def test_harmless_positions_of_a_travelling_load_are_no_warnings() -> None:
     results = tower_results()
-    position = TravelPosition("train", 1, 2, results.model.blocks.centroids[1], 0.0, 1)
+    position = standing_at(1, 2, results.model.blocks.centroids[1], 0.0)
     cases = tuple(replace(push(), load_case=replace(push().load_case, travel=position)) for _ in range(2))
     locked = replace(cases[0], status=Status.UNBOUNDED)
 

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import json
 import math
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -13,19 +15,19 @@ import pytest
 from mbla.errors import UsageError
 from mbla.exit_status import exit_code
 from mbla.expected import differences
-from mbla.model.model import Tilt, TravelPosition
+from mbla.model.model import Tilt
 from mbla.results.hdf5.result_file import read_results_hdf5
 from mbla.results.records.json_record import json_line, results_json
-from mbla.results.results import Results
-from mbla.results.series import factor_of, series_of
+from mbla.results.results import CaseResult, Results
+from mbla.results.series import factor_of, series_of, told_cases
 from mbla.results.tilt_angle import angle_bounds, angle_of
 from mbla.results.words.listing import listing
-from mbla.results.words.series_words import worst_words
+from mbla.results.words.series_words import standing_words, worst_words
 from mbla.results.words.summary import summary_lines
 from mbla.run_deck import RunOptions, run
 from mbla.solution.solution import Status
 from mbla.verify_file import verify_results
-from tests.results.synthetic import tower_results
+from tests.results.synthetic import standing_at, tower_results
 
 DECK = """mbla: 1
 materials: {stone: {unit_weight: 25000}}
@@ -140,7 +142,7 @@ def test_no_position_that_any_load_brings_down_is_said_so() -> None:
     case = tower_results().cases[0]
     cases = []
     for i in range(3):
-        travel = TravelPosition("train", i + 1, 3, np.array([1.0 * i, 0, 0]), 1.5 * i, 1)
+        travel = standing_at(i + 1, 3, np.array([1.0 * i, 0, 0]), 1.5 * i)
         load_case = replace(case.load_case, name=f"train@{i + 1}", travel=travel)
         cases.append(replace(case, load_case=load_case, status=Status.UNBOUNDED))
     (series,) = series_of(cases)
@@ -149,6 +151,98 @@ def test_no_position_that_any_load_brings_down_is_said_so() -> None:
     for count, told in ((2, "the 2 positions solved"), (1, "the 1 position solved")):
         (some,) = series_of(cases[:count])
         assert worst_words(tower_results().model, some) == f"{words} among {told}"
+
+
+def train(statuses: Sequence[Status], factors: Sequence[float]) -> tuple[CaseResult, ...]:
+    """A position of a travelling load for each status, with that load factor."""
+    case = tower_results("associative").cases[0]
+    assert case.solution.mechanics is not None
+    cases = []
+    for i, (status, factor) in enumerate(zip(statuses, factors, strict=True), start=1):
+        load_case = replace(case.load_case, name=f"train@{i}", travel=standing_at(i, len(statuses), [i, 0, 0], i))
+        mechanics = replace(case.solution.mechanics, load_factor=factor)
+        solution = replace(case.solution, mechanics=mechanics, associative=mechanics)
+        cases.append(replace(case, load_case=load_case, status=status, solution=solution))
+    return tuple(cases)
+
+
+S, U, N = Status.SOLVED, Status.UNBOUNDED, Status.NOT_VERIFIED
+
+
+@pytest.mark.parametrize(
+    ("statuses", "factors", "told"),
+    [
+        ((S, S, U), (0.5, 0.4, 9.0), [2]),
+        ((S, N, S), (0.5, 0.1, 0.4), [2, 3]),
+        ((U, U), (9.0, 9.0), [1]),
+        ((N, N), (0.1, 0.2), [1, 2]),
+    ],
+    ids=[
+        "the worst",
+        "what may be worse, and the least known",
+        "the first where nothing falls",
+        "all without a result",
+    ],
+)
+def test_positions_told_in_full(statuses: Sequence[Status], factors: Sequence[float], told: list[int]) -> None:
+    other = tower_results().cases[1]
+    found = told_cases((*train(statuses, factors), other))
+    assert [case.load_case.name for case in found] == [*(f"train@{number}" for number in told), other.load_case.name]
+
+
+@pytest.mark.parametrize(
+    ("behind", "words"),
+    [
+        ((), "at (7, 0, 3) m"),
+        ((1.5,), "first axle at (7, 0, 3) m, 9 m along the path, the others at 7.5 m; of 2 only axle 1 is on the path"),
+        (
+            (1, 2, 3, 4, 5),
+            "first axle at (7, 0, 3) m, 9 m along the path, the others at 8, 7, 6, 5, ... m; of 6 only axle 1 is on "
+            "the path",
+        ),
+    ],
+)
+def test_a_vehicle_stands_where_its_first_axle_is(behind: Any, words: str) -> None:
+    model, position = tower_results().model, standing_at(1, 9, [7, 0, 3], 9.0, behind)
+    assert standing_words(model, position) == words
+    everywhere = standing_words(model, replace(position, blocks=np.ones(len(position.blocks), dtype=np.int64)))
+    assert everywhere == words.partition(";")[0]
+    two = replace(position, blocks=np.where(np.arange(len(position.blocks)) < 2, 1, -1))
+    assert len(behind) < 2 or standing_words(model, two).endswith("; of 6 only axles 1 and 2 are on the path")
+
+
+def test_a_vehicle_beyond_the_end_of_its_path(tmp_path: Path) -> None:
+    """One table of its positions, and everything else of the worst, which is told where the vehicle stands."""
+    deck = Path("decks/regressions/vehicle_beside_its_path.yaml")
+    results = run(deck, RunOptions(folder=tmp_path))
+    lines = summary_lines(results)
+    assert len(lines) < 15
+    text = " ".join(" ".join(lines).split())
+    assert (
+        "worst at position 12 of 12, first axle at (-3, 0.25, 3) m, 11 m along the path, the others at 9.5, 8 m; of 3 "
+        "only axle 3 is on the path: load factor 2" in text
+    )
+    assert "brings the structure down at 8 of 12 positions, at load factors from 2 to 16; at 4 no multiple does" in text
+    told = listing(results)
+    assert told.count("Load case lorry@") == 1
+    assert [f"lorry@{number:02d}" in told for number in range(1, 13)] == [True] * 12
+    assert {name.split("@")[1][:2] for name in results.files if "@" in name} == {"12"}
+    table = (tmp_path / "vehicle_beside_its_path_positions.csv").read_text().splitlines()
+    assert len(table) == 13
+    assert table[12].startswith("lorry,lorry@12,12,12,-3.0,0.25,3.0,11.0,,11 9.5 8,solved,")
+    axles = results_json(results)["series"][0]["worst"]["axles"]
+    assert [(axle["point"][0], axle["distance"], axle["block"]) for axle in axles] == [
+        (-3.0, 11.0, None),
+        (-1.5, 9.5, None),
+        (0.0, 8.0, "beam[0]"),
+    ]
+    everything = run(
+        deck, RunOptions(folder=tmp_path, force=True, overrides=("output.positions=all", "output.frames=2"))
+    )
+    assert len({name.split("@")[1][:2] for name in everything.files if "@" in name}) == 12
+    assert (tmp_path / "vehicle_beside_its_path.lst").read_text().count("Load case lorry@") == 12
+    run(deck, RunOptions(folder=tmp_path, force=True))
+    assert not list(tmp_path.glob("*lorry@01*"))
 
 
 def test_an_angle_that_was_not_found_has_no_bounds() -> None:

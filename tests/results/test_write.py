@@ -6,6 +6,7 @@ from pathlib import Path
 import meshio
 import pytest
 
+from mbla.deck.types import OutputSection
 from mbla.errors import FileError
 from mbla.results.files import OutputFolder
 from mbla.results.hdf5.result_file import read_results_hdf5
@@ -30,7 +31,7 @@ def names(folder: Path) -> set[str]:
 
 
 def test_all_files_of_a_run(tmp_path: Path, results: Results) -> None:
-    written = write_outputs(results, tmp_path, "tower", False, True, 3, False)
+    written = write_outputs(results, tmp_path, "tower", False, OutputSection(vtu=True, frames=3, plots=False))
     expected = {"tower.h5", "tower.lst", "tower.json", "tower_supports.vtu", "tower_paraview.py"}
     for case, files in (("push_x", SOLVED_FILES), ("fall", CASE_FILES)):
         expected |= {f"tower_{case}_{name}" for name in files} | {f"tower_{case}.pvd"}
@@ -39,7 +40,7 @@ def test_all_files_of_a_run(tmp_path: Path, results: Results) -> None:
 
 def test_files_agree_with_each_other(tmp_path: Path, results: Results) -> None:
     with OutputFolder(tmp_path, "tower") as out:
-        final = write_results(results, out, True, 2, False)
+        final = write_results(results, out, OutputSection(vtu=True, frames=2, plots=False))
     back = read_results_hdf5(tmp_path / "tower.h5")
     assert same(back, final)
     assert listing(back) == (tmp_path / "tower.lst").read_text(encoding="utf-8")
@@ -50,35 +51,43 @@ def test_files_agree_with_each_other(tmp_path: Path, results: Results) -> None:
 
 
 def test_pvd_names_frames_that_exist(tmp_path: Path, results: Results) -> None:
-    write_outputs(results, tmp_path, "tower", False, True, 4, False)
+    write_outputs(results, tmp_path, "tower", False, OutputSection(vtu=True, frames=4, plots=False))
     entries = ElementTree.parse(tmp_path / "tower_push_x.pvd").getroot().findall("Collection/DataSet")
     assert len(entries) == 4
     assert all((tmp_path / entry.get("file", "none")).is_file() for entry in entries)
 
 
 def test_without_vtu_there_is_none(tmp_path: Path, results: Results) -> None:
-    write_outputs(results, tmp_path, "tower", False, False, 3, False)
+    write_outputs(results, tmp_path, "tower", False, OutputSection(vtu=False, frames=3, plots=False))
     assert names(tmp_path) == {"tower.h5", "tower.lst", "tower.json"}
 
 
 def test_case_that_moves_nothing_has_one_frame(tmp_path: Path, results: Results) -> None:
     case = results.cases[1]
     still = replace(case, solution=replace(case.solution, certificate=None))
-    write_outputs(replace(results, cases=(still,)), tmp_path, "tower", False, True, 5, False)
+    write_outputs(
+        replace(results, cases=(still,)), tmp_path, "tower", False, OutputSection(vtu=True, frames=5, plots=False)
+    )
     assert [name for name in sorted(names(tmp_path)) if "frame" in name] == ["tower_fall_frame_000.vtu"]
 
 
 def test_forced_run_with_fewer_cases_leaves_no_stale_files(tmp_path: Path, results: Results) -> None:
-    write_outputs(results, tmp_path, "tower", False, True, 3, False)
-    write_outputs(replace(results, cases=results.cases[:1]), tmp_path, "tower", True, True, 2, False)
+    write_outputs(results, tmp_path, "tower", False, OutputSection(vtu=True, frames=3, plots=False))
+    write_outputs(
+        replace(results, cases=results.cases[:1]),
+        tmp_path,
+        "tower",
+        True,
+        OutputSection(vtu=True, frames=2, plots=False),
+    )
     assert not [name for name in names(tmp_path) if "fall" in name or "frame_002" in name]
 
 
 def test_result_is_not_overwritten_without_force(tmp_path: Path, results: Results) -> None:
-    write_outputs(results, tmp_path, "tower", False, False, 2, False)
+    write_outputs(results, tmp_path, "tower", False, OutputSection(vtu=False, frames=2, plots=False))
     before = (tmp_path / "tower.h5").read_bytes()
     with pytest.raises(FileError, match="--force"):
-        write_outputs(results, tmp_path, "tower", False, False, 2, False)
+        write_outputs(results, tmp_path, "tower", False, OutputSection(vtu=False, frames=2, plots=False))
     assert (tmp_path / "tower.h5").read_bytes() == before
 
 

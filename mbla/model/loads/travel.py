@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mbla.arrays import FloatArray, IntArray
+from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.deck.types import Load, Travel
 from mbla.errors import Message
 from mbla.model.loads.blocks_under import block_under
@@ -49,42 +49,47 @@ def travel_loads(name: str, entry: Entry, site: LoadSite) -> list[PositionLoad] 
         chosen = select_blocks(entry.load.on, (*entry.path, "on"), site.roster, site.faults)
     if chosen is None:
         return None
-    axles = axles_on_path(travel)
-    empty = [number for number, (_, _, row) in enumerate(axles, start=1) if not len(row)]
+    vehicle = vehicle_on_path(travel)
+    empty = [number for number, (_, _, acting) in enumerate(vehicle, start=1) if not acting.any()]
     if empty:
         words = (
-            f"at position {empty[0]} of {len(axles)} no force is on the path: make it longer than the gaps between them"
+            f"at position {empty[0]} of {len(vehicle)} no force is on the path: make it longer than the gaps between "
+            "them"
         )
         site.refuse((*entry.path, "travel", "axles"), Message("load-beside-structure", words))
         return None
     towards = np.array(travel.towards)
-    found = [[block_under(point, towards, chosen, site.blocks)[0] for point in points] for points, _, _ in axles]
-    bare = [(number, axles[number - 1][0][row.index(-1)]) for number, row in enumerate(found, start=1) if -1 in row]
+    forces = entry.factor * np.array([travel.force, *(axle.force for axle in travel.axles or [])])
+    positions, bare = [], []
+    for number, (points, distances, acting) in enumerate(vehicle, start=1):
+        under = np.full(len(points), -1)
+        under[acting] = [block_under(point, towards, chosen, site.blocks)[0] for point in points[acting]]
+        positions.append(TravelPosition(name, number, len(vehicle), points, distances, forces, under))
+        bare += [(number, points[axle]) for axle in np.flatnonzero(acting & (under < 0))[:1]]
     if bare:
         if not site.roster.partial:
             site.refuse(
-                (*entry.path, "travel"), Message("load-beside-structure", _bare_in_words(bare, len(axles), site))
+                (*entry.path, "travel"), Message("load-beside-structure", _bare_in_words(bare, len(vehicle), site))
             )
         return None
-    forces = entry.factor * np.array([travel.force, *(axle.force for axle in travel.axles or [])])
-    loads = []
-    for number, ((points, distances, row), under) in enumerate(zip(axles, found, strict=True), start=1):
-        position = TravelPosition(name, number, len(axles), points[0], float(distances[0]), under[0])
-        applied = _applied(forces[row], points, np.array(under), site)
-        words = f"{applied.words}, position {number} of {len(axles)}"
-        loads.append(PositionLoad(position, AppliedLoad(applied.blocks, applied.wrenches, words)))
-    return loads
+    return [PositionLoad(position, _applied(position, site)) for position in positions]
 
 
-def _applied(forces: FloatArray, points: FloatArray, under: IntArray, site: LoadSite) -> AppliedLoad:
-    """Forces (n, 3) at points (n, 3) on the blocks under them (n,), which may be the same for some."""
+def _applied(position: TravelPosition, site: LoadSite) -> AppliedLoad:
+    """The forces on the path, on the blocks under them, which may be the same for some."""
+    acting, units = position.acting, site.units
+    forces, points, under = position.forces[acting], position.points[acting], position.blocks[acting]
     blocks, wrenches = sum_on_blocks(under, wrenches_of(forces, points, site.blocks.centroids[under]))
-    units = site.units
     each = [
         f"force {vector(force)} {units.force} at {vector(point)} {units.length} on {site.blocks.name(int(block))}"
         for force, point, block in zip(forces, points, under, strict=True)
     ]
-    return AppliedLoad(blocks, wrenches, " and ".join(each))
+    words = f"position {position.number} of {position.count}"
+    if len(acting) > 1:
+        words += f", first axle {position.distance:.6g} {units.length} along the path"
+    off = int(np.sum(~acting))
+    words += f", {off} of {len(acting)} axles off the path" if off else ""
+    return AppliedLoad(blocks, wrenches, f"{' and '.join(each)}, {words}")
 
 
 def case_name(position: TravelPosition) -> str:
@@ -92,22 +97,26 @@ def case_name(position: TravelPosition) -> str:
     return f"{position.series}@{position.number:0{len(str(position.count))}d}"
 
 
-def axles_on_path(travel: Travel) -> list[tuple[FloatArray, FloatArray, IntArray]]:
-    """For each position the points of the forces on the path (k, 3), their distances from its beginning (k,), and
-    which of the forces they are (k,), the foremost first.
+def vehicle_on_path(travel: Travel) -> list[tuple[FloatArray, FloatArray, BoolArray]]:
+    """For each position of all axles: their points (n, 3), distances from the beginning of the path (n,), and which of
+    them are on it (n,), ends included; the others stand straight on from its ends.
     """
     corners = np.array(travel.path)
-    along = np.append(0.0, np.cumsum(np.linalg.norm(np.diff(corners, axis=0), axis=1)))
+    steps = np.diff(corners, axis=0)
+    along = np.append(0.0, np.cumsum(np.linalg.norm(steps, axis=1)))
+    ways = steps[[0, -1]] / np.linalg.norm(steps[[0, -1]], axis=1, keepdims=True)
     behind = np.array([0.0, *(axle.behind for axle in travel.axles or [])])
-    order = np.argsort(behind, kind="stable")
     found = []
     for first in np.linspace(0.0, along[-1] + behind.max(), travel.positions):
-        distances = first - behind[order]
+        distances = first - behind
         near = ON_PATH * along[-1]
-        there = (distances >= -near) & (distances <= along[-1] + near)
-        distances = np.clip(distances[there], 0.0, along[-1])
+        acting = (distances >= -near) & (distances <= along[-1] + near)
+        distances = np.where(acting, np.clip(distances, 0.0, along[-1]), distances)
         points = np.stack([np.interp(distances, along, corners[:, axis]) for axis in range(3)], axis=1)
-        found.append((points, distances, order[there]))
+        points += (
+            np.minimum(distances, 0.0)[:, None] * ways[0] + np.maximum(distances - along[-1], 0)[:, None] * ways[1]
+        )
+        found.append((points, distances, acting))
     return found
 
 

@@ -11,7 +11,7 @@ from mbla.results.hdf5.field import Field, notice_fields, unit_text
 from mbla.results.hdf5.model_fields import MODEL_FIELDS
 
 FILETYPE = "mbla results"
-VERSION = 5
+VERSION = 6
 """raised by one with every change that an older reader would misread"""
 
 ATTRIBUTES = {

@@ -6,8 +6,8 @@ from mbla.results.hdf5.field import Field, FieldKind, UnitKind
 from mbla.results.hdf5.mechanism_fields import CASE
 
 RECORD_NAMES = {
-    "travel/load_point": "travel/point",
-    "travel/carrying_block": "travel/block",
+    "travel/load_points": "travel/points",
+    "travel/carrying_blocks": "travel/blocks",
     "tilt/turning_axis": "tilt/axis",
 }
 """paths below the case whose names are not those of the records: netCDF takes a dataset of the name of a dimension for
@@ -24,9 +24,10 @@ _TRAVEL: tuple[tuple[str, FieldKind, tuple[str, ...], UnitKind, str], ...] = (
     ("series", "text", (), "1", "name of the load case in the deck, of which this is one position"),
     ("number", "int", (), "1", "number of the position, from 1"),
     ("count", "int", (), "1", "positions on the path"),
-    ("load_point", "float", ("axis",), "length", "the position"),
-    ("distance", "float", (), "length", "its distance along the path"),
-    ("carrying_block", "int", (), "1", "the block that carries the load"),
+    ("load_points", "float", ("axle", "axis"), "length", "where each axle stands, or the only force"),
+    ("distances", "float", ("axle",), "length", "of each from the beginning of the path, the first one first"),
+    ("forces", "float", ("axle", "axis"), "force", "force of each; off the path it does not act"),
+    ("carrying_blocks", "int", ("axle",), "1", "the block that carries each; -1 off the path"),
 )
 
 _TILT: tuple[tuple[str, tuple[str, ...], UnitKind, str], ...] = (

@@ -163,6 +163,10 @@ def _load_case(name: str, get: dict[str, Any]) -> LoadCase:
     travel, tilt = _part(get, "travel/"), _part(get, "tilt/")
     if max(np.abs(get[load]).max(initial=0.0) for load in ("dead_load", "live_load")) > MOST:
         raise ValueError(f"{name}: a load beyond {MOST:.0e}")
+    if travel and not ((travel["blocks"] >= -1) & (travel["blocks"] < len(get["live_load"]))).all():
+        raise ValueError(f"{name}: blocks under a travelling load")
+    if travel and not len(travel["blocks"]):
+        raise ValueError(f"{name}: a travelling load without forces")
     settlement = None
     if "settlement/blocks" in get:
         settlement = Settlement(**{field: get[f"settlement/{field}"] for field in SETTLEMENT_FIELDS})

@@ -2,8 +2,8 @@
 
 A force F and a moment M about the centroid c of a block are, where M is across F, a single force on the line through
 c + F × M / F². It is drawn there, level with the centroid along its own direction; where that point lies outside the
-box around the block, or a moment along F is left, at the centroid with the moment beside it. A load that travels is
-drawn where it stands. Whatever the point, force and moment at it are statically the load of the deck.
+box around the block, or a moment along F is left, at the centroid with the moment beside it. The axles of a load that
+travels are drawn where they stand. Whatever the point, force and moment at it are statically the load of the deck.
 """
 
 from __future__ import annotations
@@ -21,6 +21,7 @@ from mbla.results.collapse.by_interface import sum_by_interface
 from mbla.results.collapse.mechanics import global_forces
 from mbla.results.collapse.motion import displacements_at
 from mbla.results.paraview.scene import Scene
+from mbla.results.vehicle import without_vehicle
 from mbla.solution.statics import contact_resultants
 
 DEAD, LIVE, REACTION, GUIDE = 0, 1, 2, 3
@@ -54,8 +55,9 @@ def load_vectors(scene: Scene) -> tuple[Vectors, ...]:
         return ()
     load_case, blocks = scene.case.load_case, scene.model.blocks
     found = (
-        _on_blocks(DEAD, blocks, load_case.dead_load, None),
-        _on_blocks(LIVE, blocks, load_case.live_load, load_case.travel),
+        _on_blocks(DEAD, blocks, load_case.dead_load),
+        _on_blocks(LIVE, blocks, without_vehicle(blocks, load_case.live_load, load_case.travel)),
+        *_of_vehicle(load_case.travel),
         *_reactions(scene),
     )
     return tuple(vectors for vectors in found if len(vectors))
@@ -93,7 +95,7 @@ def write_loads_vtu(path: Path, scene: Scene) -> None:
     )
 
 
-def _on_blocks(kind: int, blocks: Blocks, loads: FloatArray, travel: TravelPosition | None) -> Vectors:
+def _on_blocks(kind: int, blocks: Blocks, loads: FloatArray) -> Vectors:
     """Loads about centroids, (n_blocks, 6), as vectors at points; blocks without load are left out."""
     bodies = np.flatnonzero(loads.any(axis=1))
     forces, moments = loads[bodies, :3], loads[bodies, 3:]
@@ -102,9 +104,6 @@ def _on_blocks(kind: int, blocks: Blocks, loads: FloatArray, travel: TravelPosit
     arms = np.zeros_like(forces)
     acts = size > 0
     arms[acts] = np.cross(forces[acts], moments[acts]) / size[acts, None]
-    if travel is not None:
-        here = np.flatnonzero(bodies == travel.block)
-        arms[here] = _where_it_stands(blocks, travel, forces[here], arms[here])
     low, high = _boxes(blocks)
     points = centroids + arms
     slack = ROUNDING * blocks.sizes[bodies, None]
@@ -116,12 +115,13 @@ def _on_blocks(kind: int, blocks: Blocks, loads: FloatArray, travel: TravelPosit
     return Vectors(kind, bodies, at, forces, np.where(there[:, None], 0.0, moments))
 
 
-def _where_it_stands(blocks: Blocks, travel: TravelPosition, forces: FloatArray, arms: FloatArray) -> FloatArray:
-    """Arm to the point of a travelling force, if that is on its line of action; else the arm as it was."""
-    arm = travel.point - blocks.centroids[travel.block]
-    apart = np.linalg.norm(np.cross(arm - arms, forces), axis=1)
-    on_line = apart <= ROUNDING * np.linalg.norm(forces, axis=1) * blocks.sizes[travel.block]
-    return np.where(on_line[:, None], arm, arms)
+def _of_vehicle(travel: TravelPosition | None) -> tuple[Vectors, ...]:
+    """The axles of a travelling load that act, each where it stands."""
+    if travel is None:
+        return ()
+    acting = travel.acting
+    forces = travel.forces[acting]
+    return (Vectors(LIVE, travel.blocks[acting], travel.points[acting], forces, np.zeros_like(forces)),)
 
 
 def _boxes(blocks: Blocks) -> tuple[FloatArray, FloatArray]:

@@ -13,6 +13,7 @@ from mbla.results.pictures.page import Page, add_words, open_page
 from mbla.results.pictures.palette import BLUE, GHOST, GREEN, INK, ORANGE, PURPLE, VERMILION, WARNING
 from mbla.results.pictures.scene import Scene
 from mbla.results.series import Series, factor_of, position_of
+from mbla.results.words.series_words import standing_words
 from mbla.results.words.text import number
 from mbla.solution.solution import Status
 
@@ -176,14 +177,15 @@ def draw_series(path: Path, scene: Scene, series: Series, options: PictureOption
         words = [scene.words_of("model")[0], f"load case {series.name}: load factor over {len(place)} positions"]
         if series.worst is not None:
             at, worst = position_of(series.worst), factor_of(series.worst)
-            words.append(f"worst at position {at.number}, {at.distance:.4g} {unit} along the path: {number(worst)}")
+            words.append(f"worst at position {at.number}, {standing_words(scene.model, at)}: {number(worst)}")
         missing = int(np.isnan(values).sum())
         mark = f"NOT VERIFIED: {missing} of {len(place)} positions without a result" if missing else ""
         axes = _diagrams(page, add_words(page, words, mark), 1)[0]
         _draw_positions(page, axes, place, values, sure)
         if series.worst is not None:
             axes.plot(at.distance, worst, "D", color=VERMILION, markersize=11 * page.scale, label="worst", zorder=5)
-        _label(page, axes, f"position along the path [{unit}]", "load factor")
+        what = "position" if len(position_of(series.cases[0]).points) == 1 else "first axle"
+        _label(page, axes, f"{what} along the path [{unit}]", "load factor")
         axes.legend(fontsize=0.85 * page.letter, frameon=False)
 
 

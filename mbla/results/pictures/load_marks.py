@@ -3,19 +3,20 @@
 A load case knows the force and moment on each block about its centroid. A force F with a moment M across it acts along
 the line through p = c + F × M / F², c the centroid; its arrow ends where that line enters the block, which is at the
 point of a force on the surface and in the middle of a loaded face. Forces that are one acceleration times the mass are
-one arrow for all blocks.
+one arrow for all blocks. A vehicle has an arrow for each axle, those that are off its path beside the structure.
 """
 
 from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
-from mbla.model.model import Model
+from mbla.model.model import Model, TravelPosition
+from mbla.results.vehicle import without_vehicle
 
 SAME = 1e-6
 """relative difference up to which blocks have the same acceleration, and up to which a load is nothing: results are
@@ -29,6 +30,10 @@ WRITTEN = 1e-5
 MOST = 0.5
 """share of the loaded blocks that must have one acceleration, where words do not say it, for it to be one arrow"""
 
+BESIDE = 0.5
+"""distance from the structure over its size up to which axles off their path are drawn"""
+OFF_PATH = "axles off the path, which do not act"
+
 
 @dataclass(frozen=True)
 class LoadMarks:
@@ -41,6 +46,8 @@ class LoadMarks:
     moments      : (k, 3) N m
     acceleration : (3,) of all blocks of ``accelerated``, force per mass; zero where there is none
     accelerated  : (n_blocks,)
+    beside       : (m, 3) m, where axles of a vehicle stand that are off its path and do not act
+    beside_forces: (m, 3) N, theirs
     """
 
     blocks: IntArray
@@ -50,6 +57,8 @@ class LoadMarks:
     moments: FloatArray
     acceleration: FloatArray
     accelerated: BoolArray
+    beside: FloatArray
+    beside_forces: FloatArray
 
     @property
     def uniform(self) -> bool:
@@ -57,8 +66,31 @@ class LoadMarks:
         return bool(self.accelerated.any())
 
 
-def load_marks(model: Model, loads: FloatArray, words: Sequence[str]) -> LoadMarks:
-    """Arrows for loads on blocks about their centroids, (n_blocks, 6), with their words from the load case."""
+def load_marks(
+    model: Model, loads: FloatArray, words: Sequence[str], travel: TravelPosition | None = None
+) -> LoadMarks:
+    """Arrows for loads on blocks about their centroids, (n_blocks, 6), with their words from the load case.
+
+    travel : the vehicle among them, where one travels
+    """
+    marks = _marks_of_blocks(model, without_vehicle(model.blocks, loads, travel), words)
+    if travel is None:
+        return marks
+    acting = travel.acting & ~model.fixed[travel.blocks]
+    under, forces = travel.blocks[acting], travel.forces[acting]
+    tips = [_entry(model, int(b), p, f) for b, p, f in zip(under, travel.points[acting], forces, strict=True)]
+    return replace(
+        marks,
+        blocks=np.append(marks.blocks, under),
+        tips=np.vstack([marks.tips, *tips]),
+        forces=np.vstack([marks.forces, forces]),
+        beside=travel.points[~travel.acting],
+        beside_forces=travel.forces[~travel.acting],
+    )
+
+
+def _marks_of_blocks(model: Model, loads: FloatArray, words: Sequence[str]) -> LoadMarks:
+    """Those of loads of which only the sum on each block is known."""
     loads = np.where(model.fixed[:, None], 0.0, loads)
     of_mass = all(any(word in text for word in MASS_LOADS) for text in words) or bool(_in_words(model, words).any())
     acceleration, accelerated = np.zeros(3), np.zeros(len(loads), dtype=bool)
@@ -88,6 +120,8 @@ def load_marks(model: Model, loads: FloatArray, words: Sequence[str]) -> LoadMar
         moments=about[turned],
         acceleration=acceleration,
         accelerated=accelerated,
+        beside=np.zeros((0, 3)),
+        beside_forces=np.zeros((0, 3)),
     )
 
 

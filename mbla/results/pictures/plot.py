@@ -8,7 +8,7 @@ from functools import partial
 from pathlib import Path
 
 from mbla.errors import UsageError
-from mbla.results.chosen_cases import no_such_case
+from mbla.results.chosen_cases import chosen_cases, no_such_case
 from mbla.results.pictures.animation import format_of_film, write_animation
 from mbla.results.pictures.history import draw_history, draw_series
 from mbla.results.pictures.options import KINDS, PictureOptions, format_of
@@ -17,7 +17,7 @@ from mbla.results.pictures.plane.flat import flat_of
 from mbla.results.pictures.scene import Scene, scene_of
 from mbla.results.pictures.space.picture import draw_in_space
 from mbla.results.results import CaseResult, Results
-from mbla.results.series import series_of
+from mbla.results.series import series_of, told_cases
 from mbla.results.whole_file import writing_whole
 
 
@@ -66,12 +66,11 @@ def plot_results(results: Results, target: Path, stem: str, options: PictureOpti
     return paths
 
 
-def _chosen_cases(results: Results, name: str | None) -> list[CaseResult]:
-    chosen = [each for each in results.cases if name in (None, each.load_case.name)]
-    chosen = chosen or [each for each in results.cases if name == each.load_case.deck_name]
-    if not chosen:
+def _chosen_cases(results: Results, name: str | None) -> Sequence[CaseResult]:
+    """The case of that name, or all positions of a travelling load; unless named those told in full."""
+    if not results.cases:
         raise no_such_case(results, name)
-    return chosen
+    return told_cases(results.cases) if name is None else chosen_cases(results, [name])
 
 
 def pictures_of(results: Results, cases: Sequence[CaseResult], options: PictureOptions) -> list[Picture]:
@@ -89,8 +88,8 @@ def pictures_of(results: Results, cases: Sequence[CaseResult], options: PictureO
             name = names[case.load_case.name] if kind == "mechanism" else f"_{case.load_case.name}_{kind}"
             pictures.append(Picture(name, of(case, kind)))
     if "history" in options.kinds:
-        for series in series_of(cases):
-            if len(series.cases) > 1:
+        for series in series_of(results.cases):
+            if len(series.cases) > 1 and options.case in (None, series.name):
                 scene = scene_of(results, series.cases[0], options, "history")
                 write = partial(draw_series, scene=scene, series=series, options=options)
                 pictures.append(Picture(f"_{series.name}_history", write))
@@ -110,7 +109,7 @@ def _mechanism_names(cases: Sequence[str]) -> dict[str, str]:
     return names
 
 
-def _films(results: Results, cases: list[CaseResult], options: PictureOptions) -> list[Picture]:
+def _films(results: Results, cases: Sequence[CaseResult], options: PictureOptions) -> list[Picture]:
     """A film of every case that moves; UsageError where none does."""
 
     def of(case: CaseResult) -> Callable[[Path], None]:

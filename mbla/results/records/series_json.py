@@ -20,6 +20,10 @@ def series_json(model: Model, series: Series) -> dict[str, Any]:
     }
 
 
+def _block(model: Model, block: int) -> str | None:
+    return model.blocks.name(int(block)) if block >= 0 else None
+
+
 def _position(model: Model, case: CaseResult) -> dict[str, Any]:
     position = position_of(case)
     return {
@@ -27,7 +31,11 @@ def _position(model: Model, case: CaseResult) -> dict[str, Any]:
         "position": position.number,
         "point": numbers(position.point),
         "distance": number(position.distance),
-        "block": model.blocks.name(position.block),
+        "block": _block(model, position.blocks[0]),
+        "axles": [
+            {"point": numbers(point), "distance": number(distance), "block": _block(model, block)}
+            for point, distance, block in zip(position.points, position.distances, position.blocks, strict=True)
+        ],
         "status": case.status.value,
         "load_factor": number(factor_of(case)),
     }

@@ -18,7 +18,7 @@ from mbla.results.report.page import library, render
 from mbla.results.report.verdict_table import verdict_table
 from mbla.results.report.views import case_view
 from mbla.results.results import CaseResult, Results
-from mbla.results.series import series_of
+from mbla.results.series import series_of, told_cases
 from mbla.results.whole_file import write_whole
 from mbla.results.words.contact_words import contact_lines, finding_lines
 from mbla.results.words.listing import model_lines, settings_lines
@@ -67,7 +67,8 @@ def report_html(results: Results, case: str | None = None, *, view: bool = True)
     """The page, the same for the same result, and remarks on what it could not show."""
     library()
     shown = replace(results, cases=chosen_cases(results, None if case is None else [case]))
-    content = _content(results, shown, _cases(shown, view))
+    told = replace(shown, cases=told_cases(shown.cases))
+    content = _content(results, shown, told, _cases(told, view))
     page = render(content, [each.view for each in content["cases"]])
     missing = [figures.missing for figures in _all_figures(content) if figures.missing]
     return page, [f"pictures are missing: {text}" for text in dict.fromkeys(missing)]
@@ -78,18 +79,18 @@ def _all_figures(content: dict[str, Any]) -> list[Figures]:
     return [*(each.figures for each in content["cases"]), content["model_figures"], *series]
 
 
-def _cases(shown: Results, view: bool) -> list[CaseContent]:
+def _cases(told: Results, view: bool) -> list[CaseContent]:
     """The library of the views comes once, with the first of them."""
     contents = []
-    for i, case in enumerate(shown.cases):
-        figures = case_figures(shown, case)
-        html = case_view(shown, case, figures.view, first=i == 0) if view else ""
-        contents.append(case_content(shown, case, i + 1, figures, html))
+    for i, case in enumerate(told.cases):
+        figures = case_figures(told, case)
+        html = case_view(told, case, figures.view, first=i == 0) if view else ""
+        contents.append(case_content(told, case, i + 1, figures, html))
     return contents
 
 
-def _content(results: Results, shown: Results, cases: list[CaseContent]) -> dict[str, Any]:
-    """Everything that the templates show but styles and policy."""
+def _content(results: Results, shown: Results, told: Results, cases: list[CaseContent]) -> dict[str, Any]:
+    """Everything that the templates show but styles and policy; ``told`` are the load cases with sections."""
     model, contacts, deck = results.model, results.contacts, results.deck
     left_out = len(model.load_cases) - len(shown.cases)
     return {
@@ -97,10 +98,10 @@ def _content(results: Results, shown: Results, cases: list[CaseContent]) -> dict
         "deck": deck,
         "created": results.created,
         "version": results.provenance.get("mbla", __version__),
-        "verdicts": verdict_table(shown),
-        "settles": any(case.load_case.settlement is not None for case in shown.cases),
+        "verdicts": verdict_table(told),
+        "settles": any(case.load_case.settlement is not None for case in told.cases),
         "warnings_words": _warning_words(shown),
-        "verdict_words": [_in_words(shown, case) for case in shown.cases if case.load_case.travel is None],
+        "verdict_words": [_in_words(told, case) for case in told.cases],
         "left_out": f"{counted(left_out, 'load case')} of the deck not shown here" if left_out else "",
         "cases": cases,
         "series": [

@@ -141,7 +141,13 @@ def _series(results: Results, cases: tuple[CaseResult, ...]) -> Iterable[tuple[R
 
 def _block_names(source: tuple[Results, Series]) -> Values:
     results, series = source
-    return as_text([results.model.blocks.name(position.block) for position in _positions(series)])
+    carrying = [int(position.blocks[0]) for position in _positions(series)]
+    return as_text([results.model.blocks.name(block) if block >= 0 else "" for block in carrying])
+
+
+def _axles(source: tuple[Results, Series]) -> Values:
+    places = [position.distances.tolist() for position in _positions(source[1])]
+    return as_text([" ".join(f"{place:.9g}" for place in row) for row in places])
 
 
 SERIES = TableKind(
@@ -152,14 +158,20 @@ SERIES = TableKind(
         texts("case", "load case", lambda source: as_text([case.load_case.name for case in source[1].cases])),
         ints("position", "number of the position, from 1", lambda s: np.array([p.number for p in _positions(s[1])])),
         ints("count", "positions on the path", lambda source: np.array([p.count for p in _positions(source[1])])),
-        *vector("point", "length", "the position", lambda source: np.array([p.point for p in _positions(source[1])])),
+        *vector(
+            "point",
+            "length",
+            "where the first axle stands, or the only force",
+            lambda source: np.array([p.point for p in _positions(source[1])]),
+        ),
         floats(
             "distance",
             "length",
-            "its distance along the path",
+            "its distance along the path, of which it may be off",
             lambda source: np.array([p.distance for p in _positions(source[1])]),
         ),
-        texts("block", "the block that carries the load", _block_names),
+        texts("block", "the block that carries it; empty: it is off the path", _block_names),
+        texts("axles", "distances along the path of all axles, the first one first", _axles),
         texts("status", "status", lambda source: as_text([case.status.value for case in source[1].cases])),
         floats(
             "load_factor",

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from pathlib import Path
 
 import numpy as np
 
@@ -11,7 +12,7 @@ from mbla.arrays import IntArray
 from mbla.model.model import Model
 from mbla.results.needs import CaseNeeds
 from mbla.results.results import Results
-from mbla.results.series import series_of
+from mbla.results.series import series_of, told_cases
 from mbla.results.words.case_words import case_lines, spaced
 from mbla.results.words.contact_words import contact_lines, finding_lines
 from mbla.results.words.figure_words import figures
@@ -22,9 +23,17 @@ from mbla.results.words.series_words import series_lines, worst_words
 from mbla.results.words.text import WIDTH, counted, entry, heading, number, sentence, table
 from mbla.results.words.verdict_words import verdict
 
+ANOTHER_POSITION = (
+    "Of these positions the worst has a section of its own above, and so have those without a result; "
+    "mbla report {}.h5 --case {} tells another, output: {{positions: all}} in the deck tells all."
+)
 
-def listing(results: Results) -> str:
-    """The whole listing, at most 100 columns wide, with a newline at its end."""
+
+def listing(results: Results, *, every_position: bool = False) -> str:
+    """The whole listing, at most 100 columns wide, with a newline at its end.
+
+    every_position : sections of every position of a travelling load, not only of the worst
+    """
     lines = [
         *_header(results),
         *settings_lines(results),
@@ -32,10 +41,13 @@ def listing(results: Results) -> str:
         *contact_lines(results.model, results.contacts),
         *notice_lines(results.notices),
     ]
-    for case in results.cases:
+    told = results.cases if every_position else told_cases(results.cases)
+    for case in told:
         lines += case_lines(results.model, results.contacts, case)
     for series in series_of(results.cases):
         lines += series_lines(results.model, series)
+        if len(told) < len(results.cases):
+            lines += sentence(ANOTHER_POSITION.format(Path(results.deck.name).stem, series.cases[0].load_case.name))
     lines += _recap(results)
     return "\n".join(line.rstrip() for line in lines) + "\n"
 
@@ -197,7 +209,7 @@ def _supports(model: Model) -> list[str]:
 
 def _recap(results: Results) -> list[str]:
     lines = heading("Summary")
-    for case in results.cases:
+    for case in told_cases(results.cases):
         lines += entry(case.load_case.name, verdict(results.model, case))
     lines += [line for series in series_of(results.cases) for line in sentence(worst_words(results.model, series))]
     left_out = len(results.model.load_cases) - len(results.cases)

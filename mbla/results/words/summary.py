@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
+from mbla.model.model import Model
 from mbla.results.collapse.collapse import Collapse, collapse_of
 from mbla.results.collapse.failure import failure_of
 from mbla.results.outcome import result_of
 from mbla.results.results import CaseResult, Results
-from mbla.results.series import series_of
+from mbla.results.series import series_of, told_cases
 from mbla.results.words.answer_words import answer_columns, status_words
 from mbla.results.words.certificate_words import fall_summary
 from mbla.results.words.failure_words import failure_sentences
 from mbla.results.words.mechanism_words import mechanism_summary
 from mbla.results.words.notice_words import warning_summary
-from mbla.results.words.series_words import worst_words
+from mbla.results.words.series_words import spread_over_positions, worst_words
 from mbla.results.words.text import counted, number, sentence, table
 from mbla.results.words.verdict_words import bound_words, reasons, verdict
 from mbla.solution.solution import Mechanics
@@ -27,23 +30,26 @@ def summary_lines(results: Results) -> list[str]:
         f"{results.deck.name}: {counted(len(model.blocks), 'block')}, {counted(len(contacts), 'interface')}, "
         f"{counted(len(contacts.points), 'contact point')}, weight {number(model.total_weight)} {model.units.force}"
     )
-    lines = [counts, *_table(results)]
-    for case in results.cases:
+    told = told_cases(results.cases)
+    lines = [counts, *_table(results.model, told)]
+    for case in told:
         lines += _in_words(results, case)
-    lines += [line for series in series_of(results.cases) for line in sentence(worst_words(results.model, series))]
+    for series in series_of(results.cases):
+        for words in (worst_words(results.model, series), spread_over_positions(series)):
+            lines += sentence(words)
     return lines + warning_summary(results)
 
 
-def _table(results: Results) -> list[str]:
+def _table(model: Model, cases: Sequence[CaseResult]) -> list[str]:
     """Status and answer of every case; the associative answer beside it where the deck's flow rule is another."""
-    if not results.cases:
+    if not cases:
         return []
-    heads, rows = answer_columns(results.model, results.cases)
-    if all(case.solution.flow_rule == "associative" for case in results.cases):
+    heads, rows = answer_columns(model, cases)
+    if all(case.solution.flow_rule == "associative" for case in cases):
         heads.pop()
     rows = [
         [case.load_case.name, status_words(case.status), *row[: len(heads)]]
-        for case, row in zip(results.cases, rows, strict=True)
+        for case, row in zip(cases, rows, strict=True)
     ]
     return table(["load case", "status", *heads], rows, left=2)
 
@@ -64,7 +70,7 @@ def _in_words(results: Results, case: CaseResult) -> list[str]:
         failure = failure_of(model, results.contacts, collapse, mechanics)
         text += f": {mechanism_summary(model, collapse, failure)}"
     lines = sentence(text)
-    if mechanics is not None and case.load_case.travel is None:  # positions of a load are many, and much alike
+    if mechanics is not None:
         lines += _heaviest(results, case, mechanics, collapse)
     if solution.mechanics is None and solution.certificate is not None:
         lines += fall_summary(model, results.contacts, case.load_case, solution.certificate)

@@ -35,7 +35,7 @@ def test_a_load_case_for_each_position(tmp_path: Path) -> None:
     places = [case.travel for case in found if case.travel is not None]
     assert [place.distance for place in places] == pytest.approx(np.linspace(0, 4, 11))
     assert places[6].point == pytest.approx([2.5, 0.5, 1.4])
-    assert [place.block for place in places] == [0, 0, 1, 1, 2, 2, 2, 2, 2, 3, 3]
+    assert [place.blocks[0] for place in places] == [0, 0, 1, 1, 2, 2, 2, 2, 2, 3, 3]
     assert found[1].live_load[0] == pytest.approx([0, 0, -10, 0, 4, 0])
     assert found[1].live_words == ("force (0, 0, -10) N at (0.9, 0.5, 1) m on row[0], position 2 of 11",)
     assert (found[1].dead_load == found[0].dead_load).all()
@@ -55,21 +55,21 @@ def test_it_lands_on_the_floor_it_is_drawn_on(tmp_path: Path) -> None:
     for z, block in ((1, 0), (2.9, 0), (3.2, 3), (4, 3), (8, 3)):
         travel = f"force: [0, 0, -1], path: [[1.1, 0.5, {z}], [1.9, 0.5, {z}]], positions: 2"
         found = model(tmp_path, travel, TWO_STOREYS)
-        assert [case.travel.block for case in found.load_cases if case.travel] == [block, block], z
+        assert [case.travel.blocks[0] for case in found.load_cases if case.travel] == [block, block], z
     below = "force: [0, 0, -1], path: [[1.1, 0.5, 9], [1.9, 0.5, 9]], positions: 2"
     found = model(tmp_path, below, TWO_STOREYS, ", on: lower")
-    assert [case.travel.block for case in found.load_cases if case.travel] == [0, 0]
+    assert [case.travel.blocks[0] for case in found.load_cases if case.travel] == [0, 0]
 
 
 def test_on_an_edge_and_on_a_corner(tmp_path: Path) -> None:
     """The ends of paths often lie on edges: 0 and 4 are the ends of the row, y = 0 its side, x = 1 a joint."""
     found = model(tmp_path, "force: [0, 0, -1], path: [[0, 0, 1], [4, 0, 1]], positions: 5", ROW)
-    assert [case.travel.block for case in found.load_cases if case.travel] == [0, 0, 1, 2, 3]
+    assert [case.travel.blocks[0] for case in found.load_cases if case.travel] == [0, 0, 1, 2, 3]
 
 
 def test_against_gravity_and_sideways(tmp_path: Path) -> None:
     path = "force: [5, 0, 0], path: [[-1, 0.5, 0.2], [-1, 0.5, 0.8]], positions: 3, towards: [1, 0, 0]"
-    assert [case.travel.block for case in model(tmp_path, path, ROW).load_cases if case.travel] == [0, 0, 0]
+    assert [case.travel.blocks[0] for case in model(tmp_path, path, ROW).load_cases if case.travel] == [0, 0, 0]
 
 
 def test_positions_over_no_block_are_named(tmp_path: Path) -> None:
@@ -110,10 +110,19 @@ def test_axles_follow_at_their_distances(tmp_path: Path) -> None:
     ]
     assert found[1].live_load[0] == pytest.approx([0, 0, -12, 0, 2 * (0.25 - 5 * 0.25), 0])
     places = [case.travel for case in found if case.travel is not None]
-    assert [place.distance for place in places] == pytest.approx([0, 0.5, 1, 1.5, 2, 2.5, 3, 3, 2, 2.5, 3])
+    assert [place.distance for place in places] == pytest.approx(np.linspace(0, 5, 11))
+    assert places[8].points == pytest.approx(np.array([[4.25, 0.5, 1], [2.25, 0.5, 1], [3.75, 0.5, 1]]))
+    assert places[8].forces == pytest.approx(np.array([[0, 0, -2], [0, 0, -6], [0, 0, -10]]))
+    assert places[8].blocks.tolist() == [-1, 2, -1]
+    assert places[0].distances == pytest.approx([0, -2, -0.5])
+    assert places[0].points[1] == pytest.approx([-1.75, 0.5, 1])
+    assert found[8].live_words == (
+        "force (0, 0, -6) N at (2.25, 0.5, 1) m on row[2], position 9 of 11, first axle 4 m along the path, "
+        "2 of 3 axles off the path",
+    )
     assert found[1].live_words == (
         "force (0, 0, -2) N at (0.75, 0.5, 1) m on row[0] and force (0, 0, -10) N at (0.25, 0.5, 1) m on row[0], "
-        "position 2 of 11",
+        "position 2 of 11, first axle 0.5 m along the path, 1 of 3 axles off the path",
     )
 
 

@@ -7,11 +7,10 @@ import numpy as np
 import pytest
 
 from mbla.errors import UsageError
-from mbla.model.model import TravelPosition
 from mbla.results.notebook.run import Run
 from mbla.results.results import Results
 from mbla.solution.solution import Standing, StandingResult, Status
-from tests.results.synthetic import full_results, tower_results
+from tests.results.synthetic import full_results, standing_at, tower_results
 
 
 def one(status: Status = Status.SOLVED, **changes: Any) -> Run:
@@ -71,7 +70,7 @@ def travelling(factors: list[float], status: Status = Status.SOLVED) -> Results:
     case, cases = results.cases[0], []
     assert case.solution.mechanics is not None
     for number, factor in enumerate(factors, start=1):
-        travel = TravelPosition("train", number, len(factors), np.zeros(3), 0.0, 1)
+        travel = standing_at(number, len(factors), np.zeros(3), 0.0)
         load_case = replace(case.load_case, name=f"train_{number}", travel=travel)
         solution = replace(case.solution, mechanics=replace(case.solution.mechanics, load_factor=factor))
         cases.append(replace(case, load_case=load_case, solution=solution, status=Status.SOLVED))

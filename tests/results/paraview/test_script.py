@@ -15,6 +15,7 @@ import numpy as np
 import pytest
 from matplotlib import image
 
+from mbla.deck.types import OutputSection
 from mbla.results.results import Results
 from mbla.results.write import write_outputs
 from mbla.solution.solution import Status
@@ -29,7 +30,7 @@ def results() -> Results:
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory: pytest.TempPathFactory, results: Results) -> Path:
     path = tmp_path_factory.mktemp("views")
-    write_outputs(results, path, "tower", False, True, 3, False)
+    write_outputs(results, path, "tower", False, OutputSection(vtu=True, frames=3, plots=False))
     return path
 
 
@@ -177,7 +178,9 @@ def test_missing_file_is_named(folder: Path, tmp_path: Path, monkeypatch: pytest
 
 def test_forces_that_are_no_result_say_so(tmp_path: Path, results: Results) -> None:
     case = replace(results.cases[0], status=Status.NOT_VERIFIED)
-    write_outputs(replace(results, cases=(case,)), tmp_path, "tower", False, True, 2, False)
+    write_outputs(
+        replace(results, cases=(case,)), tmp_path, "tower", False, OutputSection(vtu=True, frames=2, plots=False)
+    )
     text = (tmp_path / "tower_paraview.py").read_text(encoding="utf-8")
     assert "NOT VERIFIED: no load factor" in text
     assert "Forces and motion are NO RESULT" in text
@@ -186,7 +189,9 @@ def test_forces_that_are_no_result_say_so(tmp_path: Path, results: Results) -> N
 
 def test_titles_cannot_break_the_script(tmp_path: Path, results: Results, monkeypatch: pytest.MonkeyPatch) -> None:
     model = replace(results.model, title="\"\"\"\n''' \\ {} RESULT: dict[str, Any] = {}")
-    write_outputs(replace(results, model=model), tmp_path, "tower", False, True, 2, False)
+    write_outputs(
+        replace(results, model=model), tmp_path, "tower", False, OutputSection(vtu=True, frames=2, plots=False)
+    )
     assert run_script(tmp_path / "tower_paraview.py", monkeypatch, "--save", str(tmp_path / "png"))
 
 

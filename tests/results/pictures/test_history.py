@@ -5,14 +5,13 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 
-from mbla.model.model import TravelPosition
 from mbla.results.pictures.history import MOST_NAMED, _keep_to_the_middle, draw_history, draw_series
 from mbla.results.pictures.options import PictureOptions
 from mbla.results.pictures.scene import scene_of
 from mbla.results.results import CaseResult, Results
 from mbla.results.series import series_of
 from mbla.solution.solution import IterationRecord, ProgramRecord, Status
-from tests.results.synthetic import full_results, tower_results
+from tests.results.synthetic import full_results, standing_at, tower_results
 
 
 def texts(path: Path) -> list[str]:
@@ -66,7 +65,7 @@ def series_results() -> Results:
     for i, (status, factor) in enumerate(
         [(Status.SOLVED, 0.5), (Status.UNBOUNDED, 0.0), (Status.NOT_VERIFIED, 9.0), (Status.SOLVED, 0.4)]
     ):
-        travel = TravelPosition("train", i + 1, 4, np.array([float(i), 0, 0]), 1.5 * i, 1)
+        travel = standing_at(i + 1, 4, np.array([float(i), 0, 0]), 1.5 * i)
         solution = replace(case.solution, mechanics=replace(mechanics, load_factor=factor), flow_rule="associative")
         load_case = replace(case.load_case, name=f"train@{i + 1}", travel=travel)
         cases.append(replace(case, load_case=load_case, solution=solution, status=status))
@@ -90,7 +89,7 @@ def test_worst_position(tmp_path: Path) -> None:
     path = tmp_path / "series.svg"
     scene = scene_of(results, results.cases[0], PictureOptions(), "history")
     draw_series(path, scene, series_of(results.cases)[0], PictureOptions())
-    assert "worst at position 4, 4.5 m along the path: 0.4" in texts(path)
+    assert "worst at position 4, at (3, 0, 0) m: 0.4" in texts(path)
 
 
 def test_a_case_without_a_load_factor_has_none_in_its_diagram(tmp_path: Path) -> None:

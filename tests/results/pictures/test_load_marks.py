@@ -3,6 +3,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from mbla.model.model import TravelPosition
 from mbla.results.pictures.load_marks import load_marks
 from tests.results.synthetic import G, tower_model
 
@@ -131,3 +132,18 @@ def test_accelerations_that_differ_from_block_to_block_are_forces() -> None:
     assert not marks.uniform
     assert marks.blocks.tolist() == [1, 2]
     assert marks.forces == pytest.approx(loads[1:, :3])
+
+
+def test_a_vehicle_has_an_arrow_for_each_axle() -> None:
+    """Two on one block are two arrows, and what else acts on it has its own; an axle off the path stands beside."""
+    model = tower_model()
+    points = np.array([[9.0, 0.5, 4.0], [0.8, 0.5, 4.0], [0.2, 0.5, 4.0]])
+    forces = np.array([[0, 0, -7.0], [0, 0, -5.0], [0, 0, -3.0]])
+    vehicle = TravelPosition("train", 1, 1, points, np.array([9.0, 0.8, 0.2]), forces, np.array([-1, 1, 1]))
+    loads = wrench([0, 0, -5], points[1], 1) + wrench([0, 0, -3], points[2], 1) + wrench([2, 0, 0], [0, 0.5, 2], 1)
+    marks = load_marks(model, loads, ("force", "position 1"), vehicle)
+    assert marks.blocks.tolist() == [1, 1, 1]
+    assert marks.tips == pytest.approx(np.array([[0, 0.5, 2], [0.8, 0.5, 3], [0.2, 0.5, 3]]))
+    assert marks.forces == pytest.approx(np.array([[2, 0, 0], *forces[1:]]))
+    assert marks.beside.tolist() == points[:1].tolist()
+    assert marks.beside_forces.tolist() == forces[:1].tolist()

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from mbla.cli import main
+from mbla.deck.types import OutputSection
 from mbla.errors import FileError, UsageError
-from mbla.model.model import TravelPosition
 from mbla.results.hdf5.result_file import write_results_hdf5
 from mbla.results.pictures.animation import displacements
 from mbla.results.pictures.options import VIEWS, PictureOptions
@@ -19,7 +19,7 @@ from mbla.results.pictures.plot import pictures_of, plot_case, plot_results
 from mbla.results.results import Results
 from mbla.results.write import write_outputs
 from tests.results.opengl import needs_opengl
-from tests.results.synthetic import tower_results
+from tests.results.synthetic import standing_at, tower_results
 
 IN_SPACE = PictureOptions(kinds=("mechanism",), view=VIEWS["iso"])
 
@@ -169,7 +169,7 @@ def test_kinds_that_do_not_exist_are_refused(tmp_path: Path, results: Results) -
 
 
 def test_a_run_with_plots_writes_what_the_command_draws(tmp_path: Path, results: Results) -> None:
-    written = write_outputs(results, tmp_path, "tower", False, False, 2, True)
+    written = write_outputs(results, tmp_path, "tower", False, OutputSection(vtu=False, frames=2, plots=True))
     assert {name for name in written if name.endswith(".png")} == {
         "tower_model.png",
         *(f"tower_{case.load_case.name}{kind}.png" for case in results.cases for kind in ("", "_forces")),
@@ -178,7 +178,9 @@ def test_a_run_with_plots_writes_what_the_command_draws(tmp_path: Path, results:
 
 def test_a_result_without_cases_has_no_pictures(tmp_path: Path, results: Results) -> None:
     """A run that was stopped before its first case writes the rest of its files."""
-    written = write_outputs(replace(results, cases=()), tmp_path, "tower", False, False, 2, True)
+    written = write_outputs(
+        replace(results, cases=()), tmp_path, "tower", False, OutputSection(vtu=False, frames=2, plots=True)
+    )
     assert not [name for name in written if name.endswith(".png")]
     assert pictures_of(results, (), PictureOptions()) == []
     with pytest.raises(UsageError, match=r"^the result has no load case"):
@@ -189,7 +191,7 @@ def test_positions_of_a_travelling_load_have_a_history_of_their_own(tmp_path: Pa
     """Chosen by the name in the deck; one position alone is no series."""
     cases = []
     for position in (1, 2):
-        travel = TravelPosition("train", position, 2, np.array([1.0 * position, 0, 0]), 1.5 * position, 1)
+        travel = standing_at(position, 2, np.array([1.0 * position, 0, 0]), 1.5 * position)
         load_case = replace(results.cases[0].load_case, name=f"train@{position}", travel=travel)
         cases.append(replace(results.cases[0], load_case=load_case))
     travelled = replace(results, cases=tuple(cases))
@@ -197,7 +199,7 @@ def test_positions_of_a_travelling_load_have_a_history_of_their_own(tmp_path: Pa
     names = [path.name for path in plot_results(travelled, tmp_path, "tower", options)]
     assert names == ["tower_train@1_history.svg", "tower_train@2_history.svg", "tower_train_history.svg"]
     assert "load case train: load factor over 2 positions" in (tmp_path / names[-1]).read_text()
-    alone = pictures_of(travelled, cases[:1], options)
+    alone = pictures_of(travelled, cases[:1], replace(options, case="train@1"))
     assert [picture.name for picture in alone] == ["_train@1_history"]
 
 

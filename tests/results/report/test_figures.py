@@ -8,13 +8,12 @@ import numpy as np
 import pytest
 
 from mbla.errors import UsageError
-from mbla.model.model import TravelPosition
 from mbla.results.pictures.options import PictureOptions
 from mbla.results.report.figures import case_figures, model_figures, series_figures
 from mbla.results.results import CaseResult, Results
 from mbla.results.series import series_of
 from mbla.solution.solution import Status
-from tests.results.synthetic import tower_results
+from tests.results.synthetic import standing_at, tower_results
 
 
 @pytest.fixture
@@ -126,7 +125,7 @@ def test_several_positions_of_a_travelling_load_have_a_diagram(positions: int) -
     results = tower_results()
     cases = []
     for i in range(positions):
-        travel = TravelPosition("train", i + 1, positions, np.array([1.0 * i, 0, 0]), 1.5 * i, 1)
+        travel = standing_at(i + 1, positions, np.array([1.0 * i, 0, 0]), 1.5 * i)
         cases.append(
             replace(results.cases[0], load_case=replace(results.cases[0].load_case, name=f"train@{i}", travel=travel))
         )

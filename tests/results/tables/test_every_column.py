@@ -10,13 +10,12 @@ import numpy as np
 import pytest
 
 from mbla.deck.selectors import POSITIONS
-from mbla.model.model import TravelPosition
 from mbla.results.collapse.interface_modes import InterfaceMode
 from mbla.results.results import CaseResult, Results
 from mbla.results.tables.tables import tables_of
 from mbla.run_deck import RunOptions, run
 from mbla.solution.solution import Mechanics, Standing, Status
-from tests.results.synthetic import full_results, tower_mechanics, tower_results
+from tests.results.synthetic import full_results, standing_at, tower_mechanics, tower_results
 
 NAN3 = [np.nan] * 3
 GRAVITY = 9.81
@@ -286,7 +285,7 @@ def test_series_and_reactions_of_settlements(every: dict[str, Results]) -> None:
     """Positions of a travelling load, the first not the worst; a support that gives way, moving and turning."""
     full = every["full"]
     case = replace(full.cases[0], solution=replace(full.cases[0].solution, standing=None))
-    positions = [TravelPosition("train", number, 2, np.array([1.0, 2.0, number]), 2.5 * number, 1) for number in (1, 2)]
+    positions = [standing_at(number, 2, np.array([1.0, 2.0, number]), 2.5 * number) for number in (1, 2)]
     travelling = tuple(
         replace(
             case,

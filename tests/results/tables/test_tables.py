@@ -12,12 +12,11 @@ import pytest
 
 from mbla.deck.units import Units
 from mbla.errors import UsageError
-from mbla.model.model import TravelPosition
 from mbla.results.outcome import notices_of
 from mbla.results.results import Results
 from mbla.results.tables.tables import TABLES, tables_of, tables_page
 from mbla.solution.solution import Status
-from tests.results.synthetic import TOWER_WEIGHT, full_results, tower_results
+from tests.results.synthetic import TOWER_WEIGHT, full_results, standing_at, tower_results
 
 PAGE = Path(__file__).parents[3] / "schemas" / "results.md"
 
@@ -192,7 +191,7 @@ def test_frames_without_pandas_say_what_to_install(results: Results, monkeypatch
 def test_positions_of_a_travelling_load_that_was_not_asked_for_are_left_out(results: Results) -> None:
     """The other case has no positions."""
     first, second = results.cases
-    travel = TravelPosition("train", 1, 1, np.zeros(3), 0.0, 1)
+    travel = standing_at(1, 1, np.zeros(3), 0.0)
     moved = replace(first, load_case=replace(first.load_case, travel=travel))
     travelled = replace(results, cases=(moved, second))
     assert len(tables_of(travelled)["series"]) == 1

@@ -73,12 +73,13 @@ def _draw_model(sheet: Sheet, flat: Flat, scene: Scene) -> None:
 
 
 def _draw_live_load(sheet: Sheet, flat: Flat, scene: Scene, label: str, colour: str, named: bool = True) -> None:
-    """The live load, or the way that a support gives."""
+    """The live load, of a vehicle its axles, or the way that a support gives."""
     case, before = scene.case.load_case, set(sheet.handles)
     if case.settlement is None:
         together = [each for each in scene.shown_cases if each.load_case.deck_name == case.deck_name]
-        words = (f"{len(together)} positions",) if case.travel is not None and len(together) > 1 else case.live_words
-        draw_loads(sheet, flat, scene, case.live_load, words, label, colour)
+        many = case.travel is not None and len(together) > 1
+        words = (f"{len(together)} positions",) if many else case.live_words
+        draw_loads(sheet, flat, scene, case.live_load, words, label, colour, None if many else case.travel)
     else:
         settlement = case.settlement
         way = flat.project(settlement.motions[:, :3]).mean(axis=0)

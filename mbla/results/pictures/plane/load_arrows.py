@@ -7,8 +7,10 @@ import textwrap
 import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
+from mbla.model.model import TravelPosition
 from mbla.results.collapse.motion import moved_points
-from mbla.results.pictures.load_marks import LoadMarks, load_marks
+from mbla.results.pictures.load_marks import BESIDE, OFF_PATH, LoadMarks, load_marks
+from mbla.results.pictures.palette import pale
 from mbla.results.pictures.plane.flat import Flat
 from mbla.results.pictures.plane.sheet import Sheet
 from mbla.results.pictures.scene import Scene
@@ -27,10 +29,20 @@ MOST_LINES = 3
 
 
 def draw_loads(
-    sheet: Sheet, flat: Flat, scene: Scene, loads: FloatArray, words: tuple[str, ...], name: str, colour: str
+    sheet: Sheet,
+    flat: Flat,
+    scene: Scene,
+    loads: FloatArray,
+    words: tuple[str, ...],
+    name: str,
+    colour: str,
+    travel: TravelPosition | None = None,
 ) -> None:
-    """Arrows of loads on blocks about their centroids, (n_blocks, 6), and their words in the legend."""
-    marks = load_marks(scene.model, loads, words)
+    """Arrows of loads on blocks about their centroids, (n_blocks, 6), and their words in the legend.
+
+    travel : the vehicle among them, whose axles are drawn one by one
+    """
+    marks = load_marks(scene.model, loads, words, travel)
     drawn = _draw_forces(sheet, flat, scene, marks, colour)
     drawn |= _draw_moments(sheet, flat, scene, marks, colour)
     drawn |= _draw_acceleration(sheet, flat, scene, marks, colour)
@@ -38,6 +50,7 @@ def draw_loads(
     text = textwrap.fill(text, COLUMNS, max_lines=MOST_LINES, placeholder=" ...")
     if drawn:
         sheet.name(text, color=colour, linewidth=3.0, marker=">", markersize=9)
+        _draw_beside(sheet, flat, scene, marks, pale(colour))
     elif loads[scene.model.free].any():
         _draw_across(sheet, flat, scene, loads, text, colour)
 
@@ -59,10 +72,30 @@ def _draw_forces(sheet: Sheet, flat: Flat, scene: Scene, marks: LoadMarks, colou
     if not len(marks.blocks):
         return False
     tips = moved_points(scene.model.blocks, scene.motion, marks.blocks, marks.tips)
-    steps = flat.project(marks.forces)
+    return _draw_arrows(sheet, flat, tips, marks.forces, _largest(flat, marks), colour)
+
+
+def _draw_beside(sheet: Sheet, flat: Flat, scene: Scene, marks: LoadMarks, colour: str) -> None:
+    """Axles of a vehicle off its path, pale; those further off than half the structure's size would shrink it."""
+    points = flat.project(marks.beside)
+    drawn = np.vstack(sheet.drawn)
+    reach = BESIDE * sheet.size
+    near = np.all((points > drawn.min(axis=0) - reach) & (points < drawn.max(axis=0) + reach), axis=1)
+    if near.any():
+        _draw_arrows(sheet, flat, marks.beside[near], marks.beside_forces[near], _largest(flat, marks), colour)
+        sheet.name(OFF_PATH, color=colour, linewidth=3.0, marker=">", markersize=9)
+
+
+def _largest(flat: Flat, marks: LoadMarks) -> float:
+    """Of all forces and axles as they are seen."""
+    return float(np.linalg.norm(flat.project(np.vstack([marks.forces, marks.beside_forces])), axis=1).max(initial=0.0))
+
+
+def _draw_arrows(sheet: Sheet, flat: Flat, tips: FloatArray, forces: FloatArray, largest: float, colour: str) -> bool:
+    """Arrows that end at points, by the sizes of their forces over the largest; whether any is seen."""
+    steps = flat.project(forces)
     sizes = np.linalg.norm(steps, axis=1, keepdims=True)
-    largest = float(sizes.max())
-    if largest == 0:
+    if not sizes.any():
         return False
     longest = LONGEST if len(tips) <= MANY else LONGEST_OF_MANY
     length = np.maximum(longest * sizes / largest, min(SHORTEST, longest / 2) * (sizes > 0)) * sheet.size

@@ -8,10 +8,12 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from mbla.arrays import FloatArray
 from mbla.model.model import LoadCase
 from mbla.results.collapse.motion import moved_points
-from mbla.results.pictures.load_marks import LoadMarks, load_marks
-from mbla.results.pictures.palette import CASES, DEAD_LOAD, LIVE_LOAD, SETTLEMENT
+from mbla.results.pictures.geometry import box_of
+from mbla.results.pictures.load_marks import BESIDE, OFF_PATH, LoadMarks, load_marks
+from mbla.results.pictures.palette import CASES, DEAD_LOAD, LIVE_LOAD, SETTLEMENT, pale
 from mbla.results.pictures.scene import Scene
 from mbla.results.pictures.space.shapes import Shape, arrows, rgb, turning_arrows
 
@@ -56,11 +58,13 @@ def _of_case(scene: Scene, load_case: LoadCase, label: str, colour: str, row: in
     if settlement is not None:
         shapes = _settlement(scene, load_case)
         return shapes, [(_wrapped(f"settlement: {settlement.words}"), SETTLEMENT)] * bool(shapes)
-    marks = load_marks(scene.model, load_case.live_load, load_case.live_words)
+    marks = load_marks(scene.model, load_case.live_load, load_case.live_words, load_case.travel)
     shapes = _force_arrows(scene, marks, colour) + _moment_rings(scene, marks, colour)
     if marks.uniform and marks.acceleration.any():
         shapes.append(_acceleration_arrow(scene, marks, colour, row))
-    return shapes, [(_wrapped(f"{label}: {_together(load_case.live_words)}"), colour)] * bool(shapes)
+    entries = [(_wrapped(f"{label}: {_together(load_case.live_words)}"), colour)] * bool(shapes)
+    beside = _axles_beside(scene, marks, pale(colour))
+    return shapes + beside, entries + [(OFF_PATH, pale(colour))] * bool(beside)
 
 
 def _together(words: Sequence[str]) -> str:
@@ -77,11 +81,30 @@ def _force_arrows(scene: Scene, marks: LoadMarks, colour: str) -> list[Shape]:
     if not len(marks.blocks):
         return []
     tips = moved_points(scene.model.blocks, scene.motion, marks.blocks, marks.tips)
-    sizes = np.linalg.norm(marks.forces, axis=1)
-    lengths = scene.size * np.maximum(LONGEST * sizes / sizes.max(), SHORTEST)
-    starts = tips - marks.forces * (lengths / sizes)[:, None]
+    return [_arrows_at(scene, tips, marks.forces, _largest(marks), colour)]
+
+
+def _axles_beside(scene: Scene, marks: LoadMarks, colour: str) -> list[Shape]:
+    """Axles of a vehicle off its path; those further off than half the structure's size would shrink it."""
+    low, high = box_of(scene.model.blocks.vertices)
+    reach = BESIDE * scene.size
+    near = np.all((marks.beside > low - reach) & (marks.beside < high + reach), axis=1)
+    if not near.any():
+        return []
+    return [_arrows_at(scene, marks.beside[near], marks.beside_forces[near], _largest(marks), colour)]
+
+
+def _largest(marks: LoadMarks) -> float:
+    return float(np.linalg.norm(np.vstack([marks.forces, marks.beside_forces]), axis=1).max())
+
+
+def _arrows_at(scene: Scene, tips: FloatArray, forces: FloatArray, largest: float, colour: str) -> Shape:
+    """Arrows that end at points, by the sizes of their forces over the largest."""
+    sizes = np.linalg.norm(forces, axis=1)
+    lengths = scene.size * np.maximum(LONGEST * sizes / largest, SHORTEST)
+    starts = tips - forces * (lengths / sizes)[:, None]
     radii = np.full(len(tips), scene.size * (0.005 if len(tips) <= FEW else 0.0025))
-    return [arrows(starts, tips, radii, np.tile(rgb(colour), (len(tips), 1)))]
+    return arrows(starts, tips, radii, np.tile(rgb(colour), (len(tips), 1)))
 
 
 def _moment_rings(scene: Scene, marks: LoadMarks, colour: str) -> list[Shape]:

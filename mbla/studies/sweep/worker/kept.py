@@ -34,4 +34,4 @@ def keep_files(plan: Plan, task: Task, results: Results, status: str, output: Ou
     stem = Path(plan.deck).stem
     with OutputFolder(Path(plan.folder) / FOLDER / str(task.number), stem, force=True) as out:
         out.write_text(f"{stem}.sta", status)
-        write_results(results, out, output.vtu, output.frames, output.plots)
+        write_results(results, out, output)

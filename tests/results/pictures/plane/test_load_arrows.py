@@ -8,6 +8,8 @@ import numpy as np
 import pytest
 
 from mbla.arrays import FloatArray
+from mbla.model.model import TravelPosition
+from mbla.results.pictures.load_marks import OFF_PATH
 from mbla.results.pictures.options import PictureOptions
 from mbla.results.pictures.page import open_page
 from mbla.results.pictures.palette import LIVE_LOAD
@@ -22,14 +24,16 @@ OPTIONS = PictureOptions()
 
 
 @contextmanager
-def loaded(folder: Path, results: Results, loads: FloatArray) -> Iterator[tuple[Sheet, Scene]]:
+def loaded(
+    folder: Path, results: Results, loads: FloatArray, travel: TravelPosition | None = None
+) -> Iterator[tuple[Sheet, Scene]]:
     """A sheet with the arrows of loads alone."""
     scene = scene_of(results, results.cases[0], OPTIONS, "model")
     flat = flat_of(scene, OPTIONS, "model")
     assert flat is not None
     with open_page(folder / "page.svg", OPTIONS) as page:
         sheet = new_sheet(page, scene.size)
-        draw_loads(sheet, flat, scene, loads, ("push on a block",), "live load", LIVE_LOAD)
+        draw_loads(sheet, flat, scene, loads, ("push on a block",), "live load", LIVE_LOAD, travel)
         yield sheet, scene
 
 
@@ -52,6 +56,21 @@ def test_the_arrow_of_a_force_ends_where_it_enters_the_block(tmp_path: Path) -> 
         assert down[1] == pytest.approx([2.5, 2.0])
         assert down[1] - down[0] == pytest.approx([0.0, -LONGEST / 2 * scene.size])
         assert list(sheet.handles) == ["live load: push on a block"]
+
+
+@pytest.mark.parametrize(("behind", "seen"), [(1.0, True), (50.0, False)])
+def test_an_axle_off_the_path_is_drawn_unless_it_is_far_away(tmp_path: Path, behind: float, seen: bool) -> None:
+    """2 N on the first block, 4 N before it, in one scale: what does not act is pale, and does not shrink the rest."""
+    points, forces = np.array([[0.5, 0.5, 3.0], [-behind, 0.5, 3.0]]), np.array([[0, 0, -2.0], [0, 0, -4.0]])
+    vehicle = TravelPosition("train", 1, 1, points, np.array([0.0, -behind - 0.5]), forces, np.array([0, -1]))
+    loads = np.zeros((2, 6))
+    loads[0] = [0, 0, -2, *np.cross(points[0] - [0.5, 0.5, 1.0], forces[0])]
+    with loaded(tmp_path, row_of_blocks(2), loads, vehicle) as (sheet, scene):
+        found = arrows(sheet)
+        assert [tip.tolist() for _, tip in found] == [[0.5, 2.0], [-behind, 3.0]][: 1 + seen]
+        lengths = [float(np.linalg.norm(tip - start)) / scene.size for start, tip in found]
+        assert lengths == pytest.approx([LONGEST / 2, LONGEST][: 1 + seen])
+        assert list(sheet.handles) == ["live load: push on a block", OFF_PATH][: 1 + seen]
 
 
 def test_many_forces_have_short_arrows(tmp_path: Path) -> None:
