@@ -123,8 +123,13 @@ def test_no_load_factor_exceeds_the_associative_one(path: Path) -> None:
 def test_the_result_files_are_there(path: Path) -> None:
     stem, files = path.stem, outcome_of(path).files
     assert {f"{stem}.h5", f"{stem}.lst", f"{stem}.sta", f"{stem}.json"} <= set(files)
-    first = outcome_of(path).record["cases"][0]["name"]
-    assert (f"{stem}_{first}_blocks.vtu" in files) == deck_of(path).content.output.vtu
+    record, written = outcome_of(path).record, deck_of(path).content.output.vtu
+    positions = {position["case"] for series in record["series"] for position in series["positions"]}
+    full = {series["worst"]["case"] for series in record["series"]}
+    for case in record["cases"]:
+        in_full = case["name"] not in positions or case["name"] in full
+        assert (f"{stem}_{case['name']}_blocks.vtu" in files) == (written and in_full)
+    assert (f"{stem}_positions.csv" in files) == bool(positions)
 
 
 @pytest.fixture(scope="module")
