@@ -92,6 +92,19 @@ def thrust_of(model: Model, contacts: Contacts, contact_forces: FloatArray) -> T
     )
 
 
+OUTSIDE = 1.01
+"""eccentricity beyond which a resultant acts outside its joint, and not at the edge but for rounding"""
+
+
+def points_to_draw(contacts: Contacts, thrust: Thrust) -> FloatArray:
+    """Where resultants are drawn, (n_interfaces, 3) m: outside their joint at its edge; nan where it is not pressed.
+
+    Tension lets a force act metres beyond its joint, where its mark would shrink the structure and tell nothing.
+    """
+    arms = thrust.points - contacts.centroids
+    return np.asarray(contacts.centroids + arms / np.maximum(thrust.eccentricity, 1.0)[:, None])
+
+
 def point_friction_use(model: Model, contacts: Contacts, contact_forces: FloatArray) -> FloatArray:
     """Shear over what friction and cohesion allow at each contact point, (n_points,); nan where none is allowed."""
     allowed = allowed_at_points(model, contacts, contact_forces)

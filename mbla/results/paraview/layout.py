@@ -38,7 +38,7 @@ CELLS = {
     ANIMATION: "the same blocks after a finite motion, from as built (000) to as drawn; STEM_CASE.pvd plays them",
     "contacts": "contact points as vertices",
     "interfaces": "interfaces as polygons, by their outer boundary",
-    "thrust": "points of application of the resultants as vertices, thrust lines as lines between them",
+    "thrust": "points of application of resultants as vertices, outside a joint its edge; thrust lines between them",
     "hinges": "axes of interfaces that open about one, as lines where they stay closed; about a corner as points",
     "loads": "loads and reactions as vertices where they act",
     SUPPORTS: "ground planes as slabs under what stands on them, fixed blocks, guided blocks, as polyhedra",

@@ -8,6 +8,7 @@ import numpy as np
 
 from mbla.arrays import IntArray
 from mbla.model.geometry.meshio_files import write_mesh
+from mbla.results.collapse.thrust import points_to_draw
 from mbla.results.paraview.points import interface_displacements
 from mbla.results.paraview.scene import Scene
 
@@ -21,7 +22,7 @@ def has_thrust(scene: Scene) -> bool:
 
 
 def write_thrust_vtu(path: Path, scene: Scene) -> None:
-    """Points of application as vertices, thrust lines as chains of line cells between them.
+    """Points of application as vertices, thrust lines as chains of line cells between them; outside a joint its edge.
 
     Point data: ``resultant_force`` (on body b), ``normal_force``, ``shear_force``, ``torsion``, ``eccentricity``,
     ``friction_use``, ``torsion_use``, ``interface``, ``body_a``, ``body_b``, ``displacement``, ``result``. Cell data:
@@ -33,7 +34,7 @@ def write_thrust_vtu(path: Path, scene: Scene) -> None:
     shown = np.flatnonzero(thrust.carried)
     row = np.full(len(thrust.carried), -1)
     row[shown] = np.arange(len(shown))
-    points = thrust.points[shown]
+    points = points_to_draw(scene.contacts, thrust)[shown]
     segments, numbers = _segments(scene.lines, row)
     blocks = [("vertex", np.arange(len(shown))[:, None]), ("line", segments)]
     kinds = [np.full(len(shown), POINT, dtype=np.int8), np.full(len(segments), LINE, dtype=np.int8)]

@@ -18,7 +18,7 @@ from mbla.results.collapse.force_freedom import ForceFreedom, force_freedom
 from mbla.results.collapse.interface_modes import InterfaceMotion
 from mbla.results.collapse.motion import drawn_motion, moved_contact_points, moved_vertices
 from mbla.results.collapse.rigid_parts import rigid_parts
-from mbla.results.collapse.thrust import Thrust, thrust_lines, thrust_of
+from mbla.results.collapse.thrust import Thrust, points_to_draw, thrust_lines, thrust_of
 from mbla.results.collapse.torsion_use import torsion_use
 from mbla.results.outcome import result_of
 from mbla.results.pictures.geometry import ground_slab
@@ -28,6 +28,8 @@ from mbla.results.words.mechanism_words import mechanism_summary
 from mbla.results.words.text import counted, number
 from mbla.results.words.verdict_words import verdict
 from mbla.solution.solution import Mechanics, Status
+
+OUTSIDE_WORDS = "outside the joint (tension), drawn at its edge"
 
 
 @dataclass(frozen=True)
@@ -147,6 +149,12 @@ class Scene:
         return None if forces is None else thrust_of(self.model, self.contacts, forces)
 
     @cached_property
+    def thrust_points(self) -> FloatArray:
+        """Where resultants are drawn, (n_interfaces, 3) m; those outside their joint at its edge."""
+        assert self.thrust is not None  # asked for where there are forces
+        return points_to_draw(self.contacts, self.thrust)
+
+    @cached_property
     def joint_use(self) -> FloatArray | None:
         """Shear and torsion over what each interface carries of both, (n_interfaces,); None without forces."""
         forces = self.forces[0]
@@ -168,7 +176,7 @@ class Scene:
         """Points of each line of thrust in their order, (n, 3) m each."""
         if self.thrust is None:
             return []
-        return [self.thrust.points[row] for row in thrust_lines(self.model, self.contacts, self.thrust)]
+        return [self.thrust_points[row] for row in thrust_lines(self.model, self.contacts, self.thrust)]
 
     @cached_property
     def slabs(self) -> list[FloatArray]:

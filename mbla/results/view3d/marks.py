@@ -17,7 +17,7 @@ from mbla.model.model import Model
 from mbla.results.collapse.collapse import Collapse
 from mbla.results.collapse.hinge_lines import HingeLine
 from mbla.results.collapse.interface_modes import InterfaceMode
-from mbla.results.collapse.thrust import Thrust, thrust_lines, thrust_of
+from mbla.results.collapse.thrust import OUTSIDE, Thrust, points_to_draw, thrust_lines, thrust_of
 from mbla.results.pictures.geometry import hinge_axes, interface_sides
 from mbla.results.words.text import counted, number
 from mbla.solution.solution import ContactMode, Mechanics
@@ -145,7 +145,7 @@ def force_marks(model: Model, contacts: Contacts, forces: FloatArray, size: floa
         "line of thrust",
         THRUST,
         8,
-        thrust.points[used],
+        points_to_draw(contacts, thrust)[used],
         contacts.bodies[used],
         row.reshape(pairs.shape),
         tuple(texts[i] for i in used.tolist()),
@@ -155,13 +155,13 @@ def force_marks(model: Model, contacts: Contacts, forces: FloatArray, size: floa
 
 
 def _resultants(model: Model, contacts: Contacts, thrust: Thrust, texts: list[str], size: float) -> Mark:
-    """Arrows with their middle at the point of application: the force on the lower of both bodies."""
+    """Arrows with their middle at the point of application or the edge next to it: the force on the lower of both."""
     strengths = np.linalg.norm(thrust.forces, axis=1)
     largest = strengths[thrust.carried].max(initial=0.0)
     rows = np.flatnonzero(thrust.carried & (strengths > SMALLEST * largest))
     lower = lower_side(model, contacts)[rows]
     steps = LONGEST * size / (largest or 1.0) * np.where(lower == 1, 1.0, -1.0)[:, None] * thrust.forces[rows]
-    points = arrows(thrust.points[rows] - steps / 2, steps)
+    points = arrows(points_to_draw(contacts, thrust)[rows] - steps / 2, steps)
     count = points.shape[1]
     bodies = contacts.bodies[rows, lower].tolist()
     told = [f"{texts[row]}; force on {model.body_name(body)}" for row, body in zip(rows, bodies, strict=True)]
@@ -201,6 +201,7 @@ def _force_texts(model: Model, contacts: Contacts, thrust: Thrust) -> list[str]:
     columns = (thrust.normal_forces.tolist(), thrust.shear_forces.tolist(), thrust.eccentricity.tolist())
     return [
         f"{name}: normal force {number(normal)} {unit}, shear {number(shear)} {unit}, eccentricity {number(off)}"
+        + (": outside the joint, drawn at its edge" if off > OUTSIDE else "")
         for name, normal, shear, off in zip(names, *columns, strict=True)
     ]
 

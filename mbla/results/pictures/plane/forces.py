@@ -5,10 +5,11 @@ from __future__ import annotations
 import numpy as np
 
 from mbla.arrays import FloatArray
+from mbla.results.collapse.thrust import OUTSIDE
 from mbla.results.pictures.palette import HINGE, INK, SLIDE, THRUST, shade
 from mbla.results.pictures.plane.flat import Flat
 from mbla.results.pictures.plane.sheet import Sheet
-from mbla.results.pictures.scene import Scene
+from mbla.results.pictures.scene import OUTSIDE_WORDS, Scene
 from mbla.results.words.text import number
 
 MIDDLE_THIRD, EDGE = 1 / 3, 0.99
@@ -29,7 +30,7 @@ def draw_forces(sheet: Sheet, flat: Flat, scene: Scene) -> None:
     if thrust is None or use is None or not thrust.carried.any():
         return
     rows = np.flatnonzero(thrust.carried)
-    points, vectors = flat.project(thrust.points[rows]), flat.project(thrust.forces[rows])
+    points, vectors = flat.project(scene.thrust_points[rows]), flat.project(thrust.forces[rows])
     sizes = np.linalg.norm(vectors, axis=1)
     side = float(np.median(np.sqrt(scene.model.blocks.volumes / _depths(scene, flat))))
     half = LENGTH * min(side, 0.2 * sheet.size) / 2 * vectors / sizes[:, None]
@@ -75,10 +76,14 @@ def _mark_eccentric(sheet: Sheet, points: FloatArray, eccentricity: FloatArray, 
         sheet.dots(points[outside], 8.0 if few else 3.5, facecolors="white", edgecolors=HINGE, **style)
         label = "outside the middle third"
         sheet.name(label, marker="o", markerfacecolor="white", markeredgecolor=HINGE, **look)
-    edge = eccentricity >= EDGE
+    edge = (eccentricity >= EDGE) & (eccentricity <= OUTSIDE)
     if edge.any():
         sheet.dots(points[edge], 9.0 if few else 4.5, facecolors=HINGE, edgecolors=INK, linewidths=0.8, zorder=6)
         sheet.name("at the edge of the joint", marker="o", markerfacecolor=HINGE, markeredgecolor=INK, **look)
+    beyond = eccentricity > OUTSIDE
+    if beyond.any():
+        sheet.dots(points[beyond], 10.0 if few else 5.0, facecolors="white", edgecolors=HINGE, marker="D", **style)
+        sheet.name(OUTSIDE_WORDS, marker="D", markerfacecolor="white", markeredgecolor=HINGE, **look)
     used = use >= USED
     if used.any():
         sheet.dots(

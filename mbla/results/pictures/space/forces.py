@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
-from mbla.results.collapse.thrust import Thrust
-from mbla.results.pictures.palette import FIXED_BLOCK, REST, SKY, THRUST
-from mbla.results.pictures.scene import Scene
+from mbla.results.collapse.thrust import OUTSIDE, Thrust
+from mbla.results.pictures.palette import FIXED_BLOCK, PURPLE, REST, SKY, THRUST
+from mbla.results.pictures.scene import OUTSIDE_WORDS, Scene
 from mbla.results.pictures.space.drawing import ColourScale, Drawing
 from mbla.results.pictures.space.loads import live_load_arrows
 from mbla.results.pictures.space.shapes import Faces, Shape, rgb, rods
@@ -48,6 +48,8 @@ def forces_drawing(scene: Scene) -> Drawing:
         few = int(thrust.carried.sum()) <= MOST_FACES
         marks += [eccentricity_faces(scene, thrust)] * few + [resultant_rods(scene, thrust, few)]
         legend += [("resultant", SKY)] * few
+        outside = thrust.eccentricity[drawn_resultants(thrust)] > OUTSIDE
+        legend += [(OUTSIDE_WORDS, PURPLE)] * bool(outside.any())
         notes = (_sections(scene, thrust),)
         lines = thrust_tubes(scene)
         if lines is not None:
@@ -76,7 +78,7 @@ def eccentricity_faces(scene: Scene, thrust: Thrust) -> Faces:
 
 
 def resultant_rods(scene: Scene, thrust: Thrust, plain: bool) -> Faces:
-    """Rods along resultants, through their points of application, with sections in proportion to the forces.
+    """Rods along resultants, through the points where they are drawn, with sections in proportion to the forces.
 
     They are as long as the blocks on both sides are large, so that they do not run into each other.
 
@@ -89,7 +91,9 @@ def resultant_rods(scene: Scene, thrust: Thrust, plain: bool) -> Faces:
     usual = float(np.quantile(sizes[rows], USUAL))
     radii = np.minimum(THICKEST * scene.size, 0.25 * np.median(half)) * np.sqrt(sizes[rows] / usual)
     colours = np.tile(rgb(SKY), (len(rows), 1)) if plain else ramp(thrust.eccentricity[rows])
-    return rods(thrust.points[rows] - step, thrust.points[rows] + step, radii, colours)
+    colours[thrust.eccentricity[rows] > OUTSIDE] = rgb(PURPLE)
+    points = scene.thrust_points[rows]
+    return rods(points - step, points + step, radii, colours)
 
 
 def _block_size(scene: Scene, rows: IntArray) -> FloatArray:

@@ -8,7 +8,7 @@ import pytest
 
 from mbla.results.pictures.palette import THRUST, rgb
 from mbla.results.pictures.plane.forces import draw_forces
-from mbla.results.pictures.scene import Scene, scene_of
+from mbla.results.pictures.scene import OUTSIDE_WORDS, Scene, scene_of
 from tests.results.pictures.plane.sheets import OPTIONS, drawn_alone
 from tests.results.pictures.rows_and_columns import column_of_blocks, row_of_blocks
 
@@ -38,6 +38,16 @@ def test_eccentric_forces_are_marked_where_they_act(tmp_path: Path, right: float
         assert marks == [mark] * bool(mark)
         dots = [each.get_offsets().tolist() for each in sheet.axes.collections[1:]]
         assert dots == [[pytest.approx([right, 0.0])]] * bool(mark)
+
+
+def test_a_force_outside_its_joint_is_drawn_at_the_edge(tmp_path: Path) -> None:
+    """12 N on the right edge less 8 N of tension on the left act at x = 3, two widths off: so far the sheet must not
+    reach, and the mark is another than that of a force at the edge."""
+    with drawn_alone(tmp_path, pressed(3.0), draw_forces) as sheet:
+        assert [name for name in sheet.handles if not name.endswith(" N")] == [OUTSIDE_WORDS]
+        (dots,) = [each.get_offsets().tolist() for each in sheet.axes.collections[1:]]
+        assert dots == [pytest.approx([1.0, 0.0])]
+        assert np.vstack(sheet.drawn)[:, 0].max() == pytest.approx(1.0)
 
 
 @pytest.mark.parametrize(("shear", "used"), [(0.99, False), (1.0, True)])

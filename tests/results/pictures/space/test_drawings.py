@@ -10,8 +10,8 @@ import pytest
 
 from mbla.arrays import FloatArray
 from mbla.results.pictures.options import PictureOptions
-from mbla.results.pictures.palette import SLIDE, THRUST
-from mbla.results.pictures.scene import Scene, scene_of
+from mbla.results.pictures.palette import PURPLE, SLIDE, THRUST
+from mbla.results.pictures.scene import OUTSIDE_WORDS, Scene, scene_of
 from mbla.results.pictures.space import can_draw
 from mbla.results.pictures.space.camera import fitted
 from mbla.results.pictures.space.forces import forces_drawing
@@ -69,6 +69,16 @@ def test_a_chain_of_blocks_has_a_tube_along_its_line_of_thrust() -> None:
     (tubes,) = of_colour(drawing.marks, THRUST)
     ends = tubes.points.reshape(2, 4, 12, 3).mean(axis=2)[:, 1:3]
     assert ends == pytest.approx(np.array([[[0.5, 0.5, 1], [0.6, 0.5, 2]], [[0.6, 0.5, 2], [0.8, 0.5, 3]]]))
+
+
+def test_a_force_outside_its_joint_is_drawn_at_the_edge() -> None:
+    """The second acts at x = 3, two widths off; rods and line of thrust stay within the column."""
+    drawing = forces_drawing(scene(column_of_blocks(0.5, 3.0, 0.5), "forces"))
+    assert (OUTSIDE_WORDS, PURPLE) in drawing.legend
+    (tubes,) = of_colour(drawing.marks, THRUST)
+    assert tubes.points.reshape(2, 4, 12, 3).mean(axis=2)[0, 2] == pytest.approx([1, 0.5, 2])
+    (rod,) = (each for each in drawing.marks if isinstance(each, Faces) and (each.colours == rgb(PURPLE)).any())
+    assert rod.points[:, 0].max() < 1.2
 
 
 def test_where_every_force_is_drawn_only_the_largest_is_told() -> None:
