@@ -13,6 +13,7 @@ from typing import Any
 from mbla.deck import read_deck, read_deck_text
 from mbla.deck.deck import Deck
 from mbla.errors import FileError, LimitError, UsageError
+from mbla.failures import StoppedRun
 from mbla.results.hdf5.result_file import read_results_hdf5
 from mbla.results.notebook.run import Run
 from mbla.results.results import Results
@@ -77,6 +78,8 @@ def run(
     options = RunOptions(folder, overrides, names, force, threads, expected)
     try:
         return Run(_solved(_read(deck, overrides), options, progress, started))
+    except StoppedRun as run:
+        raise run.cause from None
     except MemoryError as error:
         raise LimitError("out-of-memory", "out of memory") from error
     except OSError as error:

@@ -21,19 +21,21 @@ from mbla import result_commands, study_commands, sweep_commands
 from mbla.arguments import build_parser, wants_json
 from mbla.collector import loading
 from mbla.errors import DeckError, FileError, MblaError, UsageError
-from mbla.failures import failure_record, lines_of, words_of
+from mbla.failures import SIGNALS, StoppedRun, failure_record, lines_of, words_of
 from mbla.given_deck import read_given_deck, refuse_unfit_name, run_options
 from mbla.memory_limit import refuse_too_low_limits
 from mbla.run_options import RunOptions
-from mbla.signals import Terminated
 from mbla.streams import drop_output, prepare_streams
 from mbla.terminal import clear_line, rewrite_line, say
 from mbla.threads import limit_threads
 
 if TYPE_CHECKING:
+    from mbla.deck import Deck
+    from mbla.results.results import Results
     from mbla.run_deck import Progress
 
 WORST_FIRST = (1, 6, 7, 3, 4, 5)
+FIRST_OF_SIGNALS = 128
 ABOUT = {
     "show": {"result": "result"},
     "verify": {"result": "result"},
@@ -61,7 +63,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except BrokenPipeError:  # the reader of our output went away: not our error, but the output is not whole
         drop_output()
         return FileError.exit_status
-    except (Exception, KeyboardInterrupt, Terminated) as error:
+    except (Exception, *SIGNALS) as error:
         if isinstance(error, OSError) and error.filename is None:
             drop_output()
         about = ABOUT.get(getattr(options, "command", ""), {})
@@ -78,27 +80,39 @@ def _run(options: argparse.Namespace) -> int:
     def one(deck: Path) -> int:
         content, seconds = read_given_deck(deck, run)
         with loading():
-            from mbla.results.records.json_record import json_line, results_json
-            from mbla.results.words.listing import listing
-            from mbla.results.words.summary import summary_lines
             from mbla.run_deck import run_and_write
 
-        results = run_and_write(content, run, progress, time.perf_counter() - seconds)
+        try:
+            results = run_and_write(content, run, progress, time.perf_counter() - seconds)
+        except StoppedRun as run_stopped:
+            clear_line(progress)
+            failed(run_stopped.cause, {}, as_json=False)
+            _tell(options, content, run_stopped.results, failure_record(run_stopped.cause, {"deck": deck}))
+            return run_stopped.results.exit_code
         clear_line(progress)
-        record = json_line(results_json(results)) if options.json else ""
-        if options.verbose:
-            words = listing(results, every_position=content.content.output.positions == "all")
-        elif not options.quiet:
-            words = "\n".join([*summary_lines(results), f"  files: {run.folder_for(deck)}/", ""])
-        else:
-            words = ""
-        if options.json:
-            print(record, flush=True)
-        print(words, end="", file=sys.stderr if options.json else sys.stdout, flush=True)
+        _tell(options, content, results, {}, f"  files: {run.folder_for(deck)}/")
         return results.exit_code
 
     _refuse_shared_folder(options.decks, run)
     return _each_deck(options, one, progress)
+
+
+def _tell(options: argparse.Namespace, deck: Deck, results: Results, failure: Mapping[str, Any], *files: str) -> None:
+    """The results of a deck as they are wanted; of a stopped run with what stopped it."""
+    with loading():
+        from mbla.results.records.json_record import json_line, results_json
+        from mbla.results.words.listing import listing
+        from mbla.results.words.summary import summary_lines
+
+    record = json_line(results_json(results) | failure) if options.json else ""
+    words = ""
+    if options.verbose:
+        words = listing(results, every_position=deck.content.output.positions == "all")
+    elif not options.quiet:
+        words = "\n".join([*summary_lines(results), *files, ""])
+    if options.json:
+        print(record, flush=True)
+    print(words, end="", file=sys.stderr if options.json else sys.stdout, flush=True)
 
 
 def _check(options: argparse.Namespace) -> int:
@@ -175,7 +189,7 @@ def _refuse_shared_folder(decks: Sequence[Path], options: RunOptions) -> None:
 
 
 def _each_deck(options: argparse.Namespace, one: Callable[[Path], int], progress: Progress | None) -> int:
-    """Run one deck after the other; a deck that fails does not stop the next."""
+    """Run one deck after the other; a deck that fails does not stop the next, a signal does."""
     codes = []
     for deck in options.decks:
         try:
@@ -183,9 +197,11 @@ def _each_deck(options: argparse.Namespace, one: Callable[[Path], int], progress
             codes.append(one(deck))
         except BrokenPipeError:
             raise
-        except Exception as error:
+        except (Exception, *SIGNALS) as error:
             clear_line(progress)
             codes.append(failed(error, {"deck": deck}, options.json))
+        if codes[-1] >= FIRST_OF_SIGNALS:
+            return codes[-1]
     return next((code for code in WORST_FIRST if code in codes), codes[0] if len(set(codes)) == 1 else max(codes))
 
 

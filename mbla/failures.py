@@ -4,17 +4,33 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from mbla import __version__
 from mbla.errors import DeckError, FileError, LimitError, MblaError
 from mbla.signals import Terminated
+
+if TYPE_CHECKING:
+    from mbla.results.results import Results
 
 SIGNALS: dict[type[BaseException], tuple[int, str]] = {
     KeyboardInterrupt: (130, "interrupted"),
     Terminated: (143, "terminated"),
 }
 """exit status and word of the signals that end a command"""
+
+
+class StoppedRun(BaseException):
+    """A run that ended before its end when load cases were done.
+
+    cause   : what ended it
+    results : of those that were done; ``files`` has the names of their files
+    """
+
+    def __init__(self, cause: BaseException, results: Results) -> None:
+        self.cause = cause
+        self.results = results
+        super().__init__(cause)
 
 
 def identifiers_of(error: BaseException) -> list[str]:

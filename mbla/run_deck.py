@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
 
@@ -28,7 +28,7 @@ from mbla.program.reductions.steps import size_of, told_apart
 from mbla.program.remarks import program_notices
 from mbla.results.files import OutputFolder
 from mbla.results.provenance import collect_provenance
-from mbla.results.results import CaseResult, DeckRecord, Results
+from mbla.results.results import CaseResult, DeckRecord, Results, now
 from mbla.results.sta import StatusFile
 from mbla.results.write import write_results
 from mbla.run_options import RunOptions as RunOptions
@@ -39,6 +39,7 @@ from mbla.solution.settings import SolverSettings, solver_settings
 from mbla.solution.settlement import posed
 from mbla.solution.solution import Checks, IterationRecord, Solution
 from mbla.solution.tilt import solve_tilt
+from mbla.stopped_run import leaves_nothing, stopped
 from mbla.stopwatch import Stopwatch, stage, timing
 
 Progress = Callable[[str, IterationRecord], None]
@@ -57,6 +58,8 @@ def run(deck_path: Path, options: RunOptions, progress: Progress | None = None) 
     ------
     DeckError, UsageError, FileError, LimitError, SolverError
         nothing is written then, and an earlier result stays as it was
+    StoppedRun
+        of whatever else ends it when load cases are done: these are written beside it (:mod:`mbla.stopped_run`)
     """
     started = time.perf_counter()
     return run_and_write(read_deck(deck_path, options.overrides), options, progress, started)
@@ -69,17 +72,39 @@ def run_and_write(deck: Deck, options: RunOptions, progress: Progress | None, st
 
     started : when reading began, by ``time.perf_counter``
     """
-    stem = deck.path.stem
-    with OutputFolder(options.folder_for(deck.path), stem, options.force) as out:
-        status_file = StatusFile(out.open_live(f"{stem}.sta"), title_of(deck))
-        results = solve_deck(deck, options, status_file, progress, started)
-        return write_results(results, out, deck.content.output)
+    stem, folder, output = deck.path.stem, options.folder_for(deck.path), deck.content.output
+    out = OutputFolder(folder, stem, options.force)
+    results: Results | None = None
+    try:
+        with out:
+            status_file = StatusFile(out.open_live(f"{stem}.sta"), title_of(deck))
+            for so_far in solved_case_by_case(deck, options, status_file, progress, started):
+                results = so_far
+            assert results is not None
+            return write_results(results, out, output)
+    except BaseException as cause:
+        if out.in_place or leaves_nothing(cause):
+            raise
+        if results is None or not results.cases:
+            cause.add_note("no load case was done")
+            raise
+        raise stopped(results, cause, out, output) from cause
 
 
 def solve_deck(
     deck: Deck, options: RunOptions, status_file: StatusFile, progress: Progress | None, started: float
 ) -> Results:
     """The stages from model to verification for every load case asked for; writes nothing but the status file."""
+    *_, results = solved_case_by_case(deck, options, status_file, progress, started)
+    return results
+
+
+def solved_case_by_case(
+    deck: Deck, options: RunOptions, status_file: StatusFile, progress: Progress | None, started: float
+) -> Iterator[Results]:
+    """As ``solve_deck``: the results so far, before any load case is solved and after each of them."""
+    if options.expected and not deck.content.expected:
+        raise UsageError("no-expectations", f"{deck.path}: has no expected section to compare with")
     model = build_model(deck)
     load_cases = select_cases(model, options.cases)
     read = time.perf_counter()
@@ -89,22 +114,46 @@ def solve_deck(
     settings = solver_settings(deck.analysis, options.threads)
     with timing() as stopwatch:
         model, load_cases = with_settlements(model, contacts, load_cases, settings)
-        cases = [solve_case(deck, model, contacts, case, settings, status_file, progress) for case in load_cases]
-    solved = time.perf_counter()
-    model = with_loads_found(model, cases)
-    unexpected = differences_from_expected(deck, cases) if options.expected else []
-    return Results(
-        deck=deck_record(deck),
-        model=model,
-        contacts=contacts,
-        cases=tuple(cases),
-        notices=(*notices_of(deck, model, contacts), *unexpected),
-        provenance=collect_provenance(),
-        settings=settings_in_words(deck, settings),
-        time={"read": read - started, "contacts": found - read, "solve": solved - found}
-        | parts_of_solve(cases, stopwatch),
-        exit_code=exit_code(cases, unexpected),
+        results = Results(
+            deck=deck_record(deck),
+            model=model,
+            contacts=contacts,
+            cases=(),
+            notices=notices_of(deck, model, contacts),
+            provenance=collect_provenance(),
+            settings=settings_in_words(deck, settings),
+            time={"read": read - started, "contacts": found - read},
+            exit_code=0,
+            not_done=tuple(case.name for case in load_cases),
+        )
+        yield results
+        for case in load_cases:
+            solved = solve_case(deck, model, contacts, case, settings, status_file, progress)
+            results = with_case(results, solved, time.perf_counter() - found, stopwatch)
+            yield as_expected(results, deck) if options.expected and not results.not_done else results
+
+
+def with_case(results: Results, case: CaseResult, seconds: float, stopwatch: Stopwatch) -> Results:
+    """Results so far with one load case more.
+
+    seconds : since solving began
+    """
+    cases = (*results.cases, case)
+    return replace(
+        results,
+        model=with_loads_found(results.model, [case]),
+        cases=cases,
+        time=results.time | {"solve": seconds} | parts_of_solve(cases, stopwatch),
+        exit_code=exit_code(cases),
+        created=now(),
+        not_done=results.not_done[1:],
     )
+
+
+def as_expected(results: Results, deck: Deck) -> Results:
+    """Results with a warning for every figure that is not what the deck expects."""
+    found = [Notice("warning", "not-as-expected", text) for text in differences(results.cases, deck.content.expected)]
+    return replace(results, notices=(*results.notices, *found), exit_code=exit_code(results.cases, found))
 
 
 def parts_of_solve(cases: Sequence[CaseResult], stopwatch: Stopwatch) -> dict[str, float]:
@@ -244,11 +293,3 @@ def deck_record(deck: Deck) -> DeckRecord:
     """The deck as results keep it."""
     sources = tuple((source.path.name, source.text) for source in deck.sources)
     return DeckRecord(deck.path.name, sources, deck.overrides, deck.sha256)
-
-
-def differences_from_expected(deck: Deck, cases: Sequence[CaseResult]) -> list[Notice]:
-    """Where the results are not what the deck expects; UsageError if it expects nothing."""
-    expected = deck.content.expected
-    if not expected:
-        raise UsageError("no-expectations", f"{deck.path}: has no expected section to compare with")
-    return [Notice("warning", "not-as-expected", difference) for difference in differences(cases, expected)]

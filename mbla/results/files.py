@@ -3,7 +3,8 @@
 Every file is written under a temporary name in the folder itself (a rename is atomic only inside one file system),
 flushed to the disk and renamed into place when the run has succeeded.
 
-A run that fails or is interrupted puts the earlier files back; signals wait while it does that, and while it puts the
+A run that fails or is interrupted puts the earlier files back (what it had done goes into files of other names,
+:mod:`mbla.stopped_run`, which the next whole result removes); signals wait while it does that, and while it puts the
 new ones in place. One that is killed outright cannot; the next run in the folder does it then
 (:mod:`mbla.results.leftovers`). Two runs of one deck into one folder exclude each other (:mod:`mbla.results.lock`).
 """
@@ -18,7 +19,7 @@ import re
 from collections.abc import Iterator
 from pathlib import Path
 from types import TracebackType
-from typing import TextIO
+from typing import Any, TextIO
 
 from mbla.errors import FileError
 from mbla.results.disk import file_errors, flush_to_disk, missing_folders, remove_folders
@@ -68,6 +69,7 @@ class OutputFolder:
         self._stale: tuple[str, ...] = ()
         self._process = 0
         self._marked = False
+        self.in_place = False
         self._locks = contextlib.ExitStack()
 
     @property
@@ -155,6 +157,8 @@ class OutputFolder:
         if not self.beside:
             self._refuse_earlier_result()
             self._stale = earlier_files(self.folder, self.stem)
+            if is_partial(self.folder, partial_stem(self.stem)):
+                self._stale += earlier_files(self.folder, partial_stem(self.stem))
 
     def _temporary(self, kind: str, name: str) -> Path:
         return temporary_path(self.folder / name, kind)
@@ -218,6 +222,7 @@ class OutputFolder:
         with file_errors(self.folder):
             flush_to_disk(self.folder)
             self._marker().unlink(missing_ok=True)  # from here on the new files are the valid ones
+        self.in_place = True
         for name in self._aside:
             with contextlib.suppress(OSError):  # the next run removes it
                 self._temporary("earlier", name).unlink(missing_ok=True)
@@ -260,18 +265,33 @@ class OutputFolder:
 
 def earlier_files(folder: Path, stem: str) -> tuple[str, ...]:
     """Files that an earlier result of this deck lists as its own: plain names that start with the stem, no others."""
-    record = folder / f"{stem}.json"
-    try:
-        with file_errors(record):
-            text = record.read_bytes() if os.path.lexists(record) else b""
-        listed = json.loads(text)["files"]
-    except (ValueError, KeyError, TypeError, RecursionError):
-        return ()
+    listed = _record(folder, stem).get("files")
     own = re.compile(re.escape(stem) + OWN_FILES)
     names = (
         [name for name in listed if isinstance(name, str) and own.fullmatch(name)] if isinstance(listed, list) else []
     )
     return tuple(name for name in names if (folder / name).is_file() and not (folder / name).is_symlink())
+
+
+def partial_stem(stem: str) -> str:
+    """What the files of a stopped run begin with, in the place of the stem of its deck."""
+    return f"{stem}.partial"
+
+
+def is_partial(folder: Path, stem: str) -> bool:
+    """Whether the result of that stem is one of a stopped run."""
+    return _record(folder, stem).get("complete") is False
+
+
+def _record(folder: Path, stem: str) -> dict[str, Any]:
+    """The JSON record of an earlier result; empty where there is none that can be read."""
+    path = folder / f"{stem}.json"
+    try:
+        with file_errors(path):
+            found = json.loads(path.read_bytes() if os.path.lexists(path) else b"")
+    except (ValueError, RecursionError):
+        return {}
+    return found if isinstance(found, dict) else {}
 
 
 def _try_writing(folder: Path, trial: Path) -> None:

@@ -46,6 +46,8 @@ class Results:
     exit_code  : exit status of the run
     created    : date of the run, UTC, ISO 8601
     files      : names of the files that were written for it, in its folder
+    complete   : whether the run came to its end
+    not_done   : load cases that it was asked for and did not come to
     """
 
     deck: DeckRecord
@@ -59,6 +61,8 @@ class Results:
     exit_code: int
     created: str = field(default_factory=now)
     files: tuple[str, ...] = ()
+    complete: bool = True
+    not_done: tuple[str, ...] = ()
 
     def case(self, name: str) -> CaseResult:
         """The case of that name; KeyError if there is none."""

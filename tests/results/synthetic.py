@@ -231,7 +231,8 @@ def full_results() -> Results:
     contacts = replace(results.contacts, solid_of_block=np.arange(len(results.model.blocks)))
     model = full_model(results.model)
     full = replace(case, load_case=model.load_cases[0], solution=full_solution(case.solution), checks=checks)
-    return replace(results, model=model, contacts=contacts, cases=(full, results.cases[1]))
+    cases = (full, results.cases[1])
+    return replace(results, model=model, contacts=contacts, cases=cases, complete=False, not_done=("slide",))
 
 
 def full_solution(solution: Solution) -> Solution:

@@ -12,6 +12,10 @@ def _status(number: int, title: str, meaning: str, cause: str, remedy: str) -> E
 
 
 _NO_FACTOR = "No load factor: nothing was computed."
+_STOPPED = (
+    "Load cases that were done before are in STEM.partial.h5, .lst and .json; the others have no load factor. An "
+    "earlier result stays as it was."
+)
 
 OF_EXIT = (
     _status(
@@ -25,7 +29,7 @@ OF_EXIT = (
     _status(
         1,
         "Internal error: a defect of the program.",
-        f"{_NO_FACTOR} An earlier result stays as it was.",
+        _STOPPED,
         "Something that the program does not expect of itself.",
         "Report it with the deck; MBLA_TRACEBACK=1 in the environment shows where it arose.",
     ),
@@ -86,14 +90,14 @@ OF_EXIT = (
     _status(
         130,
         "Interrupted from the keyboard.",
-        f"{_NO_FACTOR} An earlier result stays as it was.",
+        _STOPPED,
         "Ctrl-C (SIGINT).",
         "Run again; a sweep goes on with --resume, its finished points are in the journal.",
     ),
     _status(
         143,
         "Terminated by a signal.",
-        f"{_NO_FACTOR} An earlier result stays as it was.",
+        _STOPPED,
         "SIGTERM, mostly of a batch system at its time limit.",
         "Run again with more time, or give --time-limit below that of the batch system; a sweep goes on with --resume.",
     ),

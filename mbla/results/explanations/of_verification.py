@@ -263,6 +263,15 @@ OF_PROOFS = (
         _REPORT,
     ),
     Explanation(
+        "run-stopped",
+        "warning",
+        "The result file is of a run that was stopped: it has the load cases that were done before.",
+        "Their figures are as good as those of a whole run. mbla verify returns 4, as load cases are missing.",
+        "A signal (Ctrl-C, a batch system at its time limit), too little memory or a defect of the program ended it.",
+        "Run the deck again: a whole result takes the place of STEM.partial.h5, .lst and .json. mbla run --case solves "
+        "single load cases.",
+    ),
+    Explanation(
         "deck-not-rebuilt",
         "notice",
         "mbla verify did not build the model of a result file again from the deck in it.",

@@ -73,7 +73,7 @@ def root_attributes(results: Results) -> dict[str, str | int]:
         "mbla_version": results.provenance.get("mbla", __version__),
         "created": results.created,
         "deck_sha256": results.deck.sha256,
-        "complete": 1,
+        "complete": int(results.complete),
     }
 
 
@@ -93,6 +93,7 @@ def content_of(results: Results) -> Content:
         "provenance/stage_seconds": np.array(list(results.time.values()), dtype=float),
         "provenance/files": results.files,
         "provenance/exit_code": results.exit_code,
+        **({} if results.complete else {"provenance/not_done": results.not_done}),
     }
     for load_case in results.model.load_cases:
         content |= {f"cases/{load_case.name}/{key}": value for key, value in _loads(load_case).items()}

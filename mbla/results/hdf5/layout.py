@@ -20,7 +20,7 @@ ATTRIBUTES = {
     "mbla_version": "version of the program that ran the analysis",
     "created": "date of the run, UTC, ISO 8601; the only thing that differs between two runs of one deck and its times",
     "deck_sha256": "hash of the effective deck: sources and overrides",
-    "complete": "1; an incomplete file is never put in place",
+    "complete": "1; 0 of a run that was stopped: load cases that were done before",
 }
 """attributes of the root group"""
 
@@ -56,6 +56,7 @@ RUN_FIELDS: tuple[Field, ...] = (
     Field("provenance/stage_seconds", "float", ("stage",), "time", "time of each stage"),
     Field("provenance/files", "text", ("file",), "1", "names of the files of this run"),
     Field("provenance/exit_code", "int", (), "1", "exit status of the run"),
+    Field("provenance/not_done", "text", ("case",), "1", "load cases not done by a stopped run", part="stopped"),
 )
 """what the run itself left: remarks, versions, settings, times"""
 

@@ -36,6 +36,9 @@ def results_from(content: Content, attributes: dict[str, str | int]) -> Results:
     load_cases = {name: _load_case(name, _part(get, f"cases/{name}/")) for name in names}
     if len(load_cases) != len(names):
         raise ValueError("two load cases of one name")
+    complete = bool(attributes["complete"])
+    if complete is ("provenance/not_done" in get):
+        raise ValueError("whether the run came to its end")
     solved = [name for name in names if f"cases/{name}/status" in get]
     model, contacts = _model(_part(get, "model/"), tuple(load_cases.values())), _contacts(_part(get, "contacts/"))
     if not set(contacts.joint_names) <= set(model.joints):
@@ -66,6 +69,8 @@ def results_from(content: Content, attributes: dict[str, str | int]) -> Results:
         exit_code=get["provenance/exit_code"],
         created=str(attributes["created"]),
         files=tuple(get["provenance/files"]),
+        complete=complete,
+        not_done=() if complete else tuple(get["provenance/not_done"]),
     )
 
 

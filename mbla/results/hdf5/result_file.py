@@ -120,7 +120,7 @@ def read_results_hdf5(path: Path) -> Results:
     Raises
     ------
     FileError
-        The file cannot be read, is not an mbla result, has another layout version, is incomplete or damaged.
+        The file cannot be read, is not an mbla result, has another layout version or is damaged.
     """
     import h5py
 
@@ -322,8 +322,6 @@ def _read_attributes(file: h5py.File, path: Path) -> dict[str, str | int]:
             "old-result-file",
             f"{path}: layout version {version}, written by mbla {wrote}; this mbla reads version {VERSION}: {remedy}",
         )
-    if int(file.attrs["complete"]) != 1:
-        raise FileError("damaged-result-file", f"{path}: incomplete")
     return {
         name: int(file.attrs[name]) if name in ("version", "complete") else text_of(file.attrs[name])
         for name in ATTRIBUTES

@@ -72,8 +72,8 @@ class Run:
 
     @property
     def verified(self) -> bool:
-        """Whether every load case has a load factor that is verified in full."""
-        return bool(self.cases) and all(case.verified for case in self.cases)
+        """Whether the run is complete and every load case has a load factor that is verified in full."""
+        return self.records.complete and bool(self.cases) and all(case.verified for case in self.cases)
 
     @property
     def model(self) -> Model:

@@ -34,6 +34,9 @@ RUN = (
     Key("time.*", "number", "time of a stage: read, contacts, solve, write; a part of one after a slash", "time"),
     Key("files", "list", "names of the files of the run"),
     Key("files[]", "string", "a file"),
+    Key("complete", "boolean", "whether the run came to its end; false: cases are those that were done before"),
+    Key("not_done", "list", "load cases that a stopped run did not come to"),
+    Key("not_done[]", "string", "name of a load case"),
 )
 
 MODEL = (

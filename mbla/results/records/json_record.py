@@ -40,6 +40,8 @@ def results_json(results: Results, *, on_demand: bool = False) -> dict[str, Any]
         "notices": [notice_json(notice) for notice in notices_of(results)],
         "time": {stage: number(seconds) for stage, seconds in results.time.items()},
         "files": list(results.files),
+        "complete": results.complete,
+        "not_done": list(results.not_done),
     }
 
 
@@ -47,7 +49,7 @@ def check_json(results: Results, needs: Mapping[str, CaseNeeds]) -> dict[str, An
     """The record of a check: no cases; ``needs`` says by load case what reaches the solver."""
     report = results.contacts.report
     record = results_json(results)
-    for key in ("cases", "series", "files"):
+    for key in ("cases", "series", "files", "complete", "not_done"):
         del record[key]
     record["model"] |= {
         "load_cases": [case.name for case in results.model.load_cases],

@@ -81,8 +81,8 @@ def verification_lines(results: Results, disagreements: Sequence[str]) -> list[s
     lines += heading("Summary")
     lines += [line for case in results.cases for line in entry(case.load_case.name, verdict(results.model, case))]
     lines += [line for text in disagreements for line in sentence(f"differs: {text}")]
-    not_built = [notice.message for notice in results.notices if notice.identifier == "deck-not-rebuilt"]
-    lines += [line for text in not_built for line in sentence(text)]
+    of_file = [notice.message for notice in results.notices if notice.identifier in ("deck-not-rebuilt", "run-stopped")]
+    lines += [line for text in of_file for line in sentence(text)]
     if not disagreements:
         lines += sentence("the file agrees with what was recomputed")
     return lines

@@ -88,12 +88,6 @@ def test_an_older_version_says_who_wrote_it_and_what_to_do(path: Path) -> None:
     assert "run the deck again" in words
 
 
-def test_incomplete_file(path: Path) -> None:
-    with changing(path) as file:
-        file.attrs["complete"] = 0
-    assert "incomplete" in refused(path)
-
-
 @pytest.mark.parametrize(
     ("spoil", "words"),
     [

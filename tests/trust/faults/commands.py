@@ -161,6 +161,16 @@ def content(folder: Path) -> dict[str, bytes]:
     return {path.name: path.read_bytes() for path in sorted(folder.iterdir())} if folder.is_dir() else {}
 
 
+PARTIAL = ("block.partial.h5", "block.partial.lst", "block.partial.json")
+
+
+def without_partial(found: dict[str, bytes]) -> dict[str, bytes]:
+    """Files of a folder without those that a stopped run left, which are all there or none."""
+    left = {name: data for name, data in found.items() if name not in PARTIAL}
+    assert len(found) - len(left) in (0, len(PARTIAL))
+    return left
+
+
 def hidden(folder: Path) -> list[str]:
     """Temporaries and locks in a folder."""
     return [name for name in content(folder) if name.startswith((PREFIX, "."))]
