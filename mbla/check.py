@@ -10,6 +10,7 @@ import numpy as np
 from mbla.contacts import Contacts
 from mbla.contacts.glue import held_model, solids_of
 from mbla.deck import Deck
+from mbla.deck_record import deck_record
 from mbla.model import Model, build_model
 from mbla.model.model import LoadCase
 from mbla.program import assemble
@@ -20,7 +21,7 @@ from mbla.results.needs import CaseNeeds
 from mbla.results.paraview.mesh_files import write_model_vtu
 from mbla.results.provenance import collect_provenance
 from mbla.results.results import Results
-from mbla.run_deck import contacts_of, deck_record, notices_of, reduced_program, select_cases
+from mbla.run_deck import contacts_of, notices_of, reduced_program, select_cases
 from mbla.run_options import RunOptions
 from mbla.settings_words import settings_in_words
 from mbla.solution.cone_solver import interior_point_method

@@ -25,14 +25,13 @@ def show(options: argparse.Namespace) -> int:
 
 
 def verify(options: argparse.Namespace) -> int:
-    """Recompute residuals and bounds; the exit status tells what the file is worth by them."""
+    """Recompute what the file claims; the exit status tells what it is worth by that."""
     with loading():
-        from mbla.results.hdf5.result_file import read_results_hdf5
         from mbla.results.records.json_record import json_line, verification_json
         from mbla.results.words.listing import verification_lines
-        from mbla.verify_file import verify_results
+        from mbla.verify_file import verify_file
 
-    results, agreed = verify_results(read_results_hdf5(options.result))
+    results, agreed = verify_file(options.result)
     if options.json:
         print(json_line(verification_json(results, agreed)))
     else:

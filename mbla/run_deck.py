@@ -15,6 +15,7 @@ from mbla.contacts.held_twice import SupportsAtOdds
 from mbla.contacts.interface_points import PointsRefused
 from mbla.contacts.notices import overlap_messages
 from mbla.deck import Deck, read_deck
+from mbla.deck_record import deck_record
 from mbla.errors import DeckError, Message, Notice, UsageError, first_faults
 from mbla.exit_status import exit_code
 from mbla.expected import differences
@@ -28,7 +29,7 @@ from mbla.program.reductions.steps import size_of, told_apart
 from mbla.program.remarks import program_notices
 from mbla.results.files import OutputFolder
 from mbla.results.provenance import collect_provenance
-from mbla.results.results import CaseResult, DeckRecord, Results, now
+from mbla.results.results import CaseResult, Results, now
 from mbla.results.sta import StatusFile
 from mbla.results.write import write_results
 from mbla.run_options import RunOptions as RunOptions
@@ -287,9 +288,3 @@ def select_cases(model: Model, names: Sequence[str]) -> tuple[LoadCase, ...]:
         if name not in known and name not in [case.name for case in model.load_cases]:
             raise UsageError("unknown-load-case", f"no load case {name} in the deck; it has {', '.join(known)}")
     return tuple(case for case in model.load_cases if not names or case.name in names or case.deck_name in names)
-
-
-def deck_record(deck: Deck) -> DeckRecord:
-    """The deck as results keep it."""
-    sources = tuple((source.path.name, source.text) for source in deck.sources)
-    return DeckRecord(deck.path.name, sources, deck.overrides, deck.sha256)

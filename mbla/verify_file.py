@@ -1,97 +1,95 @@
-"""``mbla verify``: every residual and bound recomputed from a result file alone, with no solver."""
+"""``mbla verify``: everything that a result file claims, recomputed from what is in it alone, with no solver.
+
+Model, contacts and loads are built again from the deck in the file (:mod:`mbla.rebuilt`). Of every case the forces and
+mechanisms are taken, and all that follows from them is found again: velocities, modes, parts, work, residuals, bounds,
+ends of ranges, standing, angle, status. The file that this gives must be the one at hand, dataset by dataset. So the
+file is believed in nothing but the fields that say what the run alone can tell (``told`` of
+:class:`mbla.results.hdf5.field.Field`), which are marked in it and named in what is printed.
+"""
 
 from __future__ import annotations
 
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 
-from mbla.arrays import FloatArray
-from mbla.contacts.contacts import Contacts
-from mbla.errors import Notice
+from mbla.deck import Deck
+from mbla.deck.accuracy import knobs_of
 from mbla.exit_status import exit_code
 from mbla.model.model import Model
-from mbla.program.assemble import yield_limits
-from mbla.rebuilt import differences_from_deck
+from mbla.rebuilt import UNEXPECTED, rebuilt
+from mbla.results.hdf5.result_file import differences_of_file, read_results_hdf5, write_results_hdf5
+from mbla.results.outcome import WITH_VALUE, locked_in
 from mbla.results.results import CaseResult, Results
-from mbla.solution.contact_modes import contact_modes
-from mbla.solution.glued import MOTIONS
-from mbla.solution.solution import Checks, Mechanics
-from mbla.solution.statics import contact_velocities
-from mbla.solution.verification import verify
-from mbla.solution.verify import SOLVED_RESIDUAL, dilatancy_of, verified_status
-
-AGREEMENT = 1e-6
-"""Difference of stored and recomputed figures, relative and absolute, beyond which the file is not what a run wrote;
-sparse factorisations of another machine may round differently."""
-
-
-MODES_OF = ("mechanics", "associative", "lower", "upper")
-"""parts of a solution whose modes follow from their own forces and velocities"""
+from mbla.solution.derived import with_derived
+from mbla.solution.settings import solver_settings
+from mbla.solution.solution import Solution, Standing, Status
+from mbla.solution.verification import level_bound, verify
+from mbla.solution.verify import SOLVED_RESIDUAL, verified_status
 
 
 @np.errstate(over="ignore", invalid="ignore", divide="ignore")  # what is no number fulfils no condition
-def verify_results(results: Results) -> tuple[Results, tuple[str, ...]]:
-    """Results with checks, status and exit status recomputed, and where they disagree with what the file says."""
-    from_deck, not_built = differences_from_deck(results)
-    cases, disagreements = [], list(from_deck)
-    for case in results.cases:
-        model = results.model.of_case(case.load_case)
-        checks = verify(model, results.contacts, case.load_case, case.solution)
-        status = verified_status(case.solution, checks)
-        name = case.load_case.name
-        disagreements += [f"{name}: {text}" for text in _differences(case.checks, checks)]
-        disagreements += [f"{name}: {text}" for text in _unproved(model, results.contacts, case, checks)]
-        if status is not case.status:
-            disagreements.append(f"{name}: the file says {case.status}, recomputed it is {status}")
-        cases.append(replace(case, checks=checks, status=status))
-    code = exit_code(cases)
-    # 4: what was expected of the answers is not in the file's power, nor is what stopped a run
-    if results.complete and results.exit_code not in (code, 4):
-        disagreements.append(f"the exit status is {code} recomputed, the file says {results.exit_code}")
-    if (disagreements or not results.complete) and code in (0, 5):
-        code = 4
-    notices = results.notices
-    if not_built:
-        text = f"the model was not built again from the deck in the file: {not_built}"
-        notices = (*notices, Notice("notice", "deck-not-rebuilt", text))
-    return replace(results, cases=tuple(cases), exit_code=code, notices=notices), tuple(disagreements)
+def verify_file(path: Path) -> tuple[Results, tuple[str, ...]]:
+    """Results with checks, status and exit status recomputed, and where they disagree with what the file says.
+
+    Raises
+    ------
+    FileError
+        as ``read_results_hdf5`` does
+    """
+    results = read_results_hdf5(path)
+    deck, disagreements = rebuilt(results)
+    again = _recomputed(results, deck)
+    for case in again.cases:
+        found = (*_unproved(case), *(() if deck is None else _left_out(case, deck)))
+        disagreements += tuple(f"{case.load_case.name}: {text}" for text in found)
+    disagreements += differences_of_file(path, write_results_hdf5(again))
+    if (disagreements or not results.complete) and again.exit_code in (0, 5):
+        again = replace(again, exit_code=4)
+    return again, disagreements
 
 
-def _differences(stored: Checks, recomputed: Checks) -> list[str]:
-    found = []
-    for name in (
-        "static_bound",
-        "kinematic_bound",
-        "equilibrium_residual",
-        "yield_violation",
-        "tension_violation",
-        "slip_residual",
-        "peak_load_factor",
-        "lower",
-        "upper",
-        "complementarity_residual",
-        "penetration",
-        "live_power",
-        "power_balance",
-        "gap",
-    ):
-        old, new = getattr(stored, name), getattr(recomputed, name)
-        same = np.isclose(old, new, rtol=AGREEMENT, atol=AGREEMENT, equal_nan=True)
-        if not same:
-            found.append(f"{name.replace('_', ' ')} is {new:.6g} recomputed, the file says {old:.6g}")
-    if stored.verified != recomputed.verified:
-        found.append(f"the file says {_verified(stored)}, recomputed it is {_verified(recomputed)}")
-    return found
+def _recomputed(results: Results, deck: Deck | None) -> Results:
+    """The results with all that follows from deck, forces and mechanisms in place of what the file says of it."""
+    cases = tuple(_recomputed_case(results, case, deck) for case in results.cases)
+    found = {case.load_case.name: case.load_case for case in cases}
+    model = replace(results.model, load_cases=tuple(found.get(case.name, case) for case in results.model.load_cases))
+    unexpected = [notice for notice in results.notices if notice.identifier == UNEXPECTED]
+    code = exit_code(cases, unexpected) if results.complete else results.exit_code
+    return replace(results, model=model, cases=cases, exit_code=code)
 
 
-def _verified(checks: Checks) -> str:
-    return "verified" if checks.verified else "not verified"
+def _recomputed_case(results: Results, case: CaseResult, deck: Deck | None) -> CaseResult:
+    load_case, contacts = case.load_case, results.contacts
+    model: Model = results.model.of_case(load_case)
+    solution = case.solution if deck is None else _as_asked_for(case.solution, deck)
+    solution = with_derived(model, contacts, load_case, solution)
+    if load_case.tilt is not None:
+        upright = level_bound(model, contacts, load_case, solution)
+        load_case = replace(load_case, tilt=replace(load_case.tilt, upright=upright))
+    checks = verify(model, contacts, load_case, solution)
+    return CaseResult(load_case, solution, checks, verified_status(solution, checks))
 
 
-def _unproved(model: Model, contacts: Contacts, case: CaseResult, checks: Checks) -> list[str]:
-    """Figures of a case beside those of its verification that do not follow from what they must follow from."""
-    found, associative = [], case.solution.associative
+def _as_asked_for(solution: Solution, deck: Deck) -> Solution:
+    """The solution by the flow rule, the contact model and the solver that its deck asks for."""
+    analysis, settings = deck.analysis, solver_settings(deck.analysis)
+    asked = {settings.gap} if analysis.flow_rule == "associative" else {settings.residual, settings.gap}
+    return replace(
+        solution,
+        flow_rule=analysis.flow_rule,
+        contact_model=analysis.contact_model,
+        solver=settings.solver,
+        sides=0 if solution.outer is None else analysis.sides,
+        asked=solution.asked if solution.asked is None or solution.asked in asked else settings.residual,
+    )
+
+
+def _unproved(case: CaseResult) -> list[str]:
+    """Claims of a case that do not follow from what they must follow from."""
+    found, solution, checks = [], case.solution, case.checks
+    associative, standing = solution.associative, solution.standing
     if associative is not None:
         least, most = checks.static_bound, checks.kinematic_bound
         room = SOLVED_RESIDUAL * max(abs(most), abs(least))
@@ -100,27 +98,33 @@ def _unproved(model: Model, contacts: Contacts, case: CaseResult, checks: Checks
                 f"the associative load factor {associative.load_factor:.8g} is not between its bounds {least:.8g} "
                 f"and {most:.8g}"
             )
-    for part in MOTIONS:
-        mechanics = getattr(case.solution, part)
-        if mechanics is None or mechanics.interface_motions is not None:
-            continue
-        velocities = contact_velocities(model, contacts, mechanics.mechanism)
-        if _apart(velocities, mechanics.contact_velocities):
-            found.append(f"contact velocities ({part}) are not those of the mechanism")
-        if part in MODES_OF and not case.solution.sides and _other_modes(model, contacts, case, part, mechanics):
-            found.append(f"contact modes ({part}) are not those of forces and velocities")
+    if locked_in(case) and case.status in WITH_VALUE:
+        found.append(f"it cannot be {case.status} and stand only by self-stress, or not at all")
+    if standing is not None and standing.verdict is Standing.YES and standing.block is not None:
+        found.append("it cannot stand and have a block that falls")
     return found
 
 
-def _other_modes(model: Model, contacts: Contacts, case: CaseResult, part: str, mechanics: Mechanics) -> bool:
-    """Whether modes are others than forces and velocities give under the flow rule of that part."""
-    limits = yield_limits(model, contacts)
-    flow_rule = "associative" if part == "associative" else case.solution.flow_rule
-    slope = dilatancy_of(limits, flow_rule)
-    modes = contact_modes(mechanics.contact_forces, mechanics.contact_velocities, limits, slope)
-    return not np.array_equal(modes, mechanics.modes)
+def _left_out(case: CaseResult, deck: Deck) -> list[str]:
+    """What the deck asks for and the file neither has nor explains."""
+    solution, knobs = case.solution, knobs_of(deck.analysis)
+    claims = solution.status in (*WITH_VALUE, Status.UNBOUNDED)
+    missing = ["standing"] if knobs.standing and claims and solution.standing is None else []
+    if solution.mechanics is None or solution.contact_model != "concave":
+        return [_lacks(what) for what in missing]
+    explained = any("range" in remark for remark in solution.remarks)
+    if knobs.range and not explained and not _by_normality(solution):
+        missing += [f"{end} end of the range" for end in ("lower", "upper") if getattr(solution, end) is None]
+    if deck.analysis.force_ranges and solution.force_ranges is None:
+        missing.append("ranges of normal forces")
+    return [_lacks(what) for what in missing]
 
 
-def _apart(one: FloatArray, other: FloatArray) -> bool:
-    """Whether two arrays differ by more than rounding of the largest entry."""
-    return not np.abs(one - other).max(initial=0.0) <= AGREEMENT * np.abs(one).max(initial=0.0)
+def _by_normality(solution: Solution) -> bool:
+    """Whether the forces are those of associative flow: by that rule, or for want of joints that could flow."""
+    own, associative = solution.mechanics, solution.associative
+    return own is not None and associative is not None and np.array_equal(own.mechanism, associative.mechanism)
+
+
+def _lacks(what: str) -> str:
+    return f"the deck asks for the {what}, which the file does not have"

@@ -2,24 +2,56 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+import h5py
 import numpy as np
 import pytest
 
 from mbla.errors import FileError
+from mbla.results.hdf5.field import WORDS
 from mbla.results.hdf5.reading import MOST
-from mbla.results.hdf5.result_file import read_results_hdf5
+from mbla.results.hdf5.result_file import write_results_hdf5
+from mbla.results.results import Results
 from mbla.run_deck import run
 from mbla.run_options import RunOptions
-from mbla.verify_file import verify_results
+from mbla.solution.solution import Standing, StandingResult, Status
+from mbla.solution.verification import NOT_SHOWN
+from mbla.verify_file import verify_file
 from tests.line import BLOCK
 from tests.results.changed_files import change, changing
 from tests.solution.convex_structures import TWIST
 
 NON_ASSOCIATIVE = BLOCK.replace("flow_rule: associative", "flow_rule: non_associative")
 LARGE = MOST / 2
+DECKS = Path(__file__).parents[1] / "decks" / "benchmarks"
+CUBE = """\
+v 0 0 0
+v 1 0 0
+v 1 1 0
+v 0 1 0
+v 0 0 2.5
+v 1 0 2.5
+v 1 1 2.5
+v 0 1 2.5
+f 1 4 3 2
+f 5 6 7 8
+f 1 2 6 5
+f 2 3 7 6
+f 3 4 8 7
+f 4 1 5 8
+"""
+SEVERAL = """\
+mbla: 1
+include: [parts/dry.yaml]
+materials: {stone: {density: 2000}}
+blocks: [{mesh: {group: block, material: stone, file: parts/block.obj, up: z, units: m}}]
+contacts: {joint: dry}
+supports: [{ground: {z: 0}}]
+load_cases: {push: {live: [{acceleration: [1, 0, 0]}]}}
+"""
 
 
 @pytest.fixture(scope="module")
@@ -39,7 +71,7 @@ def path(tmp_path: Path, image: bytes) -> Path:
 
 def differences(path: Path) -> str:
     """What verification finds wrong with a file; its exit status must tell."""
-    results, disagreements = verify_results(read_results_hdf5(path))
+    results, disagreements = verify_file(path)
     assert (results.exit_code == 0) == (not disagreements)
     return "\n".join(disagreements)
 
@@ -56,10 +88,9 @@ def enlarged(path: Path, name: str, largest: float) -> None:
 
 
 def test_a_file_as_it_was_written_agrees(path: Path) -> None:
-    results, disagreements = verify_results(read_results_hdf5(path))
+    results, disagreements = verify_file(path)
     assert disagreements == ()
     assert results.exit_code == 0
-    assert "deck-not-rebuilt" not in {notice.identifier for notice in results.notices}
 
 
 @pytest.mark.parametrize(
@@ -69,8 +100,8 @@ def test_a_file_as_it_was_written_agrees(path: Path) -> None:
         ("model/friction", 1.01, "model/friction is not what the deck in the file gives"),
         ("cases/push/live_load", 1.01, "cases/push/live_load is not what the deck in the file gives"),
         ("cases/push/associative/load_factor", 1.01, "is not between its bounds"),
-        ("cases/push/contact_velocities", 1.01, "contact velocities (mechanics) are not those of the mechanism"),
-        ("cases/push/live_power", 1.01, "live power is 1 recomputed, the file says 1.01"),
+        ("cases/push/contact_velocities", 1.01, "cases/push/contact_velocities is not what follows"),
+        ("cases/push/live_power", 1.01, "cases/push/live_power is 1 recomputed, the file says 1.01"),
     ],
 )
 def test_what_the_deck_or_the_mechanism_does_not_give(path: Path, name: str, factor: float, words: str) -> None:
@@ -138,11 +169,11 @@ def test_arrays_that_contradict_each_other_are_not_even_read(path: Path, name: s
 @pytest.mark.parametrize(
     ("name", "value", "words"),
     [
-        ("cases/push/verified", 0, "the file says not verified, recomputed it is verified"),
-        ("provenance/exit_code", 5, "the exit status is 0 recomputed, the file says 5"),
+        ("cases/push/verified", 0, "cases/push/verified is 1 recomputed, the file says 0"),
+        ("provenance/exit_code", 5, "provenance/exit_code is 0 recomputed, the file says 5"),
         ("deck/overrides", b"parameters.mu=0.5", "the hash of the deck is not that of its text"),
         ("deck/source_texts", b"mbla: 1", "the deck in the file is not valid"),
-        ("cases/push/modes", 2, "contact modes (mechanics) are not those of forces and velocities"),
+        ("cases/push/modes", 2, "cases/push/modes is not what follows"),
     ],
 )
 def test_what_the_file_says_of_itself(path: Path, name: str, value: Any, words: str) -> None:
@@ -150,13 +181,159 @@ def test_what_the_file_says_of_itself(path: Path, name: str, value: Any, words: 
     assert words in differences(path)
 
 
-def test_a_deck_of_another_version_is_not_built_again(path: Path) -> None:
+def written(tmp_path: Path, results: Results) -> Path:
+    """A file of changed results: whole, sealed, and consistent in all that a writer derives."""
+    path = tmp_path / "forged.h5"
+    path.write_bytes(write_results_hdf5(results))
+    return path
+
+
+def with_case(results: Results, **changed: Any) -> Results:
+    """Results whose first case has another solution, told with the status and the exit status of a good one."""
+    (case, *others) = results.cases
+    solution = replace(case.solution, **changed)
+    checks = replace(case.checks, verified=True, failures=())
+    forged = replace(case, solution=solution, checks=checks, status=solution.status)
+    return replace(results, cases=(forged, *others), exit_code=0)
+
+
+LEFT_OUT: dict[str, dict[str, Any]] = {
+    "lower end of the range": {"lower": None},
+    "upper end of the range": {"upper": None},
+    "standing": {"standing": None},
+    "ranges of normal forces": {"force_ranges": None},
+}
+
+
+@pytest.mark.parametrize("what", LEFT_OUT)
+def test_what_the_deck_asks_for_is_there(what: str, tmp_path: Path) -> None:
+    deck = tmp_path / "deck.yaml"
+    asking = NON_ASSOCIATIVE.replace("non_associative}", "non_associative, force_ranges: true}")
+    deck.write_text(asking, encoding="utf-8")
+    results = run(deck, RunOptions(overrides=("parameters.mu=0.4",)))
+    assert verify_file(tmp_path / "deck.out" / "deck.h5")[1] == ()
+    lacks = f"push: the deck asks for the {what}, which the file does not have"
+    assert lacks in differences(written(tmp_path, with_case(results, **LEFT_OUT[what])))
+
+
+@pytest.mark.parametrize("standing", [None, StandingResult(Standing.YES, None, "the dead load is carried")])
+def test_what_stands_by_self_stress_alone_is_not_made_to_stand(standing: StandingResult | None, tmp_path: Path) -> None:
+    """A bar between two walls, with the forces that would have to be locked in."""
+    results = run(DECKS / "bar_between_walls.yaml", RunOptions(folder=tmp_path / "out"))
+    assert results.exit_code == 4
+    forged = with_case(results, standing=standing, status=Status.SOLVED, reason="")
+    again, disagreements = verify_file(written(tmp_path, forged))
+    assert again.exit_code == 4
+    if standing is None:
+        assert disagreements == ("push_y: the deck asks for the standing, which the file does not have",)
+    else:
+        assert again.cases[0].checks.failures == (NOT_SHOWN,)
+        assert "cases/push_y/verified is 0 recomputed, the file says 1" in disagreements
+
+
+@pytest.mark.parametrize("upright", [1e9, np.inf])
+def test_the_load_across_that_a_level_table_bears_is_proved(upright: float, tmp_path: Path) -> None:
+    run(DECKS / "tilting_block_cohesion.yaml", RunOptions(folder=tmp_path / "out"))
+    path = tmp_path / "out" / "tilting_block_cohesion.h5"
+    assert differences(path) == ""
+    change(path, "cases/tips/tilt/upright", upright)
+    assert "cases/tips/tilt/upright is 0.432335 recomputed" in differences(path)
+
+
+def test_a_deck_of_another_version_is_built_again(path: Path) -> None:
     with changing(path) as file:
         names = [name.decode() for name in file["provenance/names"][()]]
         values = file["provenance/values"][()]
         values[names.index("mbla")] = b"0.0.9"
         file["provenance/values"][...] = values
-    results, disagreements = verify_results(read_results_hdf5(path))
-    assert disagreements == ()
-    (notice,) = [notice for notice in results.notices if notice.identifier == "deck-not-rebuilt"]
-    assert notice.message.endswith("from the deck in the file: it was written by mbla 0.0.9")
+        file.attrs["mbla_version"] = "0.0.9"
+        file["model/friction"][...] = 0.9
+    assert "model/friction is not what the deck in the file gives" in differences(path)
+
+
+@pytest.fixture
+def of_several_files(tmp_path: Path) -> Path:
+    """A block of a mesh, under a load of a table, with the joint law of an included file in another folder."""
+    parts = tmp_path / "parts"
+    parts.mkdir()
+    (parts / "dry.yaml").write_text("mbla: 1\njoints: {dry: {friction: 0.3}}\n", encoding="utf-8")
+    (parts / "block.obj").write_text(CUBE, encoding="utf-8")
+    (tmp_path / "loads.csv").write_text("block,fx,fy,fz\n0,1,0,0\n", encoding="utf-8")
+    (tmp_path / "deck.yaml").write_text(SEVERAL, encoding="utf-8")
+    run(tmp_path / "deck.yaml", RunOptions())
+    return tmp_path / "deck.out" / "deck.h5"
+
+
+def test_a_deck_of_several_files_is_built_again_from_the_file(of_several_files: Path, tmp_path: Path) -> None:
+    for name in ("deck.yaml", "parts/dry.yaml", "parts/block.obj"):
+        (tmp_path / name).unlink()
+    assert differences(of_several_files) == ""
+    with h5py.File(of_several_files) as file:
+        assert [name.decode() for name in file["deck/source_names"]] == ["deck.yaml", "parts/dry.yaml"]
+        assert [name.decode() for name in file["deck/file_names"]] == ["parts/block.obj"]
+        assert file["deck/file_bytes"][()].tobytes() == CUBE.encode()
+
+
+@pytest.mark.parametrize("name", ["model/friction", "model/vertices", "deck/file_bytes"])
+def test_what_stands_in_other_files_is_verified_too(name: str, of_several_files: Path) -> None:
+    with changing(of_several_files) as file:
+        values = file[name][()]
+        file[name][...] = np.where(values == ord("."), ord("5"), values) if values.dtype.kind == "u" else 3 * values
+    if name == "model/vertices":
+        with pytest.raises(FileError, match="not those within their faces"):
+            differences(of_several_files)
+    else:
+        assert "is not what the deck in the file gives" in differences(of_several_files)
+
+
+@pytest.mark.parametrize("name", ["../deck.yaml", "/deck.yaml", "other.yaml", "deck.yaml/deck.yaml", ""])
+def test_files_of_a_deck_stay_in_their_folder(name: str, of_several_files: Path) -> None:
+    with changing(of_several_files) as file:
+        names = file["deck/source_names"][()].astype("S40")
+        names[1] = name.encode()
+        del file["deck/source_names"]
+        file["deck/source_names"] = names
+    assert "the deck in the file is not valid" in differences(of_several_files)
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        "parts",
+        "interfaces/modes",
+        "interfaces/rotations",
+        "interfaces/translations",
+        "interfaces/hinge_points",
+        "interfaces/work",
+        "lower/modes",
+        "flow_rule",
+        "sides",
+        "solver",
+    ],
+)
+def test_what_follows_is_found_again(name: str, path: Path) -> None:
+    with changing(path) as file:
+        values = file[f"cases/push/{name}"][()]
+        changed = np.nan_to_num(np.asarray(values), nan=0.0) + 1 if not isinstance(values, bytes) else b"livesley"
+        del file[f"cases/push/{name}"]
+        file[f"cases/push/{name}"] = b"clarabel" if name == "solver" else changed
+    assert f"cases/push/{name} is " in differences(path)
+
+
+def test_datasets_and_attributes_that_nothing_reads_are_compared(path: Path) -> None:
+    with changing(path) as file:
+        file["cases/push/collapse_load"] = 9.81
+        file["model/weights"].attrs["units"] = "MN"
+        del file["model/vertices"].attrs["long_name"]
+    found = differences(path)
+    assert "cases/push/collapse_load does not follow from what the file holds" in found
+    assert "the attribute units of model/weights is not as it should be" in found
+    assert "the attribute long_name of model/vertices is not as it should be" in found
+
+
+def test_what_the_run_alone_can_tell_is_marked(path: Path) -> None:
+    with changing(path) as file:
+        assert file["cases/push/reason"].attrs["verification"] == f"not verified: {WORDS}".encode()
+        assert "verification" not in file["cases/push/load_factor"].attrs
+        file["cases/push/seconds"][...] = 3600.0
+    assert differences(path) == ""

@@ -14,10 +14,20 @@ from mbla.errors import Fault, Message, Notice
 
 @dataclass(frozen=True)
 class Source:
-    """One file that the deck is made of, as read."""
+    """One file that the deck is made of, as read; ``name`` is its path from the folder of the main file, with ``/``."""
 
     path: Path
     text: str
+    name: str
+
+
+@dataclass(frozen=True)
+class SideFile:
+    """A file that the deck names, a mesh or a table: key path and value that name it, ``name`` as of ``Source``."""
+
+    key: KeyPath
+    value: str
+    name: str
 
 
 @dataclass(frozen=True)
@@ -25,11 +35,13 @@ class Deck:
     """A checked deck.
 
     sources : the main file first, then the included ones
+    side_files : in the order of the deck
     sha256  : of the texts of all sources and overrides, 64 hex digits; neither file names nor side files count
     """
 
     path: Path
     sources: tuple[Source, ...]
+    side_files: tuple[SideFile, ...]
     overrides: tuple[str, ...]
     sha256: str
     content: DeckContent

@@ -3,18 +3,20 @@
 from __future__ import annotations
 
 import hashlib
+import os
 from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 from typing import Any
 
 from mbla.collector import no_collection
-from mbla.deck.deck import Deck, Source
+from mbla.deck.deck import Deck, SideFile, Source
 from mbla.deck.expressions import Parameters, is_expression
 from mbla.deck.include import Reading, confined, read_files
 from mbla.deck.notices import notices_of
 from mbla.deck.overrides import apply_override
 from mbla.deck.references import check_references
 from mbla.deck.section import built
+from mbla.deck.side_files import side_files
 from mbla.deck.tree import KeyPath, Tree
 from mbla.deck.types import DeckContent, UnitsSection
 from mbla.deck.units import Units
@@ -89,7 +91,12 @@ def _read(path: Path, overrides: Sequence[str], text: str | None = None, *, expe
         raise DeckError(_once(faults))
     return Deck(
         path=path,
-        sources=tuple(Source(source.path, source.text) for source in tree.sources if source.path is not None),
+        sources=tuple(
+            Source(source.path, source.text, _from_main(tree, source.label))
+            for source in tree.sources
+            if source.path is not None
+        ),
+        side_files=tuple(SideFile(at, name, _side_name(tree, at, name)) for at, name in side_files(tree.data)),
         overrides=tuple(overrides),
         sha256=sha256_of(source.text for source in tree.sources),
         content=content,
@@ -131,6 +138,18 @@ def _converter(parameters: Parameters, units: Units) -> Callable[[str, str], flo
 
 def _once(faults: Iterable[Fault]) -> list[Fault]:
     return list(dict.fromkeys(faults))
+
+
+def _from_main(tree: Tree, label: str) -> str:
+    """Path of a source from the folder of the main file, with ``/``."""
+    return Path(os.path.relpath(label, Path(tree.sources[0].label).parent)).as_posix()
+
+
+def _side_name(tree: Tree, at: KeyPath, name: str) -> str:
+    """The same of a file that the value at a key path names, relative to the file that names it."""
+    naming = tree.source_of(tree.value_mark(at))
+    label = tree.sources[0].label if naming.path is None else naming.label
+    return _from_main(tree, os.path.normpath(Path(label).parent / name))
 
 
 def sha256_of(texts: Iterable[str]) -> str:

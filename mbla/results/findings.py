@@ -92,6 +92,7 @@ FAILURES = (
         "is not the change from the level table",
         "bears every angle up to 180 degrees",
         "the loads at collapse are not those at",
+        "is not the tangent of the angle",
     ),
     _failure("glued-blocks-part", "glued to each other move apart"),
     _failure("wrong-resultants", "of the interfaces are missing", "are not those of the contact forces"),

@@ -18,12 +18,20 @@ def now() -> str:
 
 @dataclass(frozen=True)
 class DeckRecord:
-    """The deck as the result file keeps it: name, text of each source, overrides and hash of the effective deck."""
+    """The deck as the result file keeps it: everything that it is made of.
+
+    name      : of the main file
+    sources   : name and text of the main file and of those that it includes; names from the folder of the main file
+    overrides : ``key.path=value`` texts
+    sha256    : hash of the effective deck, its texts and overrides
+    files     : name and content of the meshes and tables that it names
+    """
 
     name: str
     sources: tuple[tuple[str, str], ...]
     overrides: tuple[str, ...]
     sha256: str
+    files: tuple[tuple[str, bytes], ...] = ()
 
 
 @dataclass(frozen=True)

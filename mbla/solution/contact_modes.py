@@ -24,16 +24,21 @@ rest: velocities of resting points are noise of that size in programs solved to 
 
 
 def contact_modes(
-    forces: FloatArray, velocities: FloatArray, limits: YieldLimits, slope: FloatArray | float
+    forces: FloatArray,
+    velocities: FloatArray,
+    limits: YieldLimits,
+    slope: FloatArray | float,
+    largest_speed: float | None = None,
 ) -> IntArray:
     """Mode of every contact point, (n_points,).
 
     forces, velocities : (n_points, 3) normal and two tangents, in any units
     limits             : in the units of the forces
     slope              : tangent of the dilatancy angle of the flow rule, (n_points,) or one for all
+    largest_speed      : at any contact point, where the velocities are a part of the motion only
     """
     modes = np.full(len(forces), ContactMode.STICK, dtype=np.int64)
-    speed = float(np.linalg.norm(velocities, axis=1).max(initial=0.0))
+    speed = largest_speed or float(np.linalg.norm(velocities, axis=1).max(initial=0.0))
     if speed == 0.0:
         return modes
     sliding = np.hypot(velocities[:, 1], velocities[:, 2])

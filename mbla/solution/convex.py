@@ -12,6 +12,7 @@ from mbla.deck.accuracy import knobs_of
 from mbla.deck.analysis import AnalysisSection
 from mbla.program.convex import ConvexProgram
 from mbla.program.convex.friction_limit import torsion_reserve
+from mbla.solution.beside import standing_on_model
 from mbla.solution.cone_solution import Log
 from mbla.solution.contact_modes import AT_REST, contact_modes
 from mbla.solution.convex_associative import ConvexAssociative, solve_convex_associative
@@ -21,7 +22,7 @@ from mbla.solution.mechanics import contact_velocities
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import ContactMode, IterationRecord, Mechanics, Solution, Standing, Status
 from mbla.solution.solve import ONLY_BY_SELF_STRESS
-from mbla.solution.standing import assess_standing, standing_without_equilibrium
+from mbla.solution.standing import assess_dead_load, standing_without_equilibrium
 
 LOCKED = (
     "with dilatancy friction locks the structure under any multiple of the live load; "
@@ -94,7 +95,8 @@ def _with_standing(convex: ConvexProgram, solution: Solution, settings: SolverSe
         velocities = convex.points.velocities(solution.certificate)
         return replace(solution, standing=standing_without_equilibrium(convex.points, velocities))
     decided = solution.associative is not None or solution.status is Status.UNBOUNDED
-    standing = assess_standing(convex.points, settings, True if decided else None)
+    state = assess_dead_load(convex.points, settings, True if decided else None)
+    standing = standing_on_model(convex.points, state)
     claimed = solution.status in (Status.SOLVED, Status.APPROXIMATE) and solution.flow_rule != "associative"
     if claimed and standing.verdict is Standing.SELF_STRESS:
         solution = replace(solution, status=Status.NOT_VERIFIED, reason=ONLY_BY_SELF_STRESS)
@@ -123,6 +125,20 @@ def convex_mechanics(convex: ConvexProgram, state: ConvexState, dilatancy: Float
     )
 
 
+def modes_of(convex: ConvexProgram, mechanics: Mechanics, dilatancy: FloatArray) -> IntArray:
+    """Modes of the contact points from forces and motions in the deck's units, as ``convex_mechanics`` has them."""
+    program, scaling = convex.points, convex.points.scaling
+    assert mechanics.interface_motions is not None
+    state = ConvexState(
+        forces=mechanics.contact_forces / scaling.force,
+        velocities=program.velocities(mechanics.mechanism),
+        motions=mechanics.interface_motions * (scaling.force / scaling.live),
+        load_factor=mechanics.load_factor / scaling.live,
+        residual=0.0,
+    )
+    return _modes(convex, state, dilatancy)
+
+
 def _mechanics(convex: ConvexProgram, state: ConvexState | None, dilatancy: FloatArray) -> Mechanics | None:
     return None if state is None else convex_mechanics(convex, state, dilatancy)
 
@@ -146,8 +162,8 @@ def _modes(convex: ConvexProgram, state: ConvexState, dilatancy: FloatArray) -> 
     moved = (program.equilibrium_matrix.T @ state.velocities).reshape(-1, 3)
     by_torsion = (convex.resultants.T @ state.motions[:, 0].ravel()).reshape(-1, 3)
     by_crushing = (convex.resultants.T @ state.motions[:, 1].ravel()).reshape(-1, 3)
-    modes = contact_modes(state.forces, moved - by_torsion - by_crushing, program.limits, dilatancy)
     speed = float(np.linalg.norm(moved, axis=1).max(initial=0.0))
+    modes = contact_modes(state.forces, moved - by_torsion - by_crushing, program.limits, dilatancy, speed)
     reserve = torsion_reserve(convex.torsion, (convex.resultants @ state.forces.ravel()).reshape(-1, 6))
     slips = (
         np.hypot(by_torsion[:, 1], by_torsion[:, 2]) > np.maximum(reserve, AT_REST)[convex.interface_of_point] * speed

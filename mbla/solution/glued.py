@@ -15,7 +15,7 @@ from mbla.arrays import FloatArray
 from mbla.contacts.glue import Solids
 from mbla.solution.solution import Mechanics, Solution, StandingResult
 
-MOTIONS = ("mechanics", "associative", "lower", "upper", "peak", "outer")
+MOTIONS = ("mechanics", "associative", "lower", "upper", "peak", "outer", "level")
 """parts of a solution that hold a mechanism"""
 
 

@@ -151,6 +151,9 @@ class Solution:
                   at rest: the forces carry it, the mechanism is how they are passing
     outer       : polyhedral friction: answer with the circumscribed polyhedron, ``associative`` having the inscribed;
                   None where the two do not differ, as in a plane
+    level       : tilting table: associative answer of the level table with the load across, which proves how much of
+                  that it bears
+    level_lock  : the same where it bears every multiple: (n_points, 3) contact forces that balance that load alone
     sides       : of the friction polyhedron; 0 for the circular cone
     spread      : least and greatest load factor of several tries that did not agree
     standing    : assessment of the dead load alone
@@ -180,6 +183,8 @@ class Solution:
     upper: Mechanics | None = None
     peak: Mechanics | None = None
     outer: Mechanics | None = None
+    level: Mechanics | None = None
+    level_lock: FloatArray | None = None
     sides: int = 0
     spread: tuple[float, float] | None = None
     standing: StandingResult | None = None

@@ -49,11 +49,6 @@ class DeadLoadState:
     displacements: FloatArray | None
 
 
-def assess_standing(program: Program, settings: SolverSettings, carried: bool | None = True) -> StandingResult:
-    """Assess the dead load of a program, reduced or not; see ``assess_dead_load``."""
-    return assess_dead_load(program, settings, carried).standing
-
-
 @timed("standing")
 def stress_free_state(program: Program, settings: SolverSettings) -> Weakening:
     """What becomes of the dead load on the stress-free assembly: the same whatever the live load and the flow rule."""

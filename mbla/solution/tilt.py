@@ -20,12 +20,12 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import TypeAlias
 
-import numpy as np
-
 from mbla.contacts.contacts import Contacts
 from mbla.model.model import LoadCase, Model, Tilt
 from mbla.solution.solution import Checks, Mechanics, Solution, Status
 from mbla.solution.tilt_circle import AT_ONCE, chord, line_of, never_left
+from mbla.solution.verification import level_bound
+from mbla.solution.verify_tilt import only_direction_counts
 
 Ask: TypeAlias = Callable[[LoadCase], tuple[Solution, Checks]]
 """Solve and verify a load case."""
@@ -82,14 +82,6 @@ class Answer:
         return abs(self.load_factor) <= GOOD and self.next_angle(tilt) <= BY_LINE
 
 
-def only_direction_counts(model: Model, contacts: Contacts, tilt: Tilt) -> bool:
-    """Whether loads can be borne in any multiple if in one: no strength but friction, and nothing but gravity."""
-    laws = [model.joints[name] for name in contacts.joint_names]
-    strength = any(law.cohesion or law.tensile_strength or math.isfinite(law.compressive_strength) for law in laws)
-    size = float(np.abs(tilt.turning).max(initial=0.0))
-    return not strength and float(np.abs(tilt.fixed[model.free]).max(initial=0.0)) <= 1e-12 * size
-
-
 def solve_tilt(model: Model, contacts: Contacts, load_case: LoadCase, ask: Ask) -> Answer:
     """The angle of collapse, in ``tilt.angle`` or as tangent by the load factor, with the loads and forces there."""
     tilt = load_case.tilt
@@ -98,11 +90,11 @@ def solve_tilt(model: Model, contacts: Contacts, load_case: LoadCase, ask: Ask) 
     level = Answer(replace(load_case, tilt=replace(tilt, tangent=tangent)), *ask(load_case))
     if math.isnan(level.load_factor) or (tangent and math.isfinite(level.load_factor)):
         return level
-    upright = math.inf if level.solution.status is Status.UNBOUNDED else level.checks.static_bound
     start = level.next_angle(tilt)
     if start <= AT_ONCE:  # the level table bears nothing more: an angle of 0, and so is its tangent
         return replace(level, load_case=replace(load_case, tilt=replace(tilt, tangent=True)))
-    search = _Search(load_case, replace(tilt, tangent=False, upright=upright), ask)
+    upright = level_bound(model, contacts, load_case, with_level(level.solution, level.solution))
+    search = _Search(load_case, replace(tilt, tangent=False, upright=upright), level.solution, ask)
     found = search.from_angle(start) if start < math.pi else search.from_probes()
     return search.with_words(search.before(found))
 
@@ -117,11 +109,17 @@ def never_collapses(tilt: Tilt, found: Answer) -> Solution:
     return replace(found.solution, status=Status.NOT_VERIFIED, reason=f"{reason}; nothing is proved of those between")
 
 
+def with_level(solution: Solution, level: Solution) -> Solution:
+    """The solution with what was found of the level table, which proves how much of the load across that bears."""
+    bears_all = level.status is Status.UNBOUNDED
+    return replace(solution, level=None if bears_all else level.associative, level_lock=level.lock)
+
+
 class _Search:
     """Answers at one angle after the other."""
 
-    def __init__(self, load_case: LoadCase, tilt: Tilt, ask: Ask) -> None:
-        self.load_case, self.tilt, self.ask = load_case, tilt, ask
+    def __init__(self, load_case: LoadCase, tilt: Tilt, level: Solution, ask: Ask) -> None:
+        self.load_case, self.tilt, self.level, self.ask = load_case, tilt, level, ask
         self.angles: list[float] = []
         self.seconds = 0.0
 
@@ -205,7 +203,7 @@ class _Search:
             reason = f"the angle did not settle: its load factor differs from 1 by {abs(factor - 1.0):.1e}"
             near = abs(factor - 1.0) <= NEAR
             solution = replace(solution, status=Status.APPROXIMATE if near else Status.NOT_VERIFIED, reason=reason)
-        elif self.tilt.upright < math.tan(angle / 2.0):
+        elif not self.tilt.upright >= math.tan(angle / 2.0):
             words.append(f"That it does not collapse before was seen at {BETWEEN - 1} angles, not proved")
         solution = replace(solution, remarks=(*solution.remarks, *words), seconds=self.seconds)
-        return Answer(replace(found.load_case, tilt=tilt), solution, found.checks)
+        return Answer(replace(found.load_case, tilt=tilt), with_level(solution, self.level), found.checks)

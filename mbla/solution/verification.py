@@ -14,13 +14,16 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+import numpy as np
+
 from mbla.contacts.contacts import Contacts
 from mbla.contacts.glue import solids_of
 from mbla.model.model import LoadCase, Model
+from mbla.program.assemble import yield_limits
 from mbla.solution.glued import solution_on_solids
-from mbla.solution.solution import Checks, Solution, Status
+from mbla.solution.solution import Checks, Solution, Standing, Status
 from mbla.solution.verify import verify as verify_mechanics
-from mbla.solution.verify_convex import convex_lock_failures, verify_convex
+from mbla.solution.verify_convex import convex_lock_failures, point_limits, verify_convex
 from mbla.solution.verify_lock import lock_failures
 from mbla.solution.verify_peak import peak_check
 from mbla.solution.verify_polyhedral import verify_polyhedral
@@ -28,6 +31,9 @@ from mbla.solution.verify_range import range_checks
 from mbla.solution.verify_standing import standing_failures
 from mbla.solution.verify_tilt import never_failures, tilt_failures
 from mbla.stopwatch import timed
+
+NOT_SHOWN = "nothing is given that shows that it stands under the dead load alone"
+SHOWN = "it is said not to stand under the dead load alone, and its forces show that it does"
 
 APART = 1e-9
 """Motion of glued blocks against each other, over the largest motion: rounding of the map from solids to blocks."""
@@ -55,7 +61,10 @@ def _verify(model: Model, contacts: Contacts, load_case: LoadCase, solution: Sol
     if solution.contact_model == "convex":
         of_mechanics = verify_convex
     checks = of_mechanics(model, contacts, load_case, solution)
-    failures = (*_standing_failures(model, contacts, load_case, solution), *tilt_failures(load_case, solution))
+    failures = (
+        *_standing_failures(model, contacts, load_case, solution),
+        *tilt_failures(model, contacts, load_case, solution),
+    )
     if failures:
         checks = replace(checks, verified=False, failures=(*checks.failures, *failures))
     lower, upper = range_checks(model, contacts, load_case, solution)
@@ -71,12 +80,40 @@ def _verify(model: Model, contacts: Contacts, load_case: LoadCase, solution: Sol
     )
 
 
+def level_bound(model: Model, contacts: Contacts, load_case: LoadCase, solution: Solution) -> float:
+    """Multiple of the load across that a level table is proved to bear: inf for every one, nan for none."""
+    locks = solution.level_lock is not None
+    if load_case.tilt is None or (solution.level is None and not locks):
+        return np.nan
+    claim = Solution(
+        flow_rule="associative",
+        status=Status.UNBOUNDED if locks else Status.SOLVED,
+        mechanics=solution.level,
+        associative=solution.level,
+        certificate=None,
+        reason="",
+        programs=(),
+        iterations=(),
+        seconds=0.0,
+        contact_model=solution.contact_model,
+        lock=solution.level_lock,
+    )
+    level = replace(load_case, live_load=load_case.tilt.across, tilt=None)
+    checks = verify(model, contacts, level, claim)
+    return checks.static_bound if not locks else np.inf if checks.verified else np.nan
+
+
 def _standing_failures(model: Model, contacts: Contacts, load_case: LoadCase, solution: Solution) -> tuple[str, ...]:
-    """What of the forces and displacements that show that the structure stands does not."""
+    """Why forces and displacements do not show what is said of the dead load alone: that it is carried needs them."""
     standing = solution.standing
-    if standing is None or standing.forces is None or standing.settlement is None:
+    if standing is None:
         return ()
-    return standing_failures(model, contacts, load_case, standing.forces, standing.settlement)
+    stands = standing.verdict is Standing.YES
+    if standing.forces is None or standing.settlement is None:
+        return (NOT_SHOWN,) if stands and np.any(load_case.dead_load[model.free]) else ()
+    limits = point_limits(model, contacts) if solution.contact_model == "convex" else yield_limits(model, contacts)
+    failures = standing_failures(model, contacts, load_case, standing.forces, standing.settlement, limits)
+    return failures if stands or failures else (SHOWN,)
 
 
 def _lock_failures(model: Model, contacts: Contacts, load_case: LoadCase, solution: Solution) -> tuple[str, ...]:

@@ -82,8 +82,7 @@ class _Case:
         self.model, self.contacts, self.load_case = model, contacts, load_case
         self.laws: InterfaceLaws = interface_laws(model, contacts)
         limits = yield_limits(model, contacts)
-        blocks = self.laws.crushable[contacts.interface_of_point]
-        self.limits: YieldLimits = replace(limits, compression=np.where(blocks, np.inf, limits.compression))
+        self.limits: YieldLimits = _of_points(limits, self.laws, contacts)
         self.scale: LoadScale = load_scale(model, contacts, load_case, limits)
 
     def own_velocities(self, mechanism: FloatArray, motions: FloatArray) -> FloatArray:
@@ -111,6 +110,16 @@ class _Case:
         arm = np.einsum("pjx,px->pj", contacts.frames, arm)
         arm[:, 0] = 0.0  # corners lie in the plane of the interface but for the tolerance of contacts
         return np.asarray(arm)
+
+
+def point_limits(model: Model, contacts: Contacts) -> YieldLimits:
+    """Strengths of the contact points alone, which do not crush where their interface does."""
+    return _of_points(yield_limits(model, contacts), interface_laws(model, contacts), contacts)
+
+
+def _of_points(limits: YieldLimits, laws: InterfaceLaws, contacts: Contacts) -> YieldLimits:
+    blocks = laws.crushable[contacts.interface_of_point]
+    return replace(limits, compression=np.where(blocks, np.inf, limits.compression))
 
 
 def convex_bounds(model: Model, contacts: Contacts, load_case: LoadCase, associative: Mechanics) -> tuple[float, float]:

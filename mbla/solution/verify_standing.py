@@ -19,8 +19,7 @@ import numpy as np
 from mbla.arrays import FloatArray
 from mbla.contacts.contacts import Contacts
 from mbla.model.model import LoadCase, Model
-from mbla.program.assemble import yield_limits
-from mbla.program.yield_conditions import yield_violation
+from mbla.program.yield_conditions import YieldLimits, yield_violation
 from mbla.solution.guides import left_to_balance, off_guides
 from mbla.solution.load_scale import load_scale, load_sizes
 from mbla.solution.statics import contact_resultants, contact_velocities
@@ -41,18 +40,23 @@ HIDDEN = 1e6
 
 
 def standing_failures(
-    model: Model, contacts: Contacts, load_case: LoadCase, forces: FloatArray, settlement: FloatArray
+    model: Model,
+    contacts: Contacts,
+    load_case: LoadCase,
+    forces: FloatArray,
+    settlement: FloatArray,
+    limits: YieldLimits,
 ) -> tuple[str, ...]:
     """Why forces and displacements do not show that the structure stands; nothing where they do.
 
     forces     : (n_points, 3) N, T1, T2 [N] under the dead load alone
     settlement : (n_blocks, 6) displacements and rotations of the blocks on joints of unit stiffness
+    limits     : of the contact points
     """
     if not np.any(load_case.dead_load[model.free]):
         return ()
     if not (np.isfinite(forces).all() and np.isfinite(settlement).all()):
         return ("the forces or displacements under the dead load are not finite",)
-    limits = yield_limits(model, contacts)
     scale = load_scale(model, contacts, load_case, limits)
     allowed = np.where(model.fixed, np.inf, scale.allowed(contacts, forces, UNBALANCED, ROUNDING))
     acting = contact_resultants(model, contacts, forces) + load_case.dead_load

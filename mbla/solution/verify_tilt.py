@@ -6,7 +6,8 @@ import math
 
 import numpy as np
 
-from mbla.model.model import LoadCase
+from mbla.contacts.contacts import Contacts
+from mbla.model.model import LoadCase, Model, Tilt
 from mbla.solution.solution import Checks, Solution, Status
 from mbla.solution.tilt_circle import chord, never_left
 
@@ -27,11 +28,21 @@ def never_failures(load_case: LoadCase, checks: Checks) -> tuple[str, ...]:
     return failures
 
 
-def tilt_failures(load_case: LoadCase, solution: Solution) -> tuple[str, ...]:
+def only_direction_counts(model: Model, contacts: Contacts, tilt: Tilt) -> bool:
+    """Whether loads can be borne in any multiple if in one: no strength but friction, and nothing but gravity."""
+    laws = [model.joints[name] for name in contacts.joint_names]
+    strength = any(law.cohesion or law.tensile_strength or math.isfinite(law.compressive_strength) for law in laws)
+    size = float(np.abs(tilt.turning).max(initial=0.0))
+    return not strength and float(np.abs(tilt.fixed[model.free]).max(initial=0.0)) <= 1e-12 * size
+
+
+def tilt_failures(model: Model, contacts: Contacts, load_case: LoadCase, solution: Solution) -> tuple[str, ...]:
     """What is wrong with the angle of a case that claims one."""
     tilt, mechanics = load_case.tilt, solution.mechanics
     if tilt is None or mechanics is None or solution.status not in (Status.SOLVED, Status.APPROXIMATE):
         return ()
+    if tilt.tangent and abs(mechanics.load_factor) > SAME and not only_direction_counts(model, contacts, tilt):
+        return ("the load factor is not the tangent of the angle: the size of the loads counts, too",)
     angle = math.degrees(math.atan(mechanics.load_factor)) if tilt.tangent else tilt.angle
     if math.isnan(angle):
         return ()

@@ -231,8 +231,9 @@ def full_results() -> Results:
     contacts = replace(results.contacts, solid_of_block=np.arange(len(results.model.blocks)))
     model = full_model(results.model)
     full = replace(case, load_case=model.load_cases[0], solution=full_solution(case.solution), checks=checks)
+    deck = replace(results.deck, files=(("stones.obj", b"v 0 0 0\n"), ("meshes/none.bin", b""), ("x.csv", b"\xff\x00")))
     cases = (full, results.cases[1])
-    return replace(results, model=model, contacts=contacts, cases=cases, complete=False, not_done=("slide",))
+    return replace(results, deck=deck, model=model, contacts=contacts, cases=cases, complete=False, not_done=("slide",))
 
 
 def full_solution(solution: Solution) -> Solution:
@@ -254,6 +255,8 @@ def full_solution(solution: Solution) -> Solution:
         upper=replace(mechanics, load_factor=0.52),
         peak=replace(mechanics, load_factor=0.6),
         outer=replace(mechanics, load_factor=0.56),
+        level=replace(mechanics, load_factor=0.57),
+        level_lock=np.arange(24.0, 48.0).reshape(8, 3),
         spread=(0.49, 0.51),
         asked=5e-3,
         standing=StandingResult(

@@ -27,7 +27,7 @@ from mbla.results.tables.csv_file import table_csv
 from mbla.results.tables.export import Formats, export_results
 from mbla.results.tables.tables import tables_of
 from mbla.results.words.listing import verification_lines
-from mbla.verify_file import verify_results
+from mbla.verify_file import verify_file
 from tests.results.odd_decks import DECKS
 
 NO_WORD = re.compile(r"(?<!\w)(nan|NaN|None|-?inf|Infinity)(?!\w)")
@@ -116,7 +116,7 @@ def test_files_pictures_and_report(name: str, tmp_path: Path) -> None:
     pyvista = pytest.importorskip("pyvista")
     run_of(name, tmp_path / "out")
     results = read_results_hdf5(tmp_path / "out" / "deck.h5")
-    again, apart = verify_results(results)
+    again, apart = verify_file(tmp_path / "out" / "deck.h5")
     assert not apart
     assert again.exit_code == results.exit_code
     check_words("\n".join(verification_lines(again, apart)))

@@ -26,7 +26,7 @@ from mbla.results.words.series_words import standing_words, worst_words
 from mbla.results.words.summary import summary_lines
 from mbla.run_deck import RunOptions, run
 from mbla.solution.solution import Status
-from mbla.verify_file import verify_results
+from mbla.verify_file import verify_file
 from tests.results.synthetic import standing_at, tower_results
 
 DECK = """mbla: 1
@@ -102,7 +102,7 @@ def test_listing_json_and_file_say_the_same(results: Results, folder: Path) -> N
     assert "degrees of tilt, verified" in text
     again = read_results_hdf5(folder / "beam.out" / "beam.h5")
     assert json.loads(json_line(results_json(again))) == record
-    assert verify_results(again)[1] == ()
+    assert verify_file(folder / "beam.out" / "beam.h5")[1] == ()
 
 
 def test_the_angle(results: Results) -> None:

@@ -17,6 +17,7 @@ from mbla.solution.convex_repair import repaired_convex_forces
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Standing, StandingResult, Status
 from mbla.solution.solve import ONLY_BY_SELF_STRESS
+from mbla.solution.standing import DeadLoadState
 from tests.line import BLOCK, line_of
 from tests.solution.convex_structures import DECKS
 from tests.solution.convex_structures import convex as convex_of
@@ -116,7 +117,7 @@ def test_what_locks_with_dilatancy_has_no_answer_without_a_state_of_the_law(monk
 
 def test_what_stands_by_self_stress_alone_has_no_load_factor_without_dilatancy(monkeypatch: pytest.MonkeyPatch) -> None:
     held = StandingResult(Standing.SELF_STRESS, 0, "only by forces locked in before")
-    monkeypatch.setattr(convex, "assess_standing", lambda *arguments: held)
+    monkeypatch.setattr(convex, "assess_dead_load", lambda *arguments: DeadLoadState(held, None, None))
     for rule, status in (("associative", Status.SOLVED), ("non_associative", Status.NOT_VERIFIED)):
         solution, _ = convex_of(line_of(BLOCK, "parameters.h=0.5"), rule)
         assert solution.status is status

@@ -15,7 +15,7 @@ from mbla.program.reductions import reduce_program
 from mbla.solution.associative import solve_associative
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Standing, StandingResult, Status
-from mbla.solution.standing import assess_standing, standing_without_equilibrium, worst_standing
+from mbla.solution.standing import assess_dead_load, standing_without_equilibrium, worst_standing
 from mbla.solution.weakening import Outcome, Weakening, agreed, weaken_springs
 from tests.decks.folder import DECKS
 from tests.line import WALL, line_of
@@ -29,7 +29,7 @@ def standing(program: Program) -> StandingResult:
     associative = solve_associative(program, SETTINGS, lambda record: None)
     if associative.certificate is not None:
         return standing_without_equilibrium(program, associative.certificate)
-    return assess_standing(program, SETTINGS, carried=True)
+    return assess_dead_load(program, SETTINGS, carried=True).standing
 
 
 @pytest.mark.parametrize("structure", STRUCTURES, ids=lambda structure: structure.name)
@@ -96,21 +96,21 @@ def test_a_tall_column_leans_on_strong_springs_only() -> None:
     wall = WALL.replace('length: "=0.4*n", courses: "=n"', "length: 0.4, courses: 150, bond: stack")
     program = line_of(wall).program
     assert len(program.free) == 150
-    assert assess_standing(program, SETTINGS, carried=True).verdict is Standing.YES
+    assert assess_dead_load(program, SETTINGS, carried=True).standing.verdict is Standing.YES
 
 
 def test_an_equilibrium_that_was_not_decided_leaves_a_fall_doubtful() -> None:
     program = line_of(bar("friction: 0.5")).program
-    result = assess_standing(program, SETTINGS, carried=None)
+    result = assess_dead_load(program, SETTINGS, carried=None).standing
     assert result.verdict is Standing.DOUBTFUL
     assert "was not decided" in result.reason
-    assert assess_standing(program, SETTINGS, carried=False).verdict is Standing.NO
+    assert assess_dead_load(program, SETTINGS, carried=False).standing.verdict is Standing.NO
 
 
 def test_no_time_leaves_it_doubtful() -> None:
     program = line_of(arch(0.108)).program
     late = SolverSettings(tolerance=1e-8, deadline=time.monotonic() - 1.0)
-    result = assess_standing(program, late, carried=True)
+    result = assess_dead_load(program, late, carried=True).standing
     assert result.verdict is Standing.DOUBTFUL
     assert "time limit" in result.reason
 

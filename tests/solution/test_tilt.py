@@ -175,9 +175,10 @@ def test_a_false_angle_is_found_out() -> None:
     answer = turned(METRES, "parameters.c=4000")
     tilt = answer.load_case.tilt
     assert tilt is not None
-    assert not tilt_failures(answer.load_case, answer.solution)
+    line = line_of(METRES, "parameters.c=4000")
+    assert not tilt_failures(line.model, line.contacts, answer.load_case, answer.solution)
     false = replace(answer.load_case, tilt=replace(tilt, angle=tilt.angle + 0.01))
-    assert len(tilt_failures(false, answer.solution)) == 1
+    assert len(tilt_failures(line.model, line.contacts, false, answer.solution)) == 1
 
 
 @pytest.mark.parametrize("rule", ["associative", "non_associative"])

@@ -7,6 +7,7 @@ import pytest
 
 from mbla.arrays import FloatArray
 from mbla.deck.analysis import ReductionSwitches
+from mbla.program.assemble import yield_limits
 from mbla.program.program import Program
 from mbla.program.reductions import reduce_program
 from mbla.solution.mechanics import forces_of
@@ -36,7 +37,8 @@ def shown(line: Line, parts: tuple[Program, ...]) -> tuple[FloatArray, FloatArra
 
 def failures(line: Line, forces: FloatArray, settlement: FloatArray) -> tuple[str, ...]:
     """What verification has against them."""
-    return standing_failures(line.model, line.contacts, line.load_case, forces, settlement)
+    limits = yield_limits(line.model, line.contacts)
+    return standing_failures(line.model, line.contacts, line.load_case, forces, settlement, limits)
 
 
 @pytest.mark.parametrize("structure", STANDING, ids=lambda structure: structure.name)

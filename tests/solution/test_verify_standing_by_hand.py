@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from mbla.arrays import FloatArray
+from mbla.program.assemble import yield_limits
 from mbla.solution.verify_standing import standing_failures
 from tests.line import BLOCK, Line, line_of
 from tests.solution.by_hand import cube, loaded, on_ground
@@ -30,12 +31,17 @@ def dry() -> Line:
     return block()
 
 
+def shown(line: Line, forces: FloatArray, settled: FloatArray) -> tuple[str, ...]:
+    limits = yield_limits(line.model, line.contacts)
+    return standing_failures(line.model, line.contacts, line.load_case, forces, settled, limits)
+
+
 def failures(
     line: Line, forces: FloatArray | tuple[float, float, float] = (8, -2, 0), settled: tuple[float, ...] = SETTLED
 ) -> tuple[str, ...]:
     if isinstance(forces, tuple):
         forces = on_ground(line.model, line.contacts, forces)
-    return standing_failures(line.model, line.contacts, line.load_case, forces, np.array([settled], dtype=float))
+    return shown(line, forces, np.array([settled], dtype=float))
 
 
 def test_the_exact_state(dry: Line) -> None:
@@ -202,7 +208,7 @@ def of_row(line: Line, share: tuple[float, float] = (1.0, 1.0)) -> tuple[FloatAr
 
 
 def of_standing(line: Line, forces: FloatArray, settled: FloatArray) -> tuple[str, ...]:
-    return standing_failures(line.model, line.contacts, line.load_case, forces, settled)
+    return shown(line, forces, settled)
 
 
 @pytest.mark.parametrize(("share", "block"), [((1.25, 1.125), 1), ((0.875, 0.75), 2)])

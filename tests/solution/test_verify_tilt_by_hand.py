@@ -40,18 +40,19 @@ def by_angle(line: Line, degrees: float, told: float | None = None) -> LoadCase:
     return replace(line.load_case, tilt=table, dead_load=FIXED + DOWN, live_load=live)
 
 
-def failures(case: LoadCase, factor: float, status: Status = Status.SOLVED) -> tuple[str, ...]:
-    return tilt_failures(case, claim(state(np.zeros((1, 3)), np.zeros((2, 6)), factor), status))
+def failures(line: Line, case: LoadCase, factor: float, status: Status = Status.SOLVED) -> tuple[str, ...]:
+    solution = claim(state(np.zeros((1, 3)), np.zeros((2, 6)), factor), status)
+    return tilt_failures(line.model, line.contacts, case, solution)
 
 
 @pytest.mark.parametrize("factor", [0.25, 0.0, -0.5, 3.0])
 def test_the_tangent_of_the_angle(factor: float, line: Line) -> None:
-    assert failures(by_tangent(line), factor) == ()
+    assert failures(line, by_tangent(line), factor) == ()
 
 
 @pytest.mark.parametrize("degrees", [10.0, 60.0, 120.0])
 def test_the_angle_itself(degrees: float, line: Line) -> None:
-    assert failures(by_angle(line, degrees), 1.0) == ()
+    assert failures(line, by_angle(line, degrees), 1.0) == ()
 
 
 @pytest.mark.parametrize("status", Status)
@@ -61,7 +62,7 @@ def test_a_false_angle(status: Status, line: Line) -> None:
     share = math.cos(math.radians(30)) - math.cos(math.radians(60))
     expected = (f"the loads at collapse are not those at 60 degrees: they differ by {share:.1e}",)
     claimed = status in (Status.SOLVED, Status.APPROXIMATE)
-    assert failures(case, 1.0, status) == (expected if claimed else ())
+    assert failures(line, case, 1.0, status) == (expected if claimed else ())
 
 
 @pytest.mark.parametrize("side", [1.0, -1.0])
@@ -70,7 +71,7 @@ def test_a_millionth_of_what_turns_may_be_off(side: float, line: Line) -> None:
         case = by_angle(line, 30.0)
         dead = case.dead_load.copy()
         dead[1, 4] = side * (off * 32.0)
-        assert (failures(replace(case, dead_load=dead), 1.0) == ()) == right
+        assert (failures(line, replace(case, dead_load=dead), 1.0) == ()) == right
 
 
 def test_small_loads_are_measured_by_themselves(line: Line) -> None:
@@ -81,23 +82,36 @@ def test_small_loads_are_measured_by_themselves(line: Line) -> None:
         dead = case.dead_load / 1024
         dead[1, 4] += off * 32.0 / 1024
         small = replace(case, tilt=table, dead_load=dead, live_load=case.live_load / 1024)
-        assert (failures(small, 1.0) == ()) == right
+        assert (failures(line, small, 1.0) == ()) == right
 
 
 def test_a_load_factor_that_is_no_tangent(line: Line) -> None:
     """Loads from the level table to 30 degrees, twice over."""
-    (failure,) = failures(by_angle(line, 30.0), 2.0)
+    (failure,) = failures(line, by_angle(line, 30.0), 2.0)
     assert "not those at 30 degrees" in failure
     other = replace(by_tangent(line), live_load=2.0 * ACROSS)
-    (failure,) = failures(other, 1.0)
+    (failure,) = failures(line, other, 1.0)
     assert "not those at 45 degrees" in failure
+
+
+@pytest.mark.parametrize("joint", ["friction: 0.5, cohesion: 1", "friction: 0.5, compressive_strength: 1000"])
+def test_no_tangent_where_the_size_of_the_loads_counts(joint: str, line: Line) -> None:
+    strong = cube(joint)
+    (failure,) = failures(strong, by_tangent(strong), 0.25)
+    assert "not the tangent of the angle" in failure
+    assert failures(strong, by_tangent(strong), 0.0) == ()
+    case = by_tangent(line)
+    assert case.tilt is not None
+    pulled = replace(case, tilt=replace(case.tilt, fixed=1e-9 * DOWN), dead_load=(1 + 1e-9) * DOWN)
+    (failure,) = failures(line, pulled, 0.25)
+    assert "not the tangent of the angle" in failure
 
 
 def test_cases_without_an_angle(line: Line) -> None:
     case = by_angle(line, 30.0, told=math.nan)
-    assert failures(case, 1.0) == ()
-    assert failures(replace(by_angle(line, 30.0, told=60.0), tilt=None), 1.0) == ()
-    assert tilt_failures(by_angle(line, 30.0, told=60.0), claim(None)) == ()
+    assert failures(line, case, 1.0) == ()
+    assert failures(line, replace(by_angle(line, 30.0, told=60.0), tilt=None), 1.0) == ()
+    assert tilt_failures(line.model, line.contacts, by_angle(line, 30.0, told=60.0), claim(None)) == ()
 
 
 def never(line: Line, upright: float, over: float, off: float = 0.0, **changes: Any) -> tuple[str, ...]:

@@ -272,15 +272,6 @@ OF_PROOFS = (
         "single load cases.",
     ),
     Explanation(
-        "deck-not-rebuilt",
-        "notice",
-        "mbla verify did not build the model of a result file again from the deck in it.",
-        "The answer is checked for blocks, contacts and loads of the file, not whether these are those of its deck.",
-        "The deck includes other files or reads geometry or tables, or another version of mbla wrote the file.",
-        "Run the deck again and compare the two files: mbla diff.",
-        example="the model was not built again from the deck in the file: the deck needs files beside it",
-    ),
-    Explanation(
         "verification-failed",
         "verification",
         "Verification found something wrong that has no identifier of its own.",

@@ -128,6 +128,8 @@ def _further(solution: Solution) -> Content:
         for name in ("certificate", "lock", "force_ranges")
         if getattr(solution, name) is not None
     }
+    if solution.level_lock is not None:
+        content["level/lock"] = solution.level_lock
     if solution.certificate_motions is not None:
         content["certificate_torsion_motions"] = solution.certificate_motions[:, 0]
         content["certificate_crushing_motions"] = solution.certificate_motions[:, 1]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from mbla.results.hdf5.field import Field, FieldKind, UnitKind
+from mbla.results.hdf5.field import COURSE, FALLS, SEARCHES, TIMES, WORDS, Field, FieldKind, UnitKind
 from mbla.results.hdf5.load_fields import LOADS, SETTLEMENT, SPECIAL_LOADS
 from mbla.results.hdf5.mechanism_fields import CASE, COLLAPSE, MECHANICS
 
@@ -10,9 +10,9 @@ from mbla.results.hdf5.mechanism_fields import CASE, COLLAPSE, MECHANICS
 def _columns(
     group: str, dimension: str, columns: tuple[tuple[str, FieldKind, UnitKind, str], ...]
 ) -> tuple[Field, ...]:
-    """A table of records, one dataset a column: name, type, unit, meaning; numbers may be nan."""
+    """A table of records of how it was solved, a dataset a column: name, type, unit, meaning; numbers may be nan."""
     return tuple(
-        Field(f"{group}/{name}", kind, (dimension,), unit, words, open=kind == "float", part="solution")
+        Field(f"{group}/{name}", kind, (dimension,), unit, words, open=kind == "float", part="solution", told=COURSE)
         for name, kind, unit, words in columns
     )
 
@@ -36,10 +36,19 @@ ANSWER = (
         "1",
         "how a flow without normality was solved; empty: associative",
         part="solution",
+        told=COURSE,
     ),
-    Field(f"{CASE}/reason", "text", (), "1", "why it is not plainly solved, in words", part="solution"),
-    Field(f"{CASE}/remarks", "text", ("remark",), "1", "what a reader of the figure must know", part="solution"),
-    Field(f"{CASE}/seconds", "float", (), "time", "time of the solver stage", part="solution"),
+    Field(f"{CASE}/reason", "text", (), "1", "why it is not plainly solved, in words", part="solution", told=WORDS),
+    Field(
+        f"{CASE}/remarks",
+        "text",
+        ("remark",),
+        "1",
+        "what a reader of the figure must know",
+        part="solution",
+        told=WORDS,
+    ),
+    Field(f"{CASE}/seconds", "float", (), "time", "time of the solver stage", part="solution", told=TIMES),
     Field(f"{CASE}/sides", "int", (), "1", "of the friction polyhedron, 0: circular cone", part="solution"),
 )
 
@@ -88,12 +97,22 @@ FURTHER_ANSWERS = (
         part="lock",
     ),
     Field(
+        f"{CASE}/level/lock",
+        "float",
+        ("point", "direction"),
+        "force",
+        "tilting table: contact forces within the yield conditions that balance the load across, of the level table, "
+        "alone",
+        part="level lock",
+    ),
+    Field(
         f"{CASE}/spread",
         "float",
         ("end",),
         "1",
         "least and greatest load factor of several tries that did not agree",
         part="spread",
+        told=SEARCHES,
     ),
     Field(
         f"{CASE}/asked",
@@ -111,13 +130,14 @@ FURTHER_ANSWERS = (
         "least and greatest normal force at the load factor, inf: unlimited, nan: not found",
         open=True,
         part="force_ranges",
+        told=SEARCHES,
     ),
     Field(
         f"{CASE}/standing/verdict",
         "text",
         (),
         "1",
-        "whether it stands under its dead load alone: yes, only by self-stress, no, doubtful",
+        "whether it stands under its dead load alone: yes (with proof), only by self-stress, no, doubtful",
         part="standing",
     ),
     Field(
@@ -128,8 +148,9 @@ FURTHER_ANSWERS = (
         "the block that falls or would fall first; no entry where none does",
         index_of="block",
         part="standing",
+        told=FALLS,
     ),
-    Field(f"{CASE}/standing/reason", "text", (), "1", "why, in words", part="standing"),
+    Field(f"{CASE}/standing/reason", "text", (), "1", "why, in words", part="standing", told=FALLS),
     Field(
         f"{CASE}/standing/contact_forces",
         "float",
@@ -147,7 +168,7 @@ FURTHER_ANSWERS = (
         part="standing proof",
     ),
     *(
-        Field(f"{CASE}/size/{name}", "int", (), "1", words, part="size")
+        Field(f"{CASE}/size/{name}", "int", (), "1", words, part="size", told=COURSE)
         for name, words in (
             ("dimension", "2 where it was solved as planar, else 3"),
             ("mirror_planes", "planes of symmetry that were used besides"),
@@ -158,7 +179,7 @@ FURTHER_ANSWERS = (
         )
     ),
     *(
-        Field(f"{CASE}/reductions/{name}", kind, ("reduction",), "1", words, part="reductions")
+        Field(f"{CASE}/reductions/{name}", kind, ("reduction",), "1", words, part="reductions", told=COURSE)
         for name, kind, words in REDUCTIONS
     ),
     *_columns(
@@ -230,7 +251,7 @@ HISTORY = (
         ),
     ),
     *(
-        Field(f"{CASE}/programs/{name}", "text", ("program_row",), "1", words, part="solution")
+        Field(f"{CASE}/programs/{name}", "text", ("program_row",), "1", words, part="solution", told=COURSE)
         for name, words in (
             ("solver", "mbla, clarabel or highs; empty: steps of the joint law, no cone program"),
             ("factorization", "library that factorised its linear systems; empty: the solver's own, or none"),

@@ -60,6 +60,8 @@ def case_from(load_case: LoadCase, get: dict[str, Any]) -> CaseResult:
         upper=answers["upper"],
         peak=answers["peak"],
         outer=answers["outer"],
+        level=answers["level"],
+        level_lock=get.get("level/lock"),
         certificate=get.get("certificate"),
         reason=get["reason"],
         programs=_records(ProgramRecord, (*PROGRAM_FIELDS, *SOLVER_FIELDS), get, "programs/"),

@@ -15,7 +15,7 @@ from mbla.errors import Notice
 from mbla.model.labels import BlockLabels
 from mbla.model.model import LoadCase, Model
 from mbla.results.hdf5.case_content import Content, case_content
-from mbla.results.hdf5.layout import FILETYPE, VERSION
+from mbla.results.hdf5.layout import FILETYPE, VERSION, fields_of
 from mbla.results.hdf5.load_fields import RECORD_NAMES
 from mbla.results.results import Results
 
@@ -83,6 +83,7 @@ def content_of(results: Results) -> Content:
         "deck/name": results.deck.name,
         "deck/source_names": [name for name, _ in results.deck.sources],
         "deck/source_texts": [text for _, text in results.deck.sources],
+        **_side_files(results.deck.files),
         "deck/overrides": results.deck.overrides,
         **_model(results.model),
         **_contacts(results.contacts),
@@ -101,6 +102,24 @@ def content_of(results: Results) -> Content:
         found = case_content(results.model, results.contacts, case)
         content |= {f"cases/{case.load_case.name}/{key}": value for key, value in found.items()}
     return content
+
+
+def as_told(results: Results) -> tuple[str, ...]:
+    """Kinds of statements in the results that the run alone can tell, so that nobody can verify them."""
+    content = content_of(results)
+    cases = [case.name for case in results.model.load_cases]
+    placed = fields_of(cases)
+    kinds = (field.told for path, field in placed if field.told and np.size(np.asarray(content.get(path, []))))
+    return tuple(dict.fromkeys(kinds))
+
+
+def _side_files(files: Sequence[tuple[str, bytes]]) -> Content:
+    contents = [np.frombuffer(content, dtype=np.uint8) for _, content in files]
+    return {
+        "deck/file_names": [name for name, _ in files],
+        "deck/file_start": starts(np.array([len(content) for content in contents], dtype=np.int64)),
+        "deck/file_bytes": np.concatenate([np.zeros(0, dtype=np.uint8), *contents]),
+    }
 
 
 def ragged(rows: Iterable[IntArray]) -> tuple[IntArray, IntArray]:

@@ -7,7 +7,7 @@ from typing import Literal
 
 from mbla.deck.units import Units
 
-FieldKind = Literal["float", "int", "bool", "text"]
+FieldKind = Literal["float", "int", "bool", "byte", "text"]
 UnitKind = Literal[
     "1",
     "time",
@@ -30,6 +30,17 @@ UnitKind = Literal[
 ]
 
 
+NOT_VERIFIED = "not verified: {}"
+"""attribute of datasets that ``mbla verify`` takes as the run told them"""
+
+VERSIONS, TIMES, FILES = "versions and date", "times", "names of files"
+WORDS = "reasons and remarks in words"
+COURSE = "how it was solved: scheme, programs, iterations, steps of the path, sizes, reductions"
+SEARCHES = "tries that did not agree, ranges of normal forces"
+FALLS = "why, and with which block first, a structure falls"
+PASSED = "mechanism of a peak"
+
+
 @dataclass(frozen=True)
 class Field:
     """One dataset.
@@ -39,6 +50,7 @@ class Field:
     start_of : for offsets of ragged arrays: the dimension they divide
     open     : non-finite values are allowed: nan for "nothing to say", inf for "unlimited"
     part     : fields of one part are all there or all missing; empty: always there
+    told     : what kind of statement it is, of those that the run alone can tell and ``mbla verify`` does not verify
     """
 
     path: str
@@ -50,6 +62,7 @@ class Field:
     start_of: str = ""
     open: bool = False
     part: str = ""
+    told: str = ""
 
 
 def unit_text(kind: UnitKind, units: Units) -> str:

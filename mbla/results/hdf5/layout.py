@@ -5,9 +5,11 @@ A ``*`` in a path stands for the name of a load case.
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 from mbla.deck.units import Units
 from mbla.results.hdf5.case_fields import CASE_FIELDS
-from mbla.results.hdf5.field import Field, notice_fields, unit_text
+from mbla.results.hdf5.field import COURSE, FILES, NOT_VERIFIED, TIMES, VERSIONS, Field, notice_fields, unit_text
 from mbla.results.hdf5.model_fields import MODEL_FIELDS
 
 FILETYPE = "mbla results"
@@ -48,15 +50,23 @@ SHARED_DIMENSIONS = (
 
 RUN_FIELDS: tuple[Field, ...] = (
     *notice_fields("notices", "all remarks of the run"),
-    Field("provenance/names", "text", ("entry",), "1", "programs, libraries, platform"),
-    Field("provenance/values", "text", ("entry",), "1", "their versions"),
+    Field("provenance/names", "text", ("entry",), "1", "programs, libraries, platform", told=VERSIONS),
+    Field("provenance/values", "text", ("entry",), "1", "their versions", told=VERSIONS),
     Field("provenance/setting_names", "text", ("setting",), "1", "analysis settings in effect"),
     Field("provenance/setting_values", "text", ("setting",), "1", "their values"),
-    Field("provenance/stage_names", "text", ("stage",), "1", "stages of the run"),
-    Field("provenance/stage_seconds", "float", ("stage",), "time", "time of each stage"),
-    Field("provenance/files", "text", ("file",), "1", "names of the files of this run"),
+    Field("provenance/stage_names", "text", ("stage",), "1", "stages of the run", told=TIMES),
+    Field("provenance/stage_seconds", "float", ("stage",), "time", "time of each stage", told=TIMES),
+    Field("provenance/files", "text", ("file",), "1", "names of the files of this run", told=FILES),
     Field("provenance/exit_code", "int", (), "1", "exit status of the run"),
-    Field("provenance/not_done", "text", ("case",), "1", "load cases not done by a stopped run", part="stopped"),
+    Field(
+        "provenance/not_done",
+        "text",
+        ("case",),
+        "1",
+        "load cases not done by a stopped run",
+        part="stopped",
+        told=COURSE,
+    ),
 )
 """what the run itself left: remarks, versions, settings, times"""
 
@@ -71,11 +81,18 @@ def fields_of_case(name: str) -> tuple[tuple[str, Field], ...]:
 COMMON_FIELDS: tuple[Field, ...] = tuple(f for f in LAYOUT if "*" not in f.path)
 
 
+def fields_of(cases: Iterable[str]) -> tuple[tuple[str, Field], ...]:
+    """The same of everything that a file with these cases may hold, in the order of writing."""
+    common = tuple((field.path, field) for field in COMMON_FIELDS)
+    return common + tuple(pair for name in cases for pair in fields_of_case(name))
+
+
 def layout_table() -> str:
     """The datasets as a Markdown table, as it stands in schemas/results.md; units as in a deck in m, N, kg."""
     lines = ["| dataset | type | dimensions | units | content |", "|---|---|---|---|---|"]
     for field in LAYOUT:
         content = field.long_name + (f" (part: {field.part})" if field.part else "")
+        content += f"; {NOT_VERIFIED.format(field.told)}" if field.told else ""
         dims = ", ".join(field.dims) or "–"
         lines.append(f"| `/{field.path}` | {field.kind} | {dims} | {unit_text(field.unit, Units())} | {content} |")
     return "\n".join(lines) + "\n"

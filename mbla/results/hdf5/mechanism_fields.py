@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from mbla.results.hdf5.field import Field
+from mbla.results.hdf5.field import PASSED, Field
 
 CASE = "cases/*"
 
@@ -13,11 +13,13 @@ MECHANICS_GROUPS = (
     ("upper/", "upper", "the greatest for the mechanism found"),
     ("peak/", "peak", "the greatest of the load path, passed before the structure comes to rest"),
     ("outer/", "outer", "with the circumscribed friction polyhedron"),
+    ("level/", "level", "of the level table with the load across, by the associative flow rule"),
 )
 """group below the case, name of the part, and whose forces and velocities they are"""
 
 
 def _mechanics(group: str, part: str, what: str) -> tuple[Field, ...]:
+    told = PASSED if part == "peak" else ""
     return (
         Field(f"{group}load_factor", "float", (), "1", f"load factor, {what}", part=part),
         Field(
@@ -35,6 +37,7 @@ def _mechanics(group: str, part: str, what: str) -> tuple[Field, ...]:
             "velocity",
             "velocity of body b relative to a in the point's frame, opening positive",
             part=part,
+            told=told,
         ),
         Field(
             f"{group}mechanism",
@@ -43,8 +46,9 @@ def _mechanics(group: str, part: str, what: str) -> tuple[Field, ...]:
             "velocities",
             "velocity and angular velocity about the centroid, live load power = 1",
             part=part,
+            told=told,
         ),
-        Field(f"{group}modes", "int", ("point",), "1", "contact mode: 0 stick, 1 slide, 2 open", part=part),
+        Field(f"{group}modes", "int", ("point",), "1", "contact mode: 0 stick, 1 slide, 2 open", part=part, told=told),
         *_resultants(group, part),
     )
 

@@ -6,8 +6,17 @@ from mbla.results.hdf5.field import Field, notice_fields
 
 MODEL_FIELDS: tuple[Field, ...] = (
     Field("deck/name", "text", (), "1", "file name of the deck"),
-    Field("deck/source_names", "text", ("source",), "1", "files that make the deck, the main one first"),
+    Field(
+        "deck/source_names",
+        "text",
+        ("source",),
+        "1",
+        "files that make the deck, the main one first, with their paths from its folder",
+    ),
     Field("deck/source_texts", "text", ("source",), "1", "their text"),
+    Field("deck/file_names", "text", ("file",), "1", "meshes and tables that it names, and what belongs to them"),
+    Field("deck/file_start", "int", ("file_bound",), "1", "first byte of each", start_of="file_byte"),
+    Field("deck/file_bytes", "byte", ("file_byte",), "1", "their content"),
     Field("deck/overrides", "text", ("override",), "1", "values changed by the user, on the command line or in Python"),
     Field("model/title", "text", (), "1", "title of the deck"),
     Field("model/units", "text", ("unit",), "1", "units of length, force, mass"),

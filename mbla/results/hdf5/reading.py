@@ -41,7 +41,7 @@ def read_field(dataset: h5py.Dataset, path: str, field: Field, sizes: dict[str, 
     if field.kind == "text":
         texts = strings(dataset)
         return texts if field.dims else texts[0]
-    kinds = {"float": "f", "int": "i", "bool": "u"}
+    kinds = {"float": "f", "int": "i", "bool": "u", "byte": "u"}
     if dataset.dtype.kind != kinds[field.kind]:
         raise ValueError(f"{path} is of type {dataset.dtype}")
     array = np.asarray(dataset[()])
@@ -51,7 +51,7 @@ def read_field(dataset: h5py.Dataset, path: str, field: Field, sizes: dict[str, 
         raise ValueError(f"{path} is beyond {MOST:g}")
     if field.kind == "bool" and np.any(array > 1):
         raise ValueError(f"{path} is neither 0 nor 1")
-    array = array.astype({"float": np.float64, "int": np.int64, "bool": np.bool_}[field.kind])
+    array = array.astype({"float": np.float64, "int": np.int64, "bool": np.bool_, "byte": np.uint8}[field.kind])
     return array if field.dims else array.item()
 
 

@@ -58,6 +58,7 @@ def results_from(content: Content, attributes: dict[str, str | int]) -> Results:
             sources=tuple(zip(get["deck/source_names"], get["deck/source_texts"], strict=True)),
             overrides=tuple(get["deck/overrides"]),
             sha256=str(attributes["deck_sha256"]),
+            files=_side_files(_part(get, "deck/")),
         ),
         model=model,
         contacts=contacts,
@@ -72,6 +73,11 @@ def results_from(content: Content, attributes: dict[str, str | int]) -> Results:
         complete=complete,
         not_done=() if complete else tuple(get["provenance/not_done"]),
     )
+
+
+def _side_files(get: dict[str, Any]) -> tuple[tuple[str, bytes], ...]:
+    names, start, content = get["file_names"], get["file_start"], get["file_bytes"].tobytes()
+    return tuple((name, content[start[row] : start[row + 1]]) for row, name in enumerate(names))
 
 
 def _part(content: dict[str, Any], prefix: str) -> dict[str, Any]:

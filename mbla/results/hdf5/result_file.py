@@ -21,15 +21,15 @@ import numpy as np
 from mbla.deck.units import Units
 from mbla.errors import FileError
 from mbla.results.hdf5.case_content import Content, Value
+from mbla.results.hdf5.comparing import differences
 from mbla.results.hdf5.content import content_of, root_attributes
-from mbla.results.hdf5.field import Field, unit_text
+from mbla.results.hdf5.field import NOT_VERIFIED, Field, unit_text
 from mbla.results.hdf5.layout import (
     ATTRIBUTES,
-    COMMON_FIELDS,
     FILETYPE,
     SHARED_DIMENSIONS,
     VERSION,
-    fields_of_case,
+    fields_of,
 )
 from mbla.results.hdf5.reading import check_indices, read_field, strings, text_of
 from mbla.results.hdf5.restore import results_from
@@ -92,7 +92,7 @@ def write_results_hdf5(results: Results) -> bytes:
         for name, value in root_attributes(results).items():
             _set_attribute(file, name, value)
         scales: dict[str, h5py.Dataset] = {}
-        for path, field in _fields([case.name for case in results.model.load_cases]):
+        for path, field in fields_of(case.name for case in results.model.load_cases):
             if path in content:
                 _write_field(file, scales, path, field, content.pop(path), results.model.units)
         if content:
@@ -140,6 +140,17 @@ def read_results_hdf5(path: Path) -> Results:
         raise FileError("damaged-result-file", f"{path}: damaged: {_short(error)}") from error
 
 
+def differences_of_file(path: Path, image: bytes) -> tuple[str, ...]:
+    """Where a file is not the one of these bytes, which ``write_results_hdf5`` gave, in words."""
+    import h5py
+
+    try:
+        with h5py.File(path, "r", locking=False) as found, h5py.File(io.BytesIO(image), "r") as wanted:
+            return tuple(differences(found, wanted))
+    except (OSError, *DAMAGE) as error:
+        return (f"it cannot be compared with what was recomputed: {_short(error)}",)
+
+
 def _try_opening(path: Path) -> None:
     """What the operating system refuses, in its own words: those of HDF5 are long and name addresses in memory."""
     try:
@@ -158,12 +169,6 @@ def _short(error: BaseException) -> str:
     line = text.splitlines()[0] if text else type(error).__name__
     cause = re.fullmatch(r"(?:Unable to|Can't) [a-z ]+\((.+)\)", line)
     return cause[1] if cause else line
-
-
-def _fields(cases: list[str]) -> list[tuple[str, Field]]:
-    """Every dataset that a file with these cases may hold, in the order of writing."""
-    common = [(field.path, field) for field in COMMON_FIELDS]
-    return common + [pair for name in cases for pair in fields_of_case(name)]
 
 
 def write_labelled_hdf5(content: LabelledFile) -> bytes:
@@ -245,7 +250,7 @@ def _text_array(value: str | list[str] | tuple[str, ...]) -> np.typing.NDArray[A
 def _as_array(value: Value, field: Field) -> np.typing.NDArray[Any]:
     if field.kind == "text":
         return _text_array(value)  # type: ignore[arg-type]
-    kinds = {"float": np.float64, "int": np.int64, "bool": np.uint8}
+    kinds = {"float": np.float64, "int": np.int64, "bool": np.uint8, "byte": np.uint8}
     array = np.ascontiguousarray(value, dtype=kinds[field.kind]) if field.dims else np.array(value, kinds[field.kind])
     if array.ndim != len(field.dims):
         raise AssertionError(f"{field.path}: {array.ndim} dimensions, the layout has {len(field.dims)}")
@@ -259,6 +264,8 @@ def _write_field(
     dataset = _create(file, path, array)
     _set_attribute(dataset, "units", unit_text(field.unit, units))
     _set_attribute(dataset, "long_name", field.long_name)
+    if field.told:
+        _set_attribute(dataset, "verification", NOT_VERIFIED.format(field.told))
     if field.kind == "text":
         _set_attribute(dataset, "_Encoding", "utf-8")  # netCDF's word for it: xarray gives text, not bytes
     for axis, name in enumerate(field.dims):
@@ -333,7 +340,7 @@ def _read_content(file: h5py.File, file_bytes: int) -> Content:
     sizes: dict[str, int] = {"axis": 3, "direction": 3, "component": 6, "pair": 2, "end": 2, "unit": 3}
     cases = strings(_dataset(file, "model/load_cases", file_bytes))
     parts: dict[str, set[bool]] = {}
-    fields = _fields(cases)
+    fields = fields_of(cases)
     for path, field in fields:
         present = path in file
         if field.part:

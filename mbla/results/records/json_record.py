@@ -10,6 +10,7 @@ from mbla import __version__
 from mbla.contacts.glue import solid_sizes
 from mbla.errors import Notice
 from mbla.model.model import Model
+from mbla.results.hdf5.content import as_told
 from mbla.results.needs import CaseNeeds
 from mbla.results.outcome import dimension_of, notices_of, standing_of
 from mbla.results.records.case_json import case_json
@@ -71,8 +72,12 @@ def _needs(needs: CaseNeeds) -> dict[str, Any]:
 
 
 def verification_json(results: Results, disagreements: Sequence[str]) -> dict[str, Any]:
-    """The record of a verification: figures recomputed, and where the file says otherwise."""
-    return results_json(results) | {"agrees": not disagreements, "disagreements": list(disagreements)}
+    """The record of a verification: figures recomputed, where the file says otherwise, and what was not verified."""
+    return results_json(results) | {
+        "agrees": not disagreements,
+        "disagreements": list(disagreements),
+        "not_verified": list(as_told(results)),
+    }
 
 
 def json_line(record: dict[str, Any]) -> str:

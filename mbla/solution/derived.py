@@ -1,0 +1,62 @@
+"""What of a solution follows from its forces and mechanisms, found again from them: for who does not believe it."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from mbla.arrays import FloatArray, IntArray
+from mbla.contacts.contacts import Contacts
+from mbla.contacts.glue import Solids, solids_of
+from mbla.model.model import LoadCase, Model
+from mbla.program.assemble import yield_limits
+from mbla.program.convex import assemble_convex
+from mbla.solution.contact_modes import contact_modes
+from mbla.solution.glued import MOTIONS
+from mbla.solution.solution import Mechanics, Solution
+from mbla.solution.statics import contact_velocities
+from mbla.solution.verify import dilatancy_of
+
+BY_NORMALITY = ("associative", "outer", "level")
+"""parts of a solution that flow by the associative rule whatever that of the analysis"""
+
+ROUNDING = 1e-9
+"""Difference of velocities over the largest that is rounding: those stored are kept then, as modes at thresholds follow
+from them."""
+
+
+def with_derived(model: Model, contacts: Contacts, load_case: LoadCase, solution: Solution) -> Solution:
+    """The solution with velocities and modes of the contact points as its mechanisms and forces give them."""
+    solids = solids_of(model, contacts)
+    found: dict[int, Mechanics] = {}
+    for part in MOTIONS:
+        mechanics: Mechanics | None = getattr(solution, part)
+        if mechanics is not None and id(mechanics) not in found:
+            still = np.where(model.fixed[:, None], 0.0, mechanics.mechanism)
+            moved = contact_velocities(model, contacts, still)
+            if _near(moved, mechanics.contact_velocities):
+                moved = mechanics.contact_velocities
+            mechanics = replace(mechanics, mechanism=still, contact_velocities=moved)
+            rule = "associative" if part in BY_NORMALITY else solution.flow_rule
+            modes = _modes(solids, load_case, mechanics, rule)
+            found[id(getattr(solution, part))] = replace(mechanics, modes=modes)
+    parts = {part: found.get(id(getattr(solution, part))) for part in MOTIONS}
+    return replace(solution, **parts)  # type: ignore[arg-type]  # names and types are those of the parts
+
+
+def _near(one: FloatArray, other: FloatArray) -> bool:
+    """Whether two arrays differ by no more than rounding of the largest entry."""
+    return bool(np.abs(one - other).max(initial=0.0) <= ROUNDING * np.abs(one).max(initial=0.0))
+
+
+def _modes(solids: Solids, load_case: LoadCase, mechanics: Mechanics, flow_rule: str) -> IntArray:
+    limits = yield_limits(solids.model, solids.contacts)
+    slope = dilatancy_of(limits, flow_rule)
+    if mechanics.interface_motions is None:
+        return contact_modes(mechanics.contact_forces, mechanics.contact_velocities, limits, slope)
+    from mbla.solution.convex import modes_of  # late: the law of interfaces is asked for rarely
+
+    convex = assemble_convex(solids.model, solids.contacts, solids.load_case(load_case))
+    of_solids = replace(mechanics, mechanism=solids.solid_motions(mechanics.mechanism))
+    return modes_of(convex, of_solids, slope)
