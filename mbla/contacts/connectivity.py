@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from mbla.arrays import BoolArray, IntArray
+from mbla.model.model import Model
 
 
 def isolated_blocks(n_blocks: int, bodies: IntArray) -> IntArray:
@@ -12,6 +13,13 @@ def isolated_blocks(n_blocks: int, bodies: IntArray) -> IntArray:
     touched = np.zeros(n_blocks, dtype=bool)
     touched[bodies[bodies < n_blocks]] = True
     return np.flatnonzero(~touched)
+
+
+def held_blocks(model: Model) -> BoolArray:
+    """Blocks that a support holds, wholly or in some of their ways, (n_blocks,)."""
+    held = model.fixed.copy()
+    held[model.guides.blocks] = True
+    return held
 
 
 def unsupported_parts(fixed: BoolArray, bodies: IntArray) -> tuple[IntArray, ...]:

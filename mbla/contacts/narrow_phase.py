@@ -104,13 +104,16 @@ def find_patches(
     return _measured(concatenate(overlays).take(row), parts, areas(facets.polygons))
 
 
-def judge(patches: Patches, tolerance: float) -> Verdicts:
-    """Sort common surfaces into contacts, slivers and near misses."""
+def judge(patches: Patches, tolerance: float, reach: float | None = None) -> Verdicts:
+    """Sort common surfaces into contacts, slivers and near misses.
+
+    reach : greatest gap of near misses, ten tolerances unless given
+    """
     gap = np.abs(patches.gaps)
     # Equality with the tolerance must not hang on the last digit.
     limit = tolerance * (1 + 1e-9) + _ROUNDING
     close = gap <= limit
-    near = ~close & (np.abs(patches.mid_gaps) <= NEAR_MISS * limit)
+    near = ~close & (np.abs(patches.mid_gaps) <= (NEAR_MISS * limit if reach is None else reach))
     visible = patches.widths > _EDGE * tolerance
     wide = (patches.widths >= tolerance * (1 - 1e-9)) | (visible & (patches.coverage >= _NARROW_FACET))
     return Verdicts(

@@ -8,9 +8,11 @@ import numpy as np
 
 from mbla.arrays import IntArray
 from mbla.contacts.between import HeldApart
+from mbla.contacts.connectivity import held_blocks
 from mbla.contacts.contacts import ContactReport
 from mbla.contacts.glue import Glue
 from mbla.contacts.nearest import nearest_words
+from mbla.contacts.reach import WIDEST, joining_gap
 from mbla.deck.types import ContactsSection
 from mbla.errors import Notice
 from mbla.model.model import Model
@@ -26,12 +28,13 @@ def report_notices(
     model: Model, section: ContactsSection, report: ContactReport, bodies: IntArray
 ) -> tuple[Notice, ...]:
     """What the report has to say; bodies (n, 2) of all contacts."""
+    joined = _joined(model, report, bodies)
     return (
+        *_isolated(model, section, report, joined),
+        *_unsupported(model, report, "" if len(report.isolated) else joined),
         *_overlaps(model, report),
         *_near_misses(model, section, report),
         *_slivers(model, section, report),
-        *_isolated(model, report),
-        *_unsupported(model, report),
         *_grounds(model, section, bodies),
         *_fixed_contacts(report),
     )
@@ -148,16 +151,29 @@ def _slivers(model: Model, section: ContactsSection, report: ContactReport) -> l
     return [Notice("notice", "slivers-dropped", text)]
 
 
-def _isolated(model: Model, report: ContactReport) -> list[Notice]:
-    if not len(report.isolated):
+def _joined(model: Model, report: ContactReport, bodies: IntArray) -> str:
+    """The tolerances that close every near miss, and enough of them, where there are blocks that reach no support."""
+    gaps = np.abs(report.near_miss_gaps)
+    enough = joining_gap(held_blocks(model), bodies, report.near_misses, gaps) if report.unsupported else None
+    if enough is None:
+        return ""
+    every = _by_tolerance(float(gaps.max()), "; with contacts.tolerance {:.2g} all faces touch that nearly do")
+    return every + _by_tolerance(enough, ", from {:.2g} on every block reaches a support")
+
+
+def _isolated(model: Model, section: ContactsSection, report: ContactReport, joined: str) -> list[Notice]:
+    number = len(report.isolated)
+    if not number:
         return []
-    text = f"{_count(len(report.isolated), 'block')} without any contact: {_names(model, report.isolated)}"
+    verb = "touches nothing" if number == 1 else "touch nothing"
+    text = f"{number} of {_count(len(model.blocks), 'block')} {verb}: {_names(model, report.isolated)}"
     adrift = [part for part in report.unsupported if len(part) == 1]
-    text += nearest_words(model, adrift[0]) if adrift else ""
+    text += (nearest_words(model, adrift[0]) if adrift else "") + joined
+    text += "" if section.isolated == "allow" else "; exit status 4, unless contacts.isolated is allow"
     return [Notice("warning", "isolated-blocks", text)]
 
 
-def _unsupported(model: Model, report: ContactReport) -> list[Notice]:
+def _unsupported(model: Model, report: ContactReport, joined: str) -> list[Notice]:
     parts = [part for part in report.unsupported if len(part) > 1]  # one alone is an isolated block
     if not parts:
         return []
@@ -165,7 +181,7 @@ def _unsupported(model: Model, report: ContactReport) -> list[Notice]:
         f"{_count(len(parts), 'part')} of the structure not connected to a support; the "
         f"{'largest' if len(parts) > 1 else 'part'} has "
         f"{_count(max(len(part) for part in parts), 'block')}: {_names(model, max(parts, key=len))}"
-        f"{nearest_words(model, max(parts, key=len))}"
+        f"{nearest_words(model, max(parts, key=len))}{joined}"
     )
     return [Notice("warning", "unsupported-parts", text)]
 
@@ -228,4 +244,4 @@ def _length(model: Model, pair: Sequence[int], relative: float) -> str:
 def _by_tolerance(relative: float, text: str) -> str:
     """The text with the tolerance that would do, or nothing where no allowed tolerance would."""
     rounded = float(f"{relative * 1.05:.1e}")
-    return text.format(rounded) if rounded < 0.1 else ""
+    return text.format(rounded) if rounded < WIDEST else ""

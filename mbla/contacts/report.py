@@ -8,7 +8,7 @@ import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.contacts.between import HeldApart
-from mbla.contacts.connectivity import isolated_blocks, unsupported_parts
+from mbla.contacts.connectivity import held_blocks, isolated_blocks, unsupported_parts
 from mbla.contacts.contacts import ContactReport
 from mbla.contacts.glue import Glue
 from mbla.contacts.narrow_phase import Patches
@@ -43,8 +43,6 @@ def build_report(model: Model, section: ContactsSection, findings: Findings, not
     bodies = _without(touching, findings.open_bodies, len(model.blocks) + len(model.grounds))
     slivers, widths = _slivers(model, findings.slivers)
     near_misses, gaps = _near_misses(model, findings.near_misses, overlaps)
-    held = model.fixed.copy()
-    held[model.guides.blocks] = True
     report = ContactReport(
         slivers=slivers,
         sliver_widths=widths,
@@ -54,7 +52,7 @@ def build_report(model: Model, section: ContactsSection, findings: Findings, not
         overlap_depths=overlaps.depths,
         unchecked=overlaps.unchecked,
         isolated=isolated_blocks(len(model.blocks), bodies),
-        unsupported=unsupported_parts(held, bodies),
+        unsupported=unsupported_parts(held_blocks(model), bodies),
         fixed_contacts=int(both_fixed(model, touching).sum()),
         open_interfaces=len(findings.open_bodies),
         glued=findings.glued_bodies,

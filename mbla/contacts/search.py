@@ -9,6 +9,7 @@ import numpy as np
 from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.contacts.between import HeldApart, without_held_apart
 from mbla.contacts.broad_phase import BlockPairs, find_block_pairs
+from mbla.contacts.connectivity import held_blocks, unsupported_parts
 from mbla.contacts.contacts import ContactReport, Contacts
 from mbla.contacts.corners import areas_and_centroids, needed_corners
 from mbla.contacts.facets import Facets, build_facets
@@ -22,6 +23,7 @@ from mbla.contacts.near_misses import without_covered
 from mbla.contacts.outline_notices import outline_notices
 from mbla.contacts.overlaps import find_overlaps
 from mbla.contacts.polygons import centroids
+from mbla.contacts.reach import misses_within
 from mbla.contacts.refine import InterfacePoints, point_starts
 from mbla.contacts.report import Findings, both_fixed, build_report
 from mbla.deck.types import ContactsSection
@@ -90,7 +92,12 @@ def _verdicts(model: Model, facets: Facets, pairs: BlockPairs, tolerance: float)
     """What touches, what nearly does, and what a third body holds apart; given interfaces are taken as they are."""
     if model.interfaces is None:
         found = judge(find_patches(model.blocks, facets, pairs, model.grounds, tolerance), tolerance)
-        return without_held_apart(found, model.blocks, tolerance)
+        verdicts, held_apart = without_held_apart(found, model.blocks, tolerance)
+        if unsupported_parts(held_blocks(model), found.contacts.overlays.bodies):
+            wide = replace(found, near_misses=misses_within(model, facets, tolerance) or found.near_misses)
+            near_misses = without_held_apart(wide, model.blocks, tolerance)[0].near_misses
+            verdicts = replace(verdicts, near_misses=near_misses)
+        return verdicts, held_apart
     given = patches_of(model, model.interfaces)
     nothing = given.take(np.empty(0, dtype=np.int64))
     return Verdicts(given, nothing, nothing), HeldApart(nothing, np.empty(0, dtype=np.int64))

@@ -88,5 +88,10 @@ class ContactsSection(Section):
         "further column `joint` may give the law of single interfaces, which then holds before overrides. Not with "
         "symmetry",
     )
+    isolated: Literal["fail", "allow"] = Field(
+        "fail",
+        description="blocks that touch nothing at all, no block and no ground: fail, the run ends with exit status 4; "
+        "allow, it is told and no more",
+    )
     points: ContactPoints = Field(default_factory=ContactPoints, description="where contact points lie")
     overrides: list[ContactOverride] = Field(default_factory=list, description="the last that fits a contact holds")

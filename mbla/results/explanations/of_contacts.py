@@ -77,10 +77,13 @@ OF_CONTACTS = (
         "isolated-blocks",
         "warning",
         "Blocks touch nothing at all.",
-        "They fall under their own weight: no equilibrium, unless they are fixed.",
-        "A gap, a wrong unit of a file, or a block that does not belong to the structure.",
-        "Close the gap that the message names, fix the blocks, or leave them out.",
-        says=("without any contact",),
+        "They fall under their own weight unless they are fixed, and fixed ones hold nothing: what was solved is not "
+        "the structure that was meant. The run ends with exit status 4, whatever its load cases are.",
+        "Gaps wider than the tolerance, a wrong unit of a file, or a block that does not belong to the structure.",
+        "Close the gaps, or set contacts.tolerance as the message says where they are rounding; leave out blocks that "
+        "do not belong there. contacts.isolated: allow is for those that are meant to touch nothing.",
+        example="contacts: {joint: dry, tolerance: 0.026}",
+        says=("touch nothing", "touches nothing"),
     ),
     Explanation(
         "unsupported-parts",

@@ -10,6 +10,8 @@ from mbla.results.outcome import case_notices, notices_of
 from mbla.results.results import Results
 from mbla.results.words.text import counted, heading, sentence
 
+CAUSES = ("isolated-blocks", "unsupported-parts")
+"""Warnings that stand before the load cases: the verdicts on these follow from them."""
 HINT = "`mbla explain ID` says what an identifier in brackets means and what to do."
 
 
@@ -36,13 +38,19 @@ def warning_lines(results: Results) -> list[str]:
     return lines + sentence(HINT)
 
 
+def cause_lines(results: Results) -> list[str]:
+    """For the terminal: what has to be known before any figure, which follows from it."""
+    return [line for notice in results.notices if notice.identifier in CAUSES for line in sentence(str(notice))]
+
+
 def warning_summary(results: Results) -> list[str]:
-    """For the terminal: in full what is not told in the words of its case, then all identifiers in a line."""
+    """For the terminal: in full what is told neither above nor in the words of its case, then all identifiers."""
     warnings = warnings_of(results)
     if not warnings:
         return []
     own = [notice for case in results.cases for notice in case_notices(case)]
-    lines = [line for notice in warnings if not notice.case or notice in own for line in sentence(str(notice))]
+    told = [notice for notice in warnings if notice.identifier not in CAUSES and (not notice.case or notice in own)]
+    lines = [line for notice in told for line in sentence(str(notice))]
     counts = Counter(warning.identifier for warning in warnings)
     named = ", ".join(name if count == 1 else f"{name} ({count})" for name, count in counts.items())
     return lines + sentence(f"{counted(len(warnings), 'warning')}: {named}; mbla explain ID says more")

@@ -14,7 +14,7 @@ from mbla.results.words.answer_words import answer_columns, status_words
 from mbla.results.words.certificate_words import fall_summary
 from mbla.results.words.failure_words import failure_sentences
 from mbla.results.words.mechanism_words import mechanism_summary
-from mbla.results.words.notice_words import warning_summary
+from mbla.results.words.notice_words import cause_lines, warning_summary
 from mbla.results.words.series_words import spread_over_positions, worst_words
 from mbla.results.words.text import counted, number, sentence, table
 from mbla.results.words.verdict_words import bound_words, reasons, verdict
@@ -31,7 +31,7 @@ def summary_lines(results: Results) -> list[str]:
         f"{counted(len(contacts.points), 'contact point')}, weight {number(model.total_weight)} {model.units.force}"
     )
     told = told_cases(results.cases)
-    lines = [counts, *_table(results.model, told)]
+    lines = [counts, *cause_lines(results), *_table(results.model, told)]
     for case in told:
         lines += _in_words(results, case)
     for series in series_of(results.cases):
