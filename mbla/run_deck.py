@@ -8,6 +8,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from mbla.contacts import Contacts, find_contacts
+from mbla.contacts.bent_contacts import bent_faults
 from mbla.contacts.broad_phase import PairsRefused
 from mbla.contacts.glue import Solids, held_model, solids_of
 from mbla.contacts.glue_findings import glue_findings
@@ -250,7 +251,7 @@ def reduced_program(deck: Deck, solids: Solids, program: Program) -> Reduced:
 
 
 def contacts_of(deck: Deck, model: Model) -> Contacts:
-    """Contacts of a model; blocks that overlap make the deck invalid, and glue that leaves nothing to move."""
+    """Contacts of a model; blocks that overlap, bent faces in contact, glue that leaves nothing to move are faults."""
     try:
         contacts = find_contacts(model, deck.contacts)
     except PairsRefused as refused:
@@ -263,6 +264,7 @@ def contacts_of(deck: Deck, model: Model) -> Contacts:
         deck.fault_at(("blocks",), Message("blocks-overlap", message))
         for message in overlap_messages(model, contacts.report)
     ]
+    faults += bent_faults(deck, model, contacts)
     faults += [deck.fault_at(path, message) for path, message in glue_findings(model, contacts)]
     if faults:
         raise DeckError(first_faults(faults))

@@ -9,6 +9,7 @@ import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.errors import MblaError, Message, Notice
+from mbla.model.bent_faces import NO_BENT_FACES, BentFaces, can_be_split, split_faces
 from mbla.model.blocks import Blocks
 from mbla.model.convexity import find_convex
 from mbla.model.defects import (
@@ -19,6 +20,7 @@ from mbla.model.defects import (
     edge_defects,
     find_extents,
     mark,
+    not_planar,
     planarity_defects,
     size_defects,
 )
@@ -55,12 +57,13 @@ class Labels:
 class BuiltBlocks:
     """Blocks, and what was found on the way.
 
-    Where there are ``defects`` the blocks that have one carry meaningless measures.
+    Where there are ``defects`` the blocks that have one carry meaningless measures. ``bent`` faces are triangles now.
     """
 
     blocks: Blocks
     notices: tuple[Notice, ...]
     defects: tuple[Defect, ...]
+    bent: BentFaces
 
 
 def blocks_from_polyhedra(
@@ -115,15 +118,20 @@ def build_blocks(polyhedra: Polyhedra, labels: Labels, tolerance: float) -> Buil
     polyhedra, defects = _without_wild_coordinates(polyhedra)
     extents = find_extents(polyhedra)
     defects += _among_sound(defects, corner_defects(polyhedra, extents), len(polyhedra))
-    edges = find_edges(polyhedra)
-    polyhedra, turned, found = _oriented(polyhedra, edges)
+    polyhedra, turned, found = _oriented(polyhedra, find_edges(polyhedra))
     defects += _among_sound(defects, found, len(polyhedra))
-    volumes, centroids = volumes_and_centroids(polyhedra)
-    faces = face_geometry(polyhedra)
-    sizes = np.cbrt(volumes)
-    defects += _among_sound(defects, size_defects(polyhedra, faces, volumes, extents), len(polyhedra))
-    defects += _among_sound(defects, planarity_defects(polyhedra, faces, sizes, tolerance), len(polyhedra))
-    sound = ~mark(defects, len(polyhedra))
+    turned_faces = _turned_faces(polyhedra, turned, labels)
+    volumes, _ = volumes_and_centroids(polyhedra)
+    defects += _among_sound(
+        defects, size_defects(polyhedra, face_geometry(polyhedra), volumes, extents), len(polyhedra)
+    )
+    polyhedra, bent = _without_bent_faces(polyhedra, defects, np.cbrt(volumes), tolerance)
+    edges, faces, (volumes, centroids) = (
+        find_edges(polyhedra),
+        face_geometry(polyhedra),
+        volumes_and_centroids(polyhedra),
+    )
+    sizes, sound = np.cbrt(volumes), ~mark(defects, len(polyhedra))
     convex = find_convex(polyhedra, faces, tolerance * sizes) & sound
     defects += _self_intersections(polyhedra, np.flatnonzero(sound & ~convex))
     facets = (
@@ -132,10 +140,11 @@ def build_blocks(polyhedra: Polyhedra, labels: Labels, tolerance: float) -> Buil
     blocks = _blocks(polyhedra, faces.normals, facets, convex, volumes, centroids, labels)
     notices = (
         *_unused_vertices(unused, labels),
-        *_turned_faces(polyhedra, turned, labels),
+        *turned_faces,
         *_bent_faces(polyhedra, faces, sizes, extents, labels),
+        *_faces_split(bent, sizes, labels),
     )
-    return BuiltBlocks(blocks, notices, tuple(sorted(defects, key=lambda defect: defect.block)))
+    return BuiltBlocks(blocks, notices, tuple(sorted(defects, key=lambda defect: defect.block)), bent)
 
 
 def _blocks(
@@ -206,6 +215,23 @@ def _oriented(polyhedra: Polyhedra, edges: Edges) -> tuple[Polyhedra, BoolArray,
     return turn_faces(polyhedra, turned), turned, defects
 
 
+def _without_bent_faces(
+    polyhedra: Polyhedra, defects: list[Defect], sizes: FloatArray, tolerance: float
+) -> tuple[Polyhedra, BentFaces]:
+    """The polyhedra with triangles in place of faces that are not planar; adds to ``defects`` what cannot be split."""
+    faces = face_geometry(polyhedra)
+    bent = not_planar(polyhedra, faces, sizes, tolerance)
+    bent = bent[~mark(defects, len(polyhedra))[polyhedra.block_of_face[bent]]]
+    if not len(bent):
+        return polyhedra, NO_BENT_FACES
+    convex = can_be_split(polyhedra, faces, bent)
+    block = polyhedra.block_of_face[bent]
+    number, departure = bent - polyhedra.face_start[block], faces.deviations[bent]
+    defects += planarity_defects(block[~convex], number[~convex], departure[~convex], sizes, tolerance)
+    chosen = bent[~mark(defects, len(polyhedra))[block]]
+    return split_faces(polyhedra, faces, chosen) if len(chosen) else (polyhedra, NO_BENT_FACES)
+
+
 def _self_intersections(polyhedra: Polyhedra, blocks: IntArray) -> list[Defect]:
     if not len(blocks):
         return []
@@ -251,6 +277,20 @@ def _bent_faces(
         "fitted to its corners"
     )
     return [Notice("notice", "faces-not-quite-planar", words)]
+
+
+def _faces_split(bent: BentFaces, sizes: FloatArray, labels: Labels) -> list[Notice]:
+    if not len(bent):
+        return []
+    relative = bent.deviations / sizes[bent.blocks]
+    worst = int(np.argmax(relative))
+    which = f"{counted(len(bent), 'face')} of {_blocks_in_words(np.unique(bent.blocks), labels)}"
+    words = (
+        f"{which} {'is' if len(bent) == 1 else 'are'} not planar and {was(len(bent))} split into triangles; the worst, "
+        f"face {bent.faces[worst]} of {labels.name(int(bent.blocks[worst]))}, leaves its plane by "
+        f"{relative[worst]:.2g} of the block size"
+    )
+    return [Notice("notice", "bent-faces-split", words)]
 
 
 def _blocks_in_words(blocks: IntArray, labels: Labels) -> str:

@@ -44,6 +44,7 @@ def build_model(deck: Deck) -> Model:
         notices=(*structure.first_notices, *joint_notices(deck), *notices),
         guides=supports.guides,
         interfaces=interfaces,
+        bent=structure.bent,
     )
     if faults := symmetry_faults(deck, model):
         raise DeckError(faults)

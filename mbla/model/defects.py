@@ -206,18 +206,24 @@ def size_defects(polyhedra: Polyhedra, faces: FaceGeometry, volumes: FloatArray,
     ]
 
 
-def planarity_defects(polyhedra: Polyhedra, faces: FaceGeometry, sizes: FloatArray, tolerance: float) -> list[Defect]:
-    """Polyhedra with faces whose corners leave their plane by more than the tolerance.
+def not_planar(polyhedra: Polyhedra, faces: FaceGeometry, sizes: FloatArray, tolerance: float) -> IntArray:
+    """Faces whose corners leave their plane by more than the tolerance, ascending.
 
     sizes : (n,) cube roots of the volumes; tolerance : relative to them
     """
     size = sizes[polyhedra.block_of_face]
-    bent = np.flatnonzero((faces.deviations > tolerance * size) & (size > 0))  # what has no volume is told as that
+    return np.flatnonzero((faces.deviations > tolerance * size) & (size > 0))  # what has no volume is told as that
+
+
+def planarity_defects(
+    blocks: IntArray, faces: IntArray, deviations: FloatArray, sizes: FloatArray, tolerance: float
+) -> list[Defect]:
+    """A defect for each block with faces that are not planar, (n,) blocks, numbers in them and deviations."""
     defects = []
-    for block in np.unique(polyhedra.block_of_face[bent]).tolist():
-        rows = bent[polyhedra.block_of_face[bent] == block]
-        worst = rows[np.argmax(faces.deviations[rows])]
-        face, deviation = int(worst - polyhedra.face_start[block]), faces.deviations[worst]
+    for block in np.unique(blocks).tolist():
+        rows = np.flatnonzero(blocks == block)
+        worst = rows[np.argmax(deviations[rows])]
+        face, deviation = int(faces[worst]), deviations[worst]
         which = f"face {face} is" if len(rows) == 1 else f"{len(rows)} faces, most of all face {face}, are"
         message = (
             f"{which} not planar: corners leave the plane by {deviation:.3g}, {deviation / sizes[block]:.2%} of the "

@@ -9,6 +9,7 @@ import numpy as np
 from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.deck.units import Units
 from mbla.errors import Notice
+from mbla.model.bent_faces import NO_BENT_FACES, BentFaces
 from mbla.model.blocks import Blocks
 from mbla.model.guides import NO_GUIDES, Guides, joined
 
@@ -202,6 +203,7 @@ class Model:
                   states are looked for
     interfaces  : those that the deck gives by their corners; None where they are to be found, and in models from result
                   files, which have the contacts that were made of them
+    bent        : faces that were split into triangles; none of them may be in contact, and none is in result files
     """
 
     title: str
@@ -215,6 +217,7 @@ class Model:
     guides: Guides = NO_GUIDES
     mirrors: tuple[tuple[float, float, float, float], ...] = ()
     interfaces: GivenInterfaces | None = None
+    bent: BentFaces = NO_BENT_FACES
 
     def of_case(self, load_case: LoadCase) -> Model:
         """The model as it may move under a load case: with the blocks of its settlement as a guided body."""

@@ -9,6 +9,7 @@ from mbla.deck.tree import KeyPath
 from mbla.deck.types import AnalysisSection, JointLaw, OutputSection
 from mbla.errors import Fault, Message, Notice
 from mbla.model.added_masses import with_added_masses
+from mbla.model.bent_faces import BentFaces
 from mbla.model.build_blocks import build_blocks
 from mbla.model.collect_items import collect_items
 from mbla.model.far_coordinates import far_fault, far_notices
@@ -28,6 +29,7 @@ NO_LAW = JointLaw(friction=0.0)
 class Structure:
     """Blocks by name, with the masses that rest on them, and what holds them.
 
+    bent                   : faces that were split
     first_notices, notices : before and after those on joint laws
     faults                 : in the order in which they are told
     """
@@ -35,6 +37,7 @@ class Structure:
     roster: Roster
     supports: Supports
     interfaces: GivenInterfaces | None
+    bent: BentFaces
     first_notices: tuple[Notice, ...]
     notices: tuple[Notice, ...]
     faults: tuple[Fault, ...]
@@ -78,7 +81,7 @@ def _build(deck: Deck) -> Structure:
     built = build_blocks(items.polyhedra, items.labels, deck.contacts.tolerance)
     far = far_fault(items.polyhedra, deck.contacts.tolerance)
     faults += (
-        defects_in_words(deck, items, built)
+        defects_in_words(deck, built.defects, items.items, built.blocks)
         if far is None
         else [deck.fault_at(("blocks",), Message("coordinate-out-of-range", far))]
     )
@@ -90,5 +93,6 @@ def _build(deck: Deck) -> Structure:
     if deck.content.masses:
         roster = replace(roster, blocks=with_added_masses(deck.content.masses, roster, supports.fixed, faults, notices))
     first = (*items.notices, *built.notices, *far_notices(items.polyhedra, items.labels.name))
+    bent = replace(built.bent, items=items.items[built.bent.blocks])
     roster = replace(roster, fault_at=_unplaced)  # places are those of one deck
-    return Structure(roster, supports, interfaces, first, tuple(notices), tuple(faults))
+    return Structure(roster, supports, interfaces, bent, first, tuple(notices), tuple(faults))

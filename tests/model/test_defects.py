@@ -116,11 +116,27 @@ def bent_box(height: float) -> Shape:
     return [*vertices[:6], [1, 1, 1 + height], vertices[7]], faces
 
 
+def notched(height: float) -> Shape:
+    """An L from above, one corner of its top lifted."""
+    outline = [(0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2)]
+    vertices = [[x, y, z] for z in (0, 1) for x, y in outline]
+    vertices[7][2] = 1 + height
+    sides = [[i, (i + 1) % 6, (i + 1) % 6 + 6, i + 6] for i in range(6)]
+    return vertices, [[5, 4, 3, 2, 1, 0], [6, 7, 8, 9, 10, 11], *sides]
+
+
+def test_a_bent_face_with_a_notch_is_not_split() -> None:
+    assert message_of(notched(0.1)).startswith("face 1 is not planar: corners leave the plane by 0.0")
+
+
 def test_bent_faces_beyond_the_tolerance() -> None:
-    assert message_of(bent_box(0.1)) == (
-        "face 1 is not planar: corners leave the plane by 0.0249, 2.47% of the block size; "
-        "contacts.tolerance allows 0.10%"
-    )
+    built = build(box((-9, 0, 0), (-8, 1, 1)), bent_box(0.1))
+    assert not built.defects
+    assert (built.bent.blocks.tolist(), built.bent.faces.tolist()) == ([1], [1])
+    assert [notice.message for notice in built.notices] == [
+        "1 face of 1 block (b[1]) is not planar and was split into triangles; the worst, face 1 of b[1], leaves its "
+        "plane by 0.025 of the block size"
+    ]
 
 
 def test_bent_faces_within_the_tolerance() -> None:
@@ -134,15 +150,16 @@ def test_bent_faces_within_the_tolerance() -> None:
     )
 
 
-@pytest.mark.parametrize(("tolerance", "refused"), [(1e-2, True), (1e-1, False)])
-def test_the_tolerance_decides(tolerance: float, refused: bool) -> None:
-    assert bool(build(bent_box(0.1), tolerance=tolerance).defects) is refused
+@pytest.mark.parametrize(("tolerance", "split"), [(1e-2, True), (1e-1, False)])
+def test_the_tolerance_decides(tolerance: float, split: bool) -> None:
+    assert bool(len(build(bent_box(0.1), tolerance=tolerance).bent)) is split
+    assert bool(build(notched(0.2), tolerance=tolerance).defects) is split
 
 
 @pytest.mark.parametrize("scale", [1e-6, 1e6])
 def test_the_tolerance_is_relative_to_the_block(scale: float) -> None:
-    assert build(moved(bent_box(0.1), scale * np.eye(3))).defects
-    assert not build(moved(bent_box(0.002), scale * np.eye(3))).defects
+    assert build(moved(notched(0.1), scale * np.eye(3))).defects
+    assert not build(moved(notched(0.002), scale * np.eye(3))).defects
 
 
 def test_rounding_far_from_the_origin_is_not_reported() -> None:
@@ -152,7 +169,7 @@ def test_rounding_far_from_the_origin_is_not_reported() -> None:
 def test_every_block_with_a_defect_is_reported_once() -> None:
     vertices, faces = box()
     open_box = (vertices, faces[1:])
-    built = build(open_box, box(), bent_box(0.1), open_box)
+    built = build(open_box, box(), notched(0.1), open_box)
     assert [defect.block for defect in built.defects] == [0, 2, 3]
 
 

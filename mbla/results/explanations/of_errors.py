@@ -180,7 +180,8 @@ OF_STRUCTURES = (
     refused(
         "face-not-planar",
         "A face of a block is not planar.",
-        "Corners leave the plane by more than contacts.tolerance of the block size.",
+        "Corners leave the plane by more than contacts.tolerance of the block size, and the face touches another body, "
+        "or has a notch; other bent faces are split into triangles (bent-faces-split).",
         "Split the face, or raise contacts.tolerance for rounded coordinates.",
         "is not planar:",
         " not planar: corners leave the plane",

@@ -55,6 +55,17 @@ OF_BLOCKS = (
         "choice of diagonal can change the load factor by several per cent.",
     ),
     Explanation(
+        "bent-faces-split",
+        "notice",
+        "Faces whose corners leave their plane by more than contacts.tolerance were split into triangles.",
+        "They touch nothing, so that they count for volumes and weights only: of two ways to split a face the volumes "
+        "differ by up to its area times its deviation.",
+        "Rubble, or a curved extrados whose quadrilaterals are twisted.",
+        "Nothing, where such faces are free; one that touches something is refused (face-not-planar).",
+        example="1 face of 1 block (b[1]) is not planar and was split into triangles; the worst, face 1 of b[1]",
+        says=("split into triangles",),
+    ),
+    Explanation(
         "mirrored",
         "notice",
         "The symmetry section of the deck has mirrored what it gives.",
