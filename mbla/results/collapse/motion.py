@@ -109,12 +109,17 @@ def moved_contact_points(model: Model, contacts: Contacts, motion: FloatArray, s
 
 
 def screws(motion: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Rotation matrices R, (n, 3, 3), and displacements V u of the centroids, (n, 3), of finite motions.
+    """Rotation matrices R, (n, 3, 3), and displacements V u of the centroids, (n, 3), of finite motions."""
+    rotation, path = screw_matrices(motion[:, 3:])
+    return rotation, np.einsum("nij,nj->ni", path, motion[:, :3])
+
+
+def screw_matrices(vectors: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """R and V of rotation vectors, (n, 3, 3) each.
 
     With the angle θ and K of the unit axis: R = I + sin θ K + (1 − cos θ) K²,
     V = I + (1 − cos θ)/θ K + (1 − sin θ/θ) K².
     """
-    vectors = motion[:, 3:]
     angles = np.linalg.norm(vectors, axis=1)
     axes = vectors / np.where(angles > 0, angles, 1.0)[:, None]
     cross = np.zeros((len(vectors), 3, 3))
@@ -128,4 +133,4 @@ def screws(motion: FloatArray) -> tuple[FloatArray, FloatArray]:
     lag, share = np.sin(half) * np.sinc(half / np.pi), np.sinc(angle / np.pi)
     rotation = np.eye(3) + np.sin(angle) * cross + 2 * np.sin(half) ** 2 * square
     path = np.eye(3) + lag * cross + (1 - share) * square
-    return rotation, np.einsum("nij,nj->ni", path, motion[:, :3])
+    return rotation, path

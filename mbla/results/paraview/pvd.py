@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
+from mbla.results.collapse.finite_motion import finite_motion
 from mbla.results.collapse.motion import moved_vertices
 from mbla.results.paraview.scene import Scene
 from mbla.results.paraview.vtu import block_data, write_cells
@@ -19,7 +20,7 @@ def write_frame_vtu(path: Path, scene: Scene, time: float) -> None:
     Point data: ``displacement``, what they have moved. Cell data: ``block``, ``group``, ``fixed``, ``part``, labels.
     """
     blocks = scene.model.blocks
-    vertices = moved_vertices(blocks, time * scene.motion)
+    vertices = moved_vertices(blocks, finite_motion(scene.model, scene.contacts, scene.case, time))
     data = block_data(scene.model) | {"part": scene.parts}
     del data["weight"]
     write_cells(path, vertices, vertices - blocks.vertices, data, scene.cells)

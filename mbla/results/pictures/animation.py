@@ -1,8 +1,8 @@
 """Moving pictures of a mechanism, GIF or MP4, off and back (only importer of imageio-ffmpeg, an extra).
 
-Every frame moves the blocks along their screws (:mod:`mbla.results.collapse.motion`), so that they keep their shape.
-The motion swings as a cosine and ends where it began: the film repeats without a jump. The view, the room for words and
-the legend are those of the widest frame.
+Every frame moves the blocks by finite rotations that keep their shape, and parts together at their hinges
+(:mod:`mbla.results.collapse.finite_motion`). The motion swings as a cosine and ends where it began: the film repeats
+without a jump. The view, the room for words and the legend are those of the widest frame.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ import numpy as np
 from mbla.errors import FileError, UsageError
 from mbla.results.pictures.options import PictureOptions
 from mbla.results.pictures.page import open_frames
-from mbla.results.pictures.scene import Scene, scene_of
+from mbla.results.pictures.scene import Scene, motion_as_drawn, scene_of
 from mbla.results.pictures.space.mechanism import mechanism_drawing
 from mbla.results.pictures.space.panels import focus_of, panels_of
 from mbla.results.pictures.space.picture import frame_between, images_of, view_of_case
@@ -100,7 +100,8 @@ def _frames(widest: Scene, options: PictureOptions) -> Iterator[Any]:
         panels = panels_of(drawing.extent, focus, view, width / height, frame_between(bottom, top))
         artists: list[Any] = []
         for share in displacements():
-            moved = replace(widest, motion=share * widest.motion)
+            motion = motion_as_drawn(widest.results, widest.case, share * options.scale)
+            moved = replace(widest, motion=motion)
             frame = mechanism_drawing(moved, widest, focus if len(panels) > 1 else None)
             with Renderer(frame.solid_from(view[1]), frame.marks, frame.loads) as renderer:
                 images = images_of(renderer, panels, frame, (width, height))

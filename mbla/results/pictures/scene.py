@@ -14,9 +14,10 @@ from mbla.results.collapse.clusters import clusters_of
 from mbla.results.collapse.collapse import Collapse, collapse_of
 from mbla.results.collapse.failure import Failure, failure_of
 from mbla.results.collapse.falling import falling_motion
+from mbla.results.collapse.finite_motion import finite_motion
 from mbla.results.collapse.force_freedom import ForceFreedom, force_freedom
 from mbla.results.collapse.interface_modes import InterfaceMotion
-from mbla.results.collapse.motion import drawn_motion, moved_contact_points, moved_vertices
+from mbla.results.collapse.motion import moved_contact_points, moved_vertices
 from mbla.results.collapse.rigid_parts import rigid_parts
 from mbla.results.collapse.thrust import Thrust, points_to_draw, thrust_lines, thrust_of
 from mbla.results.collapse.torsion_use import torsion_use
@@ -241,8 +242,13 @@ class Scene:
         )
 
 
+def motion_as_drawn(results: Results, case: CaseResult, scale: float) -> FloatArray:
+    """Displacement and rotation of each block, (n_blocks, 6) m and rad, at a multiple of the usual size."""
+    return finite_motion(results.model.of_case(case.load_case), results.contacts, case, scale)
+
+
 def scene_of(results: Results, case: CaseResult, options: PictureOptions, kind: str) -> Scene:
     """A case as a picture of that kind shows it: moved in a picture of the mechanism, at rest in others."""
-    motion = options.scale * drawn_motion(results.model.of_case(case.load_case), case)
+    motion = motion_as_drawn(results, case, options.scale)
     shown = [each for each in results.cases if options.case in (None, each.load_case.name, each.load_case.deck_name)]
     return Scene(results, case, motion if kind == "mechanism" else np.zeros_like(motion), tuple(shown))

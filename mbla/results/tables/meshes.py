@@ -7,9 +7,12 @@ every cell what its forces and velocities are: 1 the result, 2 the best that was
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from mbla.arrays import FloatArray, starts
+from mbla.results.collapse.finite_motion import finite_motion
 from mbla.results.collapse.motion import drawn_motion, moved_contact_points, moved_vertices
 from mbla.results.hdf5.field import unit_text
 from mbla.results.hdf5.result_file import write_hdf5
@@ -35,15 +38,15 @@ FRAMES = 11
 def case_vtkhdf(results: Results, case: CaseResult) -> bytes:
     """The file ``STEM_CASE.vtkhdf``: grids ``blocks``, ``interfaces`` and ``points``, at steps from 0 to 1.
 
-    At step 0 it stands as built, at 1 it has moved as drawn (:mod:`mbla.results.collapse.motion`), with finite
+    At step 0 it stands as built, at 1 it has moved as drawn (:mod:`mbla.results.collapse.finite_motion`), with finite
     rotations; interfaces and points halfway between their bodies. A case without motion has one step.
     """
     rows = CaseRows(results, case)
-    motion = drawn_motion(rows.model, case)
-    times = frame_times(FRAMES) if motion.any() else [0.0]
-    grids = [_blocks(rows, motion, times)]
+    times = frame_times(FRAMES) if drawn_motion(rows.model, case).any() else [0.0]
+    motions = [finite_motion(rows.model, rows.contacts, case, time) for time in times]
+    grids = [_blocks(rows, motions)]
     if len(rows.contacts):
-        between = np.array([_between(rows, time * motion) for time in times])
+        between = np.array([_between(rows, moved) for moved in motions])
         grids += [_interfaces(rows, between), _points(rows, between)]
     mechanics = result_of(case)
     notes = {
@@ -56,9 +59,9 @@ def case_vtkhdf(results: Results, case: CaseResult) -> bytes:
     return write_hdf5(vtkhdf_content(grids, times, notes))
 
 
-def _blocks(rows: CaseRows, motion: FloatArray, times: list[float]) -> Grid:
+def _blocks(rows: CaseRows, motions: Sequence[FloatArray]) -> Grid:
     blocks = rows.model.blocks
-    points = np.array([moved_vertices(blocks, time * motion) for time in times])
+    points = np.array([moved_vertices(blocks, moved) for moved in motions])
     data, units = _cell_data(rows, "blocks")
     data["group"] = group_numbers(rows.model)
     cells = block_cells(blocks)

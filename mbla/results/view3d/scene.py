@@ -19,6 +19,7 @@ from mbla.deck.selectors import POSITIONS
 from mbla.model.model import Model
 from mbla.results.collapse.collapse import Collapse, collapse_of
 from mbla.results.collapse.failure import failure_of
+from mbla.results.collapse.finite_motion import finite_motion
 from mbla.results.collapse.hinge_lines import HingeLine
 from mbla.results.collapse.motion import drawn_motion, largest_displacements, moved_vertices
 from mbla.results.collapse.rigid_parts import rigid_parts
@@ -54,7 +55,7 @@ def scene_of(results: Results, case: CaseResult, view: tuple[float, float] | Non
     model, contacts, blocks = results.model.of_case(case.load_case), results.contacts, results.model.blocks
     size = float(np.linalg.norm(np.ptp(blocks.vertices, axis=0)))
     offset = offset_of(blocks.vertices, size)
-    motion = drawn_motion(model, case)
+    motion = finite_motion(model, contacts, case)
     moved = moved_vertices(blocks, motion)
     told = _told(results, case, model) if motion.any() else None
     parts = None if told is None else told.parts

@@ -8,10 +8,9 @@ from dataclasses import replace
 from pathlib import Path
 
 from mbla.arrays import FloatArray
-from mbla.results.collapse.motion import drawn_motion
 from mbla.results.pictures.options import PictureOptions, format_of
 from mbla.results.pictures.page import open_page
-from mbla.results.pictures.scene import Scene
+from mbla.results.pictures.scene import Scene, motion_as_drawn
 from mbla.results.pictures.space.drawing import Drawing
 from mbla.results.pictures.space.forces import forces_drawing
 from mbla.results.pictures.space.mechanism import mechanism_drawing
@@ -90,6 +89,6 @@ def view_of_case(scene: Scene) -> tuple[float, float]:
     key = (id(scene.results.model), id(scene.case))
     held, view = _VIEWS.get(key, (None, (0.0, 0.0)))
     if held is None or held() is not scene.case:
-        view = best_view(replace(scene, motion=drawn_motion(scene.model, scene.case)))
+        view = best_view(replace(scene, motion=motion_as_drawn(scene.results, scene.case, 1.0)))
         _VIEWS[key] = weakref.ref(scene.case, lambda _: _VIEWS.pop(key, None)), view
     return view
