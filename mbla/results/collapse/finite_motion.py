@@ -55,7 +55,7 @@ class _Pose:
 
     def arms(self, parts: IntArray, points: FloatArray) -> FloatArray:
         """From the place of its part to each point as moved, (n, 3) m."""
-        return np.einsum("nij,nj->ni", self.rotations[parts], points - self.origins[parts])
+        return np.asarray(np.einsum("nij,nj->ni", self.rotations[parts], points - self.origins[parts]))
 
     def turned(self, turns: FloatArray, steps: FloatArray) -> _Pose:
         """After further rotation vectors about the places, and displacements of these; (n_parts, 3) each."""
