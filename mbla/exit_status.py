@@ -10,11 +10,12 @@ from mbla.results.series import series_of
 from mbla.solution import Status
 from mbla.solution.verify import meets_what_was_asked
 
+FAULTS = ("not-as-expected", "isolated-blocks")
+"""Warnings of a whole run that count as not verified."""
 
-def exit_code(cases: Sequence[CaseResult], faults: Sequence[Notice] = ()) -> int:
-    """Exit status of a run: the gravest of its cases; a fault of the whole run counts as not verified.
 
-    faults : differences from what is expected, blocks that touch nothing
+def exit_code(cases: Sequence[CaseResult], notices: Sequence[Notice] = ()) -> int:
+    """Exit status of a run: the gravest of its cases; ``FAULTS`` among its notices count as not verified.
 
     An approximate case that is as sharp as its deck asks for is no failure: a draft ends well, and its status tells it
     from a case that is solved. Nor are positions of a travelling load that bring nothing down where another is the
@@ -22,7 +23,9 @@ def exit_code(cases: Sequence[CaseResult], faults: Sequence[Notice] = ()) -> int
     """
     harmless = {id(case) for series in series_of(cases) if series.worst is not None for case in series.cases}
     judged = [case for case in cases if case.status is not Status.UNBOUNDED or id(case) not in harmless]
-    codes = {0 if as_asked(case) else EXIT_CODES[case.status] for case in judged} | ({4} if faults else set())
+    codes = {0 if as_asked(case) else EXIT_CODES[case.status] for case in judged}
+    if any(notice.severity == "warning" and notice.identifier in FAULTS for notice in notices):
+        codes.add(4)
     return next((code for code in GRAVEST_FIRST if code in codes), 0)
 
 

@@ -131,11 +131,11 @@ def solved_case_by_case(
         yield results
         for case in load_cases:
             solved = solve_case(deck, model, contacts, case, settings, status_file, progress)
-            results = with_case(results, deck, solved, time.perf_counter() - found, stopwatch)
+            results = with_case(results, solved, time.perf_counter() - found, stopwatch)
             yield as_expected(results, deck) if options.expected and not results.not_done else results
 
 
-def with_case(results: Results, deck: Deck, case: CaseResult, seconds: float, stopwatch: Stopwatch) -> Results:
+def with_case(results: Results, case: CaseResult, seconds: float, stopwatch: Stopwatch) -> Results:
     """Results so far with one load case more.
 
     seconds : since solving began
@@ -146,7 +146,7 @@ def with_case(results: Results, deck: Deck, case: CaseResult, seconds: float, st
         model=with_loads_found(results.model, [case]),
         cases=cases,
         time=results.time | {"solve": seconds} | parts_of_solve(cases, stopwatch),
-        exit_code=exit_code(cases, blocks_apart(deck, results.contacts)),
+        exit_code=exit_code(cases, results.notices),
         created=now(),
         not_done=results.not_done[1:],
     )
@@ -155,8 +155,8 @@ def with_case(results: Results, deck: Deck, case: CaseResult, seconds: float, st
 def as_expected(results: Results, deck: Deck) -> Results:
     """Results with a warning for every figure that is not what the deck expects."""
     found = [Notice("warning", "not-as-expected", text) for text in differences(results.cases, deck.content.expected)]
-    code = exit_code(results.cases, [*found, *blocks_apart(deck, results.contacts)])
-    return replace(results, notices=(*results.notices, *found), exit_code=code)
+    notices = (*results.notices, *found)
+    return replace(results, notices=notices, exit_code=exit_code(results.cases, notices))
 
 
 def parts_of_solve(cases: Sequence[CaseResult], stopwatch: Stopwatch) -> dict[str, float]:
@@ -269,13 +269,6 @@ def contacts_of(deck: Deck, model: Model) -> Contacts:
     if faults:
         raise DeckError(first_faults(faults))
     return contacts
-
-
-def blocks_apart(deck: Deck, contacts: Contacts) -> list[Notice]:
-    """The notice on blocks that touch nothing, where the deck does not allow them."""
-    if deck.contacts.isolated == "allow":
-        return []
-    return [notice for notice in contacts.report.notices if notice.identifier == "isolated-blocks"]
 
 
 def notices_of(deck: Deck, model: Model, contacts: Contacts) -> tuple[Notice, ...]:

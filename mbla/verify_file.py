@@ -18,7 +18,7 @@ from mbla.deck import Deck
 from mbla.deck.accuracy import knobs_of
 from mbla.exit_status import exit_code
 from mbla.model.model import Model
-from mbla.rebuilt import UNEXPECTED, rebuilt
+from mbla.rebuilt import rebuilt
 from mbla.results.hdf5.result_file import differences_of_file, read_results_hdf5, write_results_hdf5
 from mbla.results.outcome import WITH_VALUE, locked_in
 from mbla.results.results import CaseResult, Results
@@ -55,8 +55,7 @@ def _recomputed(results: Results, deck: Deck | None) -> Results:
     cases = tuple(_recomputed_case(results, case, deck) for case in results.cases)
     found = {case.load_case.name: case.load_case for case in cases}
     model = replace(results.model, load_cases=tuple(found.get(case.name, case) for case in results.model.load_cases))
-    unexpected = [notice for notice in results.notices if notice.identifier == UNEXPECTED]
-    code = exit_code(cases, unexpected) if results.complete else results.exit_code
+    code = exit_code(cases, results.notices) if results.complete else results.exit_code
     return replace(results, model=model, cases=cases, exit_code=code)
 
 

@@ -9,6 +9,7 @@ import pytest
 from mbla.results.results import Results
 from mbla.results.words.summary import summary_lines
 from mbla.run_deck import RunOptions, run
+from mbla.verify_file import verify_file
 
 DECK = """\
 mbla: 1
@@ -40,6 +41,14 @@ def test_exit_status(tmp_path: Path, overrides: tuple[str, ...], status: str, fa
     assert [case.status.value for case in results.cases] == [status]
     assert results.exit_code == fails
     assert results_of(tmp_path, "contacts.isolated=allow", *overrides).exit_code == allowed
+
+
+@pytest.mark.parametrize("isolated", ["fail", "allow"])
+def test_the_exit_status_is_found_again_from_the_file(tmp_path: Path, isolated: str) -> None:
+    results = results_of(tmp_path, f"contacts.isolated={isolated}")
+    again, disagreements = verify_file(tmp_path / "out" / "deck.h5")
+    assert disagreements == ()
+    assert again.exit_code == results.exit_code
 
 
 def test_the_tolerance_that_the_message_names_is_a_way_out(tmp_path: Path) -> None:

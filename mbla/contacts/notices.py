@@ -169,8 +169,9 @@ def _isolated(model: Model, section: ContactsSection, report: ContactReport, joi
     text = f"{number} of {_count(len(model.blocks), 'block')} {verb}: {_names(model, report.isolated)}"
     adrift = [part for part in report.unsupported if len(part) == 1]
     text += (nearest_words(model, adrift[0]) if adrift else "") + joined
-    text += "" if section.isolated == "allow" else "; exit status 4, unless contacts.isolated is allow"
-    return [Notice("warning", "isolated-blocks", text)]
+    if section.isolated == "allow":
+        return [Notice("notice", "isolated-blocks", text)]
+    return [Notice("warning", "isolated-blocks", f"{text}; exit status 4, unless contacts.isolated is allow")]
 
 
 def _unsupported(model: Model, report: ContactReport, joined: str) -> list[Notice]:

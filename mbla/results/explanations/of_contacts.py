@@ -75,7 +75,7 @@ OF_CONTACTS = (
     ),
     Explanation(
         "isolated-blocks",
-        "warning",
+        "warning or notice",
         "Blocks touch nothing at all.",
         "They fall under their own weight unless they are fixed, and fixed ones hold nothing: what was solved is not "
         "the structure that was meant. The run ends with exit status 4, whatever its load cases are.",
