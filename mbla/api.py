@@ -20,6 +20,7 @@ from mbla.results.results import Results
 from mbla.results.sta import StatusFile
 from mbla.run_deck import Progress, run_and_write, solve_deck, title_of
 from mbla.run_options import RunOptions
+from mbla.threads import limit_threads
 
 TEXT_NAME = "deck.yaml"
 """name of a deck that is given as text"""
@@ -54,7 +55,7 @@ def run(
     expected
         Compare with the deck's ``expected`` section: differences are warnings, and count in ``exit_code``.
     threads
-        Of the cone solver.
+        Of the libraries that can use several (MKL Pardiso), if they are not loaded yet.
     progress
         Called once per iteration with the name of the load case and an ``IterationRecord``.
 
@@ -72,6 +73,8 @@ def run(
         A solver broke. A case that is not solved or not verified raises nothing: its ``status`` says so.
     """
     started = time.perf_counter()
+    if threads > 1:
+        limit_threads(threads)
     overrides = overrides_of(set)
     names = (cases,) if isinstance(cases, str) else tuple(cases)
     folder = None if output is None else Path(output)

@@ -24,7 +24,7 @@ def add_run(commands: Any) -> None:
         type=threads,
         default=1,
         metavar="N",
-        help="threads of clarabel and of the linear algebra libraries, at most (default 1)",
+        help="threads of the libraries that can use several, at most (default 1): MKL Pardiso, the others are serial",
     )
     command.add_argument("--expected", action="store_true", help="compare with the deck's expected section")
     volume = command.add_mutually_exclusive_group()

@@ -53,7 +53,7 @@ def check(deck: Deck, options: RunOptions, vtu: bool, started: float) -> tuple[R
         cases=(),
         notices=notices_of(deck, model, contacts),
         provenance=collect_provenance(),
-        settings=settings_in_words(deck, solver_settings(deck.analysis, options.threads)),
+        settings=settings_in_words(deck, solver_settings(deck.analysis)),
         time={"read": read - started, "contacts": time.perf_counter() - read},
         exit_code=0,
     )

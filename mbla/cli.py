@@ -113,6 +113,8 @@ def _tell(options: argparse.Namespace, deck: Deck, results: Results, failure: Ma
     if options.json:
         print(record, flush=True)
     print(words, end="", file=sys.stderr if options.json else sys.stdout, flush=True)
+    if options.threads > 1 and not options.quiet:
+        say(f"mbla: threads: {results.settings['threads']}", 0)
 
 
 def _check(options: argparse.Namespace) -> int:

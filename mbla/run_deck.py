@@ -34,7 +34,7 @@ from mbla.results.results import CaseResult, Results, now
 from mbla.results.sta import StatusFile
 from mbla.results.write import write_results
 from mbla.run_options import RunOptions as RunOptions
-from mbla.settings_words import settings_in_words
+from mbla.settings_words import settings_in_words, threads_in_words
 from mbla.solution import solve, verified_status, verify
 from mbla.solution.glued import solution_on_blocks
 from mbla.solution.settings import SolverSettings, solver_settings
@@ -113,7 +113,7 @@ def solved_case_by_case(
     contacts = contacts_of(deck, model)
     model = held_model(model, contacts)
     found = time.perf_counter()
-    settings = solver_settings(deck.analysis, options.threads)
+    settings = solver_settings(deck.analysis)
     with timing() as stopwatch:
         model, load_cases = with_settlements(model, contacts, load_cases, settings)
         results = Results(
@@ -145,6 +145,7 @@ def with_case(results: Results, case: CaseResult, seconds: float, stopwatch: Sto
         results,
         model=with_loads_found(results.model, [case]),
         cases=cases,
+        settings=results.settings | {"threads": threads_in_words(cases)},
         time=results.time | {"solve": seconds} | parts_of_solve(cases, stopwatch),
         exit_code=exit_code(cases, results.notices),
         created=now(),

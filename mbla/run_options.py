@@ -14,7 +14,7 @@ class RunOptions:
     overrides : key.path=value texts
     cases     : names of the load cases to solve; all if empty
     force     : replace an earlier result
-    threads   : of the cone solver
+    threads   : asked for, of libraries that can use several
     expected  : compare with the deck's ``expected`` section
     """
 

@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from mbla.deck import Deck
 from mbla.deck.accuracy import knobs_of
 from mbla.deck.analysis import AnalysisSection
+from mbla.results.results import CaseResult
 from mbla.solution.settings import SolverSettings
+from mbla.threads import mkl_threads
 
 
 def settings_in_words(deck: Deck, settings: SolverSettings) -> dict[str, str]:
@@ -51,6 +55,14 @@ def _knobs_in_words(analysis: AnalysisSection, settings: SolverSettings) -> dict
         if analysis.flow_rule == "non_associative":
             words["peak"] = _on(knobs.peak)
     return words | {"standing": _on(knobs.standing)}
+
+
+def threads_in_words(cases: Sequence[CaseResult]) -> str:
+    """Threads that factorisations of cone programs ran on, whatever was asked for; which of them are serial."""
+    used = {program.factorization for case in cases for program in case.solution.programs} - {""}
+    serial = ", ".join(sorted(used - {"pardiso"}))
+    words = str(mkl_threads() if "pardiso" in used else 1)
+    return f"{words}; factorisations by {serial} are serial" if serial else words
 
 
 def _on(switch: bool) -> str:

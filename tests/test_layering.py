@@ -16,7 +16,7 @@ PACKAGE = Path(mbla.__file__).parent
 STAGES = ("deck", "model", "contacts", "program", "solution", "results", "studies")
 WHOLE_LINE = ("run_deck", "run_options", "exit_status", "failures")
 """modules beside the stages that call all of them: only what runs decks again and again stands to their right"""
-SHARED = ("arrays", "collector", "errors", "memory_limit", "sharing", "signals", "stopwatch")
+SHARED = ("arrays", "collector", "errors", "memory_limit", "sharing", "signals", "stopwatch", "threads")
 DOORS = {
     "yaml": "deck/reader.py",
     "pint": "deck/units.py",

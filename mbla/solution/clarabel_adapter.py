@@ -170,7 +170,7 @@ class ClarabelProgram:
         settings.presolve_enable = False  # would forbid update()
         # not "auto", which may take faer: its digits depend on threads, qdldl reruns bit-identically
         settings.direct_solve_method = self._factorization()
-        settings.max_threads = self.settings.threads
+        settings.max_threads = 1
         settings.static_regularization_constant = regularization(self.cone_program, self.settings)
         settings.max_iter = self.settings.max_iterations
         for name in ("tol_gap_abs", "tol_gap_rel", "tol_feas"):

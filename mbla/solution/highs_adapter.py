@@ -170,7 +170,7 @@ class HighsProgram:
             "solver": "ipm",
             "run_crossover": "on",
             "presolve": "off",
-            "threads": settings.threads,
+            "threads": 1,  # both methods are serial
             "ipm_iteration_limit": settings.max_iterations,
             "primal_feasibility_tolerance": tolerance,
             "dual_feasibility_tolerance": tolerance,

@@ -90,7 +90,7 @@ def solve_lowest(
     records = [*sequence.programs, *ends.programs]
     search = _Search(program, ends.lower or start, np.random.default_rng(scheme.seed), records, log)
     while search.goes_on and time.monotonic() < deadline:
-        search.step(replace(SOLVER, threads=settings.threads, deadline=deadline))
+        search.step(replace(SOLVER, deadline=deadline))
     return replace(
         sequence,
         state=search.best,

@@ -19,7 +19,6 @@ class SolverSettings:
     tolerance      : relative, on gap and feasibility of the scaled program
     max_iterations : for one program
     regularization : static regularisation of clarabel's KKT matrix; None: by kind and size of the program
-    threads        : of the linear algebra
     solver         : of cone programs: auto, mbla, clarabel, or highs for linear ones
     deadline       : time.monotonic() at which to stop, or None
     factorization  : of clarabel, qdldl or mkl; None: by size of the program and by what is installed
@@ -31,7 +30,6 @@ class SolverSettings:
     tolerance: float
     max_iterations: int = MAX_ITERATIONS
     regularization: float | None = None
-    threads: int = 1
     deadline: float | None = None
     solver: str = "auto"
     gap: float = PRESETS["standard"].gap
@@ -40,13 +38,12 @@ class SolverSettings:
     cholesky: str | None = None
 
 
-def solver_settings(analysis: AnalysisSection, threads: int = 1) -> SolverSettings:
+def solver_settings(analysis: AnalysisSection) -> SolverSettings:
     """Settings that a deck asks for; the time limit starts now."""
     knobs = knobs_of(analysis)
     return SolverSettings(
         tolerance=knobs.tolerance,
         max_iterations=analysis.max_iterations or MAX_ITERATIONS,
-        threads=threads,
         deadline=None if analysis.time_limit is None else time.monotonic() + analysis.time_limit,
         solver=analysis.solver,
         gap=knobs.gap,

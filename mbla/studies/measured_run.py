@@ -38,7 +38,6 @@ class Task:
     overrides: tuple[str, ...] = ()
     freed: tuple[str, ...] = ()
     cases: tuple[str, ...] = ()
-    threads: int = 1
 
 
 def measure(task: Task) -> Iterator[Measurement]:
@@ -51,10 +50,10 @@ def measure(task: Task) -> Iterator[Measurement]:
     contacts = contacts_of(deck, model)
     model = held_model(model, contacts)
     preparation = time.perf_counter() - started
-    settings = solver_settings(deck.analysis, task.threads)
+    settings = solver_settings(deck.analysis)
 
     def solve(load_case: LoadCase, first: bool) -> tuple[Model, CaseResult]:
-        own = settings if first else solver_settings(deck.analysis, task.threads)
+        own = settings if first else solver_settings(deck.analysis)
         posed, (ready,) = with_settlements(model, contacts, (load_case,), own)
         status_file = StatusFile(io.StringIO(), "")
         return posed, solve_case(deck, posed, contacts, ready, own, status_file, None)

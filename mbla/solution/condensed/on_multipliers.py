@@ -77,12 +77,12 @@ class _Batch:
 class OnMultipliers:
     """See ``Condensation``."""
 
-    def __init__(self, data: ConeData, library: str | None, threads: int) -> None:
+    def __init__(self, data: ConeData, library: str | None) -> None:
         self._data = data
         group, self._free = local_groups(data)
         self._batches, rows = _batches(data, group)
         self._products: PlacedProducts = placed_products(data.equations.shape[0], rows)
-        self.factors: Factorization = factorization(self._products.pattern, library, threads)
+        self.factors: Factorization = factorization(self._products.pattern, library)
         self._border = data.equations[:, self._free].toarray()
         local = data.equations[:, np.flatnonzero(group >= 0)]
         self._apart = np.flatnonzero(np.diff(sp.csr_array(local).indptr) == 0)

@@ -95,14 +95,14 @@ class _Batch:
 class OnUnknowns:
     """See ``Condensation``."""
 
-    def __init__(self, data: ConeData, library: str | None, threads: int) -> None:
+    def __init__(self, data: ConeData, library: str | None) -> None:
         self._data = data
         n = len(data.cost) - data.n_local
         self._over_all = sp.csr_array(data.cone_matrix[:, :n])
         self._over_all_t = sp.csr_array(self._over_all.T)
         self._batches, columns = _batches(data, self._over_all)
         self._products: PlacedProducts = placed_products(n, columns)
-        self.factors: Factorization = factorization(self._products.pattern, library, threads)
+        self.factors: Factorization = factorization(self._products.pattern, library)
         identity = self._scaling = Scaling.identity(data.product)
         diagonal = self._products.summed([batch.eliminated(identity)[0] for batch in self._batches])
         self._shift = SHIFT * float(diagonal[self._products.diagonal].mean())

@@ -141,7 +141,7 @@ class CondensedProgram:
         if self._data is None or self._condensation is None:
             self._data = cone_data(self.cone_program)
             kind = OnUnknowns if _onto_unknowns(self._data) else OnMultipliers
-            self._condensation = kind(self._data, self.settings.cholesky, self.settings.threads)
+            self._condensation = kind(self._data, self.settings.cholesky)
         return self._data, self._condensation
 
     def _check_finite(self) -> None:

@@ -56,15 +56,11 @@ class Factorization(Protocol):
         """Solution for one right-hand side, (n,), or several, (n, k), in a new array; not refined."""
 
 
-def factorization(pattern: SymmetricPattern, library: str | None = None, threads: int = 1) -> Factorization:
+def factorization(pattern: SymmetricPattern, library: str | None = None) -> Factorization:
     """Factorisation with that library, one of ``LIBRARIES``; None: the best that is installed for the size.
-
-    threads : at most; all keep to one, on which reruns are identical to the bit
 
     Raises SolverError where the library is unknown or does not work here.
     """
-    if threads < 1:
-        raise ValueError(f"a factorisation takes at least one thread, not {threads}")
     if library is None:
         return _made(best_library(pattern.n), pattern)
     if library not in LIBRARIES:

@@ -59,9 +59,7 @@ def run_ladder(
         try:
             for number, rung in enumerate(rungs, 1):
                 setting = rung.setting
-                task = Task(
-                    str(deck.resolve()), tuple(fixed), setting.overrides, setting.freed, tuple(cases), limits.threads
-                )
+                task = Task(str(deck.resolve()), tuple(fixed), setting.overrides, setting.freed, tuple(cases))
 
                 def done(case: str, number: int = number, name: str = rung.name) -> None:
                     if report is not None:

@@ -58,7 +58,7 @@ def test_condensed_and_refined_is_the_solution_of_the_whole_system(
 ) -> None:
     rng = np.random.default_rng(seed)
     data = cone_data(make(seed, quadratic).program)
-    condensation = kind(data, "qdldl", 1)
+    condensation = kind(data, "qdldl")
     s, z = (inside(rng, data.product, distance) for _ in range(2))
     scaling = Scaling.of(data.product, s, z)
     assert condensation.factorize(scaling)
@@ -79,7 +79,7 @@ def test_one_condensation_serves_one_scaling_after_another() -> None:
         data, rng = cone_data(make(5, True).program), np.random.default_rng(5)
         pairs = [tuple(inside(rng, data.product, 0.1) for _ in range(2)) for _ in range(2)]
         right = rng.normal(size=len(data.cost)), rng.normal(size=len(data.equation_rhs))
-        used, fresh = kind(data, "qdldl", 1), kind(data, "qdldl", 1)
+        used, fresh = kind(data, "qdldl"), kind(data, "qdldl")
         for pair in pairs:
             assert used.factorize(Scaling.of(data.product, *pair))
         assert fresh.factorize(Scaling.of(data.product, *pairs[1]))
@@ -89,7 +89,7 @@ def test_one_condensation_serves_one_scaling_after_another() -> None:
 
 def test_zero_has_the_solution_zero() -> None:
     data = cone_data(kinematic(1, False).program)
-    condensation = OnUnknowns(data, "qdldl", 1)
+    condensation = OnUnknowns(data, "qdldl")
     scaling = Scaling.identity(data.product)
     assert condensation.factorize(scaling)
     x, y = refined_solution(data, condensation, scaling, np.zeros_like(data.cost), np.zeros_like(data.equation_rhs))
@@ -103,7 +103,7 @@ def test_a_scaling_that_is_no_number_is_a_breakdown() -> None:
         scaling = Scaling.identity(data.product)
         spoiled = Scaling(data.product, scaling.line, scaling.w, np.full_like(scaling.eta, np.nan))
         with np.errstate(invalid="ignore"):
-            assert not kind(data, "qdldl", 1).factorize(spoiled)
+            assert not kind(data, "qdldl").factorize(spoiled)
 
 
 def test_the_load_factor_is_the_border_and_points_are_groups() -> None:

@@ -124,7 +124,7 @@ def test_the_embedding_has_the_same_optimum(make: Make, quadratic: bool) -> None
         known = make(seed, quadratic)
         data = cone_data(known.program)
         kind = OnUnknowns if make is kinematic else OnMultipliers
-        ended = solve_embedded(data, kind(data, "qdldl", 1), RUN)
+        ended = solve_embedded(data, kind(data, "qdldl"), RUN)
         assert ended.outcome in (Outcome.SOLVED, Outcome.ALMOST), (seed, ended.outcome)
         assert ended.measures.primal_objective == pytest.approx(known.optimum, abs=1e-5 * (1.0 + abs(known.optimum)))
 
@@ -134,7 +134,7 @@ def test_the_embedding_finds_both_rays() -> None:
     unbounded = small([0.0, -1.0], [[1.0, 0.0], [0.0, -1.0]], [1.0, 0.0], 1)
     for program, outcome in ((infeasible, Outcome.INFEASIBLE), (unbounded, Outcome.UNBOUNDED)):
         data = cone_data(program)
-        ended = solve_embedded(data, OnUnknowns(data, "qdldl", 1), RUN)
+        ended = solve_embedded(data, OnUnknowns(data, "qdldl"), RUN)
         assert ended.outcome is outcome
 
 
@@ -235,11 +235,11 @@ def test_the_best_iterate_is_kept_where_the_method_breaks_down() -> None:
 
     seen: list[float] = []
     run = Run(1e-9, 100, None, 0.0, lambda number, measures, length: seen.append(measures.worst))
-    condensation: Condensation = Failing(data, "qdldl", 1)
+    condensation: Condensation = Failing(data, "qdldl")
     ended: Ended = solve_cone_program(data, condensation, run)
     assert ended.outcome is Outcome.NUMERICAL
     assert ended.measures.worst == min(seen)
-    nothing = Failing(data, "qdldl", 1)
+    nothing = Failing(data, "qdldl")
     nothing.left = 0
     at_once = solve_cone_program(data, nothing, run)
     assert at_once.outcome is Outcome.NUMERICAL

@@ -175,11 +175,6 @@ def test_an_unknown_library_is_named() -> None:
         factorization(definite(3)[0], "mumps")
 
 
-def test_a_factorisation_takes_a_thread() -> None:
-    with pytest.raises(ValueError, match="at least one thread, not 0"):
-        factorization(definite(3)[0], threads=0)
-
-
 @pytest.fixture
 def only_qdldl(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
     """As if neither extra were installed."""

@@ -35,22 +35,41 @@ def test_small_programs_do_not_even_look_for_it(monkeypatch: pytest.MonkeyPatch)
     assert mkl.factorization_for(mkl.UNKNOWNS - 1) == "qdldl"
 
 
-@pytest.mark.parametrize(("works", "name"), [(True, "mkl"), (False, "qdldl")])
-def test_large_programs_take_it_where_it_works(works: bool, name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.mark.parametrize(
+    ("works", "threads", "name"), [(True, "1", "mkl"), (False, "1", "qdldl"), (True, "2", "qdldl")]
+)
+def test_large_programs_take_it_where_it_works(
+    works: bool, threads: str, name: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """And on one thread: on several its answers to the cone solver were wrong."""
     monkeypatch.setattr(mkl, "mkl_works", lambda: works)
+    monkeypatch.setenv("MKL_NUM_THREADS", threads)
     assert mkl.factorization_for(mkl.UNKNOWNS) == name
+
+
+@pytest.mark.parametrize(("threads", "layer"), [("1", "SEQUENTIAL"), ("3", "INTEL"), ("many", "SEQUENTIAL")])
+def test_the_layer_of_threads_is_that_of_their_number(
+    threads: str, layer: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("MKL_NUM_THREADS", threads)
+    assert mkl.layer_of_threads() == layer
 
 
 def test_the_library_is_found_under_a_name_with_a_version(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     monkeypatch.setattr(sys, "platform", "linux")
     monkeypatch.setattr(platform, "machine", lambda: "x86_64")
-    package = installed(tmp_path, "libmkl_core.so.3", "libmkl_rt.so.3")
+    package = installed(tmp_path, "libmkl_core.so.3", "libmkl_rt.so.3", "libiomp5.so", "libother.so")
     monkeypatch.setattr(mkl, "distribution", lambda name: package)
     library = mkl.mkl_library()
     assert library is not None
     assert library == (tmp_path / "libmkl_rt.so.3").resolve()
     links = mkl._directory_of_links(library)
-    assert {path.name for path in links.iterdir()} == {"libmkl_core.so.3", "libmkl_rt.so.3", "libmkl_rt.so"}
+    assert {path.name for path in links.iterdir()} == {
+        "libmkl_core.so.3",
+        "libmkl_rt.so.3",
+        "libmkl_rt.so",
+        "libiomp5.so",
+    }
 
 
 def test_a_library_that_cannot_be_loaded_is_not_used(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
