@@ -115,8 +115,8 @@ def _size(program: Program, state: LawState) -> float:
 class _Path:
     """The load path as far as it was followed.
 
-    peak  : the state with the greatest load factor
-    last  : load factor of the last step
+    peak  : the state with the greatest load factor; None where not even the first step was found
+    last  : load factor of the last step; nan likewise
     rests : the path came to rest
     fell  : it went down from the peak, so far that the peak is behind it
     """
@@ -132,11 +132,10 @@ class _Path:
         """What keeps the path from saying that there is no peak; empty where it says so."""
         if self.rests or self.fell or self.last >= state.load_factor - PEAK * _size(self.program, state):
             return ""
-        live = self.program.scaling.live
-        return (
-            "whether the load rises above the load factor on the way to it was not seen: the load path was followed "
-            f"to {self.last * live:.6g} only"
-        )
+        reached = f"the load path was followed to {self.last * self.program.scaling.live:.6g} only"
+        if self.peak is None:
+            reached = "not even the first step of the load path from the dead load was found"
+        return f"whether the load rises above the load factor on the way to it was not seen: {reached}"
 
 
 def _follow(stepper: Stepper, gravity: FloatArray, size: float, most: int, number: int) -> _Path:

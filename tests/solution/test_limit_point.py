@@ -143,3 +143,17 @@ def test_a_peak_that_moves_with_the_steps_is_that_of_the_shortest(monkeypatch: p
     assert found.peak.load_factor == pytest.approx((1.0 + 0.1 * len(STEPS)) * state.load_factor)
     assert found.change == pytest.approx(0.1 / (1.0 + 0.1 * len(STEPS)))
     assert [record.program for record in found.programs] == list(range(5, 5 + len(STEPS)))
+
+
+def test_a_path_without_a_first_step_says_so(
+    plank: tuple[Line, LawState, LimitPoint], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """It has gone nowhere: there is no load factor up to which it was followed."""
+    line, state, _ = plank
+    monkeypatch.setattr(limit_point_module, "next_step", lambda *_: None)
+    found = limit_point(line.program, state, SETTINGS, lambda record: None, 5)
+    assert found.peak is None
+    assert found.remark == (
+        "whether the load rises above the load factor on the way to it was not seen: "
+        "not even the first step of the load path from the dead load was found"
+    )
