@@ -1,4 +1,4 @@
-"""What is found beside the load factor of a part: standing, range, a peak of the load path, least forces.
+"""What is found beside the load factor of a part: standing, range, least forces.
 
 Each answers another question about one state, and none changes the load factor.
 """
@@ -17,30 +17,17 @@ from mbla.program.program import Program
 from mbla.solution.cone_solution import Log
 from mbla.solution.factor_range import factor_range
 from mbla.solution.mechanics import forces_of
-from mbla.solution.part import PartResult
+from mbla.solution.part import RANGE_RESIDUAL, PartResult
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import StandingResult, Status
 from mbla.solution.standing import DeadLoadState, assess_dead_load, settlement_of, standing_without_equilibrium
 from mbla.solution.unique_forces import least_forces, point_weights
 
-RANGE_RESIDUAL = 1e-4
-"""Residual of a state up to which the range of its load factor is asked for."""
-
-SUSPECT = 0.85
-"""Share of the associative load factor below which the load path is examined for a peak. It costs two to five times the
-scheme itself. Of 470 clamped and wedged planks the 58 with a peak lay below, of walls and rooms without one few do."""
-
-
 NO_RANGE = (
     "the range of the load factor for the mechanism found is not computed: that misses the law by {:.2g}, and means "
     "something up to 1e-4"
 )
-NO_PEAK = (
-    "the load factor lies far below the associative one, and whether the structure carries more on the way was not "
-    "examined"
-)
-
-BROKE_DOWN = "range and peak of the load factor are not both known: a system of equations broke down ({})"
+BROKE_DOWN = "the range of the load factor is not known: a system of equations broke down ({})"
 
 
 @dataclass(frozen=True)
@@ -64,7 +51,6 @@ def with_answers(result: PartResult, questions: Questions) -> PartResult:
         result = _with_least_forces(result, questions)
     if knobs.range:
         result = _unless_it_breaks_down(result, lambda found: _with_range(found, analysis, settings, log))
-    result = _unless_it_breaks_down(result, lambda found: _with_peak(found, analysis, settings, log))
     return _with_standing(result, settings) if knobs.standing else result
 
 
@@ -96,24 +82,6 @@ def _with_range(result: PartResult, analysis: AnalysisSection, settings: SolverS
         return result.with_remark(NO_RANGE.format(state.residual), ())
     slope = result.program.limits.dilatancy if analysis.flow_rule == "dilatancy" else 0.0
     return replace(result, range=factor_range(result.program, state, settings, log, len(result.programs) + 1, slope))
-
-
-def _with_peak(result: PartResult, analysis: AnalysisSection, settings: SolverSettings, log: Log) -> PartResult:
-    """Where the load factor is far below the associative one the structure may have carried more on the way."""
-    state = None if result.sequence is None else result.sequence.state
-    if analysis.flow_rule != "non_associative" or state is None:
-        return result
-    above = result.associative.state
-    most = np.inf if above is None else above.load_factor
-    if state.load_factor > SUSPECT * most:
-        return result
-    if not knobs_of(analysis).peak or state.residual > RANGE_RESIDUAL:
-        return result.with_remark(NO_PEAK, ())
-    from mbla.solution.limit_point import limit_point  # late: the load path is followed rarely
-
-    known = result.associative.stress_free
-    found = limit_point(result.program, state, settings, log, len(result.programs) + 1, most, known)
-    return replace(result.with_remark(found.remark, found.programs), peak=found.peak)
 
 
 def _with_standing(result: PartResult, settings: SolverSettings) -> PartResult:

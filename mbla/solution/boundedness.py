@@ -6,8 +6,9 @@ factor is so large that the dead load and the strength of the joints are nothing
 load alone on a stress-free assembly of dry joints, and how large it is does not matter: equilibrium and Coulomb's law
 are homogeneous. So the factor is
 
-- unbounded where the stress-free assembly carries the live load alone (:mod:`mbla.solution.weakening`),
-- bounded where it does not.
+- bounded where the stress-free assembly does not carry the live load alone (:mod:`mbla.solution.weakening`),
+- unbounded where it does and the load path from the dead load leads there (:mod:`mbla.solution.standing_path`):
+  standing under the live load alone says nothing of smaller multiples beside the dead load, under which it may fall.
 
 Joints that can crush carry nothing for ever, and count as open.
 """
@@ -19,9 +20,8 @@ from enum import StrEnum
 
 import numpy as np
 
-from mbla.program.program import Program
 from mbla.program.yield_conditions.limits import YieldLimits
-from mbla.solution.settings import SolverSettings
+from mbla.solution.standing_path import SMALL, StandingPath
 from mbla.solution.weakening import Outcome, weaken_springs
 
 
@@ -46,21 +46,43 @@ BOUNDED = (
     "with dilatancy friction locks the structure under any multiple of the live load; without it joints give way, so "
     "that there is a load factor"
 )
-UNBOUNDED = "without dilatancy too, friction locks the structure under any multiple of the live load"
+ENDS = (
+    "with dilatancy friction locks the structure under any multiple of the live load; without it joints give way "
+    "before the live load alone would be carried, so that there is a load factor"
+)
+UNBOUNDED = (
+    "without dilatancy too, friction locks the structure under any multiple of the live load: it stands under the live "
+    "load alone, and from the dead load on under all multiples up to {:.6g} that were looked at"
+)
 DOUBTFUL = (
     "with dilatancy friction locks the structure under any multiple of the live load; whether it does so without is "
     "doubtful"
 )
 
+NO_START = "it was not seen to stand under its dead load, from which the load path starts"
 
-def non_associative_bounded(program: Program, settings: SolverSettings) -> BoundednessResult:
-    """Decide whether the load factor without dilatancy is bounded, for a program whose associative factor is not."""
-    weakening = weaken_springs(program, "live_load", lasting_limits(program.limits), settings)
+
+def non_associative_bounded(path: StandingPath) -> BoundednessResult:
+    """Decide whether the load factor without dilatancy is bounded, for a program whose associative factor is not.
+
+    path : of the program, at its beginning; followed as far as it takes
+    """
+    program = path.program
+    weakening = weaken_springs(program, "live_load", lasting_limits(program.limits), path.settings)
     if weakening.outcome is Outcome.FALLS:
         return BoundednessResult(Boundedness.BOUNDED, weakening.block, BOUNDED)
-    if weakening.outcome is Outcome.CARRIED:
-        return BoundednessResult(Boundedness.UNBOUNDED, None, UNBOUNDED)
-    return BoundednessResult(Boundedness.DOUBTFUL, weakening.block, f"{DOUBTFUL}: {weakening.reason}")
+    if weakening.outcome is Outcome.UNDECIDED:
+        return BoundednessResult(Boundedness.DOUBTFUL, weakening.block, f"{DOUBTFUL}: {weakening.reason}")
+    path.follow_on(SMALL * path.unit, np.inf)
+    if path.goes_on:
+        value = program.scaling.load_factor(path.last.load_factor)
+        return BoundednessResult(Boundedness.UNBOUNDED, None, UNBOUNDED.format(value))
+    if path.fall is not None:
+        return BoundednessResult(Boundedness.BOUNDED, path.fall.weakening.block, ENDS)
+    if path.end is None:
+        return BoundednessResult(Boundedness.DOUBTFUL, path.last.weakening.block, f"{DOUBTFUL}: {NO_START}")
+    end = path.end.weakening
+    return BoundednessResult(Boundedness.DOUBTFUL, end.block, f"{DOUBTFUL}: {end.reason}")
 
 
 def lasting_limits(limits: YieldLimits) -> YieldLimits:

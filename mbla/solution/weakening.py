@@ -63,6 +63,8 @@ PROPORTION = 1.25
 """Largest ratio of shares over ratio of κ that counts as falling in proportion."""
 
 
+DEPENDS_ON_STIFFNESS = "it depends on how stiff the joints are in shear against compression"
+
 ALIKE = 1 - 1e-6
 """Ratio of shares that counts as equal: of blocks that fall alike the first is named, whatever the rounding."""
 
@@ -93,21 +95,29 @@ class Weakening:
     forces: FloatArray | None = field(default=None, repr=False)
     displacements: FloatArray | None = field(default=None, repr=False)
 
+    @property
+    def depends_on_stiffness(self) -> bool:
+        """Whether nothing was decided because the load is carried with one ratio of stiffness and not with another."""
+        return self.reason == DEPENDS_ON_STIFFNESS
+
 
 Load = Literal["dead_load", "live_load"]
 
 
-def weaken_springs(program: Program, load: Load, limits: YieldLimits, settings: SolverSettings) -> Weakening:
+def weaken_springs(
+    program: Program, load: Load, limits: YieldLimits, settings: SolverSettings, *, live: float = 0.0
+) -> Weakening:
     """Decide whether the stress-free assembly carries the dead load, or the live load alone, within given limits.
 
     Both ratios of stiffness must say the same; a load that is zero is carried.
+
+    live : so many times the live load acts besides; the springs are those of ``load``
     """
     if not np.any(getattr(program, load)):
         return Weakening(Outcome.CARRIED, None, 0.0)
     blocks = _Blocks(*springs_of(program, load))
-    whole = spring_problem(
-        program.equilibrium_matrix, getattr(program, load), limits, blocks.springs, settings.deadline
-    )
+    acting = getattr(program, load) + live * program.live_load
+    whole = spring_problem(program.equilibrium_matrix, acting, limits, blocks.springs, settings.deadline)
     if program.n_points and is_diagonal(blocks.springs):
         whole = replace(whole, pattern=LatePattern(program))
     found: list[Weakening] = []
@@ -134,8 +144,7 @@ def agreed(first: Weakening, second: Weakening) -> Weakening:
     if first.outcome is second.outcome:
         return first
     falls = first if first.outcome is Outcome.FALLS else second
-    reason = "it depends on how stiff the joints are in shear against compression"
-    return Weakening(Outcome.UNDECIDED, falls.block, falls.share, reason)
+    return replace(falls, outcome=Outcome.UNDECIDED, reason=DEPENDS_ON_STIFFNESS)
 
 
 @dataclass(frozen=True)

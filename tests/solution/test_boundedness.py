@@ -9,10 +9,12 @@ import pytest
 
 from mbla.program.program import Program
 from mbla.solution.associative import solve_associative
-from mbla.solution.boundedness import Boundedness, non_associative_bounded
+from mbla.solution.boundedness import DOUBTFUL, ENDS, Boundedness, BoundednessResult, non_associative_bounded
 from mbla.solution.proximal import solve_proximal
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Status
+from mbla.solution.standing_path import PathState, StandingPath
+from mbla.solution.weakening import Outcome, Weakening
 from tests.line import line_of
 from tests.solution.standing_structures import bar, box, deck, groove, plane, plug
 
@@ -34,7 +36,7 @@ def test_a_wedge_in_a_groove_slides_where_dilatancy_would_lock_it(friction: floa
     program = line_of(GROOVE.read_text(), f"parameters.mu={friction}", expected).program
     associative = solve_associative(program, SETTINGS, lambda record: None)
     assert associative.status is status
-    assert non_associative_bounded(program, SETTINGS).verdict is Boundedness.BOUNDED
+    assert non_associative_bounded(StandingPath.from_dead_load(program, SETTINGS)).verdict is Boundedness.BOUNDED
     sequence = solve_proximal(program, associative, 60, SETTINGS, lambda record: None)
     assert sequence.status is Status.SOLVED
     assert sequence.state is not None
@@ -48,7 +50,6 @@ BEAM = bar("friction: 0.5", below=plane(0, 1, 0, 1))
 LOCKED = {
     "wedge pushed into its groove": (groove(0.5), "[0, 0, -1]"),
     "wedge pushed into a smooth groove": (groove(0), "[0, 0, -1]"),
-    "plug pushed into the narrow end": (plug(10, 0.5), "[0, 0, 1]"),
     "bar pushed against a wall": (BEAM, "[1, 0, 0]"),
     "block pressed on the ground, askew within its friction": (deck(box(0, 1, 0, 1)), "[0.4, 0.2, -1]"),
     "block pressed down, cohesion beside the point": (
@@ -72,12 +73,30 @@ FREE = {
 
 @pytest.mark.parametrize(("text", "direction"), LOCKED.values(), ids=LOCKED)
 def test_what_locks_without_dilatancy_too(text: str, direction: str) -> None:
-    result = non_associative_bounded(pushed(text, direction), SETTINGS)
+    result = non_associative_bounded(StandingPath.from_dead_load(pushed(text, direction), SETTINGS))
     assert result.verdict is Boundedness.UNBOUNDED
     assert result.block is None
 
 
 @pytest.mark.parametrize(("text", "direction", "block"), FREE.values(), ids=FREE)
 def test_what_does_not(text: str, direction: str, block: int) -> None:
-    result = non_associative_bounded(pushed(text, direction), SETTINGS)
+    result = non_associative_bounded(StandingPath.from_dead_load(pushed(text, direction), SETTINGS))
     assert (result.verdict, result.block) == (Boundedness.BOUNDED, block)
+
+
+def test_what_does_not_stand_without_the_live_load_is_in_doubt() -> None:
+    """A plug that falls out of the wide end under its weight, and locks once it is pushed in hard enough."""
+    result = non_associative_bounded(StandingPath.from_dead_load(pushed(plug(10, 0.5), "[0, 0, 1]"), SETTINGS))
+    assert result.verdict is Boundedness.DOUBTFUL
+    assert "not seen to stand under its dead load" in result.reason
+
+
+def test_what_locks_under_the_live_load_alone_may_give_way_on_the_way_there() -> None:
+    """A block pressed on the ground, of which it was seen before that it falls under a part of that."""
+    path = StandingPath.from_dead_load(
+        pushed(*LOCKED["block pressed on the ground, askew within its friction"]), SETTINGS
+    )
+    path.end = path.fall = PathState(2.0, Weakening(Outcome.FALLS, 0, 0.5))
+    assert non_associative_bounded(path) == BoundednessResult(Boundedness.BOUNDED, 0, ENDS)
+    path.end, path.fall = PathState(2.0, Weakening(Outcome.UNDECIDED, 0, 0.5, "out of time")), None
+    assert non_associative_bounded(path) == BoundednessResult(Boundedness.DOUBTFUL, 0, f"{DOUBTFUL}: out of time")

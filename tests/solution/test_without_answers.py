@@ -22,6 +22,7 @@ from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Status
 from mbla.solution.spring_newton import newton_step
 from mbla.solution.spring_problem import PATTERN_FROM, LatePattern, SpringProblem, joints_at, spring_problem
+from mbla.solution.standing_path import StandingPath
 from mbla.solution.stiffness import Stiffness, stiffness_of
 from mbla.solution.weakening import Outcome, Weakening
 from tests.line import BLOCK, line_of, solution_of
@@ -108,7 +109,8 @@ def test_a_minimum_that_no_step_leads_to_is_not_gone_to(share: float | None, mon
 def test_springs_that_decide_nothing_leave_it_in_doubt_whether_it_locks(monkeypatch: pytest.MonkeyPatch) -> None:
     undecided = Weakening(Outcome.UNDECIDED, 0, 0.5, "the time limit was reached")
     monkeypatch.setattr(boundedness, "weaken_springs", lambda *arguments: undecided)
-    result = non_associative_bounded(line_of(BLOCK, PRESSED).program, SETTINGS)
+    program = line_of(BLOCK, PRESSED).program
+    result = non_associative_bounded(StandingPath.from_dead_load(program, SETTINGS))
     assert result.verdict is Boundedness.DOUBTFUL
     assert result.block == 0
     assert result.reason.endswith("whether it does so without is doubtful: the time limit was reached")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from mbla.results.explanations.explanation import Explanation
-from mbla.solution.beside import SUSPECT
+from mbla.solution.part import SUSPECT
 from mbla.solution.polyhedral import AGREE, AGREE_SHORT
 
 _OTHER = "Another scheme, or several with --set analysis.scheme=...; compare their load factors."
@@ -105,7 +105,7 @@ OF_PATH = (
     Explanation(
         "peak-on-path",
         "warning",
-        "The load path passes a greater load before the structure comes to rest.",
+        "The structure stands under a greater load than the one at which it comes to rest once it moves.",
         "The peak is the collapse load, the lower figure what is left while the structure moves; see peak.",
         f"Looked for where the factor is below {SUSPECT:g} of the associative one.",
         "Design with the lower of both where the load stays.",
@@ -119,11 +119,27 @@ OF_PATH = (
         "Use the load factor reported.",
     ),
     Explanation(
+        "found-above-path",
+        "notice",
+        "The scheme came to a load factor above the load at which the structure no longer stands.",
+        "The load factor given is a lower one, of the state at the end of the load path.",
+        "Forces fit the joint law that no load brings about, as in joints that were open under the dead load.",
+        "Nothing; the figure is on the safe side of the other.",
+    ),
+    Explanation(
+        "path-not-seen",
+        "warning",
+        "Whether the structure stands on the way up to the load factor was not seen.",
+        "It may collapse before: the figure may be on the unsafe side.",
+        "No state of the load path was found somewhere on the way, or none under the dead load alone.",
+        "See standing; scheme: path with more steps.",
+    ),
+    Explanation(
         "peak-not-seen",
         "warning",
-        "Whether the load rises above the load factor on its way was not seen.",
+        "The structure stands above the load factor, and where that ends was not seen.",
         "The collapse load may be higher than the figure, which is on the safe side.",
-        "The load path stalled or found no gravity state to start from.",
+        "No state of the load path was found further up, or it goes on as far as it was followed.",
         "scheme: path with more steps.",
     ),
     Explanation(
@@ -142,14 +158,6 @@ OF_PATH = (
         "Between the two the structure moves to another state: it may not survive the way to the lower one.",
         "The structure gives way and comes to rest again.",
         "Look at the range and the peak; scheme: path follows the way.",
-    ),
-    Explanation(
-        "no-live-load-carried",
-        "warning",
-        "The load path falls from the dead load alone on.",
-        "No live load is carried.",
-        "The structure stands by a hair under its dead load.",
-        "See standing-doubtful.",
     ),
     Explanation(
         "locked-by-dilatancy",

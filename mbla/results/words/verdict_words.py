@@ -111,6 +111,9 @@ def _without_load_factor(model: Model, case: CaseResult) -> str:
     best = best_iterate(case)
     if locked_in(case) and case.status is not Status.NO_EQUILIBRIUM:
         return "no collapse load: it stands only by self-stress"
+    if case.status is Status.NOT_VERIFIED and np.isfinite(case.checks.peak_load_factor):
+        carried = load_factor_words(model, case.load_case, case.checks.peak_load_factor)
+        return f"NOT VERIFIED: no load factor; it stands up to {carried}, verified"
     if best is None:
         return _without_figures(case)
     value = load_factor_words(model, case.load_case, best.load_factor)

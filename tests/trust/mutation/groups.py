@@ -48,7 +48,7 @@ GROUPS = {
             "tests/solution/test_accuracy.py",
             "tests/solution/test_tilt.py",
             "tests/solution/test_locking.py",
-            "tests/solution/test_limit_point.py",
+            "tests/solution/test_first_fall.py",
             "tests/test_verify_file.py",
         ),
         longest=6.0,
