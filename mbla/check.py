@@ -77,8 +77,8 @@ def needs_of(deck: Deck, model: Model, contacts: Contacts, load_case: LoadCase) 
         reduced = replace(reduced, steps=(glued_step(solids, size_of_convex(convex)),))
         unknowns, programs = len(convex.program.dead_load), [convex_form(convex).cone_program]
     else:
-        unknowns = sum(len(part.dead_load) for part in reduced.solved)
-        programs = [kinematic_form(part, part.limits).cone_program for part in reduced.solved if np.any(part.live_load)]
+        unknowns = sum(len(part.dead_load) for part in reduced.parts)
+        programs = [kinematic_form(part, part.limits).cone_program for part in reduced.parts if np.any(part.live_load)]
     further = [size for program in programs for size in program.further_cones]
     counts = asdict(reduced.size) | {
         "unknown_velocities": unknowns,

@@ -67,9 +67,7 @@ class ReductionSwitches(Section):
     mirror: Switch = Field(True, description="associative flow: only one half of a symmetric structure is solved")
     parts: Switch = Field(True, description="parts that cannot interact are solved apart")
     unloaded: Switch = Field(True, description="parts without live load only have to stand, which is shown apart")
-    repeated: Switch = Field(True, description="of parts that are the same one is solved, and answers for all")
     points: Switch = Field(True, description="associative flow: contact points that cannot matter are left out")
-    merged: Switch = Field(True, description="contact points in one place and of one law are solved as one")
 
 
 class AnalysisSection(Section):

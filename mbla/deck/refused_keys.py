@@ -19,10 +19,15 @@ REPLACED: Mapping[KeyPath, str] = {
 }
 """Keys of earlier versions: path of the key -> the key that says the same now"""
 
+GONE = (("analysis", "reductions", "merged"), ("analysis", "reductions", "repeated"))
+"""Keys of earlier versions that nothing replaces: decks give the same without them"""
+
 
 def refusal(path: KeyPath) -> Message | None:
     """Why a deck cannot have the key at a path; None where there is no more to say than that it is unknown."""
     if path in REPLACED:
         return Message("replaced-key", f"is not a key any more: write {REPLACED[path]}")
+    if path in GONE:
+        return Message("replaced-key", "is not a key any more: leave it out, nothing else changes")
     why = FOREIGN.get((str(path[0]), str(path[-1]))) if len(path) > 1 else None
     return None if why is None else Message("key-of-another-program", why)

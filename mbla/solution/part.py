@@ -20,7 +20,7 @@ from mbla.solution.locking import locks_at_dilatancy
 from mbla.solution.polyhedral import solve_polyhedral, solve_with_opinion
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import ProgramRecord, StandingResult, Status
-from mbla.solution.standing import DeadLoadState, stress_free_state
+from mbla.solution.standing import stress_free_state
 from mbla.solution.standing_path import StandingPath
 
 NO_MECHANISM_AT_DILATANCY = (
@@ -56,7 +56,6 @@ class PartResult:
     remarks     : beside those of the sequence, one sentence each
     least       : the associative state with the least forces
     peak        : last state of the load path that stands, where that lies above the load factor
-    at_dead_load : forces and displacements from which the standing was seen, in the part's own unknowns
     more        : programs solved for what is found beside the load factor
     """
 
@@ -71,7 +70,6 @@ class PartResult:
     least: LawState | None = None
     peak: LawState | None = None
     more: tuple[ProgramRecord, ...] = ()
-    at_dead_load: DeadLoadState | None = None
 
     def with_remark(self, remark: str, programs: tuple[ProgramRecord, ...]) -> PartResult:
         """The same with one more remark, unless that is empty, and more programs."""

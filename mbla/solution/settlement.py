@@ -33,7 +33,7 @@ make it too small to carry the dead load."""
 HIGH = 10.0
 """Reaction over its unit, more than any structure is likely to need."""
 
-EVERY_POINT = ReductionSwitches(mirror=False, points=False, merged=False)
+EVERY_POINT = ReductionSwitches(mirror=False, points=False)
 """Least forces need every point by itself: without those inside the hull of others a middle support would carry
 nothing, and points that stand for two would count by half."""
 

@@ -20,7 +20,6 @@ from mbla.solution.law_state import LawState
 from mbla.solution.locking import locking_forces
 from mbla.solution.mechanics import mechanics_of, motion_of
 from mbla.solution.part import PartResult, solve_part
-from mbla.solution.repeated import answer_for
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import IterationRecord, Mechanics, ProgramRecord, Solution, Standing, Status
 from mbla.solution.standing import worst_standing
@@ -54,13 +53,9 @@ BROKE_DOWN = "a system of equations of the method broke down ({}): try another s
 
 @dataclass(frozen=True)
 class _Stage:
-    """What every step of one load case needs.
-
-    like : of each part the number of the first one that is the same, its own where there is none before
-    """
+    """What every step of one load case needs."""
 
     parts: tuple[Program, ...]
-    like: tuple[int, ...]
     interface_of_point: IntArray
     settings: SolverSettings
     log: Log
@@ -75,7 +70,7 @@ class _Stage:
         """
         if state is None:
             return None
-        whole = whole_state(self.parts, part, state, self.settings, self.log, collapse, self.like)
+        whole = whole_state(self.parts, part, state, self.settings, self.log, collapse)
         return None if whole is None else mechanics_of(*whole, flow_rule)
 
 
@@ -92,13 +87,9 @@ def solve(reduced: Reduced, analysis: AnalysisSection, settings: SolverSettings,
         if log is not None:
             log(iteration)
 
-    like = reduced.like or tuple(range(len(reduced.parts)))
-    stage = _Stage(reduced.parts, like, reduced.interface_of_point, settings, record)
+    stage = _Stage(reduced.parts, reduced.interface_of_point, settings, record)
     questions = Questions(analysis, reduced.point_areas, settings, record)
-    results: list[PartResult] = []
-    for program, first in zip(reduced.parts, like, strict=True):
-        again = first < len(results)
-        results.append(answer_for(program, results[first]) if again else _result_of(program, questions))
+    results = [_result_of(program, questions) for program in reduced.parts]
     solution = _combined(stage, analysis, results)
     assessed = [result.standing for result in results if result.standing is not None]
     standing = worst_standing(assessed) if assessed else None

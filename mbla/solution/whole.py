@@ -41,27 +41,21 @@ def whole_state(
     settings: SolverSettings,
     log: Log,
     collapse: Sequence[LawState | None] = (),
-    like: Sequence[int] = (),
 ) -> tuple[Program, LawState] | None:
     """A state of one part as one of the whole model, the other parts at rest; None where these do not carry it.
 
     A single part is returned as it is.
 
     collapse : of each part its own state at collapse, None where there is none; nothing where none is known
-    like     : of each part the number of the first one that is the same; those at rest are then found once
     """
     if len(parts) == 1:
         return parts[0], state
     total: LawState | None = None
-    program, resting = parts[part], dict[int, LawState | None]()
+    program = parts[part]
     for number, other in enumerate(parts):
         own: LawState | None = state
         if number != part:
-            first = like[number] if like else number
-            if first not in resting:
-                ending = collapse[number] if collapse else None
-                resting[first] = _resting(other, ending, state.load_factor, settings, log)
-            own = resting[first]
+            own = _resting(other, collapse[number] if collapse else None, state.load_factor, settings, log)
         if own is None:
             return None
         program, own = to_full(other, own)

@@ -23,11 +23,11 @@ UNUSED: dict[str, str] = {
     "InteriorScheme": "max_factorizations tries",
     "LowestScheme": "seed",
     "MeshItem": "weld",
-    "OutputSection": "plots",
+    "OutputSection": "plots positions",
     "PathScheme": "steps",
     "ProximalScheme": "max_programs",
     "PublishedScheme": "averaging max_programs",
-    "ReductionSwitches": "merged mirror parts planar points repeated unloaded",
+    "ReductionSwitches": "mirror parts planar points unloaded",
     "SymmetryPlane": "z",
 }
 """Type -> keys that no deck gives. A new key belongs into a deck; one of these that a deck takes up leaves the list."""

@@ -22,6 +22,7 @@ DECKS = ROOT / "decks"
 FOLDERS = ("tutorials", "benchmarks", "structures", "regressions", "tradeoff", "sweeps/base")
 PATHS = tuple(sorted(path for folder in FOLDERS for path in DECKS.glob(f"{folder}/*.yaml")))
 LONG = (
+    "regressions/shelf_across",
     "structures/arch_bridge",
     "structures/house",
     "structures/room",

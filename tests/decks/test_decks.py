@@ -24,7 +24,7 @@ ROUNDED = 2e-8
 """Figures of closed forms and linear programs are written with eight digits."""
 
 
-LOCKED = ("benchmarks/groove_steep_friction",)
+LOCKED = ("benchmarks/groove_steep_friction", "regressions/block_under_a_ceiling")
 """No associative load factor, and one without dilatancy all the same."""
 
 
@@ -187,7 +187,7 @@ def test_a_wrong_expectation_is_found() -> None:
 def test_the_peak_of_a_load_path_is_told_beside_what_is_left_after_it() -> None:
     """Verified by statics of its own; within a thousandth, which is how closely the path is followed."""
     (case, expectation), *_ = cases_of(path_of("benchmarks/plank_in_clamp"))
-    assert case["peak"] == pytest.approx(2.1939, rel=1e-3)
+    assert case["peak"] == pytest.approx(2.1725, rel=1e-3)
     assert expectation.load_factor is not None
     assert expectation.load_factor < case["peak"] < case["kinematic_bound"]
 

@@ -19,7 +19,7 @@ from mbla.solution.load_path import solve_path
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Status
 from tests.line import BLOCK, line_of, verified
-from tests.program.reductions.test_merged import FIXED_COURSE
+from tests.program.reductions.test_planar import FIXED_COURSE
 from tests.solution.nonassociative_cases import CASES
 from tests.solution.test_dilatancy import groove, wall_3
 from tests.solution.test_proximal import FERRIS_3
@@ -49,11 +49,10 @@ def test_a_block_sticks_until_it_slides() -> None:
     assert [point.step for point in result.path] == list(range(len(result.path)))
 
 
-@pytest.mark.parametrize("merged", ["true", "false"])
-def test_a_load_that_nothing_carries_ends_a_step_without_a_word(merged: str) -> None:
+def test_a_load_that_nothing_carries_ends_a_step_without_a_word() -> None:
     """Beyond tipping at 0.1/0.25 velocities grow to 1e13 and rounding puts joints outside their cones: no crash."""
-    overrides = ("analysis.scheme=path", f"analysis.reductions.merged={merged}")
-    solution, checks, status = verified(line_of(FIXED_COURSE, *overrides, case=1))
+    spatial = ("analysis.scheme=path", "analysis.reductions={planar: false, mirror: false, points: false}")
+    solution, checks, status = verified(line_of(FIXED_COURSE, *spatial, case=1))
     assert status is Status.SOLVED, checks.failures
     assert solution.mechanics is not None
     assert solution.mechanics.load_factor == pytest.approx(0.4, rel=1e-8)

@@ -141,8 +141,11 @@ def _with_points(
     images = (scene.points - middle) @ reflect
     here = _features(scene.points - middle, scene.bodies, scene.frames[:, 0], scene.length)
     there = _features(images, image_bodies, scene.frames[:, 0] @ reflect, scene.length)
-    point_of = _matched(here, there, 1.0, np.ones(len(here)))
-    if point_of is None or np.any(point_of[point_of] != np.arange(len(point_of))):
+    own = _middles_of_interfaces(scene) - middle
+    point_of = _matched_points(np.hstack([here, own / scene.length]), np.hstack([there, own @ reflect / scene.length]))
+    if point_of is None:  # an interface that comes in pieces, its image in one
+        point_of = _matched_points(here, there)
+    if point_of is None:
         return None
     limits = scene.program.limits
     laws = np.column_stack([limits.friction, limits.dilatancy, limits.cohesion, limits.tension, limits.compression])
@@ -154,6 +157,19 @@ def _with_points(
     if np.abs(force_maps[:, 0, 0] - 1.0).max(initial=0.0) > SYMMETRIC:
         return None
     return Mirror(normal, block_of, point_of, velocity_map, force_maps)
+
+
+def _matched_points(here: FloatArray, there: FloatArray) -> IntArray | None:
+    """Row of ``here`` at each row of ``there``, which is its image in turn; None where there are none such."""
+    point_of = _matched(here, there, 1.0, np.ones(len(here)))
+    return None if point_of is None or np.any(point_of[point_of] != np.arange(len(point_of))) else point_of
+
+
+def _middles_of_interfaces(scene: Scene) -> FloatArray:
+    """Mean of the points of its interface for every point, (n_points, 3): it tells points in one place apart."""
+    count = np.maximum(np.bincount(scene.interfaces), 1)
+    means = np.column_stack([np.bincount(scene.interfaces, axis) / count for axis in scene.points.T])
+    return np.asarray(means[scene.interfaces])
 
 
 def _features(points: FloatArray, bodies: IntArray, normals: FloatArray, length: float) -> FloatArray:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -14,12 +14,10 @@ from mbla.model.model import Model
 from mbla.program.program import Program
 from mbla.program.reductions.guided import guided_program
 from mbla.program.reductions.half import half_of
-from mbla.program.reductions.merged import with_merged_points
 from mbla.program.reductions.mirror import SYMMETRIC, Mirror, mirror_about, mirror_candidates
 from mbla.program.reductions.parts import split_into_parts
 from mbla.program.reductions.planar import is_planar, planar_program
 from mbla.program.reductions.points import without_inner_points
-from mbla.program.reductions.repeated import as_reduced, like_which
 from mbla.program.reductions.restrict import tidy
 from mbla.program.reductions.scene import Scene, scene_of
 from mbla.program.reductions.shares import program_by_shares
@@ -32,11 +30,10 @@ class ModelSize:
 
     dimension     : 2 where the structure was solved as planar, else 3
     mirror_planes : planes of symmetry that were used besides, largest number of any part
-    parts         : parts that cannot interact, solved apart; of several that are the same only the first
+    parts         : parts that cannot interact, solved apart
     free_blocks   : blocks with unknowns
     contact_points: points with unknowns
-    dropped_points: points of the model that cannot matter, or follow from others by symmetry or as those of a part
-                    that is the same
+    dropped_points: points of the model that cannot matter, or follow from others by symmetry
     """
 
     dimension: int
@@ -54,8 +51,6 @@ class Reduced:
     interface_of_point : (n_points of the whole program,)
     point_areas        : (n_points of the whole program,)
     steps              : what each reduction did, in the order in which they were applied
-    like               : of each part the number of the first one that is the same, its own where there is none before;
-                         empty where that was not looked for
     """
 
     parts: tuple[Program, ...]
@@ -63,12 +58,6 @@ class Reduced:
     interface_of_point: IntArray
     point_areas: FloatArray
     steps: tuple[ReductionStep, ...] = ()
-    like: tuple[int, ...] = ()
-
-    @property
-    def solved(self) -> tuple[Program, ...]:
-        """The programs that are solved: of several that are the same only the first."""
-        return tuple(part for number, part in enumerate(self.parts) if not self.like or self.like[number] == number)
 
 
 def reduce_program(
@@ -84,66 +73,23 @@ def reduce_program(
     scene, steps = _with_fewer_points(scene_of(model, contacts, program), switches, associative)
     scenes = split_into_parts(scene, apart=switches.parts, unloaded=switches.unloaded)
     steps += _steps_of_parts(scene, scenes, switches)
-    like = like_which(scenes, model.mirrors) if switches.repeated else np.arange(len(scenes))
-    firsts = [
-        _reduced_part(part, switches, associative, model.mirrors) if like[number] == number else None
-        for number, part in enumerate(scenes)
-    ]
-    smaller = [_as_first(part, scenes[first], firsts[first]) for part, first in zip(scenes, like, strict=True)]
+    smaller = [_reduced_part(part, switches, associative, model.mirrors) for part in scenes]
     steps += _steps_of_planes(scenes, smaller, switches, associative or bool(model.mirrors))
-    parts = _in_unknowns_of_guides_and_shares(scenes, smaller, like)
-    steps.append(_step_of_repeated(parts, like, switches.repeated))
-    size = _model_size(scenes, [mirror for _, mirror in smaller], parts, like, program.n_points)
-    areas, steps_taken = contacts.point_areas, tuple(steps)
-    return Reduced(tuple(parts), size, contacts.interface_of_point, areas, steps_taken, tuple(like.tolist()))
-
-
-def _as_first(
-    part: Scene, first: Scene, reduced: tuple[Program, Mirror | None] | None
-) -> tuple[Program, Mirror | None]:
-    """What the first of several parts that are the same was reduced to, as a program of this one."""
-    assert reduced is not None  # the first one is like no other
-    program, mirror = reduced
-    if part is first:
-        return reduced
-    return as_reduced(part, program, first.program), mirror
-
-
-def _in_unknowns_of_guides_and_shares(
-    scenes: Sequence[Scene], smaller: Sequence[tuple[Program, Mirror | None]], like: IntArray
-) -> list[Program]:
-    """The programs that are solved, each in the motions that guides allow and forces by their shares of the area."""
-    parts: list[Program] = []
-    for number, (part, first) in enumerate(zip(scenes, like, strict=True)):
-        program = smaller[number][0]
-        if first == number:
-            parts.append(program_by_shares(part, _guided(part, program)))
-        else:
-            parts.append(as_reduced(part, parts[first], scenes[first].program))
-    return parts
-
-
-def _step_of_repeated(parts: Sequence[Program], like: IntArray, allowed: bool) -> ReductionStep:
-    """Parts that are the same as another one, of which one answers for all, counted."""
-    solved = [part for number, part in enumerate(parts) if like[number] == number]
-    return step_of("repeated", allowed, len(parts) - len(solved), size_of(parts), size_of(solved))
+    parts = [  # in the motions that guides allow, and forces by their shares of the area
+        program_by_shares(part, _guided(part, own)) for part, (own, _) in zip(scenes, smaller, strict=True)
+    ]
+    size = _model_size(scenes, [mirror for _, mirror in smaller], parts, program.n_points)
+    return Reduced(tuple(parts), size, contacts.interface_of_point, contacts.point_areas, tuple(steps))
 
 
 def _with_fewer_points(
     scene: Scene, switches: ReductionSwitches, associative: bool
 ) -> tuple[Scene, list[ReductionStep]]:
-    """Contact points that cannot matter, and those that coincide with others, left out."""
-    steps = []
-    tried: tuple[tuple[str, bool, Callable[[Scene], Scene]], ...] = (
-        ("points", switches.points and associative, without_inner_points),
-        ("merged", switches.merged, with_merged_points),
-    )
-    for name, allowed, fewer in tried:
-        left = fewer(scene) if allowed else scene
-        found = len(scene.points) - len(left.points)
-        steps.append(step_of(name, allowed, found, size_of([scene.program]), size_of([left.program])))
-        scene = left
-    return scene, steps
+    """Contact points that cannot matter left out."""
+    allowed = switches.points and associative
+    left = without_inner_points(scene) if allowed else scene
+    found = len(scene.points) - len(left.points)
+    return left, [step_of("points", allowed, found, size_of([scene.program]), size_of([left.program]))]
 
 
 def _steps_of_parts(scene: Scene, scenes: Sequence[Scene], switches: ReductionSwitches) -> list[ReductionStep]:
@@ -183,17 +129,17 @@ def _steps_of_planes(
 
 
 def _model_size(
-    scenes: Sequence[Scene], mirrors: Sequence[Mirror | None], parts: Sequence[Program], like: IntArray, n_points: int
+    scenes: Sequence[Scene], mirrors: Sequence[Mirror | None], parts: Sequence[Program], n_points: int
 ) -> ModelSize:
     """What reaches the solver of a model with n_points contact points."""
-    blocks, solved = 0, np.flatnonzero(like == np.arange(len(like))).tolist()
-    for number in solved:
-        mirror, own = mirrors[number], np.arange(len(scenes[number].centroids))
+    blocks = 0
+    for scene, mirror in zip(scenes, mirrors, strict=True):
+        own = np.arange(len(scene.centroids))
         blocks += len(own) if mirror is None else int(np.sum(mirror.block_of >= own))
-    points = sum(parts[number].n_points for number in solved)
+    points = sum(part.n_points for part in parts)
     dimension = 2 if all(part.components == 2 for part in parts) else 3
     planes = int(any(mirror is not None for mirror in mirrors))
-    return ModelSize(dimension, planes, len(solved), blocks, points, n_points - points)
+    return ModelSize(dimension, planes, len(parts), blocks, points, n_points - points)
 
 
 def _reduced_part(

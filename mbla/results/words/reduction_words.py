@@ -10,12 +10,10 @@ from mbla.results.words.text import counted, sentence, table
 FOUND = {
     "glued": ("block", "in larger bodies or held"),
     "points": ("contact point", "left out"),
-    "merged": ("contact point", "joined to others"),
     "unloaded": ("block", "apart, without live load"),
     "parts": ("part", "solved apart"),
     "planar": ("part", "in its plane"),
     "mirror": ("part", "by one half"),
-    "repeated": ("part", "the same as another"),
 }
 """What a reduction counts, and what becomes of it."""
 

@@ -8,7 +8,7 @@ import pytest
 from mbla.program.reductions.mirror import mirror_about
 from mbla.program.reductions.planar import planar_program
 from mbla.solution.solution import Status
-from tests.line import BLOCK, HEAD, case_of
+from tests.line import BLOCK, HEAD, case_of, line_of, verified
 from tests.program.reductions.scenes import scene
 
 HALVES = """\
@@ -96,3 +96,54 @@ def test_squares_of_forces_in_the_plane_add_up_to_half_of_those_in_it(per_edge: 
         shares = strength[:, None] * np.abs(forces[::3, ::2].toarray().T)
         assert shares.sum() == pytest.approx(expected / (2000 * 9.81 * 2))
         assert (shares > 0).sum() == behind * (per_edge + 1)
+
+
+FIXED_COURSE = (
+    HEAD
+    + """\
+parameters: {mu: 0.6, c: 0, ft: 0, joint: 0.4}
+joints: {dry: {friction: "=mu", cohesion: "=c", tensile_strength: "=ft"}}
+blocks:
+  - box: {group: base, material: stone, min: [0, 0, -0.2], max: ["=joint", 0.2, 0]}
+  - box: {group: base, material: stone, min: ["=joint", 0, -0.2], max: [0.8, 0.2, 0]}
+  - box: {group: brick, material: stone, min: [0.2, 0, 0], max: [0.6, 0.2, 0.2]}
+  - box: {group: top, material: stone, min: [0.2, 0, 0.2], max: [0.6, 0.2, 0.5]}
+supports: [{blocks: base}]
+load_cases:
+  push: {live: [{acceleration: [1, 0, 0]}]}
+  across: {live: [{acceleration: [0, 1, 0]}]}
+  skew: {live: [{acceleration: [0.8, 0.6, 0]}]}
+analysis: {flow_rule: non_associative}
+"""
+)
+"""A brick on two fixed ones that meet under it, and another block on it: 12 points, of which 4 coincide in pairs."""
+
+STRENGTHS = {
+    "dry": (),
+    "cohesion": ("parameters.c=2000",),
+    "mortar": ("parameters.c=2000", "parameters.ft=500"),
+    "weak": ("parameters.c=2000", "parameters.ft=500", "joints.dry.compressive_strength=9.e4"),
+}
+
+
+@pytest.mark.parametrize("flow_rule", ["associative", "non_associative"])
+@pytest.mark.parametrize("joint", [0.4, 0.3], ids=["under its middle", "beside it"])
+@pytest.mark.parametrize("case", [0, 1])
+@pytest.mark.parametrize("strength", STRENGTHS.values(), ids=STRENGTHS)
+def test_points_in_one_place_of_two_interfaces(
+    strength: tuple[str, ...], case: int, joint: float, flow_rule: str
+) -> None:
+    """Each has the strength of its own share: the plane gives what space gives, forces within every limit."""
+    asked = (*strength, f"parameters.joint={joint}", f"analysis.flow_rule={flow_rule}")
+    factors, dimensions = [], []
+    for switches in ("{}", "{planar: false, mirror: false}"):
+        line = line_of(FIXED_COURSE, *asked, f"analysis.reductions={switches}", case=case)
+        solution, checks, status = verified(line)
+        assert status is Status.SOLVED, checks.failures
+        assert solution.size is not None
+        assert solution.mechanics is not None
+        dimensions.append(solution.size.dimension)
+        factors.append(solution.mechanics.load_factor)
+    assert factors[0] == pytest.approx(factors[1], rel=1e-6)
+    assert dimensions[1] == 3
+    assert dimensions[0] == 2 or (case == 1 and joint != 0.4)

@@ -18,7 +18,7 @@ from mbla.solution.settings import SolverSettings
 from mbla.solution.whole import to_full
 from tests.line import BLOCK, HEAD, WALL, Line, line_of, verified
 
-NONE = ReductionSwitches(planar=False, mirror=False, parts=False, unloaded=False, points=False, merged=False)
+NONE = ReductionSwitches(planar=False, mirror=False, parts=False, unloaded=False, points=False)
 
 ARCH = (
     HEAD

@@ -17,7 +17,7 @@ def test_without_reason_to_the_contrary_the_deck_is_followed() -> None:
     ("analysis", "off"),
     [
         (AnalysisSection(flow_rule="associative", friction_cone="polyhedral"), {"mirror"}),
-        (AnalysisSection(flow_rule="associative", force_ranges=True), {"merged", "mirror", "points"}),
+        (AnalysisSection(flow_rule="associative", force_ranges=True), {"mirror", "points"}),
     ],
 )
 def test_what_would_change_the_answer_is_off(analysis: AnalysisSection, off: set[str]) -> None:

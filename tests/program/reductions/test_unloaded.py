@@ -129,7 +129,7 @@ def test_of_two_walls_of_which_one_is_a_hair_stronger_both_are_proved(hair: floa
 def test_of_two_equal_walls_both_are_proved(switch: str) -> None:
     """The second is at rest at its own collapse load: least forces there were too rough for a static bound."""
     text = WALL.replace("supports:", ASIDE.format("copy", 8, "[9, 3, 0]") + "supports:")
-    overrides = ("parameters.n=8", "parameters.mu=0.7", f"analysis.reductions={{{switch}, repeated: false}}")
+    overrides = ("parameters.n=8", "parameters.mu=0.7", f"analysis.reductions={{{switch}}}")
     solution, checks, status = verified(line_of(text, *overrides))
     assert solution.size is not None
     assert solution.size.parts == 2

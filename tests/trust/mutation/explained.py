@@ -296,16 +296,6 @@ EXPLAINED: dict[tuple[str, str, str], str] = {
         "False -> True",
     ): "directed graphs are connected weakly unless said otherwise",
     (
-        "mbla/program/reductions/merged.py",
-        "return np.asarray(connected_components(graph, directed=False)[1], dtype=np.int64)",
-        "False -> True",
-    ): "directed graphs are connected weakly unless said otherwise",
-    (
-        "mbla/program/reductions/merged.py",
-        "turned = np.where(bodies[:, 0] <= bodies[:, 1], 1.0, -1.0)[:, None]",
-        "bodies[:, 0] <= bodies[:, 1] -> bodies[:, 0] > bodies[:, 1]",
-    ): "every normal turned: only differences of them are looked at",
-    (
         "mbla/program/reductions/mirror.py",
         "if length <= 1e-9 * largest**2 and length < 0.5:",
         "length <= 1e-09 * largest ** 2 -> length < 1e-09 * largest ** 2",
@@ -345,32 +335,6 @@ EXPLAINED: dict[tuple[str, str, str], str] = {
         "flat = (scene.points[group] - scene.points[group[0]]) @ scene.frames[group[0], 1:].T / scene.length",
         "scene.points[group] - scene.points[group[0]] -> scene.points[group] + scene.points[group[0]]",
     ): "a hull stays what it is wherever it is moved",
-    (
-        "mbla/program/reductions/repeated.py",
-        "near = np.abs(marks[others] - marks[number]).max(axis=1, initial=0.0) <= 1e3 * margin",
-        "1000.0 * margin -> 1000.0 / margin",
-    ): "marks only save looking at programs that cannot be the same",
-    (
-        "mbla/program/reductions/repeated.py",
-        "near = np.abs(marks[others] - marks[number]).max(axis=1, initial=0.0) <= 1e3 * margin",
-        "1000.0 -> 1001.0",
-    ): "marks only save looking at programs that cannot be the same",
-    (
-        "mbla/program/reductions/repeated.py",
-        "figures = [*(weights @ dead / n), *(weights @ live / (n * live_size)), *_distances(scene, planes)]",
-        "weights @ dead / n -> weights @ dead * n",
-    ): "marks only save looking at programs that cannot be the same",
-    (
-        "mbla/program/reductions/repeated.py",
-        "return float(scene.areas.mean()) if len(scene.areas) else 1.0",
-        "1.0 -> 2.0",
-    ): "divides no area",
-    (
-        "mbla/program/reductions/repeated.py",
-        "return bool(abs(x - y).max() <= margin * np.abs(x.data).max(initial=0.0))",
-        "abs(x - y).max() <= margin * np.abs(x.data).max(initial=0.0) -> "
-        "abs(x - y).max() < margin * np.abs(x.data).max(initial=0.0)",
-    ): "a rough limit met exactly",
     (
         "mbla/program/reductions/shares.py",
         "if np.all(np.abs(share - 1.0) <= ALIKE):",
