@@ -90,10 +90,10 @@ def _with_standing(result: PartResult, settings: SolverSettings) -> PartResult:
         return replace(result, standing=standing_without_equilibrium(result.program, associative.certificate))
     decided = associative.state is not None or associative.status is Status.UNBOUNDED
     state = assess_dead_load(result.program, settings, True if decided else None, associative.stress_free)
-    return replace(result, standing=_standing_on_model(result.program, state))
+    return replace(result, standing=standing_on_model(result.program, state))
 
 
-def _standing_on_model(program: Program, state: DeadLoadState) -> StandingResult:
+def standing_on_model(program: Program, state: DeadLoadState) -> StandingResult:
     """Standing of a part with its forces and displacements as those of the model, where they are known."""
     if state.forces is None or state.displacements is None:
         return state.standing

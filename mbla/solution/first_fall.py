@@ -113,13 +113,15 @@ def _verdict(path: StandingPath, sequence: SequenceResult, margin: float) -> Pat
 
 def _peak(path: StandingPath) -> LawState:
     """The last state that stands, with the motion in which the structure falls."""
-    program, last, end = path.program, path.last.weakening, path.fall
-    assert last.forces is not None
-    ways = [state.displacements for state in (None if end is None else end.weakening, last) if state is not None]
-    ways = [way for way in ways if way is not None and float(program.live_load @ way) > 0.0]
-    way = ways[0] if ways else program.live_load
-    velocities = way / float(program.live_load @ way)
-    return law_state(program, 0.0, last.forces, velocities, path.last.load_factor)
+    program, last = path.program, path.last.weakening
+    assert last.forces is not None  # it stands
+    for state in (path.fall, path.last):
+        way = None if state is None else state.weakening.displacements
+        power = 0.0 if way is None else float(program.live_load @ way)
+        if way is not None and power > 0.0:
+            return law_state(program, 0.0, last.forces, way / power, path.last.load_factor)
+    along = program.live_load / float(program.live_load @ program.live_load)
+    return law_state(program, 0.0, last.forces, along, path.last.load_factor)
 
 
 def _record(path: StandingPath, number: int, seconds: float) -> ProgramRecord:

@@ -13,7 +13,7 @@ from mbla.solution.cone_solver import cone_solver
 from mbla.solution.highs_adapter import HighsProgram
 from mbla.solution.settings import solver_settings
 from mbla.solution.solution import Checks, IterationRecord, Solution
-from mbla.solution.standing import assess_standing
+from mbla.solution.standing import assess_dead_load
 from tests.performance.rivals.answer import Answer, timed
 from tests.performance.rivals.structure import Structure
 
@@ -32,7 +32,7 @@ def standing(structure: Structure) -> Answer:
     """Only whether it stands from the stress-free assembly, which is what coupled rigid-block analysis asks."""
     reduced = _reduced(structure, structure.deck.analysis)
     settings = solver_settings(structure.deck.analysis)
-    found, seconds = timed(lambda: [assess_standing(program, settings, None) for program in reduced.parts])
+    found, seconds = timed(lambda: [assess_dead_load(program, settings, None).standing for program in reduced.parts])
     verdicts = {str(result.verdict) for result in found}
     return Answer("stands: " + ", ".join(sorted(verdicts)), None, None, None, seconds)
 

@@ -10,7 +10,7 @@ from mbla.program.reductions import reduce_program
 from mbla.program.reductions.parts import _unit_of_force, find_parts, split_into_parts
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Standing
-from mbla.solution.standing import assess_standing
+from mbla.solution.standing import assess_dead_load
 from tests.line import BLOCK, WALL, line_of, verified
 from tests.program.reductions.scenes import scene
 
@@ -61,7 +61,7 @@ def test_each_part_has_its_own_unit_of_force(ratio: float) -> None:
     for part in reduced.parts:
         sizes = np.linalg.norm(part.dead_load.reshape(-1, 3), axis=1)
         assert sizes.mean() == pytest.approx(1.0, rel=1e-12)
-        assert assess_standing(part, SolverSettings(tolerance=1e-8)).verdict is Standing.YES
+        assert assess_dead_load(part, SolverSettings(tolerance=1e-8)).standing.verdict is Standing.YES
 
 
 @pytest.mark.parametrize("ratio", [1e-6, 1e6])

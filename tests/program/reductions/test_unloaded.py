@@ -8,7 +8,7 @@ import pytest
 from mbla.program.reductions import Reduced, reduce_program
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Standing
-from mbla.solution.standing import assess_standing
+from mbla.solution.standing import assess_dead_load
 from tests.line import WALL, Line, line_of, verified
 
 ASIDE = """\
@@ -106,7 +106,7 @@ def test_a_part_without_live_load_that_falls_decides(apart: str, unloaded: str) 
 
 def test_each_part_stands_by_itself() -> None:
     found = reduced(line_of(BESIDE, SMALL))
-    verdicts = [assess_standing(part, SolverSettings(tolerance=1e-8)).verdict for part in found.parts]
+    verdicts = [assess_dead_load(part, SolverSettings(tolerance=1e-8)).standing.verdict for part in found.parts]
     assert verdicts == [Standing.YES] * 3
 
 
