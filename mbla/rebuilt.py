@@ -75,13 +75,18 @@ def _content(deck: Deck, results: Results, folder: Path) -> Content:
         model=model,
         contacts=contacts,
         notices=notices_of(deck, model, contacts),
-        settings=settings_in_words(deck, solver_settings(deck.analysis)),
+        settings=settings_in_words(deck, solver_settings(deck.analysis)) | _threads(results),
     )
     if deck.content.expected and any(notice.identifier == UNEXPECTED for notice in results.notices):
         built = as_expected(built, deck)
     stopped = () if results.complete else results.notices[-1:]  # what stopped a run is not the deck's to say
     notices = _placed_as(results.notices, (*built.notices, *stopped), folder)
     return content_of(replace(built, cases=(), notices=notices, exit_code=results.exit_code))
+
+
+def _threads(results: Results) -> dict[str, str]:
+    """Of a run, beside its settings: no deck says them."""
+    return {name: words for name, words in results.settings.items() if name == "threads"}
 
 
 def _placed_as(told: Sequence[Notice], notices: Sequence[Notice], folder: Path) -> tuple[Notice, ...]:
