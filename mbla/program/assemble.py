@@ -9,31 +9,38 @@ from mbla.arrays import FloatArray
 from mbla.contacts.contacts import Contacts
 from mbla.model.model import LoadCase, Model
 from mbla.program.equilibrium import equilibrium_matrix, lever_arms
+from mbla.program.own_units import own_units
 from mbla.program.program import Program, Scaling
 from mbla.program.reductions.guided import guide_projector, guided_program
 from mbla.program.yield_conditions.limits import YieldLimits
 
 
-def assemble(model: Model, contacts: Contacts, load_case: LoadCase) -> Program:
+def assemble(model: Model, contacts: Contacts, load_case: LoadCase, *, own: bool = True) -> Program:
     """Build the program of one load case; nothing in it depends on the deck's units.
+
+    own : light blocks may have units of their own (:mod:`mbla.program.own_units`)
 
     With guided blocks it is a reduction of the program in which these are free.
     """
-    program = _assemble_unguided(model, contacts, load_case)
+    program = _assemble_unguided(model, contacts, load_case, own)
     return guided_program(program, program.allowed)
 
 
-def _assemble_unguided(model: Model, contacts: Contacts, load_case: LoadCase) -> Program:
+def _assemble_unguided(model: Model, contacts: Contacts, load_case: LoadCase, own: bool) -> Program:
     """The program in which guided blocks move as they like, six rows a free block."""
     free = model.free
     dead, live = load_case.dead_load[free].ravel(), load_case.live_load[free].ravel()
     scaling = _scaling(lever_arms(model, contacts, free), dead, live)
+    if own:
+        scaling = _in_own_units(scaling, model, contacts, dead, live)
     matrix = sp.diags_array(scaling.row * scaling.force) @ equilibrium_matrix(model, contacts, free)
+    if not isinstance(scaling.units, float):
+        matrix = matrix @ sp.diags_array(np.repeat(scaling.units, 3))
     return Program(
         equilibrium_matrix=sp.csr_array(matrix),
         dead_load=scaling.row * dead,
         live_load=scaling.row * live * scaling.live,
-        limits=yield_limits(model, contacts).scaled(1.0 / scaling.force),
+        limits=yield_limits(model, contacts).scaled(1.0 / (scaling.force * scaling.units)),
         free=free,
         n_blocks=len(model.blocks),
         scaling=scaling,
@@ -76,3 +83,20 @@ def _scaling(arms: FloatArray, dead: FloatArray, live: FloatArray) -> Scaling:
     force = float(loaded.mean())
     live_size = float(np.sqrt((live_sizes**2).sum() / len(arms)))
     return Scaling(force=force, live=force / live_size, row=(per_length / force).ravel())
+
+
+def _in_own_units(scaling: Scaling, model: Model, contacts: Contacts, dead: FloatArray, live: FloatArray) -> Scaling:
+    """The same with units of their own for light blocks, where there are any; the live load is counted in these too."""
+    number = np.full(len(model.blocks) + len(model.grounds), -1)
+    number[model.free] = np.arange(len(model.free))
+    dead_sizes, live_sizes = (np.linalg.norm((scaling.row * load).reshape(-1, 6), axis=1) for load in (dead, live))
+    bodies = number[contacts.bodies]
+    units = own_units(dead_sizes, bodies)
+    if (units == 1.0).all():
+        return scaling
+    return Scaling(
+        force=scaling.force,
+        live=1.0 / float(np.sqrt(np.mean((live_sizes / units) ** 2))),
+        row=scaling.row / np.repeat(units, 6),
+        units=np.append(units, 1.0)[bodies].min(axis=1)[contacts.interface_of_point],
+    )

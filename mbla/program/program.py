@@ -25,14 +25,17 @@ class Scaling:
     """Units of the non-dimensional program.
 
     force : one unit of force (mean load of a free block)
+    units : (n_points,) of the forces at each contact point, over that: less than 1 at light blocks with units of their
+            own (:mod:`mbla.program.own_units`); 1 where there are none
     live  : factor on the live load that brings it to that size
     row   : (6 n_free,) factor from the rows of equilibrium in the deck's units to those of the program:
-            1/force for forces, 1/(force × length of the block) for moments
+            1/force for forces, 1/(force × length of the block) for moments, with force in the unit of the block
     """
 
     force: float
     live: float
     row: FloatArray
+    units: FloatArray | float = 1.0
 
     def load_factor(self, scaled: float) -> float:
         """Load factor of the model from that of the program."""
@@ -40,7 +43,11 @@ class Scaling:
 
     def forces(self, scaled: FloatArray) -> FloatArray:
         """Contact forces in the deck's unit of force, (n_points, 3)."""
-        return scaled.reshape(-1, 3) * self.force
+        return scaled.reshape(-1, 3) * (self.force * np.reshape(self.units, (-1, 1)))
+
+    def scaled_forces(self, forces: FloatArray) -> FloatArray:
+        """Contact forces of the program, (n_points, 3), from those in the deck's unit."""
+        return forces / (self.force * np.reshape(self.units, (-1, 1)))
 
     def velocities(self, scaled: FloatArray) -> FloatArray:
         """Velocities of the free blocks for unit live load power, (n_free, 6)."""
@@ -68,7 +75,7 @@ class Program:
     equilibrium_matrix : (n_rows, components n_points); in a spatial program the rows are force and moment x, y, z of
                          each free block
     dead_load, live_load : (n_rows,)
-    limits             : yield limits of the contact points, forces in units of ``scaling.force``
+    limits             : yield limits of the contact points, forces in the units of ``scaling``
     free               : (n_free,) the block to which each six rows of the spatial program belong
     n_blocks           : blocks of the model
     components         : of the force at a contact point: 3 (N, T1, T2), or 2 (N, T) in a planar program

@@ -2,7 +2,8 @@
 
 Sixteen digits hold the forces on a heavy block and what is left of them for a light neighbour. Measured: weights of
 neighbours 1e8 apart, and joints 1e7 times as strong as the loads, still give verified load factors; at 1e12 none does
-for sure. Of an interface that tips long before it slides, friction times slenderness is such a ratio: convex contacts
+for sure, but of a light block that touches one heavier body only, whatever their ratio: a cube of 1e6 m under a block
+of 1 m. Of an interface that tips long before it slides, friction times slenderness is such a ratio: convex contacts
 with 1e8 are right to six digits, with 1e9 they are not solved. Likewise a load factor is exact to the rounding of the
 forces over the live load: one that is near zero beside dead over live load is zero as far as anything can tell.
 """

@@ -59,8 +59,9 @@ def lifted(program: Program, state: LawState) -> LawState:
 
 def contact_velocities(program: Program, velocities: FloatArray) -> FloatArray:
     """Velocities at the contact points of a spatial program of the whole model in the deck's units, (n_points, 3)."""
-    scaling = program.scaling
-    return (program.equilibrium_matrix.T @ velocities).reshape(-1, 3) * (scaling.live / scaling.force)
+    return (
+        program.scaling.scaled_forces((program.equilibrium_matrix.T @ velocities).reshape(-1, 3)) * program.scaling.live
+    )
 
 
 def slope_of(flow_rule: str, limits: YieldLimits) -> FloatArray:

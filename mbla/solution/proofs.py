@@ -56,9 +56,8 @@ def associative_bounds(
     """Static and kinematic bound of the associative load factor, NaN where none could be proved."""
     program = assemble(model, contacts, load_case)
     scaling = program.scaling
-    repaired = repaired_forces(
-        program, associative.contact_forces / scaling.force, associative.load_factor / scaling.live
-    )
+    forces = scaling.scaled_forces(associative.contact_forces)
+    repaired = repaired_forces(program, forces, associative.load_factor / scaling.live)
     approximate = np.nan if repaired is None else scaling.load_factor(repaired[1])
     kinematic, motion = _best_motion(model, contacts, load_case, associative, limits, scale, program, approximate)
     static = np.nan

@@ -213,14 +213,16 @@ def _in_load_factors(program: Program, spread: tuple[float, float] | None) -> tu
 
 def _force_ranges(stage: _Stage, first: int, state: LawState) -> tuple[FloatArray, list[str]]:
     """Least and greatest normal force of every interface at the load factor, (n_interfaces, 2), and remarks."""
-    n_interfaces = int(stage.interface_of_point.max(initial=-1)) + 1
-    ranges, words = np.full((n_interfaces, 2), np.nan), []
+    interfaces, first_point = np.unique(stage.interface_of_point, return_index=True)
+    ranges, words = np.full((len(interfaces), 2), np.nan), []
+    scaling = stage.parts[0].scaling
+    units = scaling.force * np.broadcast_to(scaling.units, len(stage.interface_of_point))[first_point]
     for part, program in enumerate(stage.parts):
         own = state if part == first else at_rest(program, state.load_factor, stage.settings, stage.log)
         if own is None:
             continue
         found = force_ranges(program, own, stage.interface_of_point, stage.settings, stage.log)
-        ranges = np.where(np.isnan(found.ranges), ranges, found.ranges * program.scaling.force)
+        ranges = np.where(np.isnan(found.ranges), ranges, found.ranges * units[:, None])
         stage.more.extend(found.programs)
         words += [found.remark] if found.remark else []
     return ranges, words

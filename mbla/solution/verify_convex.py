@@ -127,9 +127,8 @@ def convex_bounds(model: Model, contacts: Contacts, load_case: LoadCase, associa
     case = _Case(model, contacts, load_case)
     convex = assemble_convex(model, contacts, load_case)
     scaling = convex.points.scaling
-    repaired = repaired_convex_forces(
-        convex, associative.contact_forces / scaling.force, associative.load_factor / scaling.live
-    )
+    forces = scaling.scaled_forces(associative.contact_forces)
+    repaired = repaired_convex_forces(convex, forces, associative.load_factor / scaling.live)
     static = np.nan
     if repaired is not None:
         forces, factor = scaling.forces(repaired[0]), scaling.load_factor(repaired[1])

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from pathlib import Path
 
 import pytest
 
@@ -13,8 +14,9 @@ from mbla.solution.light_blocks import BALANCED, misfit, sharpened
 from mbla.solution.settings import SolverSettings
 from tests.extremes.structures_margin import OVERHANG
 from tests.extremes.weights import SIDE_BY_SIDE, TOWER
-from tests.line import BLOCK, line_of, verified
+from tests.line import BLOCK, line_of, line_of_file, verified
 
+LARGE_CUBE = Path(__file__).parents[2] / "decks" / "regressions" / "block_on_a_large_cube.yaml"
 HEAVY_IN_THE_MIDDLE = ("parameters.heavy=1", "parameters.light=1.0e8")
 LIGHT_ON_HEAVY = ("parameters.a=1.0e8", "parameters.b=1", "parameters.c=1")
 
@@ -31,6 +33,21 @@ def test_blocks_of_1e8_times_the_weight_beside_do_not_blur_the_load_factor(
     assert solution.mechanics is not None
     assert solution.mechanics.load_factor == pytest.approx(expected, rel=1e-6)
     assert checks.equilibrium_residual <= BALANCED
+
+
+@pytest.mark.parametrize("rule", ["associative", "non_associative"])
+@pytest.mark.parametrize("supports", ["[{ground: {z: '=-a'}}]", "[{blocks: cube}]"], ids=["free", "fixed"])
+@pytest.mark.parametrize(("size", "friction", "expected"), [(1e3, 0.8, 0.5), (1e4, 0.3, 0.3), (1e5, 0.8, 0.5)])
+def test_a_block_on_a_cube_many_times_its_size(
+    size: float, friction: float, expected: float, supports: str, rule: str
+) -> None:
+    overrides = (f"parameters.a={size!r}", f"parameters.mu={friction}", f"supports={supports}")
+    for case in (0, 1):
+        line = line_of_file(LARGE_CUBE, *overrides, f"analysis.flow_rule={rule}", case=case)
+        solution, checks, status = verified(line)
+        assert status is Status.SOLVED, checks.failures
+        assert solution.mechanics is not None
+        assert solution.mechanics.load_factor == pytest.approx(expected, rel=1e-6)
 
 
 def test_an_unbalanced_light_block_is_not_solved() -> None:

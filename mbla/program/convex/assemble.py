@@ -70,7 +70,7 @@ class ConvexProgram:
 
 def assemble_convex(model: Model, contacts: Contacts, load_case: LoadCase) -> ConvexProgram:
     """Build the program of one load case with the convex contact model."""
-    program = assemble(model, contacts, load_case)
+    program = assemble(model, contacts, load_case, own=False)  # interface resultants are in the common unit
     shapes = interface_shapes(contacts)
     laws = [model.joints[contacts.joint_names[joint]] for joint in contacts.joints]
     scale = contacts.areas / program.scaling.force

@@ -24,7 +24,7 @@ class YieldLimits:
     tension: FloatArray
     compression: FloatArray
 
-    def scaled(self, factor: float) -> YieldLimits:
+    def scaled(self, factor: FloatArray | float) -> YieldLimits:
         """The same limits with forces multiplied by a factor."""
         return YieldLimits(
             self.friction, self.dilatancy, self.cohesion * factor, self.tension * factor, self.compression * factor
