@@ -13,9 +13,14 @@ from mbla.results.collapse.collapse import Collapse
 from mbla.results.collapse.cracks import Crack, cracks
 from mbla.results.collapse.hinge_lines import HingeLine, hinge_lines
 from mbla.results.collapse.kept import kept
+from mbla.results.collapse.main_parts import FEW, MainParts, main_parts
 from mbla.results.collapse.rigid_parts import PartMotion, part_motions
 from mbla.results.collapse.sliding_planes import SlidingPlane, sliding_planes
+from mbla.results.collapse.yield_lines import YieldLine, yield_lines
 from mbla.solution.solution import Mechanics
+
+MOST_JOINTS = 12
+"""hinge lines and sliding planes between few clusters from which fewer are told: so many tell no reader what falls"""
 
 
 @dataclass(frozen=True)
@@ -38,12 +43,21 @@ class MovingJoints:
 class Failure(MovingJoints):
     """What pictures, report and words say of a mechanism.
 
-    motions : of the clusters that move, the heaviest first
-    cracks  : the one that opens most first
+    motions     : of the clusters that move, the heaviest first
+    cracks      : the one that opens most first
+    main        : the clusters where they are few, else the few parts as which it moves to the eye
+    yield_lines : along which these break off, the longest first
     """
 
     motions: tuple[PartMotion, ...]
     cracks: tuple[Crack, ...]
+    main: MainParts
+    yield_lines: tuple[YieldLine, ...]
+
+    @property
+    def spreads(self) -> bool:
+        """Whether the clusters are so many that main parts are told in their place."""
+        return len(self.motions) > len(self.main.motions)
 
 
 @kept
@@ -64,8 +78,14 @@ def failure_of(model: Model, contacts: Contacts, collapse: Collapse, mechanics: 
     """All of it, from the exact rigid parts and interfaces of a mechanism."""
     moving = moving_joints(model, contacts, collapse, mechanics)
     joints = cluster_joints(model, contacts, moving.clusters, mechanics)
+    motions = part_motions(model, moving.clusters, mechanics.mechanism)
+    main = MainParts(moving.clusters, motions, 1.0)
+    if len(motions) > FEW or (moving.merged and len(moving.hinge_lines) + len(moving.sliding_planes) > MOST_JOINTS):
+        main = main_parts(model, moving.clusters, motions, mechanics.mechanism)
     return Failure(
         **vars(moving),
-        motions=part_motions(model, moving.clusters, mechanics.mechanism),
+        motions=motions,
         cracks=cracks(contacts, collapse.interfaces, joints, mechanics),
+        main=main,
+        yield_lines=yield_lines(contacts, main.of_block, len(model.grounds)),
     )

@@ -104,7 +104,7 @@ class Scene:
     def clusters(self) -> IntArray:
         """Part of the listing that each block is in, 0 at rest, (n_blocks,); found alike without equilibrium."""
         if self.failure is not None:
-            return self.failure.clusters
+            return self.failure.main.of_block
         motion = self.case.solution.certificate
         if motion is None or self.mechanics is not None:
             return np.zeros(len(self.model.blocks), dtype=np.int64)

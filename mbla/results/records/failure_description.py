@@ -1,4 +1,4 @@
-"""Keys of the JSON record that tell the failure: clusters, hinge lines, sliding planes, cracks, what is enough."""
+"""Keys of the JSON record that tell the failure: clusters, main parts, lines between them, what is enough."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ from mbla.results.hdf5.field import UnitKind
 from mbla.results.records.key import Key
 
 MECHANISM = "cases[].mechanism"
+_YIELD = f"{MECHANISM}.yield_lines"
 _LINES, _PLANES, _CRACKS = (f"{MECHANISM}.{name}" for name in ("hinge_lines", "sliding_planes", "cracks"))
 
 
@@ -94,6 +95,21 @@ FAILURE: tuple[Key, ...] = (
     Key(f"{_CRACKS}[].area", "number", "area of its interfaces", "area"),
     *_point_keys(_CRACKS, ("widest", "the contact point at which it opens most")),
     Key(f"{_CRACKS}[].share", "number", "opening speed there over the largest contact speed of all"),
+    Key(f"{MECHANISM}.main_parts", "list", "the clusters where they are few, else the few parts as which it moves"),
+    *part_keys(f"{MECHANISM}.main_parts"),
+    Key(f"{MECHANISM}.main_parts_explain", "number", "share of the motion, of its square, that they explain"),
+    Key(_YIELD, "list", "lines along which main parts break off, the longest first"),
+    Key(f"{_YIELD}[]", "object", "one of them"),
+    Key(f"{_YIELD}[].parts", "list", "the main parts on both sides; 0 is at rest and comes second"),
+    Key(f"{_YIELD}[].parts[]", "integer", "a main part"),
+    Key(f"{_YIELD}[].interfaces", "list", "its interfaces"),
+    Key(f"{_YIELD}[].interfaces[]", "integer", "number of an interface, from 0"),
+    Key(f"{_YIELD}[].points", "list", "its ends and corners, the lowest end first"),
+    Key(f"{_YIELD}[].points[]", "list", "a point"),
+    Key(f"{_YIELD}[].points[][]", "number", "a coordinate", "length"),
+    Key(f"{_YIELD}[].length", "number", "its length", "length"),
+    Key(f"{_YIELD}[].inclination", "number", "to the horizontal, from end to end", "degree"),
+    Key(f"{_YIELD}[].off", "number", "distance of the interfaces from it over its length, root of the mean square"),
     Key(f"{MECHANISM}.force_freedom", "object?", "how unique the forces are; null where that was not determined"),
     Key(f"{MECHANISM}.force_freedom.ways", "integer", "ways in which equilibrium lets the forces vary; 0: unique"),
     Key(f"{MECHANISM}.force_freedom.determined", "integer", "interfaces whose resultant is the same in all of them"),

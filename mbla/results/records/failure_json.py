@@ -1,4 +1,4 @@
-"""The failure as it is told, as objects of the JSON record: clusters, hinge lines, sliding planes and cracks."""
+"""The failure as it is told, as objects of the JSON record: clusters, main parts, and the lines between them."""
 
 from __future__ import annotations
 
@@ -11,9 +11,19 @@ from mbla.results.collapse.failure import Failure
 from mbla.results.collapse.hinge_lines import HingeLine
 from mbla.results.collapse.rigid_parts import PartMotion
 from mbla.results.collapse.sliding_planes import SlidingPlane
+from mbla.results.collapse.yield_lines import YieldLine
 from mbla.results.records.numbers import number, numbers
 
-FAILURE_KEYS = ("clusters_merged", "clusters", "hinge_lines", "sliding_planes", "cracks")
+FAILURE_KEYS = (
+    "clusters_merged",
+    "clusters",
+    "hinge_lines",
+    "sliding_planes",
+    "cracks",
+    "main_parts",
+    "main_parts_explain",
+    "yield_lines",
+)
 """of ``failure_json``"""
 
 MOST = 100
@@ -21,13 +31,16 @@ MOST = 100
 
 
 def failure_json(model: Model, failure: Failure) -> dict[str, Any]:
-    """Each with the clusters that meet: that which moves, then against which; 0 is at rest."""
+    """Each with the clusters or main parts that meet: that which moves, then against which; 0 is at rest."""
     return {
         "clusters_merged": number(failure.merged),
         "clusters": [part_json(model, motion) for motion in failure.motions[:MOST]],
         "hinge_lines": [_hinge_line(line) for line in failure.hinge_lines[:MOST]],
         "sliding_planes": [_sliding_plane(plane) for plane in failure.sliding_planes[:MOST]],
         "cracks": [_crack(crack) for crack in failure.cracks[:MOST]],
+        "main_parts": [part_json(model, motion) for motion in failure.main.motions],
+        "main_parts_explain": number(failure.main.explained),
+        "yield_lines": [_yield_line(line) for line in failure.yield_lines],
     }
 
 
@@ -85,4 +98,15 @@ def _crack(crack: Crack) -> dict[str, Any]:
         "area": number(crack.area),
         "widest": numbers(crack.widest),
         "share": number(crack.share),
+    }
+
+
+def _yield_line(line: YieldLine) -> dict[str, Any]:
+    return {
+        "parts": list(line.parts),
+        "interfaces": line.interfaces.tolist(),
+        "points": [numbers(point) for point in line.points],
+        "length": number(line.length),
+        "inclination": number(line.inclination),
+        "off": number(line.off),
     }

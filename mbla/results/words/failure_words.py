@@ -11,6 +11,7 @@ import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.contacts.contacts import Contacts
+from mbla.deck.suggestions import listed
 from mbla.model.model import LoadCase, Model
 from mbla.results.collapse.collapse import Collapse
 from mbla.results.collapse.cracks import Crack
@@ -18,18 +19,19 @@ from mbla.results.collapse.failure import Failure
 from mbla.results.collapse.hinge_lines import HingeLine
 from mbla.results.collapse.mechanics import curvature_sides
 from mbla.results.collapse.rigid_parts import PartMotion, moving_share, reach
+from mbla.results.collapse.yield_lines import YieldLine
 from mbla.results.words.direction_words import direction_words, way_words
 from mbla.results.words.place_words import extents_of, group_words, point_words, range_words, region_words
 from mbla.results.words.slide_words import slide_sentences
 from mbla.results.words.text import counted
 from mbla.results.words.who_words import moves_whole, other_name, part_name
 
-MOST_PARTS, MOST_LINES, MOST_CRACKS = 4, 4, 2
+MOST_LINES, MOST_CRACKS = 4, 2
 """what is told of each kind; the tables hold more, the result files all"""
 IN_PLACE = 0.02
 """speed of the middle of a part over that by its rotation, up to which it turns on the spot"""
-SPREADS = 2 * MOST_PARTS
-"""parts, as told, from which on a mechanism is said to have no few parts"""
+PLACES = 2
+"""digits behind the point of a yield line: it is fitted through joints that lie a block apart"""
 FAR_AXIS = 5.0
 """speed of the centroid of a part over that by its rotation from which it is said to move rather than to turn"""
 ON_AXIS = 0.02
@@ -42,25 +44,16 @@ def failure_sentences(
     """Sentences in the order in which they are read; the first says how much moves."""
     if not collapse.motions:
         return ["No block moves."]
-    told = _told(failure)
+    told = failure.main.motions
     texts = [_scale(model, collapse, failure)]
     texts += [_part_sentence(model, contacts, load_case, failure, part) for part in told]
-    left = len(failure.motions) - len(told)
-    if left:
-        weight = sum(part.weight for part in failure.motions) or 1.0
-        share = 100 * (1 - sum(part.weight for part in told) / weight)
-        verb = "moves" if left == 1 else "move"
-        texts.append(f"{counted(left, 'more part')} {verb} besides, {share:.3g} % of the weight that moves.")
+    if failure.spreads:
+        return [*texts, *_yield_sentences(model, failure), _counts(failure)]
     texts += _hinge_sentences(model, contacts, failure, told)
     texts += [_crack_sentence(model, contacts, failure, crack) for crack in failure.cracks[:MOST_CRACKS]]
     if len(failure.cracks) > MOST_CRACKS:
         texts[-1] += f" {counted(len(failure.cracks) - MOST_CRACKS, 'more crack')} in the table below."
     return texts + slide_sentences(model, contacts, failure, collapse.work)
-
-
-def _told(failure: Failure) -> Sequence[PartMotion]:
-    """The parts that are described: the heaviest."""
-    return failure.motions[:MOST_PARTS]
 
 
 def _scale(model: Model, collapse: Collapse, failure: Failure) -> str:
@@ -74,13 +67,16 @@ def _scale(model: Model, collapse: Collapse, failure: Failure) -> str:
     )
     if not failure.merged:
         return f"{text} {'as one rigid part' if parts == 1 else f'in {parts} rigid parts'}."
-    text = (
+    if failure.spreads:
+        return (
+            f"{text}. It spreads over many joints; told as {as_parts(len(failure.main.motions))}, each block as part "
+            f"of the motion that its own comes nearest to, which explains {100 * failure.main.explained:.3g} % of the "
+            "motion (of its square over the volume)."
+        )
+    return (
         f"{text}, told as {counted(parts, 'part')}: what moves by less than {100 * failure.merged:g} % of the fastest "
         "contact counts as at rest, or as one with its neighbour."
     )
-    if len(failure.motions) < SPREADS:
-        return text
-    return f"{text} It spreads through what moves and has no few parts; the {MOST_PARTS} heaviest:"
 
 
 def _part_sentence(model: Model, contacts: Contacts, load_case: LoadCase, failure: Failure, part: PartMotion) -> str:
@@ -98,12 +94,47 @@ def _part_sentence(model: Model, contacts: Contacts, load_case: LoadCase, failur
         return f"{who} moves {way}, along {along}, turning slightly about {direction_words(part.direction)}."
     goes = f", its centroid moving {way}," if way and np.linalg.norm(part.velocity) > IN_PLACE * spin else ""
     turns = f"{who} turns about {direction_words(part.direction)}{goes}"
-    line = _line_of(model, failure.hinge_lines, part)
+    line = None if failure.spreads else _line_of(model, failure.hinge_lines, part)
     if line is not None:
         other = line.clusters[1] if line.clusters[0] == part.number else line.clusters[0]
         over = other_name(model, contacts, failure, other, line.interfaces)
         return f"{turns} over {over}, on {_line_words(model, line)}."
-    return f"{turns} round an axis through {point_words(model, part.axis_point)}."
+    broken = _breaks_off(model, failure, part)
+    return f"{turns}{broken}." if broken else f"{turns} round an axis through {point_words(model, part.axis_point)}."
+
+
+def as_parts(count: int) -> str:
+    """``one part``, ``3 parts``."""
+    return "one part" if count == 1 else f"{count} parts"
+
+
+def _breaks_off(model: Model, failure: Failure, part: PartMotion) -> str:
+    """`` and breaks off along a line from (7.6, 0.3, 0) to (0.4, 0.3, 5.4), 40 degrees to the horizontal``."""
+    line = next((line for line in failure.yield_lines if line.parts == (part.number, 0)), None)
+    return "" if line is None else f" and breaks off along {_yield_words(model, line)}"
+
+
+def _yield_words(model: Model, line: YieldLine) -> str:
+    """``a line from (7.6, 0.3, 0) to (0.4, 0.3, 5.4), 40 degrees to the horizontal``; of a broken one its corners."""
+    points = [point_words(model, np.round(point, PLACES)) for point in line.points]
+    if len(points) == 2:
+        return f"a line from {points[0]} to {points[1]}, {line.inclination:.0f} degrees to the horizontal"
+    return f"a broken line from {points[0]} over {' and '.join(points[1:-1])} to {points[-1]}"
+
+
+def _yield_sentences(model: Model, failure: Failure) -> list[str]:
+    """The lines along which main parts move apart from each other."""
+    between = [line for line in failure.yield_lines if line.parts[1]]
+    return [
+        f"Parts {line.parts[0]} and {line.parts[1]} break apart along {_yield_words(model, line)}." for line in between
+    ]
+
+
+def _counts(failure: Failure) -> str:
+    """How many lines and joints there are of each kind, which the tables have."""
+    kinds = ((failure.hinge_lines, "hinge line"), (failure.sliding_planes, "sliding plane"), (failure.cracks, "crack"))
+    words = listed([counted(len(found), word) for found, word in kinds if found], "and")
+    return f"The tables below have {words} of {len(failure.motions)} smaller parts, numbered by themselves."
 
 
 def _who(model: Model, load_case: LoadCase, part: PartMotion) -> str:

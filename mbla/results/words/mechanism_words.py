@@ -18,7 +18,7 @@ from mbla.results.collapse.interface_modes import InterfaceMode
 from mbla.results.collapse.mechanics import curvature_sides
 from mbla.results.collapse.sliding_planes import SlidingPlane
 from mbla.results.words.direction_words import TABLE_DIGITS, direction_words
-from mbla.results.words.failure_words import crack_kind, hinge_side
+from mbla.results.words.failure_words import as_parts, crack_kind, hinge_side
 from mbla.results.words.part_words import part_lines
 from mbla.results.words.place_words import point_words
 from mbla.results.words.text import counted, number, percent, sentence, table
@@ -30,7 +30,10 @@ MOST_ROWS = 20
 
 
 def mechanism_summary(model: Model, collapse: Collapse, failure: Failure) -> str:
-    """``4 hinges, sliding at 2 interfaces; 23 of 27 free blocks move in 3 parts``; parts as they are told and drawn."""
+    """``4 hinges, sliding at 2 interfaces; 23 of 27 free blocks move in 3 parts``; parts as they are told and drawn.
+
+    Of a mechanism that spreads over many joints first what moves, then the counts.
+    """
     count = collapse.interfaces.count
     moving = int(np.sum(~model.fixed & (collapse.parts > 0)))
     words = [
@@ -41,7 +44,10 @@ def mechanism_summary(model: Model, collapse: Collapse, failure: Failure) -> str
     ]
     found = ", ".join(text.format(counted(n, word)) for n, text, word in words if n) or "no interface opens or slides"
     verb = "moves" if moving == 1 else "move"
-    return f"{found}; {moving} of {counted(len(model.free), 'free block')} {verb}{_told_parts(failure)}"
+    blocks = f"{moving} of {counted(len(model.free), 'free block')} {verb}"
+    if failure.spreads:
+        return f"{blocks}, mainly as {as_parts(len(failure.main.motions))}; {found}"
+    return f"{found}; {blocks}{_told_parts(failure)}"
 
 
 def _told_parts(failure: Failure) -> str:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
-from mbla.deck.selectors import POSITIONS
 from mbla.model.model import Model
 from mbla.results.words.block_names import MOST_STRETCHES, block_names, stretches
 from mbla.results.words.text import counted, vector
@@ -18,6 +17,8 @@ FILLED = 0.6
 """share of the box around a structure that its blocks fill from which it has corners"""
 NOTHING = 1e-6
 """coordinates below this share of the largest are written as zero: axes are known to the residual of the solution"""
+NAMED_POSITIONS = ("segment", "course")
+"""positions that say where blocks of a wall are; segments where it has several"""
 MOST_GROUPS = 2
 """groups that are named; the others are counted"""
 
@@ -87,12 +88,16 @@ def group_words(model: Model, blocks: IntArray) -> str:
 def range_words(model: Model, blocks: IntArray) -> list[str]:
     """``courses 1 to 6``, ``x 2.1 .. 3.2 m``: positions in one group, and coordinates that the structure exceeds."""
     words = []
-    if len({model.blocks.groups[block] for block in blocks.tolist()}) == 1 and "course" in POSITIONS:
-        courses = model.blocks.labels.position("course")[blocks]
-        courses = courses[courses >= 0]
-        if len(courses):
-            least, most = int(courses.min()), int(courses.max())
-            words.append(f"course {least}" if least == most else f"courses {least} to {most}")
+    groups = np.array(model.blocks.groups)
+    if len(set(groups[blocks].tolist())) == 1:
+        own = np.flatnonzero(groups == groups[blocks[0]])
+        for label in NAMED_POSITIONS:
+            all_of_group = model.blocks.labels.position(label)[own]
+            found = model.blocks.labels.position(label)[blocks]
+            found = found[found >= 0]
+            if len(found) and (label == "course" or len(np.unique(all_of_group)) > 1):
+                least, most = int(found.min()), int(found.max())
+                words.append(f"{label} {least}" if least == most else f"{label}s {least} to {most}")
     low, high = extents_of(model, blocks)
     share_low, share_high = _box(model, blocks)
     size = float(np.abs(model.blocks.vertices).max(initial=0.0))

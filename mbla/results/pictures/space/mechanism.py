@@ -75,8 +75,10 @@ def _parts_note(scene: Scene) -> tuple[str, ...]:
     failure = scene.failure
     if failure is None or not failure.merged or not scene.motion.any():
         return ()
-    count = len(failure.motions)
+    count = len(failure.main.motions)
     told = f"coloured as {count} parts" if count > 1 else "coloured as one part"
+    if failure.spreads:
+        return (f"{told}, as in the listing: {100 * failure.main.explained:.3g} % of the motion is explained by that",)
     return (
         f"{told}: less than {100 * failure.merged:g} % of the fastest contact counts as no motion, as in the listing",
     )
