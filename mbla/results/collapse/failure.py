@@ -45,7 +45,7 @@ class Failure(MovingJoints):
 
     motions     : of the clusters that move, the heaviest first
     cracks      : the one that opens most first
-    main        : the clusters where they are few, else the few parts as which it moves to the eye
+    main        : the few parts as which it moves to the eye; the clusters where these are few, or no few parts do
     yield_lines : along which these break off, the longest first
     """
 

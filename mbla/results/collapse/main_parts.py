@@ -30,7 +30,7 @@ class MainParts:
 
     of_block  : (n_blocks,) main part of each block, 0 at rest; numbered by falling weight
     motions   : of each, as ``part_motions`` has them
-    explained : share of the motion that they explain; 1 where these are the parts as told, which are few
+    explained : share of the motion that they explain; 1 where these are the parts as told
     """
 
     of_block: IntArray
@@ -39,7 +39,7 @@ class MainParts:
 
 
 def main_parts(model: Model, parts: IntArray, motions: tuple[PartMotion, ...], motion: FloatArray) -> MainParts:
-    """Of a mechanism, (n_blocks, 6), fewer parts than it is told in where so few are enough, or too many are told.
+    """Of a mechanism, (n_blocks, 6), fewer parts than it is told in where a few explain enough of it, else those.
 
     parts, motions : of each block, 0 at rest, and of each part
     """
@@ -52,7 +52,7 @@ def main_parts(model: Model, parts: IntArray, motions: tuple[PartMotion, ...], m
         explained = 1.0 - float(left.sum() / squares.sum())
         if explained >= ENOUGH:
             break
-    if explained < ENOUGH and len(motions) <= FEW:
+    if explained < ENOUGH:  # no few parts will do
         return MainParts(parts, motions, 1.0)
     found = _by_weight(model, found)
     return MainParts(found, part_motions(model, found, motion), explained)

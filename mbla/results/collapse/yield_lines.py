@@ -78,10 +78,10 @@ def _broken_line(contacts: Contacts, interfaces: IntArray) -> tuple[FloatArray, 
             break
         tried = [_fitted(places, areas, distance, corners) for corners in combinations(inner, pieces - 1)]
         best = min((best, *tried), key=lambda fit: fit[1])
-    points, off = best
+    points, off = np.asarray(best[0], dtype=np.float64), best[1]
     corners = contacts.points[points_of(contacts, interfaces)]
     points = np.clip(points, corners.min(axis=0), corners.max(axis=0))
-    return (points if points[0, 2] <= points[-1, 2] else points[::-1]), off
+    return np.asarray(points if points[0, 2] <= points[-1, 2] else points[::-1]), off
 
 
 def _fitted(

@@ -95,7 +95,11 @@ FAILURE: tuple[Key, ...] = (
     Key(f"{_CRACKS}[].area", "number", "area of its interfaces", "area"),
     *_point_keys(_CRACKS, ("widest", "the contact point at which it opens most")),
     Key(f"{_CRACKS}[].share", "number", "opening speed there over the largest contact speed of all"),
-    Key(f"{MECHANISM}.main_parts", "list", "the clusters where they are few, else the few parts as which it moves"),
+    Key(
+        f"{MECHANISM}.main_parts",
+        "list",
+        "the few parts as which it moves; the clusters where these are few",
+    ),
     *part_keys(f"{MECHANISM}.main_parts"),
     Key(f"{MECHANISM}.main_parts_explain", "number", "share of the motion, of its square, that they explain"),
     Key(_YIELD, "list", "lines along which main parts break off, the longest first"),

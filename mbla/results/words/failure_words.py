@@ -26,10 +26,12 @@ from mbla.results.words.slide_words import slide_sentences
 from mbla.results.words.text import counted
 from mbla.results.words.who_words import moves_whole, other_name, part_name
 
-MOST_LINES, MOST_CRACKS = 4, 2
+MOST_PARTS, MOST_LINES, MOST_CRACKS = 4, 4, 2
 """what is told of each kind; the tables hold more, the result files all"""
 IN_PLACE = 0.02
 """speed of the middle of a part over that by its rotation, up to which it turns on the spot"""
+SPREADS = 2 * MOST_PARTS
+"""parts, as told, from which on a mechanism is said to have no few parts"""
 PLACES = 2
 """digits behind the point of a yield line: it is fitted through joints that lie a block apart"""
 FAR_AXIS = 5.0
@@ -44,9 +46,15 @@ def failure_sentences(
     """Sentences in the order in which they are read; the first says how much moves."""
     if not collapse.motions:
         return ["No block moves."]
-    told = failure.main.motions
+    told = failure.main.motions[:MOST_PARTS]
     texts = [_scale(model, collapse, failure)]
     texts += [_part_sentence(model, contacts, load_case, failure, part) for part in told]
+    left = len(failure.main.motions) - len(told)
+    if left:
+        weight = sum(part.weight for part in failure.motions) or 1.0
+        share = 100 * (1 - sum(part.weight for part in told) / weight)
+        verb = "moves" if left == 1 else "move"
+        texts.append(f"{counted(left, 'more part')} {verb} besides, {share:.3g} % of the weight that moves.")
     if failure.spreads:
         return [*texts, *_yield_sentences(model, failure), _counts(failure)]
     texts += _hinge_sentences(model, contacts, failure, told)
@@ -73,10 +81,13 @@ def _scale(model: Model, collapse: Collapse, failure: Failure) -> str:
             f"of the motion that its own comes nearest to, which explains {100 * failure.main.explained:.3g} % of the "
             "motion (of its square over the volume)."
         )
-    return (
+    text = (
         f"{text}, told as {counted(parts, 'part')}: what moves by less than {100 * failure.merged:g} % of the fastest "
         "contact counts as at rest, or as one with its neighbour."
     )
+    if len(failure.motions) < SPREADS:
+        return text
+    return f"{text} It spreads through what moves and has no few parts; the {MOST_PARTS} heaviest:"
 
 
 def _part_sentence(model: Model, contacts: Contacts, load_case: LoadCase, failure: Failure, part: PartMotion) -> str:

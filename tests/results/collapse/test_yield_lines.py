@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from mbla.arrays import FloatArray
+from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.model.model import Model
 from mbla.results.collapse.main_parts import ENOUGH, FEW, main_parts
 from mbla.results.collapse.rigid_parts import part_motions
@@ -33,17 +33,17 @@ def turning(model: Model, point: FloatArray, axis: FloatArray) -> FloatArray:
     return np.hstack([np.cross(spin, model.blocks.centroids - point), spin])
 
 
-def diagonal(model: Model) -> tuple[FloatArray, FloatArray]:
+def diagonal(model: Model) -> tuple[FloatArray, BoolArray]:
     """What lies above the line from the lower right corner to the upper left one turns about it; who does."""
     axis = np.array([-1.0, 0, 1]) / np.sqrt(2)
     above = model.blocks.centroids[:, [0, 2]].sum(axis=1) > SIDE + 0.1
     return np.where(above[:, None], turning(model, np.array([SIDE, 0.5, 0]), axis), 0.0), above
 
 
-def every_block(model: Model, motion: FloatArray) -> FloatArray:
+def every_block(motion: FloatArray) -> IntArray:
     """Number of a part for each block that moves."""
     moving = motion.any(axis=1)
-    return np.where(moving, np.cumsum(moving), 0)
+    return np.asarray(np.where(moving, np.cumsum(moving), 0), dtype=np.int64)
 
 
 @pytest.mark.parametrize("noise", [0.0, 0.02])
@@ -51,11 +51,12 @@ def test_many_small_parts_that_turn_about_one_line_are_one(noise: float) -> None
     model = wall()
     motion, above = diagonal(model)
     motion[above] += noise * np.random.default_rng(3).normal(size=(int(above.sum()), 6))
-    parts = every_block(model, motion)
+    parts = every_block(motion)
     found = main_parts(model, parts, part_motions(model, parts, motion), motion)
     assert len(found.motions) == 1
     chosen = found.of_block > 0
-    assert (chosen[above].mean(), chosen[~above].any()) == (pytest.approx(1.0, abs=0.1), False)
+    assert chosen[above].mean() > 0.9
+    assert not chosen[~above].any()
     assert found.explained >= (1 - 1e-9 if noise == 0 else 0.98)
     assert found.motions[0].direction == pytest.approx([-(0.5**0.5), 0, 0.5**0.5], abs=2 * noise + 1e-9)
 
@@ -67,7 +68,7 @@ def test_two_that_turn_apart_are_two_the_heavier_first() -> None:
     foot = turning(model, np.array([0.0, 0, 0]), np.array([1.0, 0, 0]))
     door = turning(model, np.array([5.0, 0, 0]), np.array([0.0, 0, 3.0]))
     motion = np.where(left[:, None], door, foot)
-    parts = every_block(model, motion)
+    parts = every_block(motion)
     found = main_parts(model, parts, part_motions(model, parts, motion), motion)
     assert found.of_block.tolist() == np.where(left, 2, 1).tolist()
     assert found.explained == pytest.approx(1.0)
@@ -76,16 +77,16 @@ def test_two_that_turn_apart_are_two_the_heavier_first() -> None:
     assert (told.of_block.tolist(), told.explained) == (few.tolist(), 1.0)
 
 
-def test_a_motion_that_few_parts_do_not_explain_is_told_with_its_share() -> None:
+def test_a_motion_that_few_parts_do_not_explain_is_told_as_it_was() -> None:
     model = wall()
     motion = np.random.default_rng(5).normal(size=(SIDE**2, 6))
-    parts = every_block(model, motion)
+    parts = every_block(motion)
     found = main_parts(model, parts, part_motions(model, parts, motion), motion)
-    assert len(found.motions) <= FEW
-    assert 0.0 < found.explained < ENOUGH
+    assert len(found.motions) == SIDE**2 > FEW
+    assert found.explained == 1.0
 
 
-def stepped(rises: list[int]) -> tuple[FloatArray, FloatArray]:
+def stepped(rises: list[int]) -> tuple[IntArray, IntArray]:
     """Blocks of the wall above a course for each column, and its horizontal joints as bodies and rectangles."""
     parts = np.array([1 if j >= rises[i] else 0 for j in range(SIDE) for i in range(SIDE)])
     return parts, np.array([(SIDE * (j - 1) + i, SIDE * j + i) for j in range(1, SIDE) for i in range(SIDE)])
@@ -110,7 +111,8 @@ def test_a_line_leads_through_the_joints_with_as_few_corners_as_will_do(rises: l
     assert line.points[:, 1] == pytest.approx(0.5)
     assert line.points[0, 2] <= line.points[-1, 2]
     if rises[0] == rises[-1]:
-        assert (line.inclination, line.off) == (pytest.approx(0, abs=1e-6), pytest.approx(0, abs=1e-9))
+        assert line.inclination == pytest.approx(0, abs=1e-6)
+        assert line.off == pytest.approx(0, abs=1e-9)
         assert line.length == pytest.approx(SIDE - 1)
 
 
