@@ -78,7 +78,7 @@ def _broken_line(contacts: Contacts, interfaces: IntArray) -> tuple[FloatArray, 
             break
         tried = [_fitted(places, areas, distance, corners) for corners in combinations(inner, pieces - 1)]
         best = min((best, *tried), key=lambda fit: fit[1])
-    points, off = np.asarray(best[0], dtype=np.float64), best[1]
+    points, off = best
     corners = contacts.points[points_of(contacts, interfaces)]
     points = np.clip(points, corners.min(axis=0), corners.max(axis=0))
     return np.asarray(points if points[0, 2] <= points[-1, 2] else points[::-1]), off
@@ -91,7 +91,7 @@ def _fitted(
     knots = np.array([distance.min(), *corners, distance.max()])
     shares = np.stack([np.interp(distance, knots, row) for row in np.eye(len(knots))], axis=1)
     weights = np.sqrt(areas)[:, None]
-    points = np.linalg.lstsq(weights * shares, weights * places, rcond=None)[0]
+    points: FloatArray = np.linalg.lstsq(weights * shares, weights * places, rcond=None)[0].astype(np.float64)
     off = np.sqrt(np.average(((places - shares @ points) ** 2).sum(axis=1), weights=areas))
     length = float(np.linalg.norm(np.diff(points, axis=0), axis=1).sum())
     return points, float(off) / (length or 1.0)
