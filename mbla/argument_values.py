@@ -5,9 +5,13 @@ from __future__ import annotations
 import argparse
 import re
 from collections.abc import Callable
+from pathlib import Path
 from typing import TypeVar
 
 Amount = TypeVar("Amount", int, float)
+
+MOST = 1024
+"""threads or processes"""
 
 
 def names(text: str) -> list[str]:
@@ -16,6 +20,13 @@ def names(text: str) -> list[str]:
     if not all(listed):
         raise argparse.ArgumentTypeError(f"{text!r} is not a list of names with commas between them")
     return listed
+
+
+def place(text: str) -> Path:
+    """A file or a folder to write to."""
+    if not text:  # as where a script has a variable that is not set: not the current folder
+        raise argparse.ArgumentTypeError("'' is no name of a file or a folder")
+    return Path(text)
 
 
 def seconds(text: str) -> float:
@@ -40,7 +51,7 @@ def degrees(text: str) -> float:
 
 def threads(text: str) -> int:
     """A number of threads."""
-    return _number(text, int, lambda value: value >= 1, "a whole number of threads, at least 1")
+    return _number(text, int, _is_count, f"a whole number of threads, 1 to {MOST}")
 
 
 def shard(text: str) -> tuple[int, int]:
@@ -53,7 +64,21 @@ def shard(text: str) -> tuple[int, int]:
 
 def workers(text: str) -> int:
     """A number of processes."""
-    return _number(text, int, lambda value: value >= 1, "a whole number of processes, at least 1")
+    return _number(text, int, _is_count, f"a whole number of processes, 1 to {MOST}")
+
+
+def points(text: str) -> int:
+    """A number of points; how many may be depends on what is asked."""
+    return _number(text, int, lambda value: True, "a whole number of points")
+
+
+def dots(text: str) -> int:
+    """Dots per inch."""
+    return _number(text, int, lambda value: True, "a whole number of dots per inch")
+
+
+def _is_count(value: int) -> bool:
+    return 1 <= value <= MOST
 
 
 def _number(text: str, kind: Callable[[str], Amount], allowed: Callable[[Amount], bool], wanted: str) -> Amount:

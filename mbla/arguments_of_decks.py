@@ -6,7 +6,7 @@ import argparse
 from pathlib import Path
 from typing import Any
 
-from mbla.argument_values import seconds, threads
+from mbla.argument_values import place, seconds, threads
 
 
 def add_run(commands: Any) -> None:
@@ -44,7 +44,7 @@ def add_deck_options(
     command: argparse.ArgumentParser, extent: str = "", what: str = "deck", default: str = "DECK.out"
 ) -> None:
     """Where files go, values of the deck, ``--force`` and ``--json``."""
-    command.add_argument("-o", "--output", type=Path, metavar="DIR", help=f"folder of the results (default {default})")
+    command.add_argument("-o", "--output", type=place, metavar="DIR", help=f"folder of the results (default {default})")
     command.add_argument(
         "--set",
         action="append",

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-from mbla.argument_values import names, relative
+from mbla.argument_values import dots, names, place, relative
 
 
 def add_result_commands(commands: Any) -> None:
@@ -22,7 +22,7 @@ def add_result_commands(commands: Any) -> None:
 def _add_result_and_output(command: Any, what: str) -> None:
     """A result file, and where what is made of it goes."""
     command.add_argument("result", type=Path, metavar="RESULT.h5")
-    command.add_argument("-o", "--output", type=Path, metavar="FILE|DIR", help=f"{what} (default: that of the result)")
+    command.add_argument("-o", "--output", type=place, metavar="FILE|DIR", help=f"{what} (default: that of the result)")
 
 
 def add_plot(commands: Any) -> None:
@@ -64,7 +64,7 @@ def add_plot(commands: Any) -> None:
 def add_page_options(command: Any) -> None:
     """Size and format of pictures."""
     command.add_argument("--size", default="1600x1000", metavar="WxH", help="pixels of a PNG at 100 dpi")
-    command.add_argument("--dpi", type=int, default=100, help="dots per inch of a PNG (default 100)")
+    command.add_argument("--dpi", type=dots, default=100, help="dots per inch of a PNG (default 100)")
     command.add_argument(
         "--format", choices=["png", "svg", "pdf"], default="png", help="of pictures in a folder (default png)"
     )
@@ -92,7 +92,7 @@ def add_export(commands: Any) -> None:
         "--vtkhdf", action="store_true", help="VTKHDF for ParaView with VTK 9.6 or later, one file per load case"
     )
     command.add_argument(
-        "-o", "--output", type=Path, metavar="DIR", help="folder of the files (default: that of the result)"
+        "-o", "--output", type=place, metavar="DIR", help="folder of the files (default: that of the result)"
     )
     command.add_argument("--case", action="append", default=[], metavar="NAME", help="only this load case (repeatable)")
     command.add_argument(

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-from mbla.argument_values import degrees, relative_above_zero, seconds, shard, threads, workers
+from mbla.argument_values import degrees, place, points, relative_above_zero, seconds, shard, threads, workers
 from mbla.arguments_of_decks import add_analysis_options, add_deck_options
 from mbla.arguments_of_results import add_page_options
 
@@ -73,7 +73,7 @@ def add_sweep_plot(commands: Any) -> None:
     command.add_argument(
         "-o",
         "--output",
-        type=Path,
+        type=place,
         metavar="FILE|DIR",
         help="PNG, SVG or PDF file, by its name, of one picture: the first that suits the table unless --kind "
         "says which; or a folder (default: that of the sweep)",
@@ -113,7 +113,7 @@ def add_interact(commands: Any) -> None:
     command.add_argument("--case", metavar="NAME", help="the load case that is turned; needed if there are several")
     command.add_argument("--loads", nargs=2, metavar=("A", "B"), help="two load cases whose live loads act together")
     command.add_argument(
-        "--directions", type=int, metavar="N", help="points around the horizon (default 72), or of two loads (31)"
+        "--directions", type=points, metavar="N", help="points around the horizon (default 72), or of two loads (31)"
     )
     command.add_argument("--from", dest="start", type=degrees, metavar="DEG", help="first angle of two loads (0)")
     command.add_argument(

@@ -21,7 +21,7 @@ from mbla import result_commands, study_commands, sweep_commands
 from mbla.arguments import build_parser, wants_json
 from mbla.collector import loading
 from mbla.errors import DeckError, FileError, MblaError, UsageError
-from mbla.failures import SIGNALS, StoppedRun, failure_record, lines_of, words_of
+from mbla.failures import ENDINGS, StoppedRun, failure_record, lines_of, words_of
 from mbla.given_deck import read_given_deck, refuse_unfit_name, run_options
 from mbla.memory_limit import refuse_too_low_limits
 from mbla.run_options import RunOptions
@@ -63,7 +63,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except BrokenPipeError:  # the reader of our output went away: not our error, but the output is not whole
         drop_output()
         return FileError.exit_status
-    except (Exception, *SIGNALS) as error:
+    except ENDINGS as error:
         if isinstance(error, OSError) and error.filename is None:
             drop_output()
         about = ABOUT.get(getattr(options, "command", ""), {})
@@ -97,7 +97,7 @@ def _run(options: argparse.Namespace) -> int:
     return _each_deck(options, one, progress)
 
 
-def _tell(options: argparse.Namespace, deck: Deck, results: Results, failure: Mapping[str, Any], *files: str) -> None:
+def _tell(options: argparse.Namespace, deck: Deck, results: Results, failure: dict[str, Any], *files: str) -> None:
     """The results of a deck as they are wanted; of a stopped run with what stopped it."""
     with loading():
         from mbla.results.records.json_record import json_line, results_json
@@ -199,7 +199,7 @@ def _each_deck(options: argparse.Namespace, one: Callable[[Path], int], progress
             codes.append(one(deck))
         except BrokenPipeError:
             raise
-        except (Exception, *SIGNALS) as error:
+        except ENDINGS as error:
             clear_line(progress)
             codes.append(failed(error, {"deck": deck}, options.json))
         if codes[-1] >= FIRST_OF_SIGNALS:

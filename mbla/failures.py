@@ -18,6 +18,8 @@ SIGNALS: dict[type[BaseException], tuple[int, str]] = {
     Terminated: (143, "terminated"),
 }
 """exit status and word of the signals that end a command"""
+ENDINGS: tuple[type[BaseException], ...] = (Exception, *SIGNALS)
+"""whatever ends a command that is told"""
 
 
 class StoppedRun(BaseException):

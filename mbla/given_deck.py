@@ -47,10 +47,10 @@ def _cases(options: argparse.Namespace) -> tuple[str, ...]:
     return (given,) if isinstance(given, str) else tuple(given)
 
 
-def refuse_unfit_name(deck: Path) -> None:
+def refuse_unfit_name(deck: Path, what: str = "deck") -> None:
     """A name that no result file can have, or that no text can hold."""
     if not deck.name or deck.is_dir():
-        raise FileError("folder-given", f"{deck}: is a folder, not a deck")
+        raise FileError("folder-given", f"{deck}: is a folder, not a {what}")
     try:
         str(deck.absolute()).encode("utf-8")
     except UnicodeEncodeError:

@@ -5,14 +5,22 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
-from mbla.errors import FileError
+from mbla.errors import FileError, UsageError
 from mbla.results.disk import file_errors
 from mbla.results.whole_file import write_whole
 
 
 def write_starter(name: str, *, replace: bool) -> Path:
-    """Write the starting deck under a name, with or without its ending; the path. FileError where that cannot be."""
+    """Write the starting deck under a name, with or without its ending; the path.
+
+    Raises
+    ------
+    UsageError, FileError
+        it is no name, or cannot be written to
+    """
     path = Path(name if name.endswith((".yaml", ".yml")) else f"{name}.yaml")
+    if path.stem.startswith("."):
+        raise UsageError("command-line", f"new {name!r}: is no name of a deck")
     if not path.parent.is_dir():
         raise FileError("file-missing", f"{path}: there is no folder {path.parent}")
     if not replace and os.path.lexists(path):

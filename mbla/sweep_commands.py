@@ -12,6 +12,7 @@ import time
 from typing import TYPE_CHECKING
 
 from mbla.collector import loading
+from mbla.given_deck import refuse_unfit_name
 from mbla.terminal import clear_line, rewrite_line, say
 
 if TYPE_CHECKING:
@@ -31,6 +32,7 @@ def sweep(options: argparse.Namespace) -> int:
     with loading():
         from mbla.studies.sweep.file.read import read_sweep
 
+    refuse_unfit_name(options.sweep, "sweep file")
     content = read_sweep(options.sweep, tuple(options.set))
     with loading():
         from mbla.results.records.json_record import json_line

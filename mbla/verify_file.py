@@ -45,9 +45,10 @@ def verify_file(path: Path) -> tuple[Results, tuple[str, ...]]:
         found = (*_unproved(case), *(() if deck is None else _left_out(case, deck)))
         disagreements += tuple(f"{case.load_case.name}: {text}" for text in found)
     disagreements += differences_of_file(path, write_results_hdf5(again))
-    if (disagreements or not results.complete) and again.exit_code in (0, 5):
-        again = replace(again, exit_code=4)
-    return again, disagreements
+    code = exit_code(again.cases, again.notices)  # of a stopped run the file has that of what stopped it
+    if (disagreements or not results.complete) and code in (0, 5):
+        code = 4
+    return replace(again, exit_code=code), disagreements
 
 
 def _recomputed(results: Results, deck: Deck | None) -> Results:

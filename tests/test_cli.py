@@ -295,7 +295,7 @@ def test_json_and_verbose_keep_the_listing_off_standard_output(deck: Path, capsy
     [
         (["--time-limit", "abc"], "'abc' is not a positive number of seconds"),
         (["--time-limit", "inf"], "'inf' is not a positive number of seconds"),
-        (["--threads", "1.5"], "'1.5' is not a whole number of threads, at least 1"),
+        (["--threads", "1.5"], "'1.5' is not a whole number of threads, 1 to 1024"),
     ],
 )
 def test_wrong_amounts_are_told_in_words(

@@ -84,6 +84,20 @@ def failure(capsys: pytest.CaptureFixture[str], *arguments: str) -> dict[str, An
     return record
 
 
+def test_what_is_wrong_is_told_in_words(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    told = {
+        ("run", "result.h5"): "result.h5:1:1 is an HDF5 file, not a deck: mbla show reads results  [not-utf-8]",
+        ("sweep", "folder"): "mbla: folder: is a folder, not a sweep file  [folder-given]",
+        ("run", "deck.yaml", "-o", ""): "mbla: run: argument -o/--output: '' is no name of a file or a folder",
+        ("new", ""): "mbla: new '': is no name of a deck  [command-line]",
+        ("new", "folder/"): "mbla: new 'folder/': is no name of a deck  [command-line]",
+    }
+    for arguments, words in told.items():
+        assert cli.main(arguments) > 0
+        assert words in capsys.readouterr().err
+    assert not Path(".yaml").exists()
+
+
 @pytest.mark.parametrize("name", FILE)
 @pytest.mark.parametrize(
     ("given", "status"), [("none", 6), ("folder", 6), ("empty", None), ("binary", None), ("faulty.yaml", None)]
@@ -119,6 +133,12 @@ def test_two_results_of_which_one_cannot_be_read(folder: Path, bad: str, capsys:
         (["interact", "deck.yaml", "--directions", "-1"], "interact-option"),
         (["tradeoff", "deck.yaml", "--case", "nonsuch"], "unknown-load-case"),
         (["tradeoff", "deck.yaml", "--knob", "nonsense"], "tradeoff-option"),
+        (["tradeoff", "deck.yaml", "--knob", "analysis.nonsuch=1,2"], "tradeoff-option"),
+        (["run", "result.h5"], "not-utf-8"),
+        (["run", "deck.yaml", "-o", ""], "command-line"),
+        (["run", "deck.yaml", "--threads", "1" + "0" * 20], "command-line"),
+        (["sweep", "sweep.yaml", "-j", "100000"], "command-line"),
+        (["interact", "deck.yaml", "--directions", "many"], "command-line"),
         (["sweep", "sweep.yaml", "--scheduler-file", "none", "-j", "2"], "sweep-option"),
         (["sweep", "sweep.yaml", "--resume", "--force"], "sweep-option"),
         (["run", "deck.yaml", "none.yaml", "--nonsuch"], "command-line"),

@@ -119,6 +119,8 @@ def _decode(content: bytes, label: str, kind: FileKind) -> str:
     if len(content) > MAX_BYTES:
         limit = MAX_BYTES // 1024**2
         raise _refusal(start, 0, Message("file-too-large", f"is larger than {limit} MB: {kind.large}"))
+    if content.startswith(b"\x89HDF"):
+        raise _refusal(start, 0, Message("not-utf-8", f"is an HDF5 file, not a {kind.name}: mbla show reads results"))
     if content[:2] in (b"\xff\xfe", b"\xfe\xff"):
         raise _refusal(start, 0, Message("not-utf-8", "is UTF-16 text: save it as UTF-8"))
     try:

@@ -10,7 +10,7 @@ from pathlib import Path
 
 from mbla.deck import Deck
 from mbla.deck.units import Units
-from mbla.errors import LimitError, SolverError
+from mbla.errors import LimitError, SolverError, UsageError
 from mbla.model import build_model
 from mbla.results.provenance import collect_provenance
 from mbla.results.results import now
@@ -78,15 +78,23 @@ def study_deck(
     Raises
     ------
     DeckError, UsageError
-        The deck is not valid, there is no such load case, or two settings have one name.
+        The deck is not valid, there is no such load case, two settings have one name, or none applies.
     """
     started = time.perf_counter()
     names = traded_cases(deck, cases)
     ladder = asked_ladder(deck, fixed, asked) if asked else usual_ladder(deck, fixed)
     rungs = fitted(deck.path, fixed, deck, ladder)
+    refuse_nothing_fit([rung for rung in rungs if rung.name in {own.name for own in asked}])
     left = None if limits.budget is None else max(limits.budget - (time.perf_counter() - started), 0.0)
     runs = run_ladder(deck.path, fixed, cases, rungs, Limits(left, limits.each, limits.threads), report)
     return study_of(deck, fixed, names, runs, wanted, limits, time.perf_counter() - started)
+
+
+def refuse_nothing_fit(asked: Sequence[Rung]) -> None:
+    """UsageError where settings were asked for and none of them applies: there would be nothing to compare."""
+    if asked and all(rung.unfit for rung in asked):
+        why = "; ".join(f"{rung.name}: {rung.unfit}" for rung in asked)
+        raise UsageError("tradeoff-option", f"no setting that was asked for applies to the deck: {why}")
 
 
 def study_of(
