@@ -9,9 +9,12 @@ from mbla.errors import Notice
 from mbla.results.outcome import case_notices, notices_of
 from mbla.results.results import Results
 from mbla.results.words.text import counted, heading, sentence
+from mbla.solution.solution import Status
 
 CAUSES = ("isolated-blocks", "unsupported-parts")
 """Warnings that stand before the load cases: the verdicts on these follow from them."""
+CAUSES_OF_A_FALL = ("near-misses",)
+"""Those that do where a load case has no equilibrium: a contact that is missed may be all that it lacks."""
 HINT = "`mbla explain ID` says what an identifier in brackets means and what to do."
 
 
@@ -40,7 +43,13 @@ def warning_lines(results: Results) -> list[str]:
 
 def cause_lines(results: Results) -> list[str]:
     """For the terminal: what has to be known before any figure, which follows from it."""
-    return [line for notice in results.notices if notice.identifier in CAUSES for line in sentence(str(notice))]
+    causes = _causes(results)
+    return [line for notice in results.notices if notice.identifier in causes for line in sentence(str(notice))]
+
+
+def _causes(results: Results) -> tuple[str, ...]:
+    falls = any(case.status is Status.NO_EQUILIBRIUM for case in results.cases)
+    return (*CAUSES, *CAUSES_OF_A_FALL) if falls else CAUSES
 
 
 def warning_summary(results: Results) -> list[str]:
@@ -49,7 +58,8 @@ def warning_summary(results: Results) -> list[str]:
     if not warnings:
         return []
     own = [notice for case in results.cases for notice in case_notices(case)]
-    told = [notice for notice in warnings if notice.identifier not in CAUSES and (not notice.case or notice in own)]
+    before = _causes(results)
+    told = [notice for notice in warnings if notice.identifier not in before and (not notice.case or notice in own)]
     lines = [line for notice in told for line in sentence(str(notice))]
     counts = Counter(warning.identifier for warning in warnings)
     named = ", ".join(name if count == 1 else f"{name} ({count})" for name, count in counts.items())

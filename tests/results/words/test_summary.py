@@ -4,6 +4,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from mbla.errors import Notice
 from mbla.model.model import Settlement, Tilt
 from mbla.results.results import Results
 from mbla.results.words.summary import summary_lines
@@ -118,3 +119,14 @@ def test_angle_of_a_table_whose_load_factor_is_no_tangent(results: Results, fact
 def test_a_result_without_cases_has_its_model_alone(results: Results) -> None:
     lines = summary_lines(replace(results, cases=(), notices=()))
     assert lines == ["tower.yaml: 3 blocks, 2 interfaces, 8 contact points, weight 65 N"]
+
+
+def test_what_a_fall_may_come_from_is_told_before_it() -> None:
+    """A contact that is missed explains a lack of equilibrium, and is a remark like others where there is none."""
+    results = tower_results()
+    missed = replace(results, notices=(Notice("warning", "near-misses", "1 pair of bodies nearly touch"),))
+    for cases, first in ((results.cases, True), (results.cases[:1], False)):
+        lines = summary_lines(replace(missed, cases=cases))
+        at = [line.startswith("  warning [near-misses]") for line in lines].index(True)
+        assert (at == 1) is first
+        assert sum("[near-misses]" in line for line in lines) == 1
