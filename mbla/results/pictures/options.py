@@ -121,15 +121,20 @@ def parse_view(text: str) -> tuple[float, float] | None:
     return azimuth, elevation
 
 
+LARGEST_SCALE = 1000.0
+"""multiple of displacements of a tenth of the structure: numbers without bounds overflow where axes are laid out"""
+
+
 def parse_scale(text: str) -> float:
-    """A multiple of the usual displacements, 0 or more; ``auto`` is 1. UsageError for others."""
+    """A multiple of the usual displacements, 0 to ``LARGEST_SCALE``; ``auto`` is 1. UsageError for others."""
     try:
         value = 1.0 if text == "auto" else float(text)
     except ValueError:
         value = math.nan
-    if not 0 <= value < math.inf:
+    if not 0 <= value <= LARGEST_SCALE:
         raise UsageError(
-            "picture-option", f"--scale {text}: auto, or a multiple of the displacements that auto draws, as 0.5"
+            "picture-option",
+            f"--scale {text}: auto, or a multiple of the displacements that auto draws, as 0.5, to {LARGEST_SCALE:g}",
         )
     return value
 

@@ -53,6 +53,7 @@ def test_more_dots_for_each_inch_are_more_pixels() -> None:
         (parse_view, "10", "AZIMUTH,ELEVATION"),
         (parse_scale, "-1", "multiple"),
         (parse_scale, "inf", "multiple"),
+        (parse_scale, "1e300", "to 1000"),
         (parse_scale, "big", "multiple"),
         (parse_size, "800", "width x height"),
         (parse_size, "10x10", "200 to 20000"),
