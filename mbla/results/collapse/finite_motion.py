@@ -31,14 +31,14 @@ from mbla.results.results import CaseResult
 
 AT_REST = 1e-3
 """contact velocity over the largest up to which two parts do not move against each other at a point"""
-MOST_PARTS = 2000
+MOST_PARTS = 500
 """of more parts, each a block or two, every one follows its own screw: their gaps are too small to be seen"""
 DAMPING = 0.1
 """of the steps, over the size of what moves: with 0.01 a facade of 117 parts, many of them loose, went astray"""
-MOST_STEPS = 30
+MOST_STEPS = 10
 FURTHEST = 0.5
 """way from the screws to where parts stay together, over that from rest, up to which that is taken"""
-CLOSED = 1e-6
+CLOSED = 1e-4
 """step over that size after which nothing moves any more"""
 
 
@@ -156,16 +156,18 @@ def _ways(pose: _Pose, leads: _Leads, size: float) -> sp.csr_array:
 
     Part 0 has nothing free, one that is led the advance along its screw, any other all six.
     """
-    blocks: list[FloatArray] = [np.zeros((6, 0))]
-    for part in range(1, len(pose.places)):
-        if part in leads:
-            point, twist = leads[part]
-            step = twist[:3] + np.cross(twist[3:], pose.places[part] - point)
-            way = np.append(step, size * twist[3:])
-            blocks.append(way[:, None] / np.linalg.norm(way))
-        else:
-            blocks.append(np.eye(6))
-    return sp.csr_array(sp.block_diag(blocks))
+    count = 6 * len(pose.places)
+    ways = sp.lil_array((count, count))
+    free = np.arange(count) >= 6
+    ways.setdiag(1.0)
+    for part, (point, twist) in leads.items():
+        step = twist[:3] + np.cross(twist[3:], pose.places[part] - point)
+        way = np.append(step, size * twist[3:])
+        rows = slice(6 * part, 6 * part + 6)
+        ways[rows, rows] = 0.0
+        ways[rows, 6 * part] = way / np.linalg.norm(way)
+        free[6 * part + 1 : 6 * part + 6] = False
+    return sp.csr_array(ways)[:, free]
 
 
 def _step(joints: _Joints, pose: _Pose, leads: _Leads, size: float) -> tuple[FloatArray, FloatArray]:
