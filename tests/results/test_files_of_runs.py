@@ -118,7 +118,11 @@ def test_every_dataset_is_described(folder: Path, name: str) -> None:
         for dataset in (file[path] for path in found if not file[path].is_scale):
             field = fields[re.sub(r"^/cases/[^/]+/", "cases/*/", dataset.name).lstrip("/")]
             standard = {"units", "long_name", "DIMENSION_LIST", "DIMENSION_LABELS"}
-            assert set(dataset.attrs) - standard == ({"_Encoding"} if field.kind == "text" else set())
+            of_text, not_verified = (
+                {"_Encoding"} if field.kind == "text" else set(),
+                {"verification"} if field.told else set(),
+            )
+            assert set(dataset.attrs) - standard == of_text | not_verified
             assert tuple(dimension.label for dimension in dataset.dims) == field.dims
 
 
