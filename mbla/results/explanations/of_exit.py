@@ -49,10 +49,11 @@ OF_EXIT = (
     ),
     _status(
         4,
-        "A load case is not solved or not verified, or is not as expected.",
+        "A load case is not solved or not verified, or is not as expected, or blocks touch nothing.",
         "At least one case has no load factor, one rougher than asked for, or one that differs from what the deck "
         "expects. Other cases of the run may be verified: the status of each says so.",
-        "Verification found more than its tolerances; a limit of iterations; a numerical failure; --expected; "
+        "Blocks that touch nothing (isolated-blocks), told before the cases; verification found more than its "
+        "tolerances; a limit of iterations; a numerical failure; --expected; "
         "mbla verify found that a file says otherwise; mbla diff --fail found a difference.",
         "Look at the status of each case and at its warnings.",
     ),

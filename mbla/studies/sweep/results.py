@@ -64,14 +64,22 @@ def values_of(record: Mapping[str, Any], places: Sequence[ResultPlace]) -> dict[
 
 
 def reason_of(record: Mapping[str, Any]) -> str:
-    """Why load cases have no load factor, each reason once; with the names of its cases where several were solved."""
+    """Why a run failed: blocks that touch nothing, then why load cases have no load factor.
+
+    Each reason once, with the names of its cases where several were solved.
+    """
+    apart = [notice["message"] for notice in record["notices"] if _is_fault(notice)]
     names: dict[str, list[str]] = {}
     for case in record["cases"]:
         if case["reason"]:
             names.setdefault(case["reason"], []).append(case["name"])
     if len(record["cases"]) == 1:
-        return "; ".join(names)
-    return "; ".join(f"{listed(cases, 'and')}: {reason}" for reason, cases in names.items())
+        return "; ".join([*apart, *names])
+    return "; ".join([*apart, *(f"{listed(cases, 'and')}: {reason}" for reason, cases in names.items())])
+
+
+def _is_fault(notice: Mapping[str, Any]) -> bool:
+    return bool(notice["identifier"] == "isolated-blocks" and notice["severity"] == "warning")
 
 
 def _of_series(series: Mapping[str, Any], cases: Mapping[str, Mapping[str, Any]]) -> dict[str, Any]:

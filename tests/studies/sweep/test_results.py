@@ -163,6 +163,13 @@ def test_a_travelling_load_as_it_is_run() -> None:
 def test_a_reason_names_its_load_cases_where_there_are_several() -> None:
     falls, late = "the dead load alone is not carried", "the time limit was reached"
     cases = [{"name": name, "reason": reason} for name, reason in zip("abcd", (falls, None, late, falls), strict=True)]
-    assert reason_of({"cases": cases}) == f"a and d: {falls}; c: {late}"
-    assert reason_of({"cases": cases[:1]}) == falls
-    assert reason_of({"cases": cases[1:2]}) == ""
+    assert reason_of({"cases": cases, "notices": []}) == f"a and d: {falls}; c: {late}"
+    assert reason_of({"cases": cases[:1], "notices": []}) == falls
+    assert reason_of({"cases": cases[1:2], "notices": []}) == ""
+
+
+@pytest.mark.parametrize(("severity", "reason"), [("warning", "block a[0] is apart; it falls"), ("notice", "it falls")])
+def test_blocks_that_touch_nothing_are_the_first_reason(severity: str, reason: str) -> None:
+    notice = {"severity": severity, "identifier": "isolated-blocks", "message": "block a[0] is apart"}
+    record = {"cases": [{"name": "a", "reason": "it falls"}], "notices": [notice]}
+    assert reason_of(record) == reason
