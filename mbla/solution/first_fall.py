@@ -72,7 +72,7 @@ def judged_by_path(
     elif path.goes_on and (peak or state.load_factor <= 0.0):
         path.follow(state.load_factor + margin, within=2.0 * margin)
         path.follow_on(max(GROWTH * state.load_factor, SMALL * path.unit), most)
-    verdict = _verdict(path, sequence, margin)
+    verdict = _verdict(path, sequence, most, margin)
     return replace(verdict, programs=(_record(path, first_program, time.perf_counter() - started),))
 
 
@@ -92,8 +92,8 @@ def _from_the_end(path: StandingPath, sequence: SequenceResult, margin: float, l
     return replace(there, remarks=(*sequence.remarks, *there.remarks, LOWER.format(above, ends)))
 
 
-def _verdict(path: StandingPath, sequence: SequenceResult, margin: float) -> PathVerdict:
-    """The peak, and what is to be said of it."""
+def _verdict(path: StandingPath, sequence: SequenceResult, most: float, margin: float) -> PathVerdict:
+    """The peak, and what is to be said of it; beyond the associative load factor it falls whatever was looked at."""
     state, live, last = sequence.state, path.program.scaling.live, path.last.load_factor
     assert state is not None  # the path is not followed without
     rest, height = f"{state.load_factor * live:.6g}", f"{last * live:.6g}"
@@ -106,7 +106,7 @@ def _verdict(path: StandingPath, sequence: SequenceResult, margin: float) -> Pat
     if state.load_factor <= 0.0:
         reason = NO_LOAD.format(rest, height)
         return PathVerdict(replace(sequence, status=Status.NOT_VERIFIED, reason=reason), peak=_peak(path))
-    if path.fall is None:
+    if path.fall is None and last < most:
         return PathVerdict(sequence, remark=STANDS_ON.format(height, rest))
     return PathVerdict(sequence, peak=_peak(path), remark=FALLS.format(height, rest))
 

@@ -130,6 +130,17 @@ def test_next_to_the_associative_factor_no_path_is_followed() -> None:
     assert judged(program, state, most=state.load_factor).programs == ()
 
 
+def test_what_stands_up_to_the_associative_factor_has_its_peak_there() -> None:
+    """Of a state at half the load factor; nothing carries more than the associative one."""
+    program = line_of(BLOCK, "parameters.h=0.5").program
+    state = solved(program)
+    most = (1.0 - 1e-7) * state.load_factor
+    found = judged(program, at(state, 0.5 * state.load_factor), most=most)
+    assert found.peak is not None
+    assert found.peak.load_factor == most
+    assert "the peak is the collapse load" in found.remark
+
+
 def test_where_it_is_not_seen_to_stand_no_path_is_followed() -> None:
     program = line_of(BLOCK).program
     state = solved(program)
