@@ -98,7 +98,7 @@ class StandingPath:
 
     def follow(self, to: float, within: float = 0.0) -> None:
         """Follow it to a load factor, unless it ends before; ``within`` is how near its end need be known."""
-        wanted = [self._look(to)] if self.goes_on and to > self.last.load_factor else []
+        wanted = [self.look(to)] if self.goes_on and to > self.last.load_factor else []
         while wanted and self.goes_on:
             here, there = self.last, wanted[-1]
             apart = there.load_factor - here.load_factor
@@ -107,7 +107,7 @@ class StandingPath:
             elif not there.stands and apart <= max(within, self._near(there)):
                 self.end = there
             else:
-                wanted.append(self._look(0.5 * (here.load_factor + there.load_factor)))
+                wanted.append(self.look(0.5 * (here.load_factor + there.load_factor)))
 
     def follow_on(self, to: float, most: float) -> None:
         """Follow it to load factors that grow from one on, to the greatest there can be or until it ends."""
@@ -121,7 +121,8 @@ class StandingPath:
         falls = state.weakening.outcome is Outcome.FALLS
         return (FINE if falls else ROUGH) * max(state.load_factor, ROUGH * self.unit)
 
-    def _look(self, load_factor: float) -> PathState:
+    def look(self, load_factor: float) -> PathState:
+        """Whether it stands at a load factor, whatever becomes of it on the way there."""
         self.looks += 1
         load: Load = "live_load" if self.weightless else "dead_load"
         beside = load_factor - 1.0 if self.weightless else load_factor

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -14,10 +15,11 @@ from mbla.solution.law_state import SequenceResult
 from mbla.solution.part import PartResult, solve_part
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Status
-from tests.line import BLOCK, line_of
+from tests.line import BLOCK, line_of, line_of_file
 from tests.solution.standing_structures import deck, plane, prism
 
 SETTINGS = SolverSettings(1e-8)
+KERB = Path(__file__).parents[2] / "decks" / "regressions" / "block_at_a_kerb.yaml"
 ALONG = "load_cases.push.live=[{acceleration: [0, 1, 0]}]"
 
 
@@ -89,3 +91,16 @@ def test_a_part_without_live_load_has_only_to_stand(weight: float) -> None:
     assert result.status is Status.UNBOUNDED
     assert result.reason == ("no live load acts on it" if weight else "")
     assert bool(result.programs) is bool(weight)
+
+
+@pytest.mark.parametrize(("few_points", "factor"), [(part.FEW_POINTS, 0.9 / 0.47), (0, 1.97156)])
+def test_a_small_structure_is_looked_at_below_its_load_factor(
+    few_points: int, factor: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """It falls at 3 % less, where it turns over the edge of a kerb without friction."""
+    monkeypatch.setattr(part, "FEW_POINTS", few_points)
+    line = line_of_file(KERB)
+    result = solve_part(line.program, line.deck.analysis, SETTINGS, lambda record: None)
+    assert result.status is Status.SOLVED
+    assert result.state is not None
+    assert line.program.scaling.load_factor(result.state.load_factor) == pytest.approx(factor, rel=1e-5)
