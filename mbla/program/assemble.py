@@ -45,6 +45,7 @@ def _assemble_unguided(model: Model, contacts: Contacts, load_case: LoadCase, ow
         n_blocks=len(model.blocks),
         scaling=scaling,
         allowed=guide_projector(model, free, scaling),
+        settles=load_case.settlement is not None,
     )
 
 

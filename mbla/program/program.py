@@ -84,6 +84,8 @@ class Program:
     halved             : the reduction is to one half of a structure with a plane of symmetry
     allowed            : of the program of the whole model: (n_rows, n_rows) projector on the motions that guides allow,
                          None where no block is guided
+    settles            : a support gives way: what the load factor counts from is chosen, and 0 says nothing of how the
+                         structure stands
     """
 
     equilibrium_matrix: sp.csr_array
@@ -98,6 +100,7 @@ class Program:
     guided: bool = False
     halved: bool = False
     allowed: sp.csr_array | None = None
+    settles: bool = False
 
     def without_live_load(self) -> Program:
         """What of it is the same whatever the live load, down to the program of the whole model."""

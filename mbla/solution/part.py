@@ -166,11 +166,15 @@ def _judged(
 ) -> PartResult:
     """Without dilatancy: the load factor and the peak that the load path leaves, where there is reason to follow it.
 
+    Where a support gives way there is no path: it starts with a reaction that is chosen. The published procedure is
+    there to be compared with the literature, and stays what it is.
+
     path : as far as it was followed before
     """
     state, above = result.state, result.associative.state
     most = np.inf if above is None else above.load_factor
-    if state is None or result.status not in WITH_VALUE:
+    published = analysis.scheme == "published" and above is not None
+    if state is None or result.status not in WITH_VALUE or result.program.settles or published:
         return result
     if 0.0 < SUSPECT * most < state.load_factor and not _falls_before(result, state, most, settings):
         return result

@@ -104,3 +104,14 @@ def test_a_small_structure_is_looked_at_below_its_load_factor(
     assert result.status is Status.SOLVED
     assert result.state is not None
     assert line.program.scaling.load_factor(result.state.load_factor) == pytest.approx(factor, rel=1e-5)
+
+
+@pytest.mark.parametrize("change", ["settles", "published"])
+def test_where_no_load_path_means_anything_none_is_followed(change: str) -> None:
+    """A support gives way: factors count from a reaction that was chosen. Published figures stay what they are."""
+    line = line_of_file(KERB, *(["analysis.scheme=published"] if change == "published" else []))
+    program = replace(line.program, settles=change == "settles")
+    result = solve_part(program, line.deck.analysis, SETTINGS, lambda record: None)
+    assert result.state is not None
+    assert program.scaling.load_factor(result.state.load_factor) > 1.02 * 0.9 / 0.47
+    assert "load path" not in [record.kind for record in result.programs]

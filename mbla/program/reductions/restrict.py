@@ -33,6 +33,7 @@ def restricted(
         n_blocks=program.n_blocks,
         scaling=program.scaling,
         components=components or program.components,
+        settles=program.settles,
         reduction=Reduction(program, sp.csr_array(velocities), sp.csr_array(forces)),
     )
 
