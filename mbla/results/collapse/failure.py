@@ -19,9 +19,6 @@ from mbla.results.collapse.sliding_planes import SlidingPlane, sliding_planes
 from mbla.results.collapse.yield_lines import YieldLine, yield_lines
 from mbla.solution.solution import Mechanics
 
-MOST_JOINTS = 12
-"""hinge lines and sliding planes between few clusters from which fewer are told: so many tell no reader what falls"""
-
 
 @dataclass(frozen=True)
 class MovingJoints:
@@ -80,7 +77,7 @@ def failure_of(model: Model, contacts: Contacts, collapse: Collapse, mechanics: 
     joints = cluster_joints(model, contacts, moving.clusters, mechanics)
     motions = part_motions(model, moving.clusters, mechanics.mechanism)
     main = MainParts(moving.clusters, motions, 1.0)
-    if len(motions) > FEW or (moving.merged and len(moving.hinge_lines) + len(moving.sliding_planes) > MOST_JOINTS):
+    if len(motions) > FEW:
         main = main_parts(model, moving.clusters, motions, mechanics.mechanism)
     return Failure(
         **vars(moving),

@@ -121,8 +121,12 @@ def as_parts(count: int) -> str:
 
 def _breaks_off(model: Model, failure: Failure, part: PartMotion) -> str:
     """`` and breaks off along a line from (7.6, 0.3, 0) to (0.4, 0.3, 5.4), 40 degrees to the horizontal``."""
-    line = next((line for line in failure.yield_lines if line.parts == (part.number, 0)), None)
-    return "" if line is None else f" and breaks off along {_yield_words(model, line)}"
+    own = [line for line in failure.yield_lines if part.number in line.parts]
+    line = min(own, key=lambda line: 0 not in line.parts, default=None)  # that on what rests, else the longest
+    if line is None:
+        return ""
+    other = sum(line.parts) - part.number
+    return f" and breaks off {f'part {other} ' if other else ''}along {_yield_words(model, line)}"
 
 
 def _yield_words(model: Model, line: YieldLine) -> str:

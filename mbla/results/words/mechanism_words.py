@@ -25,6 +25,8 @@ from mbla.results.words.text import counted, number, percent, sentence, table
 
 T = TypeVar("T", HingeLine, SlidingPlane, Crack)
 
+MANY = 40
+"""joints beyond which their number says less than what moves"""
 MOST_ROWS = 20
 """rows of a table in the listing; the result files hold all of them"""
 
@@ -32,7 +34,7 @@ MOST_ROWS = 20
 def mechanism_summary(model: Model, collapse: Collapse, failure: Failure) -> str:
     """``4 hinges, sliding at 2 interfaces; 23 of 27 free blocks move in 3 parts``; parts as they are told and drawn.
 
-    Of a mechanism that spreads over many joints first what moves, then the counts.
+    Of a mechanism of many joints first what moves, then how many they are.
     """
     count = collapse.interfaces.count
     moving = int(np.sum(~model.fixed & (collapse.parts > 0)))
@@ -47,6 +49,8 @@ def mechanism_summary(model: Model, collapse: Collapse, failure: Failure) -> str
     blocks = f"{moving} of {counted(len(model.free), 'free block')} {verb}"
     if failure.spreads:
         return f"{blocks}, mainly as {as_parts(len(failure.main.motions))}; {found}"
+    if sum(n for n, _, _ in words) > MANY:
+        return f"{blocks}{_told_parts(failure)}; {found}"
     return f"{found}; {blocks}{_told_parts(failure)}"
 
 
