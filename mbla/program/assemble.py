@@ -92,6 +92,7 @@ def _in_own_units(scaling: Scaling, model: Model, contacts: Contacts, dead: Floa
     number[model.free] = np.arange(len(model.free))
     dead_sizes, live_sizes = (np.linalg.norm((scaling.row * load).reshape(-1, 6), axis=1) for load in (dead, live))
     bodies = number[contacts.bodies]
+    dead_sizes[number[model.guides.blocks]] = 1.0  # guides press back whatever presses on such a block
     units = own_units(dead_sizes, bodies)
     if (units == 1.0).all():
         return scaling

@@ -5,7 +5,8 @@ A program in units of the mean load says nothing of a block that carries less of
 body cannot be pressed by anything but its own loads. Its rows of equilibrium, and the forces at its contacts, are then
 measured by these; in the row of the heavy block the latter are as small as they are.
 
-A light block between two heavy ones carries what they press through it, and keeps their unit.
+A light block between two heavy ones carries what they press through it, as does one between a heavy block and a guide,
+and keeps their unit.
 """
 
 from __future__ import annotations

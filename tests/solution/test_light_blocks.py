@@ -14,7 +14,7 @@ from mbla.solution.light_blocks import BALANCED, misfit, sharpened
 from mbla.solution.settings import SolverSettings
 from tests.extremes.structures_margin import OVERHANG
 from tests.extremes.weights import SIDE_BY_SIDE, TOWER
-from tests.line import BLOCK, line_of, line_of_file, verified
+from tests.line import BLOCK, line_of, line_of_file, load_factor, verified
 
 LARGE_CUBE = Path(__file__).parents[2] / "decks" / "regressions" / "block_on_a_large_cube.yaml"
 HEAVY_IN_THE_MIDDLE = ("parameters.heavy=1", "parameters.light=1.0e8")
@@ -48,6 +48,23 @@ def test_a_block_on_a_cube_many_times_its_size(
         assert status is Status.SOLVED, checks.failures
         assert solution.mechanics is not None
         assert solution.mechanics.load_factor == pytest.approx(expected, rel=1e-6)
+
+
+def test_a_light_block_under_a_guide_carries_what_presses_on_it() -> None:
+    """A block on a rail with 1e-12 of the weight of the one that is pressed against it."""
+    text = """mbla: 1
+materials: {heavy: {density: 2000}, light: {density: 2.e-9}}
+joints: {dry: {friction: 0.5}}
+blocks:
+  - box: {group: heavy, material: heavy, min: [0, 0, 0], max: [1, 1, 0.5]}
+  - box: {group: rail, material: light, min: [1, 0, 0], max: [2, 1, 0.5]}
+contacts: {joint: dry}
+supports: [{ground: {z: 0}, blocks: heavy}, {blocks: rail, slide: [0, 1, 0]}]
+load_cases: {push: {dead: [{force: [1000, 0, 0], on: heavy}], live: [{force: [0, 1000, 0], on: rail}]}}
+analysis: {flow_rule: associative}
+"""
+    heavy_too = load_factor(text, "materials.light.density=2000")  # the guide takes the weight of the rail
+    assert load_factor(text) == pytest.approx(heavy_too, rel=1e-6)
 
 
 def test_an_unbalanced_light_block_is_not_solved() -> None:
