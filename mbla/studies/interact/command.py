@@ -9,6 +9,7 @@ from typing import Any
 
 from mbla.deck import Deck
 from mbla.errors import UsageError
+from mbla.failures import SIGNALS
 from mbla.model import build_model
 from mbla.results.files import OutputFolder
 from mbla.run_deck import contacts_of
@@ -78,7 +79,7 @@ def factor_ratio(deck: Deck, overrides: Sequence[str], options: Any, workers: En
     question = question_of(deck, alone)
     study = study_points(deck, overrides, question, plan_of(deck.path, overrides, question), workers, None)
     if study.interrupted:
-        raise KeyboardInterrupt
+        raise next(kind for kind, (status, _) in SIGNALS.items() if status == study.exit_code)
     factors = [point.load_factor if point.has_factor else 0.0 for point in study.points]
     return factors[1] / factors[0] if min(factors) > 0 else 1.0
 

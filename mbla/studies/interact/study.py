@@ -10,6 +10,7 @@ from pathlib import Path
 
 from mbla.deck import Deck
 from mbla.deck.units import Units
+from mbla.failures import SIGNALS, words_of
 from mbla.results.provenance import collect_provenance
 from mbla.results.results import now
 from mbla.run_deck import title_of
@@ -22,7 +23,8 @@ from mbla.studies.sweep.plan import Plan, Task
 from mbla.studies.sweep.program import program_identity
 from mbla.studies.sweep.reasons import shown_folders
 
-INTERRUPTED = 130
+STOPPED = tuple(status for status, _ in SIGNALS.values())
+"""exit statuses of points that were not solved as a signal came before"""
 NOT_SOLVED = "not solved: interrupted before"
 """reason of points that were not reached"""
 GRAVEST_FIRST = (1, 6, 7, 3, 4)
@@ -61,17 +63,17 @@ class Study:
     @property
     def interrupted(self) -> bool:
         """Whether it ended before every point was solved."""
-        return any(point.exit_code == INTERRUPTED for point in self.points)
+        return any(point.exit_code in STOPPED for point in self.points)
 
     @property
     def exit_code(self) -> int:
-        """130 where it was interrupted, 4 where bounds cross, 5 without any load factor.
+        """130 or 143 where it was interrupted or terminated, 4 where bounds cross, 5 without any load factor.
 
         Before the last two come points without a verified answer, with the gravest of their codes.
         A direction in which the load never brings collapse is an answer, as a position of a travelling load is.
         """
         if self.interrupted:
-            return INTERRUPTED
+            return next(point.exit_code for point in self.points if point.exit_code in STOPPED)
         codes = {point.exit_code for point in self.points if not point.answered}
         if codes:
             return next((code for code in GRAVEST_FIRST if code in codes), max(codes))
@@ -94,6 +96,7 @@ def study_points(
     numbers = {task.key: task.number for task in tasks}
     shown = shown_folders(plan, deck.path.name)
     points: dict[int, Point] = {}
+    stop = 0
     with closing(engine.run(plan, tasks)) as outcomes:
         try:
             for outcome in map(shown.in_outcome, outcomes):
@@ -101,10 +104,11 @@ def study_points(
                 points[number] = point_of(question.angles[number - 1], outcome)
                 if report is not None:
                     report(len(points), len(tasks))
-        except KeyboardInterrupt:
+        except tuple(SIGNALS) as error:
             if not points:
                 raise
-    ordered = tuple(points.get(task.number) or _not_solved(question.angles[task.number - 1]) for task in tasks)
+            stop, _ = words_of(error)
+    ordered = tuple(points.get(task.number) or _not_solved(question.angles[task.number - 1], stop) for task in tasks)
     domain = domain_of(ordered, question.pair, closed=question.closed) if question.pair else None
     return Study(
         deck=deck.path.name,
@@ -120,8 +124,8 @@ def study_points(
     )
 
 
-def _not_solved(angle: float) -> Point:
-    return Point(angle, False, INTERRUPTED, "", NAN, NAN, NAN, NAN, reason=NOT_SOLVED)
+def _not_solved(angle: float, stop: int) -> Point:
+    return Point(angle, False, stop, "", NAN, NAN, NAN, NAN, reason=NOT_SOLVED)
 
 
 def tasks_of(question: Question, fingerprint: str) -> list[Task]:

@@ -13,7 +13,7 @@ from mbla.studies.interact.domain import Domain
 from mbla.studies.interact.extremes import Extreme, everywhere, extremes
 from mbla.studies.interact.point import Point
 from mbla.studies.interact.question import DIRECTION, TWO_LOADS, Question
-from mbla.studies.interact.study import INTERRUPTED, Study
+from mbla.studies.interact.study import STOPPED, Study
 
 MOST_ANGLES = 4
 """angles that are named of one extreme"""
@@ -52,7 +52,7 @@ def point_table(study: Study) -> list[str]:
 def mark_words(point: Point) -> str:
     """What is not plain of a point: capitals where it has no verified answer, as a run says it."""
     if not point.status:
-        return "NOT SOLVED" if point.exit_code == INTERRUPTED else "FAILED"
+        return "NOT SOLVED" if point.exit_code in STOPPED else "FAILED"
     name = status_name(Status(point.status))
     if not point.answered:
         return name.upper() if point.status != Status.SOLVED else "NOT VERIFIED"

@@ -7,6 +7,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from mbla.failures import SIGNALS, words_of
 from mbla.studies.measured_run import Task
 from mbla.studies.measurement import Measurement
 from mbla.studies.measuring import ChildRun, MeasuringProcess
@@ -14,8 +15,6 @@ from mbla.studies.tradeoff.rung import Rung
 
 Report = Callable[[int, int, str, str], None]
 """called with number of the rung from 1, number of rungs, name of the rung, and load case done (empty: it begins)"""
-INTERRUPTED = "interrupted"
-"""end of the rung that an interruption from the keyboard stopped, and of all after it"""
 LEAST_TIME = 0.5
 """seconds of a budget below which no further process is started: it would not get past its imports"""
 
@@ -34,7 +33,7 @@ class RungRun:
     """What became of a rung.
 
     end     : ``done``; ``unfit``: does not apply; ``failed``; ``died``; ``stopped``: ran out of its time; ``not run``;
-              ``interrupted``
+              ``interrupted``, ``terminated``: a signal came, then or before
     words   : why, for every end but ``done``
     expired : the budget of all rungs ended it, or left no time to begin it
     """
@@ -49,9 +48,9 @@ class RungRun:
 def run_ladder(
     deck: Path, fixed: Sequence[str], cases: Sequence[str], rungs: Sequence[Rung], limits: Limits, report: Report | None
 ) -> list[RungRun]:
-    """One run for each rung, in their order; an interruption from the keyboard ends them, and is told of each left.
+    """One run for each rung, in their order; a signal ends them, and is told of each left.
 
-    Raises KeyboardInterrupt where nothing was measured before it.
+    Raises KeyboardInterrupt or Terminated where nothing was measured before it.
     """
     until = None if limits.budget is None else time.monotonic() + limits.budget
     runs: list[RungRun] = []
@@ -67,12 +66,12 @@ def run_ladder(
 
                 planar = any(_is_planar(run) for run in runs)
                 runs.append(_run(process, rung, task, until, limits, done, planar=planar))
-        except KeyboardInterrupt:
+        except tuple(SIGNALS) as error:
             if not any(run.measurements for run in runs):
                 raise
-            left = rungs[len(runs) :]
-            runs += [RungRun(rung, (), INTERRUPTED, "interrupted before its end") for rung in left[:1]]
-            runs += [RungRun(rung, (), INTERRUPTED, "not run: interrupted before") for rung in left[1:]]
+            left, (_, end) = rungs[len(runs) :], words_of(error)
+            runs += [RungRun(rung, (), end, f"{end} before its end") for rung in left[:1]]
+            runs += [RungRun(rung, (), end, f"not run: {end} before") for rung in left[1:]]
     return runs
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import signal
 import time
 from collections.abc import Sequence
 from dataclasses import dataclass, field
@@ -11,13 +10,14 @@ from pathlib import Path
 from mbla.deck import Deck
 from mbla.deck.units import Units
 from mbla.errors import LimitError, SolverError, UsageError
+from mbla.failures import SIGNALS
 from mbla.model import build_model
 from mbla.results.provenance import collect_provenance
 from mbla.results.results import now
 from mbla.run_deck import contacts_of, select_cases, title_of
 from mbla.studies.tradeoff.advice import Advice, advice
 from mbla.studies.tradeoff.ladder import asked_ladder, fitted, usual_ladder
-from mbla.studies.tradeoff.ladder_run import INTERRUPTED, Limits, Report, RungRun, run_ladder
+from mbla.studies.tradeoff.ladder_run import Limits, Report, RungRun, run_ladder
 from mbla.studies.tradeoff.rung import REFERENCE, Rung
 from mbla.studies.tradeoff.trade import CaseTrade, case_trades
 
@@ -48,14 +48,20 @@ class Study:
 
     @property
     def interrupted(self) -> bool:
-        """Whether the ladder was left from the keyboard before its end."""
-        return any(run.end == INTERRUPTED for run in self.runs)
+        """Whether a signal ended the ladder before its end."""
+        return self._signal is not None
+
+    @property
+    def _signal(self) -> int | None:
+        """Exit status of the signal that ended it."""
+        ends = {run.end for run in self.runs}
+        return next((status for status, word in SIGNALS.values() if word in ends), None)
 
     @property
     def exit_code(self) -> int:
-        """130: interrupted; 7: the time limit came before the reference; 4: no reference is verified; else 0."""
-        if self.interrupted:
-            return 128 + signal.SIGINT
+        """130, 143: a signal; 7: the time limit came before the reference; 4: no reference is verified; else 0."""
+        if self._signal is not None:
+            return self._signal
         reference = next((run for run in self.runs if run.rung.name == REFERENCE), None)
         if reference is not None and reference.expired:
             return LimitError.exit_status

@@ -13,6 +13,7 @@ import pytest
 import mbla
 from mbla.cli import main
 from mbla.deck import read_deck
+from mbla.signals import Terminated
 from mbla.studies.interact.command import factor_ratio, file_name, question_of
 from mbla.studies.interact.study import plan_of, study_points
 from mbla.studies.interact.words import conclusions
@@ -71,10 +72,10 @@ def test_a_point_over_the_time_limit_is_told(tmp_path: Path, capsys: pytest.Capt
 
 
 class Interrupted(ThisProcess):
-    """Ctrl-C comes after the first points."""
+    """A signal comes after the first points, Ctrl-C unless it is another."""
 
-    def __init__(self, after: int) -> None:
-        self.after = after
+    def __init__(self, after: int, error: type[BaseException] = KeyboardInterrupt) -> None:
+        self.after, self.error = after, error
 
     def __enter__(self) -> Interrupted:
         return self
@@ -85,7 +86,7 @@ class Interrupted(ThisProcess):
     def run(self, plan: Plan, tasks: Sequence[Task]) -> Generator[Outcome, None, None]:
         for number, outcome in enumerate(super().run(plan, tasks)):
             if number == self.after:
-                raise KeyboardInterrupt
+                raise self.error
             yield outcome
 
 
@@ -107,6 +108,16 @@ def test_an_interrupted_study_is_shown_and_never_written_over_an_earlier_one(
     assert (table.read_bytes() == before) == earlier
 
 
+def test_a_study_that_is_terminated_has_its_points_too(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("mbla.studies.interact.command.engine_for", lambda _: Interrupted(2, Terminated))
+    assert main(["interact", str(written(tmp_path)), "--case", "push", "--directions", "4", "--json"]) == 143
+    record = json.loads(capsys.readouterr().out)
+    assert record["exit_code"] == 143
+    assert [point["verified"] for point in record["points"]].count(True) == 2
+
+
 def test_an_interruption_before_the_first_point_writes_nothing(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("mbla.studies.interact.command.engine_for", lambda _: Interrupted(0))
     assert main(["interact", str(written(tmp_path)), "--case", "push", "-q"]) == 130
@@ -118,10 +129,12 @@ def test_an_interruption_before_the_angles_are_known_writes_nothing(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, after: int
 ) -> None:
     """Of two loads each is solved alone first."""
-    monkeypatch.setattr("mbla.studies.interact.command.engine_for", lambda _: Interrupted(after))
-    arguments = ["--loads", "push", "top", "--set", "parameters.mu=0.4", "-q"]
-    assert main(["interact", str(written(tmp_path)), *arguments]) == 130
-    assert not (tmp_path / "block.out").exists()
+    arguments = ["interact", str(written(tmp_path)), "--loads", "push", "top", "--set", "parameters.mu=0.4", "-q"]
+    for error, status in ((KeyboardInterrupt, 130), (Terminated, 143)):
+        engine = Interrupted(after, error)
+        monkeypatch.setattr("mbla.studies.interact.command.engine_for", lambda _, engine=engine: engine)
+        assert main(arguments) == status
+        assert not (tmp_path / "block.out").exists()
 
 
 def test_the_points_of_two_loads_are_those_of_their_ratio(

@@ -11,6 +11,7 @@ from typing import Any
 import pytest
 
 from mbla.cli import main
+from mbla.signals import Terminated
 from mbla.studies.measuring import ChildRun
 from mbla.studies.tradeoff import ladder_run
 from tests.line import BLOCK
@@ -21,6 +22,7 @@ class LeftAfter:
     """In place of the process that measures: some tasks are answered, the next is interrupted."""
 
     answered = 1
+    error: type[BaseException] = KeyboardInterrupt
 
     def __init__(self) -> None:
         self.tasks = 0
@@ -34,7 +36,7 @@ class LeftAfter:
     def run(self, *_: Any) -> ChildRun:
         self.tasks += 1
         if self.tasks > self.answered:
-            raise KeyboardInterrupt
+            raise self.error
         return ChildRun((measured(0.5, 1.0),), "done")
 
 
@@ -72,6 +74,16 @@ def test_an_earlier_study_is_not_replaced_by_half_a_one(command: list[str], caps
     assert "accuracy: reference" in told.out
     assert [path.name for path in earlier.parent.iterdir()] == [earlier.name]
     assert earlier.read_text(encoding="utf-8") == "earlier"
+
+
+def test_a_study_that_is_terminated_says_so(
+    command: list[str], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(LeftAfter, "error", Terminated)
+    assert main([*command, "--json"]) == 143
+    record = json.loads(capsys.readouterr().out)
+    assert record["exit_code"] == 143
+    assert [setting["end"] for setting in record["settings"]] == ["done", *["terminated"] * 3]
 
 
 def test_before_anything_was_measured_nothing_is_left(
