@@ -18,7 +18,8 @@ from mbla.program.yield_conditions.limits import YieldLimits
 def assemble(model: Model, contacts: Contacts, load_case: LoadCase, *, own: bool = True) -> Program:
     """Build the program of one load case; nothing in it depends on the deck's units.
 
-    own : light blocks may have units of their own (:mod:`mbla.program.own_units`)
+    own : light blocks may have units of their own (:mod:`mbla.program.own_units`); none have where a support gives way,
+          whose load is a reaction that may be next to nothing
 
     With guided blocks it is a reduction of the program in which these are free.
     """
@@ -31,7 +32,7 @@ def _assemble_unguided(model: Model, contacts: Contacts, load_case: LoadCase, ow
     free = model.free
     dead, live = load_case.dead_load[free].ravel(), load_case.live_load[free].ravel()
     scaling = _scaling(lever_arms(model, contacts, free), dead, live)
-    if own:
+    if own and load_case.settlement is None:
         scaling = _in_own_units(scaling, model, contacts, dead, live)
     matrix = sp.diags_array(scaling.row * scaling.force) @ equilibrium_matrix(model, contacts, free)
     if not isinstance(scaling.units, float):
