@@ -31,6 +31,10 @@ from mbla.solution.stiffness import stiffness_of
 PEAK = 1e-3
 """Share of a load factor by which the end of the path must differ from it."""
 
+NEAR = 1e-2
+"""Share of a load factor below which the path may end without the state losing its name, where none is found at its
+end: how joints share forces between them, of which the springs know nothing, counts as much."""
+
 STEPS = 60
 """Steps of the scheme from the end of the path."""
 
@@ -87,6 +91,8 @@ def _from_the_end(path: StandingPath, sequence: SequenceResult, margin: float, l
     there = steps_from(run, path.last.weakening.forces, STEPS)
     above, ends = f"{found.load_factor * live:.6g}", f"{end.load_factor * live:.6g}"
     if there.state is None or there.state.residual > SOLVED or there.state.load_factor > end.load_factor + margin:
+        if found.load_factor - end.load_factor <= NEAR * found.load_factor:
+            return replace(sequence, programs=tuple(run.records))
         reason = NO_STATE.format(above, ends, path.last.load_factor * live)
         return replace(sequence, status=Status.NOT_VERIFIED, reason=reason, programs=tuple(run.records))
     return replace(there, remarks=(*sequence.remarks, *there.remarks, LOWER.format(above, ends)))
@@ -100,7 +106,8 @@ def _verdict(path: StandingPath, sequence: SequenceResult, most: float, margin: 
     if sequence.status is Status.NOT_VERIFIED:
         return PathVerdict(sequence, peak=_peak(path))
     if path.end is not None and last < state.load_factor - 2.0 * margin:
-        return PathVerdict(sequence, remark=NOT_SEEN.format(height, path.end.weakening.reason))
+        why = path.end.weakening.reason or "it falls there"
+        return PathVerdict(sequence, remark=NOT_SEEN.format(height, why))
     if last <= state.load_factor + margin:
         return PathVerdict(sequence)
     if state.load_factor <= 0.0:

@@ -233,3 +233,15 @@ def test_the_motion_of_a_peak_is_the_fall(plank: tuple[Line, LawState, PathVerdi
     assert mechanism[outwards, 0] > 0.0
     same = law_state(line.program, 0.0, found.peak.forces, found.peak.velocities, found.peak.load_factor)
     assert same.residual == found.peak.residual
+
+
+def test_next_to_the_end_of_the_path_a_state_keeps_its_name(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Half a hundredth above it, with none found at the end itself: told, not taken away."""
+    program = line_of(BLOCK, "parameters.h=0.5").program
+    state = solved(program)
+    nothing = SequenceResult(Status.NOT_VERIFIED, None, "no further step was found", ())
+    monkeypatch.setattr("mbla.solution.first_fall.steps_from", lambda *arguments: nothing)
+    found = judged(program, at(state, 1.005 * state.load_factor))
+    assert found.sequence.status is Status.SOLVED
+    assert "the load path was followed to" in found.remark
+    assert found.remark.endswith("it falls there")
