@@ -21,6 +21,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from mbla.solution.cone_solution import Log
+from mbla.solution.force_repair import repaired_forces
 from mbla.solution.law_state import LawState, SequenceResult, law_state
 from mbla.solution.law_steps import Stepper
 from mbla.solution.proximal import SOLVED, ProximalRun, steps_from
@@ -122,13 +123,15 @@ def _peak(path: StandingPath) -> LawState:
     """The last state that stands, with the motion in which the structure falls."""
     program, last = path.program, path.last.weakening
     assert last.forces is not None  # it stands
+    repaired = repaired_forces(program, last.forces, path.last.load_factor)  # of what the springs carry
+    forces, load_factor = repaired or (last.forces, path.last.load_factor)
     for state in (path.fall, path.last):
         way = None if state is None else state.weakening.displacements
         power = 0.0 if way is None else float(program.live_load @ way)
         if way is not None and power > 0.0:
-            return law_state(program, 0.0, last.forces, way / power, path.last.load_factor)
+            return law_state(program, 0.0, forces, way / power, load_factor)
     along = program.live_load / float(program.live_load @ program.live_load)
-    return law_state(program, 0.0, last.forces, along, path.last.load_factor)
+    return law_state(program, 0.0, forces, along, load_factor)
 
 
 def _record(path: StandingPath, number: int, seconds: float) -> ProgramRecord:

@@ -99,7 +99,7 @@ def test_a_peak_is_looked_for_where_it_is_asked_for(plank: tuple[Line, LawState,
 def test_the_forces_of_a_peak_carry_its_load(plank: tuple[Line, LawState, PathVerdict]) -> None:
     line, _, found = plank
     assert found.peak is not None
-    assert unbalanced(line.program, found.peak) < 1e-6
+    assert unbalanced(line.program, found.peak) < 1e-8
     assert yield_violation(found.peak.forces, line.program.limits).max() < 1e-9
     assert found.peak.residual > 1e-3  # passed, not at rest: its velocities are none of a mechanism at this load
 
@@ -137,7 +137,7 @@ def test_what_stands_up_to_the_associative_factor_has_its_peak_there() -> None:
     most = (1.0 - 1e-7) * state.load_factor
     found = judged(program, at(state, 0.5 * state.load_factor), most=most)
     assert found.peak is not None
-    assert found.peak.load_factor == most
+    assert found.peak.load_factor == pytest.approx(most, rel=1e-6)
     assert "the peak is the collapse load" in found.remark
 
 
