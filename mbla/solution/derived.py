@@ -6,20 +6,17 @@ from dataclasses import replace
 
 import numpy as np
 
-from mbla.arrays import FloatArray, IntArray
+from mbla.arrays import FloatArray
 from mbla.contacts.contacts import Contacts
 from mbla.contacts.glue import Solids, solids_of
 from mbla.model.model import LoadCase, Model
 from mbla.program.assemble import yield_limits
 from mbla.program.convex import assemble_convex
 from mbla.solution.contact_modes import contact_modes
-from mbla.solution.glued import MOTIONS
+from mbla.solution.glued import MOTIONS, rule_of
 from mbla.solution.solution import Mechanics, Solution
 from mbla.solution.statics import contact_velocities
 from mbla.solution.verify import dilatancy_of
-
-BY_NORMALITY = ("associative", "outer", "level")
-"""parts of a solution that flow by the associative rule whatever that of the analysis"""
 
 ROUNDING = 1e-9
 """Difference of velocities over the largest that is rounding: those stored are kept then, as modes at thresholds follow
@@ -27,7 +24,7 @@ from them."""
 
 
 def with_derived(model: Model, contacts: Contacts, load_case: LoadCase, solution: Solution) -> Solution:
-    """The solution with velocities and modes of the contact points as its mechanisms and forces give them."""
+    """The solution with velocities and modes of contact points, and resultants, as mechanisms and forces give them."""
     solids = solids_of(model, contacts)
     found: dict[int, Mechanics] = {}
     for part in MOTIONS:
@@ -38,9 +35,7 @@ def with_derived(model: Model, contacts: Contacts, load_case: LoadCase, solution
             if _near(moved, mechanics.contact_velocities):
                 moved = mechanics.contact_velocities
             mechanics = replace(mechanics, mechanism=still, contact_velocities=moved)
-            rule = "associative" if part in BY_NORMALITY else solution.flow_rule
-            modes = _modes(solids, load_case, mechanics, rule)
-            found[id(getattr(solution, part))] = replace(mechanics, modes=modes)
+            found[id(getattr(solution, part))] = _with_modes(solids, load_case, mechanics, rule_of(part, solution))
     parts = {part: found.get(id(getattr(solution, part))) for part in MOTIONS}
     return replace(solution, **parts)  # type: ignore[arg-type]  # names and types are those of the parts
 
@@ -50,13 +45,15 @@ def _near(one: FloatArray, other: FloatArray) -> bool:
     return bool(np.abs(one - other).max(initial=0.0) <= ROUNDING * np.abs(one).max(initial=0.0))
 
 
-def _modes(solids: Solids, load_case: LoadCase, mechanics: Mechanics, flow_rule: str) -> IntArray:
-    limits = yield_limits(solids.model, solids.contacts)
+def _with_modes(solids: Solids, load_case: LoadCase, mechanics: Mechanics, flow_rule: str) -> Mechanics:
+    """With modes of the contact points, and resultants of the interfaces where there are any."""
+    limits, forces = yield_limits(solids.model, solids.contacts), mechanics.contact_forces
     slope = dilatancy_of(limits, flow_rule)
     if mechanics.interface_motions is None:
-        return contact_modes(mechanics.contact_forces, mechanics.contact_velocities, limits, slope)
+        return replace(mechanics, modes=contact_modes(forces, mechanics.contact_velocities, limits, slope))
     from mbla.solution.convex import modes_of  # late: the law of interfaces is asked for rarely
 
     convex = assemble_convex(solids.model, solids.contacts, solids.load_case(load_case))
     of_solids = replace(mechanics, mechanism=solids.solid_motions(mechanics.mechanism))
-    return modes_of(convex, of_solids, slope)
+    resultants = (convex.resultants @ forces.ravel()).reshape(-1, 6)
+    return replace(mechanics, modes=modes_of(convex, of_solids, slope), resultants=resultants)

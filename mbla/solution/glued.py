@@ -19,6 +19,15 @@ MOTIONS = ("mechanics", "associative", "lower", "upper", "peak", "outer", "level
 """parts of a solution that hold a mechanism"""
 
 
+BY_NORMALITY = ("associative", "outer", "level")
+"""parts of a solution that flow by the associative rule whatever that of the analysis"""
+
+
+def rule_of(part: str, solution: Solution) -> str:
+    """Flow rule of a part of a solution."""
+    return "associative" if part in BY_NORMALITY else solution.flow_rule
+
+
 def solution_on_blocks(solution: Solution, solids: Solids) -> Solution:
     """The solution for the solids with the motions of all blocks; the block that falls is the first of its solid."""
     if solids.solid_of_block is None:

@@ -20,10 +20,12 @@ from mbla.contacts.contacts import Contacts
 from mbla.contacts.glue import solids_of
 from mbla.model.model import LoadCase, Model
 from mbla.program.assemble import yield_limits
-from mbla.solution.glued import solution_on_solids
+from mbla.solution.glued import rule_of, solution_on_solids
+from mbla.solution.residuals import residuals_of
 from mbla.solution.solution import Checks, Solution, Standing, Status
+from mbla.solution.verify import dilatancy_of
 from mbla.solution.verify import verify as verify_mechanics
-from mbla.solution.verify_convex import convex_lock_failures, point_limits, verify_convex
+from mbla.solution.verify_convex import convex_lock_failures, convex_residuals, point_limits, verify_convex
 from mbla.solution.verify_lock import lock_failures
 from mbla.solution.verify_peak import peak_check
 from mbla.solution.verify_polyhedral import verify_polyhedral
@@ -72,12 +74,29 @@ def _verify(model: Model, contacts: Contacts, load_case: LoadCase, solution: Sol
         failures = (
             never_failures(load_case, checks)
             if load_case.tilt is not None and solution.lock is None and solution.mechanics is not None
-            else _lock_failures(model, contacts, load_case, solution)
+            else (*failures, *_lock_failures(model, contacts, load_case, solution))
         )
         checks = replace(checks, verified=not failures, failures=failures)
     return replace(
         checks, lower=lower, upper=upper, peak_load_factor=peak_check(model, contacts, load_case, solution.peak)
     )
+
+
+def residual_of(model: Model, contacts: Contacts, load_case: LoadCase, solution: Solution, part: str) -> float:
+    """By how much forces and mechanism of a part of a solution miss the joint law at most, by the rule of that part.
+
+    Friction polyhedra are measured by the circle. NaN where nothing moves.
+    """
+    solids = solids_of(model, contacts)
+    of_solids, _ = solution_on_solids(solution, solids)
+    mechanics = getattr(of_solids, part)
+    if part == "level" and load_case.tilt is not None:
+        load_case = replace(load_case, live_load=load_case.tilt.across)
+    case, rule = solids.load_case(load_case), rule_of(part, solution)
+    if mechanics.interface_motions is not None:
+        return convex_residuals(solids.model, solids.contacts, case, mechanics, rule).largest
+    slope = dilatancy_of(yield_limits(solids.model, solids.contacts), rule)
+    return residuals_of(solids.model, solids.contacts, case, mechanics, slope).largest
 
 
 def level_bound(model: Model, contacts: Contacts, load_case: LoadCase, solution: Solution) -> float:

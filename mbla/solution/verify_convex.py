@@ -272,6 +272,13 @@ def _residuals(case: _Case, mechanics: Mechanics, flow_rule: str) -> Residuals:
     )
 
 
+def convex_residuals(
+    model: Model, contacts: Contacts, load_case: LoadCase, mechanics: Mechanics, flow_rule: str
+) -> Residuals:
+    """Residuals of points and interfaces of any forces and motions under a flow rule."""
+    return _residuals(_Case(model, contacts, load_case), mechanics, flow_rule)
+
+
 def convex_lock_failures(model: Model, contacts: Contacts, lock: FloatArray) -> tuple[str, ...]:
     """Why forces, (n_points, 3) [N], are not within the conditions on interfaces however often they are taken."""
     case = _Case(model, contacts, model.load_cases[0])

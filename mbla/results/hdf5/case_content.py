@@ -14,6 +14,7 @@ from mbla.results.hdf5.mechanism_fields import MECHANICS_GROUPS
 from mbla.results.outcome import least_and_greatest
 from mbla.results.results import CaseResult
 from mbla.solution.solution import Mechanics, ReductionStep, Solution, StandingResult
+from mbla.solution.verification import residual_of
 
 Value: TypeAlias = "np.typing.NDArray[np.generic] | str | Sequence[str] | float | int | bool"
 Content: TypeAlias = dict[str, Value]
@@ -79,17 +80,18 @@ def case_content(model: Model, contacts: Contacts, case: CaseResult) -> Content:
         content["reaction"] = settlement.reaction(solution.mechanics.load_factor)
     least, greatest = least_and_greatest(model, case)
     content |= {"least_load_factor": least, "greatest_load_factor": greatest}
-    return content | _answers(case) | _collapse(model, contacts, case) | _further(solution)
+    return content | _answers(model, contacts, case) | _collapse(model, contacts, case) | _further(solution)
 
 
-def _answers(case: CaseResult) -> Content:
-    """Forces and velocities of every answer there is."""
+def _answers(model: Model, contacts: Contacts, case: CaseResult) -> Content:
+    """Forces and velocities of every answer there is, and how badly they fit the joint law."""
     content: Content = {}
     for group, part, _ in MECHANICS_GROUPS:
         mechanics: Mechanics | None = getattr(case.solution, part)
         if mechanics is None or (part == "associative" and associative_is_own(case)):
             continue
         content |= {group + name: getattr(mechanics, name) for name in MECHANICS_FIELDS}
+        content[f"{group}residual"] = residual_of(model, contacts, case.load_case, case.solution, part)
         if mechanics.resultants is not None:
             content[f"{group}resultants"] = mechanics.resultants
         if mechanics.interface_motions is not None:

@@ -137,8 +137,9 @@ FURTHER_ANSWERS = (
         "text",
         (),
         "1",
-        "whether it stands under its dead load alone: yes (with proof), only by self-stress, no, doubtful",
+        "whether it stands under its dead load alone: yes, which needs its proof, only by self-stress, no, doubtful",
         part="standing",
+        told=FALLS,
     ),
     Field(
         f"{CASE}/standing/falls",

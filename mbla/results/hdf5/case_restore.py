@@ -47,6 +47,8 @@ def case_from(load_case: LoadCase, get: dict[str, Any]) -> CaseResult:
     answers = {part: _mechanics(get, group, part) for group, part, _ in MECHANICS_GROUPS}
     if answers["associative"] is None and get["flow_rule"] == "associative":
         answers["associative"] = answers["mechanics"]
+    if answers["outer"] is not None and answers["associative"] is None:
+        raise ValueError("a circumscribed polyhedron without an inscribed one")
     lower, upper = get["range"].tolist()
     for name in ("flow_rule", "contact_model"):
         if get[name] not in get_args(AnalysisSection.model_fields[name].annotation):

@@ -32,18 +32,25 @@ def differences(found: h5py.Group, wanted: h5py.Group, path: str = "") -> Iterat
             yield f"{place} does not follow from what the file holds"
         elif name not in found:
             yield f"{place} is missing"
-        elif hasattr(found[name], "shape") != hasattr(wanted[name], "shape"):
-            yield f"{place} is not what it should be, a group or a dataset"
-        elif hasattr(wanted[name], "shape"):
-            yield from _attributes(found[name], wanted[name], place)
-            yield from _values(found[name][()], wanted[name][()], place)
         else:
-            yield from differences(found[name], wanted[name], place)
+            yield from _of_one(found[name], wanted[name], place)
+
+
+def _of_one(found: h5py.HLObject, wanted: h5py.HLObject, path: str) -> Iterator[str]:
+    """Of a group or a dataset."""
+    if hasattr(found, "shape") != hasattr(wanted, "shape"):
+        yield f"{path} is not what it should be, a group or a dataset"
+    elif hasattr(wanted, "shape"):
+        yield from _attributes(found, wanted, path)
+        yield from _values(found[()], wanted[()], path)
+    else:
+        yield from differences(found, wanted, path)
 
 
 def _attributes(found: h5py.HLObject, wanted: h5py.HLObject, path: str) -> Iterator[str]:
-    for name in sorted((set(found.attrs) | set(wanted.attrs)) - set(LINKS)):
-        if not (name in found.attrs and name in wanted.attrs and _same(found.attrs[name], wanted.attrs[name])):
+    own, right = ({name: attrs[name] for name in attrs if name not in LINKS} for attrs in (found.attrs, wanted.attrs))
+    for name in sorted(own.keys() | right.keys()):
+        if not (name in own and name in right and _same(own[name], right[name])):
             yield f"the attribute {name} of {path} is not as it should be"
 
 

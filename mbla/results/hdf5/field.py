@@ -37,7 +37,7 @@ VERSIONS, TIMES, FILES = "versions and date", "times", "names of files"
 WORDS = "reasons and remarks in words"
 COURSE = "how it was solved: scheme, programs, iterations, steps of the path, sizes, reductions"
 SEARCHES = "tries that did not agree, ranges of normal forces"
-FALLS = "why, and with which block first, a structure falls"
+FALLS = "of what does not stand: that, why, and with which block first"
 PASSED = "mechanism of a peak"
 
 

@@ -49,6 +49,15 @@ def _mechanics(group: str, part: str, what: str) -> tuple[Field, ...]:
             told=told,
         ),
         Field(f"{group}modes", "int", ("point",), "1", "contact mode: 0 stick, 1 slide, 2 open", part=part, told=told),
+        Field(
+            f"{group}residual",
+            "float",
+            (),
+            "1",
+            "by how much these forces and velocities miss the joint law at most, nan where nothing moves",
+            open=True,
+            part=part,
+        ),
         *_resultants(group, part),
     )
 

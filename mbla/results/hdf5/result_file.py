@@ -145,6 +145,8 @@ def differences_of_file(path: Path, image: bytes) -> tuple[str, ...]:
     import h5py
 
     try:
+        if path.read_bytes() == image:  # on the machine that wrote it
+            return ()
         with h5py.File(path, "r", locking=False) as found, h5py.File(io.BytesIO(image), "r") as wanted:
             return tuple(differences(found, wanted))
     except (OSError, *DAMAGE) as error:

@@ -177,7 +177,7 @@ def test_resultants_without_forces_are_refused(tmp_path: Path) -> None:
     path = tmp_path / "full.h5"
     path.write_bytes(write_results_hdf5(full_results()))
     with changing(path) as file:
-        for name in ("load_factor", "contact_forces", "contact_velocities", "mechanism", "modes"):
+        for name in ("load_factor", "contact_forces", "contact_velocities", "mechanism", "modes", "residual"):
             del file[f"cases/push_x/upper/{name}"]
     assert "resultants without forces: upper" in refused(path)
 

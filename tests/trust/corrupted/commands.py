@@ -22,7 +22,7 @@ HISTORY = frozenset(
     (
         *("mbla", "deck", "title", "time", "created", "deck_sha256", "notices", "files", "provenance", "settings"),
         *("iterations", "programs", "path", "size", "reductions", "solver", "scheme", "reason", "remarks", "set"),
-        *("overrides", "agrees", "disagreements", "seconds"),
+        *("overrides", "agrees", "disagreements", "not_verified", "seconds"),
     )
 )
 """keys of the record that prove nothing and that nothing in the file proves: what was run where, and how it went"""
@@ -98,11 +98,16 @@ def faults_of(path: Path, ended: Ended) -> list[str]:
     if ended.mib > MOST_MIB:
         faults.append(f"{ended.mib:.0f} MiB")
     if ended.status == REFUSED:
-        if len(ended.err.splitlines()) != 1 or str(path) not in ended.err or ended.out:
+        if len(ended.err.splitlines()) != 1 or str(path) not in ended.err or not _is_refusal(ended.out):
             faults.append("a refusal that is not one line about the file")
         if ended.seconds > MOST_SECONDS:
             faults.append(f"refused after {ended.seconds:.1f} s")
     return [f"{fault}: {ended.err.strip()[-300:]}" for fault in faults]
+
+
+def _is_refusal(out: str) -> bool:
+    """Whether nothing was printed, or the object of a refusal where one was asked for."""
+    return not out or json.loads(out)["exit_code"] == REFUSED
 
 
 def claims(record: str) -> dict[str, Any]:

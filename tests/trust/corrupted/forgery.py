@@ -10,6 +10,8 @@ from typing import Any
 import h5py
 import numpy as np
 
+from mbla.results.hdf5.layout import VERSION
+
 Edit = Callable[[h5py.File, str, random.Random], None]
 
 
@@ -129,7 +131,7 @@ def _attribute(file: h5py.File, name: str, generator: random.Random) -> None:
 
 
 def _version(file: h5py.File, name: str, generator: random.Random) -> None:
-    file.attrs["version"] = generator.choice([0, 1, 4, 6, 99, -1, 2**62])
+    file.attrs["version"] = generator.choice([0, 1, VERSION - 1, VERSION + 1, 99, -1, 2**62])
 
 
 def _incomplete(file: h5py.File, name: str, generator: random.Random) -> None:

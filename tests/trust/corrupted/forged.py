@@ -1,0 +1,252 @@
+"""Files forged through HDF5 and sealed anew: any dataset or attribute changed, removed, or swapped between cases."""
+
+from __future__ import annotations
+
+import random
+import shutil
+from collections.abc import Callable
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import h5py
+import numpy as np
+
+from mbla.results.hdf5.comparing import AGREEMENT, LINKS
+from mbla.results.hdf5.layout import LAYOUT
+from mbla.run_deck import run
+from mbla.run_options import RunOptions
+from tests.results.changed_files import changing
+
+DECKS = Path(__file__).parents[3] / "decks" / "benchmarks"
+SEVERAL = {
+    "several.yaml": """\
+mbla: 1
+include: [parts/dry.yaml]
+materials: {stone: {density: 2000}}
+blocks: [{mesh: {group: block, material: stone, file: parts/block.obj, up: z, units: m}}]
+contacts: {joint: dry}
+supports: [{ground: {z: 0}}]
+load_cases: {push: {live: [{acceleration: [1, 0, 0]}]}, back: {live: [{acceleration: [-1, 0, 0.2]}]}}
+analysis: {force_ranges: true}
+""",
+    "parts/dry.yaml": "mbla: 1\njoints: {dry: {friction: 0.3}}\n",
+    "parts/block.obj": """\
+v 0 0 0
+v 1 0 0
+v 1 1 0
+v 0 1 0
+v 0 0 2.5
+v 1 0 2.5
+v 1 1 2.5
+v 0 1 2.5
+f 1 4 3 2
+f 5 6 7 8
+f 1 2 6 5
+f 2 3 7 6
+f 3 4 8 7
+f 4 1 5 8
+""",
+}
+"""a deck with an included file and a mesh"""
+FORGED: dict[str, tuple[str, ...]] = {
+    "wall_5x5": (),
+    "ferris_wall_1": (),
+    "plank_in_clamp": (),
+    "tilting_block_cohesion": (),
+    "beam_on_three_supports": (),
+    "torque_convex": (),
+    "eccentric_compression_convex": (),
+    "block_sliding_polyhedral": (),
+    "beam_under_travelling_load": ("load_cases.crane.live.0.travel.positions=4",),
+    "bar_between_walls": (),
+    "incline_too_steep": (),
+    "groove_locked": (),
+    "glued_lintel": (),
+    "several": (),
+}
+"""decks and what is changed in them: every flow rule and contact model, and every kind of proof, between them"""
+
+SCALES = {(f"{field.path.rpartition('/')[0]}/{name}", field.told) for field in LAYOUT for name in field.dims}
+TOLD = {field.path for field in LAYOUT if field.told} | {path for path, told in SCALES if told}
+TOLD -= {path for path, told in SCALES if not told}
+"""datasets that say that they are not verified, and scales that none but these have"""
+PROOFS = {
+    *("lock", "level/lock", "standing/contact_forces", "standing/settlement"),
+    *("certificate", "certificate_torsion_motions", "certificate_crushing_motions"),
+}
+"""datasets below a case that prove a claim and are none: others may prove the same"""
+TOLD_ATTRIBUTES = ("mbla_version", "created")
+WORDS = (
+    *("solved", "approximate", "unbounded", "no_equilibrium", "not_verified"),
+    *("yes", "only by self-stress", "doubtful", "associative", "non_associative", "dilatancy"),
+    *("convex", "concave", "clarabel", "steel", ""),
+)
+
+
+def write_decks(folder: Path, names: tuple[str, ...] = tuple(FORGED)) -> dict[str, Path]:
+    """Decks run in a folder: path of each result file by the name of its deck."""
+    for name, text in SEVERAL.items():
+        path = folder / name
+        path.parent.mkdir(exist_ok=True)
+        path.write_text(text, encoding="utf-8")
+    for name in names:
+        deck = folder / "several.yaml" if name == "several" else DECKS / f"{name}.yaml"
+        run(deck, RunOptions(folder=folder / name, overrides=FORGED[name], force=True))
+    return {name: folder / name / f"{name}.h5" for name in names}
+
+
+Content = dict[tuple[str, str], Any]
+"""values by the path of their dataset and the name of an attribute, which is empty for the dataset itself"""
+
+
+@cache
+def original_content(path: Path) -> Content:
+    """Everything in a file that nobody changes."""
+    return content_of(path)
+
+
+def content_of(path: Path) -> Content:
+    """Everything in a file but where its parts stand."""
+    found: Content = {}
+
+    def add(name: str, item: Any) -> None:
+        if isinstance(item, h5py.Dataset):
+            found[name, ""] = item[()]
+        found.update({(name, key): value for key, value in item.attrs.items() if key not in LINKS})
+
+    with h5py.File(path) as file:
+        add("", file)
+        file.visititems(add)
+    return found
+
+
+def claims_changed(one: Content, other: Content) -> list[str]:
+    """Paths of datasets and attributes that differ, without those that are not verified, and by more than tolerance."""
+    return sorted(
+        "@".join(key).removesuffix("@")
+        for key in one.keys() | other.keys()
+        if not _is_told(*key, one, other) and not (key in one and key in other and _same(one[key], other[key]))
+    )
+
+
+def is_proof(claim: str) -> bool:
+    """Whether what was changed is another proof of a claim that stayed."""
+    return claim.startswith("cases/") and claim.split("/", 2)[2] in PROOFS
+
+
+def _is_told(path: str, attribute: str, one: Content, other: Content) -> bool:
+    """Whether it is not verified; attributes are, but go with their dataset."""
+    if not path:
+        return attribute in TOLD_ATTRIBUTES
+    first, _, rest = path.partition("/")
+    told = (f"cases/*/{rest.partition('/')[2]}" if first == "cases" else path) in TOLD
+    return told and (not attribute or not ((path, "") in one and (path, "") in other))
+
+
+def _same(one: Any, other: Any) -> bool:
+    first, second = np.asarray(one), np.asarray(other)
+    if first.shape != second.shape:
+        return False
+    if first.dtype.kind != "f" or second.dtype.kind != "f":
+        return bool(np.array_equal(first, second))
+    size = max(1.0 if not first.ndim else 0.0, float(np.abs(second[np.isfinite(second)]).max(initial=0.0)))
+    return bool(np.allclose(first, second, rtol=0.0, atol=2.0 * AGREEMENT * size, equal_nan=True))
+
+
+Forgery = Callable[[h5py.File, str, random.Random], None]
+
+
+def _changed(file: h5py.File, name: str, generator: random.Random) -> None:
+    """One entry, or all: a share of itself between 1e-3 and 1e3 more or less, nothing, no number, another word."""
+    values = np.array(file[name][()])
+    flat = values.reshape(-1)
+    places = slice(None) if generator.random() < 0.3 else slice(row := generator.randrange(max(len(flat), 1)), row + 1)
+    if values.dtype.kind == "f":
+        size = float(np.abs(flat[np.isfinite(flat)]).max(initial=0.0)) or 1.0
+        share = generator.choice([-1, 1]) * 10.0 ** generator.uniform(-3, 3)
+        choices = (flat[places] * (1.0 + share), flat[places] + share * size, 0.0, np.nan, np.inf, -flat[places])
+        flat[places] = generator.choice(choices)
+    elif values.dtype.kind == "u":
+        flat[places] = 1 - np.minimum(flat[places], 1)
+    elif values.dtype.kind == "i":
+        flat[places] = generator.choice((flat[places] + 1, flat[places] - 1, 0, 10 * flat[places]))
+    else:
+        values = values.astype("S400")
+        values.reshape(-1)[places] = generator.choice(WORDS).encode()
+    _put(file, name, values)
+
+
+def _put(file: h5py.File, name: str, values: Any) -> None:
+    """Values in place of those of a dataset, whose attributes stay."""
+    old = file[name]
+    if values.dtype.kind == "S":
+        kind = h5py.string_dtype("utf-8", max(2, *(len(text) for text in np.append(values.ravel(), b""))))
+        attributes = {key: old.attrs[key] for key in old.attrs if key not in LINKS and key != "DIMENSION_LABELS"}
+        del file[name]
+        file.create_dataset(name, data=values.astype(kind))
+        file[name].attrs.update(attributes)
+    else:
+        old[...] = values
+
+
+def _removed(file: h5py.File, name: str, generator: random.Random) -> None:
+    """A dataset, or the whole group that it stands in."""
+    group = name.rpartition("/")[0]
+    del file[group if group.count("/") > 1 and generator.random() < 0.5 else name]
+
+
+def _swapped(file: h5py.File, name: str, generator: random.Random) -> None:
+    """The dataset with that of another load case."""
+    place = name.split("/")
+    others = ["/".join((place[0], other, *place[2:])) for other in file["cases"] if place[0] == "cases"]
+    others = [other for other in others if other in file and other != name]
+    if not others:
+        return _changed(file, name, generator)
+    other = generator.choice(others)
+    file.move(name, "swapped")
+    file.move(other, name)
+    file.move("swapped", other)
+    return None
+
+
+def _attribute(file: h5py.File, name: str, generator: random.Random) -> None:
+    """An attribute of the file, or of a dataset, changed or removed."""
+    owner = file if generator.random() < 0.4 else file[name]
+    key = generator.choice([key for key in owner.attrs if key not in (*LINKS, "CLASS", "NAME", "DIMENSION_LABELS")])
+    if generator.random() < 0.3:
+        del owner.attrs[key]
+    else:
+        owner.attrs[key] = generator.choice([b"MN", b"forged", 0, 1, 7])
+
+
+KINDS: tuple[Forgery, ...] = (_changed, _changed, _changed, _removed, _swapped, _attribute)
+
+
+def forge(original: Path, path: Path, generator: random.Random) -> str:
+    """Forge a file in one thing, and seal it; what was done, in words."""
+    before = original_content(original)
+    while True:
+        shutil.copy(original, path)
+        said = _forged(path, generator)
+        after = content_of(path)
+        if before.keys() != after.keys() or any(not _identical(before[key], after[key]) for key in before):
+            return said
+
+
+def _identical(one: Any, other: Any) -> bool:
+    first, second = np.asarray(one), np.asarray(other)
+    numbers = first.dtype.kind == "f" and second.dtype.kind == "f"
+    return bool(np.array_equal(first, second, equal_nan=numbers))
+
+
+def _forged(path: Path, generator: random.Random) -> str:
+    with h5py.File(path) as file:
+        found: list[str] = []
+        file.visititems(lambda name, item: found.append(name) if isinstance(item, h5py.Dataset) else None)
+    of_cases = [name for name in found if name.startswith("cases/")]
+    name = generator.choice(of_cases if generator.random() < 0.7 else found)
+    kind = generator.choice(KINDS)
+    with changing(path) as file:
+        kind(file, name, generator)
+    return f"{kind.__name__.removeprefix('_')} {name}"
