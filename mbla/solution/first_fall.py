@@ -3,7 +3,8 @@
 Forces and mechanism may fit the joint law at a load factor that the structure never reaches, or never rests at:
 
 - above the end of the path (:mod:`mbla.solution.standing_path`), where it no longer stands before. Steps of the scheme
-  from the last state that stands lead to the state that belongs to the end; where they lead to none there is no answer;
+  from the last state that stands, with the motion in which it falls, lead to the state that belongs to the end; where
+  they lead to none there is no answer;
 - below it, where forces that friction holds after the dead load was applied are lost as joints slide. Under a given
   load it collapses at the end of the path then, its peak, and the lower figure is what is left while it moves;
 - below zero, which is no load factor at all of a structure that stands.
@@ -23,8 +24,8 @@ import numpy as np
 from mbla.solution.cone_solution import Log
 from mbla.solution.force_repair import repaired_forces
 from mbla.solution.law_state import LawState, SequenceResult, law_state
-from mbla.solution.law_steps import Stepper
-from mbla.solution.proximal import SOLVED, ProximalRun, steps_from
+from mbla.solution.law_steps import Stepper, step_near
+from mbla.solution.proximal import SOLVED, ProximalRun, step_size, steps_from
 from mbla.solution.solution import ProgramRecord, Status
 from mbla.solution.standing_path import GROWTH, SMALL, StandingPath
 from mbla.solution.stiffness import stiffness_of
@@ -33,8 +34,8 @@ PEAK = 1e-3
 """Share of a load factor by which the end of the path must differ from it."""
 
 NEAR = 1e-2
-"""Share of a load factor below which the path may end without the state losing its name, where none is found at its
-end: how joints share forces between them, of which the springs know nothing, counts as much."""
+"""Share of a load factor by which a state may lie above the last one that stands: how joints share forces between them,
+which follows from their stiffness, counts as much."""
 
 STEPS = 60
 """Steps of the scheme from the end of the path."""
@@ -86,13 +87,16 @@ def _from_the_end(path: StandingPath, sequence: SequenceResult, margin: float, l
     program, live, found, end = path.program, path.program.scaling.live, sequence.state, path.fall
     assert found is not None
     assert end is not None
-    assert path.last.weakening.forces is not None
     stepper = Stepper(stiffness_of(program), np.zeros(program.n_points), path.settings, log)
     run = ProximalRun(stepper, list(sequence.programs))
-    there = steps_from(run, path.last.weakening.forces, STEPS)
+    start = _peak(path)
+    first = step_near(stepper, start, step_size(program, start.forces))
+    there = steps_from(run, start.forces if first is None else first.forces, STEPS, first)
     above, ends = f"{found.load_factor * live:.6g}", f"{end.load_factor * live:.6g}"
-    if there.state is None or there.state.residual > SOLVED or there.state.load_factor > end.load_factor + margin:
-        if found.load_factor - end.load_factor <= NEAR * found.load_factor:
+    most = min((1.0 + NEAR) * path.last.load_factor + margin, found.load_factor)
+    high = there.state is not None and there.state.load_factor > most
+    if there.state is None or there.state.residual > SOLVED or high:
+        if found.load_factor - path.last.load_factor <= NEAR * found.load_factor:
             return replace(sequence, programs=tuple(run.records))
         reason = NO_STATE.format(above, ends, path.last.load_factor * live)
         return replace(sequence, status=Status.NOT_VERIFIED, reason=reason, programs=tuple(run.records))
@@ -147,7 +151,7 @@ NOT_SEEN = (
 )
 LOWER = (
     "the steps came to {}, above the load that the structure reaches: from the dead load on it no longer stands at {}, "
-    "where the state given was found"
+    "next to which the state given was found"
 )
 NO_STATE = (
     "forces and mechanism fit the joint law at {}, but from the dead load on the structure no longer stands at {}; "

@@ -23,6 +23,7 @@ from mbla.solution.cone_solution import Log
 from mbla.solution.exact_law import REGULARIZATION, LawStep, exact_step, joint_state, joint_tangents
 from mbla.solution.interior_joints import InteriorLaw, exact_law, lagged_law
 from mbla.solution.interior_step import InteriorResult, interior_step
+from mbla.solution.law_state import LawState
 from mbla.solution.settings import SolverSettings
 from mbla.solution.stiffness import Stiffness
 
@@ -133,6 +134,14 @@ def continuing_step(stepper: Stepper, anchor: FloatArray, rho: float, before: St
         if step.residual <= FITS:
             return replace(_step_of(anchor, size, step, work), by_continuation=True), work
     return None, work
+
+
+def step_near(stepper: Stepper, state: LawState, rho: float) -> Step | None:
+    """The step from the forces of a state that Newton's method finds near its motion, None where it finds none."""
+    step = exact_step(
+        stepper.stiffness, stepper.slope, state.forces, rho, state.velocities, state.load_factor, 3 * NEWTON_STEPS
+    )
+    return _step_of(state.forces, rho, step, step.factorizations) if step.residual <= FITS else None
 
 
 def _sizes_that_go_on(before: Step, rho: float) -> tuple[float, ...]:

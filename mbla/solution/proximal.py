@@ -146,9 +146,8 @@ def gravity_state(run: ProximalRun) -> FloatArray | SequenceResult:
     return _broken_off(run, found) if isinstance(found, ConeSolution) else found
 
 
-def steps_from(run: ProximalRun, anchor: FloatArray, max_programs: int) -> SequenceResult:
-    """Steps from given forces, (n_points, components), until they come to rest."""
-    before: Step | None = None
+def steps_from(run: ProximalRun, anchor: FloatArray, max_programs: int, before: Step | None = None) -> SequenceResult:
+    """Steps from given forces, (n_points, components), until they come to rest; ``before`` led to them."""
     fitting, convex_steps, rho, first = 0, 0, step_size(run.program, anchor), len(run.states)
     deadline = run.stepper.settings.deadline
     for _ in range(max_programs):

@@ -9,7 +9,9 @@ import numpy as np
 import pytest
 
 from mbla.solution import law_steps, proximal
+from mbla.solution.cone_solution import ConeSolution
 from mbla.solution.exact_law import LawStep
+from mbla.solution.gravity import gravity_forces
 from mbla.solution.interior_step import InteriorResult
 from mbla.solution.law_state import LawState
 from mbla.solution.law_steps import (
@@ -23,6 +25,7 @@ from mbla.solution.law_steps import (
     lagged_step,
     next_step,
     repeated_step,
+    step_near,
 )
 from mbla.solution.proximal import (
     CONVEX_STEPS,
@@ -204,3 +207,17 @@ def test_joints_that_cannot_go_on_as_before_say_so(solve: object, monkeypatch: p
     monkeypatch.setattr(Stiffness, "factorized", lambda *arguments, **named: solve)
     assert continued(of, before, before.forces) is None
     assert continuing_step(of, before.forces, RHO, before) == (None, 0)
+
+
+def test_a_step_near_a_state_goes_on_with_its_motion() -> None:
+    """From the forces at rest of a block on its way to slide, with the motion in which it does."""
+    program = line_of(BLOCK, "parameters.h=0.5").program
+    stepper = Stepper(stiffness_of(program), np.zeros(program.n_points), SolverSettings(1e-8), lambda record: None)
+    sliding = program.live_load / float(program.live_load @ program.live_load)
+    gravity = gravity_forces(program, stepper.settings, stepper.log, [])
+    assert not isinstance(gravity, ConeSolution)
+    found = step_near(stepper, LawState(gravity, sliding, 0.0, np.nan), 0.03)
+    assert found is not None
+    assert found.exact
+    assert found.load_factor == pytest.approx(0.5, rel=1e-6)
+    assert step_near(stepper, LawState(gravity, np.full_like(sliding, np.nan), 0.0, np.nan), 0.03) is None
