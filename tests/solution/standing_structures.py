@@ -186,7 +186,7 @@ def mixed_weights() -> str:
 
 def without_weight(resting: bool) -> str:
     """Two stacked blocks of which only the lower has a dead load; the upper one rests on it or hangs between walls."""
-    dead = "[{force: [0, 0, -1000], on: low, at: [0.5, 0.5, 0.5]}]"
+    dead = "[{gravity: none}, {force: [0, 0, -1000], on: low, at: [0.5, 0.5, 0.5]}]"
     upper = box(0, 1, 0.5, 1, group="high") if resting else box(0, 1, 2, 2.5, group="high")
     return deck(box(0, 1, 0, 0.5, group="low") + upper, LEVEL + ("" if resting else WALLS), dead=dead)
 
@@ -246,5 +246,5 @@ STRUCTURES = [
     Structure("block in the air", deck(box(0, 1, 0, 1) + box(0, 1, 3, 4)), NO, (1,)),
     Structure("block without weight on another", without_weight(resting=True), YES),
     Structure("block without weight between walls", without_weight(resting=False), YES),
-    Structure("no dead load", bar("friction: 0.5", dead="[]"), YES),
+    Structure("no dead load", bar("friction: 0.5", dead="[{gravity: none}]"), YES),
 ]

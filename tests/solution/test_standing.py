@@ -135,7 +135,7 @@ def test_segmental_arches_in_a_wall_are_decided(rise: float, friction: float) ->
 
 
 def test_a_load_that_is_zero_is_carried() -> None:
-    program = line_of(bar("friction: 0.5", dead="[]")).program
+    program = line_of(bar("friction: 0.5", dead="[{gravity: none}]")).program
     assert not np.any(program.dead_load)
     assert weaken_springs(program, "dead_load", program.limits, SETTINGS).outcome is Outcome.CARRIED
 
