@@ -14,6 +14,7 @@ from mbla.deck_record import deck_record
 from mbla.model import Model, build_model
 from mbla.model.model import LoadCase
 from mbla.program import assemble
+from mbla.program.convex.choice import has_conditions_on_interfaces
 from mbla.program.kinematic import ConeProgram, kinematic_form
 from mbla.program.reductions.glued import glued_step
 from mbla.results.files import OutputFolder
@@ -69,11 +70,12 @@ def needs_of(deck: Deck, model: Model, contacts: Contacts, load_case: LoadCase) 
     solids = solids_of(model, contacts)
     on_solids = (solids.model, solids.contacts, solids.load_case(load_case))
     reduced = reduced_program(deck, solids, assemble(*on_solids))
-    if deck.analysis.contact_model == "convex":
+    conditions = has_conditions_on_interfaces(deck.analysis, solids.model, solids.contacts)
+    if conditions:
         from mbla.program.convex import assemble_convex, convex_form
         from mbla.program.convex.size import size_of_convex
 
-        convex = assemble_convex(*on_solids)
+        convex = assemble_convex(*on_solids, deck.analysis.contact_model)
         reduced = replace(reduced, steps=(glued_step(solids, size_of_convex(convex)),))
         unknowns, programs = len(convex.program.dead_load), [convex_form(convex).cone_program]
     else:
@@ -85,13 +87,13 @@ def needs_of(deck: Deck, model: Model, contacts: Contacts, load_case: LoadCase) 
         "cones": sum(program.n_cones for program in programs) + sum(size > 1 for size in further),
         "half_lines": sum(program.n_half_lines for program in programs) + further.count(1),
         "matrix_entries": sum(int(program.matrix.nnz) for program in programs),
-        "solver": ", ".join(dict.fromkeys(_solver(deck, program) for program in programs)),
+        "solver": ", ".join(dict.fromkeys(_solver(deck, program, conditions) for program in programs)),
     }
     return CaseNeeds(counts, reduced.steps)
 
 
-def _solver(deck: Deck, program: ConeProgram) -> str:
-    """Of the associative program; that of interface resultants has cones of dimensions that clarabel alone takes."""
-    if deck.analysis.contact_model == "convex":
+def _solver(deck: Deck, program: ConeProgram, conditions: bool) -> str:
+    """Of the associative program; conditions on interfaces have cones of dimensions that clarabel alone takes."""
+    if conditions:
         return "clarabel"
     return "highs" if deck.analysis.solver == "highs" else interior_point_method(program, deck.analysis.solver)

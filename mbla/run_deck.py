@@ -24,6 +24,7 @@ from mbla.model import Model, build_model
 from mbla.model.model import LoadCase
 from mbla.model.settlement import with_reference
 from mbla.program import Program, assemble
+from mbla.program.convex.choice import has_conditions_on_interfaces
 from mbla.program.reductions import Reduced, allowed_reductions, reduce_program, unreduced
 from mbla.program.reductions.glued import glued_step
 from mbla.program.reductions.steps import size_of, told_apart
@@ -208,12 +209,12 @@ def solve_case(
 
     def ask(case: LoadCase) -> tuple[Solution, Checks]:
         on_solids = (solids.model, solids.contacts, solids.load_case(case))
-        if deck.analysis.contact_model == "convex":
+        if has_conditions_on_interfaces(deck.analysis, solids.model, solids.contacts):
             from mbla.program.convex import assemble_convex
             from mbla.solution.convex import solve_convex
 
             with stage("assemble"):
-                convex = assemble_convex(*on_solids)
+                convex = assemble_convex(*on_solids, deck.analysis.contact_model)
             solution = solve_convex(convex, deck.analysis, settings, log)
         else:
             with stage("assemble"):
@@ -242,7 +243,9 @@ def with_loads_found(model: Model, cases: Sequence[CaseResult]) -> Model:
 def reduced_program(deck: Deck, solids: Solids, program: Program) -> Reduced:
     """What of the program has to be solved, and what each reduction left out."""
     associative = deck.analysis.flow_rule == "associative"
-    if deck.analysis.contact_model == "convex":  # conditions of whole interfaces: solved as they are
+    if has_conditions_on_interfaces(
+        deck.analysis, solids.model, solids.contacts
+    ):  # conditions of whole interfaces: solved as they are
         whole = unreduced(program, solids.contacts)
         return replace(whole, steps=(glued_step(solids, size_of([program])),))
     allowed = allowed_reductions(deck.analysis)
@@ -278,7 +281,7 @@ def notices_of(deck: Deck, model: Model, contacts: Contacts) -> tuple[Notice, ..
         *deck.notices,
         *model.notices,
         *contacts.report.notices,
-        *program_notices(model, contacts, deck.analysis.contact_model),
+        *program_notices(model, contacts, deck.analysis),
     )
 
 

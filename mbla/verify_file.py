@@ -18,6 +18,7 @@ from mbla.deck import Deck
 from mbla.deck.accuracy import knobs_of
 from mbla.exit_status import exit_code
 from mbla.model.model import Model
+from mbla.program.convex.choice import crushable_interfaces, takes_stress_blocks
 from mbla.rebuilt import rebuilt
 from mbla.results.hdf5.result_file import differences_of_file, read_results_hdf5, write_results_hdf5
 from mbla.results.outcome import WITH_VALUE, locked_in
@@ -63,7 +64,10 @@ def _recomputed(results: Results, deck: Deck | None) -> Results:
 def _recomputed_case(results: Results, case: CaseResult, deck: Deck | None) -> CaseResult:
     load_case, contacts = case.load_case, results.contacts
     model: Model = results.model.of_case(load_case)
-    solution = case.solution if deck is None else _as_asked_for(case.solution, deck)
+    solution = case.solution
+    if deck is not None:
+        crushable = bool(crushable_interfaces(model, contacts).any())
+        solution = _as_asked_for(solution, deck, crushable and takes_stress_blocks(deck.analysis))
     solution = with_derived(model, contacts, load_case, solution)
     if load_case.tilt is not None:
         upright = level_bound(model, contacts, load_case, solution)
@@ -72,7 +76,7 @@ def _recomputed_case(results: Results, case: CaseResult, deck: Deck | None) -> C
     return CaseResult(load_case, solution, checks, verified_status(solution, checks))
 
 
-def _as_asked_for(solution: Solution, deck: Deck) -> Solution:
+def _as_asked_for(solution: Solution, deck: Deck, stress_blocks: bool) -> Solution:
     """The solution by the flow rule, the contact model and the solver that its deck asks for."""
     analysis, settings = deck.analysis, solver_settings(deck.analysis)
     asked = {settings.gap} if analysis.flow_rule == "associative" else {settings.residual, settings.gap}
@@ -80,6 +84,7 @@ def _as_asked_for(solution: Solution, deck: Deck) -> Solution:
         solution,
         flow_rule=analysis.flow_rule,
         contact_model=analysis.contact_model,
+        stress_blocks=stress_blocks,
         solver=settings.solver,
         sides=0 if solution.outer is None else analysis.sides,
         asked=solution.asked if solution.asked is None or solution.asked in asked else settings.residual,
@@ -110,7 +115,7 @@ def _left_out(case: CaseResult, deck: Deck) -> list[str]:
     solution, knobs = case.solution, knobs_of(deck.analysis)
     claims = solution.status in (*WITH_VALUE, Status.UNBOUNDED)
     missing = ["standing"] if knobs.standing and claims and solution.standing is None else []
-    if solution.mechanics is None or solution.contact_model != "concave":
+    if solution.mechanics is None or solution.conditions_on_interfaces:
         return [_lacks(what) for what in missing]
     explained = any("range" in remark for remark in solution.remarks)
     if knobs.range and not explained and not _by_normality(solution):

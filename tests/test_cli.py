@@ -184,7 +184,7 @@ def test_check_counts_the_program_of_interface_resultants(deck: Path, capsys: py
     _, (record,), _ = run_json(capsys, "check", deck, "--json", "--set", "analysis.contact_model=convex")
     (needs,) = record["needs"].values()
     line = line_of(BLOCK, "analysis.contact_model=convex")
-    convex = assemble_convex(line.model, line.contacts, line.load_case)
+    convex = assemble_convex(line.model, line.contacts, line.load_case, "convex")
     (program,) = (convex_form(convex).cone_program,)
     n_cones = program.n_cones + sum(size > 1 for size in program.further_cones)
     assert needs["unknown_velocities"] == len(convex.program.dead_load) > 6

@@ -22,6 +22,7 @@ from mbla.contacts.narrow_phase import Patches, Verdicts, find_patches, judge
 from mbla.contacts.near_misses import without_covered
 from mbla.contacts.outline_notices import outline_notices
 from mbla.contacts.overlaps import find_overlaps
+from mbla.contacts.pieces import in_pieces
 from mbla.contacts.polygons import centroids
 from mbla.contacts.reach import misses_within
 from mbla.contacts.refine import InterfacePoints, point_starts
@@ -40,20 +41,26 @@ def find_contacts(model: Model, section: ContactsSection) -> Contacts:
 
     Tolerances are relative to block size, the cube root of the volume of the smaller block of a pair. Contacts between
     two bodies that are both fixed are counted in the report and left out: nothing depends on their forces. So are open
-    interfaces, and those inside of the rigid bodies that glued ones make. Of joint laws only the names count.
+    interfaces, and those inside of the rigid bodies that glued ones make. Of joint laws only the names count,
+    and whether they can crush: surfaces that can are in pieces (:mod:`mbla.contacts.pieces`).
 
     Raises
     ------
     PairsRefused, PointsRefused, SupportsAtOdds
         for too many pairs of blocks or points, and for pieces of a face that two bodies hold at odds
     """
-    laws = {name: Joint(name, 0.0) for name in model.joints}
+    laws = {name: Joint(name, 0.0, compressive_strength=_crushes(law)) for name, law in model.joints.items()}
     return _found(replace(model, title="", load_cases=(), notices=(), joints=laws), section)
+
+
+def _crushes(law: Joint) -> float:
+    """1 for every compressive strength, inf where it is unlimited: how great it is does not change contacts."""
+    return float(np.inf if np.isinf(law.compressive_strength) else 1.0)
 
 
 @shared("contacts")
 def _found(model: Model, section: ContactsSection) -> Contacts:
-    """Contacts of a model without loads and joint laws."""
+    """Contacts of a model without loads, its joint laws as ``find_contacts`` leaves them."""
     pairs = find_block_pairs(model.blocks, section.tolerance)
     facets = build_facets(model.blocks)
     verdicts, held_apart = _verdicts(model, facets, pairs, section.tolerance)
@@ -71,8 +78,12 @@ def _found(model: Model, section: ContactsSection) -> Contacts:
     order = _order(kept, np.ones(len(kept), dtype=bool))
     kept, rows = kept.take(order), rows[source[order]]
     corners = needed_corners(kept.polygons, section.tolerance)
+    simpler = outline_notices(model, section, kept, corners, areas_and_centroids(corners, len(kept))[0])
+    law_of, names = laws.in_use(rows)
+    crushable = np.isfinite([model.joints[name].compressive_strength for name in names])
+    corners, piece = in_pieces(corners, crushable[law_of])
+    kept, law_of = kept.take(piece), law_of[piece]
     _, centroid = areas = areas_and_centroids(corners, len(kept))
-    simpler = outline_notices(model, section, kept, corners, areas[0])
     found, left_alone = interface_points(corners, centroid, kept.overlays.sizes, section.points)
     findings = Findings(
         contacts=verdicts.contacts,
@@ -85,7 +96,7 @@ def _found(model: Model, section: ContactsSection) -> Contacts:
         glue=glue,
     )
     report = build_report(model, section, findings, [*notices, *twice, *simpler, *left_alone])
-    return _contacts(kept, areas, found, laws.in_use(rows), report, glue.solid_of_block)
+    return _contacts(kept, areas, found, (law_of, names), report, glue.solid_of_block)
 
 
 def _verdicts(model: Model, facets: Facets, pairs: BlockPairs, tolerance: float) -> tuple[Verdicts, HeldApart]:

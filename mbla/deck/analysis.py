@@ -81,7 +81,8 @@ class AnalysisSection(Section):
     contact_model: Literal["concave", "convex"] = Field(
         "concave",
         description="concave: contact points at the corners of each interface; convex: also its resultants, with "
-        "torsion and crushing as of uniform pressure on what an eccentric force leaves of the area",
+        "torsion as of uniform pressure on what an eccentric force leaves of the area. Joints with a compressive "
+        "strength crush as stress blocks in both",
     )
     friction_cone: Literal["circular", "polyhedral"] = Field(
         "circular", description="circular; or polyhedral: linear programs with inscribed and circumscribed polyhedra"

@@ -1,10 +1,11 @@
-"""What each contact point does in a mechanism: stick, slide or open.
+"""What each contact point does in a mechanism: stick, slide, open or crush.
 
 The joint law leaves one of two small at every point: opening or normal force, sliding or reserve of shear. In numbers
 neither is zero, so that pairs of ratios are compared, velocities over the largest contact speed v and forces over the
 largest of their kind::
 
     opens    (v_N − s tan ψ)/v > (N + f_t)/N_max          slides   s/v > (μN + c − ‖T‖)/(μN + c)_max
+    crushes  −v_N/v > (f_c − N)/N_max
 
 with s = ‖v_T‖ and ψ the dilatancy angle of the flow rule: a joint that slides by associative flow lifts by μ s, and
 that is no opening. So the verdict does not depend on how far the solver went.
@@ -48,6 +49,11 @@ def contact_modes(
     modes[sliding / speed > np.maximum(_ratio(reserve, strength), AT_REST)] = ContactMode.SLIDE
     pressed = _ratio(np.maximum(forces[:, 0] + limits.tension, 0.0), np.abs(forces[:, 0]))
     modes[surplus / speed > np.maximum(pressed, AT_REST)] = ContactMode.OPEN
+    crushable = np.isfinite(limits.compression)
+    room = np.where(crushable, limits.compression - forces[:, 0], np.inf) / max(
+        float(np.abs(forces[:, 0]).max()), 1e-300
+    )
+    modes[-velocities[:, 0] / speed > np.maximum(room, AT_REST)] = ContactMode.CRUSH
     return modes
 
 

@@ -7,10 +7,11 @@ from dataclasses import replace
 
 import numpy as np
 
-from mbla.arrays import FloatArray, IntArray
+from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.deck.accuracy import knobs_of
 from mbla.deck.analysis import AnalysisSection
 from mbla.program.convex import ConvexProgram
+from mbla.program.convex.crushing import crushing_violation
 from mbla.program.convex.friction_limit import torsion_reserve
 from mbla.solution.beside import standing_on_model
 from mbla.solution.cone_solution import Log
@@ -28,7 +29,7 @@ LOCKED = (
     "with dilatancy friction locks the structure under any multiple of the live load; "
     "without dilatancy no state of collapse was found"
 )
-NO_RANGE = "with interface resultants the range of the load factor for the mechanism found is not computed"
+NO_RANGE = "with conditions on interfaces the range of the load factor for the mechanism found is not computed"
 
 
 def solve_convex(
@@ -82,7 +83,8 @@ def _solved(convex: ConvexProgram, analysis: AnalysisSection, settings: SolverSe
         remarks=() if sequence is None else (*sequence.remarks, NO_RANGE),
         spread=None if sequence is None or sequence.spread is None else _scaled(sequence.spread, live),
         certificate_motions=motions,
-        contact_model="convex",
+        contact_model=convex.contact_model,
+        stress_blocks=bool(len(convex.crushing.interfaces)),
         solver=settings.solver,
         asked=None if sequence is None or associative.status is Status.APPROXIMATE else sequence.asked,
         lock=None if associative.lock is None else convex.points.scaling.forces(associative.lock) / live,
@@ -168,7 +170,24 @@ def _modes(convex: ConvexProgram, state: ConvexState, dilatancy: FloatArray) -> 
     slips = (
         np.hypot(by_torsion[:, 1], by_torsion[:, 2]) > np.maximum(reserve, AT_REST)[convex.interface_of_point] * speed
     )
-    return np.where(slips & (modes == ContactMode.STICK), ContactMode.SLIDE, modes)
+    modes = np.where(slips & (modes == ContactMode.STICK), ContactMode.SLIDE, modes)
+    crushes = _crushes(convex, state, by_crushing, speed)[convex.interface_of_point]
+    modes = np.where(crushes & (by_crushing[:, 0] > 0.0), ContactMode.OPEN, modes)
+    return np.where(crushes & (by_crushing[:, 0] < 0.0), ContactMode.CRUSH, modes)
+
+
+def _crushes(convex: ConvexProgram, state: ConvexState, by_crushing: FloatArray, speed: float) -> BoolArray:
+    """Interfaces that crush, (n_interfaces,): their speed by crushing, as a share of the largest, exceeds what is left.
+
+    What an interface has left counts as a share of the largest normal force.
+    """
+    limits, found = convex.crushing, np.zeros(len(convex.shapes.radii), dtype=bool)
+    resultants = (convex.resultants @ state.forces.ravel()).reshape(-1, 6)
+    left = -crushing_violation(limits, resultants) / np.abs(resultants[:, 0]).max(initial=1e-300)
+    own = np.zeros(len(found))
+    np.maximum.at(own, convex.interface_of_point, np.abs(by_crushing).max(axis=1))
+    found[limits.interfaces] = own[limits.interfaces] > np.maximum(left, AT_REST) * speed
+    return found
 
 
 def _certificate(convex: ConvexProgram, result: ConvexAssociative) -> tuple[FloatArray | None, FloatArray | None]:

@@ -13,8 +13,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from mbla.arrays import FloatArray
+from mbla.arrays import BoolArray, FloatArray
 from mbla.program.convex import ConvexProgram, convex_form
+from mbla.program.convex.assemble import near_crushing, with_crushing_of
+from mbla.program.convex.crushing import crushing_violation
 from mbla.program.kinematic import KinematicForm
 from mbla.solution.cone_solution import ConeSolution, Log
 from mbla.solution.cone_solver import interior_point_solver
@@ -36,6 +38,12 @@ REGULARIZATION = 1e-8
 
 MOVED = 1e-4
 """Share of the load factor by which a repair may move it: beyond it another state was found."""
+
+ROUNDS = 30
+"""Times that conditions on crushing are taken in; each time at least one."""
+
+BEYOND = 1e-9
+"""Excess over what an interface carries, in mean block loads, that is rounding where others are at their limit."""
 
 OWN_UNITS = 2
 """Times that it is solved again in units which give light blocks their due, each from the forces of the time before."""
@@ -88,9 +96,26 @@ class _Run:
 
 
 def solve_convex_associative(convex: ConvexProgram, settings: SolverSettings, log: Log) -> ConvexAssociative:
-    """Solve the program of one load case with associative flow."""
+    """Solve the program of one load case with associative flow.
+
+    Conditions on crushing are taken in where the forces without them need them: most interfaces are far from crushing.
+    """
+    everything = np.isin(np.arange(len(convex.shapes.radii)), convex.crushing.interfaces)
     run = _Run(convex, replace(settings, regularization=REGULARIZATION), log, [])
-    result = _attempt(run)
+    crushing = np.zeros(len(convex.shapes.radii), dtype=bool)
+    for _ in range(ROUNDS):
+        run.convex = with_crushing_of(convex, crushing)
+        result = _attempt(run)
+        more = everything if result.status is Status.UNBOUNDED else _crushing_too(convex, result, crushing)
+        if not np.any(more & ~crushing):
+            break
+        crushing |= more
+    return _in_own_units(run, result)
+
+
+def _in_own_units(run: _Run, result: ConvexAssociative) -> ConvexAssociative:
+    """The result, solved again where it loses light blocks, with repaired forces."""
+    convex = run.convex
     for _ in range(OWN_UNITS):
         state = result.state
         if state is None or not loses_light_blocks(convex, state.forces, state.load_factor):
@@ -99,6 +124,16 @@ def solve_convex_associative(convex: ConvexProgram, settings: SolverSettings, lo
         again = _attempt(run)
         result = replace(result, programs=again.programs) if again.state is None else again
     return result if result.state is None else replace(result, state=_repaired(convex, result.state))
+
+
+def _crushing_too(convex: ConvexProgram, result: ConvexAssociative, crushing: BoolArray) -> BoolArray:
+    """Interfaces that crush, or nearly, by forces; no more where none other is beyond what it carries."""
+    if result.state is None:
+        return crushing
+    resultants = (convex.resultants @ result.state.forces.ravel()).reshape(-1, 6)
+    beyond = np.zeros(len(crushing), dtype=bool)
+    beyond[convex.crushing.interfaces] = crushing_violation(convex.crushing, resultants) > BEYOND
+    return near_crushing(convex, result.state.forces) if np.any(beyond & ~crushing) else crushing
 
 
 def _repaired(convex: ConvexProgram, state: ConvexState) -> ConvexState:

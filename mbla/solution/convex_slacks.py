@@ -11,7 +11,7 @@ import numpy as np
 from mbla.arrays import FloatArray, IntArray
 from mbla.model.ragged import next_item
 from mbla.program.convex import ConvexProgram
-from mbla.program.convex.crushing import CrushingLimits
+from mbla.program.convex.crushing import Corners, corner_values, values
 from mbla.program.convex.torsion import TorsionLimits
 from mbla.program.kinematic import KinematicForm
 from mbla.program.yield_conditions import YieldLimits
@@ -34,8 +34,8 @@ def slacks_of(convex: ConvexProgram, form: KinematicForm, forces: FloatArray) ->
             shear[rows.dry].ravel(),
             shear[rows.frictional].ravel(),
             _torsion_slacks(convex.torsion, resultants),
-            _rectangle_slacks(convex.rectangles, resultants),
-            _other_slacks(convex.others, resultants),
+            _corner_slacks(convex.crushing.corners, resultants),
+            values(convex.crushing.edges.cones, resultants, convex.crushing.edges.interfaces).ravel(),
         ]
     )
 
@@ -114,39 +114,16 @@ def _largest_twist(share: FloatArray, shear: FloatArray, theta: FloatArray) -> F
     )
 
 
-def _bounded(limits: CrushingLimits, resultants: FloatArray) -> tuple[FloatArray, FloatArray, IntArray]:
-    """N + f_t A, bounds of Q (n_slopes,), and the interface of each slope."""
-    r = resultants[limits.interfaces]
-    owner = np.repeat(np.arange(len(limits.interfaces)), np.diff(limits.start))
-    normal = np.maximum(r[:, 0] + limits.tension, 0.0)
-    moment = np.column_stack([-r[:, 5], r[:, 4]])
-    return normal, normal[owner] - (limits.slopes * moment[owner]).sum(axis=1), owner
-
-
-def _rectangle_slacks(limits: CrushingLimits, resultants: FloatArray) -> FloatArray:
-    normal, bounds, _ = _bounded(limits, resultants)
-    n = len(normal)
-    pairs = bounds.reshape(n, 2, 2)
-    q = np.maximum(pairs.min(axis=2), 0.0) * (1.0 - INSIDE)
+def _corner_slacks(corners: Corners, resultants: FloatArray) -> FloatArray:
+    lead, bounds, q = corner_values(corners, resultants)
+    lead, q = np.maximum(lead, 0.0), np.maximum(q, 0.0) * (1.0 - INSIDE)
     h = np.sqrt(q[:, 0] * q[:, 1]) * (1.0 - INSIDE)
-    g = _between(normal, limits.strength, h)
-    phi = limits.strength**0.25
-    alpha = np.column_stack([normal + 1.0, normal - 1.0, 2.0 * g])
-    beta = np.column_stack([phi * (g + h), phi * (g - h), 2.0 * normal])
+    g = _between(lead, corners.strength, h)
+    phi = corners.strength**0.25
+    alpha = np.column_stack([lead + 1.0, lead - 1.0, 2.0 * g])
+    beta = np.column_stack([phi * (g + h), phi * (g - h), 2.0 * lead])
     gamma = np.column_stack([q[:, 0] + q[:, 1], q[:, 0] - q[:, 1], 2.0 * h])
-    return np.concatenate([(pairs - q[:, :, None]).ravel(), alpha.ravel(), beta.ravel(), gamma.ravel()])
-
-
-def _other_slacks(limits: CrushingLimits, resultants: FloatArray) -> FloatArray:
-    normal, bounds, owner = _bounded(limits, resultants)
-    if len(normal) == 0:
-        return np.zeros(0)
-    q = np.maximum(np.minimum.reduceat(bounds, limits.start[:-1]), 0.0) * (1.0 - INSIDE)
-    g = _between(normal, limits.strength, q)
-    phi = limits.strength**0.25
-    alpha = np.column_stack([normal + 1.0, normal - 1.0, 2.0 * g])
-    beta = np.column_stack([phi * (g + q), phi * (g - q), 2.0 * normal])
-    return np.concatenate([bounds - q[owner], alpha.ravel(), beta.ravel()])
+    return np.concatenate([bounds - q[corners.owner, corners.side], alpha.ravel(), beta.ravel(), gamma.ravel()])
 
 
 def _between(normal: FloatArray, strength: FloatArray, h: FloatArray) -> FloatArray:

@@ -9,10 +9,12 @@ import scipy.sparse as sp
 
 from mbla.arrays import FloatArray
 from mbla.program.convex import ConvexProgram
+from mbla.program.convex.crushing import crushing_violation
 from mbla.program.convex.friction_limit import curve_size, curve_support, friction_limit
 from mbla.program.program import Program
 from mbla.program.yield_conditions import YieldLimits, yield_violation
-from mbla.solution.interface_laws import InterfaceLaws, crushing_excess, crushing_power
+from mbla.solution.crushing_laws import crushing_power
+from mbla.solution.interface_laws import InterfaceLaws
 
 
 @dataclass(frozen=True)
@@ -38,8 +40,8 @@ def laws_of(convex: ConvexProgram) -> InterfaceLaws:
     friction, cohesion, tension = np.zeros(n), np.zeros(n), np.zeros(n)
     friction[torsion.interfaces], cohesion[torsion.interfaces] = torsion.friction, torsion.cohesion
     strength = np.full(n, np.inf)
-    for limits in (convex.rectangles, convex.others):
-        strength[limits.interfaces], tension[limits.interfaces] = limits.strength, limits.tension
+    crushing = convex.crushing
+    strength[crushing.interfaces], tension[crushing.interfaces] = crushing.strength, crushing.tension
     shear = (friction > 0) | (cohesion > 0)
     return InterfaceLaws(convex.shapes, friction, cohesion, tension, strength, shear, np.isfinite(strength))
 
@@ -78,13 +80,13 @@ def state_without_dilatancy(
     of_torsion = size.share * curve_support(slip, twist, limits.thetas) + rest * slip
     beyond = np.maximum(np.hypot(r[:, 1], r[:, 2]) - rest, 0.0)
     twisting = curve_size(beyond, np.abs(r[:, 3]) / limits.radii, limits.thetas) - size.share
-    of_crushing, crushing = crushing_power(laws_of(convex), motions[:, 1]), crushing_excess(laws_of(convex), resultants)
+    of_crushing = crushing_power(laws_of(convex), motions[:, 1])
 
     unexplained = at_points + float(np.abs(of_torsion + (r * motion).sum(axis=1)).sum())
     unexplained += float(np.abs(of_crushing + (resultants * motions[:, 1]).sum(axis=1)).sum())
     dead_power = abs(float(program.dead_load @ velocities))
     balance = max(abs(load_factor), dead_power, of_points + float(of_torsion.sum()), 1e-300)
-    excess = [yield_violation(forces, program.limits), twisting, crushing]
+    excess = [yield_violation(forces, program.limits), twisting, crushing_violation(convex.crushing, resultants)]
     worst = max(float(part.max(initial=0.0)) for part in excess)
     return ConvexState(forces, velocities, motions, load_factor, max(worst, closing, unexplained / balance))
 

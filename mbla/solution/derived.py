@@ -35,7 +35,8 @@ def with_derived(model: Model, contacts: Contacts, load_case: LoadCase, solution
             if _near(moved, mechanics.contact_velocities):
                 moved = mechanics.contact_velocities
             mechanics = replace(mechanics, mechanism=still, contact_velocities=moved)
-            found[id(getattr(solution, part))] = _with_modes(solids, load_case, mechanics, rule_of(part, solution))
+            rule = rule_of(part, solution)
+            found[id(getattr(solution, part))] = _with_modes(solids, load_case, mechanics, rule, solution.contact_model)
     parts = {part: found.get(id(getattr(solution, part))) for part in MOTIONS}
     return replace(solution, **parts)  # type: ignore[arg-type]  # names and types are those of the parts
 
@@ -45,7 +46,9 @@ def _near(one: FloatArray, other: FloatArray) -> bool:
     return bool(np.abs(one - other).max(initial=0.0) <= ROUNDING * np.abs(one).max(initial=0.0))
 
 
-def _with_modes(solids: Solids, load_case: LoadCase, mechanics: Mechanics, flow_rule: str) -> Mechanics:
+def _with_modes(
+    solids: Solids, load_case: LoadCase, mechanics: Mechanics, flow_rule: str, contact_model: str
+) -> Mechanics:
     """With modes of the contact points, and resultants of the interfaces where there are any."""
     limits, forces = yield_limits(solids.model, solids.contacts), mechanics.contact_forces
     slope = dilatancy_of(limits, flow_rule)
@@ -53,7 +56,7 @@ def _with_modes(solids: Solids, load_case: LoadCase, mechanics: Mechanics, flow_
         return replace(mechanics, modes=contact_modes(forces, mechanics.contact_velocities, limits, slope))
     from mbla.solution.convex import modes_of  # late: the law of interfaces is asked for rarely
 
-    convex = assemble_convex(solids.model, solids.contacts, solids.load_case(load_case))
+    convex = assemble_convex(solids.model, solids.contacts, solids.load_case(load_case), contact_model)
     of_solids = replace(mechanics, mechanism=solids.solid_motions(mechanics.mechanism))
     resultants = (convex.resultants @ forces.ravel()).reshape(-1, 6)
     return replace(mechanics, modes=modes_of(convex, of_solids, slope), resultants=resultants)

@@ -13,8 +13,7 @@ and R' ≤ R is the condition. A motion with slip η, rotation ω and opening δ
 
 provided that δ(x) ≥ μ ‖η‖ + μ (P − ‖η‖) w(x) everywhere, that is at the corners of w's graph.
 
-*Crushing.* N'³ ≤ F Q_1 Q_2, or F Q²; a motion with opening δ(x) dissipates F max of X Y (Ω − αX − βY) over 0 ≤ X, Y ≤ 1
-for a rectangle, F max of (1 − s)² (s h − δ_0) over 0 ≤ s ≤ 1 for other outlines, h = max of −δ_1·x over the outline.
+Crushing is in :mod:`mbla.solution.crushing_laws`.
 """
 
 from __future__ import annotations
@@ -40,7 +39,7 @@ class InterfaceLaws:
     tension    : (n,) f_t A
     strength   : (n,) (f_c + f_t) A, inf where unlimited
     torsional  : (n,) false where the interface has no shear strength at all
-    crushable  : (n,) with a stress block
+    crushable  : (n,) with a compressive strength
     """
 
     shapes: InterfaceShapes
@@ -57,8 +56,8 @@ class InterfaceLaws:
         return np.asarray(self.cohesion - self.friction * self.tension)
 
 
-def interface_laws(model: Model, contacts: Contacts) -> InterfaceLaws:
-    """Strengths of all interfaces."""
+def interface_laws(model: Model, contacts: Contacts, contact_model: str) -> InterfaceLaws:
+    """Strengths of all interfaces; only the convex contact model limits their torsion."""
     laws = [model.joints[contacts.joint_names[joint]] for joint in contacts.joints]
     shapes, areas = interface_shapes(contacts), contacts.areas
     friction = np.array([law.friction for law in laws])
@@ -71,8 +70,8 @@ def interface_laws(model: Model, contacts: Contacts) -> InterfaceLaws:
         cohesion=cohesion,
         tension=tension,
         strength=strength,
-        torsional=(friction > 0) | (cohesion > 0),
-        crushable=np.isfinite(strength) & shapes.convex,
+        torsional=(contact_model == "convex") & ((friction > 0) | (cohesion > 0)),
+        crushable=np.isfinite(strength),
     )
 
 
@@ -94,11 +93,16 @@ def shear_strength(laws: InterfaceLaws, resultants: FloatArray) -> tuple[FloatAr
     return total, np.minimum(total, reduced)
 
 
+def moment_of(resultants: FloatArray) -> FloatArray:
+    """M = (−M_2, M_1): first moments of the normal stress along tangent 1 and tangent 2, (n, 2)."""
+    return np.column_stack([-resultants[:, 5], resultants[:, 4]])
+
+
 def _reduced_normal(laws: InterfaceLaws, resultants: FloatArray) -> FloatArray:
     """N' w: the normal force over what is left of the area, in terms of torsional radius, (n,)."""
-    shapes, moment = laws.shapes, np.column_stack([-resultants[:, 5], resultants[:, 4]])
+    shapes, moment = laws.shapes, moment_of(resultants)
     normal = resultants[:, 0] + laws.tension
-    offset = _largest(shapes, (shapes.edge_slopes() * moment[shapes.interface_of_corner]).sum(axis=1))
+    offset = largest(shapes, (shapes.edge_slopes() * moment[shapes.interface_of_corner]).sum(axis=1))
     rho, gradient, _ = _rectangle_terms(shapes)
     arms = np.abs(np.einsum("nsj,nj->ns", shapes.axes, moment))
     of_rectangle = 2.0 / rho * (gradient * arms).sum(axis=1)
@@ -112,7 +116,7 @@ def _rectangle_terms(shapes: InterfaceShapes) -> tuple[FloatArray, FloatArray, F
     return rho, gradient, sides
 
 
-def _largest(shapes: InterfaceShapes, of_corner: FloatArray) -> FloatArray:
+def largest(shapes: InterfaceShapes, of_corner: FloatArray) -> FloatArray:
     """Largest value over the corners of each hull."""
     if len(of_corner) == 0:
         return np.zeros(0)
@@ -138,10 +142,10 @@ def torsion_power(laws: InterfaceLaws, motions: FloatArray) -> tuple[FloatArray,
     more = support - slip
     rho, gradient, sides = _rectangle_terms(shapes)
     lack = laws.friction * support - motions[:, 0]  # at the centroid
-    at_corner = laws.friction * slip - motions[:, 0] + _largest(shapes, -_tilt(shapes, motions))
+    at_corner = laws.friction * slip - motions[:, 0] + largest(shapes, -tilt(shapes, motions))
     lack = np.maximum(lack, at_corner)
     for side in (0, 1):
-        middle = np.abs(np.einsum("nj,nj->n", shapes.axes[:, side], _slope(motions))) * 0.5 * sides[:, side]
+        middle = np.abs(np.einsum("nj,nj->n", shapes.axes[:, side], opening_slope(motions))) * 0.5 * sides[:, side]
         left = 1.0 - gradient[:, side] * sides[:, side] / rho
         at_middle = laws.friction * (slip + more * left) - motions[:, 0] + middle
         lack = np.where(shapes.rectangles, np.maximum(lack, at_middle), lack)
@@ -149,14 +153,14 @@ def torsion_power(laws: InterfaceLaws, motions: FloatArray) -> tuple[FloatArray,
     return np.where(laws.torsional, dissipated, 0.0), np.where(laws.torsional, lack, np.abs(motions).max(axis=1))
 
 
-def _slope(motions: FloatArray) -> FloatArray:
+def opening_slope(motions: FloatArray) -> FloatArray:
     """Gradient of the opening along tangent 1 and tangent 2, (n, 2)."""
     return np.column_stack([-motions[:, 5], motions[:, 4]])
 
 
-def _tilt(shapes: InterfaceShapes, motions: FloatArray) -> FloatArray:
+def tilt(shapes: InterfaceShapes, motions: FloatArray) -> FloatArray:
     """Opening at the corners of the hulls by rotation alone, (n_corners,)."""
-    return np.asarray((shapes.corners * _slope(motions)[shapes.interface_of_corner]).sum(axis=1))
+    return np.asarray((shapes.corners * opening_slope(motions)[shapes.interface_of_corner]).sum(axis=1))
 
 
 def sliding_power(laws: InterfaceLaws, resultants: FloatArray, motions: FloatArray) -> FloatArray:
@@ -165,46 +169,3 @@ def sliding_power(laws: InterfaceLaws, resultants: FloatArray, motions: FloatArr
     slip = np.hypot(motions[:, 1], motions[:, 2])
     support = curve_support(slip, np.abs(motions[:, 3]) * laws.shapes.radii, laws.shapes.thetas)
     return np.where(laws.torsional, np.maximum(share, 0.0) * support + np.maximum(total - share, 0.0) * slip, 0.0)
-
-
-def crushing_excess(laws: InterfaceLaws, resultants: FloatArray) -> FloatArray:
-    """What the force over the area left, Q, lacks for N'³ = F Q_1 Q_2, negative inside, (n,) [force]."""
-    shapes, moment = laws.shapes, np.column_stack([-resultants[:, 5], resultants[:, 4]])
-    normal = resultants[:, 0] + laws.tension
-    needed = np.sqrt(np.maximum(normal, 0.0) ** 3 / np.where(laws.crushable, laws.strength, 1.0))
-    left = normal - _largest(shapes, (shapes.edge_slopes() * moment[shapes.interface_of_corner]).sum(axis=1))
-    sides = np.where(shapes.rectangles[:, None], shapes.sides, 1.0)
-    q = normal[:, None] - 2.0 * np.abs(np.einsum("nsj,nj->ns", shapes.axes, moment)) / sides
-    lack = 0.5 * (np.hypot(q[:, 0] - q[:, 1], 2.0 * needed) - q.sum(axis=1))
-    return np.where(laws.crushable, np.where(shapes.rectangles, lack, needed - left), -np.inf)
-
-
-def crushing_power(laws: InterfaceLaws, motions: FloatArray) -> FloatArray:
-    """What crushing motions of interfaces, (n, 6), dissipate, (n,)."""
-    shapes, closing, slope = laws.shapes, -motions[:, 0], -_slope(motions)
-    sides = np.where(shapes.rectangles[:, None], shapes.sides, 1.0)
-    arms = 0.5 * sides * np.abs(np.einsum("nsj,nj->ns", shapes.axes, slope))
-    of_rectangle = _largest_block(closing + arms.sum(axis=1), arms[:, 0], arms[:, 1])
-    reach = np.maximum(_largest(shapes, -_tilt(shapes, motions)), 0.0)
-    s = np.clip((reach - 2.0 * closing) / np.maximum(3.0 * reach, 1e-300), 0.0, 1.0)
-    of_other = np.maximum((1.0 - s) ** 2 * (closing + s * reach), 0.0)
-    block = np.where(shapes.rectangles, of_rectangle, of_other)
-    strength = np.where(laws.crushable, laws.strength, 0.0)
-    dissipated = strength * block + laws.tension * motions[:, 0]
-    impossible = np.where(np.any(motions != 0, axis=1), np.inf, 0.0)
-    return np.asarray(np.where(laws.crushable, dissipated, impossible))
-
-
-def _largest_block(total: FloatArray, alpha: FloatArray, beta: FloatArray) -> FloatArray:
-    """Max of X Y (Ω − αX − βY) over 0 ≤ X, Y ≤ 1: inside, on one of the sides 1, or at the corner."""
-
-    def value(x: FloatArray, y: FloatArray) -> FloatArray:
-        return np.asarray(x * y * (total - alpha * x - beta * y))
-
-    def ratio(part: FloatArray, whole: FloatArray) -> FloatArray:
-        return np.asarray(np.clip(part / np.maximum(whole, 1e-300), 0.0, 1.0))
-
-    one = np.ones_like(total)
-    inside = value(ratio(total, 3.0 * alpha), ratio(total, 3.0 * beta))
-    on_x, on_y = value(one, ratio(total - alpha, 2.0 * beta)), value(ratio(total - beta, 2.0 * alpha), one)
-    return np.asarray(np.maximum.reduce([inside, on_x, on_y, np.zeros_like(total)]))

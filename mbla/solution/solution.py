@@ -29,6 +29,7 @@ class ContactMode(IntEnum):
     STICK = 0
     SLIDE = 1
     OPEN = 2
+    CRUSH = 3
 
 
 @dataclass(frozen=True)
@@ -142,7 +143,8 @@ class Solution:
     certificate : (n_blocks, 6) for no_equilibrium: motion in which the dead load does more work than the joints
                   dissipate; None otherwise
     certificate_motions : its interface_motions, convex contact model only
-    contact_model : concave, or convex: conditions on the resultants of interfaces hold too
+    contact_model : concave, or convex: torsion is a condition on the resultants of interfaces
+    stress_blocks : crushing is a condition on the resultants of interfaces
     reason      : for every status but solved, one sentence in words
     scheme      : how a flow without normality was solved; empty for associative flow
     remarks     : what a reader of the figure must know, one sentence each
@@ -194,9 +196,15 @@ class Solution:
     size: ModelSize | None = None
     certificate_motions: FloatArray | None = None
     contact_model: str = "concave"
+    stress_blocks: bool = False
     solver: str = "auto"
     asked: float | None = None
     reductions: tuple[ReductionStep, ...] = ()
+
+    @property
+    def conditions_on_interfaces(self) -> bool:
+        """Whether conditions hold on the resultants of interfaces, not on contact points alone."""
+        return self.contact_model == "convex" or self.stress_blocks
 
 
 @dataclass(frozen=True)

@@ -2,7 +2,7 @@
 
 - :mod:`mbla.solution.verify`: residuals of forces and mechanism, bounds of the associative load factor, certificates;
 - :mod:`mbla.solution.verify_polyhedral`: the bracket of friction polyhedra, each by its own law;
-- :mod:`mbla.solution.verify_convex`: the first with the conditions on interfaces of the convex contact model;
+- :mod:`mbla.solution.verify_convex`: the first with conditions on the resultants of interfaces;
 - :mod:`mbla.solution.verify_range`: both ends of the range of a load factor without normality;
 - :mod:`mbla.solution.verify_peak`: a greater load factor that is passed before the structure comes to rest;
 - :mod:`mbla.solution.verify_standing`: that the dead load is carried from the stress-free assembly;
@@ -60,7 +60,7 @@ def verify(model: Model, contacts: Contacts, load_case: LoadCase, solution: Solu
 def _verify(model: Model, contacts: Contacts, load_case: LoadCase, solution: Solution) -> Checks:
     """The same where every block is a solid."""
     of_mechanics = verify_mechanics if solution.outer is None else verify_polyhedral
-    if solution.contact_model == "convex":
+    if solution.conditions_on_interfaces:
         of_mechanics = verify_convex
     checks = of_mechanics(model, contacts, load_case, solution)
     failures = (
@@ -94,7 +94,7 @@ def residual_of(model: Model, contacts: Contacts, load_case: LoadCase, solution:
         load_case = replace(load_case, live_load=load_case.tilt.across)
     case, rule = solids.load_case(load_case), rule_of(part, solution)
     if mechanics.interface_motions is not None:
-        return convex_residuals(solids.model, solids.contacts, case, mechanics, rule).largest
+        return convex_residuals(solids.model, solids.contacts, case, mechanics, rule, solution.contact_model).largest
     slope = dilatancy_of(yield_limits(solids.model, solids.contacts), rule)
     return residuals_of(solids.model, solids.contacts, case, mechanics, slope).largest
 
@@ -115,6 +115,7 @@ def level_bound(model: Model, contacts: Contacts, load_case: LoadCase, solution:
         iterations=(),
         seconds=0.0,
         contact_model=solution.contact_model,
+        stress_blocks=solution.stress_blocks,
         lock=solution.level_lock,
     )
     level = replace(load_case, live_load=load_case.tilt.across, tilt=None)
@@ -130,7 +131,7 @@ def _standing_failures(model: Model, contacts: Contacts, load_case: LoadCase, so
     stands = standing.verdict is Standing.YES
     if standing.forces is None or standing.settlement is None:
         return (NOT_SHOWN,) if stands and np.any(load_case.dead_load[model.free]) else ()
-    limits = point_limits(model, contacts) if solution.contact_model == "convex" else yield_limits(model, contacts)
+    limits = point_limits(model, contacts) if solution.conditions_on_interfaces else yield_limits(model, contacts)
     failures = standing_failures(model, contacts, load_case, standing.forces, standing.settlement, limits)
     return failures if stands or failures else (SHOWN,)
 
@@ -139,6 +140,6 @@ def _lock_failures(model: Model, contacts: Contacts, load_case: LoadCase, soluti
     if solution.lock is None:
         return ("no forces are given that carry every multiple of the live load",)
     failures = lock_failures(model, contacts, load_case, solution.lock)
-    if solution.contact_model == "convex":
-        failures += convex_lock_failures(model, contacts, solution.lock)
+    if solution.conditions_on_interfaces:
+        failures += convex_lock_failures(model, contacts, solution.lock, solution.contact_model)
     return failures

@@ -1,8 +1,8 @@
-"""Verification of the convex contact model: as in ``verify``, with the conditions on interfaces.
+"""Verification of conditions on interfaces, torsion and crushing: as in ``verify``, with these.
 
 A point of an interface moves by what torsion and crushing of the interface leave of the motion of the blocks, and its
 force obeys its own cone. Resultants are summed up from the contact forces, and conditions and dissipation of interfaces
-come from the closed forms of :mod:`mbla.solution.interface_laws`.
+come from :mod:`mbla.solution.interface_laws` and :mod:`mbla.solution.crushing_laws`.
 """
 
 from __future__ import annotations
@@ -16,13 +16,13 @@ from mbla.contacts.contacts import Contacts
 from mbla.model.model import LoadCase, Model
 from mbla.program.assemble import yield_limits
 from mbla.program.convex import ConvexProgram, assemble_convex
+from mbla.program.convex.assemble import near_crushing, with_crushing_of, without_crushing
 from mbla.program.yield_conditions import YieldLimits, yield_violation
 from mbla.solution.convex_repair import repaired_convex_forces, repaired_convex_motions
+from mbla.solution.crushing_laws import crushing_excess, crushing_power
 from mbla.solution.guides import allowed_motion, off_guides
 from mbla.solution.interface_laws import (
     InterfaceLaws,
-    crushing_excess,
-    crushing_power,
     interface_laws,
     sliding_power,
     torsion_excess,
@@ -37,13 +37,17 @@ from mbla.solution.verify import ROUNDING as CROSSING
 from mbla.solution.verify import dilatancy_of, failures_of
 from mbla.solution.verify_lock import LASTING
 
+ROUNDED_OFF = 1e-9
+"""Excess of an interface over what it carries when it crushes, over its normal force, that is rounding: where all of it
+is crushed the excess grows with the square root of that of the conditions."""
+
 WRONG_RESULTANTS = 1e-9
 """Relative distance of stored resultants from those of the stored contact forces that is rounding."""
 
 
 def verify_convex(model: Model, contacts: Contacts, load_case: LoadCase, solution: Solution) -> Checks:
     """Recompute residuals and bounds of a convex solution; NaN where there is nothing to check."""
-    case = _Case(model, contacts, load_case)
+    case = _Case(model, contacts, load_case, solution.contact_model)
     nan = np.nan
     if solution.mechanics is None:
         failures: tuple[str, ...] = (solution.reason,) if solution.status is not Status.UNBOUNDED else ()
@@ -53,7 +57,7 @@ def verify_convex(model: Model, contacts: Contacts, load_case: LoadCase, solutio
     residuals = _residuals(case, solution.mechanics, solution.flow_rule)
     static = kinematic = size = nan
     if solution.associative is not None:
-        static, kinematic = convex_bounds(case.model, case.contacts, case.load_case, solution.associative)
+        static, kinematic = _bounds(case, solution.associative)
         size = max(abs(kinematic), case.scale.least_factor(solution.associative.mechanism))
         if 0.0 < static - kinematic <= CROSSING * size:
             static = kinematic
@@ -78,12 +82,16 @@ def verify_convex(model: Model, contacts: Contacts, load_case: LoadCase, solutio
 class _Case:
     """Model, contacts, loads, and what follows from them alone."""
 
-    def __init__(self, model: Model, contacts: Contacts, load_case: LoadCase) -> None:
-        self.model, self.contacts, self.load_case = model, contacts, load_case
-        self.laws: InterfaceLaws = interface_laws(model, contacts)
+    def __init__(self, model: Model, contacts: Contacts, load_case: LoadCase, contact_model: str) -> None:
+        self.model, self.contacts, self.load_case, self.contact_model = model, contacts, load_case, contact_model
+        self.laws: InterfaceLaws = interface_laws(model, contacts, contact_model)
         limits = yield_limits(model, contacts)
-        self.limits: YieldLimits = _of_points(limits, self.laws, contacts)
+        self.limits: YieldLimits = without_crushing(limits)
         self.scale: LoadScale = load_scale(model, contacts, load_case, limits)
+
+    def program(self) -> ConvexProgram:
+        """The program by which forces and motions are repaired; no verdict comes from it."""
+        return assemble_convex(self.model, self.contacts, self.load_case, self.contact_model)
 
     def own_velocities(self, mechanism: FloatArray, motions: FloatArray) -> FloatArray:
         """Velocities of the points without the motions of their interfaces, (n_points, 3)."""
@@ -114,19 +122,21 @@ class _Case:
 
 def point_limits(model: Model, contacts: Contacts) -> YieldLimits:
     """Strengths of the contact points alone, which do not crush where their interface does."""
-    return _of_points(yield_limits(model, contacts), interface_laws(model, contacts), contacts)
+    return without_crushing(yield_limits(model, contacts))
 
 
-def _of_points(limits: YieldLimits, laws: InterfaceLaws, contacts: Contacts) -> YieldLimits:
-    blocks = laws.crushable[contacts.interface_of_point]
-    return replace(limits, compression=np.where(blocks, np.inf, limits.compression))
-
-
-def convex_bounds(model: Model, contacts: Contacts, load_case: LoadCase, associative: Mechanics) -> tuple[float, float]:
+def convex_bounds(
+    model: Model, contacts: Contacts, load_case: LoadCase, associative: Mechanics, contact_model: str
+) -> tuple[float, float]:
     """Static and kinematic bound of the associative load factor, NaN where none could be proved."""
-    case = _Case(model, contacts, load_case)
-    convex = assemble_convex(model, contacts, load_case)
+    return _bounds(_Case(model, contacts, load_case, contact_model), associative)
+
+
+def _bounds(case: _Case, associative: Mechanics) -> tuple[float, float]:
+    convex, load_case = case.program(), case.load_case
     scaling = convex.points.scaling
+    crushes = np.any(_motions_of(case, associative)[:, 1] != 0.0, axis=1)
+    convex = with_crushing_of(convex, crushes | near_crushing(convex, associative.contact_forces / scaling.force))
     forces = scaling.scaled_forces(associative.contact_forces)
     repaired = repaired_convex_forces(convex, forces, associative.load_factor / scaling.live)
     static = np.nan
@@ -134,7 +144,7 @@ def convex_bounds(model: Model, contacts: Contacts, load_case: LoadCase, associa
         forces, factor = scaling.forces(repaired[0]), scaling.load_factor(repaired[1])
         if _forces_prove(case, forces, factor):
             static = factor
-    if not np.any(load_case.dead_load[model.free]):
+    if not np.any(load_case.dead_load[case.model.free]):
         static = float(np.fmax(static, 0.0))  # no forces balance no load
     largest = 2.0 * float(np.abs(associative.contact_forces[:, 0]).max(initial=0.0))
     values = [
@@ -174,7 +184,11 @@ def _forces_prove(case: _Case, forces: FloatArray, factor: float) -> bool:
     block_scale = np.maximum(scale.block_scale(contacts, forces), rounding)
     point_scale = np.maximum(scale.point_scale(contacts, forces), rounding)
     allowed = PROVED_RESIDUAL * point_scale
-    interface_allowed = np.minimum.reduceat(allowed, contacts.point_start[:-1])
+    pressed = np.maximum(np.add.reduceat(forces[:, 0], contacts.point_start[:-1]), 0.0)
+    interface_allowed = np.maximum(
+        np.minimum.reduceat(allowed, contacts.point_start[:-1]),
+        np.where(case.laws.crushable, ROUNDED_OFF * pressed, 0.0),
+    )
     return bool(
         np.all(unbalanced <= PROVED_RESIDUAL * block_scale)
         and np.all(yield_violation(forces, case.limits) <= allowed)
@@ -214,7 +228,7 @@ def _dissipation(case: _Case, mechanism: FloatArray, motions: FloatArray) -> tup
 
 def _certificate_failures(case: _Case, certificate: FloatArray, motions: FloatArray | None) -> tuple[str, ...]:
     """Why a mechanism does not prove that the dead load alone is not carried; nothing where it does."""
-    convex = assemble_convex(case.model, case.contacts, case.load_case)
+    convex = case.program()
     motions = np.zeros((len(case.contacts), 2, 6)) if motions is None else motions
     failures: tuple[str, ...] = ()
     for mechanism, moved in _moved(case, convex, certificate, motions):
@@ -273,15 +287,15 @@ def _residuals(case: _Case, mechanics: Mechanics, flow_rule: str) -> Residuals:
 
 
 def convex_residuals(
-    model: Model, contacts: Contacts, load_case: LoadCase, mechanics: Mechanics, flow_rule: str
+    model: Model, contacts: Contacts, load_case: LoadCase, mechanics: Mechanics, flow_rule: str, contact_model: str
 ) -> Residuals:
     """Residuals of points and interfaces of any forces and motions under a flow rule."""
-    return _residuals(_Case(model, contacts, load_case), mechanics, flow_rule)
+    return _residuals(_Case(model, contacts, load_case, contact_model), mechanics, flow_rule)
 
 
-def convex_lock_failures(model: Model, contacts: Contacts, lock: FloatArray) -> tuple[str, ...]:
+def convex_lock_failures(model: Model, contacts: Contacts, lock: FloatArray, contact_model: str) -> tuple[str, ...]:
     """Why forces, (n_points, 3) [N], are not within the conditions on interfaces however often they are taken."""
-    case = _Case(model, contacts, model.load_cases[0])
+    case = _Case(model, contacts, model.load_cases[0], contact_model)
     none = np.zeros(len(contacts))
     dry = replace(case.laws, cohesion=none, tension=none)
     resultants = case.resultants(lock)

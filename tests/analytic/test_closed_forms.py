@@ -32,7 +32,6 @@ VARIATIONS: list[tuple[str, tuple[str, ...]]] = [
         ("mortar_joint", (f"mu={mu}", f"c={c}", f"ft={ft}"))
         for mu, c, ft in ((0.5, 5e3, 0), (0.8, 2e6, 1e6), (0.0, 1e4, 2e3))
     ),
-    *(("eccentric_compression", (f"ecc={ecc}", f"fc={fc}")) for ecc, fc in ((0.1, 1e6), (0.4, 3e5), (0.0, 1e9))),
     *(
         ("guided_blocks", (f"mu={mu}", f"b={b}", f"h={h}", f"off={off}"))
         for mu, b, h, off in ((0.4, 0.3, 1.5, 0.0), (0.9, 0.7, 3.0, 1.0))

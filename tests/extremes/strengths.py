@@ -56,7 +56,7 @@ def tensile() -> Iterator[Scene]:
 
 
 def crushing() -> Iterator[Scene]:
-    """Two points bear b/h times (fc/sigma - 1) where fc is between one and two weight stresses, b/h beyond."""
+    """Over a stress block of the width b sigma/fc: b/h (1 - sigma/fc) where fc is beyond the weight stress."""
     for rule in FLOW_RULES:
         for k in range(-6, 7):
             value = 10.0**k
@@ -65,7 +65,7 @@ def crushing() -> Iterator[Scene]:
                 "strength of joints",
                 CRUSHING,
                 (f"parameters.fc=1.0e{k}", "parameters.mu=2", ruled(rule)),
-                None if value < 1 else 0.5 * min(value - 1, 1),
+                None if value < 1 else 0.5 * (1 - 1 / value),
                 diagnosis=("no_equilibrium",) if value < 1 else (),
             )
         for k in (-9, -6, -3):
@@ -74,7 +74,7 @@ def crushing() -> Iterator[Scene]:
                 "strength of joints",
                 CRUSHING,
                 (f"parameters.fc={1 + 10.0**k!r}", "parameters.mu=2", ruled(rule)),
-                0.5 * 10.0**k,
+                0.5 * 10.0**k / (1 + 10.0**k),
                 1e-3 if k == -9 else 1e-5,
                 diagnosis=("load-factor-rounding",) if k < -6 else (),
             )

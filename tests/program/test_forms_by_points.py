@@ -226,7 +226,7 @@ def test_velocities_and_what_they_dissipate(components: int, reduce_dry: bool) -
 def test_matrices_of_forms_hold_no_zeros_and_their_rows_in_order(text: str) -> None:
     """Zeros that are stored fill the factors of the solver."""
     line = line_of(text)
-    program, convex = line.program, assemble_convex(line.model, line.contacts, line.load_case)
+    program, convex = line.program, assemble_convex(line.model, line.contacts, line.load_case, "convex")
     nothing = np.zeros(program.n_points, dtype=bool)
     still = PointMotion(nothing, nothing, nothing, np.zeros((program.n_points, 2)))
     for number, form in enumerate(
@@ -246,7 +246,7 @@ def test_matrices_of_forms_hold_no_zeros_and_their_rows_in_order(text: str) -> N
 
 def test_the_weight_that_stabilises_conditions_grows_with_the_blocks_up_to_its_most() -> None:
     line = line_of(WALL, "parameters.n=4")
-    convex = assemble_convex(line.model, line.contacts, line.load_case)
+    convex = assemble_convex(line.model, line.contacts, line.load_case, "convex")
     n_free = len(line.model.free)
     assert convex_form(convex).cone_program.quadratic is None
     for blocks, weight in ((n_free, 1e-9 * n_free), (5000, 1e-7)):

@@ -1,23 +1,24 @@
 from __future__ import annotations
 
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 from mbla.contacts import find_contacts
-from mbla.model.model import Joint
-from mbla.model.polyhedra import join_polyhedra
+from mbla.deck.types import AnalysisSection
 from mbla.program.remarks import program_notices
 from mbla.results.series import factor_of
 from mbla.run_deck import RunOptions, run
-from tests.contacts.structures import blocks_of, boxes, ground, model_of, prism, section
+from tests.contacts.structures import blocks_of, boxes, model_of, section
 from tests.line import BLOCK, line_of
+
+CRUSHES = ("joints.dry.compressive_strength=1e6", "analysis.form=static")
+"""At points: the static form takes no others."""
 
 
 def test_compressive_strength_at_corner_points_is_warned_of() -> None:
-    line = line_of(BLOCK, "joints.dry.compressive_strength=1e6")
-    (notice,) = program_notices(line.model, line.contacts)
+    line = line_of(BLOCK, *CRUSHES)
+    (notice,) = program_notices(line.model, line.contacts, line.deck.analysis)
     assert notice.severity == "warning"
     assert notice.identifier == "eccentric-crushing-overstated"
     assert "dry" in notice.message
@@ -34,22 +35,22 @@ def test_compressive_strength_at_corner_points_is_warned_of() -> None:
     ],
 )
 def test_points_between_the_corners_bound_what_they_overstate(points: str, identifier: str) -> None:
-    line = line_of(BLOCK, "joints.dry.compressive_strength=1e6", points)
-    (notice,) = program_notices(line.model, line.contacts)
+    line = line_of(BLOCK, *CRUSHES, points)
+    (notice,) = program_notices(line.model, line.contacts, line.deck.analysis)
     assert notice.identifier == identifier
 
 
 def test_a_single_edge_without_points_is_enough_for_the_warning() -> None:
     """1 m along x, 0.4 m along y."""
     text = BLOCK.replace('max: ["=b", 1, "=h"]', 'max: ["=b", 0.4, "=h"]')
-    line = line_of(text, "joints.dry.compressive_strength=1e6", "contacts.points.spacing=0.5")
-    (notice,) = program_notices(line.model, line.contacts)
+    line = line_of(text, *CRUSHES, "contacts.points.spacing=0.5")
+    (notice,) = program_notices(line.model, line.contacts, line.deck.analysis)
     assert notice.identifier == "eccentric-crushing-overstated"
 
 
 def test_joints_without_it_are_not() -> None:
     line = line_of(BLOCK)
-    assert program_notices(line.model, line.contacts) == ()
+    assert program_notices(line.model, line.contacts, line.deck.analysis) == ()
 
 
 PIER = """mbla: 1
@@ -62,7 +63,7 @@ contacts: {joint: mortar, points: {per_edge: PARTS}}
 supports: [{ground: {z: 0}}]
 load_cases:
   top: {live: [{force: [1000, 0, 0], on: pier, at: [150, 100, 1000]}]}
-analysis: {flow_rule: associative}
+analysis: {flow_rule: associative, form: static}
 """
 
 
@@ -83,24 +84,24 @@ def test_the_excess_of_points_that_also_bear_tension(tmp_path: Path, parts: int)
     assert 0.8 * bound < excess <= bound
 
 
-@pytest.mark.parametrize(("count", "words"), [(1, "1 interface with a"), (2, "2 interfaces with a")])
-def test_outlines_without_a_stress_block_are_counted(count: int, words: str) -> None:
-    """Prisms over an L on each other and on the ground, and a box beside them, which has one."""
-    outline = [[0, 0], [2, 0], [2, 1], [1, 1], [1, 2], [0, 2]]
-    tiers = [prism(outline, float(k), k + 1.0) for k in range(count)]
-    blocks = blocks_of(join_polyhedra([*tiers, boxes(([5, 0, 0], [6, 1, 1]))]))
-    model = model_of(blocks, grounds=(ground(),))
-    assert program_notices(model, find_contacts(model, section()), "convex") == ()
-    strong = replace(model, joints={"dry": Joint("dry", 0.65, compressive_strength=1e6)})
-    (notice,) = program_notices(strong, find_contacts(strong, section()), "convex")
-    assert notice.identifier == "crushing-by-points"
-    assert notice.message.startswith(words)
+def test_what_crushes_as_stress_blocks_do_is_not_warned_of() -> None:
+    """By default, with either flow rule; not with schemes and solvers that take points alone."""
+    for ways, told in (
+        ((), False),
+        (("analysis.flow_rule=non_associative",), False),
+        (("analysis.contact_model=convex",), False),
+        (("analysis={flow_rule: non_associative, scheme: interior}",), True),
+        (("analysis.solver=highs", "analysis.friction_cone=polyhedral"), True),
+        (("analysis.form=static",), True),
+        (("analysis.second_opinion=true",), True),
+    ):
+        line = line_of(BLOCK, "joints.dry.compressive_strength=1e6", *ways)
+        assert bool(program_notices(line.model, line.contacts, line.deck.analysis)) == told, ways
 
 
 def test_without_interfaces_there_is_nothing_to_say() -> None:
     model = model_of(blocks_of(boxes(([0, 0, 0], [1, 1, 1]), ([5, 0, 0], [6, 1, 1]))))
-    for contact_model in ("concave", "convex"):
-        assert program_notices(model, find_contacts(model, section()), contact_model) == ()
+    assert program_notices(model, find_contacts(model, section()), AnalysisSection(form="static")) == ()
 
 
 @pytest.mark.parametrize(
@@ -121,6 +122,6 @@ def test_one_interface_with_corners_alone_is_enough_for_the_warning(
     )
     start, rest = BLOCK.split("  - box")
     text = start + "".join(boxes) + rest[rest.index("supports:") :]
-    line = line_of(text, "joints.dry.compressive_strength=1e6", "contacts.points.spacing=0.5")
-    (notice,) = program_notices(line.model, line.contacts)
+    line = line_of(text, *CRUSHES, "contacts.points.spacing=0.5")
+    (notice,) = program_notices(line.model, line.contacts, line.deck.analysis)
     assert notice.identifier == identifier

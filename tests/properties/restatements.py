@@ -162,14 +162,14 @@ def unreduced(scene: Scene, _: Solved) -> Scene:
     return with_analysis(scene, reductions=off)
 
 
-def static_form(scene: Scene, _: Solved) -> Scene | None:
-    """Forces for unknowns."""
-    return None if scene.deck.analysis.contact_model == "convex" else with_analysis(scene, form="static")
+def static_form(scene: Scene, solved: Solved) -> Scene | None:
+    """Forces for unknowns; not where interfaces have conditions of their own, which are in velocities alone."""
+    return None if solved.conditions else with_analysis(scene, form="static")
 
 
 def other_solver(scene: Scene, solved: Solved) -> Scene | None:
     """Clarabel in place of the program's own method, or the other way round."""
-    if scene.deck.analysis.contact_model == "convex":
-        return None
+    if solved.conditions:
+        return None  # clarabel alone takes their cones
     taken_before = {program.solver for case in solved.cases for program in case.solution.programs}
     return with_analysis(scene, solver="mbla" if "clarabel" in taken_before else "clarabel")

@@ -60,6 +60,11 @@ class Solved:
     contacts: Contacts
     cases: tuple[CaseResult, ...]
 
+    @property
+    def conditions(self) -> bool:
+        """Interfaces have conditions of their own: torsion, or crushing."""
+        return any(case.solution.conditions_on_interfaces for case in self.cases)
+
 
 def scene_of(path: Path, *overrides: str) -> Scene:
     """A deck on the disk under associative flow with round friction, to the last digits."""

@@ -186,7 +186,9 @@ def tower_results(flow_rule: str = "non_associative") -> Results:
         ProgramRecord(2, "published", Status.SOLVED, 0.5, 1e-6, 11, 0.01, "clarabel", "qdldl"),
     )
     iterations = tuple(IterationRecord(1, i, 0.5 + 0.1**i, 0.1**i, 1e-3, 1e-4, 0.9, 0.001 * i) for i in range(12))
-    solution = Solution(flow_rule, Status.SOLVED, mechanics, associative, None, "", programs, iterations, 0.02)
+    solution = Solution(
+        flow_rule, Status.SOLVED, mechanics, associative, None, "", programs, iterations, 0.02, stress_blocks=True
+    )
     checks = Checks(1e-12, 0.0, 0.0, 1e-11, 1.0, 1e-12, 0.5, 0.5, 0.0, True, ())
     certificate = np.zeros((3, 6))
     certificate[1] = [0, 0, -1, 0, 0, 0]

@@ -65,7 +65,7 @@ def prism(outline: Sequence[tuple[float, float]], point: Sequence[float]) -> str
 def convex(line: Line, flow_rule: str = "associative") -> tuple[Solution, Checks]:
     """Solve and verify with interface resultants."""
     analysis = line.deck.analysis.model_copy(update={"flow_rule": flow_rule, "contact_model": "convex"})
-    program = assemble_convex(line.model, line.contacts, line.load_case)
+    program = assemble_convex(line.model, line.contacts, line.load_case, "convex")
     solution = solve_convex(program, analysis, solver_settings(analysis))
     return solution, verify(line.model, line.contacts, line.load_case, solution)
 
@@ -79,6 +79,7 @@ def factor(text: str, *overrides: str, case: int = 0, flow_rule: str = "associat
 
 
 def concave(line: Line) -> float:
+    """By contact points alone."""
     solution = solution_of(line)
     assert solution.associative is not None
     return solution.associative.load_factor

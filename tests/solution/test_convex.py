@@ -8,10 +8,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from mbla.program.remarks import program_notices
 from mbla.solution.solution import ContactMode, Status
 from mbla.solution.verification import verify
-from tests.line import BLOCK, HEAD, WALL, line_of, solution_of
+from tests.line import BLOCK, HEAD, WALL, factor_of, line_of, solution_of
 from tests.solution.convex_structures import DECKS, TWIST, concave, convex, factor, prism
 
 SQUARE = (np.sqrt(2) + np.log(1 + np.sqrt(2))) / 6
@@ -86,34 +85,52 @@ TRIANGLE = ((0, 0), (1, 0), (0.2, 0.9))
 CENTROID = np.array([0.4, 0.3])
 
 
-@pytest.mark.parametrize(("e1", "e2"), [(0.0, 0.0), (0.3, 0.0), (0.0, -0.2), (0.2, 0.15)])
-def test_rectangular_stress_block(e1: float, e2: float) -> None:
-    expected = 20 * 0.96 * (1 - 2 * abs(e1) / 1.2) * (1 - 2 * abs(e2) / 0.8) - 1
-    assert factor(prism(RECTANGLE, [0.6 + e1, 0.4 + e2])) == pytest.approx(expected, rel=1e-6)
+@pytest.mark.parametrize("model", ["concave", "convex"])
+@pytest.mark.parametrize(
+    ("e1", "e2", "block"),
+    [
+        (0.0, 0.0, 0.96),
+        (0.3, 0.0, 0.6 * 0.8),
+        (0.0, -0.2, 1.2 * 0.4),
+        (0.2, 0.15, 1.2 * 0.75 / 2),  # a triangle with three times the distances from the corner as legs
+        (-0.4, -0.2, 0.6 * 0.6 / 2),
+    ],
+)
+def test_rectangular_stress_block(e1: float, e2: float, block: float, model: str) -> None:
+    text = prism(RECTANGLE, [0.6 + e1, 0.4 + e2])
+    assert factor_of(text, f"analysis.contact_model={model}") == pytest.approx(20 * block - 1, rel=1e-6)
 
 
 @pytest.mark.parametrize("share", [0.0, 0.3, 0.6])
-def test_stress_block_of_another_outline_is_homothetic(share: float) -> None:
-    point = (1 - share) * CENTROID + share * np.array([0.5, 0.0])
+def test_stress_block_in_the_corner_of_a_triangle_is_homothetic(share: float) -> None:
+    point = (1 - share) * CENTROID + share * np.array(TRIANGLE[1])
     expected = 20 * 0.45 * (1 - share) ** 2 - 1
     assert factor(prism(TRIANGLE, point.tolist())) == pytest.approx(expected, rel=1e-5)
 
 
+@pytest.mark.parametrize("share", [0.3, 0.6])
+def test_stress_block_along_an_edge_of_a_triangle(share: float) -> None:
+    """A strip up to t of the height: 2 t - t^2 of the area, with its centroid at t (1 - 2 t/3)/(2 - t)."""
+    height = (1 - share) / 3
+    t = 0.75 * (1 + height - np.sqrt((1 + height) ** 2 - 16 * height / 3))
+    point = (1 - share) * CENTROID + share * np.array([0.5, 0.0])
+    expected = 20 * 0.45 * (2 * t - t**2) - 1
+    assert factor(prism(TRIANGLE, point.tolist())) == pytest.approx(expected, rel=1e-6)
+
+
 def test_crushing_is_associative_whatever_the_flow_rule() -> None:
     text = prism(RECTANGLE, [0.9, 0.4])
-    assert factor(text, flow_rule="non_associative") == pytest.approx(factor(text), rel=1e-4)
+    assert factor(text, flow_rule="non_associative") == pytest.approx(factor(text), rel=1e-6)
 
 
-def test_outlines_that_are_not_convex_crush_by_points_and_say_so() -> None:
+@pytest.mark.parametrize("flow_rule", ["associative", "non_associative"])
+@pytest.mark.parametrize("model", ["concave", "convex"])
+def test_outlines_that_are_not_convex_crush_in_triangles(model: str, flow_rule: str) -> None:
+    """An angle under full stress up to x = 0.7: two rectangles."""
     angle = ((0, 0), (1, 0), (1, 0.4), (0.4, 0.4), (0.4, 1), (0, 1))
-    text = prism(angle, [0.35, 0.35])
-    line = line_of(text)
-    assert convex(line)[0].mechanics is not None
-    assert factor(text) == pytest.approx(concave(line), rel=1e-6)
-    (notice,) = program_notices(line.model, line.contacts, "convex")
-    assert notice.identifier == "crushing-by-points"
-    other = line_of(prism(TRIANGLE, [0.4, 0.3]))
-    assert program_notices(other.model, other.contacts, "convex") == ()
+    point = (0.4 * np.array([0.2, 0.5]) + 0.12 * np.array([0.55, 0.2])) / 0.52
+    ways = (f"analysis.contact_model={model}", f"analysis.flow_rule={flow_rule}")
+    assert factor_of(prism(angle, point.tolist()), *ways) == pytest.approx(20 * 0.52 - 1, rel=1e-6)
 
 
 # --- against the concave model --------------------------------------------------------------------------------------

@@ -28,7 +28,7 @@ SETTINGS = SolverSettings(1e-8)
 def sliding() -> ConvexProgram:
     """A block that slides at 0.5."""
     line = line_of(BLOCK, "parameters.h=0.5")
-    return assemble_convex(line.model, line.contacts, line.load_case)
+    return assemble_convex(line.model, line.contacts, line.load_case, "convex")
 
 
 @pytest.mark.parametrize("sense", [1.0, -1.0])

@@ -21,7 +21,7 @@ SETTINGS = SolverSettings(1e-8)
 @pytest.fixture(scope="module")
 def wall() -> ConvexProgram:
     line = line_of(WALL.replace("[1, 0, 0]", "[1, 0.3, 0]"), "parameters.n=2")
-    return assemble_convex(line.model, line.contacts, line.load_case)
+    return assemble_convex(line.model, line.contacts, line.load_case, "convex")
 
 
 def sequence(convex: ConvexProgram, most: int) -> ConvexSequence:

@@ -37,7 +37,7 @@ def test_like_blocks_are_solved_once() -> None:
 
 def test_units_follow_the_loads_and_leave_the_dual_program_as_it_is() -> None:
     line = tower(1e4, 1.0, 1.0)
-    program = assemble_convex(line.model, line.contacts, line.load_case)
+    program = assemble_convex(line.model, line.contacts, line.load_case, "convex")
     form = convex_form(program)
     weight = np.abs(program.points.dead_load).reshape(-1, 6).max(axis=1)
     forces = np.zeros((program.points.n_points, 3))
@@ -58,7 +58,7 @@ def test_what_is_lost_is_a_share_of_what_a_light_block_carries() -> None:
     """An unbalanced force of 1e-7 mean loads is nothing to the heavy block, and all to the light one."""
     solution, _ = convex(tower(1e4, 1.0, 1.0))
     line = tower(1e4, 1.0, 1.0)
-    program = assemble_convex(line.model, line.contacts, line.load_case)
+    program = assemble_convex(line.model, line.contacts, line.load_case, "convex")
     scaling, mechanics = program.points.scaling, solution.mechanics
     assert mechanics is not None
     forces, factor = mechanics.contact_forces / scaling.force, mechanics.load_factor / scaling.live

@@ -17,12 +17,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 import scipy.sparse as sp
 
-from mbla.arrays import FloatArray, IntArray
+from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.contacts.contacts import Contacts
 from mbla.model.model import LoadCase, Model
 from mbla.program.assemble import assemble
 from mbla.program.convex.conditions import ConditionRows, joined
-from mbla.program.convex.crushing import CrushingLimits, crushing_limits, crushing_rows
+from mbla.program.convex.crushing import CrushingLimits, crushing_limits, crushing_rows, crushing_violation
 from mbla.program.convex.shapes import InterfaceShapes, interface_shapes, local_points
 from mbla.program.convex.torsion import TorsionLimits, torsion_limits, torsion_rows
 from mbla.program.kinematic import KinematicForm, kinematic_form
@@ -34,22 +34,23 @@ from mbla.program.yield_conditions import YieldLimits
 class ConvexProgram:
     """One load case with conditions on interfaces, non-dimensional as ``Program``.
 
-    points     : the program of the contact points alone; points of interfaces with a stress block do not crush
+    contact_model : ``convex`` with torsion, ``concave`` without
+    points     : the program of the contact points alone, which do not crush
     program    : the same with the unknowns of the conditions behind the velocities of the blocks
     shapes     : of the interfaces, in the deck's units
-    torsion, rectangles, others : limits of the conditions: torsion, stress blocks on rectangles and on other outlines
+    torsion, crushing : limits of the conditions
     conditions : torsion, crushing as rows
     interface_of_point : (n_points,)
     resultants : (6 n_interfaces, 3 n_points) from contact forces to N, T1, T2 and moments about normal, tangent 1 and
                  tangent 2 at the centroid; lengths in the deck's units
     """
 
+    contact_model: str
     points: Program
     program: Program
     shapes: InterfaceShapes
     torsion: TorsionLimits
-    rectangles: CrushingLimits
-    others: CrushingLimits
+    crushing: CrushingLimits
     conditions: tuple[ConditionRows, ConditionRows]
     interface_of_point: IntArray
     resultants: sp.csr_array
@@ -61,40 +62,73 @@ class ConvexProgram:
 
     def flows(self, velocities: FloatArray) -> FloatArray:
         """Motion of every interface by torsion and by crushing, (n_interfaces, 2, 6), in the program's units."""
-        torsion, crushing = self.conditions
+        of_torsion, of_crushing = self.conditions
         psi = velocities[self.n_block_rows :]
-        n_torsion = torsion.motion.shape[1]
-        motions = (torsion.motion @ psi[:n_torsion], crushing.motion @ psi[n_torsion:])
+        n_torsion = of_torsion.motion.shape[1]
+        motions = (of_torsion.motion @ psi[:n_torsion], of_crushing.motion @ psi[n_torsion:])
         return np.stack([motion.reshape(-1, 6) for motion in motions], axis=1)
 
 
-def assemble_convex(model: Model, contacts: Contacts, load_case: LoadCase) -> ConvexProgram:
-    """Build the program of one load case with the convex contact model."""
+def assemble_convex(model: Model, contacts: Contacts, load_case: LoadCase, contact_model: str) -> ConvexProgram:
+    """Build the program of one load case with conditions on interfaces: crushing, and torsion where that is asked for.
+
+    contact_model : ``convex`` with torsion; ``concave`` without: shear is that of the points alone
+    """
     program = assemble(model, contacts, load_case, own=False)  # interface resultants are in the common unit
     shapes = interface_shapes(contacts)
     laws = [model.joints[contacts.joint_names[joint]] for joint in contacts.joints]
     scale = contacts.areas / program.scaling.force
     strength = np.array([law.compressive_strength for law in laws]) * scale
+    shear = float(contact_model == "convex")
     torsion = torsion_limits(
-        shapes, np.array([law.friction for law in laws]), np.array([law.cohesion for law in laws]) * scale
+        shapes,
+        shear * np.array([law.friction for law in laws]),
+        shear * np.array([law.cohesion for law in laws]) * scale,
     )
     tension = np.array([law.tensile_strength for law in laws]) * scale
-    rectangles, others = crushing_limits(shapes, strength, tension)
+    crushing = crushing_limits(shapes, strength, tension)
     n_interfaces = len(contacts)
-    conditions = (torsion_rows(torsion, n_interfaces), crushing_rows(rectangles, others, n_interfaces))
-    points = replace(program, limits=_point_limits(program.limits, contacts, shapes))
+    conditions = (torsion_rows(torsion, n_interfaces), crushing_rows(crushing, n_interfaces))
+    points = replace(program, limits=without_crushing(program.limits))
     resultants = resultants_map(contacts)
     return ConvexProgram(
+        contact_model=contact_model,
         points=points,
         program=_with_conditions(points, joined(conditions), resultants),
         shapes=shapes,
         torsion=torsion,
-        rectangles=rectangles,
-        others=others,
+        crushing=crushing,
         conditions=conditions,
         interface_of_point=contacts.interface_of_point,
         resultants=resultants,
     )
+
+
+def with_crushing_of(convex: ConvexProgram, interfaces: BoolArray) -> ConvexProgram:
+    """The program in which only some interfaces that can crush, (n_interfaces,), do: nothing limits the others."""
+    limits, n = convex.crushing, len(interfaces)
+    kept = interfaces[limits.interfaces]
+    rows = limits.interfaces[kept]
+    strength, tension = np.full(n, np.inf), np.zeros(n)
+    strength[rows], tension[rows] = (limits.strength - limits.tension)[kept], limits.tension[kept]
+    crushing = crushing_limits(convex.shapes, strength, tension)
+    conditions = (convex.conditions[0], crushing_rows(crushing, n))
+    program = _with_conditions(convex.points, joined(conditions), convex.resultants)
+    return replace(convex, program=program, crushing=crushing, conditions=conditions)
+
+
+def near_crushing(convex: ConvexProgram, forces: FloatArray) -> BoolArray:
+    """Interfaces that forces, (n_points, 3), bring beyond what they carry or near to it, (n_interfaces,)."""
+    found = np.zeros(len(convex.shapes.radii), dtype=bool)
+    resultants = (convex.resultants @ forces.ravel()).reshape(-1, 6)
+    rows = convex.crushing.interfaces
+    carried = resultants[rows, 0] + convex.crushing.tension
+    found[rows] = crushing_violation(convex.crushing, resultants) > -NEAR * np.maximum(carried, 0.0)
+    return found
+
+
+NEAR = 0.02
+"""Share of the normal force that an interface has left from which on it is far from crushing."""
 
 
 def resultants_map(contacts: Contacts) -> sp.csr_array:
@@ -118,6 +152,11 @@ STABILISING, AT_MOST = 1e-9, 1e-7
 """Weight of ½ ‖x‖² in the stabilised form, per free block, and its greatest value. Unknowns of conditions fill the KKT
 matrix so that its factors, taken without pivoting, break down at 400 blocks without it. Velocities are small (the
 square of their norm is about one over the number of blocks), so that the load factor moves by less than 1e-8."""
+
+
+OF_CRUSHING = 1e-4
+"""Share of that weight on multipliers of crushing: with all of it the load factor of eight blocks with a strength of
+8 MPa moved by 5e-5."""
 
 
 def convex_form(convex: ConvexProgram, stabilised: bool = False) -> KinematicForm:
@@ -144,9 +183,17 @@ def convex_form(convex: ConvexProgram, stabilised: bool = False) -> KinematicFor
         matrix=matrix,
         rhs=np.concatenate([base.rhs, np.zeros(rows.cones.shape[0])]),
         further_cones=tuple(rows.cone_sizes.tolist()),
-        quadratic=np.full(matrix.shape[1], min(STABILISING * len(convex.points.free), AT_MOST)) if stabilised else None,
+        quadratic=_stabilising(convex, matrix.shape[1]) if stabilised else None,
     )
     return replace(form, cone_program=cone_program)
+
+
+def _stabilising(convex: ConvexProgram, n_unknowns: int) -> FloatArray:
+    """Weights of the quadratic term: those of crushing, whose multipliers are large, hardly count."""
+    weights = np.full(n_unknowns, min(STABILISING * len(convex.points.free), AT_MOST))
+    first = convex.n_block_rows + convex.conditions[0].motion.shape[1]
+    weights[first : first + convex.conditions[1].motion.shape[1]] *= OF_CRUSHING
+    return weights
 
 
 def _with_conditions(program: Program, rows: ConditionRows, resultants: sp.csr_array) -> Program:
@@ -159,7 +206,6 @@ def _with_conditions(program: Program, rows: ConditionRows, resultants: sp.csr_a
     )
 
 
-def _point_limits(limits: YieldLimits, contacts: Contacts, shapes: InterfaceShapes) -> YieldLimits:
-    """Limits of the points: no crushing where the interface has a stress block."""
-    compression = np.where(shapes.convex[contacts.interface_of_point], np.inf, limits.compression)
-    return replace(limits, compression=compression)
+def without_crushing(limits: YieldLimits) -> YieldLimits:
+    """Limits of points that do not crush by themselves."""
+    return replace(limits, compression=np.full_like(limits.compression, np.inf))

@@ -1,23 +1,21 @@
-"""Crushing of interfaces with convex outlines: a rectangular stress block around the force point.
+"""Crushing of interfaces: every field of stress between nothing and the compressive strength, exactly.
 
-Full compressive stress f_c over an area centred on the force point p carries N = f_c A'. For a rectangle a × b this is
-the rectangle that the eccentricity leaves, for other convex outlines the homothetic copy (both safe; the first exact
-for an eccentricity along one side)::
+A stress σ between 0 and f_c carries N = ∫σ and m = ∫σ x = (−M_2, M_1), x from the centroid. What such fields carry is
+bounded, with F = f_c A, by two kinds of inequalities in linear forms of N and m; for parallelograms and triangles no
+others are needed (interfaces of other outlines come in such pieces, :mod:`mbla.contacts.pieces`):
 
-    N³ ≤ F Q_1 Q_2,   Q_1 ≤ N ∓ 2 m_1/a,   Q_2 ≤ N ∓ 2 m_2/b,   F = f_c A,   m = N p = (−M_2, M_1)
-    N³ ≤ F Q²,        Q ≤ N − m·ν_e/d_e for all edges e
+*Corner* (L, Q_1, Q_2; K):  L³ ≤ K Q_1 Q_2. Where full stress covers a triangle at a corner it holds with equality.
+    parallelogram  L = N,      Q_i ≤ N ∓ s_i·m,         K = 9/8 F     s_i = ν_i/d_i: gauge of a pair of edges
+    triangle       L = N,      Q = p_i, p_j,            K = 9 F       p_i = N/3 + m·∇λ_i: forces at the corners
+    and the same of what is left of full stress, with F − N and −m in place of N and m.
+*Edge* (parallelogram):  N² + 3 (s_j·m)² ≤ F (N ∓ s_i·m). Where full stress ends on both edges of the other pair it
+    holds with equality: N(y), the force of the strip at y, has its first moment at least N(y)²/2f_c from the edge, and
+    ∫N(y)² is least, with N and its moment along y given, where N(y) is linear.
 
-as second-order cones, with helping unknowns g and h:  g² ≤ N,  h² ≤ Q_1 Q_2,  N² ≤ √F g h  (h = Q for other outlines),
-the last one scaled by F^¼. A tensile strength f_t shifts the origin exactly: N + f_t A in place of N and f_c + f_t in
-place of f_c.
+A tensile strength f_t shifts the origin exactly: N + f_t A in place of N and f_c + f_t in place of f_c.
 
-How safe: the exact stress block under a biaxial eccentricity is the part of the interface cut off by a line that has
-its centroid at p. For a rectangle it bears between 1 and 9/8 of what is allowed here: 9/8 where both eccentricities are
-a sixth of the side or more and the part is a triangle at a corner, 4.5 u v against 4 u v with u, v the distances of p
-from the sides; 1 where one eccentricity is zero. Of other outlines no such bound holds: near the middle of an edge of a
-triangle the homothetic copy shrinks with the square of the distance from it, the exact part with the distance.
-
-As rows: α, β, γ are the multipliers of the three cones, q_e those of the bounds of Q.
+As second-order cones:  edge  (Q + 1, Q − 1, 2 N/√F, 2√3 P/√F);  corner, with helping unknowns g and h:
+g² ≤ L, h² ≤ Q_1 Q_2, L² ≤ √K g h. As rows: α, β, γ are the multipliers of these three, q_e those of the bounds of Q.
 """
 
 from __future__ import annotations
@@ -26,88 +24,245 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mbla.arrays import BoolArray, FloatArray, IntArray
-from mbla.model.ragged import items_of_rows
+from mbla.arrays import FloatArray, IntArray, starts
 from mbla.program.convex.conditions import M1, M2, ConditionRows, Entries, N, joined
 from mbla.program.convex.shapes import InterfaceShapes
+
+RESULTANTS = (N, M1, M2)
+"""Those that linear forms have coefficients of, behind their constant."""
+
+HEAD = 5
+"""Unknowns of a corner before those of its bounds: α_0, α_1, β_0, β_1, β_2."""
+
+
+@dataclass(frozen=True)
+class Corners:
+    """Corner conditions, in forms 1, N, M_1, M_2.
+
+    interfaces : (n,) rows of the contacts
+    unit       : (n,) force in which L, Q and K are counted
+    strength   : (n,) K
+    lead       : (n, 4) L
+    bounds     : (n_bounds, 4) that Q_1 and Q_2 are at most
+    owner      : (n_bounds,) condition of each bound, ascending
+    side       : (n_bounds,) 0 or 1: of Q_1 or Q_2
+    """
+
+    interfaces: IntArray
+    unit: FloatArray
+    strength: FloatArray
+    lead: FloatArray
+    bounds: FloatArray
+    owner: IntArray
+    side: IntArray
+
+
+@dataclass(frozen=True)
+class Edges:
+    """Edge conditions: (n,) rows of the contacts, and the rows of their cones, (n, 4, 4) in forms 1, N, M_1, M_2."""
+
+    interfaces: IntArray
+    cones: FloatArray
 
 
 @dataclass(frozen=True)
 class CrushingLimits:
-    """Interfaces with convex outlines and a compressive strength; rectangles, or all others.
+    """All conditions of all interfaces that can crush.
 
-    interfaces : (n,) rows of the contacts
-    strength   : (n,) F = (f_c + f_t) A [force]
-    tension    : (n,) f_t A [force]
-    slopes     : (n_slopes, 2) [1/m], Q ≤ N' − slope·m, interface by interface; the first two of a rectangle bound Q_1
-    start      : (n + 1,) first slope of each
+    interfaces : (n_crushing,) rows of the contacts
+    strength   : (n_crushing,) F = (f_c + f_t) A [force]
+    tension    : (n_crushing,) f_t A [force]
     """
 
     interfaces: IntArray
     strength: FloatArray
     tension: FloatArray
-    slopes: FloatArray
-    start: IntArray
+    corners: Corners
+    edges: Edges
 
 
-def crushing_limits(
-    shapes: InterfaceShapes, strength: FloatArray, tension: FloatArray
-) -> tuple[CrushingLimits, CrushingLimits]:
-    """Limits of rectangles, and of other convex outlines; strength (inf: none) and tension, (n_interfaces,)."""
-    applies = np.isfinite(strength) & shapes.convex
+def crushing_limits(shapes: InterfaceShapes, strength: FloatArray, tension: FloatArray) -> CrushingLimits:
+    """Conditions of all interfaces with a finite strength.
+
+    strength, tension : (n_interfaces,) f_c A, inf where unlimited, and f_t A [force]
+
+    Raises
+    ------
+    ValueError
+        where such an interface is neither a parallelogram nor a triangle
+    """
+    counts = np.diff(shapes.start)
+    crushing = np.isfinite(strength)
+    four, three = np.flatnonzero(crushing & shapes.parallelograms), np.flatnonzero(crushing & (counts == 3))
+    if len(four) + len(three) != int(crushing.sum()):
+        raise ValueError("an interface that can crush is neither a parallelogram nor a triangle")
+    total = strength + tension
+    normal = _forms(tension, np.ones(len(strength)), np.zeros((len(strength), 2)))
     slopes = shapes.edge_slopes()
-    rectangular = np.flatnonzero(applies & shapes.rectangles)
-    along = 2.0 / shapes.sides[rectangular, :, None] * shapes.axes[rectangular]
-    pairs = np.stack([along[:, 0], -along[:, 0], along[:, 1], -along[:, 1]], axis=1)
-    slopes[shapes.start[rectangular][:, None] + np.arange(4)] = pairs
-
-    def limits(chosen: BoolArray) -> CrushingLimits:
-        rows = np.flatnonzero(chosen)
-        start = np.concatenate([[0], np.cumsum(np.diff(shapes.start)[rows])]).astype(np.int64)
-        total = strength[rows] + tension[rows]
-        return CrushingLimits(rows, total, tension[rows], slopes[items_of_rows(shapes.start, rows)], start)
-
-    return limits(applies & shapes.rectangles), limits(applies & ~shapes.rectangles)
-
-
-def crushing_rows(rectangles: CrushingLimits, others: CrushingLimits, n_interfaces: int) -> ConditionRows:
-    """The condition of all interfaces in the form of the cone program."""
-    return joined([_rows(rectangles, n_interfaces, 5), _rows(others, n_interfaces, 4)])
+    pairs = slopes[shapes.start[four][:, None] + np.arange(4)]
+    pairs = 0.5 * (pairs[:, :2] - pairs[:, 2:])  # opposite edges up to the rounding of corners
+    corners = [
+        *_parallelogram_corners(four, total[four], normal[four], pairs),
+        *_triangle_corners(three, total[three], normal[three], _corner_forces(shapes, three, tension[three])),
+    ]
+    return CrushingLimits(
+        interfaces=np.flatnonzero(crushing),
+        strength=total[crushing],
+        tension=tension[crushing],
+        corners=_joined(corners),
+        edges=_edges(four, total[four], normal[four], pairs),
+    )
 
 
-def _rows(limits: CrushingLimits, n_interfaces: int, head: int) -> ConditionRows:
-    """Unknowns of an interface: α_0, α_1, β_0, β_2, for rectangles β_1 too, then q_e."""
-    n = len(limits.interfaces)
-    first = head * np.arange(n) + limits.start[:-1]
-    owner = np.repeat(np.arange(n), np.diff(limits.start))
-    q = np.arange(len(owner)) + head * (owner + 1)
-    alpha, beta_0, beta_2 = first[:, None] + np.arange(2), first + 2, first + 3
-    n_unknowns = head * n + len(owner)
+def _forms(constant: FloatArray, of_normal: FloatArray, of_moment: FloatArray) -> FloatArray:
+    """Linear forms from the factors of m = (−M_2, M_1), (..., 2), as coefficients of 1, N, M_1, M_2, (..., 4)."""
+    return np.stack([constant, of_normal, of_moment[..., 1], -of_moment[..., 0]], axis=-1)
 
-    of_normal = np.ones(n_unknowns)  # coefficient of N in Gᵀζ
-    of_normal[beta_0], of_normal[beta_2] = 0.0, 2.0
-    interface = np.empty(n_unknowns, dtype=np.int64)
-    for columns in (alpha[:, 0], alpha[:, 1], beta_0, beta_2):
-        interface[columns] = np.arange(n)
-    interface[q] = owner
-    if head == 5:
-        of_normal[first + 4], interface[first + 4] = 0.0, np.arange(n)
-    cost = of_normal * limits.tension[interface]
-    cost[alpha[:, 0]] += 1.0
-    cost[alpha[:, 1]] -= 1.0
 
-    motion, row = Entries.none(), 6 * limits.interfaces
-    motion.add(row[interface] + N, np.arange(n_unknowns), of_normal)
-    motion.add(row[owner] + M1, q, -limits.slopes[:, 1])
-    motion.add(row[owner] + M2, q, limits.slopes[:, 0])
-    cones, sizes = (_rectangle_cones if head == 5 else _other_cones)(limits, first, owner, q)
+def _parallelogram_corners(rows: IntArray, total: FloatArray, normal: FloatArray, pairs: FloatArray) -> list[Corners]:
+    """Pairs : (n, 2, 2) slopes of the two pairs of edges."""
+    n = len(rows)
+    along = np.concatenate([pairs[:, :1], -pairs[:, :1], pairs[:, 1:], -pairs[:, 1:]], axis=1)
+    moment = _forms(np.zeros((n, 4)), np.zeros((n, 4)), along)
+    owner, side = np.repeat(np.arange(n), 4), np.tile([0, 0, 1, 1], n)
+    left, unit = _complement(normal, total), total[:, None, None]
+    return [
+        Corners(rows, np.ones(n), 1.125 * total, normal, (normal[:, None] - moment).reshape(-1, 4), owner, side),
+        Corners(rows, total, np.full(n, 1.125), left, (left[:, None] + moment / unit).reshape(-1, 4), owner, side),
+    ]
+
+
+def _triangle_corners(rows: IntArray, total: FloatArray, normal: FloatArray, forces: FloatArray) -> list[Corners]:
+    """Forces : (n, 3, 4) of the corners."""
+    n, found = len(rows), []
+    owner, side = np.repeat(np.arange(n), 2), np.tile([0, 1], n)
+    left = (np.array([1.0, 0.0, 0.0, 0.0]) / 3.0) - forces / total[:, None, None]
+    for pair in ([0, 1], [1, 2], [2, 0]):
+        found.append(Corners(rows, np.ones(n), 9.0 * total, normal, forces[:, pair].reshape(-1, 4), owner, side))
+        whole = _complement(normal, total)
+        found.append(Corners(rows, total, np.full(n, 9.0), whole, left[:, pair].reshape(-1, 4), owner, side))
+    return found
+
+
+def _complement(normal: FloatArray, total: FloatArray) -> FloatArray:
+    """(F − N)/F: force that is left, in terms of the strength, (n, 4)."""
+    return np.array([1.0, 0.0, 0.0, 0.0]) - normal / total[:, None]
+
+
+def _corner_forces(shapes: InterfaceShapes, rows: IntArray, tension: FloatArray) -> FloatArray:
+    """p_i of triangles, which together carry N and m, (n, 3, 4)."""
+    x = shapes.corners[shapes.start[rows][:, None] + np.arange(3)]
+    opposite = np.roll(x, -1, axis=1), np.roll(x, -2, axis=1)
+    edge = opposite[1] - opposite[0]
+    inward = np.stack([-edge[..., 1], edge[..., 0]], axis=-1)
+    height = ((x - opposite[0]) * inward).sum(axis=-1)
+    third = np.full(height.shape, 1.0 / 3.0)
+    return _forms(tension[:, None] * third, third, inward / height[..., None])
+
+
+def _edges(rows: IntArray, total: FloatArray, normal: FloatArray, pairs: FloatArray) -> Edges:
+    n, found = len(rows), []
+    one, root = np.array([1.0, 0.0, 0.0, 0.0]), np.sqrt(total)[:, None]
+    moments = _forms(np.zeros((n, 2)), np.zeros((n, 2)), pairs)
+    for pair in (0, 1):
+        across = 2.0 * np.sqrt(3.0) * moments[:, 1 - pair] / root
+        for sign in (1.0, -1.0):
+            q = normal - sign * moments[:, pair]
+            found.append(np.stack([q + one, q - one, 2.0 * normal / root, across], axis=1))
+    cones = np.stack(found, axis=1).reshape(-1, 4, 4)
+    return Edges(np.repeat(rows, 4), cones)
+
+
+def _joined(parts: list[Corners]) -> Corners:
+    first = np.cumsum([0, *(len(part.interfaces) for part in parts)])[:-1]
+    return Corners(
+        interfaces=np.concatenate([part.interfaces for part in parts]),
+        unit=np.concatenate([part.unit for part in parts]),
+        strength=np.concatenate([part.strength for part in parts]),
+        lead=np.concatenate([part.lead for part in parts]),
+        bounds=np.concatenate([part.bounds for part in parts]),
+        owner=np.concatenate([part.owner + at for part, at in zip(parts, first, strict=True)]),
+        side=np.concatenate([part.side for part in parts]),
+    )
+
+
+def values(forms: FloatArray, resultants: FloatArray, interface: IntArray) -> FloatArray:
+    """Linear forms, (..., 4), at the resultants, (n_interfaces, 6), of the interfaces that they belong to."""
+    chosen = resultants[interface][:, list(RESULTANTS)]
+    return np.asarray(forms[..., 0] + np.einsum("n...k,nk->n...", forms[..., 1:], chosen))
+
+
+def corner_values(corners: Corners, resultants: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """L, (n,), bounds, (n_bounds,), and the least bounds of Q_1 and Q_2, (n, 2)."""
+    lead = values(corners.lead, resultants, corners.interfaces)
+    bounds = values(corners.bounds, resultants, corners.interfaces[corners.owner])
+    q = np.full((len(lead), 2), np.inf)
+    np.minimum.at(q, (corners.owner, corners.side), bounds)
+    return lead, bounds, q
+
+
+def crushing_violation(limits: CrushingLimits, resultants: FloatArray) -> FloatArray:
+    """Largest excess over the conditions of each interface that can crush, negative inside, (n_crushing,) [force].
+
+    resultants : (n_interfaces, 6)
+    """
+    corners, edges = limits.corners, limits.edges
+    lead, _, q = corner_values(corners, resultants)
+    needed = np.sqrt(np.maximum(lead, 0.0) ** 3 / corners.strength)
+    at_corners = 0.5 * (np.hypot(q[:, 0] - q[:, 1], 2.0 * needed) - q.sum(axis=1))
+    cones = values(edges.cones, resultants, edges.interfaces)
+    at_edges = 0.5 * (np.linalg.norm(cones[:, 1:], axis=1) - cones[:, 0])
+    most = np.full(len(resultants), -np.inf)
+    np.maximum.at(most, corners.interfaces, corners.unit * np.maximum(at_corners, -lead))
+    np.maximum.at(most, edges.interfaces, at_edges)
+    return most[limits.interfaces]
+
+
+def crushing_rows(limits: CrushingLimits, n_interfaces: int) -> ConditionRows:
+    """The conditions of all interfaces in the form of the cone program."""
+    return joined([_corner_rows(limits.corners, n_interfaces), _edge_rows(limits.edges, n_interfaces)])
+
+
+def _edge_rows(edges: Edges, n_interfaces: int) -> ConditionRows:
+    """Unknowns are the multipliers of the cones themselves."""
+    n_unknowns = 4 * len(edges.interfaces)
+    column = np.arange(n_unknowns)
+    motion, cones = Entries.none(), Entries.none()
+    forms = edges.cones.reshape(-1, 4)
+    _add_forms(motion, np.repeat(edges.interfaces, 4), column, forms)
+    cones.add(column, column, 1.0)
+    shape = (6 * n_interfaces, n_unknowns)
+    sizes = np.full(len(edges.interfaces), 4, dtype=np.int64)
+    return ConditionRows(motion.matrix(shape), forms[:, 0], cones.matrix((n_unknowns, n_unknowns)), sizes)
+
+
+def _add_forms(motion: Entries, interface: IntArray, column: IntArray, forms: FloatArray) -> None:
+    """Gᵀ of unknowns that multiply linear forms, (n, 4)."""
+    for place, resultant in enumerate(RESULTANTS, start=1):
+        motion.add(6 * interface + resultant, column, forms[:, place])
+
+
+def _corner_rows(corners: Corners, n_interfaces: int) -> ConditionRows:
+    """Unknowns of a condition: α_0, α_1, β_0, β_1, β_2, then q_e."""
+    n, owner = len(corners.interfaces), corners.owner
+    begin = starts(np.bincount(owner, minlength=n))
+    first = HEAD * np.arange(n) + begin[:-1]
+    q = np.arange(len(owner)) + HEAD * (owner + 1)
+    n_unknowns = HEAD * n + len(owner)
+    motion, cost = Entries.none(), np.zeros(n_unknowns)
+    _add_forms(motion, corners.interfaces[owner], q, corners.bounds)
+    cost[q] = corners.bounds[:, 0]
+    for place, factor, constant in ((0, 1.0, 1.0), (1, 1.0, -1.0), (4, 2.0, 0.0)):
+        _add_forms(motion, corners.interfaces, first + place, factor * corners.lead)
+        cost[first + place] = factor * corners.lead[:, 0] + constant
+    cones, sizes = _corner_cones(corners, first, q)
     shape = (int(sizes.sum()), n_unknowns)
     return ConditionRows(motion.matrix((6 * n_interfaces, n_unknowns)), cost, cones.matrix(shape), sizes)
 
 
-def _rectangle_cones(limits: CrushingLimits, first: IntArray, owner: IntArray, q: IntArray) -> tuple[Entries, IntArray]:
-    """Q ≥ 0; α with α_2 = −φ(β_0 + β_1)/2, φ = F^¼; β; γ = (Σq, Σ ± q, −φ(β_0 − β_1))/2."""
-    n, half_phi = len(first), 0.5 * limits.strength**0.25
+def _corner_cones(corners: Corners, first: IntArray, q: IntArray) -> tuple[Entries, IntArray]:
+    """Q ≥ 0; α with α_2 = −φ(β_0 + β_1)/2, φ = K^¼; β; γ = (Σq, Σ ± q, −φ(β_0 − β_1))/2."""
+    n, half_phi = len(first), 0.5 * corners.strength**0.25
     cones = Entries.none()
     cones.add(np.arange(len(q)), q, 1.0)
     alpha = len(q) + 3 * np.arange(n)
@@ -115,32 +270,12 @@ def _rectangle_cones(limits: CrushingLimits, first: IntArray, owner: IntArray, q
     cones.add(alpha, first, 1.0)
     cones.add(alpha + 1, first + 1, 1.0)
     cones.add(beta, first + 2, 1.0)
-    cones.add(beta + 1, first + 4, 1.0)
-    cones.add(beta + 2, first + 3, 1.0)
-    for column, sign in ((first + 2, 1.0), (first + 4, -1.0)):
+    cones.add(beta + 1, first + 3, 1.0)
+    cones.add(beta + 2, first + 4, 1.0)
+    for column, sign in ((first + 2, 1.0), (first + 3, -1.0)):
         cones.add(alpha + 2, column, -half_phi)
         cones.add(gamma + 2, column, -sign * half_phi)
-    of_first_side = np.where((np.arange(len(q)) - limits.start[owner]) < 2, 0.5, -0.5)
-    cones.add(gamma[owner], q, 0.5)
-    cones.add(gamma[owner] + 1, q, of_first_side)
+    cones.add(gamma[corners.owner], q, 0.5)
+    cones.add(gamma[corners.owner] + 1, q, np.where(corners.side == 0, 0.5, -0.5))
     sizes = np.concatenate([np.ones(len(q)), np.full(3 * n, 3)]).astype(np.int64)
-    return cones, sizes
-
-
-def _other_cones(limits: CrushingLimits, first: IntArray, owner: IntArray, q: IntArray) -> tuple[Entries, IntArray]:
-    """Q ≥ 0; α with α_2 = −φ(β_0 + β_1)/2; β with β_1 = β_0 − Σq/φ."""
-    n, phi = len(first), limits.strength**0.25
-    cones = Entries.none()
-    cones.add(np.arange(len(q)), q, 1.0)
-    alpha = len(q) + 3 * np.arange(n)
-    beta = alpha + 3 * n
-    cones.add(alpha, first, 1.0)
-    cones.add(alpha + 1, first + 1, 1.0)
-    cones.add(alpha + 2, first + 2, -phi)
-    cones.add(alpha[owner] + 2, q, 0.5)
-    cones.add(beta, first + 2, 1.0)
-    cones.add(beta + 1, first + 2, 1.0)
-    cones.add(beta[owner] + 1, q, -1.0 / phi[owner])
-    cones.add(beta + 2, first + 3, 1.0)
-    sizes = np.concatenate([np.ones(len(q)), np.full(2 * n, 3)]).astype(np.int64)
     return cones, sizes

@@ -51,6 +51,16 @@ class InterfaceShapes:
         """(n_corners,)."""
         return row_of_item(self.start)
 
+    @property
+    def parallelograms(self) -> BoolArray:
+        """Interfaces whose hull has four corners and parallel edges, and that fill it, (n_interfaces,)."""
+        found = np.zeros(len(self.convex), dtype=bool)
+        rows = np.flatnonzero(self.convex & (np.diff(self.start) == 4))
+        loops = self.corners[self.start[rows][:, None] + np.arange(4)]
+        off = np.linalg.norm(loops[:, 0] + loops[:, 2] - loops[:, 1] - loops[:, 3], axis=1)
+        found[rows] = off <= SQUARE_CORNERS * np.linalg.norm(loops, axis=2).max(axis=1, initial=0.0)
+        return found
+
     def edge_slopes(self) -> FloatArray:
         """ν/d of the edge that leaves each corner, (n_corners, 2) [1/m]: x is inside where 1 − x·ν/d ≥ 0 for all."""
         following = self.corners[next_item(self.start)]

@@ -17,8 +17,8 @@ import scipy.sparse as sp
 
 from mbla.arrays import FloatArray, IntArray
 from mbla.program.convex.assemble import ConvexProgram
-from mbla.program.convex.conditions import M1, M2, MN, T1, T2, Entries, N
-from mbla.program.convex.crushing import CrushingLimits
+from mbla.program.convex.conditions import MN, T1, T2, Entries
+from mbla.program.convex.crushing import RESULTANTS, Corners, Edges
 from mbla.program.kinematic import ConeProgram
 from mbla.program.static import LEAST_LIMIT
 
@@ -88,8 +88,8 @@ def convex_proximal_form(convex: ConvexProgram, rho: float) -> ConvexStaticForm:
     rows = _Rows(Entries.none(), Entries.none(), [], [])
     _torsion(convex, rows)
     n_torsion = rows.n_rows
-    _crushing(convex.rectangles, rows, rectangles=True)
-    _crushing(convex.others, rows, rectangles=False)
+    _corners(convex.crushing.corners, rows)
+    _edges(convex.crushing.edges, rows)
     n_interfaces, size = convex.resultants.shape[0] // 6, 3 * program.n_points
     conditions = rows.resultants.matrix((rows.n_rows, 6 * n_interfaces))
     helpers = rows.helpers.matrix((rows.n_rows, rows.n_helpers))
@@ -159,31 +159,36 @@ def _torsion(convex: ConvexProgram, rows: _Rows) -> None:
         rows.helpers.add(rest + 1 + axis, apart[:, axis], 1.0)
 
 
-def _crushing(limits: CrushingLimits, rows: _Rows, rectangles: bool) -> None:
-    """Bounds of Q;  (N' + 1, N' − 1, 2 g);  (φ(g + h), φ(g − h), 2 N');  for rectangles (Q_1 + Q_2, Q_1 − Q_2, 2 h)."""
-    n, row = len(limits.interfaces), 6 * limits.interfaces
-    owner = np.repeat(np.arange(n), np.diff(limits.start))
-    phi = limits.strength**0.25
-    g, q = rows.helper(n), rows.helper(n)
-    other, h = (rows.helper(n), rows.helper(n)) if rectangles else (q, q)
-    bound = rows.take(1, len(owner), limits.tension[owner])
-    in_second = rectangles & ((np.arange(len(owner)) - limits.start[owner]) >= 2)
-    rows.resultants.add(bound, row[owner] + N, 1.0)
-    rows.resultants.add(bound, row[owner] + M1, -limits.slopes[:, 1])
-    rows.resultants.add(bound, row[owner] + M2, limits.slopes[:, 0])
-    rows.helpers.add(bound, np.where(in_second, other[owner], q[owner]), -1.0)
-    tension = limits.tension
-    alpha = rows.take(3, n, np.column_stack([tension + 1.0, tension - 1.0, np.zeros(n)]))
-    beta = rows.take(3, n, np.column_stack([np.zeros((n, 2)), 2.0 * tension]))
-    for place, value in ((alpha, 1.0), (alpha + 1, 1.0), (beta + 2, 2.0)):
-        rows.resultants.add(place, row + N, value)
+def _corners(corners: Corners, rows: _Rows) -> None:
+    """Bounds of Q;  (L + 1, L − 1, 2 g);  (φ(g + h), φ(g − h), 2 L);  (Q_1 + Q_2, Q_1 − Q_2, 2 h)."""
+    n, owner = len(corners.interfaces), corners.owner
+    phi = corners.strength**0.25
+    g, h, q = rows.helper(n), rows.helper(n), rows.helper(2 * n).reshape(n, 2)
+    bound = rows.take(1, len(owner), corners.bounds[:, 0])
+    _add_forms(rows.resultants, bound, corners.interfaces[owner], corners.bounds)
+    rows.helpers.add(bound, q[owner, corners.side], -1.0)
+    lead = corners.lead[:, 0]
+    alpha = rows.take(3, n, np.column_stack([lead + 1.0, lead - 1.0, np.zeros(n)]))
+    beta = rows.take(3, n, np.column_stack([np.zeros((n, 2)), 2.0 * lead]))
+    gamma = rows.take(3, n, np.zeros((n, 3)))
+    for place, factor in ((alpha, 1.0), (alpha + 1, 1.0), (beta + 2, 2.0)):
+        _add_forms(rows.resultants, place, corners.interfaces, factor * corners.lead)
     rows.helpers.add(alpha + 2, g, 2.0)
-    for place, sign in ((beta, 1.0), (beta + 1, -1.0)):
-        rows.helpers.add(place, g, phi)
-        rows.helpers.add(place, h, sign * phi)
-    if rectangles:
-        gamma = rows.take(3, n, np.zeros((n, 3)))
-        for place, sign in ((gamma, 1.0), (gamma + 1, -1.0)):
-            rows.helpers.add(place, q, 1.0)
-            rows.helpers.add(place, other, sign)
-        rows.helpers.add(gamma + 2, h, 2.0)
+    for row, sign in ((0, 1.0), (1, -1.0)):
+        rows.helpers.add(beta + row, g, phi)
+        rows.helpers.add(beta + row, h, sign * phi)
+        rows.helpers.add(gamma + row, q[:, 0], 1.0)
+        rows.helpers.add(gamma + row, q[:, 1], sign)
+    rows.helpers.add(gamma + 2, h, 2.0)
+
+
+def _edges(edges: Edges, rows: _Rows) -> None:
+    place = rows.take(4, len(edges.interfaces), edges.cones[:, :, 0])
+    forms = edges.cones.reshape(-1, 4)
+    _add_forms(rows.resultants, (place[:, None] + np.arange(4)).ravel(), np.repeat(edges.interfaces, 4), forms)
+
+
+def _add_forms(resultants: Entries, row: IntArray, interface: IntArray, forms: FloatArray) -> None:
+    """Rows G r of linear forms, (n, 4); their constants come with ``take``."""
+    for place, resultant in enumerate(RESULTANTS, start=1):
+        resultants.add(row, 6 * interface + resultant, forms[:, place])

@@ -35,6 +35,7 @@ class HingeLine:
     rotation   : the largest relative angular velocity of its interfaces
     share      : the largest contact speed of its interfaces over the largest of all
     slides     : closed points of it slide too
+    crushes    : closed points of it crush too
     shear      : share of the power put in that their shear forces take; nan where none is put in
     """
 
@@ -46,6 +47,7 @@ class HingeLine:
     rotation: float
     share: float
     slides: bool
+    crushes: bool
     shear: float
 
     @property
@@ -100,5 +102,6 @@ def _line(
         rotation=float(np.linalg.norm(motion.rotation[interfaces], axis=1).max()),
         share=float(joints.shares[interfaces].max()),
         slides=bool(motion.slides[interfaces].any()),
+        crushes=bool(motion.crushes[interfaces].any()),
         shear=float((work.friction + work.cohesion)[interfaces].sum()) / (work.given or float("nan")),
     )

@@ -1,4 +1,4 @@
-"""What each interface does in a mechanism: stick, slide, open, hinge about an axis, twist about its normal.
+"""What each interface does in a mechanism: stick, slide, open, hinge about an axis, twist about its normal, crush.
 
 Two rigid bodies move against each other by one velocity v of body b relative to a at the centroid c of the interface
 and one rotation ω; the velocity at a point x of it is v + ω × (x − c). What that is called is decided by ratios of the
@@ -9,7 +9,8 @@ neither units nor the size of the mechanism matter:
 - open: all of its points open, or it opens without tilting;
 - hinge: some open, others stay closed and slide less than those open; its axis runs through the closed ones;
 - slide: closed points move along the interface (and lift by dilatancy, or open less than they slide elsewhere);
-- twist: it slides, and the centre about which it turns lies nearer to its centroid than its farthest point does.
+- twist: it slides, and the centre about which it turns lies nearer to its centroid than its farthest point does;
+- crush: points close into each other, faster than they slide, and none opens. Where some do it is a hinge that crushes.
 """
 
 from __future__ import annotations
@@ -45,6 +46,8 @@ class InterfaceMode(IntEnum):
     """some of its points open, others stay closed"""
     TWIST = 4
     """it slides by turning about its normal"""
+    CRUSH = 5
+    """points of it close, none opens"""
 
 
 @dataclass(frozen=True)
@@ -53,6 +56,7 @@ class InterfaceMotion:
 
     modes           : (n_interfaces,) InterfaceMode
     slides          : (n_interfaces,) closed points slide too, whatever the mode
+    crushes         : (n_interfaces,) closed points crush too, whatever the mode
     translation     : (n_interfaces, 3) velocity of b relative to a at the centroid
     rotation        : (n_interfaces, 3) angular velocity of b relative to a
     hinge_points    : (n_interfaces, 3) m, a point on the axis of a hinge; nan for other modes
@@ -63,6 +67,7 @@ class InterfaceMotion:
 
     modes: IntArray
     slides: BoolArray
+    crushes: BoolArray
     translation: FloatArray
     rotation: FloatArray
     hinge_points: FloatArray
@@ -83,12 +88,18 @@ def interface_motion(model: Model, contacts: Contacts, mechanics: Mechanics) -> 
     n_open = sum_by_interface(contacts, is_open)
     moving = ~moves_together(contacts, mechanics.contact_velocities)
     slides = moving & (sum_by_interface(contacts, mechanics.modes == ContactMode.SLIDE) > 0)
+    is_crushing = mechanics.modes == ContactMode.CRUSH
+    crushes = moving & (sum_by_interface(contacts, is_crushing) > 0)
+    closes_more = largest_by_interface(contacts, np.where(is_crushing, -opening, 0.0)) >= largest_by_interface(
+        contacts, sliding
+    )
     opens_more = largest_by_interface(contacts, np.where(is_open, opening, 0.0)) >= largest_by_interface(
         contacts, np.where(is_open, 0.0, sliding)
     )
     modes = np.full(len(contacts), int(InterfaceMode.STICK), dtype=np.int64)
     modes[slides] = InterfaceMode.SLIDE
     modes[slides & _turns_about_normal(contacts, translation, rotation)] = InterfaceMode.TWIST
+    modes[crushes & (closes_more | ~slides)] = InterfaceMode.CRUSH
     partly = moving & (n_open > 0)
     modes[partly] = InterfaceMode.SLIDE
     modes[partly & opens_more] = InterfaceMode.HINGE
@@ -97,6 +108,7 @@ def interface_motion(model: Model, contacts: Contacts, mechanics: Mechanics) -> 
     return InterfaceMotion(
         modes,
         slides,
+        crushes,
         translation,
         rotation,
         *_axes(contacts, modes == InterfaceMode.HINGE, is_open, opening, rotation),

@@ -73,7 +73,7 @@ def _use_of_resultants(model: Model, contacts: Contacts, contact_forces: FloatAr
     frames = contacts.frames[contacts.point_start[:-1]]
     resultants = interface_resultants(contacts, contact_forces)
     resultants = np.hstack([np.einsum("nij,nj->ni", frames, part) for part in (resultants[:, :3], resultants[:, 3:])])
-    laws = interface_laws(model, contacts)
+    laws = interface_laws(model, contacts, "convex")
     strength = np.maximum(shear_strength(laws, resultants)[0], 1e-300)
     acting = np.hypot(np.hypot(resultants[:, 1], resultants[:, 2]), resultants[:, 3] / laws.shapes.radii)
     low, high = np.zeros(len(contacts)), 2.0 * strength / np.maximum(acting, 1e-300)

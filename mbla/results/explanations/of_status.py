@@ -171,4 +171,12 @@ OF_MODES = (
         "A load beside the shear centre of the joint.",
         "contact_model: convex, or contacts.points.inset.",
     ),
+    Explanation(
+        "crush",
+        "mode",
+        "Points of the joint close into each other, and none opens; at a hinge those beside its axis do.",
+        "The compressive strength is reached over the part that closes, and dissipates.",
+        "Much compression over little area.",
+        "A greater compressive strength, or a wider joint, raises the factor.",
+    ),
 )

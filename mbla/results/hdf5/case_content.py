@@ -64,6 +64,7 @@ def case_content(model: Model, contacts: Contacts, case: CaseResult) -> Content:
         "reason": solution.reason,
         "remarks": solution.remarks,
         "contact_model": solution.contact_model,
+        "stress_blocks": solution.stress_blocks,
         "seconds": solution.seconds,
         "sides": solution.sides,
         "solver": solution.solver,

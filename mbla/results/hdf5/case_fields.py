@@ -29,6 +29,7 @@ ANSWER = (
         f"{CASE}/flow_rule", "text", (), "1", "flow rule of load_factor, contact_forces and mechanism", part="solution"
     ),
     Field(f"{CASE}/contact_model", "text", (), "1", "concave, or convex: interface resultants", part="solution"),
+    Field(f"{CASE}/stress_blocks", "bool", (), "1", "1 where interfaces crush as fields of stress do", part="solution"),
     Field(
         f"{CASE}/scheme",
         "text",

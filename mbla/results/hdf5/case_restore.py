@@ -71,6 +71,7 @@ def case_from(load_case: LoadCase, get: dict[str, Any]) -> CaseResult:
         seconds=get["seconds"],
         scheme=get["scheme"],
         contact_model=get["contact_model"],
+        stress_blocks=bool(get["stress_blocks"]),
         certificate_motions=_motions(get, "certificate_"),
         remarks=tuple(get["remarks"]),
         spread=_spread(get),

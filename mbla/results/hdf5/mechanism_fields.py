@@ -48,7 +48,15 @@ def _mechanics(group: str, part: str, what: str) -> tuple[Field, ...]:
             part=part,
             told=told,
         ),
-        Field(f"{group}modes", "int", ("point",), "1", "contact mode: 0 stick, 1 slide, 2 open", part=part, told=told),
+        Field(
+            f"{group}modes",
+            "int",
+            ("point",),
+            "1",
+            "contact mode: 0 stick, 1 slide, 2 open, 3 crush",
+            part=part,
+            told=told,
+        ),
         Field(
             f"{group}residual",
             "float",
@@ -105,7 +113,7 @@ COLLAPSE = (
         "int",
         ("interface",),
         "1",
-        "mode: 0 stick, 1 slide, 2 open, 3 hinge, 4 twist; follows from the mechanism, as do the next four",
+        "mode: 0 stick, 1 slide, 2 open, 3 hinge, 4 twist, 5 crush; follows from the mechanism, as do the next four",
         part="mechanics",
     ),
     Field(

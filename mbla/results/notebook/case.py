@@ -118,7 +118,7 @@ class Case:
 
     @property
     def contact_modes(self) -> IntArray | None:
-        """ContactMode of each contact point: 0 stick, 1 slide, 2 open, (n_points,)."""
+        """ContactMode of each contact point: 0 stick, 1 slide, 2 open, 3 crush, (n_points,)."""
         found = result_of(self.record)
         return None if found is None else found.modes
 

@@ -105,9 +105,10 @@ def write_contacts_vtu(path: Path, scene: Scene) -> None:
 
     Point data: ``interface``, ``body_a``, ``body_b``, ``displacement``; with a mechanism also ``contact_force``,
     ``normal_force``, ``shear_force``, ``contact_velocity`` (b relative to a), ``opening``, ``sliding``, ``mode``
-    (0 stick, 1 slide, 2 open), and but for the convex contact model, whose points only share out the resultants,
-    ``friction_use``. Without a load factor because the structure is locked: the forces that balance the live load alone
-    as ``contact_force``, ``normal_force``, ``shear_force``. With forces ``result``: 1 a result, 0 the best iterate.
+    (0 stick, 1 slide, 2 open, 3 crush), and but for the convex contact model, whose points only share out the
+    resultants, ``friction_use``. Without a load factor because the structure is locked: the forces that balance the
+    live load alone as ``contact_force``, ``normal_force``, ``shear_force``. With forces ``result``: 1 a result, 0 the
+    best iterate.
     """
     contacts, forces, mechanics = scene.contacts, scene.forces, scene.mechanics
     owners = contacts.interface_of_point
@@ -146,8 +147,9 @@ def write_interfaces_vtu(path: Path, scene: Scene) -> None:
     centroid), ``thrust_point`` (where the resultant acts), ``normal_force``, ``shear_force``, ``torsion``,
     ``eccentricity`` (0 central, 1 at the edge), ``friction_use`` (shear over what the joint allows), ``torsion_use``
     (shear and torsion over what it carries of both) and ``result`` (1 a result, 0 the best iterate); with a mechanism
-    also ``mode`` (0 stick, 1 slide, 2 open, 3 hinge, 4 twist), ``slides`` (closed points slide too, whatever the mode)
-    and ``work`` (power dissipated, that of the live load being the load factor). Point data: ``displacement``.
+    also ``mode`` (0 stick, 1 slide, 2 open, 3 hinge, 4 twist, 5 crush), ``slides`` and ``crushes`` (closed points do so
+    too, whatever the mode) and ``work`` (power dissipated, that of the live load being the load factor). Point data:
+    ``displacement``.
     """
     contacts = scene.contacts
     data: Arrays = {
@@ -200,6 +202,7 @@ def _interface_motion(scene: Scene) -> Arrays:
         "work": work_of(scene.model, scene.contacts, case.load_case, mechanics).dissipated,
         "mode": motion.modes.astype(np.int8),
         "slides": motion.slides.astype(np.int8),
+        "crushes": motion.crushes.astype(np.int8),
     }
 
 

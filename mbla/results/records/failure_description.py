@@ -74,6 +74,7 @@ FAILURE: tuple[Key, ...] = (
     Key(f"{_LINES}[].rotation", "number", "the largest relative angular velocity of its interfaces", "rotation"),
     Key(f"{_LINES}[].share", "number", "its largest contact speed over the largest of all"),
     Key(f"{_LINES}[].slides", "boolean", "whether closed points of it slide too"),
+    Key(f"{_LINES}[].crushes", "boolean", "whether closed points of it crush too"),
     Key(f"{_LINES}[].shear_power_share", "number?", "share of the power put in that its shear forces dissipate"),
     Key(_PLANES, "list", "planes on which one cluster slides over another, that which dissipates most first"),
     *_pair_keys(_PLANES, "slides"),

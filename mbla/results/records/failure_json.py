@@ -69,6 +69,7 @@ def _hinge_line(line: HingeLine) -> dict[str, Any]:
         "rotation": number(line.rotation),
         "share": number(line.share),
         "slides": line.slides,
+        "crushes": line.crushes,
         "shear_power_share": number(line.shear),
     }
 

@@ -22,7 +22,9 @@ from mbla.results.records.numbers import number
 from mbla.results.records.on_demand import OnDemand
 from mbla.solution.solution import ContactMode, Mechanics
 
-POINT_MODES = {mode.name.lower(): mode for mode in (ContactMode.OPEN, ContactMode.SLIDE, ContactMode.STICK)}
+POINT_MODES = {
+    mode.name.lower(): mode for mode in (ContactMode.OPEN, ContactMode.SLIDE, ContactMode.CRUSH, ContactMode.STICK)
+}
 
 MOST_PARTS = 100
 """parts that the record holds, the heaviest; ``moving_parts`` counts them all, the result file holds them all"""

@@ -218,7 +218,7 @@ def _place_of_line(model: Model, contacts: Contacts, failure: Failure, outward: 
     side = hinge_side(contacts, outward, line)
     on = f" on the {side}" if side in ("intrados", "extrados") else ""
     count = f", {counted(len(line.interfaces), 'interface')}" if len(line.interfaces) > 1 else ""
-    slides = ", sliding" if line.slides else ""
+    slides = (", sliding" if line.slides else "") + (", crushing" if line.crushes else "")
     return f"at {point_words(model, middle)}{on} between {_pair_words(model, contacts, failure, line)}{count}{slides}"
 
 

@@ -43,8 +43,12 @@ def mechanism_summary(model: Model, collapse: Collapse, failure: Failure) -> str
         (count(InterfaceMode.SLIDE), "sliding at {}", "interface"),
         (count(InterfaceMode.TWIST), "twisting at {}", "interface"),
         (count(InterfaceMode.OPEN), "{} open", "interface"),
+        (int(collapse.interfaces.crushes.sum()), "crushing at {}", "interface"),
     ]
-    found = ", ".join(text.format(counted(n, word)) for n, text, word in words if n) or "no interface opens or slides"
+    found = (
+        ", ".join(text.format(counted(n, word)) for n, text, word in words if n)
+        or "no interface opens, slides or crushes"
+    )
     verb = "moves" if moving == 1 else "move"
     blocks = f"{moving} of {counted(len(model.free), 'free block')} {verb}"
     if failure.spreads:
@@ -81,7 +85,9 @@ def _hinge_table(model: Model, contacts: Contacts, lines: Sequence[HingeLine]) -
             point_words(model, line.start),
             number(float(f"{line.length:.4g}")),
             direction_words(line.direction, TABLE_DIGITS),
-            hinge_side(contacts, outward, line).removesuffix(" side") + (", slides" if line.slides else ""),
+            hinge_side(contacts, outward, line).removesuffix(" side")
+            + (", slides" if line.slides else "")
+            + (", crushes" if line.crushes else ""),
         ]
         for line in _shown(lines)
     ]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import nullcontext
 from dataclasses import replace
 
 import numpy as np
@@ -12,7 +13,7 @@ from mbla.arrays import FloatArray
 from mbla.deck.types import AnalysisSection
 from mbla.program.convex.assemble import resultants_map
 from mbla.program.convex.conditions import M1, M2, MN, ConditionRows, N
-from mbla.program.convex.crushing import CrushingLimits, crushing_limits, crushing_rows
+from mbla.program.convex.crushing import crushing_limits, crushing_rows, crushing_violation
 from mbla.program.convex.shapes import InterfaceShapes
 from mbla.program.convex.torsion import TorsionLimits, torsion_limits, torsion_rows
 from mbla.program.kinematic import ConeProgram
@@ -22,6 +23,7 @@ from tests.program.convex.test_shapes import prism_line, shapes_of
 
 RECTANGLE = shapes_of((0, 0), (1.25, 0), (1.25, 0.75), (0, 0.75))
 TRIANGLE = shapes_of((0, 0), (1.0, 0), (0.25, 0.75))
+PARALLELOGRAM = shapes_of((0, 0), (1.25, 0), (1.75, 0.75), (0.5, 0.75))
 FORMS = pytest.mark.parametrize("shapes", [RECTANGLE, TRIANGLE], ids=["rectangle", "triangle"])
 
 
@@ -64,15 +66,6 @@ def torsion_allowed(limits: TorsionLimits, shapes: InterfaceShapes, r: FloatArra
     return bool(share >= 0 and twist <= share and beyond**2 <= (share - twist) * (share + (1 - theta) * twist))
 
 
-def crushing_allowed(limits: CrushingLimits, rectangle: bool, r: FloatArray) -> bool:
-    """N³ ≤ F Q_1 Q_2 with the least bounds of each."""
-    normal = r[N] + limits.tension[0]
-    moments = np.array([-r[M2], r[M1]])
-    bounds = normal - limits.slopes @ moments
-    pair = (bounds[:2].min(), bounds[2:].min()) if rectangle else (bounds.min(), bounds.min())
-    return bool(normal >= 0 and min(pair) >= 0 and normal**3 <= limits.strength[0] * pair[0] * pair[1])
-
-
 def random_resultants(draw: np.random.Generator, normal: float, size: float) -> FloatArray:
     return np.concatenate([[normal], draw.uniform(-size, size, 3), 0.3 * draw.uniform(-size, size, 2)])
 
@@ -97,29 +90,34 @@ def test_torsion(shapes: InterfaceShapes, friction: float, cohesion: float) -> N
     assert seen == {False, True}
 
 
-@FORMS
+@pytest.mark.parametrize("shapes", [RECTANGLE, PARALLELOGRAM, TRIANGLE], ids=["rectangle", "parallelogram", "triangle"])
 @pytest.mark.parametrize("tension", [0.0, 0.25])
 def test_crushing(shapes: InterfaceShapes, tension: float) -> None:
-    rectangles, others = crushing_limits(shapes, np.array([2.0]), np.array([tension]))
-    rectangle = bool(shapes.rectangles[0])
-    limits = rectangles if rectangle else others
-    assert len(rectangles.interfaces) + len(others.interfaces) == 1
+    limits = crushing_limits(shapes, np.array([2.0]), np.array([tension]))
+    assert limits.interfaces.tolist() == [0]
     assert limits.strength.tolist() == [2.0 + tension]
-    rows = crushing_rows(rectangles, others, 1)
+    rows = crushing_rows(limits, 1)
     draw, seen = np.random.default_rng(2), set()
     for _ in range(60):
         r = random_resultants(draw, draw.uniform(-0.5, 2.5), 0.75)
-        allowed = crushing_allowed(limits, rectangle, r)
+        allowed = bool(crushing_violation(limits, r[None])[0] <= 0.0)
         assert agrees(rows, r, allowed), (r, allowed)
         seen.add(allowed)
     assert seen == {False, True}
 
 
+def test_outlines_of_more_corners_are_refused_unless_they_are_in_pieces() -> None:
+    trapezium = shapes_of((0, 0), (2, 0), (1, 1), (0, 1))
+    for strength in (np.array([1.0]), np.array([np.inf])):
+        refused = bool(np.isfinite(strength[0]))
+        with pytest.raises(ValueError, match="neither a parallelogram") if refused else nullcontext():
+            crushing_limits(trapezium, strength, np.array([0.0]))
+
+
 def test_interfaces_without_the_condition_are_left_out() -> None:
     none = np.array([0.0])
     assert torsion_rows(torsion_limits(RECTANGLE, none, none), 1).cost.size == 0
-    rectangles, others = crushing_limits(RECTANGLE, np.array([np.inf]), none)
-    assert crushing_rows(rectangles, others, 1).cost.size == 0
+    assert crushing_rows(crushing_limits(RECTANGLE, np.array([np.inf]), none), 1).cost.size == 0
 
 
 @pytest.mark.parametrize("size", [2.0**-60, 2.0**30, 2.0**60])

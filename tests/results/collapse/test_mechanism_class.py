@@ -71,7 +71,7 @@ def test_supports_that_give_way() -> None:
 
 def line(clusters: tuple[int, int] = (1, 0), **changes: Any) -> HingeLine:
     at, along = np.zeros(3), np.array([0.0, 1.0, 0.0])
-    one = HingeLine(clusters, np.array([0]), at, along, along, 1.0, 1.0, slides=False, shear=0.0)
+    one = HingeLine(clusters, np.array([0]), at, along, along, 1.0, 1.0, slides=False, crushes=False, shear=0.0)
     return replace(one, **changes)
 
 

@@ -140,7 +140,7 @@ def test_groups_that_move_have_their_share() -> None:
 def test_mechanism_in_the_record() -> None:
     record = mechanism_json(MODEL, CONTACTS, CASE, tower_mechanics(), 3)
     assert {name: record[name] for name in ("open", "slide", "stick")} == {"open": 2, "slide": 0, "stick": 6}
-    assert record["interfaces"] == {"stick": 1, "slide": 0, "open": 0, "hinge": 1, "twist": 0}
+    assert record["interfaces"] == {"stick": 1, "slide": 0, "open": 0, "hinge": 1, "twist": 0, "crush": 0}
     assert (record["hinges"], record["moving_parts"], record["moving_blocks"]) == (1, 1, 1)
     assert (record["reach"], record["moving_weight_share"]) == ("global", 0.5)
     assert record["parts"] == [

@@ -69,7 +69,7 @@ FINDINGS = {kind.identifier for kind in (*FAILURES, *REMARKS, UNKNOWN_FAILURE, U
 
 
 def test_the_walk_finds_notices_of_every_stage() -> None:
-    assert {"key-idle", "faces-flat", "force-outside-block", "near-misses", "crushing-by-points", "law-residual"} <= (
+    assert {"key-idle", "faces-flat", "force-outside-block", "near-misses", "crushing-at-points", "law-residual"} <= (
         NOTICES
     )
     assert APPLIES  # key-idle can occur

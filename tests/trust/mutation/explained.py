@@ -59,7 +59,7 @@ EXPLAINED: dict[tuple[str, str, str], str] = {
     ): "rows beyond the triangle are taken out by the next line",
     (
         "mbla/contacts/search.py",
-        "laws = {name: Joint(name, 0.0) for name in model.joints}",
+        "laws = {name: Joint(name, 0.0, compressive_strength=_crushes(law)) for name, law in model.joints.items()}",
         "0.0 -> 1.0",
     ): "of these laws only the names are read",
     (
@@ -245,11 +245,6 @@ EXPLAINED: dict[tuple[str, str, str], str] = {
         "0.0 -> 1.0",
     ): "read at points that open or crush alone",
     (
-        "mbla/program/convex/crushing.py",
-        "alpha, beta_0, beta_2 = first[:, None] + np.arange(2), first + 2, first + 3",
-        "2 -> 3",
-    ): "a third α that nobody reads",
-    (
         "mbla/program/convex/friction_limit.py",
         "sense, twist = np.where(trial[:, 2] < 0, -1.0, 1.0), np.abs(trial[:, 2])",
         "trial[:, 2] < 0 -> trial[:, 2] <= 0",
@@ -346,7 +341,7 @@ EXPLAINED: dict[tuple[str, str, str], str] = {
         "1.0 -> 2.0",
     ): "areas become shares of their mean in the next lines",
     (
-        "mbla/program/remarks.py",
+        "mbla/program/convex/choice.py",
         "return np.asarray(np.isfinite(strengths)[contacts.joints] if len(contacts) else np.zeros(0, dtype=bool))",
         "np.zeros -> np.ones",
     ): "an empty array",

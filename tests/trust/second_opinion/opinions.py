@@ -13,7 +13,7 @@ from mbla.deck import read_deck
 from mbla.model import build_model
 from mbla.results.results import CaseResult
 from tests.properties.scenes import Scene, Solved, solve_scene, value_of, with_analysis
-from tests.trust.certificates.assemblies import assembly
+from tests.trust.certificates.assemblies import Tree, assembly, at_points
 from tests.trust.certificates.rational import exact_case
 from tests.trust.second_opinion.friction_polyhedra import Bracket, bracket_of
 
@@ -46,8 +46,8 @@ class BesideConvex:
 
 
 def beside_polyhedra(seed: int) -> BesidePolyhedra:
-    """An assembly by the program and by HiGHS."""
-    scene = _scene(seed)
+    """An assembly by the program and by HiGHS, with joints that crush at points alone."""
+    scene = _scene(at_points(assembly(seed)))
     solved = solve_scene(scene)
     case = solved.cases[0]
     bracket = bracket_of(exact_case(solved.model, solved.contacts, case.load_case))
@@ -56,15 +56,14 @@ def beside_polyhedra(seed: int) -> BesidePolyhedra:
 
 def beside_convex(seed: int) -> BesideConvex:
     """An assembly by both contact models."""
-    scene = _scene(seed)
+    scene = _scene(assembly(seed))
     concave = solve_scene(scene)
     convex = solve_scene(with_analysis(scene, contact_model="convex"))
     twists, crushes = _interface_motions(convex)
     return BesideConvex(scene.name, value_of(concave.cases[0]), value_of(convex.cases[0]), twists, crushes)
 
 
-def _scene(seed: int) -> Scene:
-    deck_tree = assembly(seed)
+def _scene(deck_tree: Tree) -> Scene:
     with TemporaryDirectory() as folder:
         path = Path(folder) / "deck.yaml"
         path.write_text(json.dumps(deck_tree), encoding="utf-8")

@@ -14,7 +14,7 @@ from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.results.collapse.failure import Failure
 from mbla.results.collapse.interface_modes import InterfaceMode, InterfaceMotion
 from mbla.results.collapse.motion import moved_points
-from mbla.results.pictures.palette import HINGE, OPEN, SLIDE
+from mbla.results.pictures.palette import CRUSH, HINGE, OPEN, SLIDE
 from mbla.results.pictures.scene import Scene
 from mbla.results.pictures.space.shapes import (
     Faces,
@@ -101,13 +101,16 @@ def joint_marks(
         faces.append(_both_faces(scene, slides, SLIDE, LIFT * reach))
         if told.planes:
             marks += [
-                _outlines(scene, np.concatenate(told.planes)),
+                _outlines(scene, np.concatenate(told.planes), SLIDE),
                 *slide_arrows(scene, widest.clusters, joints, told, MARK * reach),
             ]
         legend.append(("sliding", SLIDE))
     if opens.any():
         faces.append(_both_faces(scene, opens, OPEN, LIFT * reach))
         legend.append(("opening", OPEN))
+    if joints.crushes.any():
+        marks.append(_outlines(scene, np.flatnonzero(joints.crushes), CRUSH))
+        legend.append(("crushing", CRUSH))
     return faces, marks, legend, _notes(widest.failure, told, len(thin))
 
 
@@ -200,9 +203,9 @@ def _both_faces(scene: Scene, chosen: BoolArray, colour: str, lift: float) -> Fa
     return together(parts)
 
 
-def _outlines(scene: Scene, rows: IntArray) -> Lines:
+def _outlines(scene: Scene, rows: IntArray, colour: str) -> Lines:
     middle = (scene.contact_sides[0] + scene.contact_sides[1]) / 2
     points, start, loops = interface_faces(scene.contacts, middle, rows, np.zeros((len(rows), 3)))
     following = loops + 1
     following[start[1:] - 1] = start[:-1]
-    return Lines(points, np.column_stack([loops, following]), SLIDE, 2.0)
+    return Lines(points, np.column_stack([loops, following]), colour, 2.0)

@@ -1,0 +1,180 @@
+"""Full stress over the part of an interface that closes: what it carries, and how that changes with the motion.
+
+An interface that closes by q, dual to (N', M_1/ρ, M_2/ρ), closes its points by c(x) = g·q, with g(x) = (1, x_2/ρ,
+−x_1/ρ), x from the centroid. By normality it carries full stress where c > 0, none elsewhere::
+
+    forces = f_c ∫ g over c > 0,      d forces = f_c ∫ g gᵀ/‖∇c‖ over the line c = 0  ·  dq
+
+Triangles make the outline up; over each the integrals have closed forms.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from mbla.arrays import FloatArray, IntArray
+from mbla.program.convex.shapes import InterfaceShapes
+
+HALVINGS = 48
+"""Of an interval in which the line that ends full stress lies, or a direction."""
+
+
+@dataclass(frozen=True)
+class Fan:
+    """Outlines in triangles: interface of each, its corners (n_triangles, 3), its share of the area."""
+
+    interface: IntArray
+    corners: IntArray
+    share: FloatArray
+
+    @classmethod
+    def of(cls, shapes: InterfaceShapes) -> Fan:
+        """Fans from the first corner of each outline."""
+        counts = np.diff(shapes.start)
+        interface = np.repeat(np.arange(len(counts)), np.maximum(counts - 2, 0))
+        first = shapes.start[interface]
+        place = np.arange(len(interface)) - np.concatenate([[0], np.cumsum(np.maximum(counts - 2, 0))])[interface]
+        corners = np.stack([first, first + place + 1, first + place + 2], axis=1)
+        x = shapes.corners[corners]
+        one, two = x[:, 1] - x[:, 0], x[:, 2] - x[:, 0]
+        area = 0.5 * (one[:, 0] * two[:, 1] - one[:, 1] * two[:, 0])
+        return cls(interface, corners, area / np.bincount(interface, area, len(counts))[interface])
+
+
+@dataclass(frozen=True)
+class StressFields:
+    """Interfaces whose resultants (N', M_1/ρ, M_2/ρ) fields of stress carry, in triangles.
+
+    strength : (n,) F [force]
+    lengths  : (n,) ρ [m]
+    owner    : (n_triangles,) interface of each
+    force    : (n_triangles,) its share of the strength [force]
+    arms     : (n_triangles, 3, 3) g with lengths over ρ at its corners
+    """
+
+    strength: FloatArray
+    lengths: FloatArray
+    owner: IntArray
+    force: FloatArray
+    arms: FloatArray
+
+    @classmethod
+    def of(cls, shapes: InterfaceShapes, rows: IntArray, strength: FloatArray) -> StressFields:
+        """Interfaces ``rows``, (n,), of the given strengths, (n,)."""
+        fan, place = Fan.of(shapes), np.full(len(shapes.convex), -1)
+        place[rows] = np.arange(len(rows))
+        chosen = np.flatnonzero(place[fan.interface] >= 0)
+        owner, x = place[fan.interface[chosen]], shapes.corners[fan.corners[chosen]]
+        lengths = shapes.radii[rows]
+        x = x / lengths[owner][:, None, None]
+        arms = np.stack([np.ones(x.shape[:2]), x[..., 1], -x[..., 0]], axis=-1)
+        return cls(strength, lengths, owner, strength[owner] * fan.share[chosen], arms)
+
+    @property
+    def scale(self) -> FloatArray:
+        """From N', M_1, M_2 to forces, (n, 3)."""
+        return np.column_stack([np.ones(len(self.lengths)), 1.0 / self.lengths, 1.0 / self.lengths])
+
+    def take(self, rows: IntArray) -> StressFields:
+        """Some of them, rows ascending."""
+        place = np.full(len(self.lengths), -1)
+        place[rows] = np.arange(len(rows))
+        kept = place[self.owner] >= 0
+        own = place[self.owner[kept]]
+        return StressFields(self.strength[rows], self.lengths[rows], own, self.force[kept], self.arms[kept])
+
+    def carried(self, closing: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Forces of full stress where they close by q, dual to them, (n, 3) both; what they grow by, (n, 3, 3)."""
+        at_corners = np.einsum("tci,ti->tc", self.arms, closing[self.owner])
+        carried = self.force[:, None] * np.einsum("tc,tci->ti", corner_weights(at_corners), self.arms)
+        along = self.force[:, None, None] * _along_the_line(self.arms, at_corners)
+        n = len(self.lengths)
+        forces = np.stack([np.bincount(self.owner, carried[:, i], n) for i in range(3)], axis=1)
+        flat = np.stack([np.bincount(self.owner, part, n) for part in along.reshape(-1, 9).T], axis=1)
+        return forces.astype(np.float64), flat.reshape(n, 3, 3).astype(np.float64)
+
+    def elastic_slopes(self, forces: FloatArray) -> FloatArray:
+        """Rotations that an elastic section would have under moments of (n, 3) forces, up to a factor, (n, 2)."""
+        total = self.arms.sum(axis=1)[:, 1:]
+        moments = np.einsum("tci,tcj->tij", self.arms[..., 1:], self.arms[..., 1:]) + total[:, :, None] * total[:, None]
+        second = np.zeros((len(self.lengths), 2, 2))
+        np.add.at(second, self.owner, self.force[:, None, None] * moments)
+        return np.asarray(np.linalg.solve(second, forces[:, 1:, None])[..., 0])
+
+    def closing_over(self, turning: FloatArray, share: FloatArray) -> FloatArray:
+        """Motions q that turn as given, (n, 2), and close over the given shares of the area, (n, 3)."""
+        closing = np.column_stack([np.zeros(len(share)), turning])
+        reach = np.zeros(len(share))
+        np.maximum.at(reach, self.owner, np.abs(np.einsum("tci,ti->tc", self.arms, closing[self.owner])).max(axis=1))
+        lower, upper = -reach, reach.copy()
+        for _ in range(HALVINGS):
+            closing[:, 0] = 0.5 * (lower + upper)
+            more = self.carried(closing)[0][:, 0] > share * self.strength
+            lower, upper = np.where(more, lower, closing[:, 0]), np.where(more, closing[:, 0], upper)
+        return closing
+
+
+def second_moments(shapes: InterfaceShapes, rows: IntArray) -> FloatArray:
+    """Second moments of area of interfaces about their centroids, over the area, (n, 2, 2) [m²]."""
+    fan, place = Fan.of(shapes), np.full(len(shapes.convex), -1)
+    place[rows] = np.arange(len(rows))
+    chosen = place[fan.interface] >= 0
+    x, owner = shapes.corners[fan.corners[chosen]], place[fan.interface[chosen]]
+    total = x.sum(axis=1)
+    second = np.einsum("tci,tcj->tij", x, x) + total[:, :, None] * total[:, None, :]
+    moments = np.zeros((len(rows), 2, 2))
+    np.add.at(moments, owner, fan.share[chosen][:, None, None] * second / 12.0)
+    return moments
+
+
+def _along_the_line(arms: FloatArray, closing: FloatArray) -> FloatArray:
+    """∫ g gᵀ/‖∇c‖ over the line c = 0 through triangles, over their area, (n, 3, 3); nothing where it misses them.
+
+    The line cuts the edges at the corner whose sign no other has; its length over ‖∇c‖ is twice the area times c there
+    over the product of the differences of c along both.
+    """
+    positive = closing > 0
+    alone = np.where(positive.sum(axis=1, keepdims=True) == 1, positive, ~positive)
+    cut = alone.sum(axis=1) == 1
+    apex, t = np.argmax(alone, axis=1), np.arange(len(closing))
+    one, two = (apex + 1) % 3, (apex + 2) % 3
+    at, ends, product = closing[t, apex], [], np.ones(len(closing))
+    for other in (one, two):
+        span = np.where(cut, at - closing[t, other], 1.0)
+        product *= span
+        ends.append(arms[t, apex] + (at / span)[:, None] * (arms[t, other] - arms[t, apex]))
+    weight = np.where(cut, 2.0 * np.abs(at) / np.abs(product), 0.0)
+    sums = [np.einsum("ti,tj->tij", place, place) for place in (*ends, 0.5 * (ends[0] + ends[1]))]
+    return np.asarray(weight[:, None, None] * (sums[0] + sums[1] + 4.0 * sums[2]) / 6.0)
+
+
+def mean_positive(values: FloatArray) -> FloatArray:
+    """Mean over a triangle of the positive part of a linear function with given values at the corners, (..., 3)."""
+    return np.asarray((corner_weights(values) * values).sum(axis=-1))
+
+
+def positive_share(values: FloatArray) -> FloatArray:
+    """Share of a triangle where a linear function is positive."""
+    return np.asarray(corner_weights(values).sum(axis=-1))
+
+
+def corner_weights(values: FloatArray) -> FloatArray:
+    """Mean over a triangle of the barycentric coordinates where a linear function is positive, (..., 3).
+
+    Where only corner i is positive the part is the triangle that ends at shares t_j = v_i/(v_i − v_j) of its edges,
+    with the area Π t_j and the coordinates t_j/3 of the other corners in its centroid; where only i is negative it is
+    what that part leaves.
+    """
+    alone = np.where((values > 0).sum(axis=-1, keepdims=True) == 1, values > 0, values <= 0)
+    single = alone & (alone.sum(axis=-1, keepdims=True) == 1)
+    apex = np.where(single, values, 0.0).sum(axis=-1, keepdims=True)
+    span = np.where(single, 1.0, apex - values)
+    t = np.where(single, 1.0, np.divide(apex, span, out=np.ones_like(values), where=span != 0.0))
+    size = t.prod(axis=-1, keepdims=True)
+    others = np.where(single, 0.0, t / 3.0)
+    part = size * np.where(single, 1.0 - others.sum(axis=-1, keepdims=True), others)
+    has_single = single.any(axis=-1, keepdims=True)
+    whole = np.where((values > 0).all(axis=-1, keepdims=True), 1.0 / 3.0, 0.0)
+    return np.asarray(np.where(has_single, np.where(apex > 0, part, 1.0 / 3.0 - part), whole * np.ones_like(values)))
