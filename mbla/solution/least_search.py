@@ -63,6 +63,10 @@ BALANCED_LIGHT = 1e-7
 light block may fall with a force that is nothing beside the load of its neighbours."""
 
 
+LESS = 0.1
+"""Share of the regularisation with which a program is solved again that the solver left short of its tolerance."""
+
+
 @dataclass(frozen=True)
 class Candidate:
     """What one program gave.
@@ -107,6 +111,11 @@ class Search:
         settings = self.settings if share else replace(self.settings, max_iterations=self._most_of_mechanism())
         solution = _solver(cone_program, settings, self.log).solve_once(number, 0.0)
         self.records.append(solution.record(number, "least forces", np.nan))
+        if solution.status is Status.APPROXIMATE and settings.regularization is not None:
+            less = replace(settings, regularization=LESS * settings.regularization)
+            again = _solver(cone_program, less, self.log).solve_once(number + 1, 0.0)
+            self.records.append(again.record(number + 1, "least forces", np.nan))
+            solution = again if again.status is Status.SOLVED else solution
         multipliers = rows * solution.z[: len(rows)]
         if solution.status not in (Status.SOLVED, Status.APPROXIMATE):
             return Candidate(self.state, multipliers, fits=False, near=False)
