@@ -25,7 +25,7 @@ analysis: {{flow_rule: associative}}
 """
 
 
-def deck(folder: Path, *vertices: list[list[float]], more: str = "") -> Path:
+def deck(folder: Path, *vertices: object, more: str = "") -> Path:
     """Blocks between quadrilaterals."""
     items = [f"  - polyhedron: {{group: b, material: stone, vertices: {each}, faces: {FACES}}}" for each in vertices]
     path = folder / "deck.yaml"

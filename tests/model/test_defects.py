@@ -119,7 +119,7 @@ def bent_box(height: float) -> Shape:
 def notched(height: float) -> Shape:
     """An L from above, one corner of its top lifted."""
     outline = [(0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2)]
-    vertices = [[x, y, z] for z in (0, 1) for x, y in outline]
+    vertices = [[float(x), float(y), float(z)] for z in (0, 1) for x, y in outline]
     vertices[7][2] = 1 + height
     sides = [[i, (i + 1) % 6, (i + 1) % 6 + 6, i + 6] for i in range(6)]
     return vertices, [[5, 4, 3, 2, 1, 0], [6, 7, 8, 9, 10, 11], *sides]

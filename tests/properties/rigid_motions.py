@@ -118,7 +118,7 @@ def renumbered(scene: Scene, order: IntArray) -> Scene:
             fixed, turning, across = tilt.fixed[order], tilt.turning[order], tilt.across[order]
             tilt = replace(tilt, fixed=fixed, turning=turning, across=across)
         if travel is not None:
-            travel = replace(travel, block=int(new[travel.block]))
+            travel = replace(travel, blocks=np.where(travel.blocks < 0, -1, new[travel.blocks]))
         dead, live = case.dead_load[order], case.live_load[order]
         cases.append(replace(case, dead_load=dead, live_load=live, settlement=settlement, tilt=tilt, travel=travel))
     grounds = tuple(

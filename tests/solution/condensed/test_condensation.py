@@ -52,7 +52,7 @@ def system(data: ConeData, scaling: Scaling) -> FloatArray:
 def test_condensed_and_refined_is_the_solution_of_the_whole_system(
     seed: int,
     make: Callable[[int, bool], Known],
-    kind: Callable[[ConeData, str | None, int], Condensation],
+    kind: Callable[[ConeData, str | None], Condensation],
     distance: float,
     quadratic: bool,
 ) -> None:

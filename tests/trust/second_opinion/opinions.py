@@ -12,8 +12,9 @@ import numpy as np
 from mbla.deck import read_deck
 from mbla.model import build_model
 from mbla.results.results import CaseResult
+from tests.properties.random_items import Tree
 from tests.properties.scenes import Scene, Solved, solve_scene, value_of, with_analysis
-from tests.trust.certificates.assemblies import Tree, assembly, at_points
+from tests.trust.certificates.assemblies import assembly, at_points
 from tests.trust.certificates.rational import exact_case
 from tests.trust.second_opinion.friction_polyhedra import Bracket, bracket_of
 

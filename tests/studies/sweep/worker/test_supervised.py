@@ -122,13 +122,13 @@ def test_killed_in_the_middle_of_a_point_it_is_solved_again(tmp_path: Path) -> N
     with SupervisedRunner(plan_over(tmp_path, ROW)) as runner:
         runner.run(Task("small", 1, {}))
         (child,) = set(children()) - before
-        thread = threading.Thread(target=lambda: found.append(runner.run(Task("large", 2, {"parameters.n": 7}))))
+        thread = threading.Thread(target=lambda: found.append(runner.run(Task("large", 2, {"parameters.n": 20}))))
         thread.start()
         time.sleep(0.1)
         assert not found
         os.kill(child, signal.SIGKILL)
         thread.join()
-        again = runner.run(Task("large", 2, {"parameters.n": 7}))
+        again = runner.run(Task("large", 2, {"parameters.n": 20}))
     assert (found[0].state, found[0].tries) == (DONE, 2)
     assert found[0].results == again.results  # to the last bit, in whatever process and after whatever points
 
