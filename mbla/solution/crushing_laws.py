@@ -120,10 +120,8 @@ class _Outlines:
 
     @classmethod
     def of(cls, shapes: InterfaceShapes, rows: IntArray, part: FloatArray) -> _Outlines:
-        fan, place = Fan.of(shapes), np.full(len(shapes.convex), -1)
+        fan, place = Fan.of_some(shapes, rows), np.full(len(shapes.convex), -1)
         place[rows] = np.arange(len(rows))
-        chosen = place[fan.interface] >= 0
-        fan = Fan(place[fan.interface[chosen]], fan.corners[chosen], fan.share[chosen])
         roots = np.asarray(np.linalg.cholesky(second_moments(shapes, rows)), dtype=np.float64)
         owner = place[shapes.interface_of_corner]
         inside = np.flatnonzero(owner >= 0)

@@ -42,6 +42,14 @@ class Fan:
         area = 0.5 * (one[:, 0] * two[:, 1] - one[:, 1] * two[:, 0])
         return cls(interface, corners, area / np.bincount(interface, area, len(counts))[interface])
 
+    @classmethod
+    def of_some(cls, shapes: InterfaceShapes, rows: IntArray) -> Fan:
+        """Those of the interfaces ``rows``, (n,), which are numbered in that order."""
+        fan, place = cls.of(shapes), np.full(len(shapes.convex), -1)
+        place[rows] = np.arange(len(rows))
+        chosen = place[fan.interface] >= 0
+        return cls(place[fan.interface[chosen]], fan.corners[chosen], fan.share[chosen])
+
 
 @dataclass(frozen=True)
 class StressFields:
@@ -63,14 +71,12 @@ class StressFields:
     @classmethod
     def of(cls, shapes: InterfaceShapes, rows: IntArray, strength: FloatArray) -> StressFields:
         """Interfaces ``rows``, (n,), of the given strengths, (n,)."""
-        fan, place = Fan.of(shapes), np.full(len(shapes.convex), -1)
-        place[rows] = np.arange(len(rows))
-        chosen = np.flatnonzero(place[fan.interface] >= 0)
-        owner, x = place[fan.interface[chosen]], shapes.corners[fan.corners[chosen]]
+        fan = Fan.of_some(shapes, rows)
+        owner, x = fan.interface, shapes.corners[fan.corners]
         lengths = shapes.radii[rows]
         x = x / lengths[owner][:, None, None]
         arms = np.stack([np.ones(x.shape[:2]), x[..., 1], -x[..., 0]], axis=-1)
-        return cls(strength, lengths, owner, strength[owner] * fan.share[chosen], arms)
+        return cls(strength, lengths, owner, strength[owner] * fan.share, arms)
 
     @property
     def scale(self) -> FloatArray:
@@ -118,14 +124,12 @@ class StressFields:
 
 def second_moments(shapes: InterfaceShapes, rows: IntArray) -> FloatArray:
     """Second moments of area of interfaces about their centroids, over the area, (n, 2, 2) [m²]."""
-    fan, place = Fan.of(shapes), np.full(len(shapes.convex), -1)
-    place[rows] = np.arange(len(rows))
-    chosen = place[fan.interface] >= 0
-    x, owner = shapes.corners[fan.corners[chosen]], place[fan.interface[chosen]]
+    fan = Fan.of_some(shapes, rows)
+    x = shapes.corners[fan.corners]
     total = x.sum(axis=1)
     second = np.einsum("tci,tcj->tij", x, x) + total[:, :, None] * total[:, None, :]
     moments = np.zeros((len(rows), 2, 2))
-    np.add.at(moments, owner, fan.share[chosen][:, None, None] * second / 12.0)
+    np.add.at(moments, fan.interface, fan.share[:, None, None] * second / 12.0)
     return moments
 
 
