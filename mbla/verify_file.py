@@ -21,7 +21,7 @@ from mbla.model.model import Model
 from mbla.program.convex.choice import crushable_interfaces, takes_stress_blocks
 from mbla.rebuilt import rebuilt
 from mbla.results.hdf5.result_file import differences_of_file, read_results_hdf5, write_results_hdf5
-from mbla.results.outcome import WITH_VALUE, locked_in
+from mbla.results.outcome import WITH_VALUE, locked_in, presumes_standing
 from mbla.results.results import CaseResult, Results
 from mbla.solution.derived import with_derived
 from mbla.solution.settings import solver_settings
@@ -47,7 +47,8 @@ def verify_file(path: Path) -> tuple[Results, tuple[str, ...]]:
         disagreements += tuple(f"{case.load_case.name}: {text}" for text in found)
     disagreements += differences_of_file(path, write_results_hdf5(again))
     code = exit_code(again.cases, again.notices)  # of a stopped run the file has that of what stopped it
-    if (disagreements or not results.complete) and code in (0, 5):
+    proved = results.complete and not any(presumes_standing(case) for case in again.cases)
+    if (disagreements or not proved) and code in (0, 5):
         code = 4
     return replace(again, exit_code=code), disagreements
 
@@ -103,7 +104,7 @@ def _unproved(case: CaseResult) -> list[str]:
                 f"the associative load factor {associative.load_factor:.8g} is not between its bounds {least:.8g} "
                 f"and {most:.8g}"
             )
-    if locked_in(case) and case.status in WITH_VALUE:
+    if locked_in(case) and case.status in (*WITH_VALUE, Status.UNBOUNDED):
         found.append(f"it cannot be {case.status} and stand only by self-stress, or not at all")
     if standing is not None and standing.verdict is Standing.YES and standing.block is not None:
         found.append("it cannot stand and have a block that falls")

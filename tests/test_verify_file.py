@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -13,15 +12,11 @@ import pytest
 from mbla.errors import FileError
 from mbla.results.hdf5.field import WORDS
 from mbla.results.hdf5.reading import MOST
-from mbla.results.hdf5.result_file import write_results_hdf5
-from mbla.results.results import Results
 from mbla.run_deck import run
 from mbla.run_options import RunOptions
-from mbla.solution.solution import Standing, StandingResult, Status
-from mbla.solution.verification import NOT_SHOWN
 from mbla.verify_file import verify_file
 from tests.line import BLOCK
-from tests.results.changed_files import change, changing
+from tests.results.changed_files import change, changing, with_case, written
 from tests.solution.convex_structures import TWIST
 
 NON_ASSOCIATIVE = BLOCK.replace("flow_rule: associative", "flow_rule: non_associative")
@@ -181,22 +176,6 @@ def test_what_the_file_says_of_itself(path: Path, name: str, value: Any, words: 
     assert words in differences(path)
 
 
-def written(tmp_path: Path, results: Results) -> Path:
-    """A file of changed results: whole, sealed, and consistent in all that a writer derives."""
-    path = tmp_path / "forged.h5"
-    path.write_bytes(write_results_hdf5(results))
-    return path
-
-
-def with_case(results: Results, **changed: Any) -> Results:
-    """Results whose first case has another solution, told with the status and the exit status of a good one."""
-    (case, *others) = results.cases
-    solution = replace(case.solution, **changed)
-    checks = replace(case.checks, verified=True, failures=())
-    forged = replace(case, solution=solution, checks=checks, status=solution.status)
-    return replace(results, cases=(forged, *others), exit_code=0)
-
-
 LEFT_OUT: dict[str, dict[str, Any]] = {
     "lower end of the range": {"lower": None},
     "upper end of the range": {"upper": None},
@@ -214,21 +193,6 @@ def test_what_the_deck_asks_for_is_there(what: str, tmp_path: Path) -> None:
     assert verify_file(tmp_path / "deck.out" / "deck.h5")[1] == ()
     lacks = f"push: the deck asks for the {what}, which the file does not have"
     assert lacks in differences(written(tmp_path, with_case(results, **LEFT_OUT[what])))
-
-
-@pytest.mark.parametrize("standing", [None, StandingResult(Standing.YES, None, "the dead load is carried")])
-def test_what_stands_by_self_stress_alone_is_not_made_to_stand(standing: StandingResult | None, tmp_path: Path) -> None:
-    """A bar between two walls, with the forces that would have to be locked in."""
-    results = run(DECKS / "bar_between_walls.yaml", RunOptions(folder=tmp_path / "out"))
-    assert results.exit_code == 4
-    forged = with_case(results, standing=standing, status=Status.SOLVED, reason="")
-    again, disagreements = verify_file(written(tmp_path, forged))
-    assert again.exit_code == 4
-    if standing is None:
-        assert disagreements == ("push_y: the deck asks for the standing, which the file does not have",)
-    else:
-        assert again.cases[0].checks.failures == (NOT_SHOWN,)
-        assert "cases/push_y/verified is 0 recomputed, the file says 1" in disagreements
 
 
 @pytest.mark.parametrize("upright", [1e9, np.inf])

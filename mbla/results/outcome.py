@@ -16,7 +16,7 @@ from mbla.model.model import Model
 from mbla.results.findings import found_notices
 from mbla.results.magnitudes import magnitude_notices, rounding_of
 from mbla.results.results import CaseResult, Results
-from mbla.solution.solution import Checks, Mechanics, Standing, Status
+from mbla.solution.solution import PROVED_STANDING, Checks, Mechanics, Standing, Status
 from mbla.solution.verify import APPROXIMATE_RESIDUAL
 
 WITH_VALUE = (Status.SOLVED, Status.APPROXIMATE)
@@ -57,6 +57,32 @@ def locked_in(case: CaseResult) -> bool:
         case.solution.flow_rule != "associative"
         and standing is not None
         and standing.verdict in (Standing.SELF_STRESS, Standing.NO)
+    )
+
+
+def standing_unproved(case: CaseResult) -> bool:
+    """Whether what is said of standing can be proved by nothing: that it stands only by self-stress, or is doubtful."""
+    standing = case.solution.standing
+    return standing is not None and standing.verdict not in PROVED_STANDING
+
+
+def presumes_standing(case: CaseResult) -> bool:
+    """Whether what is claimed of the live load counts only if it stands, which nothing proves.
+
+    Associative flow presumes nothing: its bounds hold with and without forces locked in.
+    """
+    claimed = case.status in (*WITH_VALUE, Status.UNBOUNDED)
+    return claimed and case.solution.flow_rule != "associative" and standing_unproved(case)
+
+
+def unproved_words(cases: Sequence[CaseResult]) -> tuple[str, ...]:
+    """Of which cases nothing proves what is said of standing, a sentence each."""
+    return tuple(
+        f"{case.load_case.name}: whether it stands under its dead load alone is not verified, the run told "
+        f"{case.solution.standing.verdict.value!r}"
+        + ("; what is said of the live load presumes that it stands" if presumes_standing(case) else "")
+        for case in cases
+        if case.solution.standing is not None and standing_unproved(case)
     )
 
 

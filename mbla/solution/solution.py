@@ -77,6 +77,10 @@ class Standing(StrEnum):
     DOUBTFUL = "doubtful"
 
 
+PROVED_STANDING = (Standing.YES, Standing.NO)
+"""verdicts that something proves: forces with the displacements that bring them about, and a certificate"""
+
+
 @dataclass(frozen=True)
 class StandingResult:
     """What the assessment of standing found.

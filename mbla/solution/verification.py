@@ -36,6 +36,9 @@ from mbla.stopwatch import timed
 
 NOT_SHOWN = "nothing is given that shows that it stands under the dead load alone"
 SHOWN = "it is said not to stand under the dead load alone, and its forces show that it does"
+FALL_NOT_SHOWN = "it is said to fall under the dead load alone, and no motion is given that shows it"
+FALL_SHOWN = "a motion is given in which it falls under the dead load alone, and it is not said to"
+NOTHING_ACTS = "it is said not to stand under the dead load alone, and there is none"
 
 APART = 1e-9
 """Motion of glued blocks against each other, over the largest motion: rounding of the map from solids to blocks."""
@@ -64,6 +67,7 @@ def _verify(model: Model, contacts: Contacts, load_case: LoadCase, solution: Sol
         of_mechanics = verify_convex
     checks = of_mechanics(model, contacts, load_case, solution)
     failures = (
+        *_fall_failures(solution),
         *_standing_failures(model, contacts, load_case, solution),
         *tilt_failures(model, contacts, load_case, solution),
     )
@@ -128,12 +132,27 @@ def _standing_failures(model: Model, contacts: Contacts, load_case: LoadCase, so
     standing = solution.standing
     if standing is None:
         return ()
-    stands = standing.verdict is Standing.YES
+    stands, loaded = standing.verdict is Standing.YES, bool(np.any(load_case.dead_load[model.free]))
+    if not stands and not loaded:
+        return (NOTHING_ACTS,)
     if standing.forces is None or standing.settlement is None:
-        return (NOT_SHOWN,) if stands and np.any(load_case.dead_load[model.free]) else ()
+        return (NOT_SHOWN,) if stands and loaded else ()
     limits = point_limits(model, contacts) if solution.conditions_on_interfaces else yield_limits(model, contacts)
     failures = standing_failures(model, contacts, load_case, standing.forces, standing.settlement, limits)
     return failures if stands or failures else (SHOWN,)
+
+
+def _fall_failures(solution: Solution) -> tuple[str, ...]:
+    """Why it is not said to fall by status and standing where a motion is given that shows it, and nowhere else.
+
+    What the motion is worth is judged where there are no forces that carry a load factor.
+    """
+    shown = solution.certificate is not None and solution.mechanics is None
+    said = [solution.status is Status.NO_EQUILIBRIUM]
+    said += [] if solution.standing is None else [solution.standing.verdict is Standing.NO]
+    if all(claim == shown for claim in said):
+        return ()
+    return (FALL_SHOWN if shown else FALL_NOT_SHOWN,)
 
 
 def _lock_failures(model: Model, contacts: Contacts, load_case: LoadCase, solution: Solution) -> tuple[str, ...]:

@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import contextlib
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import h5py
 
+from mbla.results.hdf5.result_file import write_results_hdf5
 from mbla.results.hdf5.seal import SEAL_BYTES, sealed
+from mbla.results.results import Results
 
 
 @contextlib.contextmanager
@@ -35,3 +38,19 @@ def replace_dataset(path: Path, name: str, array: Any) -> None:
     with changing(path) as file:
         del file[name]
         file[name] = array
+
+
+def written(tmp_path: Path, results: Results) -> Path:
+    """A file of changed results: whole, sealed, and consistent in all that a writer derives."""
+    path = tmp_path / "forged.h5"
+    path.write_bytes(write_results_hdf5(results))
+    return path
+
+
+def with_case(results: Results, **changed: Any) -> Results:
+    """Results whose first case has another solution, told with the status and the exit status of a good one."""
+    (case, *others) = results.cases
+    solution = replace(case.solution, **changed)
+    checks = replace(case.checks, verified=True, failures=())
+    forged = replace(case, solution=solution, checks=checks, status=solution.status)
+    return replace(results, cases=(forged, *others), exit_code=0)

@@ -17,6 +17,7 @@ import xarray
 from mbla.check import check
 from mbla.deck import read_deck
 from mbla.results.hdf5.layout import LAYOUT
+from mbla.results.hdf5.reading import text_of
 from mbla.results.hdf5.result_file import read_results_hdf5
 from mbla.results.outcome import result_of
 from mbla.results.records.description import RECORD, record_page
@@ -120,7 +121,7 @@ def test_every_dataset_is_described(folder: Path, name: str) -> None:
             standard = {"units", "long_name", "DIMENSION_LIST", "DIMENSION_LABELS"}
             of_text, not_verified = (
                 {"_Encoding"} if field.kind == "text" else set(),
-                {"verification"} if field.told else set(),
+                {"verification"} if field.told_of(text_of(dataset[()])) else set(),
             )
             assert set(dataset.attrs) - standard == of_text | not_verified
             assert tuple(dimension.label for dimension in dataset.dims) == field.dims

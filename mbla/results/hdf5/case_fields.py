@@ -2,9 +2,21 @@
 
 from __future__ import annotations
 
-from mbla.results.hdf5.field import COURSE, FALLS, SEARCHES, TIMES, WORDS, Field, FieldKind, UnitKind
+from mbla.results.hdf5.field import (
+    CLAIMED,
+    COURSE,
+    FALLS,
+    SEARCHES,
+    STANDING,
+    TIMES,
+    WORDS,
+    Field,
+    FieldKind,
+    UnitKind,
+)
 from mbla.results.hdf5.load_fields import LOADS, SETTLEMENT, SPECIAL_LOADS
 from mbla.results.hdf5.mechanism_fields import CASE, COLLAPSE, MECHANICS
+from mbla.solution.solution import PROVED_STANDING
 
 
 def _columns(
@@ -24,7 +36,15 @@ def _numbers(part: str, numbers: tuple[tuple[str, str], ...]) -> tuple[Field, ..
 
 ANSWER = (
     Field(f"{CASE}/status", "text", (), "1", "status of the case after verification", part="solution"),
-    Field(f"{CASE}/claimed_status", "text", (), "1", "status that the solver stage claimed", part="solution"),
+    Field(
+        f"{CASE}/claimed_status",
+        "text",
+        (),
+        "1",
+        "status that the solver stage claimed, which figures can lower and not raise",
+        part="solution",
+        told=CLAIMED,
+    ),
     Field(
         f"{CASE}/flow_rule", "text", (), "1", "flow rule of load_factor, contact_forces and mechanism", part="solution"
     ),
@@ -138,9 +158,10 @@ FURTHER_ANSWERS = (
         "text",
         (),
         "1",
-        "whether it stands under its dead load alone: yes, which needs its proof, only by self-stress, no, doubtful",
+        "whether it stands under its dead load alone: yes or no, which need proofs, only by self-stress, doubtful",
         part="standing",
-        told=FALLS,
+        told=STANDING,
+        proved=tuple(verdict.value for verdict in PROVED_STANDING),
     ),
     Field(
         f"{CASE}/standing/falls",
@@ -152,7 +173,7 @@ FURTHER_ANSWERS = (
         part="standing",
         told=FALLS,
     ),
-    Field(f"{CASE}/standing/reason", "text", (), "1", "why, in words", part="standing", told=FALLS),
+    Field(f"{CASE}/standing/reason", "text", (), "1", "why, in words", part="standing", told=WORDS),
     Field(
         f"{CASE}/standing/contact_forces",
         "float",

@@ -109,8 +109,9 @@ def as_told(results: Results) -> tuple[str, ...]:
     content = content_of(results)
     cases = [case.name for case in results.model.load_cases]
     placed = fields_of(cases)
-    kinds = (field.told for path, field in placed if field.told and np.size(np.asarray(content.get(path, []))))
-    return tuple(dict.fromkeys(kinds))
+    held = ((field, content[path]) for path, field in placed if path in content)
+    kinds = (field.told_of(value) for field, value in held if np.size(np.asarray(value)))
+    return tuple(dict.fromkeys(kind for kind in kinds if kind))
 
 
 def _side_files(files: Sequence[tuple[str, bytes]]) -> Content:

@@ -37,7 +37,9 @@ VERSIONS, TIMES, FILES = "versions and date", "times", "names of files"
 WORDS = "reasons and remarks in words"
 COURSE = "how it was solved: scheme, programs, iterations, steps of the path, sizes, reductions"
 SEARCHES = "tries that did not agree, ranges of normal forces"
-FALLS = "of what does not stand: that, why, and with which block first"
+CLAIMED = "that nothing better was found than a status says, and without associative flow that it falls at no less"
+STANDING = "that it stands only by self-stress, or that it is doubtful whether it stands"
+FALLS = "which block falls first"
 PASSED = "mechanism of a peak"
 
 
@@ -51,6 +53,7 @@ class Field:
     open     : non-finite values are allowed: nan for "nothing to say", inf for "unlimited"
     part     : fields of one part are all there or all missing; empty: always there
     told     : what kind of statement it is, of those that the run alone can tell and ``mbla verify`` does not verify
+    proved   : texts that are verified all the same, as other datasets prove them
     """
 
     path: str
@@ -63,6 +66,11 @@ class Field:
     open: bool = False
     part: str = ""
     told: str = ""
+    proved: tuple[str, ...] = ()
+
+    def told_of(self, value: object) -> str:
+        """``told`` of a value, empty where that is verified."""
+        return "" if isinstance(value, str) and value in self.proved else self.told
 
 
 def unit_text(kind: UnitKind, units: Units) -> str:

@@ -93,6 +93,7 @@ def layout_table() -> str:
     for field in LAYOUT:
         content = field.long_name + (f" (part: {field.part})" if field.part else "")
         content += f"; {NOT_VERIFIED.format(field.told)}" if field.told else ""
+        content += f" (verified where it is {' or '.join(field.proved)})" if field.proved else ""
         dims = ", ".join(field.dims) or "–"
         lines.append(f"| `/{field.path}` | {field.kind} | {dims} | {unit_text(field.unit, Units())} | {content} |")
     return "\n".join(lines) + "\n"

@@ -266,8 +266,8 @@ def _write_field(
     dataset = _create(file, path, array)
     _set_attribute(dataset, "units", unit_text(field.unit, units))
     _set_attribute(dataset, "long_name", field.long_name)
-    if field.told:
-        _set_attribute(dataset, "verification", NOT_VERIFIED.format(field.told))
+    if told := field.told_of(value):
+        _set_attribute(dataset, "verification", NOT_VERIFIED.format(told))
     if field.kind == "text":
         _set_attribute(dataset, "_Encoding", "utf-8")  # netCDF's word for it: xarray gives text, not bytes
     for axis, name in enumerate(field.dims):

@@ -12,7 +12,7 @@ from mbla.errors import Notice
 from mbla.model.model import Model
 from mbla.results.hdf5.content import as_told
 from mbla.results.needs import CaseNeeds
-from mbla.results.outcome import dimension_of, notices_of, standing_of
+from mbla.results.outcome import dimension_of, notices_of, standing_of, unproved_words
 from mbla.results.records.case_json import case_json
 from mbla.results.records.numbers import number, numbers
 from mbla.results.records.reduction_json import reductions_json
@@ -76,7 +76,7 @@ def verification_json(results: Results, disagreements: Sequence[str]) -> dict[st
     return results_json(results) | {
         "agrees": not disagreements,
         "disagreements": list(disagreements),
-        "not_verified": list(as_told(results)),
+        "not_verified": [*as_told(results), *unproved_words(results.cases)],
     }
 
 

@@ -12,6 +12,7 @@ from mbla.arrays import IntArray
 from mbla.model.model import Model
 from mbla.results.hdf5.content import as_told
 from mbla.results.needs import CaseNeeds
+from mbla.results.outcome import unproved_words
 from mbla.results.results import Results
 from mbla.results.series import series_of, told_cases
 from mbla.results.words.case_words import case_lines, spaced
@@ -82,6 +83,7 @@ def verification_lines(results: Results, disagreements: Sequence[str]) -> list[s
     lines += heading("Summary")
     lines += [line for case in results.cases for line in entry(case.load_case.name, verdict(results.model, case))]
     lines += sentence(f"not verified, but as the run told it: {'; '.join(as_told(results))}")
+    lines += [line for text in unproved_words(results.cases) for line in sentence(text)]
     lines += [line for text in disagreements for line in sentence(f"differs: {text}")]
     of_file = [notice.message for notice in results.notices if notice.identifier == "run-stopped"]
     lines += [line for text in of_file for line in sentence(text)]

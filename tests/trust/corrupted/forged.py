@@ -71,6 +71,8 @@ SCALES = {(f"{field.path.rpartition('/')[0]}/{name}", field.told) for field in L
 TOLD = {field.path for field in LAYOUT if field.told} | {path for path, told in SCALES if told}
 TOLD -= {path for path, told in SCALES if not told}
 """datasets that say that they are not verified, and scales that none but these have"""
+PROVED = {(field.path, text.encode()) for field in LAYOUT for text in field.proved}
+"""values of these that are verified all the same"""
 PROOFS = {
     *("lock", "level/lock", "standing/contact_forces", "standing/settlement"),
     *("certificate", "certificate_torsion_motions", "certificate_crushing_motions"),
@@ -140,7 +142,9 @@ def _is_told(path: str, attribute: str, one: Content, other: Content) -> bool:
     if not path:
         return attribute in TOLD_ATTRIBUTES
     first, _, rest = path.partition("/")
-    told = (f"cases/*/{rest.partition('/')[2]}" if first == "cases" else path) in TOLD
+    field = f"cases/*/{rest.partition('/')[2]}" if first == "cases" else path
+    value = other.get((path, ""), one.get((path, "")))
+    told = field in TOLD and not (isinstance(value, bytes) and (field, value) in PROVED)
     return told and (not attribute or not ((path, "") in one and (path, "") in other))
 
 

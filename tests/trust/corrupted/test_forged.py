@@ -62,6 +62,8 @@ def test_some_forgeries(tmp_path: Path) -> None:
         (("cases/a@1/load_factor", "units"), b"m", "cases/a@1/load_factor@units"),
         (("cases/a@1/reason", ""), b"none", None),
         (("cases/a@1/reason", "units"), b"m", "cases/a@1/reason@units"),
+        (("cases/a@1/standing/verdict", ""), b"yes", "cases/a@1/standing/verdict"),
+        (("cases/a@1/standing/verdict", ""), b"doubtful", None),
         (("model/title", ""), b"forged", "model/title"),
         (("", "created"), b"2020", None),
         (("", "deck_sha256"), b"00", "@deck_sha256"),
@@ -69,6 +71,7 @@ def test_some_forgeries(tmp_path: Path) -> None:
 )
 def test_what_is_a_changed_claim(key: tuple[str, str], value: Any, claim: str | None) -> None:
     of_case = {("cases/a@1/load_factor", ""): 0.5, ("cases/a@1/reason", ""): b"", ("cases/a@1/reason", "units"): b"1"}
+    of_case["cases/a@1/standing/verdict", ""] = b"only by self-stress"
     content = {**of_case, ("model/title", ""): b"x", ("", "created"): b"2026", ("", "deck_sha256"): b"ab"}
     assert claims_changed(content, content) == []
     assert claims_changed(content, content | {key: value}) == ([] if claim is None else [claim])
