@@ -233,7 +233,7 @@ OF_PROOFS = (
     Explanation(
         "standing-not-proved",
         "verification",
-        "The forces or displacements that should show that the structure stands do not.",
+        "The forces, displacements or motion that should show that the structure stands, or falls, do not.",
         f"Whether it stands is open; {UNBALANCED:g} of the load of a block may be left unbalanced.",
         "The structure stands by a hair.",
         "Vary friction and geometry a little.",

@@ -4,7 +4,7 @@ from typing import Any
 
 import pytest
 
-from mbla.results.hdf5.field import COURSE, TIMES, VERSIONS, WORDS
+from mbla.results.hdf5.field import CLAIMED, COURSE, TIMES, VERSIONS, WORDS
 from mbla.results.needs import CaseNeeds
 from mbla.results.records.json_record import check_json, json_line, results_json, verification_json
 from mbla.results.records.power_json import powers_json
@@ -112,7 +112,7 @@ def test_check_record_has_no_cases() -> None:
 def test_verification_record_says_whether_the_file_agrees() -> None:
     record = verification_json(tower_results(), ())
     assert record["agrees"] is True
-    assert record["not_verified"] == [VERSIONS, TIMES, COURSE, WORDS]
+    assert record["not_verified"] == [VERSIONS, TIMES, CLAIMED, COURSE, WORDS]
     record = verification_json(tower_results(), ("x differs",))
     assert record["agrees"] is False
     assert record["disagreements"] == ["x differs"]

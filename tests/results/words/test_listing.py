@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from mbla.results.hdf5.field import COURSE, TIMES, VERSIONS, WORDS
+from mbla.results.hdf5.field import CLAIMED, COURSE, TIMES, VERSIONS, WORDS
 from mbla.results.hdf5.result_file import read_results_hdf5, write_results_hdf5
 from mbla.results.needs import CaseNeeds
 from mbla.results.results import Results
@@ -196,4 +196,4 @@ def test_verification_names_what_differs(results: Results) -> None:
     lines = verification_lines(results, ("push_x: static bound is 1 recomputed, the file says 2",))
     assert "differs: push_x: static bound is 1" in lines[-1]
     text = " ".join(" ".join(lines).split())
-    assert f"not verified, but as the run told it: {VERSIONS}; {TIMES}; {COURSE}; {WORDS}" in text
+    assert f"not verified, but as the run told it: {VERSIONS}; {TIMES}; {CLAIMED}; {COURSE}; {WORDS}" in text
