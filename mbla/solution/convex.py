@@ -96,7 +96,8 @@ def _with_standing(convex: ConvexProgram, solution: Solution, settings: SolverSe
     if solution.certificate is not None:
         velocities = convex.points.velocities(solution.certificate)
         return replace(solution, standing=standing_without_equilibrium(convex.points, velocities))
-    decided = solution.associative is not None or solution.status is Status.UNBOUNDED
+    answered = solution.associative is not None or solution.mechanics is not None  # the latter where the former locks
+    decided = answered or solution.status is Status.UNBOUNDED
     state = assess_dead_load(convex.points, settings, True if decided else None)
     standing = standing_on_model(convex.points, state)
     claimed = solution.status in (Status.SOLVED, Status.APPROXIMATE) and solution.flow_rule != "associative"

@@ -125,6 +125,17 @@ def test_what_stands_by_self_stress_alone_has_no_load_factor_without_dilatancy(m
         assert (solution.reason == ONLY_BY_SELF_STRESS) is (rule == "non_associative")
 
 
+def test_a_bar_between_two_walls_that_locks_with_dilatancy_has_no_load_factor_without() -> None:
+    """Forces that carry its weight are known, as it locks: that it falls from the stress-free assembly is no doubt."""
+    line = line_of((DECKS / "bar_between_walls.yaml").read_text(encoding="utf-8"))
+    solution, _ = convex_of(line, "non_associative")
+    assert solution.associative is None
+    assert solution.mechanics is not None
+    assert solution.standing is not None
+    assert solution.standing.verdict is Standing.SELF_STRESS
+    assert (solution.status, solution.reason) == (Status.NOT_VERIFIED, ONLY_BY_SELF_STRESS)
+
+
 @pytest.mark.parametrize("rule", ["associative", "non_associative"])
 def test_a_block_that_hangs_on_a_guide_without_an_interface_is_moved_by_any_push(rule: str) -> None:
     """A pendulum about an axis above it: at rest under its weight, and nothing resists."""
