@@ -7,9 +7,11 @@ The program on one line; each word is a folder, and its main type carries the fo
              supports,  contact      yield cones,  forces,       listing,
              loads      points       objective     mechanism     pictures
 
-A stage imports only from the stages to its left; ``run_deck.py`` is the table of contents.
+A stage imports only from the stages to its left; ``run.py`` is the table of contents.
 """
 
+import sys
+from types import ModuleType
 from typing import TYPE_CHECKING
 
 __version__ = "0.1.0"
@@ -25,18 +27,18 @@ if TYPE_CHECKING:
     from mbla.errors import UsageError as UsageError
     from mbla.results.notebook.case import Case as Case
     from mbla.results.notebook.run import Run as Run
-    from mbla.studies.sweep.tables.sweep_table import SweepTable as SweepTable
-    from mbla.sweep_api import read_sweep as read_sweep
-    from mbla.sweep_api import sweep as sweep
+    from mbla.sweeps.api import read_sweep as read_sweep
+    from mbla.sweeps.api import sweep as sweep
+    from mbla.sweeps.tables.sweep_table import SweepTable as SweepTable
 
 _HOMES = {
     "run": "mbla.api",
     "read_results": "mbla.api",
-    "sweep": "mbla.sweep_api",
-    "read_sweep": "mbla.sweep_api",
+    "sweep": "mbla.sweeps.api",
+    "read_sweep": "mbla.sweeps.api",
     "Run": "mbla.results.notebook.run",
     "Case": "mbla.results.notebook.case",
-    "SweepTable": "mbla.studies.sweep.tables.sweep_table",
+    "SweepTable": "mbla.sweeps.tables.sweep_table",
     "MblaError": "mbla.errors",
     "DeckError": "mbla.errors",
     "FileError": "mbla.errors",
@@ -57,6 +59,15 @@ if not TYPE_CHECKING:  # a checker knows the names above, and only these
         from importlib import import_module
 
         return getattr(import_module(_HOMES[name]), name)
+
+    class _Package(ModuleType):
+        """The package, in which ``mbla.run`` is the function that users call although a module has that name too."""
+
+        def __setattr__(self, name: str, value: object) -> None:
+            if name not in _HOMES or not isinstance(value, ModuleType):
+                super().__setattr__(name, value)
+
+    sys.modules[__name__].__class__ = _Package
 
 
 def __dir__() -> list[str]:

@@ -2,7 +2,7 @@
 
 import sys
 
-from mbla.signals import Terminated, hear_termination, held_signals
+from mbla.process.signals import Terminated, hear_termination, held_signals
 
 
 def command() -> int:
@@ -11,7 +11,7 @@ def command() -> int:
         hear_termination()
         with held_signals():  # it gives them back when all is loaded
             from mbla import cli
-            from mbla.arguments import wants_json
+            from mbla.cli.arguments import wants_json
     except (KeyboardInterrupt, Terminated) as error:
         return cli.failed(error, {}, as_json=wants_json(sys.argv[1:]))
     return cli.main()

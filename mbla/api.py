@@ -13,14 +13,14 @@ from typing import Any
 from mbla.deck import read_deck, read_deck_text
 from mbla.deck.deck import Deck
 from mbla.errors import FileError, LimitError, UsageError
-from mbla.failures import StoppedRun
+from mbla.process.threads import limit_threads
+from mbla.results.failures import StoppedRun
 from mbla.results.hdf5.result_file import read_results_hdf5
 from mbla.results.notebook.run import Run
 from mbla.results.results import Results
 from mbla.results.sta import StatusFile
-from mbla.run_deck import Progress, run_and_write, solve_deck, title_of
+from mbla.run import Progress, run_and_write, solve_deck, title_of
 from mbla.run_options import RunOptions
-from mbla.threads import limit_threads
 
 TEXT_NAME = "deck.yaml"
 """name of a deck that is given as text"""

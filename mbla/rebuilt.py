@@ -18,16 +18,16 @@ from mbla.arrays import FloatArray
 from mbla.contacts.glue import held_model
 from mbla.deck import Deck
 from mbla.deck.reading import sha256_of
-from mbla.deck_record import deck_of
 from mbla.errors import DeckError, FileError, Notice
 from mbla.model import Model, build_model
 from mbla.model.model import LoadCase, Tilt
 from mbla.model.settlement import with_reference
+from mbla.results.deck_record import deck_of
 from mbla.results.hdf5.case_content import Content, Value
 from mbla.results.hdf5.content import content_of
 from mbla.results.results import Results
-from mbla.run_deck import as_expected, contacts_of, notices_of
-from mbla.settings_words import settings_in_words
+from mbla.results.settings_words import settings_in_words
+from mbla.run import as_expected, contacts_of, notices_of
 from mbla.solution.settings import solver_settings
 from mbla.solution.tilt_circle import chord
 

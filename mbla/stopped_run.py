@@ -11,7 +11,7 @@ from dataclasses import replace
 
 from mbla.deck.types import OutputSection
 from mbla.errors import DeckError, FileError, MblaError, Notice, UsageError
-from mbla.failures import StoppedRun, words_of
+from mbla.results.failures import StoppedRun, words_of
 from mbla.results.files import OutputFolder, is_partial, partial_stem
 from mbla.results.results import Results
 from mbla.results.write import write_results

@@ -1,6 +1,6 @@
 """``mbla verify``: everything that a result file claims, recomputed from what is in it alone, with no solver.
 
-Model, contacts and loads are built again from the deck in the file (:mod:`mbla.rebuilt`). Of every case the forces and
+Model, contacts and loads are built again from the deck in the file (``rebuilt``). Of every case the forces and
 mechanisms are taken, and all that follows from them is found again: velocities, modes, parts, work, residuals, bounds,
 ends of ranges, standing, angle, status. The file that this gives must be the one at hand, dataset by dataset. So the
 file is believed in nothing but the fields that say what the run alone can tell (``told`` of
@@ -16,18 +16,18 @@ import numpy as np
 
 from mbla.deck import Deck
 from mbla.deck.accuracy import knobs_of
-from mbla.exit_status import exit_code
 from mbla.model.model import Model
 from mbla.program.convex.choice import crushable_interfaces, takes_stress_blocks
 from mbla.rebuilt import rebuilt
+from mbla.results.exit_status import exit_code
 from mbla.results.hdf5.result_file import differences_of_file, read_results_hdf5, write_results_hdf5
 from mbla.results.outcome import WITH_VALUE, locked_in, presumes_standing
 from mbla.results.results import CaseResult, Results
 from mbla.solution.derived import with_derived
 from mbla.solution.settings import solver_settings
 from mbla.solution.solution import Solution, Standing, Status
-from mbla.solution.verification import level_bound, verify
-from mbla.solution.verify import SOLVED_RESIDUAL, verified_status
+from mbla.solution.verification.verification import level_bound, verify
+from mbla.solution.verification.verify import SOLVED_RESIDUAL, verified_status
 
 
 @np.errstate(over="ignore", invalid="ignore", divide="ignore")  # what is no number fulfils no condition

@@ -16,7 +16,7 @@ from mbla.program import Program, assemble
 from mbla.program.reductions import allowed_reductions, reduce_program
 from mbla.results.results import CaseResult
 from mbla.results.sta import StatusFile
-from mbla.run_deck import contacts_of, solve_case, with_settlements
+from mbla.run import contacts_of, solve_case, with_settlements
 from mbla.solution import Checks, Solution, solve, verified_status, verify
 from mbla.solution.settings import solver_settings
 from mbla.solution.solution import Status

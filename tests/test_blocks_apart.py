@@ -6,9 +6,9 @@ from pathlib import Path
 
 import pytest
 
+from mbla.results.listing.summary import summary_lines
 from mbla.results.results import Results
-from mbla.results.words.summary import summary_lines
-from mbla.run_deck import RunOptions, run
+from mbla.run import RunOptions, run
 from mbla.verify_file import verify_file
 
 DECK = """\

@@ -7,7 +7,7 @@ import pickle
 import pytest
 
 from mbla.errors import DeckError, Fault, FileError, Message, Place
-from mbla.failures import identifiers_of
+from mbla.results.failures import identifiers_of
 
 
 def test_a_deck_error_keeps_its_faults_between_processes() -> None:

@@ -17,8 +17,8 @@ import numpy as np
 import pytest
 
 import mbla
-from mbla.arguments import build_parser
 from mbla.cli import main
+from mbla.cli.arguments import build_parser
 from tests.line import BLOCK
 
 ROOT = Path(__file__).parents[1]

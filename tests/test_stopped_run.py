@@ -3,22 +3,25 @@
 from __future__ import annotations
 
 import json
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
 import pytest
 
 import mbla
-from mbla import cli, run_deck
+from mbla import cli
 from mbla.errors import FileError, SolverError
+from mbla.process.signals import Terminated
 from mbla.results.results import CaseResult
-from mbla.signals import Terminated
 from mbla.solution.solution import Status
 from tests.line import BLOCK
 
 CASES = "load_cases:\n  push: {live: [{acceleration: [1, 0, 0]}]}\n  pull: {live: [{acceleration: [-2, 0, 0]}]}\n"
 DECK = BLOCK.replace("load_cases:\n  push: {live: [{acceleration: [1, 0, 0]}]}\n", CASES)
 PARTIAL = ["block.partial.h5", "block.partial.json", "block.partial.lst"]
+
+run_deck = import_module("mbla.run")  # the name in the package is the function
 
 
 @pytest.fixture

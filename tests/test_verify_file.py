@@ -12,7 +12,7 @@ import pytest
 from mbla.errors import FileError
 from mbla.results.hdf5.field import WORDS
 from mbla.results.hdf5.reading import MOST
-from mbla.run_deck import run
+from mbla.run import run
 from mbla.run_options import RunOptions
 from mbla.verify_file import verify_file
 from tests.line import BLOCK

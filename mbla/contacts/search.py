@@ -29,7 +29,7 @@ from mbla.contacts.refine import InterfacePoints, point_starts
 from mbla.contacts.report import Findings, both_fixed, build_report
 from mbla.deck.types import ContactsSection
 from mbla.model.model import Joint, Model
-from mbla.sharing import shared
+from mbla.process.sharing import shared
 
 # Interfaces of one pair of bodies are sorted along a direction that no building is likely to be square to, so that
 # rounding does not turn their order.

@@ -8,7 +8,6 @@ from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 from typing import Any
 
-from mbla.collector import no_collection
 from mbla.deck.deck import Deck, SideFile, Source
 from mbla.deck.expressions import Parameters, is_expression
 from mbla.deck.include import Reading, confined, read_files
@@ -22,7 +21,8 @@ from mbla.deck.types import DeckContent, UnitsSection
 from mbla.deck.units import Units
 from mbla.deck.validation import validate
 from mbla.errors import MOST_FAULTS, DeckError, Fault, FileError, Message, first_faults
-from mbla.sharing import copied
+from mbla.process.collector import no_collection
+from mbla.process.sharing import copied
 
 
 def read_deck(path: str | Path, overrides: Sequence[str] = (), *, expected: bool = True) -> Deck:

@@ -17,7 +17,7 @@ from pydantic_core import PydanticCustomError
 
 from mbla.deck.wrong_values import wrong_values
 from mbla.errors import Message
-from mbla.signals import held_signals
+from mbla.process.signals import held_signals
 
 Finding: TypeAlias = tuple[tuple[str | int, ...], Message]
 """Key path below the section, and what is wrong there."""

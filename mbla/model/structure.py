@@ -19,7 +19,7 @@ from mbla.model.model import GivenInterfaces
 from mbla.model.overrides import check_overrides
 from mbla.model.selectors import Roster, build_roster
 from mbla.model.supports import Supports, build_supports
-from mbla.sharing import once
+from mbla.process.sharing import once
 
 NO_LAW = JointLaw(friction=0.0)
 """stands for every joint law: only their names count here"""

@@ -8,7 +8,7 @@ import scipy.sparse as sp
 from mbla.arrays import FloatArray, IntArray
 from mbla.contacts.contacts import Contacts
 from mbla.model.model import Model
-from mbla.sharing import shared
+from mbla.process.sharing import shared
 
 
 def equilibrium_matrix(model: Model, contacts: Contacts, free: IntArray) -> sp.csr_array:

@@ -25,10 +25,10 @@ import numpy as np
 import scipy.sparse as sp
 
 from mbla.arrays import FloatArray, IntArray
+from mbla.process.sharing import shared
 from mbla.program.program import Program
 from mbla.program.yield_conditions import Coulomb, Crushing, TensionCutOff
 from mbla.program.yield_conditions.limits import YieldLimits
-from mbla.sharing import shared
 
 
 @dataclass(frozen=True)

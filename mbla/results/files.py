@@ -22,10 +22,10 @@ from types import TracebackType
 from typing import Any, TextIO
 
 from mbla.errors import FileError
+from mbla.process.signals import held_signals
 from mbla.results.disk import file_errors, flush_to_disk, missing_folders, remove_folders
 from mbla.results.leftovers import PREFIX, clear_leftovers, mark_as_new, remove_new, temporary_path
 from mbla.results.lock import locked
-from mbla.signals import held_signals
 
 RESULT_SUFFIXES = (".h5", ".lst", ".json", ".sta")
 """files STEM + suffix that make an earlier result"""

@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 
 from mbla.model.model import LoadCase, Tilt
+from mbla.results.listing.text import number
 from mbla.results.outcome import result_of
 from mbla.results.results import CaseResult
-from mbla.results.words.text import number
 from mbla.solution.tilt_circle import angle_above, line_of
 
 AT_COLLAPSE = 1e-6

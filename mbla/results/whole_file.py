@@ -11,9 +11,9 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from mbla.errors import FileError
+from mbla.process.signals import held_signals
 from mbla.results.disk import file_errors, flush_to_disk, missing_folders, remove_folders
 from mbla.results.leftovers import clear_leftovers, temporary_path
-from mbla.signals import held_signals
 
 
 @contextlib.contextmanager

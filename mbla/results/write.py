@@ -10,15 +10,15 @@ from pathlib import Path
 from mbla.deck.types import OutputSection
 from mbla.results.files import OutputFolder
 from mbla.results.hdf5.result_file import write_results_hdf5
-from mbla.results.paraview.mesh_files import write_mesh_files
+from mbla.results.listing.case_words import find_failure
+from mbla.results.listing.listing import listing
 from mbla.results.records.json_record import json_line, results_json
 from mbla.results.results import CaseResult, Results
 from mbla.results.series import series_of, told_cases
 from mbla.results.tables.csv_file import table_csv
 from mbla.results.tables.history_columns import SERIES
 from mbla.results.tables.tables import tables_of
-from mbla.results.words.case_words import find_failure
-from mbla.results.words.listing import listing
+from mbla.results.vtu.mesh_files import write_mesh_files
 
 
 def write_results(results: Results, out: OutputFolder, output: OutputSection) -> Results:

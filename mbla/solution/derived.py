@@ -15,8 +15,8 @@ from mbla.program.convex import assemble_convex
 from mbla.solution.contact_modes import contact_modes
 from mbla.solution.glued import MOTIONS, rule_of
 from mbla.solution.solution import Mechanics, Solution
-from mbla.solution.statics import contact_velocities
-from mbla.solution.verify import dilatancy_of
+from mbla.solution.verification.statics import contact_velocities
+from mbla.solution.verification.verify import dilatancy_of
 
 ROUNDING = 1e-9
 """Difference of velocities over the largest that is rounding: those stored are kept then, as modes at thresholds follow
@@ -54,7 +54,7 @@ def _with_modes(
     slope = dilatancy_of(limits, flow_rule)
     if mechanics.interface_motions is None:
         return replace(mechanics, modes=contact_modes(forces, mechanics.contact_velocities, limits, slope))
-    from mbla.solution.convex import modes_of  # late: the law of interfaces is asked for rarely
+    from mbla.solution.resultants.solve_convex import modes_of  # late: the law of interfaces is asked for rarely
 
     convex = assemble_convex(solids.model, solids.contacts, solids.load_case(load_case), contact_model)
     of_solids = replace(mechanics, mechanism=solids.solid_motions(mechanics.mechanism))

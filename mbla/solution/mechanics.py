@@ -8,7 +8,7 @@ from mbla.arrays import FloatArray
 from mbla.program.program import Program
 from mbla.program.yield_conditions import YieldLimits
 from mbla.solution.contact_modes import contact_modes
-from mbla.solution.law_state import LawState
+from mbla.solution.nonassociative.law_state import LawState
 from mbla.solution.solution import Mechanics
 
 

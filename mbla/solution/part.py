@@ -9,19 +9,19 @@ import numpy as np
 from mbla.deck.accuracy import knobs_of
 from mbla.deck.analysis import AnalysisSection
 from mbla.program.program import Program
-from mbla.solution.associative import AssociativeResult, solve_associative
-from mbla.solution.associative_form import FORMS
-from mbla.solution.boundedness import Boundedness, non_associative_bounded
-from mbla.solution.certificate import cleaned_certificate
-from mbla.solution.cone_solution import Log
-from mbla.solution.factor_range import FactorRange
-from mbla.solution.law_state import LawState, SequenceResult
-from mbla.solution.locking import locks_at_dilatancy
-from mbla.solution.polyhedral import solve_polyhedral, solve_with_opinion
+from mbla.solution.associative.associative_form import FORMS
+from mbla.solution.associative.certificate import cleaned_certificate
+from mbla.solution.associative.polyhedral import solve_polyhedral, solve_with_opinion
+from mbla.solution.associative.solve_associative import AssociativeResult, solve_associative
+from mbla.solution.cone_solvers.cone_solution import Log
+from mbla.solution.nonassociative.boundedness import Boundedness, non_associative_bounded
+from mbla.solution.nonassociative.factor_range import FactorRange
+from mbla.solution.nonassociative.law_state import LawState, SequenceResult
+from mbla.solution.nonassociative.locking import locks_at_dilatancy
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import ProgramRecord, StandingResult, Status
-from mbla.solution.standing import stress_free_state
-from mbla.solution.standing_path import StandingPath
+from mbla.solution.standing.standing import stress_free_state
+from mbla.solution.standing.standing_path import StandingPath
 
 NO_MECHANISM_AT_DILATANCY = (
     "the solver finds no mechanism at the dilatancy angle either in which the live load does work"
@@ -181,7 +181,7 @@ def _judged(
     rough, wanted = state.residual > RANGE_RESIDUAL, knobs_of(analysis).peak
     if rough and above is not None and state.load_factor > 0.0:
         return result.with_remark(NO_PEAK, ())
-    from mbla.solution.first_fall import judged_by_path  # late: the load path is followed rarely
+    from mbla.solution.nonassociative.first_fall import judged_by_path  # late: the load path is followed rarely
 
     assert result.sequence is not None  # its state is that of the flow rule
     path = path or StandingPath.from_dead_load(result.program, settings, result.associative.stress_free)
@@ -205,7 +205,7 @@ def _by_law(
     program: Program, associative: AssociativeResult, analysis: AnalysisSection, settings: SolverSettings, log: Log
 ) -> SequenceResult:
     """The sequence by the flow rule of the analysis; its schemes are imported where one is asked for."""
-    from mbla.solution.flow import Flow, solve_flow
+    from mbla.solution.flow_rules import Flow, solve_flow
 
     return solve_flow(Flow(program, associative, analysis, settings, log))
 

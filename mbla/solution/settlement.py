@@ -18,13 +18,13 @@ from mbla.model.model import LoadCase, Model
 from mbla.model.settlement import with_reference
 from mbla.program.assemble import assemble
 from mbla.program.reductions import reduce_program
-from mbla.solution.cone_solution import Log
-from mbla.solution.force_repair import repaired_forces
+from mbla.solution.associative.force_repair import repaired_forces
+from mbla.solution.cone_solvers.cone_solution import Log
 from mbla.solution.mechanics import forces_of
+from mbla.solution.parts import at_rest
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import IterationRecord
-from mbla.solution.statics import contact_resultants
-from mbla.solution.whole import at_rest
+from mbla.solution.verification.statics import contact_resultants
 
 MARGIN = 1e-9
 """Added to the reaction at rest, over the unit of reactions: where statics alone gives the reaction, rounding must not

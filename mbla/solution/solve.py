@@ -12,18 +12,18 @@ from mbla.arrays import FloatArray, IntArray
 from mbla.deck.analysis import AnalysisSection
 from mbla.program.program import Program
 from mbla.program.reductions import Reduced
-from mbla.solution.associative import AssociativeResult
-from mbla.solution.beside import Questions, with_answers
-from mbla.solution.cone_solution import Log
-from mbla.solution.force_ranges import force_ranges
-from mbla.solution.law_state import LawState
-from mbla.solution.locking import locking_forces
+from mbla.solution.associative.force_ranges import force_ranges
+from mbla.solution.associative.solve_associative import AssociativeResult
+from mbla.solution.cone_solvers.cone_solution import Log
+from mbla.solution.further_results import Questions, with_answers
 from mbla.solution.mechanics import mechanics_of, motion_of
+from mbla.solution.nonassociative.law_state import LawState
+from mbla.solution.nonassociative.locking import locking_forces
 from mbla.solution.part import PartResult, solve_part
+from mbla.solution.parts import at_rest, whole_state
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import IterationRecord, Mechanics, ProgramRecord, Solution, Standing, Status
-from mbla.solution.standing import worst_standing
-from mbla.solution.whole import at_rest, whole_state
+from mbla.solution.standing.standing import worst_standing
 
 WITH_VALUE = (Status.SOLVED, Status.APPROXIMATE)
 

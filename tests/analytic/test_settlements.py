@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 from mbla.results.collapse.mechanics import guide_reactions, load_on_structure, support_reactions
+from mbla.results.listing.settlement_words import reaction_of
 from mbla.results.results import CaseResult, Results
-from mbla.results.words.settlement_words import reaction_of
-from mbla.run_deck import RunOptions, run
+from mbla.run import RunOptions, run
 from tests.analytic.cases import BENCHMARKS
 from tests.analytic.thrust_line import springer_thrusts, voussoirs
 

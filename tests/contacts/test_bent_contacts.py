@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from mbla.errors import DeckError
-from mbla.run_deck import contacts_of
+from mbla.run import contacts_of
 from tests.line import line_of_file
 
 BOTTOM = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]

@@ -7,9 +7,9 @@ from pathlib import Path
 import pytest
 
 from mbla.errors import DeckError
+from mbla.results.listing.settlement_words import reaction_of
 from mbla.results.results import Results
-from mbla.results.words.settlement_words import reaction_of
-from mbla.run_deck import RunOptions, run
+from mbla.run import RunOptions, run
 
 DECK = """
 mbla: 1

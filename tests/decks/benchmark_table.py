@@ -22,7 +22,7 @@ from mbla.model import Model, build_model
 from mbla.results.outcome import associative_of, best_iterate, law_residual, range_of, result_of
 from mbla.results.results import CaseResult
 from mbla.results.sta import StatusFile
-from mbla.run_deck import contacts_of, solve_case
+from mbla.run import contacts_of, solve_case
 from mbla.solution.settings import solver_settings
 from tests.decks.benchmark_cases import CASES, BenchmarkCase, Formulation, formulation, overrides_of
 from tests.decks.folder import DECKS

@@ -7,11 +7,11 @@ from functools import cache
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from mbla.studies.sweep.command import Finished, Prepared, SweepOptions, prepare, run_sweep
-from mbla.studies.sweep.design.design import Design
-from mbla.studies.sweep.file.read import read_sweep
-from mbla.studies.sweep.plan import Plain
-from mbla.studies.sweep.worker.runner import PointRunner
+from mbla.sweeps.command import Finished, Prepared, SweepOptions, prepare, run_sweep
+from mbla.sweeps.design.design import Design
+from mbla.sweeps.file.read import read_sweep
+from mbla.sweeps.plan import Plain
+from mbla.sweeps.worker.runner import PointRunner
 from tests.decks.folder import DECKS
 
 SWEEPS = DECKS / "sweeps"

@@ -9,10 +9,10 @@ from mbla.deck.analysis import ReductionSwitches
 from mbla.model import build_model
 from mbla.program import assemble
 from mbla.program.reductions import reduce_program
-from mbla.run_deck import contacts_of, with_settlements
+from mbla.run import contacts_of, with_settlements
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Standing
-from mbla.solution.standing import assess_dead_load, worst_standing
+from mbla.solution.standing.standing import assess_dead_load, worst_standing
 from tests.decks.folder import deck_of, every_deck, name_of
 
 LOCKED_IN = ("benchmarks/bar_between_walls",)

@@ -12,8 +12,8 @@ import pytest
 from scipy.stats import spearmanr
 
 from mbla.deck.include import read_files
-from mbla.studies.sweep.command import dry_run_json
-from mbla.studies.sweep.file.read import SWEEP_FILE
+from mbla.sweeps.command import dry_run_json
+from mbla.sweeps.file.read import SWEEP_FILE
 from tests.analytic.frictional_arch import least_thickness
 from tests.decks.folder import DECKS, ROOT, deck_of
 from tests.decks.sweeps import NAMES, SWEEPS, Row, number, prepared_sweep, solve_some, sweep_path, whole_sweep

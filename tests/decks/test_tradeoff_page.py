@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from mbla.studies.tradeoff.ladder_run import RungRun
-from mbla.studies.tradeoff.rung import Rung
+from mbla.sweeps.tradeoff.ladder_run import RungRun
+from mbla.sweeps.tradeoff.rung import Rung
 from tests.decks import tradeoff_page
 from tests.decks.tradeoff_page import chosen, measure
 from tests.decks.tradeoff_plan import PRESETS, plan_of, rungs_for

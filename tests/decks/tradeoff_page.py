@@ -15,10 +15,10 @@ from collections.abc import Sequence
 from datetime import UTC, datetime
 
 from mbla.deck import Deck, read_deck
-from mbla.studies.tradeoff.ladder import fitted
-from mbla.studies.tradeoff.ladder_run import Limits, RungRun, run_ladder
-from mbla.studies.tradeoff.rung import Rung
-from mbla.studies.tradeoff.study import Study, study_deck, study_of, traded_cases
+from mbla.sweeps.tradeoff.ladder import fitted
+from mbla.sweeps.tradeoff.ladder_run import Limits, RungRun, run_ladder
+from mbla.sweeps.tradeoff.rung import Rung
+from mbla.sweeps.tradeoff.study import Study, study_deck, study_of, traded_cases
 from tests.decks.tradeoff_pictures import write_pictures
 from tests.decks.tradeoff_plan import overrides_of, plan_of, rungs_for
 from tests.decks.tradeoff_record import FOLDER, Entry, entries_of, read_entries, write_entries

@@ -11,8 +11,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from mbla.deck import read_deck
-from mbla.studies.tradeoff.ladder import usual_ladder
-from mbla.studies.tradeoff.rung import Rung
+from mbla.sweeps.tradeoff.ladder import usual_ladder
+from mbla.sweeps.tradeoff.rung import Rung
 from tests.performance.standard_set import Structure
 
 PRESETS = ("accuracy: draft", "accuracy: standard", "accuracy: reference")

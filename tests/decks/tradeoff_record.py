@@ -9,8 +9,8 @@ from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import Any
 
-from mbla.studies.tradeoff.study import Study
-from mbla.studies.tradeoff.trade import Row
+from mbla.sweeps.tradeoff.study import Study
+from mbla.sweeps.tradeoff.trade import Row
 from tests.performance.standard_set import FLOW_RULES, STANDARD_SET, Structure
 
 FOLDER = Path(__file__).parents[2] / "decks" / "tradeoff"
@@ -20,7 +20,7 @@ NAN = math.nan
 
 @dataclass(frozen=True)
 class Entry:
-    """One row; times in seconds, memory in MB, the other figures as of ``mbla.studies.tradeoff.trade.Row``.
+    """One row; times in seconds, memory in MB, the other figures as of ``mbla.sweeps.tradeoff.trade.Row``.
 
     end : ``done``, or why the rung gave nothing
     """

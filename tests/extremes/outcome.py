@@ -31,14 +31,14 @@ from types import FrameType
 
 from mbla.deck import read_deck
 from mbla.errors import MblaError
+from mbla.results.listing.listing import listing
+from mbla.results.listing.summary import summary_lines
 from mbla.results.magnitudes import rounding_of
 from mbla.results.outcome import notices_of, result_of
 from mbla.results.records.json_record import json_line, results_json
 from mbla.results.results import CaseResult, Results
 from mbla.results.sta import StatusFile
-from mbla.results.words.listing import listing
-from mbla.results.words.summary import summary_lines
-from mbla.run_deck import solve_deck
+from mbla.run import solve_deck
 from mbla.run_options import RunOptions
 
 GREEN = ("right", "diagnosed")

@@ -11,7 +11,7 @@ import pytest
 
 from mbla.deck import read_deck
 from mbla.results.sta import StatusFile
-from mbla.run_deck import solve_deck
+from mbla.run import solve_deck
 from mbla.run_options import RunOptions
 
 HEAD = """\

@@ -12,7 +12,7 @@ import pytest
 from mbla.deck import read_deck
 from mbla.errors import DeckError
 from mbla.model import build_model
-from mbla.run_deck import contacts_of
+from mbla.run import contacts_of
 
 FOLDER = Path(__file__).parents[1] / "invalid_decks"
 DECKS = sorted(FOLDER.glob("model_*.yaml"))

@@ -11,9 +11,9 @@ from mbla.contacts import find_contacts
 from mbla.deck import read_deck
 from mbla.errors import DeckError
 from mbla.model import Model, build_model
+from mbla.results.listing.settlement_words import reaction_of
 from mbla.results.results import Results
-from mbla.results.words.settlement_words import reaction_of
-from mbla.run_deck import RunOptions, run
+from mbla.run import RunOptions, run
 
 HEAD = """
 mbla: 1

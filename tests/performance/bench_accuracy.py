@@ -20,7 +20,7 @@ from mbla.deck import read_deck
 from mbla.model import build_model
 from mbla.results.results import CaseResult
 from mbla.results.sta import StatusFile
-from mbla.run_deck import contacts_of, select_cases, solve_case
+from mbla.run import contacts_of, select_cases, solve_case
 from mbla.solution.settings import solver_settings
 from tests.performance.recording import record
 from tests.performance.standard_set import FLOW_RULES, STANDARD_SET, Structure

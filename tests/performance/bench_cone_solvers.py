@@ -5,7 +5,7 @@
     python -m tests.performance.bench_cone_solvers [MODEL ...]
 
 The associative program of each model is solved by either at tolerances that become smaller until the bounds that its
-solution proves (:func:`mbla.solution.bounds.certified_gap`) are within 1e-7 of the load factor; the row is that of the
+solution proves (``certified_gap``) are within 1e-7 of the load factor; the row is that of the
 first that does, of the smallest gap where none does. clarabel is run with qdldl, and with MKL where that is installed;
 the condensed method with every factorisation that is installed. ``seconds`` is the shortest of a few runs in seconds of
 the processor on one thread, everything from the cone program on counted; ``factorizing`` the share of that in the
@@ -32,13 +32,13 @@ from mbla.deck.analysis import ReductionSwitches
 from mbla.program.kinematic import KinematicForm, kinematic_form
 from mbla.program.program import Program
 from mbla.program.reductions import reduce_program, unreduced
-from mbla.solution.bounds import certified_gap
-from mbla.solution.clarabel_adapter import ClarabelProgram
-from mbla.solution.condensed.program import CondensedProgram
-from mbla.solution.cone_solution import ConeSolution
-from mbla.solution.law_state import LawState
+from mbla.solution.associative.bounds import certified_gap
+from mbla.solution.cone_solvers.clarabel_adapter import ClarabelProgram
+from mbla.solution.cone_solvers.cone_solution import ConeSolution
+from mbla.solution.cone_solvers.interior_point.program import CondensedProgram
 from mbla.solution.linear_algebra import Factorization, best_library, installed
 from mbla.solution.linear_algebra.mkl import mkl_works
+from mbla.solution.nonassociative.law_state import LawState
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import IterationRecord
 from tests.line import HEAD, line_of, line_of_file

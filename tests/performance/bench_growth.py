@@ -33,7 +33,7 @@ from mbla.contacts.glue import solids_of
 from mbla.deck import read_deck
 from mbla.model import build_model
 from mbla.program import assemble
-from mbla.run_deck import contacts_of, reduced_program, select_cases
+from mbla.run import contacts_of, reduced_program, select_cases
 from mbla.solution import solve, verified_status, verify
 from mbla.solution.settings import solver_settings
 from tests.performance.child import answer_as_child, in_child

@@ -24,13 +24,13 @@ from mbla.deck.analysis import AnalysisSection, ReductionSwitches
 from mbla.program.program import Program
 from mbla.program.reductions import reduce_program, unreduced
 from mbla.program.static import proximal_data, proximal_form
-from mbla.solution.clarabel_adapter import ClarabelProgram
-from mbla.solution.condensed.program import CondensedProgram
-from mbla.solution.gravity import gravity_forces
+from mbla.solution.cone_solvers.clarabel_adapter import ClarabelProgram
+from mbla.solution.cone_solvers.interior_point.program import CondensedProgram
 from mbla.solution.linear_algebra import installed
 from mbla.solution.linear_algebra.mkl import mkl_works
+from mbla.solution.nonassociative.gravity import gravity_forces
+from mbla.solution.nonassociative.proximal import MOVE, step_size
 from mbla.solution.part import solve_part
-from mbla.solution.proximal import MOVE, step_size
 from mbla.solution.settings import SolverSettings, solver_settings
 from mbla.solution.solution import IterationRecord, ProgramRecord
 from tests.performance.bench_solver import SLAB, Case, wall

@@ -28,7 +28,7 @@ from mbla.deck import Deck, read_deck
 from mbla.model import build_model
 from mbla.program import assemble
 from mbla.program.reductions import StepState
-from mbla.run_deck import contacts_of, reduced_program
+from mbla.run import contacts_of, reduced_program
 from mbla.solution import Solution, solve, verified_status, verify
 from mbla.solution.glued import solution_on_blocks
 from mbla.solution.settings import solver_settings

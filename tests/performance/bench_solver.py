@@ -19,7 +19,7 @@ from pathlib import Path
 
 from mbla.deck.analysis import ReductionSwitches
 from mbla.program.reductions import reduce_program, unreduced
-from mbla.solution.associative import solve_associative
+from mbla.solution.associative.solve_associative import solve_associative
 from mbla.solution.part import solve_part
 from mbla.solution.settings import solver_settings
 from mbla.solution.solution import IterationRecord

@@ -38,10 +38,10 @@ import yaml
 
 import mbla
 from mbla.results.records.json_record import results_json
-from mbla.studies.sweep.command import FAILED_POINTS
-from mbla.studies.sweep.file.content import SweepContent
-from mbla.studies.sweep.plan import Plain, Plan, Task
-from mbla.studies.sweep.worker.runner import PointRunner
+from mbla.sweeps.command import FAILED_POINTS
+from mbla.sweeps.file.content import SweepContent
+from mbla.sweeps.plan import Plain, Plan, Task
+from mbla.sweeps.worker.runner import PointRunner
 from tests.performance.recording import record
 
 DECK = Path(__file__).parents[2] / "decks" / "benchmarks" / "arch_20_voussoirs.yaml"

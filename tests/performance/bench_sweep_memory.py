@@ -28,10 +28,10 @@ from resource import RUSAGE_CHILDREN, getrusage
 import numpy as np
 import yaml
 
-from mbla.studies.line_process import PACKAGES
+from mbla.sweeps.engine.line_process import PACKAGES
 from tests.line import BLOCK
 from tests.performance.recording import record
-from tests.studies.sweep.killed_sweeps import descendants, kind_of
+from tests.sweeps.killed_sweeps import descendants, kind_of
 
 POINTS = 10_000
 PART = 10

@@ -21,8 +21,8 @@ import numpy as np
 
 from mbla.program.kinematic import kinematic_form
 from mbla.program.program import Program
-from mbla.solution.condensed.program import CondensedProgram
-from mbla.solution.cone_solution import ConeSolution
+from mbla.solution.cone_solvers.cone_solution import ConeSolution
+from mbla.solution.cone_solvers.interior_point.program import CondensedProgram
 from mbla.solution.settings import SolverSettings
 from tests.performance.bench_cone_solvers import MODELS, silent
 from tests.performance.recording import record

@@ -15,6 +15,7 @@ from __future__ import annotations
 
 import builtins
 import contextlib
+import importlib
 import json
 import resource
 import sys
@@ -99,10 +100,10 @@ def measured(arguments: list[str]) -> dict[str, Any]:
     line = Line()
 
     import mbla.results.write as written
-    import mbla.run_deck as run_deck
     from mbla.cli import main
     from mbla.results.files import OutputFolder
 
+    run_deck = importlib.import_module("mbla.run")  # the name in the package is the function
     line.around(written, "listing", "listing")
     line.around(written, "write_results_hdf5", "hdf5")
     line.around(written, "results_json", "json")

@@ -5,7 +5,7 @@ import pytest
 
 from mbla.program.assemble import _scaling
 from mbla.program.equilibrium import equilibrium_matrix
-from mbla.solution.statics import contact_resultants, contact_velocities
+from mbla.solution.verification.statics import contact_resultants, contact_velocities
 from tests.line import BLOCK, WALL, line_of
 
 

@@ -8,7 +8,7 @@ from mbla.contacts import find_contacts
 from mbla.deck.types import AnalysisSection
 from mbla.program.remarks import program_notices
 from mbla.results.series import factor_of
-from mbla.run_deck import RunOptions, run
+from mbla.run import RunOptions, run
 from tests.contacts.structures import blocks_of, boxes, model_of, section
 from tests.line import BLOCK, line_of
 

@@ -19,7 +19,7 @@ from mbla.deck import Deck, read_deck
 from mbla.model import Model, build_model
 from mbla.results.results import CaseResult
 from mbla.results.sta import StatusFile
-from mbla.run_deck import contacts_of, solve_case, with_settlements
+from mbla.run import contacts_of, solve_case, with_settlements
 from mbla.solution.settings import solver_settings
 from mbla.solution.solution import Status
 from tests.properties.random_decks import random_deck

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from mbla.cli import main
-from mbla.exit_status import EXIT_CODES, GRAVEST_FIRST
+from mbla.results.exit_status import EXIT_CODES, GRAVEST_FIRST
 from mbla.solution import Status
 from tests.properties.random_decks import random_deck
 from tests.properties.run_deck import run_deck, write_deck

@@ -9,11 +9,11 @@ import re
 from pathlib import Path
 
 from mbla.results.hdf5.layout import layout_table
-from mbla.results.paraview.layout import arrays_table
 from mbla.results.records.description import record_page
 from mbla.results.tables.tables import tables_page
-from mbla.studies.interact.description import interact_record_page
-from mbla.studies.sweep.tables.description import sweep_columns_page, sweep_record_page
+from mbla.results.vtu.layout import arrays_table
+from mbla.sweeps.interaction.description import interact_record_page
+from mbla.sweeps.tables.description import sweep_columns_page, sweep_record_page
 
 PAGE = Path(__file__).parents[2] / "schemas" / "results.md"
 

@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 import xarray
 
-from mbla.check import check
+from mbla.cli.check import check
 from mbla.deck import read_deck
 from mbla.results.hdf5.layout import LAYOUT
 from mbla.results.hdf5.reading import text_of
@@ -24,7 +24,7 @@ from mbla.results.records.description import RECORD, record_page
 from mbla.results.records.json_record import check_json, results_json
 from mbla.results.tables.csv_file import table_csv
 from mbla.results.tables.tables import tables_of
-from mbla.run_deck import RunOptions, run
+from mbla.run import RunOptions, run
 from tests.results.synthetic import full_results
 
 ROOT = Path(__file__).parents[2]

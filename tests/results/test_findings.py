@@ -8,12 +8,12 @@ import pytest
 
 from mbla.errors import Notice
 from mbla.results.findings import FAILURES, REMARKS, UNKNOWN_FAILURE, UNKNOWN_REMARK, finding_of, found_notices
+from mbla.results.listing.listing import listing
+from mbla.results.listing.summary import summary_lines
 from mbla.results.outcome import notices_of
 from mbla.results.records.json_record import results_json
 from mbla.results.results import CaseResult
-from mbla.results.words.listing import listing
-from mbla.results.words.summary import summary_lines
-from mbla.solution.interior.solve_interior import ONE_OF_MANY
+from mbla.solution.nonassociative.interior_path.solve_interior import ONE_OF_MANY
 from mbla.solution.solution import Status
 from tests.results.synthetic import full_results, standing_at, tower_results
 

@@ -11,9 +11,10 @@ import numpy as np
 import pytest
 
 import mbla
-from mbla.results.comparison.comparison import compare_results
-from mbla.results.comparison.words import comparison_text
+from mbla.results.diff.comparison import compare_results
+from mbla.results.diff.words import comparison_text
 from mbla.results.hdf5.result_file import read_results_hdf5
+from mbla.results.listing.listing import verification_lines
 from mbla.results.notebook.html import _table
 from mbla.results.notebook.run import Run
 from mbla.results.outcome import result_of
@@ -26,7 +27,6 @@ from mbla.results.series import told_cases
 from mbla.results.tables.csv_file import table_csv
 from mbla.results.tables.export import Formats, export_results
 from mbla.results.tables.tables import tables_of
-from mbla.results.words.listing import verification_lines
 from mbla.verify_file import verify_file
 from tests.results.odd_decks import DECKS
 

@@ -9,9 +9,9 @@ import pytest
 from mbla.results.collapse.collapse import collapse_of
 from mbla.results.collapse.interface_modes import InterfaceMode
 from mbla.results.hdf5.result_file import read_results_hdf5
+from mbla.results.listing.listing import listing
 from mbla.results.results import Results
-from mbla.results.words.listing import listing
-from mbla.run_deck import RunOptions, run
+from mbla.run import RunOptions, run
 from tests.results.reading import read_vtk, vtk_array, vtk_volumes
 from tests.results.synthetic import same
 

@@ -13,18 +13,18 @@ import numpy as np
 import pytest
 
 from mbla.errors import UsageError
-from mbla.exit_status import exit_code
-from mbla.expected import differences
 from mbla.model.model import Tilt
+from mbla.results.exit_status import exit_code
+from mbla.results.expected import differences
 from mbla.results.hdf5.result_file import read_results_hdf5
+from mbla.results.listing.listing import listing
+from mbla.results.listing.series_words import standing_words, worst_words
+from mbla.results.listing.summary import summary_lines
 from mbla.results.records.json_record import json_line, results_json
 from mbla.results.results import CaseResult, Results
 from mbla.results.series import factor_of, series_of, told_cases
 from mbla.results.tilt_angle import angle_bounds, angle_of
-from mbla.results.words.listing import listing
-from mbla.results.words.series_words import standing_words, worst_words
-from mbla.results.words.summary import summary_lines
-from mbla.run_deck import RunOptions, run
+from mbla.run import RunOptions, run
 from mbla.solution.solution import Status
 from mbla.verify_file import verify_file
 from tests.results.synthetic import standing_at, tower_results

@@ -10,9 +10,9 @@ from mbla.deck.types import OutputSection
 from mbla.errors import FileError
 from mbla.results.files import OutputFolder
 from mbla.results.hdf5.result_file import read_results_hdf5
-from mbla.results.paraview.mesh_files import write_model_vtu
+from mbla.results.listing.listing import listing
 from mbla.results.results import Results
-from mbla.results.words.listing import listing
+from mbla.results.vtu.mesh_files import write_model_vtu
 from mbla.results.write import write_outputs, write_results
 from tests.results.synthetic import same, tower_results
 

@@ -14,8 +14,8 @@ from mbla.contacts.contacts import Contacts
 from mbla.model.model import LoadCase, Model
 from mbla.program.program import Program, Scaling
 from mbla.program.yield_conditions import YieldLimits
-from mbla.solution.residuals import Residuals
 from mbla.solution.solution import Checks, Mechanics, Solution, Status
+from mbla.solution.verification.residuals import Residuals
 from tests.line import BLOCK, Line, line_of
 
 EXACT = Residuals(

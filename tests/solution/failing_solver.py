@@ -7,8 +7,8 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from mbla.program.kinematic import ConeProgram
-from mbla.solution.cone_solution import ConeSolution, InteriorPointSolver, Log
-from mbla.solution.cone_solver import interior_point_solver
+from mbla.solution.cone_solvers.choice import interior_point_solver
+from mbla.solution.cone_solvers.cone_solution import ConeSolution, InteriorPointSolver, Log
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Status
 

@@ -20,9 +20,9 @@ from functools import partial
 
 from mbla.deck.analysis import ReductionSwitches
 from mbla.program.reductions import reduce_program
-from mbla.solution.associative import solve_associative
-from mbla.solution.law_state import SequenceResult
-from mbla.solution.proximal import solve_proximal
+from mbla.solution.associative.solve_associative import solve_associative
+from mbla.solution.nonassociative.law_state import SequenceResult
+from mbla.solution.nonassociative.proximal import solve_proximal
 from mbla.solution.settings import SolverSettings
 from tests.line import line_of
 from tests.solution.structures import barrel, dome, flat_arch, push, random_friction, room, wall, wedge

@@ -7,7 +7,7 @@ import shapely
 
 from mbla.arrays import FloatArray
 from mbla.program.convex.shapes import InterfaceShapes
-from mbla.solution.interface_laws import InterfaceLaws
+from mbla.solution.verification.interface_laws import InterfaceLaws
 from tests.program.convex.test_shapes import shapes_of
 
 STRENGTH = 48.0

@@ -9,14 +9,14 @@ from typing import Any
 
 import pytest
 
-from mbla.exit_status import exit_code
+from mbla.results.exit_status import exit_code
 from mbla.results.findings import REMARKS, UNKNOWN_REMARK, finding_of
+from mbla.results.listing.verdict_words import load_factor_words, uniqueness_words
 from mbla.results.results import CaseResult
-from mbla.results.words.verdict_words import load_factor_words, uniqueness_words
-from mbla.solution import polyhedral
-from mbla.solution.polyhedral import SecondOpinion, second_opinion
+from mbla.solution.associative import polyhedral
+from mbla.solution.associative.polyhedral import SecondOpinion, second_opinion
 from mbla.solution.solution import Status
-from mbla.solution.verify import meets_what_was_asked
+from mbla.solution.verification.verify import meets_what_was_asked
 from tests.line import BLOCK, WALL, case_of
 
 BENCHMARKS = Path(__file__).parents[2] / "decks" / "benchmarks"

@@ -11,17 +11,27 @@ import pytest
 
 from mbla.arrays import FloatArray
 from mbla.program.program import Program
-from mbla.solution import least_search, proofs, proved_answer, unique_forces
-from mbla.solution.associative_form import in_velocities
-from mbla.solution.cone_solver import cone_solver, sharpen
-from mbla.solution.least_search import Search
-from mbla.solution.mechanism_repair import repaired_mechanisms
-from mbla.solution.proved_answer import AssociativeRun, ProvedAnswer, solve_until_proved, wanted_gap
+from mbla.solution.associative import least_search, proofs, proved_answer, unique_forces
+from mbla.solution.associative.associative_form import in_velocities
+from mbla.solution.associative.least_search import Search
+from mbla.solution.associative.mechanism_repair import repaired_mechanisms
+from mbla.solution.associative.proved_answer import (
+    AssociativeRun,
+    ProvedAnswer,
+    solve_until_proved,
+    wanted_gap,
+)
+from mbla.solution.associative.unique_forces import (
+    SHARES,
+    least_forces,
+    point_weights,
+    trusted_motion,
+)
+from mbla.solution.cone_solvers.choice import cone_solver, sharpen
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Status
-from mbla.solution.unique_forces import SHARES, least_forces, point_weights, trusted_motion
 from tests.line import WALL, line_of, solution_of
-from tests.solution.test_unique_forces import SETTINGS, associative, ignored
+from tests.solution.associative.test_unique_forces import SETTINGS, associative, ignored
 
 
 @pytest.fixture(scope="module")
@@ -45,7 +55,7 @@ def test_a_sharpened_program_goes_on_where_it_ended(
     program: Program, solver: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Both runs together are the run that the smaller tolerance makes from the beginning."""
-    monkeypatch.setattr("mbla.solution.cone_solver.OWN_FROM", 1)
+    monkeypatch.setattr("mbla.solution.cone_solvers.choice.OWN_FROM", 1)
     rough, sharp = held(program, solver=solver, tolerance=1e-4), held(program, solver=solver, tolerance=1e-9)
     first = rough.solve(1, 1.0)
     assert first.status is Status.SOLVED
@@ -117,7 +127,7 @@ def test_a_large_program_of_which_something_is_proved_is_not_given_to_the_other_
         asked.add(settings.solver)
         return once(run, form, unit, settings)
 
-    monkeypatch.setattr("mbla.solution.cone_solver.OWN_FROM", 1)
+    monkeypatch.setattr("mbla.solution.cone_solvers.choice.OWN_FROM", 1)
     monkeypatch.setattr(proved_answer, "LARGE", 0 if large else 10**9)
     monkeypatch.setattr(proved_answer, "wanted_gap", lambda run: 0.0)  # never close enough
     monkeypatch.setattr(proved_answer, "_answer", kept)
@@ -153,7 +163,7 @@ def test_a_mechanism_that_proves_its_factor_is_not_repaired_again_on_large_model
 
 
 def verified_checks(line: Any, solution: Any) -> Any:
-    from mbla.solution.verify import verify
+    from mbla.solution.verification.verify import verify
 
     return verify(line.model, line.contacts, line.load_case, solution)
 

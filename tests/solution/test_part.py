@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 
 from mbla.solution import part
-from mbla.solution.boundedness import Boundedness, BoundednessResult
-from mbla.solution.law_state import SequenceResult
+from mbla.solution.nonassociative.boundedness import Boundedness, BoundednessResult
+from mbla.solution.nonassociative.law_state import SequenceResult
 from mbla.solution.part import PartResult, solve_part
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Status

@@ -6,12 +6,12 @@ import math
 
 import pytest
 
-from mbla.exit_status import exit_code
+from mbla.results.exit_status import exit_code
 from mbla.results.outcome import law_residual
 from mbla.results.results import CaseResult
 from mbla.solution.solution import Status
 from tests.line import WALL, case_of
-from tests.solution.test_first_fall import PLANK
+from tests.solution.nonassociative.test_first_fall import PLANK
 
 ROUGH = 1e-2
 WITHOUT = "analysis.flow_rule=non_associative"

@@ -9,22 +9,26 @@ import numpy as np
 import pytest
 import scipy.sparse as sp
 
-from mbla.solution import boundedness, flow, force_repair, lagged_limits, light_blocks, livesley, spring_newton, verify
-from mbla.solution.associative import AssociativeResult, solve_associative
-from mbla.solution.boundedness import Boundedness, non_associative_bounded
-from mbla.solution.exact_law import exact_step
-from mbla.solution.force_repair import repaired_forces
-from mbla.solution.lagged_limits import convex_minimum
-from mbla.solution.law_state import SequenceResult
-from mbla.solution.livesley import solve_livesley
-from mbla.solution.polyhedral import _claim
+from mbla.solution import flow_rules as flow
+from mbla.solution import verify
+from mbla.solution.associative.force_repair import repaired_forces
+from mbla.solution.associative.polyhedral import _claim
+from mbla.solution.associative.solve_associative import AssociativeResult, force_repair, solve_associative
+from mbla.solution.linear_algebra.stiffness import Stiffness, stiffness_of
+from mbla.solution.nonassociative import boundedness, lagged_limits, livesley
+from mbla.solution.nonassociative import refine_equilibrium as light_blocks
+from mbla.solution.nonassociative.boundedness import Boundedness, non_associative_bounded
+from mbla.solution.nonassociative.joint_law import exact_step
+from mbla.solution.nonassociative.lagged_limits import convex_minimum
+from mbla.solution.nonassociative.law_state import SequenceResult
+from mbla.solution.nonassociative.livesley import solve_livesley
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Status
-from mbla.solution.spring_newton import newton_step
-from mbla.solution.spring_problem import PATTERN_FROM, LatePattern, SpringProblem, joints_at, spring_problem
-from mbla.solution.standing_path import StandingPath
-from mbla.solution.stiffness import Stiffness, stiffness_of
-from mbla.solution.weakening import Outcome, Weakening
+from mbla.solution.standing import spring_newton
+from mbla.solution.standing.spring_newton import newton_step
+from mbla.solution.standing.spring_problem import PATTERN_FROM, LatePattern, SpringProblem, joints_at, spring_problem
+from mbla.solution.standing.standing_path import StandingPath
+from mbla.solution.standing.weak_spring_continuation import Outcome, Weakening
 from tests.line import BLOCK, line_of, solution_of
 from tests.solution.by_hand import claim
 from tests.solution.failing_solver import said

@@ -8,7 +8,6 @@ from pathlib import Path
 
 import numpy as np
 
-from mbla.memory_limit import can_limit, limited, written
 from mbla.model.geometry.compas_json import read_compas_json
 from mbla.model.geometry.dxf import read_dxf
 from mbla.model.geometry.geometry import Geometry, GeometryFileError
@@ -17,6 +16,7 @@ from mbla.model.geometry.inp import read_inp
 from mbla.model.geometry.meshio_files import read_msh, read_ply, read_vtu
 from mbla.model.geometry.obj import read_obj
 from mbla.model.geometry.stl import read_stl
+from mbla.process.memory_limit import can_limit, limited, written
 
 READERS: dict[str, Callable[[Path], Geometry]] = {
     ".obj": read_obj,

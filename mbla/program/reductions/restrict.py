@@ -6,9 +6,9 @@ import numpy as np
 import scipy.sparse as sp
 
 from mbla.arrays import FloatArray, IntArray
+from mbla.process.sharing import shared
 from mbla.program.program import Program, Reduction
 from mbla.program.yield_conditions.limits import YieldLimits
-from mbla.sharing import shared
 
 
 def restricted(

@@ -10,9 +10,9 @@ import scipy.sparse as sp
 from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.contacts.contacts import Contacts
 from mbla.model.model import Model
+from mbla.process.sharing import shared
 from mbla.program.equilibrium import lever_arms
 from mbla.program.program import Program
-from mbla.sharing import shared
 
 COPLANAR = 1e-9
 """Relative to block size: distance up to which points count as in one plane or on one line."""

@@ -25,7 +25,7 @@ import numpy as np
 from mbla.arrays import FloatArray, IntArray
 from mbla.contacts.contacts import Contacts
 from mbla.model.model import Model
-from mbla.solution.statics import contact_velocities
+from mbla.solution.verification.statics import contact_velocities
 
 SHARES = (0.02, 0.05, 0.1, 0.2)
 """shares of the largest contact speed, of which the least is taken that leaves few parts: a fiftieth of what moves

@@ -20,7 +20,7 @@ from mbla.results.collapse.rigid_parts import part_motions, rigid_parts
 from mbla.results.collapse.work import Work
 from mbla.solution.contact_modes import contact_modes
 from mbla.solution.solution import Mechanics
-from mbla.solution.statics import contact_velocities
+from mbla.solution.verification.statics import contact_velocities
 
 
 def fall_of(model: Model, contacts: Contacts, certificate: FloatArray) -> tuple[Collapse, Mechanics]:

@@ -13,7 +13,7 @@ from mbla.contacts.contacts import Contacts
 from mbla.model.model import Model
 from mbla.results.collapse.interface_modes import TOGETHER, InterfaceMotion, interface_motion
 from mbla.solution.solution import ContactMode, Mechanics
-from mbla.solution.statics import contact_velocities
+from mbla.solution.verification.statics import contact_velocities
 
 
 def falling_motion(model: Model, contacts: Contacts, certificate: FloatArray) -> InterfaceMotion:

@@ -26,7 +26,7 @@ from mbla.model.model import Model
 from mbla.results.collapse.by_interface import interface_radii, largest_by_interface, sum_by_interface
 from mbla.results.collapse.hinge_ends import CRUSHED, hinge_ends
 from mbla.solution.solution import ContactMode, Mechanics
-from mbla.solution.statics import contact_velocities
+from mbla.solution.verification.statics import contact_velocities
 
 TOGETHER = 1e-4
 """Share of the largest contact speed up to which two blocks count as moving together: residuals up to 1e-4 count as

@@ -16,7 +16,7 @@ from mbla.contacts.glue import solids_of
 from mbla.model.model import LoadCase, Model
 from mbla.results.collapse.by_interface import sum_by_interface
 from mbla.solution.solution import Mechanics
-from mbla.solution.statics import contact_resultants
+from mbla.solution.verification.statics import contact_resultants
 
 MOST_SINGLE_SUPPORTS = 12
 """fixed blocks up to this number have their reactions listed one by one"""

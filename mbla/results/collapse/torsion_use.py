@@ -29,7 +29,7 @@ from mbla.program.convex.shapes import local_points
 from mbla.results.collapse.by_interface import interface_radii, sum_by_interface
 from mbla.results.collapse.mechanics import interface_resultants
 from mbla.results.collapse.thrust import NO_FORCE, ROUNDING, allowed_at_points, shear_use
-from mbla.solution.interface_laws import interface_laws, shear_strength, torsion_excess
+from mbla.solution.verification.interface_laws import interface_laws, shear_strength, torsion_excess
 
 STEPS = 40
 """of weighted least squares: the use is then at most 1e-3 below the maximum, most often it has all digits"""

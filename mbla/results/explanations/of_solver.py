@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from mbla.results.explanations.explanation import Explanation
+from mbla.solution.associative.polyhedral import AGREE, AGREE_SHORT
 from mbla.solution.part import SUSPECT
-from mbla.solution.polyhedral import AGREE, AGREE_SHORT
 
 _OTHER = "Another scheme, or several with --set analysis.scheme=...; compare their load factors."
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from mbla.results.collapse.interface_modes import TOGETHER
 from mbla.results.explanations.explanation import Explanation
 from mbla.results.outcome import CLEAN_RESIDUAL
-from mbla.solution.verify import APPROXIMATE_RESIDUAL, GAP_TOLERANCE, SOLVED_RESIDUAL
+from mbla.solution.verification.verify import APPROXIMATE_RESIDUAL, GAP_TOLERANCE, SOLVED_RESIDUAL
 
 OF_STATUS = (
     Explanation(

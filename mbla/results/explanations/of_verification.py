@@ -4,18 +4,18 @@ from __future__ import annotations
 
 from mbla.results.explanations.explanation import Explanation
 from mbla.results.outcome import CLEAN_RESIDUAL, UNIQUE
-from mbla.solution.verify import (
+from mbla.solution.verification.verify import (
     APPROXIMATE_RESIDUAL,
     GAP_TOLERANCE,
     LIVE_POWER,
     SOLVED_EQUILIBRIUM,
     SOLVED_RESIDUAL,
 )
-from mbla.solution.verify_lock import LASTING
-from mbla.solution.verify_peak import CARRIED
-from mbla.solution.verify_range import END_RESIDUAL
-from mbla.solution.verify_standing import UNBALANCED
-from mbla.solution.verify_tilt import SAME
+from mbla.solution.verification.verify_lock import LASTING
+from mbla.solution.verification.verify_peak import CARRIED
+from mbla.solution.verification.verify_range import END_RESIDUAL
+from mbla.solution.verification.verify_standing import UNBALANCED
+from mbla.solution.verification.verify_tilt import SAME
 
 _LIMITS = f"At most {SOLVED_RESIDUAL:g} counts as solved, {APPROXIMATE_RESIDUAL:g} as approximate."
 _TRY = "Another scheme or solver, or accuracy: reference. Look for blocks of very different weight and for slivers."

@@ -7,7 +7,7 @@ from typing import Any
 
 from mbla.results.explanations.explanation import Explanation
 from mbla.results.explanations.explanations import SECTIONS
-from mbla.results.words.text import WIDTH, heading, sentence
+from mbla.results.listing.text import WIDTH, heading, sentence
 
 
 def explanation_text(found: Sequence[Explanation]) -> str:

@@ -14,7 +14,7 @@ from mbla.results.hdf5.mechanism_fields import MECHANICS_GROUPS
 from mbla.results.outcome import least_and_greatest
 from mbla.results.results import CaseResult
 from mbla.solution.solution import Mechanics, ReductionStep, Solution, StandingResult
-from mbla.solution.verification import residual_of
+from mbla.solution.verification.verification import residual_of
 
 Value: TypeAlias = "np.typing.NDArray[np.generic] | str | Sequence[str] | float | int | bool"
 Content: TypeAlias = dict[str, Value]

@@ -23,8 +23,8 @@ from mbla.results.hdf5.case_content import (
     STEP_SIZES,
 )
 from mbla.results.hdf5.mechanism_fields import MECHANICS_GROUPS
+from mbla.results.listing.solver_words import METHODS
 from mbla.results.results import CaseResult
-from mbla.results.words.solver_words import METHODS
 from mbla.solution.solution import (
     Checks,
     ContactMode,

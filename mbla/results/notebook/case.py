@@ -11,14 +11,14 @@ from mbla.model.model import Model
 from mbla.results.collapse.collapse import Collapse, collapse_of
 from mbla.results.collapse.failure import failure_of
 from mbla.results.collapse.thrust import Thrust, thrust_of
+from mbla.results.listing.mechanism_words import mechanism_summary
+from mbla.results.listing.settlement_words import reaction_of
+from mbla.results.listing.verdict_words import reasons, verdict
 from mbla.results.notebook.picture import Picture, case_picture
 from mbla.results.notebook.view import View
 from mbla.results.outcome import associative_of, least_and_greatest, range_of, result_of
 from mbla.results.results import CaseResult, Results
 from mbla.results.tilt_angle import angle_of
-from mbla.results.words.mechanism_words import mechanism_summary
-from mbla.results.words.settlement_words import reaction_of
-from mbla.results.words.verdict_words import reasons, verdict
 from mbla.solution.solution import Mechanics, Status
 
 NAN = float("nan")

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 
 from mbla.errors import MblaError
 from mbla.model.model import Model
-from mbla.results.words.answer_words import answer_columns, bound_figures, status_words
-from mbla.results.words.verdict_words import bound_words, reasons
+from mbla.results.listing.answer_words import answer_columns, bound_figures, status_words
+from mbla.results.listing.verdict_words import bound_words, reasons
 from mbla.solution.solution import Status
 
 if TYPE_CHECKING:

@@ -21,13 +21,13 @@ from mbla.results.collapse.motion import moved_contact_points, moved_vertices
 from mbla.results.collapse.rigid_parts import rigid_parts
 from mbla.results.collapse.thrust import Thrust, points_to_draw, thrust_lines, thrust_of
 from mbla.results.collapse.torsion_use import torsion_use
+from mbla.results.listing.mechanism_words import mechanism_summary
+from mbla.results.listing.text import counted, number
+from mbla.results.listing.verdict_words import verdict
 from mbla.results.outcome import result_of
 from mbla.results.pictures.geometry import ground_slab
 from mbla.results.pictures.options import PictureOptions
 from mbla.results.results import CaseResult, Results
-from mbla.results.words.mechanism_words import mechanism_summary
-from mbla.results.words.text import counted, number
-from mbla.results.words.verdict_words import verdict
 from mbla.solution.solution import Mechanics, Status
 
 OUTSIDE_WORDS = "outside the joint (tension), drawn at its edge"

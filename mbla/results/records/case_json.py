@@ -7,6 +7,8 @@ from typing import Any
 
 from mbla.contacts.contacts import Contacts
 from mbla.model.model import Model
+from mbla.results.listing.settlement_words import reaction_json
+from mbla.results.listing.solver_words import solver_json
 from mbla.results.outcome import associative_of, best_iterate, factor_unique, least_and_greatest, range_of, result_of
 from mbla.results.records.mechanism_json import mechanism_json, mechanism_on_demand
 from mbla.results.records.numbers import number
@@ -15,8 +17,6 @@ from mbla.results.records.reactions_json import reactions_json
 from mbla.results.records.reduction_json import reductions_json
 from mbla.results.results import CaseResult
 from mbla.results.tilt_angle import angle_bounds, angle_of
-from mbla.results.words.settlement_words import reaction_json
-from mbla.results.words.solver_words import solver_json
 from mbla.solution.solution import Checks, Mechanics, Solution
 
 

@@ -15,7 +15,7 @@ from mbla.model.model import Model
 from mbla.results.outcome import associative_of
 from mbla.results.records.numbers import number
 from mbla.results.results import CaseResult
-from mbla.solution.statics import power
+from mbla.solution.verification.statics import power
 
 
 def powers_json(model: Model, case: CaseResult) -> dict[str, float | None] | None:

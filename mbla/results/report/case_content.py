@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from mbla.results.listing.answer_words import status_words
+from mbla.results.listing.case_words import case_sections
+from mbla.results.listing.figure_words import residual_figures, verification_verdict
+from mbla.results.listing.verdict_words import verdict
 from mbla.results.outcome import case_notices, result_of
 from mbla.results.report.blocks import Block, Entries, blocks_of
 from mbla.results.report.figures import Figures
 from mbla.results.report.verification import Check, checks_of
 from mbla.results.results import CaseResult, Results
-from mbla.results.words.answer_words import status_words
-from mbla.results.words.case_words import case_sections
-from mbla.results.words.figure_words import residual_figures, verification_verdict
-from mbla.results.words.verdict_words import verdict
 from mbla.solution.solution import Status
 
 

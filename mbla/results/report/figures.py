@@ -10,11 +10,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING, TypeAlias
 
 from mbla.errors import UsageError
+from mbla.results.listing.text import counted
+from mbla.results.listing.verdict_words import verdict
 from mbla.results.outcome import result_of
 from mbla.results.results import CaseResult, Results
 from mbla.results.series import Series
-from mbla.results.words.text import counted
-from mbla.results.words.verdict_words import verdict
 
 if TYPE_CHECKING:
     from mbla.results.pictures.scene import Scene

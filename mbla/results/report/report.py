@@ -9,6 +9,11 @@ from typing import Any
 from mbla import __version__
 from mbla.errors import FileError, UsageError
 from mbla.results.chosen_cases import chosen_cases
+from mbla.results.listing.contact_words import contact_lines, finding_lines
+from mbla.results.listing.listing import model_lines, settings_lines
+from mbla.results.listing.series_words import series_lines
+from mbla.results.listing.text import counted, number
+from mbla.results.listing.verdict_words import bound_words, reasons, verdict
 from mbla.results.outcome import notices_of
 from mbla.results.report.blocks import blocks_of
 from mbla.results.report.case_content import CaseContent, case_content
@@ -20,11 +25,6 @@ from mbla.results.report.views import case_view
 from mbla.results.results import CaseResult, Results
 from mbla.results.series import series_of, told_cases
 from mbla.results.whole_file import write_whole
-from mbla.results.words.contact_words import contact_lines, finding_lines
-from mbla.results.words.listing import model_lines, settings_lines
-from mbla.results.words.series_words import series_lines
-from mbla.results.words.text import counted, number
-from mbla.results.words.verdict_words import bound_words, reasons, verdict
 
 SUFFIXES = (".html", ".htm")
 

@@ -17,15 +17,15 @@ from mbla.results.collapse.motion import drawn_motion, moved_contact_points, mov
 from mbla.results.hdf5.field import unit_text
 from mbla.results.hdf5.result_file import write_hdf5
 from mbla.results.outcome import result_of
-from mbla.results.paraview.cells import block_cells
-from mbla.results.paraview.pvd import frame_times
-from mbla.results.paraview.vtkhdf import CELL_TYPES, Arrays, Faces, Grid, vtkhdf_content
-from mbla.results.paraview.vtu import group_numbers
 from mbla.results.results import CaseResult, Results
 from mbla.results.tables.case_rows import BEST_ITERATE, NONE, RESULT, CaseRows
 from mbla.results.tables.column import Values
 from mbla.results.tables.table import table_of
 from mbla.results.tables.tables import TABLES
+from mbla.results.vtu.cells import block_cells
+from mbla.results.vtu.pvd import frame_times
+from mbla.results.vtu.vtkhdf import CELL_TYPES, Arrays, Faces, Grid, vtkhdf_content
+from mbla.results.vtu.vtu import group_numbers
 
 FIGURES = (NONE, RESULT, BEST_ITERATE)
 """what forces and velocities are, by number"""

@@ -18,8 +18,8 @@ from mbla.results.collapse.collapse import Collapse
 from mbla.results.collapse.hinge_lines import HingeLine
 from mbla.results.collapse.interface_modes import InterfaceMode
 from mbla.results.collapse.thrust import OUTSIDE, Thrust, points_to_draw, thrust_lines, thrust_of
+from mbla.results.listing.text import counted, number
 from mbla.results.pictures.geometry import hinge_axes, interface_sides
-from mbla.results.words.text import counted, number
 from mbla.solution.solution import ContactMode, Mechanics
 
 HINGE, SLIDE, OPEN = "#D55E00", "#009E73", "#CC79A7"

@@ -23,6 +23,7 @@ from mbla.results.collapse.finite_motion import finite_motion
 from mbla.results.collapse.hinge_lines import HingeLine
 from mbla.results.collapse.motion import drawn_motion, largest_displacements, moved_vertices
 from mbla.results.collapse.rigid_parts import rigid_parts
+from mbla.results.listing.text import number
 from mbla.results.outcome import result_of
 from mbla.results.pictures.geometry import block_edges, box_of, front_axis, ground_slab
 from mbla.results.results import CaseResult, Results
@@ -30,7 +31,6 @@ from mbla.results.view3d.arrow import LoadArrow, load_arrow
 from mbla.results.view3d.colours import Colouring, by_group, by_part, by_value
 from mbla.results.view3d.marks import Mark, block_eccentricity, force_marks, mechanism_marks
 from mbla.results.view3d.triangles import face_triangles, triangle_normals
-from mbla.results.words.text import number
 from mbla.solution.solution import Status
 
 FAR = 1e3

@@ -13,10 +13,10 @@ from html import escape
 from importlib import resources
 
 from mbla.errors import UsageError
+from mbla.results.listing.verdict_words import verdict
 from mbla.results.outcome import result_of
 from mbla.results.results import CaseResult, Results
 from mbla.results.view3d.scene import scene_of
-from mbla.results.words.verdict_words import verdict
 from mbla.solution.solution import Status
 
 INK, ALARM = "#222222", "#B00020"

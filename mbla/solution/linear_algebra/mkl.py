@@ -25,7 +25,7 @@ from functools import cache
 from importlib.metadata import PackageNotFoundError, distribution
 from pathlib import Path
 
-from mbla.threads import mkl_threads
+from mbla.process.threads import mkl_threads
 
 UNKNOWNS = 20_000
 """Unknowns of a program from which MKL pays."""

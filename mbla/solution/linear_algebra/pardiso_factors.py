@@ -21,9 +21,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mbla.arrays import FloatArray
+from mbla.process.threads import mkl_threads
 from mbla.solution.linear_algebra.mkl import layer_of_threads
 from mbla.solution.linear_algebra.pattern import SymmetricPattern
-from mbla.threads import mkl_threads
 
 ANALYSE, FACTORIZE, SOLVE, RELEASE = 11, 22, 33, -1  # phases
 POSITIVE_DEFINITE, GENERAL = 2, 11  # types of matrix

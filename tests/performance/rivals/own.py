@@ -8,12 +8,12 @@ from mbla.deck.analysis import AnalysisSection
 from mbla.program import assemble
 from mbla.program.reductions import Reduced, allowed_reductions, reduce_program
 from mbla.solution import solve, verified_status, verify
-from mbla.solution.associative_form import in_velocities
-from mbla.solution.cone_solver import cone_solver
-from mbla.solution.highs_adapter import HighsProgram
+from mbla.solution.associative.associative_form import in_velocities
+from mbla.solution.cone_solvers.choice import cone_solver
+from mbla.solution.cone_solvers.highs_adapter import HighsProgram
 from mbla.solution.settings import solver_settings
 from mbla.solution.solution import Checks, IterationRecord, Solution
-from mbla.solution.standing import assess_dead_load
+from mbla.solution.standing.standing import assess_dead_load
 from tests.performance.rivals.answer import Answer, timed
 from tests.performance.rivals.structure import Structure
 

@@ -9,7 +9,7 @@ from mbla.contacts import Contacts
 from mbla.deck import Deck, read_deck
 from mbla.model import Model, build_model
 from mbla.model.model import LoadCase
-from mbla.run_deck import contacts_of, select_cases
+from mbla.run import contacts_of, select_cases
 from tests.performance.standard_set import SPATIAL, STANDARD_SET
 from tests.performance.standard_set import Structure as Standard
 

@@ -17,7 +17,7 @@ from mbla.program.convex.crushing import crushing_limits, crushing_rows, crushin
 from mbla.program.convex.shapes import InterfaceShapes
 from mbla.program.convex.torsion import TorsionLimits, torsion_limits, torsion_rows
 from mbla.program.kinematic import ConeProgram
-from mbla.solution.clarabel_adapter import ClarabelProgram
+from mbla.solution.cone_solvers.clarabel_adapter import ClarabelProgram
 from mbla.solution.settings import solver_settings
 from tests.program.convex.test_shapes import prism_line, shapes_of
 

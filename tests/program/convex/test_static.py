@@ -18,7 +18,7 @@ from mbla.program.convex.friction_limit import curve_size
 from mbla.program.convex.shapes import local_points
 from mbla.program.convex.static import ConvexStaticForm, convex_proximal_data, convex_proximal_form
 from mbla.program.kinematic import ConeProgram
-from mbla.solution.clarabel_adapter import ClarabelProgram
+from mbla.solution.cone_solvers.clarabel_adapter import ClarabelProgram
 from mbla.solution.settings import solver_settings
 from tests.program.convex.test_shapes import PRISM, prism_line
 

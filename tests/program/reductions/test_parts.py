@@ -10,7 +10,7 @@ from mbla.program.reductions import reduce_program
 from mbla.program.reductions.parts import _unit_of_force, find_parts, split_into_parts
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Standing
-from mbla.solution.standing import assess_dead_load
+from mbla.solution.standing.standing import assess_dead_load
 from tests.line import BLOCK, WALL, line_of, verified
 from tests.program.reductions.scenes import scene
 

@@ -12,10 +12,10 @@ from mbla.deck.analysis import ReductionSwitches
 from mbla.program.program import Program
 from mbla.program.reductions import Reduced, reduce_program, unreduced
 from mbla.program.yield_conditions import yield_violation
-from mbla.solution.associative import solve_associative
-from mbla.solution.law_state import LawState
+from mbla.solution.associative.solve_associative import solve_associative
+from mbla.solution.nonassociative.law_state import LawState
+from mbla.solution.parts import to_full
 from mbla.solution.settings import SolverSettings
-from mbla.solution.whole import to_full
 from tests.line import BLOCK, HEAD, WALL, Line, line_of, verified
 
 NONE = ReductionSwitches(planar=False, mirror=False, parts=False, unloaded=False, points=False)

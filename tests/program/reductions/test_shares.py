@@ -13,7 +13,7 @@ from mbla.program.reductions import Reduced, reduce_program
 from mbla.program.reductions.scene import scene_of
 from mbla.program.reductions.shares import program_by_shares
 from mbla.solution.settings import SolverSettings
-from mbla.solution.standing import assess_dead_load
+from mbla.solution.standing.standing import assess_dead_load
 from tests.line import BLOCK, WALL, Line, line_of, verified
 from tests.program.reductions.scenes import scene
 

@@ -8,7 +8,7 @@ import pytest
 from mbla.program.reductions import Reduced, reduce_program
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Standing
-from mbla.solution.standing import assess_dead_load
+from mbla.solution.standing.standing import assess_dead_load
 from tests.line import WALL, Line, line_of, verified
 
 ASIDE = """\

@@ -12,9 +12,9 @@ from mbla.results.collapse.clusters import FEW, SHARES, clusters_of
 from mbla.results.collapse.collapse import collapse_of
 from mbla.results.collapse.failure import Failure, failure_of
 from mbla.results.collapse.rigid_parts import rigid_parts
-from mbla.results.words.failure_words import failure_sentences
+from mbla.results.listing.failure_words import failure_sentences
 from mbla.solution.solution import ContactMode, Mechanics
-from mbla.solution.statics import contact_velocities
+from mbla.solution.verification.statics import contact_velocities
 from tests.line import HEAD, case_of, line_of, verified
 from tests.results.synthetic import cuboids, horizontal_contacts, tower_model
 

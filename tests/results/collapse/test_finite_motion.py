@@ -10,11 +10,11 @@ import pytest
 from mbla.arrays import FloatArray
 from mbla.results.collapse.finite_motion import MOST_PARTS, closed_motion, finite_motion
 from mbla.results.collapse.motion import drawn_motion, movable_size, moved_contact_points, moved_vertices, screws
-from mbla.results.paraview.pvd import write_frame_vtu
-from mbla.results.paraview.scene import scene_of
 from mbla.results.pictures.scene import motion_as_drawn
 from mbla.results.results import Results
-from mbla.run_deck import RunOptions, run
+from mbla.results.vtu.pvd import write_frame_vtu
+from mbla.results.vtu.scene import scene_of
+from mbla.run import RunOptions, run
 from tests.results.synthetic import tower_results
 
 DECKS = Path("decks")

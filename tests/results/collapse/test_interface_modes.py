@@ -6,7 +6,7 @@ import pytest
 
 from mbla.results.collapse.interface_modes import InterfaceMode, InterfaceMotion, interface_motion, stuck_interfaces
 from mbla.solution.solution import ContactMode, Mechanics
-from mbla.solution.statics import contact_velocities
+from mbla.solution.verification.statics import contact_velocities
 from tests.results.synthetic import tower_contacts, tower_mechanics, tower_model
 
 MODEL, CONTACTS, MECHANICS = tower_model(), tower_contacts(), tower_mechanics()

@@ -11,10 +11,10 @@ from mbla.model.model import Model
 from mbla.results.collapse.main_parts import ENOUGH, FEW, main_parts
 from mbla.results.collapse.rigid_parts import part_motions
 from mbla.results.collapse.yield_lines import LEAST, yield_lines
+from mbla.results.listing.listing import listing
+from mbla.results.listing.summary import summary_lines
 from mbla.results.records.json_record import results_json
-from mbla.results.words.listing import listing
-from mbla.results.words.summary import summary_lines
-from mbla.run_deck import RunOptions, run
+from mbla.run import RunOptions, run
 from tests.results.synthetic import cuboids, horizontal_contacts, tower_model
 
 SIDE = 12

@@ -10,17 +10,16 @@ from pathlib import Path
 import pytest
 
 import mbla
-from mbla import arguments
-from mbla.cli import main
+from mbla.cli import arguments, main
 from mbla.deck.idle import APPLIES
 from mbla.errors import DeckError, FileError, LimitError, MblaError, SolverError, UsageError
-from mbla.exit_status import EXIT_CODES
 from mbla.results.collapse.interface_modes import InterfaceMode
+from mbla.results.exit_status import EXIT_CODES
 from mbla.results.explanations.explanations import EXPLANATIONS, SECTIONS, find_explanations
 from mbla.results.findings import FAILURES, REMARKS, UNKNOWN_FAILURE, UNKNOWN_REMARK, UNSETTLED
-from mbla.results.words.figure_words import residual_figures
+from mbla.results.listing.figure_words import residual_figures
 from mbla.solution.solution import Standing, Status
-from mbla.studies.sweep.command import FAILED_POINTS
+from mbla.sweeps.command import FAILED_POINTS
 from tests.results.synthetic import tower_results
 
 PACKAGE = Path(mbla.__file__).parent

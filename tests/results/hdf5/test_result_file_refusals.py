@@ -15,7 +15,7 @@ from mbla.errors import FileError
 from mbla.results.hdf5.result_file import read_results_hdf5, write_results_hdf5
 from mbla.results.hdf5.seal import SEAL_BYTES, sealed
 from mbla.results.results import Results
-from mbla.run_deck import RunOptions, run
+from mbla.run import RunOptions, run
 from tests.line import BLOCK
 from tests.results.changed_files import change, changing, remove, replace_dataset
 from tests.results.synthetic import full_results, tower_results

@@ -1,7 +1,7 @@
 """Lines of the listing as blocks of a page."""
 
+from mbla.results.listing.text import entry, heading, sentence, table
 from mbla.results.report.blocks import DataTable, Entries, Paragraph, Title, blocks_of
-from mbla.results.words.text import entry, heading, sentence, table
 
 
 def test_a_sentence_with_a_colon_is_the_caption_of_its_table() -> None:

@@ -10,6 +10,11 @@ import pytest
 
 from mbla.errors import FileError, Notice, UsageError
 from mbla.results.explanations.explanations import EXPLANATIONS
+from mbla.results.listing.case_words import case_sections
+from mbla.results.listing.contact_words import contact_lines
+from mbla.results.listing.elements import Entry, Heading, Table, elements_of
+from mbla.results.listing.listing import model_lines, settings_lines
+from mbla.results.listing.text import number
 from mbla.results.outcome import notices_of
 from mbla.results.records.json_record import results_json
 from mbla.results.report import report
@@ -17,11 +22,6 @@ from mbla.results.report.case_content import alarm_of
 from mbla.results.report.figures import Figure, Figures
 from mbla.results.report.report import report_html, report_path, write_report
 from mbla.results.results import CaseResult, Results
-from mbla.results.words.case_words import case_sections
-from mbla.results.words.contact_words import contact_lines
-from mbla.results.words.elements import Entry, Heading, Table, elements_of
-from mbla.results.words.listing import model_lines, settings_lines
-from mbla.results.words.text import number
 from mbla.solution.solution import Status
 from tests.results.report.page_reader import Node, Page
 from tests.results.synthetic import full_results, tower_results

@@ -13,12 +13,12 @@ from typing import Any
 import numpy as np
 import pytest
 
+from mbla.results.listing.text import number
 from mbla.results.records.json_record import results_json
 from mbla.results.report import report as report_module
 from mbla.results.report.figures import Figures
 from mbla.results.report.report import write_report
 from mbla.results.results import Results
-from mbla.results.words.text import number
 from tests.browser import Visit, visited
 from tests.results.opengl import needs_opengl
 from tests.results.synthetic import tower_results

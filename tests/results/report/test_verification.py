@@ -7,9 +7,9 @@ import pytest
 
 from mbla.results.report.verification import FAILED, NOT_JUDGED, PASSED, checks_of
 from mbla.results.results import CaseResult
-from mbla.solution.residuals import Residuals
 from mbla.solution.solution import Checks
-from mbla.solution.verify import failures_of, tolerances
+from mbla.solution.verification.residuals import Residuals
+from mbla.solution.verification.verify import failures_of, tolerances
 from tests.results.synthetic import tower_results
 
 JUDGED = {

@@ -13,7 +13,7 @@ from mbla.deck.selectors import POSITIONS
 from mbla.results.collapse.interface_modes import InterfaceMode
 from mbla.results.results import CaseResult, Results
 from mbla.results.tables.tables import tables_of
-from mbla.run_deck import RunOptions, run
+from mbla.run import RunOptions, run
 from mbla.solution.solution import Mechanics, Standing, Status
 from tests.results.synthetic import full_results, standing_at, tower_mechanics, tower_results
 

@@ -14,7 +14,7 @@ import numpy as np
 
 from mbla.results.hdf5.comparing import AGREEMENT, LINKS
 from mbla.results.hdf5.layout import LAYOUT
-from mbla.run_deck import run
+from mbla.run import run
 from mbla.run_options import RunOptions
 from tests.results.changed_files import changing
 

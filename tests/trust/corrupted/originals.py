@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from pathlib import Path
 
-from mbla.run_deck import run
+from mbla.run import run
 from mbla.run_options import RunOptions
 
 HEAD = """\

@@ -20,15 +20,15 @@ MOST_BYTES = 4 << 30
 
 def _imported(drawing: bool) -> None:
     """What commands import late, once for all of them; of those that draw only where they are asked for."""
-    import mbla.exit_status
     import mbla.rebuilt
-    import mbla.results.comparison.comparison
-    import mbla.results.comparison.records
-    import mbla.results.comparison.words
+    import mbla.results.diff.comparison
+    import mbla.results.diff.records
+    import mbla.results.diff.words
+    import mbla.results.exit_status
     import mbla.results.hdf5.result_file
+    import mbla.results.listing.listing
     import mbla.results.records.json_record
     import mbla.results.tables.export
-    import mbla.results.words.listing
     import mbla.verify_file
 
     if drawing:

@@ -7,4 +7,4 @@ import sys
 
 
 def test_the_command_starts() -> None:
-    subprocess.run([sys.executable, "-m", "mbla.cli", "--help"], check=True, capture_output=True)
+    subprocess.run([sys.executable, "-m", "mbla", "--help"], check=True, capture_output=True)

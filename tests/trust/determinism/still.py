@@ -37,9 +37,9 @@ def stop_the_clock() -> None:
     """Before mbla is imported: what is measured takes no time, and it is always the same date."""
     time.perf_counter = lambda: INSTANT
     import mbla.results.results
-    import mbla.studies.sweep.command
+    import mbla.sweeps.command
 
-    for module in (mbla.results.results, mbla.studies.sweep.command):
+    for module in (mbla.results.results, mbla.sweeps.command):
         module.datetime = StillDate  # type: ignore[attr-defined]
 
 

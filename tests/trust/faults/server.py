@@ -15,18 +15,18 @@ from pathlib import Path
 from typing import Any
 
 from mbla.cli import main
-from mbla.signals import hear_termination
+from mbla.process.signals import hear_termination
 from tests.trust.faults.shim import Shim
 
 IMPORTED = (
-    "mbla.run_deck",
-    "mbla.check",
-    "mbla.starter",
-    "mbla.results.words.summary",
+    "mbla.run",
+    "mbla.cli.check",
+    "mbla.cli.starter",
+    "mbla.results.listing.summary",
     "mbla.results.pictures.plot",
     "mbla.results.report.report",
     "mbla.results.tables.export",
-    "mbla.solution.convex",
+    "mbla.solution.resultants.solve_convex",
     "h5py",
     "meshio",
     "clarabel",

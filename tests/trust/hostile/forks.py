@@ -95,18 +95,18 @@ def import_everything() -> None:
     import meshio
     import pint
 
-    import mbla.check
     import mbla.cli
+    import mbla.cli.check
     import mbla.deck
+    import mbla.results.listing.listing
+    import mbla.results.listing.summary
     import mbla.results.records.json_record
-    import mbla.results.words.listing
-    import mbla.results.words.summary
-    import mbla.run_deck
-    import mbla.studies.sweep.command
-    import mbla.studies.sweep.file.read
+    import mbla.run
+    import mbla.sweeps.command
+    import mbla.sweeps.file.read
     from mbla.deck.section import built
     from mbla.deck.types import DeckContent
-    from mbla.studies.sweep.file.content import SweepContent
+    from mbla.sweeps.file.content import SweepContent
 
     built(DeckContent)
     built(SweepContent)

@@ -10,13 +10,13 @@ from pathlib import Path
 from types import FrameType
 from typing import Any
 
-from mbla.check import check
+from mbla.cli.check import check
 from mbla.deck import read_deck
 from mbla.errors import DeckError
 from mbla.model.generators import amounts
 from mbla.run_options import RunOptions
-from mbla.studies.sweep.command import SweepOptions, prepare
-from mbla.studies.sweep.file.read import read_sweep
+from mbla.sweeps.command import SweepOptions, prepare
+from mbla.sweeps.file.read import read_sweep
 from tests.line import WALL
 from tests.trust.hostile.samples import MESHES, NAMED_DECK
 

@@ -20,11 +20,11 @@ import pytest
 
 from mbla import api
 from mbla.cli import main
+from mbla.cli.given_deck import refuse_unfit_name
 from mbla.deck import read_deck, reader, sources, validation
 from mbla.deck.include import confined
 from mbla.deck.types import DeckContent
 from mbla.errors import DeckError, Fault, Place
-from mbla.given_deck import refuse_unfit_name
 from mbla.model import build_model, geometry
 from mbla.model.build_blocks import blocks_from_polyhedra
 from mbla.results import lock as journal_lock
@@ -35,26 +35,26 @@ from mbla.results.pictures import animation
 from mbla.results.pictures.space import renderer
 from mbla.results.series import Series
 from mbla.results.tables.tables import tables_of
-from mbla.run_deck import contacts_of
-from mbla.solution.clarabel_adapter import ClarabelProgram
-from mbla.solution.cone_solver import cone_solver
-from mbla.solution.highs_adapter import HighsProgram
+from mbla.run import contacts_of
+from mbla.solution.cone_solvers.choice import cone_solver
+from mbla.solution.cone_solvers.clarabel_adapter import ClarabelProgram
+from mbla.solution.cone_solvers.highs_adapter import HighsProgram
 from mbla.solution.linear_algebra.cholesky import factorization
 from mbla.solution.linear_algebra.pattern import SymmetricPattern
 from mbla.solution.settings import SolverSettings
-from mbla.studies.sweep.engine.connection import Connection, refuse_missing
-from mbla.studies.sweep.engine.options import EngineOptions
-from mbla.studies.sweep.journal import Journal
-from mbla.studies.sweep.pictures.plot import SweepPictures, plot_sweep
-from mbla.studies.sweep.worker import child
-from mbla.studies.sweep.worker.supervised import SupervisedRunner
+from mbla.sweeps.engine.connection import Connection, refuse_missing
+from mbla.sweeps.engine.options import EngineOptions
+from mbla.sweeps.journal import Journal
+from mbla.sweeps.pictures.plot import SweepPictures, plot_sweep
+from mbla.sweeps.worker import child
+from mbla.sweeps.worker.supervised import SupervisedRunner
 from tests.deck.decks import BLOCK, changed, write
 from tests.results.changed_files import changing
 from tests.results.synthetic import tower_results
-from tests.solution.test_highs_adapter import ignored, linear_program
-from tests.studies.sweep.journal.points import HEADER, point
-from tests.studies.sweep.pictures.hand_made import grid
-from tests.studies.sweep.small_plan import plan_over
+from tests.solution.cone_solvers.test_highs_adapter import ignored, linear_program
+from tests.sweeps.journal.points import HEADER, point
+from tests.sweeps.pictures.hand_made import grid
+from tests.sweeps.small_plan import plan_over
 
 NAMED = "mesh: {group: block, material: stone, file: wall.obj}"
 Patch = pytest.MonkeyPatch
@@ -332,7 +332,7 @@ def table_that_is_empty(folder: Path, patch: Patch) -> object:
 
 @brings("solver-status")
 def status_of_another_version(folder: Path, patch: Patch) -> object:
-    patch.setattr("mbla.solution.highs_adapter.STATUS_MAP", {})
+    patch.setattr("mbla.solution.cone_solvers.highs_adapter.STATUS_MAP", {})
     return HighsProgram(linear_program(), SolverSettings(1e-8), ignored).solve(1, 1.0)
 
 

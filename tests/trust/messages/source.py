@@ -23,7 +23,7 @@ BUILDERS = {"Message"} | {
 }
 NOT_PRINTED = frozenset({"key-idle", "gravity-unusual"})
 """messages from which remarks are made, which have identifiers of their own kind"""
-PRINTED_BY = {"internal-error": "failures.py", "deck-invalid": "errors.py"}
+PRINTED_BY = {"internal-error": "results/failures.py", "deck-invalid": "errors.py"}
 """identifiers of what is no error of the program's own making, and the module that has each"""
 
 

@@ -15,12 +15,12 @@ import pytest
 import mbla
 from mbla.deck import read_deck
 from mbla.errors import DeckError
-from mbla.failures import lines_of
 from mbla.model import build_model
 from mbla.results.explanations.explanations import EXPLANATIONS, find_explanations
-from mbla.run_deck import contacts_of
-from mbla.studies.sweep.base import read_base
-from mbla.studies.sweep.file.read import read_sweep
+from mbla.results.failures import lines_of
+from mbla.run import contacts_of
+from mbla.sweeps.base import read_base
+from mbla.sweeps.file.read import read_sweep
 from tests.trust.counts import record_counts
 from tests.trust.messages.cases import CASES
 from tests.trust.messages.expected import EXPECTED

@@ -15,7 +15,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from tests.studies.sweep.killed_sweeps import keys_in_journals
+from tests.sweeps.killed_sweeps import keys_in_journals
 
 TOLERANCE = 1e-5
 """relative, of a load factor: what the bounds of a verified one lie within"""

@@ -19,8 +19,8 @@ OF_SOURCES = (
     "tests/trust/mutation/test_mutation.py::test_every_module_of_the_groups_has_mutants_and_tests",
     "tests/trust/mutation/test_mutation.py::test_what_is_explained_is_still_there",
     "tests/deck/test_schema.py::test_file_is_up_to_date",
-    "tests/studies/sweep/file/test_schema.py::test_file_is_up_to_date",
-    "tests/studies/sweep/file/test_schema.py::test_readme_is_up_to_date",
+    "tests/sweeps/file/test_schema.py::test_file_is_up_to_date",
+    "tests/sweeps/file/test_schema.py::test_readme_is_up_to_date",
 )
 """tests that are about the folder of sources"""
 AT_ONCE = ("-n", "auto", "--dist", "loadfile")

@@ -6,11 +6,11 @@ import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.results.collapse.thrust import OUTSIDE
+from mbla.results.listing.text import number
 from mbla.results.pictures.palette import HINGE, INK, SLIDE, THRUST, shade
 from mbla.results.pictures.plane.flat import Flat
 from mbla.results.pictures.plane.sheet import Sheet
 from mbla.results.pictures.scene import OUTSIDE_WORDS, Scene
-from mbla.results.words.text import number
 
 MIDDLE_THIRD, EDGE = 1 / 3, 0.99
 """eccentricity beyond which a joint without tension is not pressed all over, and from which the force is at its edge"""

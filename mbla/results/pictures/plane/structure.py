@@ -6,13 +6,13 @@ import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray
 from mbla.results.collapse.motion import moved_points
+from mbla.results.listing.text import counted
 from mbla.results.pictures.geometry import block_edges
 from mbla.results.pictures.palette import FIXED_BLOCK, GHOST, GROUND, GROUPS, INK, REST, group_colours
 from mbla.results.pictures.plane.flat import Flat, face_polygons, seen_edges
 from mbla.results.pictures.plane.sheet import Sheet
 from mbla.results.pictures.scene import Scene
 from mbla.results.pictures.tints import tint_of_part
-from mbla.results.words.text import counted
 
 FIXED_HATCH, GUIDE_HATCH = "////", "oo"
 MANY = 300

@@ -6,13 +6,13 @@ import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
 from mbla.results.collapse.thrust import OUTSIDE, Thrust
+from mbla.results.listing.text import counted, number
 from mbla.results.pictures.palette import FIXED_BLOCK, PURPLE, REST, SKY, THRUST
 from mbla.results.pictures.scene import OUTSIDE_WORDS, Scene
 from mbla.results.pictures.space.drawing import ColourScale, Drawing
 from mbla.results.pictures.space.loads import live_load_arrows
 from mbla.results.pictures.space.shapes import Faces, Shape, rgb, rods
 from mbla.results.pictures.space.structure import block_faces, edge_lines, grounds, interface_faces
-from mbla.results.words.text import counted, number
 
 ECCENTRICITY = ("#FCE9A8", "#F6B73C", "#C8500F", "#5A1400")
 """from the middle of an interface to its edge; darker and darker, so that it reads in grey too"""

@@ -14,6 +14,7 @@ from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.results.collapse.failure import Failure
 from mbla.results.collapse.interface_modes import InterfaceMode, InterfaceMotion
 from mbla.results.collapse.motion import moved_points
+from mbla.results.listing.text import counted
 from mbla.results.pictures.palette import CRUSH, HINGE, OPEN, SLIDE
 from mbla.results.pictures.scene import Scene
 from mbla.results.pictures.space.shapes import (
@@ -29,7 +30,6 @@ from mbla.results.pictures.space.shapes import (
     turning_arrows,
 )
 from mbla.results.pictures.space.structure import interface_faces
-from mbla.results.words.text import counted
 
 MOST_LINES, MOST_PLANES = 30, 20
 """hinge lines and sliding planes that stand out, those that move most; more hide each other"""

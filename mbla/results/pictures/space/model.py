@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 
+from mbla.results.listing.text import counted
 from mbla.results.pictures.palette import FIXED_BLOCK, group_colours
 from mbla.results.pictures.scene import Scene
 from mbla.results.pictures.space.drawing import Drawing
 from mbla.results.pictures.space.loads import all_load_arrows
 from mbla.results.pictures.space.shapes import Shape, rgb
 from mbla.results.pictures.space.structure import SLAB, block_faces, edge_lines, grounds
-from mbla.results.words.text import counted
 
 MOST_GROUPS = 10
 """names of groups in a legend"""

@@ -1,0 +1,126 @@
+"""The commands on parameter sweeps: call what does the work, print, return the exit status; nothing else.
+
+They print as :mod:`mbla.cli` does, which calls them and says what went wrong. Everything of a command is imported when
+it is called, so that the program starts at once.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+import time
+from typing import TYPE_CHECKING
+
+from mbla.cli.given_deck import refuse_unfit_name
+from mbla.cli.terminal import clear_line, rewrite_line, say
+from mbla.process.collector import loading
+
+if TYPE_CHECKING:
+    from mbla.sweeps.command import SweepOptions
+    from mbla.sweeps.outcome import Outcome
+    from mbla.sweeps.plan import Task
+    from mbla.sweeps.progress import Progress
+
+NAMED_FAILURES = 20
+"""failed points that have a line of their own while the sweep goes on"""
+BETWEEN_LINES = 10.0
+"""seconds between lines of progress where there is no terminal"""
+
+
+def sweep(options: argparse.Namespace) -> int:
+    """Solve the points of a sweep file, or list them; the summary goes to standard output, or the JSON object alone."""
+    with loading():
+        from mbla.sweeps.file.read import read_sweep
+
+    refuse_unfit_name(options.sweep, "sweep file")
+    content = read_sweep(options.sweep, tuple(options.set))
+    with loading():
+        from mbla.results.records.json_record import json_line
+        from mbla.sweeps.command import dry_run_json, prepare, run_sweep
+        from mbla.sweeps.design.words import design_lines
+        from mbla.sweeps.fragility_words import fragility_lines
+        from mbla.sweeps.words import sweep_lines
+
+    chosen = _sweep_options(options)
+    prepared = prepare(content, chosen)
+    if options.dry_run:
+        text = [json_line(dry_run_json(prepared))] if options.json else design_lines(prepared.design)
+        print("\n".join(text), flush=True)
+        return 0
+    report = None if options.quiet else _Reporter()
+    try:
+        finished = run_sweep(prepared, chosen, report)
+    finally:
+        if report is not None:
+            report.end()
+    if options.json:
+        print(json_line(finished.record), flush=True)
+    if not options.quiet:
+        fragility = fragility_lines(finished.fragility)
+        lines = [
+            *sweep_lines(finished.record, finished.table),
+            *fragility,
+            f"  files: {chosen.folder_for(options.sweep)}/",
+        ]
+        print("\n".join(lines), file=sys.stderr if options.json else sys.stdout, flush=True)
+    return finished.exit_code
+
+
+def _sweep_options(options: argparse.Namespace) -> SweepOptions:
+    with loading():
+        from mbla.sweeps.command import SweepOptions
+        from mbla.sweeps.engine.options import EngineOptions
+
+    return SweepOptions(
+        folder=options.output,
+        engine=EngineOptions(
+            workers=options.jobs,
+            scheduler=options.scheduler or "",
+            scheduler_file=options.scheduler_file,
+            tls_ca_file=options.tls_ca_file,
+            tls_cert=options.tls_cert,
+            tls_key=options.tls_key,
+        ),
+        shard=options.shard,
+        resume=options.resume or options.retry_failed,
+        force=options.force,
+        retry_failed=options.retry_failed,
+        parquet=options.parquet,
+        hdf5=options.hdf5,
+    )
+
+
+class _Reporter:
+    """Progress on standard error: a line that rewrites itself on a terminal, a line now and then elsewhere."""
+
+    def __init__(self) -> None:
+        self._terminal = sys.stderr.isatty()
+        self._last = time.monotonic()
+        self._failures = 0
+
+    def __call__(self, progress: Progress, task: Task | None, outcome: Outcome | None) -> None:
+        if outcome is not None and task is not None and outcome.state == "failed":
+            self._failure(f"point {task.number} failed: {outcome.reason}")
+        if self._terminal:
+            rewrite_line(progress.bar())
+            return
+        if outcome is None:
+            known = f", {progress.earlier} are in the journal" if progress.earlier else ""
+            self._line(f"{progress.total} points to solve{known}")
+        elif time.monotonic() - self._last >= BETWEEN_LINES:
+            self._last = time.monotonic()
+            self._line(progress.words())
+
+    def _failure(self, words: str) -> None:
+        self._failures += 1
+        if self._failures > NAMED_FAILURES + 1:
+            return
+        self.end()
+        self._line(words if self._failures <= NAMED_FAILURES else "more points failed: the journal has their reasons")
+
+    def end(self) -> None:
+        """What is said next has a line of its own."""
+        clear_line(self._terminal or None)
+
+    def _line(self, text: str) -> None:
+        say(f"mbla: {text}", 0)

@@ -1,0 +1,182 @@
+"""A comparison in words."""
+
+from __future__ import annotations
+
+import math
+
+from mbla.results.diff.cases import CaseComparison
+from mbla.results.diff.comparison import Comparison, ModelComparison
+from mbla.results.diff.figure import Figure
+from mbla.results.listing.answer_words import status_name, status_words
+from mbla.results.listing.text import counted, heading, number, sentence, small, table, vector
+
+MOST_NAMED = 8
+"""names of a list, interfaces and supports that are shown; JSON has all"""
+MOST_LINES = 60
+"""lines of the diff of the decks that are shown; JSON has all"""
+
+ROUNDING = 1e-8
+"""relative difference that is shown as none"""
+
+
+def comparison_text(comparison: Comparison, names: tuple[str, str]) -> str:
+    """What differs, at most 100 columns wide; ``names`` are those of the files."""
+    lines = [
+        f"{letter}  {file}   {deck}, {created}"
+        for letter, file, deck, created in zip("AB", names, comparison.names, comparison.created, strict=True)
+    ]
+    lines += [*_deck(comparison), *_run(comparison), *_model(comparison.model)]
+    for case in comparison.cases:
+        lines += _case(case)
+    lines += [*_warnings(comparison), *heading("Summary"), *_summary(comparison)]
+    return "\n".join(line.rstrip() for line in lines) + "\n"
+
+
+def _deck(comparison: Comparison) -> list[str]:
+    lines = heading("Deck")
+    shown = comparison.deck[:MOST_LINES]
+    lines += [f"  {line}" for line in shown] if shown else sentence("The texts are the same.")
+    if len(comparison.deck) > len(shown):
+        lines += sentence(f"and {counted(len(comparison.deck) - len(shown), 'more line')}; --json has them all")
+    for letter, overrides in zip("AB", comparison.overrides, strict=True):
+        if comparison.overrides[0] != comparison.overrides[1]:
+            lines += sentence(f"changed by the user in {letter}: {', '.join(overrides) or 'nothing'}")
+    return lines
+
+
+def _run(comparison: Comparison) -> list[str]:
+    rows = [*comparison.settings, *comparison.provenance]
+    return heading("Settings and program") + table(["", "A", "B"], [list(row) for row in rows], left=3) if rows else []
+
+
+def _model(model: ModelComparison) -> list[str]:
+    lines = heading("Model")
+    differ = [figure for figure in model.totals if not figure.same]
+    lines += _figures(model.totals if differ else ()) or sentence("Counts and totals are the same.")
+    if model.units[0] != model.units[1]:
+        lines += sentence(f"Units: {model.units[0]} in A, {model.units[1]} in B; everything here is in those of A.")
+    if model.by == "place":
+        lines += sentence("Blocks were matched by their place: their names are others, or in another order.")
+    lists = (
+        ("elsewhere in B", model.moved),
+        ("of another volume or mass in B", model.changed),
+        ("without match in B", model.only[0]),
+        ("of B without match in A", model.only[1]),
+        ("fixed in one of the two only", model.supports),
+    )
+    for what, names in lists:
+        if names:
+            more = f" and {len(names) - MOST_NAMED} more" if len(names) > MOST_NAMED else ""
+            lines += sentence(f"{counted(len(names), 'block')} {what}: {', '.join(names[:MOST_NAMED])}{more}")
+    return lines + [line for words in model.joints for line in sentence(f"joint law {words}")]
+
+
+def _figures(figures: tuple[Figure, ...]) -> list[str]:
+    if not figures:
+        return []
+    rows = [
+        [
+            f"{figure.name}{f' [{figure.unit}]' if figure.unit else ''}",
+            number(figure.first),
+            number(figure.second),
+            _percent(figure),
+            _verdict(figure),
+        ]
+        for figure in figures
+    ]
+    return table(["", "A", "B", "difference", ""], rows)
+
+
+def _percent(figure: Figure) -> str:
+    if math.isnan(figure.difference):
+        return "-"
+    return "0" if abs(figure.difference) <= ROUNDING else f"{100 * figure.difference:+.3g} %"
+
+
+def _verdict(figure: Figure) -> str:
+    if figure.same:
+        return ""
+    if math.isnan(figure.difference):
+        return "in A only" if math.isnan(figure.second) else "in B only"
+    return "differs"
+
+
+def _case(case: CaseComparison) -> list[str]:
+    lines = heading(f"Load case {case.name}")
+    statuses = [status_words(status) for status in case.statuses]
+    if statuses[0] == statuses[1]:
+        lines += sentence(f"status {statuses[0]} in both")
+    else:
+        lines += sentence(f"STATUS DIFFERS: {statuses[0]} in A, {statuses[1]} in B")
+    if case.rules[0] != case.rules[1]:
+        lines += sentence(f"flow rule {case.rules[0]} in A, {case.rules[1]} in B")
+    lines += _figures((*case.answers, *case.figures))
+    lines += sentence(f"answers count as the same within {small(case.answers[0].tolerance)}")
+    lines += _motion(case)
+    lines += _modes(case)
+    for change in case.reactions[:MOST_NAMED]:
+        share = math.sqrt(float(change.change @ change.change)) / case.load if case.load > 0.0 else math.nan
+        size = float(abs(change.change).max())
+        lines += sentence(
+            f"reaction of {change.support}: changes by {vector(change.change, size)}, {share:.2g} of the loads"
+        )
+    if len(case.reactions) > MOST_NAMED:
+        lines += sentence(f"and {counted(len(case.reactions) - MOST_NAMED, 'more reaction')}")
+    return lines + sentence(f"solved in {case.seconds[0]:.3g} s in A, {case.seconds[1]:.3g} s in B")
+
+
+def _motion(case: CaseComparison) -> list[str]:
+    if case.angle is None:
+        return sentence(f"mechanisms not compared: {case.angle_of}")
+    cosine = math.cos(math.radians(case.angle))
+    return sentence(f"angle between the two {case.angle_of}s: {case.angle:.3g} degrees (cosine {cosine:.6f})")
+
+
+def _modes(case: CaseComparison) -> list[str]:
+    modes = case.modes
+    if modes is None:
+        return []
+    lines = []
+    count = sum(modes.points.values())
+    if count:
+        kinds = ", ".join(f"{n} {a} in A and {b} in B" for (a, b), n in modes.points.items())
+        lines += sentence(f"{count} of {counted(modes.compared[0], 'contact point')} in another mode: {kinds}")
+    elif not modes.compared[0]:
+        lines += sentence("modes of contact points not compared: none lie at the same place in both")
+    else:
+        lines += sentence(f"modes of {counted(modes.compared[0], 'contact point')} compared: the same")
+    for letter, number_only in zip("AB", modes.only, strict=True):
+        if number_only:
+            lines += sentence(f"{counted(number_only, 'contact point')} of {letter} without match")
+    for change in modes.interfaces[:MOST_NAMED]:
+        size = float(abs(change.centroid).max())
+        place = f"{change.bodies} at {vector(change.centroid, size)}"
+        lines += sentence(f"interface {place}: {change.modes[0]} in A, {change.modes[1]} in B", "    ")
+    if len(modes.interfaces) > MOST_NAMED:
+        lines += sentence(
+            f"and {counted(len(modes.interfaces) - MOST_NAMED, 'more interface')}; --json has them all", "    "
+        )
+    return lines
+
+
+def _warnings(comparison: Comparison) -> list[str]:
+    if not comparison.gone and not comparison.new:
+        return []
+    lines = heading("Warnings")
+    lines += [line for notice in comparison.gone for line in sentence(f"in A only: {notice}")]
+    return lines + [line for notice in comparison.new for line in sentence(f"in B only: {notice}")]
+
+
+def _summary(comparison: Comparison) -> list[str]:
+    lines = []
+    for letter, names in zip("AB", comparison.only, strict=True):
+        lines += [line for name in names for line in sentence(f"{name}: in {letter} only")]
+    for case in comparison.cases:
+        answer = case.answers[0]
+        values = f"{answer.name} {number(answer.first)} in A, {number(answer.second)} in B"
+        a, b = (status_name(status) for status in case.statuses)
+        differs = "DIFFERS" if a == b else f"DIFFERS, {a} in A, {b} in B"
+        lines += sentence(f"{case.name}: {differs if case.differs else f'the same, {a}'}; {values}")
+    total = len(comparison.cases) + len(comparison.only[0]) + len(comparison.only[1])
+    verb = "differs" if comparison.differing == 1 else "differ"
+    return lines + sentence(f"{comparison.differing} of {counted(total, 'load case')} {verb} in status or answer")

@@ -1,0 +1,112 @@
+"""The sections of one load case: how it collapses, how well that is known, where the forces go."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from mbla.contacts.contacts import Contacts
+from mbla.model.model import Model
+from mbla.results.collapse.collapse import collapse_of
+from mbla.results.collapse.enough import enough_of
+from mbla.results.collapse.failure import failure_of
+from mbla.results.collapse.force_freedom import force_freedom, why_undetermined
+from mbla.results.listing.certificate_words import fall_lines, fall_sentences
+from mbla.results.listing.determined_words import enough_lines, freedom_lines
+from mbla.results.listing.failure_words import failure_sentences
+from mbla.results.listing.figure_words import figures
+from mbla.results.listing.force_words import force_range_lines, group_reaction_lines, lock_lines, reaction_lines
+from mbla.results.listing.mechanism_words import mechanism_lines, mechanism_summary
+from mbla.results.listing.path_words import path_lines
+from mbla.results.listing.program_words import program_lines
+from mbla.results.listing.reduction_words import reduction_lines
+from mbla.results.listing.text import full_sentence, heading, sentence
+from mbla.results.listing.verdict_words import bound_words, known_words, verdict
+from mbla.results.listing.work_words import work_lines
+from mbla.results.outcome import result_of
+from mbla.results.results import CaseResult
+
+
+@dataclass(frozen=True)
+class Section:
+    """Lines of one subject; the listing has them one below the other, the report under their titles."""
+
+    title: str
+    lines: list[str]
+
+
+def case_lines(model: Model, contacts: Contacts, case: CaseResult) -> list[str]:
+    """All sections of a load case, as the listing has them."""
+    lines = heading(f"Load case {case.load_case.name}")
+    return lines + [line for section in case_sections(model, contacts, case) for line in section.lines]
+
+
+def case_sections(model: Model, contacts: Contacts, case: CaseResult) -> list[Section]:
+    """What there is to say of a load case, the verdict and the failure first; no section is empty."""
+    solution, held, model = case.solution, model, model.of_case(case.load_case)
+    mechanics, load_case = solution.mechanics, case.load_case
+    if mechanics is None:
+        motion = solution.certificate
+        told = [] if motion is None else fall_sentences(model, contacts, load_case, motion)
+        sections = [Section("Verdict", _verdict_lines(model, case, "", told))]
+        if motion is not None:
+            sections.append(Section("Mechanism", spaced(fall_lines(model, contacts, motion))))
+        if solution.lock is not None:
+            sections.append(Section("Locking forces", lock_lines(model, contacts, solution.lock)))
+    else:
+        collapse = collapse_of(model, contacts, load_case, mechanics)
+        failure = failure_of(model, contacts, collapse, mechanics)
+        told = failure_sentences(model, contacts, load_case, collapse, failure)
+        dimension = 3 if solution.size is None else solution.size.dimension
+        work = enough_lines(case, enough_of(model, contacts, collapse.parts))
+        work += work_lines(model, contacts, load_case, mechanics, collapse.work)
+        reactions = reaction_lines(held, contacts, load_case, mechanics)  # a support is one even as it gives way
+        reactions += group_reaction_lines(held, contacts, mechanics)
+        freedom = force_freedom(model, contacts, mechanics, dimension)
+        why = "" if freedom is not None else why_undetermined(model, contacts, mechanics, dimension)
+        reactions += freedom_lines(contacts, case, freedom, why)
+        sections = [
+            Section("Verdict", _verdict_lines(model, case, mechanism_summary(model, collapse, failure), told)),
+            Section("Mechanism", spaced(mechanism_lines(model, contacts, failure))),
+            Section("Work", ["", *work]),
+            Section("Reactions", reactions),
+        ]
+        if solution.force_ranges is not None:
+            ranges = force_range_lines(model, contacts, mechanics, solution.force_ranges)
+            sections.append(Section("Range of normal forces", ranges))
+    sections += [
+        Section("Load factor and bounds", ["", *figures(model, case)]),
+        Section("Reductions", spaced(reduction_lines(solution.reductions))),
+        Section("Load path", path_lines(model, case)),
+        Section("Solver programs", program_lines(solution)),
+    ]
+    return [section for section in sections if any(section.lines)]
+
+
+def find_failure(model: Model, contacts: Contacts, case: CaseResult) -> None:
+    """Find how a case fails, which is kept for listing, files and pictures: takes longest on large models."""
+    model, mechanics, size = model.of_case(case.load_case), case.solution.mechanics, case.solution.size
+    if mechanics is not None:
+        collapse = collapse_of(model, contacts, case.load_case, mechanics)
+        failure_of(model, contacts, collapse, mechanics)
+        force_freedom(model, contacts, mechanics, 3 if size is None else size.dimension)
+
+
+def _verdict_lines(model: Model, case: CaseResult, summary: str, told: Sequence[str]) -> list[str]:
+    """How it collapses and how well that is known; of a structure that does not stand, how it falls."""
+    says = verdict(model, case)
+    if summary:
+        says += f"{_mechanism_label(case)}: {summary}"
+    lines = sentence(full_sentence(says)) + sentence(full_sentence(case.solution.reason))
+    lines += spaced([line for text in told for line in sentence(text)])
+    known = [full_sentence(text) for text in (bound_words(model, case), *known_words(model, case))]
+    return lines + spaced([line for text in known for line in sentence(text)])
+
+
+def spaced(lines: list[str]) -> list[str]:
+    """Lines with an empty one before them; nothing where there are none."""
+    return ["", *lines] if lines else []
+
+
+def _mechanism_label(case: CaseResult) -> str:
+    return "" if result_of(case) is not None else "; its mechanism, for what it is worth"

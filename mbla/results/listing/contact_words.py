@@ -1,0 +1,106 @@
+"""The contacts of a model in words: what was found by joint law, and what the search saw besides."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+import numpy as np
+
+from mbla.arrays import FloatArray, IntArray
+from mbla.contacts.contacts import ContactReport, Contacts
+from mbla.contacts.glue import solid_sizes
+from mbla.contacts.notices import glue_words
+from mbla.model.model import Model
+from mbla.results.listing.text import counted, entry, heading, number, sentence, small, table
+
+MOST_ROWS = 20
+"""rows of a table; the result files hold all of them"""
+MOST_NAMED = 5
+"""blocks named in a line"""
+
+
+def contact_lines(model: Model, contacts: Contacts) -> list[str]:
+    """Interfaces, points and areas by joint law, and the findings of the search as counts."""
+    return [*heading("Contacts"), *_by_joint(model, contacts), "", *_counts(model, contacts)]
+
+
+def finding_lines(model: Model, report: ContactReport) -> list[str]:
+    """What the search saw besides contacts, pair by pair and part by part; nothing where there is nothing."""
+    closest = np.argsort(np.abs(report.near_miss_gaps), kind="stable")
+    misses, gaps = report.near_misses[closest], report.near_miss_gaps[closest]
+    near = _pair_table(model, "Nearly touching, no contact", "gap", misses, gaps)
+    widest = np.argsort(-report.sliver_widths, kind="stable")
+    slivers = _pair_table(model, "Slivers dropped", "width", report.slivers[widest], report.sliver_widths[widest])
+    unchecked = _pair_table(model, "Not checked for overlap", "", report.unchecked, None)
+    lines = [*near, *slivers, *unchecked]
+    if len(report.isolated):
+        lines += sentence(f"Blocks without any contact: {_names(model, report.isolated, MOST_ROWS)}.")
+    for part in report.unsupported[:MOST_ROWS]:
+        lines += sentence(f"Held by no support: {counted(len(part), 'block')}, {_names(model, part, MOST_NAMED)}.")
+    return [*heading("Found by the search"), *lines] if lines else []
+
+
+def _by_joint(model: Model, contacts: Contacts) -> list[str]:
+    points = np.diff(contacts.point_start)
+    rows = []
+    for row, name in enumerate(contacts.joint_names):
+        chosen = contacts.joints == row
+        area = number(float(contacts.areas[chosen].sum()))
+        rows.append([name, str(int(chosen.sum())), str(int(points[chosen].sum())), area])
+    rows.append(["total", str(len(contacts)), str(len(contacts.points)), number(float(contacts.areas.sum()))])
+    return table(["joint law", "interfaces", "points", f"area [{model.units.length}2]"], rows)
+
+
+def _counts(model: Model, contacts: Contacts) -> list[str]:
+    """Every count, zero or not: that nothing was missed is a finding too."""
+    report, length = contacts.report, model.units.length
+    on_ground = int((contacts.bodies >= len(model.blocks)).any(axis=1).sum())
+    lines = entry("interfaces between blocks", str(len(contacts) - on_ground))
+    lines += entry("interfaces on ground", str(on_ground))
+    if len(contacts):
+        least, most = number(float(contacts.areas.min())), number(float(contacts.areas.max()))
+        lines += entry("least, greatest area", f"{least}, {most} {length}2")
+        widest = float(np.abs(contacts.gaps).max())
+        if widest > 1e-9 * float(model.blocks.sizes.max()):
+            lines += entry("greatest gap or overlap", f"{small(widest)} {length}")
+    unsupported = sum(len(part) for part in report.unsupported)
+    parts = f", {counted(len(report.unsupported), 'part')}" if unsupported else ""
+    glued = f": {glue_words(report, solid_sizes(contacts.solid_of_block))}" if len(report.glued) else ""
+    for name, count, rest in (
+        ("nearly touching, no contact", len(report.near_misses), ""),
+        ("slivers dropped", len(report.slivers), ""),
+        ("overlapping blocks", len(report.overlaps), ""),
+        ("not checked for overlap", len(report.unchecked), ""),
+        ("blocks without contact", len(report.isolated), ""),
+        ("blocks held by no support", unsupported, parts),
+        ("between fixed bodies, left out", report.fixed_contacts, ""),
+        ("open, left out", report.open_interfaces, ""),
+        ("inside of rigid bodies, left out", len(report.glued), glued),
+    ):
+        lines += entry(name, f"{count or 'none'}{rest}")
+    return lines
+
+
+def _pair_table(model: Model, title: str, measure: str, pairs: IntArray, relative: FloatArray | None) -> list[str]:
+    """Pairs of bodies with a length each; the first of them only where there are many."""
+    if not len(pairs):
+        return []
+    shown = pairs[:MOST_ROWS]
+    rows = [_pair_row(model, pair, None if relative is None else float(relative[i])) for i, pair in enumerate(shown)]
+    head = ["bodies", *([f"{measure} [{model.units.length}]", "over block size"] if measure else [])]
+    more = sentence(f"and {len(pairs) - MOST_ROWS} more") if len(pairs) > MOST_ROWS else []
+    return [*sentence(f"{title}:"), *table(head, rows), *more]
+
+
+def _pair_row(model: Model, pair: IntArray, relative: float | None) -> list[str]:
+    names = "/".join(model.body_name(body) for body in pair.tolist())
+    if relative is None:
+        return [names]
+    size = min(float(model.blocks.sizes[body]) for body in pair.tolist() if body < len(model.blocks))
+    return [names, f"{relative * size:.3g}", f"{relative:.2g}"]
+
+
+def _names(model: Model, blocks: Iterable[int] | IntArray, most: int) -> str:
+    chosen = [int(block) for block in blocks]
+    more = f" and {len(chosen) - most} more" if len(chosen) > most else ""
+    return ", ".join(model.blocks.name(block) for block in chosen[:most]) + more

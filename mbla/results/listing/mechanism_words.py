@@ -1,0 +1,160 @@
+"""Mechanisms in tables: the parts that move, hinge lines, sliding planes and cracks between them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TypeVar
+
+import numpy as np
+
+from mbla.arrays import IntArray
+from mbla.contacts.contacts import Contacts
+from mbla.model.model import Model
+from mbla.results.collapse.collapse import Collapse
+from mbla.results.collapse.cracks import Crack
+from mbla.results.collapse.failure import Failure
+from mbla.results.collapse.hinge_lines import HingeLine
+from mbla.results.collapse.interface_modes import InterfaceMode
+from mbla.results.collapse.mechanics import curvature_sides
+from mbla.results.collapse.sliding_planes import SlidingPlane
+from mbla.results.listing.direction_words import TABLE_DIGITS, direction_words
+from mbla.results.listing.failure_words import as_parts, crack_kind, hinge_side
+from mbla.results.listing.part_words import part_lines
+from mbla.results.listing.place_words import point_words
+from mbla.results.listing.text import counted, number, percent, sentence, table
+
+T = TypeVar("T", HingeLine, SlidingPlane, Crack)
+
+MANY = 40
+"""joints beyond which their number says less than what moves"""
+MOST_ROWS = 20
+"""rows of a table in the listing; the result files hold all of them"""
+
+
+def mechanism_summary(model: Model, collapse: Collapse, failure: Failure) -> str:
+    """``4 hinges, sliding at 2 interfaces; 23 of 27 free blocks move in 3 parts``; parts as they are told and drawn.
+
+    Of a mechanism of many joints first what moves, then how many they are.
+    """
+    count = collapse.interfaces.count
+    moving = int(np.sum(~model.fixed & (collapse.parts > 0)))
+    words = [
+        (count(InterfaceMode.HINGE), "{}", "hinge"),
+        (count(InterfaceMode.SLIDE), "sliding at {}", "interface"),
+        (count(InterfaceMode.TWIST), "twisting at {}", "interface"),
+        (count(InterfaceMode.OPEN), "{} open", "interface"),
+        (int(collapse.interfaces.crushes.sum()), "crushing at {}", "interface"),
+    ]
+    found = (
+        ", ".join(text.format(counted(n, word)) for n, text, word in words if n)
+        or "no interface opens, slides or crushes"
+    )
+    verb = "moves" if moving == 1 else "move"
+    blocks = f"{moving} of {counted(len(model.free), 'free block')} {verb}"
+    if failure.spreads:
+        return f"{blocks}, mainly as {as_parts(len(failure.main.motions))}; {found}"
+    if sum(n for n, _, _ in words) > MANY:
+        return f"{blocks}{_told_parts(failure)}; {found}"
+    return f"{found}; {blocks}{_told_parts(failure)}"
+
+
+def _told_parts(failure: Failure) -> str:
+    """How many parts; where small motions within them are left out, that the blocks move as so many."""
+    count = len(failure.motions)
+    if failure.merged:
+        return f" as {counted(count, 'part')}"
+    return f" in {count} parts" if count > 1 else ""
+
+
+def mechanism_lines(model: Model, contacts: Contacts, failure: Failure) -> list[str]:
+    """Parts, then a table each for hinge lines, sliding planes and cracks."""
+    return [
+        *part_lines(model, failure.motions),
+        *_hinge_table(model, contacts, failure.hinge_lines),
+        *_sliding_table(model, contacts, failure.sliding_planes),
+        *_crack_table(model, contacts, failure.cracks),
+    ]
+
+
+def _hinge_table(model: Model, contacts: Contacts, lines: Sequence[HingeLine]) -> list[str]:
+    outward = curvature_sides(model, contacts)
+    rows = [
+        [
+            _interfaces(model, contacts, line.interfaces),
+            _parts(line.clusters),
+            point_words(model, line.start),
+            number(float(f"{line.length:.4g}")),
+            direction_words(line.direction, TABLE_DIGITS),
+            hinge_side(contacts, outward, line).removesuffix(" side")
+            + (", slides" if line.slides else "")
+            + (", crushes" if line.crushes else ""),
+        ]
+        for line in _shown(lines)
+    ]
+    length = model.units.length
+    head = ["hinge lines", "parts", f"from [{length}]", f"length [{length}]", "about", "side"]
+    return _table(head, rows, len(lines), 6)
+
+
+def _sliding_table(model: Model, contacts: Contacts, planes: Sequence[SlidingPlane]) -> list[str]:
+    """What slides over what, the direction in the plane, the share of the power that shear forces take there."""
+    rows = [
+        [
+            _interfaces(model, contacts, plane.interfaces),
+            _parts(plane.clusters),
+            point_words(model, plane.centroid),
+            "twists" if plane.twists else direction_words(plane.direction, TABLE_DIGITS),
+            number(float(f"{plane.area:.4g}")),
+            percent(plane.shear),
+        ]
+        for plane in _shown(planes)
+    ]
+    length = model.units.length
+    head = ["sliding planes", "parts", f"at [{length}]", "along", f"area [{length}2]", "shear work [%]"]
+    return _table(head, rows, len(planes), 4)
+
+
+def _crack_table(model: Model, contacts: Contacts, cracks: Sequence[Crack]) -> list[str]:
+    rows = [
+        [
+            _interfaces(model, contacts, crack.interfaces),
+            _parts(crack.clusters),
+            point_words(model, crack.start),
+            point_words(model, crack.end),
+            crack_kind(contacts, crack).strip() or "one way",
+            number(float(f"{crack.area:.4g}")),
+        ]
+        for crack in _shown(cracks)
+    ]
+    length = model.units.length
+    head = ["cracks", "parts", f"from [{length}]", f"to [{length}]", "joints", f"area [{length}2]"]
+    return _table(head, rows, len(cracks), 5)
+
+
+def _shown(found: Sequence[T]) -> list[T]:
+    """All by their first interfaces, or of too many those that move or work most, these first."""
+    if len(found) > MOST_ROWS:
+        return list(found[:MOST_ROWS])
+    return sorted(found, key=lambda each: int(each.interfaces[0]))
+
+
+def _table(head: list[str], rows: list[list[str]], total: int, left: int) -> list[str]:
+    if not rows:
+        return []
+    more = sentence(f"and {total - len(rows)} more that move less; the result files hold them all")
+    return ["", *table(head, rows, left=left), *(more if total > len(rows) else [])]
+
+
+def _parts(clusters: tuple[int, int]) -> str:
+    """``2/0``: that which moves, and against what; 0 is at rest."""
+    return f"{clusters[0]}/{clusters[1]}"
+
+
+def _interfaces(model: Model, contacts: Contacts, interfaces: IntArray) -> str:
+    """``arch[2]/[3]`` in one group, ``arch[2]/pier[0]``, with ``and 7 more`` behind the first of several."""
+    a, b = contacts.bodies[int(interfaces[0])].tolist()
+    more = f" and {len(interfaces) - 1} more" if len(interfaces) > 1 else ""
+    first, second = model.body_name(a), model.body_name(b)
+    if max(a, b) < len(model.blocks) and model.blocks.groups[a] == model.blocks.groups[b]:
+        second = f"[{model.blocks.group_indices[b]}]"
+    return f"{first}/{second}{more}"

@@ -1,0 +1,101 @@
+"""Sliding in plain sentences: what slides over what, where, and how much of the power that takes or gives back."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from mbla.contacts.contacts import Contacts
+from mbla.model.model import Model
+from mbla.results.collapse.failure import Failure
+from mbla.results.collapse.sliding_planes import SlidingPlane
+from mbla.results.collapse.work import Work
+from mbla.results.listing.direction_words import direction_words
+from mbla.results.listing.place_words import point_words
+from mbla.results.listing.text import counted, percent
+from mbla.results.listing.who_words import other_name, part_name
+
+MOST_SLIDES = 2
+"""movements that are told; the table holds more, the result files all"""
+SAME_WAY = 0.9
+"""cosine from which planes of the same two parts are told together"""
+UNDER_FORCE = 5e-4
+"""share of the power above which sliding is said to take work: what is written as 0.1 % or more"""
+
+
+def slide_sentences(model: Model, contacts: Contacts, failure: Failure, work: Work) -> list[str]:
+    """Planes of the same two parts and direction in one sentence, those that take most work first."""
+    runs = _runs(failure.sliding_planes)
+    working = [run for run in runs if _takes_work(run)]
+    idle = sum(len(plane.interfaces) for run in runs if not _takes_work(run) for plane in run)
+    sliding = [line for line in failure.hinge_lines if line.slides]
+    texts = [_slide_sentence(model, contacts, failure, run) for run in working[:MOST_SLIDES]]
+    if len(working) > MOST_SLIDES:
+        left = sum(plane.shear for run in working[MOST_SLIDES:] for plane in run)
+        more = counted(len(working) - MOST_SLIDES, "more movement")
+        takes = "" if np.isnan(left) else f", taking {percent(left)} % of the power"
+        texts.append(f"{more} of this kind in the table below{takes}.")
+    in_hinges = sum(line.shear for line in sliding)
+    if in_hinges >= UNDER_FORCE:
+        slide = "slides" if len(sliding) == 1 else "slide"
+        texts.append(f"{counted(len(sliding), 'hinge')} {slide} as well, taking {percent(in_hinges)} % of the power.")
+    else:
+        idle += len(sliding)
+    if not texts:
+        verb = "slides" if idle == 1 else "slide"
+        how = "" if np.isnan(work.given) else " without taking work"
+        texts.append(f"{counted(idle, 'joint')} {verb}{how}." if idle else "Nothing slides.")
+    return texts + _balance(failure, work)
+
+
+def _runs(planes: Sequence[SlidingPlane]) -> list[list[SlidingPlane]]:
+    by_clusters: dict[tuple[int, int], list[list[SlidingPlane]]] = {}
+    runs: list[list[SlidingPlane]] = []
+    for plane in planes:
+        known = by_clusters.setdefault(plane.clusters, [])
+        fit = next((run for run in known if float(run[0].direction @ plane.direction) > SAME_WAY), None)
+        if fit is None:
+            known.append([plane])
+            runs.append(known[-1])
+        else:
+            fit.append(plane)
+    return runs
+
+
+def _takes_work(planes: Sequence[SlidingPlane]) -> bool:
+    """Where no power is put in at all, or none is known, whatever slides is told."""
+    shear = sum(plane.shear for plane in planes)
+    return bool(np.isnan(shear) or shear >= UNDER_FORCE)
+
+
+def _slide_sentence(model: Model, contacts: Contacts, failure: Failure, planes: Sequence[SlidingPlane]) -> str:
+    first = planes[0]
+    number, other = first.clusters
+    joints = sum(len(plane.interfaces) for plane in planes)
+    area = sum(plane.area for plane in planes)
+    where = counted(joints, "joint") + (f" in {len(planes)} planes" if len(planes) > 1 else "")
+    shear = sum(plane.shear for plane in planes)
+    share = "" if np.isnan(shear) else f", taking {percent(shear)} % of the power"
+    does = "twists on" if first.twists else "slides over"
+    way = "" if first.twists else f" along {direction_words(first.direction)}"
+    at = ("at " if len(planes) == 1 else "mostly at ") + point_words(model, first.centroid)
+    interfaces = np.concatenate([plane.interfaces for plane in planes])
+    what = other_name(model, contacts, failure, other, interfaces)
+    who = part_name(model, failure, number)
+    who = who[0].upper() + who[1:]
+    return f"{who} {does} {what}{way}: {where}, {area:.4g} {model.units.length}2, {at}{share}."
+
+
+def _balance(failure: Failure, work: Work) -> list[str]:
+    """What sliding takes that no sentence tells, and what normal forces of joints that lift give back."""
+    given = work.given
+    if not given > 0:
+        return []
+    told = sum(plane.shear for plane in failure.sliding_planes) + sum(line.shear for line in failure.hinge_lines)
+    within = float(work.friction.sum() + work.cohesion.sum()) / given - told
+    texts = [f"Small movements within the parts take {percent(within)} % of it."] if within >= UNDER_FORCE else []
+    back = -float(work.normal.sum()) / given
+    if back >= UNDER_FORCE:
+        texts.append(f"Joints lift as they slide: their normal forces give {percent(back)} % of the power back.")
+    return texts

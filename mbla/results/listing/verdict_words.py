@@ -1,0 +1,232 @@
+"""The outcome of a case in words: how it collapses, how well that is known, and what else holds."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from mbla.model.model import LoadCase, Model
+from mbla.results.collapse.mechanics import live_load_in_g
+from mbla.results.listing.answer_words import in_order, status_name
+from mbla.results.listing.settlement_words import reaction_words
+from mbla.results.listing.text import number, small
+from mbla.results.magnitudes import rounding_of
+from mbla.results.outcome import (
+    associative_of,
+    best_iterate,
+    extent_of,
+    law_residual,
+    locked_in,
+    range_is_a_point,
+    range_of,
+    result_of,
+)
+from mbla.results.results import CaseResult
+from mbla.results.tilt_angle import tilt_words
+from mbla.solution.solution import Status
+from mbla.solution.verification.verify import GAP_TOLERANCE, SOLVED_RESIDUAL
+
+STOPPED_BY = {
+    Status.ITERATION_LIMIT: "out of iterations",
+    Status.TIME_LIMIT: "out of time",
+    Status.NUMERICAL_ERROR: "numerical failure",
+}
+"""what ended a case without a result"""
+
+DECIDED = ("associative", "non_associative")
+"""flow rules for which it is decided whether the load factor is bounded at all"""
+
+SCHEMES = {
+    "published": "The published procedure starts from the associative forces and ends high in the range of load "
+    "factors, on the unsafe side: with slope 0 by 5 % and 2 % above the published figures of two of the three walls "
+    "of Ferris and Tin-Loi (2001); a slope above 0 is a dilatancy, which locks confined joints and raises the factor "
+    "towards the associative one.",
+    "path": "The load path was followed from the dead load on; a path that stalls before its mechanism is free to "
+    "move ends at no collapse load.",
+    "lowest": "The lowest load factor that the search found is an upper bound of the least one, no proof of it.",
+}
+"""what is known of a scheme's figures, for the reader of one"""
+
+
+def load_factor_words(model: Model, load_case: LoadCase, load_factor: float) -> str:
+    """``0.145 g`` where the live load is an acceleration, else ``0.643 times the live load``.
+
+    ``a reaction of 5232 N`` where a support gives way, ``31.2 degrees of tilt`` for a tilting table.
+    """
+    if load_case.settlement is not None:
+        return reaction_words(model, load_case.settlement, load_factor)
+    if load_case.tilt is not None:
+        return tilt_words(load_case, load_factor)
+    size = live_load_in_g(model, load_case)
+    if size is None:
+        return f"{number(load_factor)} times the live load"
+    return f"{number(load_factor * size)} g"
+
+
+def verdict(model: Model, case: CaseResult) -> str:
+    """The outcome of a case in one line; only a solved case reads as a collapse."""
+    mechanics = result_of(case)
+    if mechanics is None:
+        return _without_load_factor(model, case)
+    value = _known_words(model, case, mechanics.load_factor)
+    verified = case.status is Status.SOLVED
+    outer = case.solution.outer
+    if outer is not None and not range_is_a_point((mechanics.load_factor, outer.load_factor)):
+        highest = load_factor_words(model, case.load_case, outer.load_factor)
+        known = "verified" if verified else "approximate"
+        return f"collapses between {value} and {highest}, with the inscribed and the circumscribed polyhedron, {known}"
+    known = _with_extent(model, case, f"{value}, verified" if verified else f"about {value}, approximate")
+    moves = "follows its support" if case.load_case.settlement is not None else "collapses"
+    if np.isfinite(case.checks.peak_load_factor):
+        peak = load_factor_words(model, case.load_case, case.checks.peak_load_factor)
+        return f"{moves} at {peak}, the peak of its load path; once moving it carries {known}"
+    return f"{moves} at {known}" if extent_of(model, case) is None else f"{moves} {known}"
+
+
+def _with_extent(model: Model, case: CaseResult, known: str) -> str:
+    """A load factor; where others were found, the least and the greatest of all before it."""
+    extent = extent_of(model, case)
+    if extent is None:
+        return known
+    least, greatest = (load_factor_words(model, case.load_case, end) for end in in_order(case.load_case, extent))
+    found = f"between {least} (least found) and {greatest} (greatest found)"
+    if np.isinf(extent[1]):
+        settles = case.load_case.settlement is not None
+        found = f"from {greatest} (greatest found) down" if settles else f"from {least} (least found) up"
+        found += " without limit"
+    return f"{found}; the state told here at {known}"
+
+
+def _known_words(model: Model, case: CaseResult, load_factor: float) -> str:
+    """A load factor; of one that rounding could have made, how much that is."""
+    rounding = rounding_of(model, case)
+    words = load_factor_words(model, case.load_case, load_factor)
+    if rounding == 0.0 or case.load_case.settlement is not None or case.load_case.tilt is not None:
+        return words
+    if abs(load_factor) <= rounding:
+        words = load_factor_words(model, case.load_case, 0.0)
+    return f"{words} to within {load_factor_words(model, case.load_case, float(f'{rounding:.1e}'))}"
+
+
+def _without_load_factor(model: Model, case: CaseResult) -> str:
+    best = best_iterate(case)
+    if locked_in(case) and case.status is not Status.NO_EQUILIBRIUM:
+        return "no collapse load: it stands only by self-stress"
+    if case.status is Status.NOT_VERIFIED and np.isfinite(case.checks.peak_load_factor):
+        carried = load_factor_words(model, case.load_case, case.checks.peak_load_factor)
+        return f"NOT VERIFIED: no load factor; it stands up to {carried}, verified"
+    if best is None:
+        return _without_figures(case)
+    value = load_factor_words(model, case.load_case, best.load_factor)
+    label = "NOT VERIFIED" if case.status is Status.NOT_VERIFIED else f"NOT SOLVED ({_stopped(case)})"
+    residual = law_residual(case.checks)
+    misses = f"misses the law by {small(residual)}" if residual > SOLVED_RESIDUAL else "is not confirmed"
+    return f"{label}: no load factor; the best iterate, {value}, {misses}"
+
+
+def _without_figures(case: CaseResult) -> str:
+    if case.status is Status.NO_EQUILIBRIUM:
+        return "no equilibrium: the structure cannot carry its dead load"
+    if case.status is Status.UNBOUNDED and case.load_case.settlement is not None:
+        return "no least reaction: the structure holds the support back however hard that pulls away from it"
+    if case.status is Status.UNBOUNDED and case.load_case.tilt is not None:
+        turned = "no angle of collapse: it bears gravity turned by every angle up to 180 degrees"
+        decided = case.solution.flow_rule == "associative" or case.solution.lock is not None
+        return turned if decided else f"{turned} by associative flow; undecided for {_flow(case)} flow"
+    if case.status is Status.UNBOUNDED and case.solution.flow_rule in DECIDED:
+        return "no collapse: no multiple of the live load brings the structure down"
+    if case.status is Status.UNBOUNDED:
+        return f"no collapse by associative flow; undecided for {_flow(case)} flow"
+    if case.status is Status.NOT_VERIFIED and case.solution.certificate is not None:
+        return "NOT VERIFIED: the lack of equilibrium could not be confirmed"
+    if case.status is Status.NOT_VERIFIED and case.solution.lock is not None:
+        return "NOT VERIFIED: that no load brings the structure down could not be confirmed"
+    if case.status is Status.NOT_VERIFIED:
+        return "NOT VERIFIED: no load factor"
+    return f"NOT SOLVED ({_stopped(case)})"
+
+
+def _flow(case: CaseResult) -> str:
+    return case.solution.flow_rule.replace("_", "-")
+
+
+def _stopped(case: CaseResult) -> str:
+    return STOPPED_BY.get(case.status, status_name(case.status))
+
+
+def bound_words(model: Model, case: CaseResult) -> str:
+    """What is known although a case has no verified load factor; nothing for others.
+
+    The kinematic bound limits the associative load factor, and that limits the load factor of any other flow rule.
+    """
+    verified = case.status is Status.SOLVED and not locked_in(case)
+    if (
+        verified
+        or case.status is Status.UNBOUNDED
+        or case.solution.mechanics is None
+        or np.isnan(case.checks.kinematic_bound)
+    ):
+        return ""
+    value = load_factor_words(model, case.load_case, case.checks.kinematic_bound)
+    if case.load_case.settlement is not None:
+        return f"certain all the same: its support gives way at no less than {value} (valid for every flow rule)"
+    return f"certain all the same: it collapses at no more than {value} (kinematic bound, valid for every flow rule)"
+
+
+def uniqueness_words(model: Model, case: CaseResult) -> str:
+    """Whether another load factor would fit as well; nothing for associative flow, whose factor is unique."""
+    own, associative, ends = result_of(case), associative_of(case), range_of(case)
+    if own is None or case.solution.flow_rule == "associative":
+        return ""
+
+    def value(load_factor: float) -> str:
+        return load_factor_words(model, case.load_case, load_factor)
+
+    settles = case.load_case.settlement is not None  # the greater the factor, the less the reaction
+    what, lower = ("reaction", "higher") if settles else ("load factor", "lower")
+    noun, above = what.split()[-1], ""
+    if associative:
+        wide = case.checks.gap > GAP_TOLERANCE  # then what is proved of it
+        limit = value(case.checks.kinematic_bound if wide else associative.load_factor)
+        of = "the kinematic bound of " if wide else ""
+        above = f"; {of}the associative factor, {limit}, is an upper limit to all"
+        if settles:
+            above = f"; {limit}, {of}that of associative flow, is a lower limit to all"
+    if ends is None or not np.isfinite(ends).all():
+        known = "" if ends is None else f" (of the range for this mechanism only one end is verified: {_ends(ends)})"
+        return f"The {what} without normality need not be unique, and its range is not known{known}{above}."
+    if range_is_a_point(ends, rounding_of(model, case)):
+        return (
+            f"For this mechanism every distribution of forces has the same {what}; without normality another "
+            f"mechanism may have another{above}."
+        )
+    return (
+        f"The {what} is not unique: for this mechanism alone there are forces that fit the law at every {noun} "
+        f"from {value(ends[0])} to {value(ends[1])}, and other mechanisms may reach {lower}{above}."
+    )
+
+
+def _ends(ends: tuple[float, float]) -> str:
+    return f"at least {number(ends[0])}" if np.isnan(ends[1]) else f"at most {number(ends[1])}"
+
+
+def spread_words(model: Model, case: CaseResult) -> str:
+    """How far several tries lie apart."""
+    if case.solution.spread is None:
+        return ""
+    least, greatest = (load_factor_words(model, case.load_case, end) for end in case.solution.spread)
+    return f"Several tries did not agree: they ended between {least} and {greatest}."
+
+
+def known_words(model: Model, case: CaseResult) -> list[str]:
+    """Sentences on what the figure is worth, the solver's own remarks among them."""
+    solution = case.solution
+    shown = solution.mechanics is not None
+    scheme = SCHEMES.get(solution.scheme, "") if shown else ""
+    texts = (uniqueness_words(model, case), spread_words(model, case), scheme, *solution.remarks)
+    return [text if text.endswith(".") else f"{text}." for text in texts if text]
+
+
+def reasons(case: CaseResult) -> list[str]:
+    """Why a case is not plainly solved, each reason once."""
+    reason = [] if case.status is Status.SOLVED or not case.solution.reason else [case.solution.reason]
+    return list(dict.fromkeys([*reason, *case.checks.failures]))

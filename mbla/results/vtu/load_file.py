@@ -1,0 +1,171 @@
+"""``STEM_CASE_loads.vtu``: dead loads, live loads and reactions as vectors where they act.
+
+A force F and a moment M about the centroid c of a block are, where M is across F, a single force on the line through
+c + F × M / F². It is drawn there, level with the centroid along its own direction; where that point lies outside the
+box around the block, or a moment along F is left, at the centroid with the moment beside it. The axles of a load that
+travels are drawn where they stand. Whatever the point, force and moment at it are statically the load of the deck.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from mbla.arrays import FloatArray, IntArray
+from mbla.model.blocks import Blocks
+from mbla.model.geometry.meshio_files import write_mesh
+from mbla.model.model import Model, TravelPosition
+from mbla.results.collapse.by_interface import sum_by_interface
+from mbla.results.collapse.mechanics import global_forces
+from mbla.results.collapse.motion import displacements_at
+from mbla.results.vehicle import without_vehicle
+from mbla.results.vtu.scene import Scene
+from mbla.solution.verification.statics import contact_resultants
+
+DEAD, LIVE, REACTION, GUIDE = 0, 1, 2, 3
+"""kinds of vectors"""
+ROUNDING = 1e-7
+"""relative to force and block size: below it moments and distances are none; far from the origin digits are lost"""
+
+
+@dataclass(frozen=True)
+class Vectors:
+    """Forces of one kind at points, with the moments that are left about these, and the body that each acts on."""
+
+    kind: int
+    bodies: IntArray
+    points: FloatArray
+    forces: FloatArray
+    moments: FloatArray
+
+    def __len__(self) -> int:
+        return len(self.bodies)
+
+
+def has_loads(scene: Scene) -> bool:
+    """Whether anything acts on the structure."""
+    return any(len(vectors) for vectors in load_vectors(scene))
+
+
+def load_vectors(scene: Scene) -> tuple[Vectors, ...]:
+    """Dead load, live load (for load factor 1), reactions of supports and of guides, those that there are."""
+    if scene.case is None:
+        return ()
+    load_case, blocks = scene.case.load_case, scene.model.blocks
+    found = (
+        _on_blocks(DEAD, blocks, load_case.dead_load),
+        _on_blocks(LIVE, blocks, without_vehicle(blocks, load_case.live_load, load_case.travel)),
+        *_of_vehicle(load_case.travel),
+        *_reactions(scene),
+    )
+    return tuple(vectors for vectors in found if len(vectors))
+
+
+def write_loads_vtu(path: Path, scene: Scene) -> None:
+    """Vectors as vertices at their points.
+
+    Point data: ``dead_load``, ``live_load`` (for load factor 1), ``reaction`` (of supports and guides on the structure)
+    with zero where a vertex is not of that kind; ``moment`` about the point, ``kind`` (0 dead load, 1 live load,
+    2 reaction of a support, 3 of a guide), ``body`` (that it acts on), ``fixed`` (that body does not move: its load
+    goes into its support), ``displacement``, ``result``.
+    """
+    parts = load_vectors(scene)
+    kind = np.concatenate([np.full(len(part), part.kind, dtype=np.int8) for part in parts])
+    bodies, points, forces, moments = (
+        np.concatenate([getattr(part, name) for part in parts]) for name in ("bodies", "points", "forces", "moments")
+    )
+    write_mesh(
+        path,
+        points,
+        [("vertex", np.arange(len(points))[:, None])],
+        point_data={
+            "dead_load": np.where((kind == DEAD)[:, None], forces, 0.0),
+            "live_load": np.where((kind == LIVE)[:, None], forces, 0.0),
+            "reaction": np.where((kind >= REACTION)[:, None], forces, 0.0),
+            "moment": moments,
+            "kind": kind,
+            "body": bodies,
+            "fixed": scene.model.fixed[bodies].astype(np.int8),
+            "displacement": displacements_at(scene.model.blocks, scene.motion, bodies, points),
+            "result": np.full(len(points), scene.is_result, dtype=np.int8),
+        },
+        cell_data={},
+    )
+
+
+def _on_blocks(kind: int, blocks: Blocks, loads: FloatArray) -> Vectors:
+    """Loads about centroids, (n_blocks, 6), as vectors at points; blocks without load are left out."""
+    bodies = np.flatnonzero(loads.any(axis=1))
+    forces, moments = loads[bodies, :3], loads[bodies, 3:]
+    centroids = blocks.centroids[bodies]
+    size = np.einsum("ij,ij->i", forces, forces)
+    arms = np.zeros_like(forces)
+    acts = size > 0
+    arms[acts] = np.cross(forces[acts], moments[acts]) / size[acts, None]
+    low, high = _boxes(blocks)
+    points = centroids + arms
+    slack = ROUNDING * blocks.sizes[bodies, None]
+    inside = ((points >= low[bodies] - slack) & (points <= high[bodies] + slack)).all(axis=1)
+    left = moments - np.cross(arms, forces)
+    crosswise = np.linalg.norm(left, axis=1) <= ROUNDING * np.sqrt(size) * blocks.sizes[bodies]
+    there = acts & inside & crosswise
+    at = np.where(there[:, None], points, centroids)
+    return Vectors(kind, bodies, at, forces, np.where(there[:, None], 0.0, moments))
+
+
+def _of_vehicle(travel: TravelPosition | None) -> tuple[Vectors, ...]:
+    """The axles of a travelling load that act, each where it stands."""
+    if travel is None:
+        return ()
+    acting = travel.acting
+    forces = travel.forces[acting]
+    return (Vectors(LIVE, travel.blocks[acting], travel.points[acting], forces, np.zeros_like(forces)),)
+
+
+def _boxes(blocks: Blocks) -> tuple[FloatArray, FloatArray]:
+    """Least and greatest coordinates of each block, (n_blocks, 3) each."""
+    first = blocks.vertex_start[:-1]
+    return np.minimum.reduceat(blocks.vertices, first), np.maximum.reduceat(blocks.vertices, first)
+
+
+def _reactions(scene: Scene) -> tuple[Vectors, ...]:
+    """What supports do to the structure at each interface with one, and guides at each guided block."""
+    if scene.forces is None:
+        return ()
+    return _of_supports(scene, scene.forces), _of_guides(scene, scene.forces)
+
+
+def _of_supports(scene: Scene, forces: FloatArray) -> Vectors:
+    """At the point of application of each interface between a support and a free block."""
+    model, contacts, thrust = scene.model, scene.contacts, scene.thrust
+    held = np.concatenate([model.fixed, np.ones(len(model.grounds), dtype=bool)])[contacts.bodies]
+    wrench = global_forces(contacts, forces)
+    loaded = sum_by_interface(contacts, np.linalg.norm(wrench, axis=1)) > 0
+    rows = np.flatnonzero((held[:, 0] != held[:, 1]) & loaded)
+    a_is_support = held[rows, 0]
+    points = contacts.centroids.copy()
+    if thrust is not None:
+        points[thrust.carried] = thrust.points[thrust.carried]
+    arms = contacts.points - points[contacts.interface_of_point]
+    sums = sum_by_interface(contacts, np.hstack([wrench, np.cross(arms, wrench)]))[rows]
+    sums *= np.where(a_is_support, 1.0, -1.0)[:, None]
+    bodies = np.where(a_is_support, contacts.bodies[rows, 1], contacts.bodies[rows, 0])
+    return Vectors(REACTION, bodies, points[rows], sums[:, :3], sums[:, 3:])
+
+
+def _of_guides(scene: Scene, forces: FloatArray) -> Vectors:
+    """At the centroid of each guided block: what leaves it in balance. Forces that lock balance the live load alone."""
+    model: Model = scene.model
+    bodies = model.guides.blocks
+    case = scene.case
+    if case is None or not len(bodies):
+        return Vectors(GUIDE, bodies[:0], np.zeros((0, 3)), np.zeros((0, 3)), np.zeros((0, 3)))
+    acting = contact_resultants(model, scene.contacts, forces)
+    if scene.mechanics is None:
+        acting = acting + case.load_case.live_load
+    else:
+        acting = acting + case.load_case.dead_load + scene.mechanics.load_factor * case.load_case.live_load
+    taken = -acting[bodies]
+    return Vectors(GUIDE, bodies, model.blocks.centroids[bodies], taken[:, :3], taken[:, 3:])

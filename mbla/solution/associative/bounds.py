@@ -1,0 +1,115 @@
+"""Bounds of the associative load factor that forces and velocities prove once they are repaired.
+
+Static: ``force_repair``; kinematic: ``mechanism_repair``. Nothing there needs to
+be believed: what the repaired forces and velocities prove is evaluated by ``verify`` with its own statics and
+kinematics. ``certified_gap`` is the solver stage's own reckoning of the same, on the program alone.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from mbla.arrays import FloatArray
+from mbla.process.stopwatch import timed
+from mbla.program.program import Program
+from mbla.solution.associative.force_repair import repaired_forces
+from mbla.solution.associative.mechanism_repair import repaired_mechanisms
+from mbla.solution.nonassociative.law_state import LawState
+
+CHARGED = 2.0
+"""Normal force, over the largest of the solution, with which rounding in a mechanism's compatibility is charged."""
+
+LOCKED_IN = 1e4
+"""Normal force, over the whole dead load, that would have to be locked in to hold a structure that a motion with
+rounding says to fall."""
+
+WORK_ROUNDING = 1e-13
+"""Work of the dead load, over the sum of its parts, that may be rounding."""
+
+ZERO_FACTOR = 1e-3
+"""Load factors below this share of dead over live load are taken for that share in relative measures."""
+
+
+@dataclass(frozen=True)
+class CertifiedGap:
+    """What the repaired forces and velocities of a state prove about the associative factor of a program.
+
+    static, kinematic : bounds, NaN where none could be proved
+    gap               : their distance over the load factor, or over a thousandth of dead over live load if that is more
+    forces, load_factor: the repaired forces, (n_points, components), and what they carry; as given where not repaired
+    velocities        : (n_rows,) of the least kinematic bound
+    """
+
+    static: float
+    kinematic: float
+    gap: float
+    forces: FloatArray
+    load_factor: float
+    velocities: FloatArray
+
+
+@timed("repair")
+def certified_gap(program: Program, state: LawState) -> CertifiedGap:
+    """Bounds of the associative load factor that a state proves; no solver is asked."""
+    repaired = repaired_forces(program, state.forces, state.load_factor)
+    forces, factor = (state.forces, state.load_factor) if repaired is None else repaired
+    charge = CHARGED * float(np.abs(state.forces[:, 0]).max(initial=0.0))
+    mechanisms = list(repaired_mechanisms(program, state.velocities))
+    values = [kinematic_value(program, u, charge) for u in mechanisms]
+    best = int(np.argmin(np.nan_to_num(values, nan=np.inf)))
+    static, kinematic = (np.nan if repaired is None else factor), values[best]
+    if not static >= 0.0 and not program.dead_load.any():  # no forces balance no load
+        forces, factor, static = np.zeros_like(forces), 0.0, 0.0
+    least = ZERO_FACTOR * factor_size(program)
+    gap = abs(kinematic - static) / max(abs(kinematic), least, 1e-300)
+    return CertifiedGap(static, kinematic, gap, forces, factor, mechanisms[best])
+
+
+def factor_size(program: Program) -> float:
+    """Size of load factors: dead load over live load; the strength of the joints for want of it, 1 for want of that."""
+    strength = float((program.limits.cohesion + program.limits.tension).sum())
+    sizes = (float(np.linalg.norm(program.dead_load)), strength, 1.0)
+    return next(size for size in sizes if size > 0.0) / float(np.linalg.norm(program.live_load))
+
+
+def falling_motion(program: Program, velocities: FloatArray) -> FloatArray | None:
+    """Velocities near the given ones, (n_rows,), proving that the dead load alone is not carried; None where none do.
+
+    They are compatible, what rounding leaves is charged as if the whole dead load were locked in many times over, and
+    the dead load does more work in them than the joints dissipate. They are scaled to a largest entry of 1: a solver's
+    certificate of infeasibility may have any size, whose square need not be a number.
+    """
+    largest = float(np.abs(velocities).max(initial=0.0))
+    if not 0.0 < largest < np.inf:
+        return None
+    velocities = velocities / largest
+    charge = LOCKED_IN * float(np.abs(program.dead_load).sum())
+    for u in repaired_mechanisms(program, velocities):
+        work = float(program.dead_load @ u) - dissipation(program, u, charge)
+        if work > WORK_ROUNDING * float(np.abs(program.dead_load) @ np.abs(u)):
+            return u
+    return None
+
+
+def kinematic_value(program: Program, velocities: FloatArray, charge: float) -> float:
+    """Load factor that velocities, (n_rows,), prove to be at or above the collapse value, NaN where none.
+
+    charge : normal force with which what is left of incompatibility is charged
+    """
+    live_power = float(program.live_load @ velocities)
+    if not live_power > 0.0:
+        return float("nan")
+    return float((dissipation(program, velocities, charge) - program.dead_load @ velocities) / live_power)
+
+
+def dissipation(program: Program, velocities: FloatArray, charge: float) -> float:
+    """Power of the joints by associative flow; incompatibility where they cannot crush costs ``charge`` as force."""
+    limits = program.limits
+    v = (program.equilibrium_matrix.T @ velocities).reshape(-1, program.components)
+    sliding = np.linalg.norm(v[:, 1:], axis=1)
+    surplus = v[:, 0] - limits.friction * sliding
+    resistance = np.where(np.isinf(limits.compression), charge, limits.compression)
+    opening = limits.cohesion * sliding + limits.tension * np.maximum(surplus, 0.0)
+    return float((opening + resistance * np.maximum(-surplus, 0.0)).sum())

@@ -1,0 +1,146 @@
+"""How far the total normal force of each interface can range at the load factor of associative flow.
+
+The forces that carry the load factor are those that fit the mechanism (``unique_forces``). Over them
+the sum of the normal forces of an interface has a least and a greatest value: two programs for each interface, linear
+ones in a plane, that differ in their cost alone. A range without an end means that the interface can be pressed as hard
+as one likes: what it carries is not decided by the loads.
+
+A part at rest carries its loads at the given load factor by any forces within the yield conditions.
+
+The program must not be reduced by mirror symmetry, which shows symmetric forces alone, nor by leaving out contact
+points, whose interface would have none.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+import scipy.sparse as sp
+
+from mbla.arrays import FloatArray, IntArray
+from mbla.program.fixed_mechanism import FixedMechanismForm, fixed_mechanism_form
+from mbla.program.kinematic import ConeProgram
+from mbla.program.program import Program
+from mbla.solution.associative.unique_forces import trusted_motion
+from mbla.solution.cone_solvers.choice import cone_solver, interior_point_solver, is_linear
+from mbla.solution.cone_solvers.cone_solution import ConeSolver, Log
+from mbla.solution.nonassociative.law_state import LawState
+from mbla.solution.settings import SolverSettings
+from mbla.solution.solution import ProgramRecord, Status
+
+TOLERANCE, REGULARIZATION = 1e-8, 1e-8
+"""Of the cone solver: the set of forces has hardly an inside."""
+
+FALL = 2e-8
+"""Share of the load factor (at least of dead over live load) by which that of the forces may be lower."""
+
+SMALL_FACTOR = 1e-3
+"""Load factors below this share of dead over live load are taken for that share in relative measures."""
+
+WITHIN = 1e-5
+"""Share of the largest normal force, or dead load of a block, by which a range may miss the forces found."""
+
+
+@dataclass(frozen=True)
+class ForceRanges:
+    """Least and greatest total normal force of each interface.
+
+    ranges : (n_interfaces, 2) in units of the program's forces; inf without an end; NaN where the program has no points
+             of the interface, or where the solver came to no answer
+    remark : in words, how many were not found; empty where all were
+    """
+
+    ranges: FloatArray
+    programs: tuple[ProgramRecord, ...]
+    remark: str = ""
+
+
+def force_ranges(
+    program: Program,
+    state: LawState,
+    interface_of_point: IntArray,
+    settings: SolverSettings,
+    log: Log,
+    *,
+    first: int = 1,
+) -> ForceRanges:
+    """Ranges over the forces that fit an associative state, or a state at rest.
+
+    interface_of_point : (n_points of the whole model,)
+    first              : number of the first program in the sequence of the load case
+    """
+    sums = normal_sums(program, interface_of_point)
+    form = fixed_mechanism_form(program, trusted_motion(program, state))
+    settings = replace(settings, tolerance=TOLERANCE, regularization=REGULARIZATION)
+    solver = _solver(_with_factor(form, state), settings, log)
+    ranges = np.full((sums.shape[0], 2), np.nan)
+    records: list[ProgramRecord] = []
+    present = np.flatnonzero(np.diff(sums.indptr))
+    largest = max(float(np.abs(part).max(initial=0.0)) for part in (state.forces[:, 0], program.dead_load))
+    for interface in present:
+        row = sums[[interface]]
+        cost = np.append((row @ form.expand).toarray().ravel(), 0.0)
+        found = float((row @ state.forces.ravel())[0])
+        for end, sign in enumerate((1.0, -1.0)):
+            solver.update(cost=sign * cost)
+            solution = solver.solve(first + len(records), 0.0)
+            value = np.nan
+            if solution.status is Status.NO_EQUILIBRIUM:  # said of a program in velocities: here it has no least value
+                value = -sign * np.inf
+            elif solution.status in (Status.SOLVED, Status.APPROXIMATE):
+                value = sign * solution.objective + float((row @ form.offset)[0])
+            room = WITHIN * max(largest, abs(found))
+            ranges[interface, end] = value if sign * (value - found) <= room else np.nan
+            what = "least" if sign > 0 else "greatest"
+            records.append(solution.record(first + len(records), f"{what} normal force", np.nan))
+            if solution.status is Status.TIME_LIMIT:
+                return ForceRanges(ranges, tuple(records), _words(ranges[present]))
+    return ForceRanges(ranges, tuple(records), _words(ranges[present]))
+
+
+def normal_sums(program: Program, interface_of_point: IntArray) -> sp.csr_array:
+    """Rows that add up the normal forces of each interface of the model, (n_interfaces, components n_points)."""
+    chain: sp.csr_array | None = None
+    while program.reduction is not None:
+        forces = program.reduction.forces
+        chain = forces if chain is None else sp.csr_array(forces @ chain)
+        program = program.reduction.full
+    points = np.arange(program.n_points)
+    shape = (int(interface_of_point.max(initial=-1)) + 1, program.components * program.n_points)
+    entries = (np.ones(len(points)), (interface_of_point, program.components * points))
+    sums = sp.csr_array(entries, shape=shape)
+    return sums if chain is None else sp.csr_array(sums @ chain)
+
+
+def _solver(cone_program: ConeProgram, settings: SolverSettings, log: Log) -> ConeSolver:
+    if settings.solver == "highs" and is_linear(cone_program):
+        return cone_solver(cone_program, settings, log)
+    return interior_point_solver(cone_program, settings, log, has_inside=False)
+
+
+def _with_factor(form: FixedMechanismForm, state: LawState) -> ConeProgram:
+    """The load factor bounded from below where a mechanism bounds it from above, given where nothing moves."""
+    data, program = form.cone_program, form.program
+    row = sp.csr_array(([1.0], ([0], [data.matrix.shape[1] - 1])), shape=(1, data.matrix.shape[1]))
+    if not np.any(state.velocities):
+        return replace(
+            data,
+            matrix=sp.csc_array(sp.vstack([row, data.matrix])),
+            rhs=np.append(state.load_factor, data.rhs),
+            n_equations=data.n_equations + 1,
+        )
+    dead, live = (float(np.linalg.norm(load)) for load in (program.dead_load, program.live_load))
+    least = state.load_factor - FALL * max(abs(state.load_factor), SMALL_FACTOR * dead / live)
+    matrix, equations = sp.csr_array(data.matrix), data.n_equations
+    return replace(
+        data,
+        matrix=sp.csc_array(sp.vstack([matrix[:equations], -row, matrix[equations:]])),
+        rhs=np.concatenate([data.rhs[:equations], [-least], data.rhs[equations:]]),
+        n_half_lines=data.n_half_lines + 1,
+    )
+
+
+def _words(ranges: FloatArray) -> str:
+    missing = int(np.isnan(ranges).any(axis=1).sum())
+    return f"the range of the normal force was not found for {missing} interfaces" if missing else ""

@@ -1,0 +1,140 @@
+"""Forces repaired so that they prove a static bound of the associative load factor.
+
+Forces in equilibrium with λ and within the yield conditions prove that collapse needs at least λ. The solver's forces
+are inside their cones but balance the loads only to its tolerance. They are corrected in the metric of the cones' own
+barrier, so that a force near the border of its cone moves little: the least Δ in
+
+    A Δx + f_L Δλ = −(A x + f_D + λ f_L),    weighted by the barrier's Hessian at x
+
+stays inside all cones if it is short (Dikin's ellipsoid; Nesterov and Nemirovskii 1994, theorem 2.1.1).
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import scipy.sparse as sp
+
+from mbla.arrays import FloatArray
+from mbla.process.stopwatch import timed
+from mbla.program.program import Program
+from mbla.program.yield_conditions import yield_violation
+from mbla.solution.associative.barriers import force_metric
+from mbla.solution.linear_algebra.bordered_system import PROGRESS, ROUNDS, bordered_solver
+
+EQUILIBRIUM_TOLERANCE = 1e-9
+"""Residual, relative to the mean load of a block, that counts as equilibrium: where all joints of a sliding plane are
+on their cones at once, double precision does not get far below 1e-10."""
+
+BALANCED = 1e-13
+"""Residual at which nothing is left to be mended."""
+
+INSIDE = 1e-13
+"""Excess over a yield condition, relative to the mean load of a block, that is rounding."""
+
+FORCE_ROUNDING = 16 * np.finfo(float).eps
+"""Share of the largest force that is rounding in a yield condition or in equilibrium: joints of a strength of millions
+of block loads bear forces of which no more digits are left."""
+
+RUNAWAY = 1e9
+"""Growth of the forces that is no repair any more."""
+
+MARGIN = 1e-12
+"""Share of the largest normal force, or of what a light block has to balance, by which forces are put inside."""
+
+NO_FORCE = 1e-18
+"""Share of the largest force that is no normal force beside a shear."""
+
+STEEP = 10.0
+"""Friction up to which the metric follows the cone: beyond it shear could move so much more freely than normal force
+that nothing is left of the latter in double precision."""
+
+
+@timed("repair")
+def repaired_forces(
+    program: Program, forces: FloatArray, load_factor: float, inside: float = INSIDE
+) -> tuple[FloatArray, float] | None:
+    """Forces near the given ones that balance the loads within the yield conditions, and the load factor they carry.
+
+    forces : (n_points, components), non-dimensional as ``program``, like the load factor. None where no repair is found
+    inside : excess over a yield condition that is allowed
+    """
+    x, factor, best, least = forces, load_factor, None, np.inf
+    for _ in range(ROUNDS + 1):
+        off = float(np.abs(_unbalanced(program, x, factor)).max(initial=0.0))
+        excess = float(yield_violation(x, program.limits).max(initial=0.0))
+        rounding = FORCE_ROUNDING * float(np.abs(x).max(initial=0.0))
+        if excess <= max(inside, rounding) and off <= min(least, max(EQUILIBRIUM_TOLERANCE, rounding)):
+            enough = off <= max(BALANCED, rounding) or off > PROGRESS * least
+            best, least = (x, factor), off
+            if enough:
+                break
+        x = _pulled_inside(program, x)
+        step = _static_correction(program, x, factor)
+        if step is None:
+            break
+        x, factor = x + step[0], factor + step[1]
+        if np.abs(x).max(initial=0.0) > RUNAWAY * (1.0 + np.abs(forces).max(initial=0.0)):
+            break
+    return best
+
+
+def _unbalanced(program: Program, x: FloatArray, factor: float) -> FloatArray:
+    return np.asarray(program.equilibrium_matrix @ x.ravel() + program.dead_load + factor * program.live_load)
+
+
+def carried_loads(program: Program, x: FloatArray) -> FloatArray:
+    """Size of what each row of equilibrium has to balance: contact forces, counted without sign, and dead load."""
+    sizes = np.repeat(np.linalg.norm(x, axis=1), program.components)
+    return np.asarray(abs(program.equilibrium_matrix) @ sizes + np.abs(program.dead_load))
+
+
+def least_carried(program: Program, x: FloatArray) -> FloatArray:
+    """What the lighter of the blocks at each contact point has to balance, as a force there, (n_points,)."""
+    matrix = program.equilibrium_matrix.tocoo()
+    share = carried_loads(program, x)[matrix.row] / np.maximum(np.abs(matrix.data), 1e-300)
+    least = np.full(program.n_points, np.inf)
+    np.minimum.at(least, matrix.col // program.components, share)
+    return least
+
+
+def _pulled_inside(program: Program, x: FloatArray) -> FloatArray:
+    """The nearest simple change that puts every force strictly inside: normal force off its ends, shear shortened.
+
+    By little beside what the lighter block there has to balance: much of its load may be little beside the others'.
+    """
+    inside, limits = x.copy(), program.limits
+    largest = np.minimum(max(float(np.abs(x[:, 0]).max(initial=0.0)), 1e-288), least_carried(program, x))
+    frictional = limits.friction > 0
+    apex = np.divide(limits.cohesion, limits.friction, out=np.full_like(limits.cohesion, np.inf), where=frictional)
+    lower, upper = -np.minimum(limits.tension, apex), limits.compression
+    room = np.minimum(MARGIN * largest, 0.25 * (upper - lower))
+    inside[:, 0] = np.clip(x[:, 0], lower + room, upper - room)
+    shear = np.linalg.norm(x[:, 1:], axis=1)
+    allowed = np.maximum((limits.cohesion + limits.friction * inside[:, 0]) * (1 - 1e-10), 0.0)
+    factor = np.divide(allowed, shear, out=np.ones_like(shear), where=shear > allowed)
+    inside[:, 1:] *= factor[:, None]
+    return inside
+
+
+def _static_correction(program: Program, x: FloatArray, factor: float) -> tuple[FloatArray, float] | None:
+    """Least change of forces and load factor, in the barrier's metric, that restores equilibrium."""
+    limits = program.limits
+    least = NO_FORCE * max(float(np.abs(x).max(initial=0.0)), 1e-280)  # a steeper cone is none: no digits are left
+    needed = 2.0 * np.linalg.norm(x[:, 1:], axis=1) / np.maximum(x[:, 0], least)
+    weights = force_metric(replace(limits, friction=np.minimum(limits.friction, np.maximum(STEEP, needed))), x)
+    matrix = program.equilibrium_matrix
+    normal = sp.csc_array(matrix @ weights @ matrix.T)
+    free = 1e-4 * max(abs(factor), 1e-3)
+    solve = bordered_solver(normal, program.live_load, free * free)  # not **, which raises beyond numbers
+    if solve is None:
+        return None
+    delta, delta_factor = np.zeros_like(x), 0.0
+    for _ in range(4):  # refinement: the metric spans many decades
+        y = solve(-_unbalanced(program, x + delta, factor + delta_factor))
+        if not np.isfinite(y).all():
+            return None
+        delta = delta + (weights @ (matrix.T @ y[:-1])).reshape(x.shape)
+        delta_factor += float(y[-1])
+    return delta, delta_factor

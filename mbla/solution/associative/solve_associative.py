@@ -1,0 +1,260 @@
+"""The associative load factor: a cone program, solved until proved bounds meet, and a proof that the dead load stands.
+
+With associative flow the static and the kinematic theorem hold, so that the optimum is unique. What the solver returns
+is not believed but repaired (``bounds``): forces that balance the loads prove the factor from below,
+compatible velocities from above. Where the two lie too far apart the program is solved again: with a sharper tolerance,
+and in units of the load factor where that is small, since the solver's tolerance is absolute there.
+
+The load factors under which the structure is in equilibrium form an interval. The dead load alone is carried if there
+is equilibrium at a load factor of zero or below besides that at collapse. Where it is asked as well whether the
+structure stands from its stress-free assembly (``standing``), the forces that arise there are repaired
+to prove it. Otherwise a second program looks for it with the live load reversed, and is stopped as soon as its forces,
+well inside the cones, can be repaired. If zero is not in the interval a mechanism shows how the structure falls.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from mbla.arrays import FloatArray
+from mbla.process.sharing import shared
+from mbla.program.program import Program
+from mbla.program.static import gravity_form
+from mbla.solution.associative.associative_form import AssociativeForm, in_forces, in_velocities
+from mbla.solution.associative.bounds import falling_motion
+from mbla.solution.associative.force_repair import repaired_forces
+from mbla.solution.associative.proved_answer import (
+    ACCEPTED_GAP,
+    STANDS_MARGIN,
+    WITH_VALUE,
+    AssociativeRun,
+    ProvedAnswer,
+    better,
+    is_decided,
+    proved_certificate,
+    says_it_falls,
+    solve_until_proved,
+    solved_once,
+)
+from mbla.solution.cone_solvers.choice import cone_solver, interior_point_solver, other_method
+from mbla.solution.cone_solvers.cone_solution import ConeSolution, Log
+from mbla.solution.cone_solvers.highs_adapter import HighsProgram
+from mbla.solution.nonassociative.law_state import LawState, law_state
+from mbla.solution.settings import SolverSettings
+from mbla.solution.solution import ProgramRecord, Status
+from mbla.solution.standing.standing import stress_free_state
+from mbla.solution.standing.weak_spring_continuation import Outcome, Weakening
+
+ENOUGH = 1e-1
+"""Residuals and gap at which the program with the live load reversed is stopped: its forces, far inside the cones then,
+can mostly be repaired to carry a load factor below zero, after six iterations instead of 25 on a wall of 410 blocks."""
+
+ROUGH = 1e3
+"""Friction beyond which the solver may break down. Where it does, its forces are sought within this friction, which the
+true one contains; whether the answer is good enough is for the proved bounds to say."""
+
+LOCKED = "no mechanism exists in which the live load does work: friction locks the structure under any multiple"
+
+
+@dataclass(frozen=True)
+class AssociativeResult:
+    """What the associative program says: a state with a load factor, a certificate without equilibrium.
+
+    certificate : (n_rows,) velocities, non-dimensional, of a motion in which the dead load does more work than the
+                  joints dissipate
+    solver      : that the state comes from, empty without one: the program may have been solved by several
+    asked       : approximate: the distance of the bounds that was asked for, and reached; None where it was not
+    apart       : approximate for no other reason than that the bounds are apart: how far, in words; else empty
+    stress_free : what becomes of the dead load on the stress-free assembly, None where that was not looked at
+    """
+
+    status: Status
+    state: LawState | None
+    certificate: FloatArray | None
+    reason: str
+    programs: tuple[ProgramRecord, ...]
+    solver: str = ""
+    asked: float | None = None
+    apart: str = ""
+    stress_free: Weakening | None = field(default=None, repr=False)
+
+
+def solve_associative(
+    program: Program,
+    settings: SolverSettings,
+    log: Log,
+    *,
+    form: AssociativeForm | None = None,
+    first: int = 1,
+    stress_free: bool = False,
+) -> AssociativeResult:
+    """Solve the program of one load case with associative flow.
+
+    form        : kinematic with the friction cone, unless another is given (``associative_form``)
+    first       : number of its first program in the sequence of the load case
+    stress_free : the state of the stress-free assembly is wanted as well: it is found before the program with the live
+                  load reversed, which it mostly saves
+    """
+    run = AssociativeRun(program, settings, log, first, [])
+    falling = _fall_of_what_nothing_touches(program)
+    if falling.any():
+        return _no_equilibrium(run, falling)
+    rough = program.limits.friction > ROUGH
+    form = form or in_velocities(program)
+    answer = solve_until_proved(run, form)
+    if form.exact and rough.any() and not is_decided(run, answer):
+        limits = replace(program.limits, friction=np.minimum(program.limits.friction, ROUGH))
+        made = (in_velocities if form.has_units else in_forces)(replace(program, limits=limits))
+        form = replace(made, program=program)  # proved is what holds of the true friction
+        answer = better(answer, solve_until_proved(run, form))
+    if answer.certificate is not None:
+        return _no_equilibrium(run, answer.certificate)
+    if answer.gap is None and answer.solution.status is not Status.UNBOUNDED:
+        return _undecided(run, answer.solution)
+    if not (stress_free and form.exact) or settings.deadline is not None:
+        return _with_dead_load(run, form, answer, proved=False)
+    state = stress_free_state(program, settings)
+    result = _with_dead_load(run, form, answer, proved=_proves(run, state))
+    return replace(result, stress_free=state)
+
+
+def _proves(run: AssociativeRun, state: Weakening) -> bool:
+    """Whether the forces on the stress-free assembly, without springs, prove that the dead load alone is carried."""
+    if state.outcome is not Outcome.CARRIED or state.forces is None:
+        return False
+    return _carried_alone(run.program.without_live_load(), state.forces) or _carries(run, state.forces, 0.0)
+
+
+@shared("carried")
+def _carried_alone(program: Program, forces: FloatArray) -> bool:
+    """Whether forces can be repaired to carry the dead load of a program without live load."""
+    return repaired_forces(program, forces, 0.0) is not None
+
+
+def _with_dead_load(
+    run: AssociativeRun, form: AssociativeForm, answer: ProvedAnswer, *, proved: bool
+) -> AssociativeResult:
+    """The result, once it is known that the dead load alone is carried.
+
+    proved : it is known already
+    """
+    settings = replace(run.settings, tolerance=form.tolerance(run.settings.tolerance))
+    reverse, carried = answer.solution, proved or not run.program.dead_load.any()
+    if not carried:
+        reverse, carried = _reversed(run, form, settings)
+    if not carried and reverse.status is Status.NUMERICAL_ERROR and settings.solver == "auto":
+        reverse, carried = _reversed(run, form, replace(settings, solver=other_method(reverse.solver)))
+    if not carried:
+        certificate = proved_certificate(run, form, reverse)
+        if certificate is not None:
+            return _no_equilibrium(run, certificate)
+        if says_it_falls(run, reverse):
+            return _undecided(run, reverse)
+        if reverse.status not in (*WITH_VALUE, Status.UNBOUNDED):
+            reason = "whether the dead load alone is carried could not be decided: " + _words_of(reverse)
+            return _without_state(run, reverse.status, reason)
+    if answer.solution.status is Status.UNBOUNDED and reverse.status is Status.UNBOUNDED and not proved:
+        return _locked_both_ways(run, settings)
+    if answer.solution.status is Status.UNBOUNDED:
+        return _without_state(run, Status.UNBOUNDED, LOCKED)
+    return _with_load_factor(run, answer)
+
+
+def _reversed(run: AssociativeRun, form: AssociativeForm, settings: SolverSettings) -> tuple[ConeSolution, bool]:
+    """The program with the live load reversed, as far as it is needed, and whether it proves the dead load carried."""
+    solver = cone_solver(form.reversed_program, settings, run.log)
+    reverse, carried = None, False
+    for enough in (0.0,) if isinstance(solver, HighsProgram) else (ENOUGH, 0.0):
+        if reverse is None or not (carried or reverse.status is Status.TIME_LIMIT):
+            reverse = solved_once(run, form, solver, "reverse", -1.0, enough)
+            carried = _carried(run, form, reverse)
+    assert reverse is not None
+    return reverse, carried
+
+
+def _locked_both_ways(run: AssociativeRun, settings: SolverSettings) -> AssociativeResult:
+    """No mechanism in which the live load does work, of either sign: that says nothing of the dead load, so ask."""
+    form = gravity_form(run.program)
+    solution = interior_point_solver(form.cone_program, settings, run.log).solve(run.first + len(run.records), 0.0)
+    status, number = solution.status, run.first + len(run.records)
+    run.records.append(solution.record(number, "gravity", np.nan))
+    if status in WITH_VALUE:
+        return _without_state(run, Status.UNBOUNDED, LOCKED)
+    certificate = falling_motion(run.program, -form.velocities(solution.z))
+    if certificate is None:
+        certificate = falling_motion(run.program, form.velocities(solution.z))
+    return _undecided(run, solution) if certificate is None else _no_equilibrium(run, certificate)
+
+
+def _with_load_factor(run: AssociativeRun, answer: ProvedAnswer) -> AssociativeResult:
+    gap, status, reason, asked = answer.gap, Status.SOLVED, "", None
+    assert gap is not None
+    if not gap.gap <= ACCEPTED_GAP:
+        live = run.program.scaling.live
+        status = Status.APPROXIMATE
+        asked = run.settings.gap if gap.gap <= run.settings.gap else None
+        apart = f"they could not be brought together ({answer.solution.verdict})"
+        if asked is not None:
+            apart = f"that is within the gap of {asked:g} that was asked for"
+        reason = (
+            f"forces prove a load factor of {gap.static * live:.8g}, velocities one of {gap.kinematic * live:.8g}: "
+            f"{apart}"
+        )
+    forces, factor, velocities = gap.forces, gap.load_factor, gap.velocities
+    state = law_state(run.program, run.program.limits.friction, forces, velocities, factor)
+    solver = answer.solution.solver.lower()
+    return AssociativeResult(status, state, None, reason, tuple(run.records), solver, asked, reason)
+
+
+def _carried(run: AssociativeRun, form: AssociativeForm, reverse: ConeSolution) -> bool:
+    """Whether the forces prove that there is equilibrium at a load factor of zero or below."""
+    forces, factor = form.forces(reverse), form.factor(reverse)
+    if not np.isfinite(forces).all() or not np.isfinite(factor):
+        return False
+    return _carries(run, forces, factor)
+
+
+def _carries(run: AssociativeRun, forces: FloatArray, factor: float) -> bool:
+    """Whether forces in balance with about that load factor can be repaired to carry one of zero or below."""
+    repaired = repaired_forces(run.program, forces, factor)
+    return repaired is not None and repaired[1] <= STANDS_MARGIN * run.size
+
+
+def _fall_of_what_nothing_touches(program: Program) -> FloatArray:
+    """Velocities along the dead load where no contact resists, (n_rows,): no solver is needed for them."""
+    untouched = np.diff(program.equilibrium_matrix.indptr) == 0
+    return np.where(untouched, program.dead_load, 0.0)
+
+
+def _without_state(run: AssociativeRun, status: Status, reason: str) -> AssociativeResult:
+    return AssociativeResult(status, None, None, reason, tuple(run.records))
+
+
+def _no_equilibrium(run: AssociativeRun, certificate: FloatArray) -> AssociativeResult:
+    """The mechanism that proves it: compatible, and the dead load does more work than the joints dissipate."""
+    reason = (
+        "the dead load alone is not carried: a mechanism exists in which it does more work than the joints dissipate"
+    )
+    return AssociativeResult(Status.NO_EQUILIBRIUM, None, certificate, reason, tuple(run.records))
+
+
+def _undecided(run: AssociativeRun, solution: ConeSolution) -> AssociativeResult:
+    """No settings gave an answer; a lack of equilibrium that could not be proved is none."""
+    if solution.status in (Status.TIME_LIMIT, Status.ITERATION_LIMIT):
+        return _without_state(run, solution.status, _words_of(solution))
+    reason = (
+        "whether there is equilibrium could not be decided: the structure is within rounding of falling under its "
+        f"dead load, or too ill-conditioned ({solution.verdict})"
+    )
+    return _without_state(run, Status.NOT_VERIFIED, reason)
+
+
+def _words_of(solution: ConeSolution) -> str:
+    return {
+        Status.APPROXIMATE: "the solver ended short of its tolerance",
+        Status.ITERATION_LIMIT: "the solver reached its limit of iterations",
+        Status.TIME_LIMIT: "the time limit was reached",
+        Status.NUMERICAL_ERROR: "the solver broke down numerically",
+    }.get(solution.status, str(solution.status)) + f" ({solution.verdict})"

@@ -1,0 +1,134 @@
+"""Which solver takes a cone program: the one that the deck names, or the one that measurements favour.
+
+- ``mbla``: the interior-point method of :mod:`mbla.solution.cone_solvers.interior_point`, for programs of its shape
+- ``clarabel``: any program; those of other shapes, and those whose admissible set has no inside, under ``mbla`` too
+- ``highs``: linear programs of the associative analysis, where the deck names it
+- ``auto``: ``mbla`` from ``OWN_FROM`` unknowns, and ``clarabel`` after it where it comes to no answer; programs with a
+  quadratic cost only with a fast factorisation
+
+Measured side by side (``tests/performance/results/cone_solvers.csv``): below that size either takes milliseconds and
+clarabel, compiled, has the smaller overhead; above it the condensed method is faster and its bounds are closer to each
+other.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from mbla.arrays import FloatArray
+from mbla.errors import SolverError, UnfitSolverError
+from mbla.program.kinematic import ConeProgram
+from mbla.solution.cone_solvers.clarabel_adapter import ClarabelProgram
+from mbla.solution.cone_solvers.cone_solution import ConeSolution, InteriorPointSolver, Log
+from mbla.solution.cone_solvers.highs_adapter import HighsProgram
+from mbla.solution.cone_solvers.interior_point.program import CondensedProgram, condensed_size, fits
+from mbla.solution.linear_algebra import best_library
+from mbla.solution.settings import SolverSettings
+from mbla.solution.solution import Status
+
+SOLVERS = ("auto", "mbla", "clarabel", "highs")
+
+OWN_FROM = 1000
+"""Rows of the condensed matrix from which ``auto`` takes the condensed method."""
+
+FAST = ("cholmod", "pardiso")
+"""Factorisations with which programs of few iterations, those with a quadratic cost, are faster too."""
+
+
+def cone_solver(cone_program: ConeProgram, settings: SolverSettings, log: Log) -> InteriorPointSolver | HighsProgram:
+    """The program held by ``settings.solver``; UnfitSolverError with the remedy where that cannot take it."""
+    if settings.solver != "highs":
+        return interior_point_solver(cone_program, settings, log)
+    if cone_program.n_cones:
+        raise UnfitSolverError(
+            "solver-unfit",
+            f"analysis.solver = highs solves linear programs only, and this load case has {cone_program.n_cones} "
+            "friction cones because it is not planar: use friction_cone: polyhedral, or solver: auto",
+        )
+    return HighsProgram(cone_program, settings, log)
+
+
+def interior_point_solver(
+    cone_program: ConeProgram, settings: SolverSettings, log: Log, *, has_inside: bool = True
+) -> InteriorPointSolver:
+    """The program held by an interior-point method, for callers that need one; ``highs`` counts as ``auto`` here.
+
+    has_inside : false where the admissible set has none, forces that fit a given mechanism for example: the strong
+                 regularisation of clarabel gets closer there
+    """
+    if settings.solver not in SOLVERS:
+        raise SolverError(
+            "unknown-solver", f"there is no cone solver {settings.solver}; there are {', '.join(SOLVERS)}"
+        )
+    if not has_inside or interior_point_method(cone_program, settings.solver) == "clarabel":
+        return ClarabelProgram(cone_program, settings, log)
+    own = CondensedProgram(cone_program, settings, log)
+    return own if settings.solver == "mbla" else _OneThenOther(own, settings, log)
+
+
+def sharpen(solver: InteriorPointSolver | HighsProgram, tolerance: float) -> bool:
+    """Let the next run of a program go on from its solution to a smaller tolerance; False where it cannot."""
+    own = solver.first if isinstance(solver, _OneThenOther) else solver
+    return isinstance(own, CondensedProgram) and own.sharpen(tolerance)
+
+
+def interior_point_method(cone_program: ConeProgram, solver: str) -> str:
+    """Whether mbla or clarabel takes a program, by what was asked for, by its shape and by its size."""
+    if solver == "clarabel" or not fits(cone_program):
+        return "clarabel"
+    return "mbla" if solver == "mbla" or _pays(cone_program) else "clarabel"
+
+
+def _pays(cone_program: ConeProgram) -> bool:
+    """Whether ``auto`` takes the condensed method for a program that fits."""
+    size = condensed_size(cone_program)
+    return size >= OWN_FROM and (cone_program.quadratic is None or best_library(size) in FAST)
+
+
+def other_method(solver: str) -> str:
+    """The other one of the two interior-point methods."""
+    return "mbla" if solver == "clarabel" else "clarabel"
+
+
+def is_linear(cone_program: ConeProgram) -> bool:
+    """Whether every solver can take the program."""
+    return cone_program.n_cones == 0 and cone_program.quadratic is None and not cone_program.further_cones
+
+
+def other_solver(solver: str, cone_program: ConeProgram) -> str:
+    """The solver that gives the second opinion on what another one solved."""
+    if is_linear(cone_program) and solver != "highs":
+        return "highs"
+    return "mbla" if solver == "clarabel" and fits(cone_program) else "clarabel"
+
+
+@dataclass
+class _OneThenOther:
+    """The condensed method, and clarabel where it breaks down."""
+
+    first: CondensedProgram
+    settings: SolverSettings
+    log: Log
+
+    @property
+    def cone_program(self) -> ConeProgram:
+        return self.first.cone_program
+
+    def solve(self, program_number: int, to_load_factor: float) -> ConeSolution:
+        return self._either(self.first.solve(program_number, to_load_factor), program_number, to_load_factor)
+
+    def solve_once(self, program_number: int, to_load_factor: float, enough: float = 0.0) -> ConeSolution:
+        solution = self.first.solve_once(program_number, to_load_factor, enough)
+        return self._either(solution, program_number, to_load_factor)
+
+    def update(self, *, cost: FloatArray | None = None, rhs: FloatArray | None = None) -> None:
+        self.first.update(cost=cost, rhs=rhs)
+
+    def _either(self, solution: ConeSolution, program_number: int, to_load_factor: float) -> ConeSolution:
+        if solution.status is not Status.NUMERICAL_ERROR:
+            return solution
+        other = ClarabelProgram(self.first.cone_program, self.settings, self.log).solve(program_number, to_load_factor)
+        if other.status is Status.NUMERICAL_ERROR:
+            return solution
+        iterations, seconds = solution.iterations + other.iterations, solution.seconds + other.seconds
+        return replace(other, iterations=iterations, seconds=seconds)

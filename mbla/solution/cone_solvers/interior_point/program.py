@@ -1,0 +1,213 @@
+"""Cone programs solved by the method of this package, held like those of the other solvers.
+
+Programs of few equations (kinematic forms) are condensed onto their unknowns, those whose unknowns are local (static
+forms) onto the multipliers of their equations. ``fits`` says whether a program is one of the two.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from mbla.arrays import FloatArray
+from mbla.errors import SolverError
+from mbla.program.kinematic import ConeProgram
+from mbla.solution.cone_solvers.cone_solution import ConeSolution, Log
+from mbla.solution.cone_solvers.interior_point.condensation import Condensation
+from mbla.solution.cone_solvers.interior_point.cone_data import ConeData, cone_data
+from mbla.solution.cone_solvers.interior_point.homogeneous import solve_embedded
+from mbla.solution.cone_solvers.interior_point.iterates import Measures, Point
+from mbla.solution.cone_solvers.interior_point.method import solve_cone_program
+from mbla.solution.cone_solvers.interior_point.on_multipliers import OnMultipliers, is_local
+from mbla.solution.cone_solvers.interior_point.on_unknowns import OnUnknowns
+from mbla.solution.cone_solvers.interior_point.run import Ended, Outcome, Run
+from mbla.solution.cone_solvers.interior_point.starts import warm_start
+from mbla.solution.settings import SolverSettings
+from mbla.solution.solution import IterationRecord, Status
+
+NAME = "mbla"
+
+MOST_EQUATIONS = 8
+"""Equations up to which a program is condensed onto its unknowns: each is a column of the border."""
+
+STATUSES = {
+    Outcome.SOLVED: Status.SOLVED,
+    Outcome.ALMOST: Status.APPROXIMATE,
+    Outcome.ENOUGH: Status.APPROXIMATE,
+    Outcome.INFEASIBLE: Status.UNBOUNDED,
+    Outcome.UNBOUNDED: Status.NO_EQUILIBRIUM,
+    Outcome.ITERATIONS: Status.ITERATION_LIMIT,
+    Outcome.TIME: Status.TIME_LIMIT,
+    Outcome.STALLED: Status.NUMERICAL_ERROR,
+    Outcome.NUMERICAL: Status.NUMERICAL_ERROR,
+}
+"""What an outcome says of a program in kinematic form: no admissible mechanism (infeasible) means that the live load
+never brings collapse; an unbounded mechanism means that no equilibrium exists."""
+
+UNDECIDED = (Outcome.STALLED, Outcome.NUMERICAL)
+
+
+@dataclass
+class CondensedProgram:
+    """A cone program, its condensation found once; cost and right-hand side may change.
+
+    log : called once per iteration
+    """
+
+    cone_program: ConeProgram
+    settings: SolverSettings
+    log: Log
+    _data: ConeData | None = field(init=False, default=None)
+    _condensation: Condensation | None = field(init=False, default=None)
+    _near: tuple[FloatArray, FloatArray] | None = field(init=False, default=None)
+    _paused: Point | None = field(init=False, default=None)
+    _solved: Point | None = field(init=False, default=None)
+
+    def solve(self, program_number: int, to_load_factor: float) -> ConeSolution:
+        """Solve what is loaded; see ``ConeSolver``."""
+        return self.solve_once(program_number, to_load_factor)
+
+    def solve_once(self, program_number: int, to_load_factor: float, enough: float = 0.0) -> ConeSolution:
+        """Solve what is loaded, for callers that judge the answer themselves.
+
+        enough : residuals and gap at which to stop, well inside the cones; the status is APPROXIMATE then, and the next
+                 run of the same program goes on from there
+        """
+        self._check_finite()
+        started = time.perf_counter()
+        data, condensation = self.prepared()
+        progress, settings = self._progress(program_number, to_load_factor, started), self.settings
+        run = Run(settings.tolerance, settings.max_iterations, settings.deadline, enough, progress)
+        ended, iterations = self._from_near(data, condensation, run)
+        if ended is None:
+            ended = solve_cone_program(data, condensation, run, self._paused)
+            iterations += ended.iterations
+        left = run.max_iterations - iterations
+        if ended.outcome in UNDECIDED and left > 0:
+            again = solve_embedded(data, condensation, replace(run, max_iterations=left))
+            ended, iterations = _better(ended, again), iterations + again.iterations
+        self._paused = ended.point if ended.outcome is Outcome.ENOUGH else None
+        self._solved = ended.point if ended.outcome is Outcome.SOLVED else None
+        solution = self._solution(data, ended, iterations, time.perf_counter() - started)
+        if ended.outcome is Outcome.SOLVED:
+            self.start_near(solution)
+        return solution
+
+    def sharpen(self, tolerance: float) -> bool:
+        """Let the next run of the same program go on from where this one was solved, to a smaller tolerance.
+
+        That is the run which the smaller tolerance would have made from the beginning, without its first part. False
+        where there is nothing to go on from.
+        """
+        if self._solved is None:
+            return False
+        self.settings = replace(self.settings, tolerance=tolerance)
+        self._paused, self._near = self._solved, None
+        return True
+
+    def start_near(self, solution: ConeSolution) -> None:
+        """Start the next time from the solution of a neighbouring program with the same unknowns and rows.
+
+        After a solution the next program of the same object starts from it without being told.
+        """
+        if solution.x.shape != self.cone_program.cost.shape or solution.z.shape != self.cone_program.rhs.shape:
+            raise ValueError("a neighbouring program has the same unknowns and rows")
+        self._near = solution.x, solution.z
+
+    def update(self, *, cost: FloatArray | None = None, rhs: FloatArray | None = None) -> None:
+        """Change cost or right-hand side; the matrix stays."""
+        old = self.cone_program
+        self.cone_program = replace(old, cost=old.cost if cost is None else cost, rhs=old.rhs if rhs is None else rhs)
+        self._paused = self._solved = None
+        if self._data is not None:
+            self._data = self._data.changed(self.cone_program)
+
+    def _from_near(self, data: ConeData, condensation: Condensation, run: Run) -> tuple[Ended | None, int]:
+        """The run from a neighbour's solution; None where there is none or it leads nowhere, and its iterations."""
+        if self._near is None:
+            return None, 0
+        x, z = self._near
+        n_e = len(data.equation_rhs)
+        ended = solve_cone_program(data, condensation, run, warm_start(data, x, z[:n_e], z[n_e:][data.order]))
+        if ended.outcome in (Outcome.SOLVED, Outcome.ENOUGH, Outcome.TIME):
+            return ended, ended.iterations
+        return None, ended.iterations
+
+    def prepared(self) -> tuple[ConeData, Condensation]:
+        """The program as the method wants it, and its condensation, found once."""
+        if self._data is None or self._condensation is None:
+            self._data = cone_data(self.cone_program)
+            kind = OnUnknowns if _onto_unknowns(self._data) else OnMultipliers
+            self._condensation = kind(self._data, self.settings.cholesky)
+        return self._data, self._condensation
+
+    def _check_finite(self) -> None:
+        program = self.cone_program
+        quadratic = np.zeros(0) if program.quadratic is None else program.quadratic
+        if not all(np.isfinite(part).all() for part in (program.cost, program.matrix.data, program.rhs, quadratic)):
+            raise SolverError("program-not-finite", "the cone program holds numbers that are not finite")
+
+    def _progress(self, program: int, to_load_factor: float, started: float) -> Callable[[int, Measures, float], None]:
+        def progress(number: int, measures: Measures, length: float) -> None:
+            self.log(
+                IterationRecord(
+                    program=program,
+                    iteration=number,
+                    load_factor=measures.primal_objective * to_load_factor,
+                    gap=measures.gap,
+                    primal_residual=measures.primal,
+                    dual_residual=measures.dual,
+                    step=length,
+                    seconds=time.perf_counter() - started,
+                )
+            )
+
+        return progress
+
+    def _solution(self, data: ConeData, ended: Ended, iterations: int, seconds: float) -> ConeSolution:
+        cones = np.empty(data.product.size)
+        cones[data.order] = ended.point.z
+        assert self._condensation is not None
+        return ConeSolution(
+            status=STATUSES[ended.outcome],
+            solver_status=ended.outcome.value,
+            x=ended.point.x,
+            z=np.concatenate([ended.point.y, cones]),
+            objective=ended.measures.primal_objective,
+            iterations=iterations,
+            seconds=seconds,
+            solver=NAME,
+            factorization=self._condensation.factors.library,
+        )
+
+
+def fits(program: ConeProgram) -> bool:
+    """Whether a program is one that can be condensed."""
+    if program.further_cones or program.n_half_lines + program.n_cones == 0:
+        return False
+    return program.n_equations <= MOST_EQUATIONS or is_local(cone_data(program))
+
+
+def condensed_size(program: ConeProgram) -> int:
+    """Rows of N for a program that fits: its unknowns, or its equations where these are many."""
+    return len(program.cost) - program.n_local if program.n_equations <= MOST_EQUATIONS else program.n_equations
+
+
+def _onto_unknowns(data: ConeData) -> bool:
+    """Whether N is that on the unknowns: for few equations, unless an unknown is in equations alone.
+
+    The static form of one or two blocks has few equations too, and such an unknown in its load factor: N would be
+    singular. So it is with a block that nothing touches, but there only the shift decides how that moves.
+    """
+    held = (np.diff(data.cone_matrix_t.indptr) > 0) | (data.quadratic > 0.0)
+    return len(data.equation_rhs) <= MOST_EQUATIONS and (bool(held.all()) or not is_local(data))
+
+
+def _better(first: Ended, second: Ended) -> Ended:
+    """The second run where it has an answer, or the better iterate."""
+    if second.outcome in UNDECIDED and first.measures.worst < second.measures.worst:
+        return first
+    return second

@@ -1,0 +1,101 @@
+"""What is found beside the load factor of a part: standing, range, least forces.
+
+Each answers another question about one state, and none changes the load factor.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from mbla.arrays import FloatArray
+from mbla.deck.accuracy import knobs_of
+from mbla.deck.analysis import AnalysisSection
+from mbla.program.program import Program
+from mbla.solution.associative.unique_forces import least_forces, point_weights
+from mbla.solution.cone_solvers.cone_solution import Log
+from mbla.solution.mechanics import forces_of
+from mbla.solution.nonassociative.factor_range import factor_range
+from mbla.solution.part import RANGE_RESIDUAL, PartResult
+from mbla.solution.settings import SolverSettings
+from mbla.solution.solution import StandingResult, Status
+from mbla.solution.standing.standing import DeadLoadState, assess_dead_load, settlement_of, standing_without_equilibrium
+
+NO_RANGE = (
+    "the range of the load factor for the mechanism found is not computed: that misses the law by {:.2g}, and means "
+    "something up to 1e-4"
+)
+BROKE_DOWN = "the range of the load factor is not known: a system of equations broke down ({})"
+
+
+@dataclass(frozen=True)
+class Questions:
+    """What is asked, and what every answer needs.
+
+    point_areas : (n_points of the whole model,)
+    """
+
+    analysis: AnalysisSection
+    point_areas: FloatArray
+    settings: SolverSettings
+    log: Log
+
+
+def with_answers(result: PartResult, questions: Questions) -> PartResult:
+    """The part with everything that the analysis asks for beside its load factor."""
+    analysis, settings, log = questions.analysis, questions.settings, questions.log
+    knobs = knobs_of(analysis)
+    if analysis.flow_rule == "associative":
+        result = _with_least_forces(result, questions)
+    if knobs.range:
+        result = _unless_it_breaks_down(result, lambda found: _with_range(found, analysis, settings, log))
+    return _with_standing(result, settings) if knobs.standing else result
+
+
+def _unless_it_breaks_down(result: PartResult, answered: Callable[[PartResult], PartResult]) -> PartResult:
+    """The part with an answer, or a remark where its equations are singular: the load factor stays."""
+    try:
+        return answered(result)
+    except np.linalg.LinAlgError as error:
+        return result.with_remark(BROKE_DOWN.format(str(error).lower()), ())
+
+
+def _with_least_forces(result: PartResult, questions: Questions) -> PartResult:
+    """Associative flow: the one state that does not depend on how it was found; bounds stay those of the solver's."""
+    state = result.associative.state
+    if knobs_of(questions.analysis).forces != "least_squares" or state is None or result.outer is not None:
+        return result
+    weights = point_weights(result.program, questions.point_areas)
+    first = len(result.programs) + 1
+    least = least_forces(result.program, state, weights, questions.settings, questions.log, first=first)
+    return replace(result.with_remark(least.remark, least.programs), least=least.state)
+
+
+def _with_range(result: PartResult, analysis: AnalysisSection, settings: SolverSettings, log: Log) -> PartResult:
+    """Only of a state that fits the law: the mechanism of another one belongs to nothing."""
+    state = None if result.sequence is None else result.sequence.state
+    if state is None:
+        return result
+    if state.residual > RANGE_RESIDUAL:
+        return result.with_remark(NO_RANGE.format(state.residual), ())
+    slope = result.program.limits.dilatancy if analysis.flow_rule == "dilatancy" else 0.0
+    return replace(result, range=factor_range(result.program, state, settings, log, len(result.programs) + 1, slope))
+
+
+def _with_standing(result: PartResult, settings: SolverSettings) -> PartResult:
+    associative = result.associative
+    if associative.certificate is not None:
+        return replace(result, standing=standing_without_equilibrium(result.program, associative.certificate))
+    decided = associative.state is not None or associative.status is Status.UNBOUNDED
+    state = assess_dead_load(result.program, settings, True if decided else None, associative.stress_free)
+    return replace(result, standing=standing_on_model(result.program, state))
+
+
+def standing_on_model(program: Program, state: DeadLoadState) -> StandingResult:
+    """Standing of a part with its forces and displacements as those of the model, where they are known."""
+    if state.forces is None or state.displacements is None:
+        return state.standing
+    forces = forces_of(program, state.forces)
+    return replace(state.standing, forces=forces, settlement=settlement_of(program, state.displacements))

@@ -1,0 +1,168 @@
+"""What the load path says of a load factor without dilatancy: no collapse load lies above the end of the path.
+
+Forces and mechanism may fit the joint law at a load factor that the structure never reaches, or never rests at:
+
+- above the end of the path (``standing_path``), where it no longer stands before. Steps of the scheme
+  from the last state that stands, with the motion in which it falls, lead to the state that belongs to the end; where
+  they lead to none there is no answer;
+- below it, where forces that friction holds after the dead load was applied are lost as joints slide. Under a given
+  load it collapses at the end of the path then, its peak, and the lower figure is what is left while it moves;
+- below zero, which is no load factor at all of a structure that stands.
+
+The forces of the last state that stands balance the loads within the yield conditions, which shows that the peak is
+carried. It belongs to joints of equal stiffness. A plank clamped in a wall and pulled out (associative 3.3086) has its
+peak at 2.1734 and is at rest at 1.0720.
+"""
+
+from __future__ import annotations
+
+import time
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from mbla.solution.associative.force_repair import repaired_forces
+from mbla.solution.cone_solvers.cone_solution import Log
+from mbla.solution.linear_algebra.stiffness import stiffness_of
+from mbla.solution.nonassociative.law_state import LawState, SequenceResult, law_state
+from mbla.solution.nonassociative.law_steps import Stepper, step_near
+from mbla.solution.nonassociative.proximal import SOLVED, ProximalRun, step_size, steps_from
+from mbla.solution.solution import ProgramRecord, Status
+from mbla.solution.standing.standing_path import GROWTH, SMALL, StandingPath
+
+PEAK = 1e-3
+"""Share of a load factor by which the end of the path must differ from it."""
+
+NEAR = 1e-2
+"""Share of a load factor by which a state may lie above the last one that stands: how joints share forces between them,
+which follows from their stiffness, counts as much."""
+
+STEPS = 60
+"""Steps of the scheme from the end of the path."""
+
+
+@dataclass(frozen=True)
+class PathVerdict:
+    """A sequence as the load path leaves it.
+
+    peak     : the last state that stands, where that lies above the load factor; its velocities are how it falls
+    remark   : what a reader must know, one sentence; empty where there is nothing to say
+    programs : records of the path
+    """
+
+    sequence: SequenceResult
+    peak: LawState | None = None
+    remark: str = ""
+    programs: tuple[ProgramRecord, ...] = ()
+
+
+def judged_by_path(
+    path: StandingPath, sequence: SequenceResult, most: float, log: Log, first_program: int, *, peak: bool
+) -> PathVerdict:
+    """What the load path, at its beginning or followed before, makes of a state without dilatancy.
+
+    most          : the associative load factor, infinite where there is none
+    first_program : number of the first program in the records
+    peak          : whether the path is followed beyond the load factor where it gets there
+    """
+    state, started = sequence.state, time.perf_counter()
+    if state is None or not path.last.stands:
+        return PathVerdict(sequence, remark="" if state is None else NOT_STANDING)
+    margin = PEAK * max(abs(state.load_factor), PEAK * path.unit)
+    if most - state.load_factor <= margin:
+        return PathVerdict(sequence)
+    if state.load_factor > margin:
+        path.follow(state.load_factor - margin)
+    if path.fall is not None and path.fall.load_factor <= state.load_factor - margin:
+        sequence = _from_the_end(path, sequence, margin, log)
+    elif path.goes_on and (peak or state.load_factor <= 0.0):
+        path.follow(state.load_factor + margin, within=2.0 * margin)
+        path.follow_on(max(GROWTH * state.load_factor, SMALL * path.unit), most)
+    verdict = _verdict(path, sequence, most, margin)
+    return replace(verdict, programs=(_record(path, first_program, time.perf_counter() - started),))
+
+
+def _from_the_end(path: StandingPath, sequence: SequenceResult, margin: float, log: Log) -> SequenceResult:
+    """The state at the end of the path, or the sequence as not verified."""
+    program, live, found, end = path.program, path.program.scaling.live, sequence.state, path.fall
+    assert found is not None
+    assert end is not None
+    stepper = Stepper(stiffness_of(program), np.zeros(program.n_points), path.settings, log)
+    run = ProximalRun(stepper, list(sequence.programs))
+    start = _peak(path)
+    first = step_near(stepper, start, step_size(program, start.forces))
+    there = steps_from(run, start.forces if first is None else first.forces, STEPS, first)
+    above, ends = f"{found.load_factor * live:.6g}", f"{end.load_factor * live:.6g}"
+    most = min((1.0 + NEAR) * path.last.load_factor + margin, found.load_factor)
+    high = there.state is not None and there.state.load_factor > most
+    if there.state is None or there.state.residual > SOLVED or high:
+        if found.load_factor - path.last.load_factor <= NEAR * found.load_factor:
+            return replace(sequence, programs=tuple(run.records))
+        reason = NO_STATE.format(above, ends, path.last.load_factor * live)
+        return replace(sequence, status=Status.NOT_VERIFIED, reason=reason, programs=tuple(run.records))
+    return replace(there, remarks=(*sequence.remarks, *there.remarks, LOWER.format(above, ends)))
+
+
+def _verdict(path: StandingPath, sequence: SequenceResult, most: float, margin: float) -> PathVerdict:
+    """The peak, and what is to be said of it; beyond the associative load factor it falls whatever was looked at."""
+    state, live, last = sequence.state, path.program.scaling.live, path.last.load_factor
+    assert state is not None  # the path is not followed without
+    rest, height = f"{state.load_factor * live:.6g}", f"{last * live:.6g}"
+    if sequence.status is Status.NOT_VERIFIED:
+        return PathVerdict(sequence, peak=_peak(path))
+    if path.end is not None and last < state.load_factor - 2.0 * margin:
+        why = path.end.weakening.reason or "it falls there"
+        return PathVerdict(sequence, remark=NOT_SEEN.format(height, why))
+    if last <= state.load_factor + margin:
+        return PathVerdict(sequence)
+    if state.load_factor <= 0.0:
+        reason = NO_LOAD.format(rest, height)
+        return PathVerdict(replace(sequence, status=Status.NOT_VERIFIED, reason=reason), peak=_peak(path))
+    if path.fall is None and last < most:
+        return PathVerdict(sequence, remark=STANDS_ON.format(height, rest))
+    return PathVerdict(sequence, peak=_peak(path), remark=FALLS.format(height, rest))
+
+
+def _peak(path: StandingPath) -> LawState:
+    """The last state that stands, with the motion in which the structure falls."""
+    program, last = path.program, path.last.weakening
+    assert last.forces is not None  # it stands
+    repaired = repaired_forces(program, last.forces, path.last.load_factor)  # of what the springs carry
+    forces, load_factor = repaired or (last.forces, path.last.load_factor)
+    for state in (path.fall, path.last):
+        way = None if state is None else state.weakening.displacements
+        power = 0.0 if way is None else float(program.live_load @ way)
+        if way is not None and power > 0.0:
+            return law_state(program, 0.0, forces, way / power, load_factor)
+    along = program.live_load / float(program.live_load @ program.live_load)
+    return law_state(program, 0.0, forces, along, load_factor)
+
+
+def _record(path: StandingPath, number: int, seconds: float) -> ProgramRecord:
+    value = path.program.scaling.load_factor(path.last.load_factor)
+    known = path.end is None or path.end.falls
+    status = Status.SOLVED if known else Status.APPROXIMATE
+    return ProgramRecord(number, "load path", status, value, np.nan, path.looks, seconds)
+
+
+NOT_STANDING = "the load path was not followed: no state under the dead load alone was found to start from"
+NOT_SEEN = (
+    "the load path was followed to {} only, and whether the structure stands up to the load factor was not seen: {}"
+)
+LOWER = (
+    "the steps came to {}, above the load that the structure reaches: from the dead load on it no longer stands at {}, "
+    "next to which the state given was found"
+)
+NO_STATE = (
+    "forces and mechanism fit the joint law at {}, but from the dead load on the structure no longer stands at {}; "
+    "it stands up to {:.6g}, and no mechanism that fits the law was found there"
+)
+NO_LOAD = (
+    "forces and mechanism fit the joint law at {}, which is no load of a structure that stands under its dead load: "
+    "from the dead load on it stands up to {}, and no mechanism that fits the law was found there"
+)
+FALLS = (
+    "the load path from the dead load rises to {} and falls from there to {}: the peak is the collapse load, the lower "
+    "figure what is left while the structure moves"
+)
+STANDS_ON = "from the dead load on the structure stands at {} still, above the load factor of {}: its end was not seen"

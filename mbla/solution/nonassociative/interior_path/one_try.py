@@ -1,0 +1,205 @@
+"""One try of the interior scheme: along the path, down by changes of least cost, exact steps; and on along the path.
+
+The path is followed as long as it leads down. Below ``NEAR``, a turning point means that it winds on among
+neighbouring states (domes, vaults): from its lowest point the descent goes on. Where the descent ends in a local
+minimum the path is taken up again, until it has led to a third of the residual and turns again, or for ``PATIENCE``
+factorisations. Whenever the residual has fallen by another decade, steps of the exact law are tried, which end most
+tries early.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from mbla.arrays import FloatArray
+from mbla.program.program import Program
+from mbla.solution.linear_algebra.stiffness import Stiffness
+from mbla.solution.nonassociative.interior_path.arc_length import Stage, follow
+from mbla.solution.nonassociative.interior_path.central_path import (
+    CentralPath,
+    PathVector,
+    central_path,
+    first_point,
+    state_of,
+)
+from mbla.solution.nonassociative.interior_path.condensed_matrix import MatrixMap
+from mbla.solution.nonassociative.interior_path.descent import descend
+from mbla.solution.nonassociative.interior_path.polish import STEPS, polished
+from mbla.solution.nonassociative.law_state import LawState
+
+EXACT = 1e-9
+"""Residual at which a try ends, unless a rougher or a sharper one is asked for."""
+
+END_OF_PATH = 1e-8
+"""Residual of a point beyond which rounding takes over: slacks are differences of velocities."""
+
+NEAR = 5e-3
+"""Residual below which a turning point ends the following of the path. Descents from 3e-2 ended ten times higher."""
+
+REACH = 0.1
+"""Residual above which a descent is not tried: from there it ends in a local minimum of no meaning."""
+
+LOWER = 1.0 / 3.0
+"""Share of the residual of the last descent's first point to which the path must lead before the next."""
+
+PATIENCE = 300
+"""Factorisations along the path without a lower point after which it is given up."""
+
+SOLVED = 1e-6
+"""Residual of a state of the exact law."""
+
+FIRST_POLISH = 1e-3
+"""Residual from which exact steps are tried, once a decade."""
+
+MOST_DESCENT = 300
+"""Factorisations of a descent."""
+
+STALL, GAIN = 60, 0.8
+"""A descent ends where the residual has not fallen to this share within so many steps."""
+
+
+@dataclass(frozen=True)
+class Start:
+    """One way to begin: pull κ towards the gravity state, size and seed of the noise.
+
+    descends : whether a descent follows where the path turns; else the try ends there
+    """
+
+    kappa: float
+    noise: float
+    seed: int
+    descends: bool = True
+
+
+@dataclass(frozen=True)
+class Moment:
+    """Where a try has come to, for the log: factorisations, state, σ, length of the last step."""
+
+    factorizations: int
+    state: LawState
+    sigma: float
+    step: float
+
+
+@dataclass
+class Try:
+    """A try under way, with the best it has found.
+
+    watch  : called at every step
+    late   : whether the time is over
+    wanted : residual of a state with which the path is not taken up again, and above ``SOLVED`` not followed further
+    sharp  : residual of a state with which the path is not followed further, where that is below ``EXACT``
+    """
+
+    program: Program
+    pattern: MatrixMap
+    stiffness: Stiffness
+    most: int
+    watch: Callable[[Moment], None]
+    late: Callable[[], bool]
+    wanted: float = SOLVED
+    sharp: float = EXACT
+    factorizations: int = 0
+    best: LawState | None = None
+    started: float = field(default_factory=time.perf_counter)
+    _polish_at: float = FIRST_POLISH
+
+    def over(self) -> bool:
+        """Whether the state is exact, or factorisations or time are used up."""
+        enough = self.wanted if self.wanted > SOLVED else min(EXACT, self.sharp)
+        exact = self.best is not None and self.best.residual <= enough
+        return exact or self.factorizations >= self.most or self.late()
+
+    def solved(self) -> bool:
+        """Whether a state of the exact law has been found, or one as rough as asked for."""
+        return self.best is not None and self.best.residual <= self.wanted
+
+    def reached(self, point: PathVector, step: float) -> LawState:
+        """Take note of a point, and try exact steps from it once a decade; the state it stands for."""
+        state = state_of(self.program, point)
+        self.keep(state)
+        self.watch(Moment(self.factorizations, state, float(np.exp(point.log_sigma)), step))
+        if state.residual < self._polish_at:
+            self._polish_at = state.residual / 10.0
+            self.polish(state, STEPS[:1])
+        return state
+
+    def keep(self, state: LawState) -> None:
+        """Remember the state that fits the law best."""
+        if self.best is None or state.residual < self.best.residual:
+            self.best = state
+
+    def polish(self, state: LawState, sizes: tuple[float, ...]) -> None:
+        """Steps of the exact law from a state."""
+        exact, used = polished(self.program, self.stiffness, state, sizes)
+        self.factorizations += used
+        self.keep(exact)
+
+
+@dataclass
+class _Walk:
+    """The path on which a try is, where it is lowest, the residual of the last descent's start, and what was spent."""
+
+    stages: Iterator[Stage]
+    lowest: PathVector | None = None
+    residual: float = float("inf")
+    descended: float = float("inf")
+    folds: int = 0
+    factorizations: int = 0
+
+
+@np.errstate(over="ignore", divide="ignore", invalid="ignore")  # what is not finite is seen and given up
+def go(attempt: Try, begin: Start, anchor: FloatArray | None) -> None:
+    """Carry out a try; what it finds is kept in ``attempt``."""
+    path = central_path(attempt.program, begin.noise, begin.seed, anchor, begin.kappa)
+    walk = _Walk(follow(path, attempt.pattern, first_point(path), attempt.most))
+    near = NEAR if begin.descends else float("inf")
+    while _goes_on(attempt, walk, near) and begin.descends:
+        _descent(attempt, path, walk)
+        if attempt.over() or attempt.solved():
+            break
+        near = LOWER * walk.residual
+    else:  # the path has come to an end, whichever
+        if begin.descends and not attempt.over() and not attempt.solved():
+            _descent(attempt, path, walk)
+    if attempt.best is not None and not attempt.over():
+        attempt.polish(attempt.best, STEPS)
+
+
+def _goes_on(attempt: Try, walk: _Walk, near: float) -> bool:
+    """Follow the path to a turning point where the residual has been below ``near``; false where it ends before."""
+    since = walk.factorizations
+    for stage in walk.stages:
+        attempt.factorizations += stage.factorizations - walk.factorizations
+        walk.factorizations = stage.factorizations
+        state = attempt.reached(stage.point, stage.step)
+        turned, walk.folds = stage.folds > walk.folds, stage.folds
+        if state.residual < walk.residual:
+            walk.lowest, walk.residual, since = stage.point, state.residual, stage.factorizations
+        if state.residual <= END_OF_PATH or attempt.over():
+            return False
+        if turned and walk.residual < near:
+            return True
+        if walk.residual < NEAR and stage.factorizations - since > PATIENCE:
+            return False
+    return False
+
+
+def _descent(attempt: Try, path: CentralPath, walk: _Walk) -> None:
+    """Descend from the lowest point of the path until nothing is gained any more."""
+    if walk.lowest is None or walk.residual > REACH or walk.residual >= walk.descended:
+        return
+    walk.descended = walk.residual
+    lowest, waited = float("inf"), 0
+    for point in descend(path, attempt.pattern, walk.lowest, MOST_DESCENT):
+        attempt.factorizations += 1
+        state = attempt.reached(point, float("nan"))
+        if state.residual <= END_OF_PATH or attempt.over():
+            return
+        lowest, waited = (state.residual, 0) if state.residual < GAIN * lowest else (lowest, waited + 1)
+        if waited > STALL:
+            return

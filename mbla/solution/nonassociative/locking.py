@@ -1,0 +1,112 @@
+"""The proof that a structure locks: contact forces that carry every multiple of the live load.
+
+Forces z that balance the live load alone, A z + f_L = 0, and stay within the yield conditions however often they are
+taken (‖T‖ ≤ μN, without cohesion and tension, none where the joint can crush) carry every load factor λ > 0: added λ
+times to forces that carry the dead load they stay within the yield conditions, because those are convex.
+
+They are found as the least forces of that kind, with a little less friction than there is so that they lie inside the
+cones, and then brought to exact equilibrium (``force_repair``). They are evaluated by other code:
+:mod:`mbla.solution.verification.verify_lock`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from mbla.arrays import FloatArray
+from mbla.program.program import Program
+from mbla.program.reductions.guided import guided_program
+from mbla.program.static import gravity_form
+from mbla.program.yield_conditions.limits import YieldLimits
+from mbla.solution.associative.force_repair import repaired_forces
+from mbla.solution.cone_solvers.choice import interior_point_solver
+from mbla.solution.cone_solvers.cone_solution import Log
+from mbla.solution.nonassociative.boundedness import lasting_limits
+from mbla.solution.settings import SolverSettings
+from mbla.solution.solution import Status
+
+FRICTIONS = (0.99, 0.9999, 1.0)
+"""Shares of the friction with which forces are looked for: the less, the further inside the cones."""
+
+NEGLIGIBLE = (0.0, 1e-9, 1e-6)
+"""Shares of the largest force below which points are left out: where forces must be zero, behind joints that crush, the
+solver leaves some, and there are none inside the cones to repair them to."""
+
+
+def locking_forces(parts: Sequence[Program], settings: SolverSettings, log: Log) -> FloatArray | None:
+    """Contact forces of the model, (n_points, 3), in balance with its live load alone, by the parts of one load case.
+
+    None where none were found that can be proved: the live load brings collapse, or the structure locks by a hair.
+    """
+    loaded = [program for program in parts if np.any(program.live_load)]
+    for share in FRICTIONS:
+        found = [_least_forces(program, share, settings, log) for program in loaded]
+        forces = [_lifted(program, x) for program, x in zip(loaded, found, strict=True) if x is not None]
+        if not forces or len(forces) < len(loaded):
+            continue
+        whole = _root(loaded[0])
+        exact = _in_balance(guided_program(whole, whole.allowed), np.sum(forces, axis=0))
+        if exact is not None:
+            return whole.scaling.forces(exact) / whole.scaling.live
+    return None
+
+
+def locks_at_dilatancy(program: Program, settings: SolverSettings, log: Log) -> bool:
+    """Whether forces within cones of the dilatancy angles carry every multiple of the live load, as the solver finds.
+
+    Then no mechanism that dilates by these angles gains work from the live load.
+    """
+    flat = replace(program, limits=replace(program.limits, friction=program.limits.dilatancy))
+    return any(_least_forces(flat, share, settings, log) is not None for share in FRICTIONS)
+
+
+def _least_forces(program: Program, share: float, settings: SolverSettings, log: Log) -> FloatArray | None:
+    """Least forces, (n_points, components), with a share of the friction."""
+    lasting = lasting_limits(program.limits)
+    inside = replace(program, dead_load=program.live_load, limits=replace(lasting, friction=share * lasting.friction))
+    form = gravity_form(_without_points(inside, np.isinf(lasting.compression)))
+    solution = interior_point_solver(form.cone_program, settings, log).solve(1, 0.0)
+    if solution.status not in (Status.SOLVED, Status.APPROXIMATE):
+        return None
+    forces = np.zeros((program.n_points, program.components))
+    forces[np.isinf(lasting.compression)] = form.forces(solution.x)
+    return forces
+
+
+def _in_balance(whole: Program, forces: FloatArray) -> FloatArray | None:
+    """Forces that balance the live load exactly, from some that nearly do, (n_points, 3)."""
+    lasting = lasting_limits(whole.limits)
+    alone = replace(whole, dead_load=np.zeros_like(whole.dead_load), limits=lasting)
+    size = np.linalg.norm(forces, axis=1)
+    for share in NEGLIGIBLE:
+        kept = np.isinf(lasting.compression) & (size >= share * size.max(initial=0.0))
+        repaired = repaired_forces(_without_points(alone, kept), forces[kept], 1.0)
+        if repaired is not None and repaired[1] > 0.0:
+            exact = np.zeros_like(forces)
+            exact[kept] = repaired[0] / repaired[1]
+            return exact
+    return None
+
+
+def _without_points(program: Program, kept: FloatArray) -> Program:
+    """The program with the chosen points, (n_points,), alone."""
+    columns = np.flatnonzero(np.repeat(kept, program.components))
+    limits = YieldLimits(*(values[kept] for values in vars(program.limits).values()))
+    return replace(program, equilibrium_matrix=program.equilibrium_matrix[:, columns], limits=limits)
+
+
+def _lifted(program: Program, forces: FloatArray) -> FloatArray:
+    """Forces of a program in that of the whole model, non-dimensional, (n_points, 3)."""
+    while program.reduction is not None:
+        forces = (program.reduction.forces @ forces.ravel()).reshape(-1, program.reduction.full.components)
+        program = program.reduction.full
+    return forces
+
+
+def _root(program: Program) -> Program:
+    while program.reduction is not None:
+        program = program.reduction.full
+    return program

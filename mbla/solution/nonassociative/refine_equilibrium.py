@@ -1,0 +1,118 @@
+"""States of the exact law made sharp for blocks that carry little beside others.
+
+The schemes without normality stop when the unbalanced force is nothing beside the mean load of a block. For a block a
+hundred million times lighter than its neighbour that may be a share of all it carries, and of the load factor at which
+it falls. Such a state is taken further, by
+
+1. steps of the exact law (``joint_law``) from its own forces, to the rounding of the forces instead of
+   that of the mean load. Measured on a block of weight 1 that is pushed past one of 1e8: 0.399956 becomes 0.4;
+2. the associative state, where forces and mechanism fit this law as they are: nothing slides in it that would have to
+   lift. On a light block upon a heavy one, 1e8 apart, the steps break down, and blocks rock at the associative factor.
+
+What fits best is kept, judged block by block. The same is tried where a sequence fell short of the law: a pile of 50
+blocks that overhang exactly as far as they can, where any of 49 upper parts may tip, has no path to one of them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+
+import numpy as np
+
+from mbla.arrays import FloatArray
+from mbla.program.program import Program
+from mbla.solution.associative.bounds import ZERO_FACTOR
+from mbla.solution.associative.force_repair import carried_loads
+from mbla.solution.associative.solve_associative import AssociativeResult
+from mbla.solution.linear_algebra.stiffness import stiffness_of
+from mbla.solution.mechanics import lifted
+from mbla.solution.nonassociative.joint_law import exact_step
+from mbla.solution.nonassociative.law_state import LawState, SequenceResult, law_state
+from mbla.solution.nonassociative.proximal import SOLVED
+from mbla.solution.solution import Status
+
+BALANCED = 1e-8
+"""Unbalanced force, over what the block carries, that needs no sharpening. On a light block upon one of 1e6 times its
+weight 9e-8 were worth 9e-7 of the load factor."""
+
+NEAR = 1e-5
+"""Relative difference of load factors up to which the associative state is the same but sharper."""
+
+FELL_SHORT = (Status.APPROXIMATE, Status.NOT_VERIFIED)
+"""Of sequences that ended without a state of the law."""
+
+STEP, MOST_STEPS, FACTORIZATIONS = 0.03, 3, 12
+"""ρ ‖x‖² of a step in the unit of the part, as in the proximal scheme; steps, and factorisations of each."""
+
+
+def sharpened(
+    program: Program, associative: AssociativeResult, slope: FloatArray | float, sequence: SequenceResult
+) -> SequenceResult:
+    """The sequence with a state that light blocks fit too; as given where they do, or where none fits better.
+
+    slope : (n_points,) tangent of the dilatancy angle, or 0
+    """
+    if sequence.state is None or program.guided:
+        return sequence
+    fell_short = sequence.status in FELL_SHORT or sequence.state.residual > SOLVED
+    if not fell_short and not imbalance(program, sequence.state) > BALANCED:
+        return sequence
+    best, start = sequence.state, misfit(program, sequence.state)
+    least = start
+    for state in _candidates(program, associative, slope, sequence.state):
+        found = misfit(program, state)
+        if found < least:
+            best, least = state, found
+        if least <= BALANCED:
+            break
+    if best is sequence.state:
+        return sequence
+    if not fell_short:
+        return replace(sequence, state=best)
+    if least > SOLVED:
+        return sequence
+    return replace(sequence, status=Status.SOLVED, state=best, reason="", spread=None, remarks=(), asked=None)
+
+
+def misfit(program: Program, state: LawState) -> float:
+    """Residual of a state with its unbalanced force, the latter block by block."""
+    return max(state.residual, imbalance(program, state))
+
+
+def imbalance(program: Program, state: LawState) -> float:
+    """Largest unbalanced force of a block over what it has to balance, at most the mean load of a block."""
+    while program.halved and program.reduction is not None:
+        state, program = lifted(program, state), program.reduction.full
+    left = np.asarray(
+        program.equilibrium_matrix @ state.forces.ravel() + program.dead_load + state.load_factor * program.live_load
+    )
+    rows = 3 if program.components == 2 else 6
+    carried = carried_loads(program, state.forces).reshape(-1, rows).max(axis=1)
+    scale = np.clip(carried, np.finfo(float).tiny, 1.0)
+    return float((np.abs(left).reshape(-1, rows).max(axis=1) / scale).max(initial=0.0))
+
+
+def _candidates(
+    program: Program, associative: AssociativeResult, slope: FloatArray | float, state: LawState
+) -> Iterator[LawState]:
+    """States near the given one, made by steps of the exact law; where none fits, the associative one under this law.
+
+    The associative one comes last, and where the given one fits well only if it has the same load factor: it may be
+    another state, of a higher one, and not just a sharper one.
+    """
+    stiffness, slopes = stiffness_of(program), np.broadcast_to(slope, program.n_points)
+    factor, least = state.load_factor, misfit(program, state)
+    for _ in range(MOST_STEPS):
+        rho = STEP * program.own_unit / max(float((state.forces**2).sum()), np.finfo(float).tiny)
+        step = exact_step(
+            stiffness, slopes, state.forces, rho, state.velocities, state.load_factor, FACTORIZATIONS, balanced=0.0
+        )
+        state = law_state(program, slope, step.forces, step.velocities, step.load_factor)
+        least = min(least, misfit(program, state))
+        yield state
+    start = associative.state
+    if start is not None and (least > SOLVED or abs(start.load_factor - factor) <= NEAR * abs(factor)):
+        size = max(abs(start.load_factor), ZERO_FACTOR * program.dead_over_live)  # what its residual is relative to
+        found = law_state(program, slope, start.forces, start.velocities, size)
+        yield replace(found, load_factor=start.load_factor)

@@ -1,0 +1,108 @@
+"""From parts that cannot interact to the whole structure: the part that collapses first gives the load factor.
+
+The others are at rest. What they carry at that load factor is found by one program each: the least contact forces, in
+the sense of ½ ‖x‖², in equilibrium with f_D + λ f_L.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from mbla.arrays import FloatArray
+from mbla.program.program import Program
+from mbla.program.static import gravity_form
+from mbla.solution.cone_solvers.choice import interior_point_solver
+from mbla.solution.cone_solvers.cone_solution import Log
+from mbla.solution.mechanics import lifted
+from mbla.solution.nonassociative.law_state import LawState
+from mbla.solution.settings import SolverSettings
+from mbla.solution.solution import Status
+
+SAME_FACTOR = 1e-9
+"""Relative difference of load factors within which a part is about to collapse as well: it has the forces of its own
+collapse. With what 3e-8 leaves unbalanced no static bound was found of a wall whose forces are at their limits."""
+
+NEAR = 1e-3
+"""Relative difference up to which a part collapses soon after. At the load factor a program that looks for the least
+forces has hardly an inside then, and its answer was too rough for a static bound."""
+
+BELOW = 1e-2
+"""Share of the load factor by which such a part is looked at below it. Forces of there and of its own collapse,
+combined to the load factor between the two, balance the loads and keep within the yield conditions as both do."""
+
+
+def whole_state(
+    parts: Sequence[Program],
+    part: int,
+    state: LawState,
+    settings: SolverSettings,
+    log: Log,
+    collapse: Sequence[LawState | None] = (),
+) -> tuple[Program, LawState] | None:
+    """A state of one part as one of the whole model, the other parts at rest; None where these do not carry it.
+
+    A single part is returned as it is.
+
+    collapse : of each part its own state at collapse, None where there is none; nothing where none is known
+    """
+    if len(parts) == 1:
+        return parts[0], state
+    total: LawState | None = None
+    program = parts[part]
+    for number, other in enumerate(parts):
+        own: LawState | None = state
+        if number != part:
+            own = _resting(other, collapse[number] if collapse else None, state.load_factor, settings, log)
+        if own is None:
+            return None
+        program, own = to_full(other, own)
+        if total is None:
+            total = own
+        else:
+            forces, velocities = total.forces + own.forces, total.velocities + own.velocities
+            total = LawState(forces, velocities, state.load_factor, state.residual)
+    assert total is not None
+    return program, total
+
+
+def _resting(
+    program: Program, collapse: LawState | None, load_factor: float, settings: SolverSettings, log: Log
+) -> LawState | None:
+    """Forces of a part that does not move at a load factor; from its own collapse where that is near."""
+    apart = np.inf if collapse is None else abs(collapse.load_factor - load_factor)
+    if collapse is not None and apart <= SAME_FACTOR * abs(load_factor):
+        return _without_motion(collapse, collapse.forces, load_factor)
+    if collapse is not None and apart <= NEAR * abs(load_factor):
+        lower = load_factor - BELOW * abs(load_factor)
+        below = at_rest(program, lower, settings, log)
+        if below is not None:
+            share = (load_factor - lower) / (collapse.load_factor - lower)
+            return _without_motion(collapse, (1.0 - share) * below.forces + share * collapse.forces, load_factor)
+    return at_rest(program, load_factor, settings, log)
+
+
+def _without_motion(collapse: LawState, forces: FloatArray, load_factor: float) -> LawState:
+    return LawState(forces, np.zeros_like(collapse.velocities), load_factor, collapse.residual)
+
+
+def to_full(program: Program, state: LawState) -> tuple[Program, LawState]:
+    """The program of the whole model, and the state in it."""
+    while program.reduction is not None:
+        state, program = lifted(program, state), program.reduction.full
+    return program, state
+
+
+def at_rest(program: Program, load_factor: float, settings: SolverSettings, log: Log) -> LawState | None:
+    """Least forces that carry the load, no motion; None where the solver finds none."""
+    load = program.dead_load + load_factor * program.live_load
+    at_rest = np.zeros_like(program.dead_load)
+    if not np.any(load):
+        return LawState(np.zeros((program.n_points, program.components)), at_rest, load_factor, 0.0)
+    form = gravity_form(replace(program, dead_load=load))
+    solution = interior_point_solver(form.cone_program, settings, log).solve(0, 0.0)
+    if solution.status not in (Status.SOLVED, Status.APPROXIMATE):
+        return None
+    return LawState(form.forces(solution.x), at_rest, load_factor, 0.0)

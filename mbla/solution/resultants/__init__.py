@@ -1,0 +1,1 @@
+"""Conditions on resultants of whole interfaces: torsion and crushing, associative and without normality."""

@@ -1,0 +1,102 @@
+"""States of the program with the convex contact model, and how badly they fit the law of points and interfaces."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+import scipy.sparse as sp
+
+from mbla.arrays import FloatArray
+from mbla.program.convex import ConvexProgram
+from mbla.program.convex.crushing import crushing_violation
+from mbla.program.convex.friction_limit import curve_size, curve_support, friction_limit
+from mbla.program.program import Program
+from mbla.program.yield_conditions import YieldLimits, yield_violation
+from mbla.solution.verification.crushing_laws import crushing_power
+from mbla.solution.verification.interface_laws import InterfaceLaws
+
+
+@dataclass(frozen=True)
+class ConvexState:
+    """A state, non-dimensional.
+
+    forces     : (n_points, 3)
+    velocities : (n_block_rows,)
+    motions    : (n_interfaces, 2, 6) of the interfaces by torsion and by crushing
+    residual   : how badly it fits the law
+    """
+
+    forces: FloatArray
+    velocities: FloatArray
+    motions: FloatArray
+    load_factor: float
+    residual: float
+
+
+def laws_of(convex: ConvexProgram) -> InterfaceLaws:
+    """Strengths of the interfaces in the program's units."""
+    n, torsion = len(convex.shapes.radii), convex.torsion
+    friction, cohesion, tension = np.zeros(n), np.zeros(n), np.zeros(n)
+    friction[torsion.interfaces], cohesion[torsion.interfaces] = torsion.friction, torsion.cohesion
+    strength = np.full(n, np.inf)
+    crushing = convex.crushing
+    strength[crushing.interfaces], tension[crushing.interfaces] = crushing.strength, crushing.tension
+    shear = (friction > 0) | (cohesion > 0)
+    return InterfaceLaws(convex.shapes, friction, cohesion, tension, strength, shear, np.isfinite(strength))
+
+
+def with_motions(program: Program, motions: sp.csr_array) -> Program:
+    """The program with motions of interfaces behind the velocities of the blocks: v = Aᵀu − motionsᵀ w."""
+    none = np.zeros(motions.shape[0])
+    return replace(
+        program,
+        equilibrium_matrix=sp.csr_array(sp.vstack([program.equilibrium_matrix, -motions])),
+        dead_load=np.concatenate([program.dead_load, none]),
+        live_load=np.concatenate([program.live_load, none]),
+    )
+
+
+def state_without_dilatancy(
+    convex: ConvexProgram, forces: FloatArray, velocities: FloatArray, motions: FloatArray, load_factor: float
+) -> ConvexState:
+    """A state with its residual, the largest of three.
+
+    Excess over the conditions of points and interfaces, in mean block loads; closing velocity of points by their own
+    motion over the largest contact speed; share of the power balance that the law leaves unexplained.
+    """
+    program, limits = convex.points, convex.torsion
+    moved = (program.equilibrium_matrix.T @ velocities).reshape(-1, 3)
+    own = moved - (convex.resultants.T @ motions.sum(axis=1).ravel()).reshape(-1, 3)
+    speed = max(float(np.linalg.norm(moved, axis=1).max(initial=0.0)), 1e-300)
+    closing = float(np.where(np.isfinite(program.limits.compression), 0.0, -own[:, 0]).max(initial=0.0)) / speed
+    of_points, at_points = _unexplained_at_points(program.limits, forces, own)
+
+    resultants = (convex.resultants @ forces.ravel()).reshape(-1, 6)
+    size = friction_limit(limits, resultants)
+    r, motion = resultants[limits.interfaces], motions[limits.interfaces, 0]
+    slip, twist = np.hypot(motion[:, 1], motion[:, 2]), np.abs(motion[:, 3]) * limits.radii
+    rest = np.maximum(size.total - size.share, 0.0)
+    of_torsion = size.share * curve_support(slip, twist, limits.thetas) + rest * slip
+    beyond = np.maximum(np.hypot(r[:, 1], r[:, 2]) - rest, 0.0)
+    twisting = curve_size(beyond, np.abs(r[:, 3]) / limits.radii, limits.thetas) - size.share
+    of_crushing = crushing_power(laws_of(convex), motions[:, 1])
+
+    unexplained = at_points + float(np.abs(of_torsion + (r * motion).sum(axis=1)).sum())
+    unexplained += float(np.abs(of_crushing + (resultants * motions[:, 1]).sum(axis=1)).sum())
+    dead_power = abs(float(program.dead_load @ velocities))
+    balance = max(abs(load_factor), dead_power, of_points + float(of_torsion.sum()), 1e-300)
+    excess = [yield_violation(forces, program.limits), twisting, crushing_violation(convex.crushing, resultants)]
+    worst = max(float(part.max(initial=0.0)) for part in excess)
+    return ConvexState(forces, velocities, motions, load_factor, max(worst, closing, unexplained / balance))
+
+
+def _unexplained_at_points(limits: YieldLimits, forces: FloatArray, own: FloatArray) -> tuple[float, float]:
+    """Power dissipated by sliding, and power that opening, sliding and crushing of points leave unexplained."""
+    sliding = np.hypot(own[:, 1], own[:, 2])
+    strength = limits.friction * forces[:, 0] + limits.cohesion
+    capacity = np.where(np.isfinite(limits.compression), limits.compression, forces[:, 0])
+    unexplained = np.abs(strength * sliding + (forces[:, 1:] * own[:, 1:]).sum(axis=1))
+    unexplained += np.abs((forces[:, 0] + limits.tension) * np.maximum(own[:, 0], 0.0))
+    unexplained += np.abs((capacity - forces[:, 0]) * np.maximum(-own[:, 0], 0.0))
+    return float(np.abs(strength) @ sliding), float(unexplained.sum())

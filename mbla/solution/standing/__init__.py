@@ -1,0 +1,1 @@
+"""Whether a structure stands under its dead load, and along its load path."""

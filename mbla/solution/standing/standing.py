@@ -1,0 +1,131 @@
+"""Whether the structure stands under its dead load alone, before any live load.
+
+That an equilibrium exists is weaker than that the structure stands. A bar between two fixed walls, touching both with
+vertical faces, has an equilibrium for every friction above zero, since any thrust may be assumed; it falls unless
+someone presses the walls together. Coupled rigid-block analysis rejects such states (Kao et al. 2022,
+doi:10.1016/j.cad.2022.103216); limit analysis does not, and reports a load factor that means nothing. Here equilibrium
+has to arise from the assembly without stress, by the exact law of the joints: see ``weak_spring_continuation``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from mbla.arrays import FloatArray
+from mbla.process.sharing import shared
+from mbla.process.stopwatch import timed
+from mbla.program.program import Program
+from mbla.solution.mechanics import motion_of
+from mbla.solution.settings import SolverSettings
+from mbla.solution.solution import Standing, StandingResult
+from mbla.solution.standing.weak_spring_continuation import Outcome, Weakening, weaken_springs
+
+YES = "the dead load is carried from the stress-free assembly"
+NO_DEAD_LOAD = "there is no dead load to carry"
+SELF_STRESS = (
+    "from the stress-free assembly it falls: it stands only if forces are locked in between the blocks beforehand"
+)
+DOUBTFUL = "whether it stands from the stress-free assembly is doubtful"
+NO = "no contact forces carry the dead load"
+UNKNOWN = "from the stress-free assembly it falls; whether it could stand with forces locked in was not decided"
+
+GRAVEST_FIRST = (Standing.NO, Standing.SELF_STRESS, Standing.DOUBTFUL, Standing.YES)
+
+
+@dataclass(frozen=True)
+class DeadLoadState:
+    """Standing, and the forces that arise from the stress-free assembly.
+
+    forces        : (n_points, components), non-dimensional, in balance with the dead load up to 1e-6 of each block's;
+                    None where they do not balance it
+    displacements : (n_rows,) that bring them about: what ``verify_standing`` needs beside the forces
+    """
+
+    standing: StandingResult
+    forces: FloatArray | None
+    displacements: FloatArray | None
+
+
+@timed("standing")
+def stress_free_state(program: Program, settings: SolverSettings) -> Weakening:
+    """What becomes of the dead load on the stress-free assembly: the same whatever the live load and the flow rule."""
+    return _stress_free(program.without_live_load(), settings)
+
+
+@shared("standing")
+def _stress_free(program: Program, settings: SolverSettings) -> Weakening:
+    """``stress_free_state`` of a program that has no live load."""
+    if not np.any(program.dead_load):
+        forces = np.zeros((program.n_points, program.components))
+        displacements = np.zeros_like(program.dead_load)
+        return Weakening(Outcome.CARRIED, None, 0.0, forces=forces, displacements=displacements)
+    return weaken_springs(program, "dead_load", program.limits, settings)
+
+
+def assess_dead_load(
+    program: Program, settings: SolverSettings, carried: bool | None = True, known: Weakening | None = None
+) -> DeadLoadState:
+    """Assess the dead load of a program, reduced or not.
+
+    carried : whether some contact forces within the yield conditions are known to carry the dead load; None where that
+              was not decided. False needs no springs: see ``standing_without_equilibrium``
+    known   : ``stress_free_state`` of the program where it was found before
+    """
+    weakening = known or stress_free_state(program, settings)
+    if not np.any(program.dead_load):
+        nothing = StandingResult(Standing.YES, None, NO_DEAD_LOAD)
+        return DeadLoadState(nothing, weakening.forces, weakening.displacements)
+    if weakening.outcome is Outcome.CARRIED:
+        return DeadLoadState(StandingResult(Standing.YES, None, YES), weakening.forces, weakening.displacements)
+    verdict, reason = (Standing.SELF_STRESS, SELF_STRESS) if carried else (Standing.NO, NO)
+    if carried is None:
+        verdict, reason = Standing.DOUBTFUL, UNKNOWN
+    if weakening.outcome is Outcome.UNDECIDED:
+        verdict, reason = Standing.DOUBTFUL, f"{DOUBTFUL}: {weakening.reason}"
+    return DeadLoadState(StandingResult(verdict, weakening.block, reason), None, None)
+
+
+def settlement_of(program: Program, displacements: FloatArray) -> FloatArray:
+    """Displacements and rotations of all blocks on joints of unit stiffness, (n_blocks, 6), zero where fixed.
+
+    With a force of 1 per length of 1 in the deck's units, contact forces are what these displacements bring about; with
+    joints k times as stiff everything moves 1/k as far. Those of parts add up. Where points are as stiff as their
+    shares (:mod:`mbla.program.reductions.shares`) 1 is the stiffest of them; joints of light blocks with units of their
+    own are softer by the square of these.
+    """
+    stiffest = 1.0
+    while program.reduction is not None:
+        unit = float(program.reduction.velocities.power(2).sum(axis=0).max(initial=0.0)) or 1.0  # 1/f² of a part
+        most = float(program.reduction.forces.power(2).sum(axis=1).max(initial=0.0)) * unit
+        stiffest *= max(most, 1.0) / unit
+        displacements, program = program.reduction.velocities @ displacements, program.reduction.full
+    scaling = program.scaling
+    return program.mechanism(displacements) * (stiffest * scaling.force**2 / scaling.live)
+
+
+def worst_standing(results: Sequence[StandingResult]) -> StandingResult:
+    """Standing of a structure from that of its parts: the gravest, the first of several; forces of all together."""
+    worst = min(results, key=lambda result: GRAVEST_FIRST.index(result.verdict))
+    if worst.verdict is not Standing.YES:
+        return replace(worst, forces=None, settlement=None)
+    forces = [result.forces for result in results if result.forces is not None]
+    settlements = [result.settlement for result in results if result.settlement is not None]
+    if len(forces) < len(results) or len(settlements) < len(results):
+        return replace(worst, forces=None, settlement=None)
+    return replace(worst, forces=np.sum(forces, axis=0), settlement=np.sum(settlements, axis=0))
+
+
+def standing_without_equilibrium(program: Program, certificate: FloatArray) -> StandingResult:
+    """What a motion, (n_rows,), in which the dead load does more work than the joints dissipate says of standing.
+
+    The block named is the one whose load does most of that work.
+    """
+    motion = motion_of(program, certificate)
+    while program.reduction is not None:
+        program = program.reduction.full
+    load = (program.dead_load / program.scaling.row).reshape(-1, 6)
+    work = (load * motion[program.free]).sum(axis=1)
+    return StandingResult(Standing.NO, int(program.free[work.argmax()]), NO)

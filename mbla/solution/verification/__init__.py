@@ -1,0 +1,1 @@
+"""Everything that a solution claims, recomputed by code that did not compute it, without a solver."""

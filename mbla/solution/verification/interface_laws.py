@@ -1,0 +1,171 @@
+"""Conditions of the convex contact model on resultants and motions, written a second time for verification.
+
+Closed forms in place of the rows of the cone program. With N' = N + f_t A, m = (−M_2, M_1), V = μN + cA:
+
+*Torsion.* R = μ N' w + (c − μ f_t) A, w the gauge of what is left of the area; t = max(‖T‖ − V + R, 0), m = |M_n|/ρ.
+The curve t² = (R' − m)(R' + (1 − θ) m) through (t, m) has the size
+
+    R' = ½ [θ m + √(θ² m² + 4 (1 − θ) m² + 4 t²)]
+
+and R' ≤ R is the condition. A motion with slip η, rotation ω and opening δ(x) = δ_0 + δ_1·x dissipates at most
+
+    c' A P + f_t A δ_0,     P = max of η·T + ρ ω m over the curve of size 1,     c' = c − μ f_t
+
+provided that δ(x) ≥ μ ‖η‖ + μ (P − ‖η‖) w(x) everywhere, that is at the corners of w's graph.
+
+Crushing is in :mod:`mbla.solution.verification.crushing_laws`.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from mbla.arrays import BoolArray, FloatArray
+from mbla.contacts.contacts import Contacts
+from mbla.model.model import Model
+from mbla.program.convex.friction_curve import rectangle_curve
+from mbla.program.convex.shapes import InterfaceShapes, interface_shapes
+
+
+@dataclass(frozen=True)
+class InterfaceLaws:
+    """Strengths of all interfaces in the deck's units, forces over the whole area.
+
+    shapes     : outlines, torsional radii
+    friction   : (n,) μ
+    cohesion   : (n,) cA
+    tension    : (n,) f_t A
+    strength   : (n,) (f_c + f_t) A, inf where unlimited
+    torsional  : (n,) false where the interface has no shear strength at all
+    crushable  : (n,) with a compressive strength
+    """
+
+    shapes: InterfaceShapes
+    friction: FloatArray
+    cohesion: FloatArray
+    tension: FloatArray
+    strength: FloatArray
+    torsional: BoolArray
+    crushable: BoolArray
+
+    @property
+    def own_cohesion(self) -> FloatArray:
+        """C' A = (c − μ f_t) A."""
+        return np.asarray(self.cohesion - self.friction * self.tension)
+
+
+def interface_laws(model: Model, contacts: Contacts, contact_model: str) -> InterfaceLaws:
+    """Strengths of all interfaces; only the convex contact model limits their torsion."""
+    laws = [model.joints[contacts.joint_names[joint]] for joint in contacts.joints]
+    shapes, areas = interface_shapes(contacts), contacts.areas
+    friction = np.array([law.friction for law in laws])
+    cohesion = np.array([law.cohesion for law in laws]) * areas
+    tension = np.array([law.tensile_strength for law in laws]) * areas
+    strength = np.array([law.compressive_strength for law in laws]) * areas + tension
+    return InterfaceLaws(
+        shapes=shapes,
+        friction=friction,
+        cohesion=cohesion,
+        tension=tension,
+        strength=strength,
+        torsional=(contact_model == "convex") & ((friction > 0) | (cohesion > 0)),
+        crushable=np.isfinite(strength),
+    )
+
+
+def torsion_excess(laws: InterfaceLaws, resultants: FloatArray) -> FloatArray:
+    """R' − R of every interface, negative inside, (n,) [force]; interfaces without shear strength have none."""
+    shear = np.hypot(resultants[:, 1], resultants[:, 2])
+    twist = np.abs(resultants[:, 3]) / laws.shapes.radii
+    total, share = shear_strength(laws, resultants)
+    beyond = np.maximum(shear - np.maximum(total - share, 0.0), 0.0)
+    theta = laws.shapes.thetas
+    size = 0.5 * (theta * twist + np.sqrt((theta * twist) ** 2 + 4.0 * (1.0 - theta) * twist**2 + 4.0 * beyond**2))
+    return np.where(laws.torsional, size - share, -np.inf)
+
+
+def shear_strength(laws: InterfaceLaws, resultants: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """V and R of every interface, (n,) [force]."""
+    total = laws.friction * resultants[:, 0] + laws.cohesion
+    reduced = laws.friction * _reduced_normal(laws, resultants) + laws.own_cohesion
+    return total, np.minimum(total, reduced)
+
+
+def moment_of(resultants: FloatArray) -> FloatArray:
+    """M = (−M_2, M_1): first moments of the normal stress along tangent 1 and tangent 2, (n, 2)."""
+    return np.column_stack([-resultants[:, 5], resultants[:, 4]])
+
+
+def _reduced_normal(laws: InterfaceLaws, resultants: FloatArray) -> FloatArray:
+    """N' w: the normal force over what is left of the area, in terms of torsional radius, (n,)."""
+    shapes, moment = laws.shapes, moment_of(resultants)
+    normal = resultants[:, 0] + laws.tension
+    offset = largest(shapes, (shapes.edge_slopes() * moment[shapes.interface_of_corner]).sum(axis=1))
+    rho, gradient, _ = _rectangle_terms(shapes)
+    arms = np.abs(np.einsum("nsj,nj->ns", shapes.axes, moment))
+    of_rectangle = 2.0 / rho * (gradient * arms).sum(axis=1)
+    return np.asarray(normal - np.where(shapes.rectangles, of_rectangle, offset))
+
+
+def _rectangle_terms(shapes: InterfaceShapes) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """ρ, gradient of ρ and sides, of a unit square where the interface is no rectangle."""
+    sides = np.where(shapes.rectangles[:, None], shapes.sides, 1.0)
+    rho, _, gradient = rectangle_curve(sides)
+    return rho, gradient, sides
+
+
+def largest(shapes: InterfaceShapes, of_corner: FloatArray) -> FloatArray:
+    """Largest value over the corners of each hull."""
+    if len(of_corner) == 0:
+        return np.zeros(0)
+    return np.asarray(np.maximum.reduceat(of_corner, shapes.start[:-1]))
+
+
+def curve_support(slip: FloatArray, twist: FloatArray, theta: FloatArray) -> FloatArray:
+    """P: greatest power of forces on the curve of size 1 with slip ‖η‖ and twist |ρω|, (n,)."""
+    inner = (2.0 * twist) ** 2 + ((2.0 - theta) * slip) ** 2
+    root = np.sqrt((theta * twist) ** 2 + (1.0 - theta) * inner)
+    round_part = inner / np.maximum(2.0 * (theta * twist + root), 1e-300)
+    return np.where(2.0 * twist <= theta * slip, slip, round_part)
+
+
+def torsion_power(laws: InterfaceLaws, motions: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """What torsional motions of interfaces dissipate at most, (n,), and what opening they lack, (n,).
+
+    motions : (n, 6) dual to the resultants. Normal forces N' add N' times the lack.
+    """
+    shapes = laws.shapes
+    slip = np.hypot(motions[:, 1], motions[:, 2])
+    support = curve_support(slip, np.abs(motions[:, 3]) * shapes.radii, shapes.thetas)
+    more = support - slip
+    rho, gradient, sides = _rectangle_terms(shapes)
+    lack = laws.friction * support - motions[:, 0]  # at the centroid
+    at_corner = laws.friction * slip - motions[:, 0] + largest(shapes, -tilt(shapes, motions))
+    lack = np.maximum(lack, at_corner)
+    for side in (0, 1):
+        middle = np.abs(np.einsum("nj,nj->n", shapes.axes[:, side], opening_slope(motions))) * 0.5 * sides[:, side]
+        left = 1.0 - gradient[:, side] * sides[:, side] / rho
+        at_middle = laws.friction * (slip + more * left) - motions[:, 0] + middle
+        lack = np.where(shapes.rectangles, np.maximum(lack, at_middle), lack)
+    dissipated = laws.own_cohesion * support + laws.tension * motions[:, 0]
+    return np.where(laws.torsional, dissipated, 0.0), np.where(laws.torsional, lack, np.abs(motions).max(axis=1))
+
+
+def opening_slope(motions: FloatArray) -> FloatArray:
+    """Gradient of the opening along tangent 1 and tangent 2, (n, 2)."""
+    return np.column_stack([-motions[:, 5], motions[:, 4]])
+
+
+def tilt(shapes: InterfaceShapes, motions: FloatArray) -> FloatArray:
+    """Opening at the corners of the hulls by rotation alone, (n_corners,)."""
+    return np.asarray((shapes.corners * opening_slope(motions)[shapes.interface_of_corner]).sum(axis=1))
+
+
+def sliding_power(laws: InterfaceLaws, resultants: FloatArray, motions: FloatArray) -> FloatArray:
+    """What slip and twist dissipate at given resultants where they do not dilate, (n,)."""
+    total, share = shear_strength(laws, resultants)
+    slip = np.hypot(motions[:, 1], motions[:, 2])
+    support = curve_support(slip, np.abs(motions[:, 3]) * laws.shapes.radii, laws.shapes.thetas)
+    return np.where(laws.torsional, np.maximum(share, 0.0) * support + np.maximum(total - share, 0.0) * slip, 0.0)

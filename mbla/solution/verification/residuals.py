@@ -1,0 +1,179 @@
+"""Residuals of forces and mechanism under a flow rule, relative to loads, speeds and power.
+
+With s = ‖v_T‖ and ψ the dilatancy angle that the flow rule claims, the complementarity residual is the share of the
+power balance, hence of the load factor, that the rule leaves unexplained::
+
+    Σ |(N + f_t)(v_N − s tan ψ)₊| + Σ |(f_c − N)(s tan ψ − v_N)₊| + Σ |(μN + c) s + T·v_T|
+    over   max(|λ|, |f_D·u|, Σ (μN + c) s, least factor)
+
+where the second sum is |N (s tan ψ − v_N)₊| at points that cannot crush, and the least factor
+(``load_scale``) gives structures whose load factor is zero a scale. The third sum by itself is the
+slip residual: sliding that is not against the friction, or not with all of it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from mbla.arrays import FloatArray
+from mbla.contacts.contacts import Contacts
+from mbla.model.model import LoadCase, Model
+from mbla.program.assemble import yield_limits
+from mbla.program.yield_conditions import YieldLimits, yield_violation
+from mbla.solution.solution import Mechanics
+from mbla.solution.verification.guides import left_to_balance, off_guides
+from mbla.solution.verification.load_scale import LoadScale, load_scale
+from mbla.solution.verification.statics import contact_resultants, contact_velocities, power
+
+AT_REST = 1e-9
+"""contact speed over the speed of blocks up to which a joint does not move: the accuracy of the cone programs"""
+
+
+@dataclass(frozen=True)
+class Residuals:
+    """Relative residuals of one pair of forces and mechanism.
+
+    equilibrium     : largest unbalanced force, or moment over the lever arm, over the mean load of a block; over what
+                      the block itself has to balance where that is less
+    yielding        : largest excess of a force over its yield conditions, over the same of the lighter block
+    tension         : the part of it that is tension beyond the tensile strength
+    penetration     : largest closing velocity over the largest contact speed, where the joint cannot crush, 0 where no
+                      joint moves with the blocks; or the
+                      largest velocity of a block against its guide, over the largest of any, if that is more
+    complementarity : see the module's text
+    slip            : the part of it that is sliding not against friction
+    live_power      : of the live load on the mechanism, should be 1
+    power_balance   : difference of external and dissipated power, over what complementarity is relative to
+    """
+
+    equilibrium: float
+    yielding: float
+    tension: float
+    penetration: float
+    complementarity: float
+    slip: float
+    live_power: float
+    power_balance: float
+
+    @property
+    def largest(self) -> float:
+        """The largest of all, NaN where one is."""
+        off = abs(self.live_power - 1.0)
+        parts = (self.equilibrium, self.yielding, self.penetration, self.complementarity, self.power_balance, off)
+        return float(np.max(parts))  # tension and slip are parts of others
+
+
+def residuals_of(
+    model: Model,
+    contacts: Contacts,
+    load_case: LoadCase,
+    mechanics: Mechanics,
+    dilatancy: FloatArray,
+    polygon: FloatArray | None = None,
+) -> Residuals:
+    """Residuals under a flow rule with the given dilatancy (tangent), (n_points,).
+
+    polygon : (n, 2) corners that bound the shear of a unit circle; the speed against which sliding dissipates is then
+              s = max g·v_T over the corners g
+    """
+    limits = yield_limits(model, contacts)
+    scale = load_scale(model, contacts, load_case, limits)
+    u, x, factor = mechanics.mechanism, mechanics.contact_forces, mechanics.load_factor
+    v = contact_velocities(model, contacts, u)
+    sliding = np.hypot(v[:, 1], v[:, 2]) if polygon is None else (v[:, 1:] @ polygon.T).max(axis=1)
+    speed = float(np.linalg.norm(v, axis=1).max(initial=0.0))
+    closing = np.where(np.isinf(limits.compression), np.maximum(-v[:, 0], 0.0), 0.0)
+    live_power, dead_power = power(load_case.live_load, u), power(load_case.dead_load, u)
+    strength = limits.friction * x[:, 0] + limits.cohesion
+    flow = flow_power(limits, dilatancy, x, v, sliding, strength)
+    frictional = float(np.abs(strength * sliding).sum())
+    balance = max(abs(factor * live_power), abs(dead_power), frictional, scale.least_factor(u))
+    external = dead_power + factor * live_power
+    unbalanced = unbalanced_loads(model, contacts, load_case, x, factor, scale)[model.free]
+    point_scale = scale.point_scale(contacts, x)
+    tension = np.maximum(-x[:, 0] - limits.tension, 0.0)
+    return Residuals(
+        equilibrium=float((unbalanced / scale.block_scale(contacts, x)[model.free]).max(initial=0.0)),
+        yielding=float((yield_violation(x, limits) / point_scale).max(initial=0.0)),
+        tension=float((tension / point_scale).max(initial=0.0)),
+        penetration=max(penetration_of(closing, speed, u, scale.arms), off_guides(model, u, scale.arms)),
+        complementarity=share_of(flow.normal + flow.slip, balance),
+        slip=share_of(flow.slip, balance),
+        live_power=live_power,
+        power_balance=share_of(abs(external - flow.dissipated), balance),
+    )
+
+
+def unbalanced_loads(
+    model: Model, contacts: Contacts, load_case: LoadCase, contact_forces: FloatArray, factor: float, scale: LoadScale
+) -> FloatArray:
+    """Largest unbalanced component of each block, moments over the lever arm, zero on fixed blocks, (n_blocks,).
+
+    Of guided blocks only what their guides do not take counts.
+    """
+    unbalanced = np.abs(unbalanced_wrenches(model, contacts, load_case, contact_forces, factor, scale))
+    unbalanced[:, 3:] /= scale.arms[:, None]
+    return np.where(model.fixed, 0.0, unbalanced.max(axis=1))
+
+
+def unbalanced_wrenches(
+    model: Model, contacts: Contacts, load_case: LoadCase, contact_forces: FloatArray, factor: float, scale: LoadScale
+) -> FloatArray:
+    """What loads and contact forces leave on each block beside what its guides take, (n_blocks, 6) N, N m."""
+    loads = load_case.dead_load + factor * load_case.live_load
+    acting = contact_resultants(model, contacts, contact_forces) + loads
+    return left_to_balance(model, acting, scale.arms)
+
+
+def penetration_of(closing: FloatArray, speed: float, mechanism: FloatArray, arms: FloatArray) -> float:
+    """Largest closing velocity over the largest contact speed; 0 where the blocks move and no joint does.
+
+    Blocks that only guides hold have no joint, and blocks on parallel rails may move side by side. Where nothing moves
+    at all it is NaN.
+
+    closing   : (n_points,)
+    speed     : largest contact speed
+    mechanism : (n_blocks, 6)
+    arms      : (n_blocks,)
+    """
+    blocks = float((np.linalg.norm(mechanism[:, :3], axis=1) + arms * np.linalg.norm(mechanism[:, 3:], axis=1)).max())
+    if blocks > 0 and speed <= AT_REST * blocks:
+        return 0.0
+    return share_of(float(closing.max(initial=0.0)), speed)
+
+
+def share_of(part: float, whole: float) -> float:
+    """A part over the whole, NaN where there is none."""
+    return part / whole if whole > 0 else np.nan
+
+
+@dataclass(frozen=True)
+class FlowPower:
+    """Power that the flow rule leaves unexplained, across and along the joints, and what the joints dissipate."""
+
+    normal: float
+    slip: float
+    dissipated: float
+
+
+def flow_power(
+    limits: YieldLimits,
+    dilatancy: FloatArray,
+    x: FloatArray,
+    v: FloatArray,
+    sliding: FloatArray,
+    strength: FloatArray,
+) -> FlowPower:
+    """Power of points with forces x and velocities v, sliding speeds and shear strengths, (n_points,)."""
+    surplus = v[:, 0] - dilatancy * sliding
+    crushable = np.isfinite(limits.compression)
+    capacity = np.where(crushable, limits.compression, 0.0)
+    opening = np.maximum(surplus, 0.0)
+    crushing = np.where(crushable, np.maximum(-surplus, 0.0), 0.0)
+    normal = np.abs((x[:, 0] + limits.tension) * opening) + np.abs((capacity - x[:, 0]) * crushing)
+    normal += np.where(crushable, 0.0, np.abs(x[:, 0] * np.minimum(surplus, 0.0)))
+    slip = np.abs(strength * sliding + x[:, 1] * v[:, 1] + x[:, 2] * v[:, 2])
+    dissipated = (strength - dilatancy * x[:, 0]) * sliding + limits.tension * opening + capacity * crushing
+    return FlowPower(float(normal.sum()), float(slip.sum()), float(dissipated.sum()))

@@ -1,0 +1,164 @@
+"""Verification of one load case: each claim of a solution is recomputed by the file that knows it.
+
+- ``verify``: residuals of forces and mechanism, bounds of the associative load factor, certificates;
+- :mod:`mbla.solution.verification.verify_polyhedral`: the bracket of friction polyhedra, each by its own law;
+- :mod:`mbla.solution.verification.verify_convex`: the first with conditions on the resultants of interfaces;
+- :mod:`mbla.solution.verification.verify_range`: both ends of the range of a load factor without normality;
+- ``verify_peak``: a greater load factor that is passed before the structure comes to rest;
+- :mod:`mbla.solution.verification.verify_standing`: that the dead load is carried from the stress-free assembly;
+- :mod:`mbla.solution.verification.verify_tilt`: the angle of a tilting table;
+- :mod:`mbla.solution.verification.verify_lock`: forces that carry every multiple of the live load.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from mbla.contacts.contacts import Contacts
+from mbla.contacts.glue import solids_of
+from mbla.model.model import LoadCase, Model
+from mbla.process.stopwatch import timed
+from mbla.program.assemble import yield_limits
+from mbla.solution.glued import rule_of, solution_on_solids
+from mbla.solution.solution import Checks, Solution, Standing, Status
+from mbla.solution.verification.residuals import residuals_of
+from mbla.solution.verification.verify import dilatancy_of
+from mbla.solution.verification.verify import verify as verify_mechanics
+from mbla.solution.verification.verify_convex import convex_lock_failures, convex_residuals, point_limits, verify_convex
+from mbla.solution.verification.verify_lock import lock_failures
+from mbla.solution.verification.verify_peak import peak_check
+from mbla.solution.verification.verify_polyhedral import verify_polyhedral
+from mbla.solution.verification.verify_range import range_checks
+from mbla.solution.verification.verify_standing import standing_failures
+from mbla.solution.verification.verify_tilt import never_failures, tilt_failures
+
+NOT_SHOWN = "nothing is given that shows that it stands under the dead load alone"
+SHOWN = "it is said not to stand under the dead load alone, and its forces show that it does"
+FALL_NOT_SHOWN = "it is said to fall under the dead load alone, and no motion is given that shows it"
+FALL_SHOWN = "a motion is given in which it falls under the dead load alone, and it is not said to"
+NOTHING_ACTS = "it is said not to stand under the dead load alone, and there is none"
+
+APART = 1e-9
+"""Motion of glued blocks against each other, over the largest motion: rounding of the map from solids to blocks."""
+
+
+@timed("verify")
+def verify(model: Model, contacts: Contacts, load_case: LoadCase, solution: Solution) -> Checks:
+    """Recompute everything that a solution claims, from model and contacts alone; NaN where there is nothing to check.
+
+    No solver is asked, and no matrix of the program stage is used for a verdict. Blocks that are glued to each other
+    are judged as the rigid body they make.
+    """
+    solids = solids_of(model, contacts)
+    of_solids, apart = solution_on_solids(solution, solids)
+    checks = _verify(solids.model, solids.contacts, solids.load_case(load_case), of_solids)
+    if not apart <= APART:
+        failure = f"blocks that are glued to each other move apart, by {apart:.2g} of the largest motion"
+        checks = replace(checks, verified=False, failures=(*checks.failures, failure))
+    return checks
+
+
+def _verify(model: Model, contacts: Contacts, load_case: LoadCase, solution: Solution) -> Checks:
+    """The same where every block is a solid."""
+    of_mechanics = verify_mechanics if solution.outer is None else verify_polyhedral
+    if solution.conditions_on_interfaces:
+        of_mechanics = verify_convex
+    checks = of_mechanics(model, contacts, load_case, solution)
+    failures = (
+        *_fall_failures(solution),
+        *_standing_failures(model, contacts, load_case, solution),
+        *tilt_failures(model, contacts, load_case, solution),
+    )
+    if failures:
+        checks = replace(checks, verified=False, failures=(*checks.failures, *failures))
+    lower, upper = range_checks(model, contacts, load_case, solution)
+    if solution.status is Status.UNBOUNDED:
+        failures = (
+            never_failures(load_case, checks)
+            if load_case.tilt is not None and solution.lock is None and solution.mechanics is not None
+            else (*failures, *_lock_failures(model, contacts, load_case, solution))
+        )
+        checks = replace(checks, verified=not failures, failures=failures)
+    return replace(
+        checks, lower=lower, upper=upper, peak_load_factor=peak_check(model, contacts, load_case, solution.peak)
+    )
+
+
+def residual_of(model: Model, contacts: Contacts, load_case: LoadCase, solution: Solution, part: str) -> float:
+    """By how much forces and mechanism of a part of a solution miss the joint law at most, by the rule of that part.
+
+    Friction polyhedra are measured by the circle. NaN where nothing moves.
+    """
+    solids = solids_of(model, contacts)
+    of_solids, _ = solution_on_solids(solution, solids)
+    mechanics = getattr(of_solids, part)
+    if part == "level" and load_case.tilt is not None:
+        load_case = replace(load_case, live_load=load_case.tilt.across)
+    case, rule = solids.load_case(load_case), rule_of(part, solution)
+    if mechanics.interface_motions is not None:
+        return convex_residuals(solids.model, solids.contacts, case, mechanics, rule, solution.contact_model).largest
+    slope = dilatancy_of(yield_limits(solids.model, solids.contacts), rule)
+    return residuals_of(solids.model, solids.contacts, case, mechanics, slope).largest
+
+
+def level_bound(model: Model, contacts: Contacts, load_case: LoadCase, solution: Solution) -> float:
+    """Multiple of the load across that a level table is proved to bear: inf for every one, nan for none."""
+    locks = solution.level_lock is not None
+    if load_case.tilt is None or (solution.level is None and not locks):
+        return np.nan
+    claim = Solution(
+        flow_rule="associative",
+        status=Status.UNBOUNDED if locks else Status.SOLVED,
+        mechanics=solution.level,
+        associative=solution.level,
+        certificate=None,
+        reason="",
+        programs=(),
+        iterations=(),
+        seconds=0.0,
+        contact_model=solution.contact_model,
+        stress_blocks=solution.stress_blocks,
+        lock=solution.level_lock,
+    )
+    level = replace(load_case, live_load=load_case.tilt.across, tilt=None)
+    checks = verify(model, contacts, level, claim)
+    return checks.static_bound if not locks else np.inf if checks.verified else np.nan
+
+
+def _standing_failures(model: Model, contacts: Contacts, load_case: LoadCase, solution: Solution) -> tuple[str, ...]:
+    """Why forces and displacements do not show what is said of the dead load alone: that it is carried needs them."""
+    standing = solution.standing
+    if standing is None:
+        return ()
+    stands, loaded = standing.verdict is Standing.YES, bool(np.any(load_case.dead_load[model.free]))
+    if not stands and not loaded:
+        return (NOTHING_ACTS,)
+    if standing.forces is None or standing.settlement is None:
+        return (NOT_SHOWN,) if stands and loaded else ()
+    limits = point_limits(model, contacts) if solution.conditions_on_interfaces else yield_limits(model, contacts)
+    failures = standing_failures(model, contacts, load_case, standing.forces, standing.settlement, limits)
+    return failures if stands or failures else (SHOWN,)
+
+
+def _fall_failures(solution: Solution) -> tuple[str, ...]:
+    """Why it is not said to fall by status and standing where a motion is given that shows it, and nowhere else.
+
+    What the motion is worth is judged where there are no forces that carry a load factor.
+    """
+    shown = solution.certificate is not None and solution.mechanics is None
+    said = [solution.status is Status.NO_EQUILIBRIUM]
+    said += [] if solution.standing is None else [solution.standing.verdict is Standing.NO]
+    if all(claim == shown for claim in said):
+        return ()
+    return (FALL_SHOWN if shown else FALL_NOT_SHOWN,)
+
+
+def _lock_failures(model: Model, contacts: Contacts, load_case: LoadCase, solution: Solution) -> tuple[str, ...]:
+    if solution.lock is None:
+        return ("no forces are given that carry every multiple of the live load",)
+    failures = lock_failures(model, contacts, load_case, solution.lock)
+    if solution.conditions_on_interfaces:
+        failures += convex_lock_failures(model, contacts, solution.lock, solution.contact_model)
+    return failures

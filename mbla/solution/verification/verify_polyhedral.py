@@ -1,0 +1,146 @@
+"""Verification of polyhedral friction: a bracket of the true cone, and each polyhedron by its own law.
+
+The static bound is what the forces of the inscribed polyhedron prove of the true cone, the kinematic bound what the
+mechanism of the circumscribed one proves of it (``proofs``). Their distance is that of the polyhedra,
+not an error: it is reported and not judged. What is judged is whether each program was solved:
+
+- forces and mechanism of each fit its own law, by which sliding dissipates (c + μN) max g·v_T over the corners g of the
+  polygon; a part in a plane has the circle, and may fit that instead;
+- the forces of the inscribed polyhedron keep to the true cone, those of the circumscribed one to their polygon;
+- the forces of the first prove its load factor at least, the mechanism of the second its own at most, and the bounds
+  do not cross. Forces are mended within the true cone, so that they may prove a little more.
+
+With k sides the inscribed polygon has its corners at the angles 2πi/k from the first tangent, the circumscribed one
+touches the circle there.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from mbla.arrays import FloatArray
+from mbla.contacts.contacts import Contacts
+from mbla.model.model import LoadCase, Model
+from mbla.program.assemble import yield_limits
+from mbla.program.yield_conditions import yield_violation
+from mbla.solution.associative.proofs import associative_bounds
+from mbla.solution.solution import Checks, Mechanics, Solution
+from mbla.solution.verification.load_scale import load_scale
+from mbla.solution.verification.residuals import Residuals, residuals_of
+from mbla.solution.verification.verify import GAP_TOLERANCE, LIVE_POWER, ROUNDING, SOLVED_EQUILIBRIUM, SOLVED_RESIDUAL
+from mbla.solution.verification.verify import verify as verify_mechanics
+
+
+@dataclass(frozen=True)
+class _Bounds:
+    """What forces of the inscribed polyhedron and mechanism of the circumscribed one prove; unit of their distance."""
+
+    static: float
+    kinematic: float
+    size: float
+
+
+def verify_polyhedral(model: Model, contacts: Contacts, load_case: LoadCase, solution: Solution) -> Checks:
+    """Recompute residuals and bounds of a solution with ``outer``."""
+    inner, outer = solution.associative, solution.outer
+    assert inner is not None
+    assert outer is not None
+    if solution.flow_rule != "associative":
+        between = replace(inner, mechanism=outer.mechanism, contact_velocities=outer.contact_velocities)
+        return verify_mechanics(model, contacts, load_case, replace(solution, associative=between))
+    bounds = _bounds(model, contacts, load_case, inner, outer)
+    residuals = _own_residuals(model, contacts, load_case, inner, _corners(solution.sides, circumscribed=False))
+    circumscribed = _of_the_circumscribed(model, contacts, load_case, outer, solution.sides)
+    failures = _residual_failures("", residuals)
+    failures += _residual_failures("circumscribed polyhedron: ", circumscribed)
+    failures += _bound_failures(inner, outer, bounds)
+    return Checks(
+        equilibrium_residual=residuals.equilibrium,
+        yield_violation=residuals.yielding,
+        penetration=residuals.penetration,
+        complementarity_residual=residuals.complementarity,
+        live_power=residuals.live_power,
+        power_balance=residuals.power_balance,
+        static_bound=bounds.static,
+        kinematic_bound=bounds.kinematic,
+        gap=abs(bounds.kinematic - bounds.static) / bounds.size if bounds.size > 0 else np.nan,
+        verified=not failures,
+        failures=tuple(failures),
+        tension_violation=residuals.tension,
+        slip_residual=residuals.slip,
+    )
+
+
+def _corners(sides: int, circumscribed: bool) -> FloatArray:
+    """Corners of the friction polygon of a unit circle in the joint's tangents, (sides, 2)."""
+    half = np.pi / sides
+    angles = 2.0 * half * np.arange(sides) + (half if circumscribed else 0.0)
+    return np.column_stack([np.cos(angles), np.sin(angles)]) / (np.cos(half) if circumscribed else 1.0)
+
+
+def _own_residuals(
+    model: Model, contacts: Contacts, load_case: LoadCase, mechanics: Mechanics, polygon: FloatArray
+) -> Residuals:
+    """Residuals by the law of the polygon, or by that of the circle where they are less."""
+    friction = yield_limits(model, contacts).friction
+    by_polygon = residuals_of(model, contacts, load_case, mechanics, friction, polygon)
+    by_circle = residuals_of(model, contacts, load_case, mechanics, friction)
+    return min(by_polygon, by_circle, key=lambda residuals: residuals.complementarity)
+
+
+def _of_the_circumscribed(
+    model: Model, contacts: Contacts, load_case: LoadCase, outer: Mechanics, sides: int
+) -> Residuals:
+    """The same with the excess of shear over the circumscribed polygon in place of that over the circle.
+
+    Its sides touch the circle at the corners e of the inscribed one: −T·e ≤ c + μN for each of them.
+    """
+    limits, forces = yield_limits(model, contacts), outer.contact_forces
+    residuals = _own_residuals(model, contacts, load_case, outer, _corners(sides, circumscribed=True))
+    shear = np.maximum((-forces[:, 1:] @ _corners(sides, circumscribed=False).T).max(axis=1), 0.0)
+    excess = yield_violation(np.column_stack([forces[:, 0], shear]), limits)
+    size = load_scale(model, contacts, load_case, limits).point_scale(contacts, forces)
+    return replace(residuals, yielding=float((excess / size).max(initial=0.0)))
+
+
+def _bounds(model: Model, contacts: Contacts, load_case: LoadCase, inner: Mechanics, outer: Mechanics) -> _Bounds:
+    limits = yield_limits(model, contacts)
+    scale = load_scale(model, contacts, load_case, limits)
+    between = replace(inner, mechanism=outer.mechanism)
+    static, kinematic = associative_bounds(model, contacts, load_case, between, limits, scale)
+    size = max(abs(kinematic), scale.least_factor(outer.mechanism))
+    if 0.0 < static - kinematic <= ROUNDING * size:
+        static = kinematic
+    return _Bounds(static, kinematic, size)
+
+
+def _residual_failures(of: str, residuals: Residuals) -> list[str]:
+    limits = (
+        ("equilibrium residual", residuals.equilibrium, SOLVED_EQUILIBRIUM),
+        ("yield violation", residuals.yielding, SOLVED_RESIDUAL),
+        ("penetration", residuals.penetration, SOLVED_RESIDUAL),
+        ("complementarity residual", residuals.complementarity, SOLVED_RESIDUAL),
+        ("power balance", residuals.power_balance, SOLVED_RESIDUAL),
+        ("deviation of the live power from 1", abs(residuals.live_power - 1.0), LIVE_POWER),
+    )
+    return [f"{of}{name} {value:.2g} exceeds {limit:g}" for name, value, limit in limits if not value <= limit]
+
+
+def _bound_failures(inner: Mechanics, outer: Mechanics, bounds: _Bounds) -> list[str]:
+    room = GAP_TOLERANCE * bounds.size
+    failures = []
+    if not bounds.static >= inner.load_factor - room:
+        failures.append(
+            f"the load factor {inner.load_factor:.8g} of the inscribed polyhedron is more than its forces prove, "
+            f"{bounds.static:.8g}"
+        )
+    if not bounds.kinematic <= outer.load_factor + room:
+        failures.append(
+            f"the load factor {outer.load_factor:.8g} of the circumscribed polyhedron is less than its mechanism "
+            f"proves, {bounds.kinematic:.8g}"
+        )
+    if not bounds.static <= bounds.kinematic + room:
+        failures.append(f"the static bound {bounds.static:.8g} lies above the kinematic bound {bounds.kinematic:.8g}")
+    return failures

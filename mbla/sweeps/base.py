@@ -1,0 +1,215 @@
+"""The base deck of a sweep, checked for what the sweep does to it, and the keys of its points."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from pathlib import Path
+
+from mbla.deck.deck import Deck
+from mbla.deck.include import confined
+from mbla.deck.overrides import LABEL, RefusedError
+from mbla.deck.reading import check_regular, read_deck
+from mbla.deck.side_files import SIDE_FILES, side_files
+from mbla.deck.suggestions import unknown
+from mbla.deck.tree import KeyPath, Tree, key_text
+from mbla.errors import DeckError, Fault, FileError, Message, Place
+from mbla.sweeps.base_keys import path_of_key, unit_at, vector_at
+from mbla.sweeps.base_rules import base_faults
+from mbla.sweeps.file.design_rules import key_places
+from mbla.sweeps.file.keys import key_paths
+from mbla.sweeps.file.sweep import Sweep
+from mbla.sweeps.file.ways import DIRECTIONS, way_of
+from mbla.sweeps.fingerprint import deck_fingerprint, effective_tree, file_hashes, key_hash
+from mbla.sweeps.plan import Plain
+from mbla.sweeps.settings import override_texts
+
+
+@dataclass(frozen=True)
+class Base:
+    """A base deck with the values in it that hold for every point.
+
+    sweep       : the sweep file
+    path        : absolute path of the deck
+    fixed       : ``key.path=value`` texts: `set` of the sweep file, then ``--set``
+    deck        : checked, with the fixed values
+    tree        : the same as read, not evaluated
+    cases       : names of the load cases to solve, in the order of the results
+    paths       : key paths of each parameter in the deck, by the parameter's name
+    fingerprint : hash of what the deck means (``fingerprint.py``)
+    """
+
+    sweep: Sweep
+    path: Path
+    fixed: tuple[str, ...]
+    deck: Deck
+    tree: Tree
+    cases: tuple[str, ...]
+    paths: Mapping[str, tuple[KeyPath, ...]]
+    fingerprint: str
+    _files: dict[tuple[KeyPath, str], list[str]] = field(default_factory=dict, repr=False, compare=False)
+
+    @cached_property
+    def units(self) -> Mapping[str, str]:
+        """Unit of each parameter by its name: the deck's, or what the sweep file says; degrees for directions."""
+        return {name: self._unit(name) for name in self.paths}
+
+    @cached_property
+    def vectors(self) -> Mapping[str, tuple[float, float, float]]:
+        """Vector of the base deck that each parameter with directions turns, by its name."""
+        parameters = self.sweep.content.parameters
+        turning = [name for name in self.paths if way_of(parameters[name]) in DIRECTIONS]
+        return {name: vector for name in turning if (vector := vector_at(self.deck, self.paths[name][0])) is not None}
+
+    @property
+    def known(self) -> Mapping[str, object]:
+        """The deck's own parameters as written, for constraints: numbers and ``"=..."`` texts."""
+        parameters: Mapping[str, object] = self.tree.data.get("parameters", {})
+        return parameters
+
+    def key_of(self, settings: Mapping[str, Plain]) -> str:
+        """Key of a point: hash of the base and of the values set in it, with the content of files among them."""
+        files: list[str] = []
+        for key, value in settings.items():
+            path = self._naming_files.get(key)
+            if path is not None:
+                files += [line for named in side_files(value, path) for line in self._file_hashes(named)]
+        return key_hash(self.fingerprint, settings, sorted(files))
+
+    @cached_property
+    def _naming_files(self) -> Mapping[str, KeyPath]:
+        """Those key paths of parameters below which names of files may stand."""
+        parameters = self.sweep.content.parameters
+        return {
+            key: path
+            for name, paths in self.paths.items()
+            for key, path in zip(key_paths(name, parameters[name]), paths, strict=True)
+            if any(_reaches(pattern.split("."), path) for pattern in SIDE_FILES)
+        }
+
+    def _file_hashes(self, named: tuple[KeyPath, str]) -> list[str]:
+        """Hashes of a file that a point names, read once; a file that is missing is the fault of its points."""
+        if named not in self._files:
+            try:
+                self._files[named] = file_hashes([named], self._resolve)
+            except DeckError:
+                self._files[named] = [f"{key_text(named[0])} cannot be read"]
+        return self._files[named]
+
+    def _resolve(self, path: KeyPath, name: str) -> Path:
+        return set_file(self.path, path, name)
+
+    def _unit(self, name: str) -> str:
+        parameter = self.sweep.content.parameters[name]
+        if way_of(parameter) in DIRECTIONS:
+            return "degree"
+        if any(isinstance(value, str) for value in parameter.values or ()):
+            return parameter.unit  # a text may bring a unit of its own
+        units = {unit_at(path, self.deck.units) for path in self.paths[name]}
+        return (units.pop() if len(units) == 1 else "") or parameter.unit
+
+
+def set_file(deck: Path, path: KeyPath, name: str) -> Path:
+    """A file that a point names: relative to the deck, as what ``--set`` sets.
+
+    Raises
+    ------
+    DeckError
+        if it is missing or outside the deck's folder
+    """
+    try:
+        found = confined(deck.parent, name)
+        check_regular(found)
+    except FileError as error:
+        raise DeckError([Fault(Place(LABEL, 1, 1), key_text(path), error.message, name)]) from error
+    return found
+
+
+def _reaches(pattern: list[str], path: KeyPath) -> bool:
+    """Whether what a pattern names stands at a path or below it."""
+    return len(pattern) >= len(path) and all(
+        isinstance(key, int) if word == "#" else word in ("*", key) for word, key in zip(pattern, path, strict=False)
+    )
+
+
+def read_base(sweep: Sweep) -> Base:
+    """Read the base deck and check what the sweep file says of it.
+
+    Raises
+    ------
+    DeckError
+        with every fault: of the deck as its own, of the sweep file at its place there
+    """
+    path = _deck_path(sweep)
+    fixed = (*override_texts(sweep.content.set), *sweep.overrides)
+    deck = _told_here(sweep, lambda: read_deck(path, fixed))
+    tree = effective_tree(path, fixed)
+    cases = tuple(sweep.content.cases or deck.content.load_cases)
+    faults = [
+        sweep.fault_at(
+            ("cases", index), Message("unknown-name", unknown("load case", case, deck.content.load_cases, "known"))
+        )
+        for index, case in enumerate(sweep.content.cases or ())
+        if case not in deck.content.load_cases
+    ]
+    paths = _paths(sweep, tree, faults)
+    if faults:
+        raise DeckError(faults)
+    base = Base(sweep, path.resolve(), fixed, deck, tree, cases, paths, deck_fingerprint(deck, tree))
+    if faults := base_faults(base):
+        raise DeckError(faults)
+    return base
+
+
+def _deck_path(sweep: Sweep) -> Path:
+    """Path of the base deck; DeckError at its name if it cannot be opened."""
+    name = sweep.content.deck
+    try:
+        if "\0" in name or len(name) > 4000:
+            raise FileError("bad-file-name", "is not a file name")
+        path = sweep.path.parent / name
+        check_regular(path)
+        if path.resolve() == sweep.path.resolve():
+            raise FileError("sweep-file-and-deck", "is the sweep file itself: name the deck that it varies")
+    except FileError as error:
+        raise DeckError([sweep.fault_at(("deck",), error.message)]) from error
+    return path
+
+
+def _told_here(sweep: Sweep, read: Callable[[], Deck]) -> Deck:
+    """What a function returns; faults of values that `set` of the sweep file brings are told at their place there."""
+    try:
+        return read()
+    except DeckError as error:
+        raise DeckError([_at_its_place(sweep, fault) for fault in error.faults]) from error
+
+
+def _at_its_place(sweep: Sweep, fault: Fault) -> Fault:
+    if fault.place.file != LABEL:
+        return fault
+    keys = list(sweep.content.set)
+    number = fault.place.line - len(keys)
+    if number > 0:  # those of the command line are counted from 1 there
+        return Fault(Place(LABEL, number, fault.place.column), fault.key, fault.message, fault.value)
+    key = keys[fault.place.line - 1]
+    here = sweep.fault_at(("set", key), fault.message)
+    below = fault.key.replace("[", ".").replace("]", "")
+    return here if below == key.strip() else sweep.fault_at(("set", key), fault.message.around(before=f"{fault.key}: "))
+
+
+def _paths(sweep: Sweep, tree: Tree, faults: list[Fault]) -> dict[str, tuple[KeyPath, ...]]:
+    """Key paths of each parameter; what the deck does not have goes to ``faults``."""
+    found: dict[str, tuple[KeyPath, ...]] = {}
+    for name, parameter in sweep.content.parameters.items():
+        for place, key in key_places(name, parameter):
+            try:
+                found[name] = (*found.get(name, ()), path_of_key(tree.data, key))
+            except RefusedError as refusal:
+                remedy = "" if parameter.key is not None else _remedy(name)
+                faults.append(sweep.fault_at(place, refusal.message.around(after=remedy)))
+    return found
+
+
+def _remedy(name: str) -> str:
+    return "" if "." in name else "; or give the key path in the deck with key"

@@ -1,0 +1,253 @@
+"""``mbla sweep``: from a sweep file to its table; the table of contents of a sweep."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Generator, Iterator, Mapping, Sequence
+from contextlib import closing, contextmanager
+from dataclasses import dataclass, field
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import Any
+
+from mbla import __version__
+from mbla.errors import Notice, UsageError
+from mbla.results.listing.text import counted
+from mbla.sweeps.base import Base, read_base
+from mbla.sweeps.base_points import check_points
+from mbla.sweeps.design.build import design_of
+from mbla.sweeps.design.design import Design
+from mbla.sweeps.design.record import design_json
+from mbla.sweeps.engine.choice import engine_for
+from mbla.sweeps.engine.options import EngineOptions
+from mbla.sweeps.file.sweep import Sweep
+from mbla.sweeps.fragility import Fragility, fragility_of
+from mbla.sweeps.fragility_words import fragility_json
+from mbla.sweeps.journal.header import JournalHeader
+from mbla.sweeps.journal.journal import Journal
+from mbla.sweeps.journal.reading import merged
+from mbla.sweeps.journal.shards import WHOLE, journal_name, journals_in, shard_of
+from mbla.sweeps.outcome import FAILED, Outcome
+from mbla.sweeps.plan import Plan, Task
+from mbla.sweeps.program import library_versions, program_identity
+from mbla.sweeps.progress import Progress
+from mbla.sweeps.reasons import shown_folders
+from mbla.sweeps.result_columns import result_columns
+from mbla.sweeps.tables.from_outcomes import sweep_table
+from mbla.sweeps.tables.sweep_json import SweepRun, counts, sweep_json
+from mbla.sweeps.tables.sweep_table import SweepColumn, SweepTable
+from mbla.sweeps.tables.write_tables import TableFiles, refuse_tables, write_tables
+
+FAILED_POINTS = 8
+"""exit status of a sweep some of whose points failed"""
+MEGABYTE = 1e6
+RESUME = "--resume"
+"""the option that goes on with a journal"""
+
+Report = Callable[[Progress, Task | None, Outcome | None], None]
+"""called once before the first point, with None, and after each finished point"""
+
+
+@dataclass(frozen=True)
+class SweepOptions:
+    """What the command line adds to a sweep file.
+
+    folder       : of all files; the sweep's name with .out beside it if None
+    shard        : part and number of parts, counted from 1: only these points, for job arrays
+    resume       : go on with the journal that is there
+    force        : begin anew and replace earlier files
+    retry_failed : on resuming, solve failed points again
+    """
+
+    folder: Path | None = None
+    engine: EngineOptions = field(default_factory=EngineOptions)
+    shard: tuple[int, int] | None = None
+    resume: bool = False
+    force: bool = False
+    retry_failed: bool = False
+    parquet: bool = False
+    hdf5: bool = False
+
+    def folder_for(self, path: Path) -> Path:
+        """Where the files of a sweep go."""
+        return path.with_suffix(".out") if self.folder is None else self.folder
+
+
+@dataclass(frozen=True)
+class Prepared:
+    """A sweep that could begin.
+
+    keys    : of each point of the design, in its order
+    columns : of results
+    tasks   : each different point once
+    """
+
+    sweep: Sweep
+    base: Base
+    design: Design
+    keys: tuple[str, ...]
+    columns: tuple[SweepColumn, ...]
+    plan: Plan
+    tasks: tuple[Task, ...]
+
+
+@dataclass(frozen=True)
+class Finished:
+    """What a sweep ends with; ``table`` has every point, those not solved yet without values."""
+
+    record: dict[str, Any]
+    table: SweepTable
+    exit_code: int
+    fragility: tuple[Fragility, ...] = ()
+
+
+def prepare(sweep: Sweep, options: SweepOptions) -> Prepared:
+    """Read the base deck of a sweep file, and make the points.
+
+    Raises
+    ------
+    DeckError, FileError
+        with everything that is wrong with either file
+    """
+    base = read_base(sweep)
+    content = sweep.content
+    design = design_of(content, base.vectors, base.units, base.known, sweep.fault_at)
+    check_points(base, design.points)
+    keys = tuple(base.key_of(point.settings) for point in design.points)
+    first: dict[str, Task] = {}
+    for key, point in zip(keys, design.points, strict=True):
+        first.setdefault(key, Task(key, point.number, point.settings))
+    limits = content.limits
+    plan = Plan(
+        deck=str(base.deck.path.absolute()),
+        fingerprint=base.fingerprint,
+        fixed=base.fixed,
+        cases=base.cases,
+        results=tuple(content.results),
+        keep=content.output.files,
+        folder=str(options.folder_for(sweep.path).absolute()),
+        time_limit=limits.time,
+        memory_limit=None if limits.memory is None else limits.memory * MEGABYTE,
+        program=program_identity(),
+    )
+    columns = result_columns(content.results, base.cases, base.deck.units)
+    return Prepared(sweep, base, design, keys, columns, plan, tuple(first.values()))
+
+
+def run_sweep(prepared: Prepared, options: SweepOptions, report: Report | None = None) -> Finished:
+    """Solve what is not solved yet, row by row into the journal, and write the table.
+
+    Raises
+    ------
+    UsageError
+        no engine, or a worker that does not fit
+    FileError
+        another run is at work, files are in the way or cannot be written; what was solved is in the journal
+    """
+    started = time.perf_counter()
+    folder, files = options.folder_for(prepared.sweep.path), _files(prepared, options)
+    header = JournalHeader(
+        program=prepared.plan.program,
+        fingerprint=prepared.base.fingerprint,
+        columns=tuple(column.name for column in prepared.columns),
+        title=prepared.sweep.content.title,
+        cases=prepared.plan.cases,
+        libraries=library_versions(),
+    )
+    asked = prepared.tasks if options.shard is None else shard_of(prepared.tasks, *options.shard)
+    path = folder / (WHOLE if options.shard is None else journal_name(*options.shard))
+    journal = Journal(path, header, resume=options.resume, force=options.force, retry_failed=options.retry_failed)
+    engine = engine_for(options.engine)
+    fragility = prepared.sweep.content.fragility is not None
+    refuse_tables(folder, files, replace=options.force or options.resume, fragility=fragility)
+    with journal:
+        tasks = [task for task in asked if task.key not in journal.finished]
+        progress = Progress(len(tasks), len(journal.finished))
+        if report is not None:
+            report(progress, None, None)
+        if tasks:
+            engine.expect(prepared.plan, len(tasks))
+            with _noted(journal), engine:
+                _solve(prepared, engine.run(prepared.plan, tasks), journal, progress, report)
+        finished = journal.finished | ({} if options.shard is None else merged(journals_in(folder), header))
+        return _finish(prepared, options, finished, journal.notices, time.perf_counter() - started)
+
+
+@contextmanager
+def _noted(journal: Journal) -> Iterator[None]:
+    """What breaks a sweep off says how much of it is kept, where its own words do not."""
+    try:
+        yield
+    except BaseException as error:
+        if not isinstance(error, UsageError) and RESUME not in str(error):
+            error.add_note(f"{counted(len(journal.finished), 'finished point')} in the journal, {RESUME} goes on")
+        raise
+
+
+def _files(prepared: Prepared, options: SweepOptions) -> TableFiles:
+    output = prepared.sweep.content.output
+    return TableFiles(output.parquet or options.parquet, output.hdf5 or options.hdf5)
+
+
+def _solve(
+    prepared: Prepared,
+    outcomes: Generator[Outcome, None, None],
+    journal: Journal,
+    progress: Progress,
+    report: Report | None,
+) -> None:
+    """Each outcome into the journal as it comes."""
+    by_key: Mapping[str, Task] = {task.key: task for task in prepared.tasks}
+    shown = shown_folders(prepared.plan, prepared.sweep.content.deck)
+    started = time.perf_counter()
+    with closing(outcomes):
+        for outcome in map(shown.in_outcome, outcomes):
+            task = by_key[outcome.key]
+            journal.add(task, outcome)
+            progress.add(outcome.state == FAILED, time.perf_counter() - started)
+            if report is not None:
+                report(progress, task, outcome)
+
+
+def _finish(
+    prepared: Prepared,
+    options: SweepOptions,
+    finished: Mapping[str, Outcome],
+    notices: Sequence[Notice],
+    seconds: float,
+) -> Finished:
+    """The table of all points, and its files once none is missing, which may be so in a shard."""
+    content, design = prepared.sweep.content, prepared.design
+    table = sweep_table(content.title, design, prepared.columns, finished, prepared.keys, unfinished=True)
+    failed = any(finished[key].state == FAILED for key in prepared.keys if key in finished)
+    run = SweepRun(
+        sweep=prepared.sweep.path.name,
+        deck=content.deck,
+        created=datetime.now(UTC).isoformat(timespec="seconds"),
+        exit_code=FAILED_POINTS if failed else 0,
+        left_out=design.left_out,
+        seconds=seconds,
+        notices=(*notices, *(Notice("notice", "sweep-design", text) for text in design.remarks)),
+    )
+    asked = content.fragility
+    fragility = () if asked is None else fragility_of(table, asked.result, asked.demand, asked.confidence)
+    if counts(table)["unfinished"]:
+        record = sweep_json(run, table, fragility_json(fragility))
+    else:
+        folder = options.folder_for(prepared.sweep.path)
+        record = write_tables(folder, True, run, table, _files(prepared, options), fragility)
+    return Finished(record, table, run.exit_code, fragility)
+
+
+def dry_run_json(prepared: Prepared) -> dict[str, Any]:
+    """The points of a sweep that is only listed, with their keys and the columns of its table."""
+    return {
+        "mbla": __version__,
+        "sweep": prepared.sweep.path.name,
+        "deck": prepared.sweep.content.deck,
+        "cases": list(prepared.plan.cases),
+        "design": design_json(prepared.design),
+        "keys": list(prepared.keys),
+        "different": len(prepared.tasks),
+        "results": [column.name for column in prepared.columns],
+    }

@@ -1,0 +1,138 @@
+"""Points on the workers of a Dask scheduler, of this machine or a cluster.
+
+A sliding window of batches is under way, so that neither the scheduler nor this process holds more than that of a
+sweep of any length. What was delivered stays, whatever becomes of the rest.
+"""
+
+from __future__ import annotations
+
+import queue
+import uuid
+from collections.abc import Generator, Sequence
+from dataclasses import dataclass, field
+from types import TracebackType
+from typing import Any
+
+from mbla.errors import UsageError
+from mbla.sweeps.engine.batches import STRIKES, Batches
+from mbla.sweeps.engine.connection import LOOK, REPLY, Connection
+from mbla.sweeps.engine.options import EngineOptions
+from mbla.sweeps.outcome import FAILED, Outcome
+from mbla.sweeps.plan import Plan, Task
+from mbla.sweeps.worker.batch import end_processes, expect_processes, run_batch
+from mbla.sweeps.worker.messages import outcome_of, record_of
+
+WINDOW = 2
+"""batches under way for each thread of the workers: one is solved, the next waits beside it"""
+
+
+@dataclass(frozen=True)
+class Batch:
+    """One batch under way."""
+
+    tasks: tuple[Task, ...]
+    future: Any
+
+
+@dataclass
+class Window:
+    """Batches under way, and the keys of those that are finished."""
+
+    running: dict[str, Batch] = field(default_factory=dict)
+    finished: queue.Queue[str] = field(default_factory=queue.Queue)
+
+
+class ClusterEngine:
+    """Context manager; the local workers, or the connection, are there inside the block and gone after it."""
+
+    def __init__(self, options: EngineOptions) -> None:
+        """UsageError where the extra is not installed."""
+        self._options = options
+        self._connection = Connection(options)
+        self._outcomes: Generator[Outcome, None, None] | None = None
+
+    def expect(self, plan: Plan, points: int) -> None:
+        """Local processes begin, and import everything while this one imports Dask."""
+        if not self._options.cluster:
+            expect_processes(plan, min(self._options.workers, points))
+
+    def __enter__(self) -> ClusterEngine:
+        """Start or connect; raises UsageError where there is no scheduler, no worker, or one with another mbla."""
+        try:
+            self._connection.__enter__()
+        except BaseException:
+            end_processes()  # those that were expected
+            raise
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, traceback: TracebackType | None
+    ) -> None:
+        if self._outcomes is not None:
+            self._outcomes.close()
+        self._connection.__exit__(kind, error, traceback)
+
+    def run(self, plan: Plan, tasks: Sequence[Task]) -> Generator[Outcome, None, None]:
+        """Outcomes as they are done; raises as ``Engine.run`` does, and FileError where the scheduler is gone."""
+        self._outcomes = self._solved(plan, tasks)
+        return self._outcomes
+
+    def _solved(self, plan: Plan, tasks: Sequence[Task]) -> Generator[Outcome, None, None]:
+        batches, window = Batches(tasks), Window()
+        try:
+            while batches or window.running:
+                places = WINDOW * max(self._connection.threads, 1)
+                while batches and len(window.running) < places:
+                    self._submit(plan, batches.take(places), window)
+                for outcome in self._next(batches, window):
+                    batches.learn(outcome)
+                    yield outcome
+        finally:
+            self._end(window)
+
+    def _submit(self, plan: Plan, tasks: tuple[Task, ...], window: Window) -> None:
+        key, connection = f"mbla-points-{uuid.uuid4().hex}", self._connection
+        arguments = record_of(plan), [record_of(task) for task in tasks], connection.libraries
+        with connection.lost_where_it_fails():
+            future = connection.client.submit(run_batch, *arguments, key=key, pure=False)
+        window.running[key] = Batch(tasks, future)
+        future.add_done_callback(lambda future: window.finished.put(future.key))
+
+    def _next(self, batches: Batches, window: Window) -> list[Outcome]:
+        """Outcomes of the next batch that is finished; none where none was in a while."""
+        connection = self._connection
+        connection.look(every=LOOK)
+        try:
+            key = window.finished.get(timeout=LOOK)
+        except queue.Empty:
+            return []
+        batch = window.running.pop(key)
+        try:
+            answer = batch.future.result(timeout=REPLY)
+        except connection.dask.KilledWorker:
+            return [_given_up(task) for task in batches.died(batch.tasks)]
+        except (OSError, *connection.dask.cancelled) as error:
+            connection.refuse_lost(error)
+            batches.give_back(batch.tasks)  # the worker is gone with its answer
+            return []
+        except Exception as error:
+            words = f"{type(error).__name__}: {' '.join(str(error).split())}"
+            raise UsageError("worker-refused", f"a worker cannot solve points: {words}") from error
+        if "refused" in answer:
+            raise UsageError("worker-refused", f"a worker cannot solve points of this sweep: {answer['refused']}")
+        outcomes = [outcome_of(record) for record in answer["outcomes"]]
+        batches.give_back(batch.tasks[len(outcomes) :])
+        return outcomes
+
+    def _end(self, window: Window) -> None:
+        """Nothing goes on for nobody: what is under way is cancelled, the processes of the workers are ended."""
+        futures = [batch.future for batch in window.running.values()]
+        window.running.clear()
+        if futures:
+            self._connection.ask_quietly(lambda client: client.cancel(futures, force=True))
+        self._connection.ask_quietly(lambda client: client.run(end_processes, on_error="ignore"))
+
+
+def _given_up(task: Task) -> Outcome:
+    words = f"its worker was ended, as was that of each try before; given up after {STRIKES} tries"
+    return Outcome(task.key, FAILED, 1, words, {}, STRIKES, 0.0)

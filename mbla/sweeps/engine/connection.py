@@ -1,0 +1,308 @@
+"""The way to a Dask scheduler: opened, its workers checked, looked at, closed (only importer of distributed).
+
+Nothing waits without end: a scheduler or workers that are gone are told in words, with the remedy.
+"""
+
+from __future__ import annotations
+
+import importlib.util
+import json
+import logging
+import queue
+import threading
+import time
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack, contextmanager, suppress
+from types import SimpleNamespace, TracebackType
+from typing import Any, TypeVar
+
+from mbla.errors import FileError, UsageError
+from mbla.sweeps.engine.options import EngineOptions
+from mbla.sweeps.program import difference, library_versions, program_identity
+from mbla.sweeps.worker.batch import describe, end_processes
+
+LOOK = 1.0
+"""seconds between looks at whether scheduler and workers are still there"""
+REPLY = 30.0
+"""seconds in which a scheduler must answer a question; a busy one takes a few"""
+PARTING = 1.0
+"""seconds for taking leave of a scheduler; one that does not answer is left without"""
+LOOPBACK = "127.0.0.1:0"
+"""where the pages of local workers are that every worker of Dask serves; with none of them there is nothing to see"""
+QUIET = {
+    "distributed.scheduler.http.routes": [],
+    "distributed.worker.http.routes": [],
+    "distributed.worker.profile.enabled": False,
+    "distributed.admin.tick.interval": "1s",
+    "distributed.admin.system-monitor.interval": "10s",
+}
+"""of local workers: no pages, and none of the samples for them, which take 4 % of a processor"""
+Answer = TypeVar("Answer")
+
+
+class Connection:
+    """Context manager; the local workers, or the client of a scheduler, are there inside the block and gone after it.
+
+    client    : of Dask
+    threads   : points that can be solved together, as last seen
+    libraries : versions that every worker must have
+    """
+
+    def __init__(self, options: EngineOptions) -> None:
+        """UsageError where the extra is not installed."""
+        refuse_missing()
+        self.dask: Any = None
+        self.client: Any = None
+        self.threads = 0
+        self.libraries = library_versions()
+        self._options = options
+        self._stack = ExitStack()
+        self._looked = self._seen = 0.0
+
+    def __enter__(self) -> Connection:
+        """Start or connect; raises UsageError where there is no scheduler, no worker, or one with another mbla."""
+        with self._stack:
+            self.dask = dask_parts()
+            self._stack.enter_context(silenced())
+            self.client = self._remote() if self._options.cluster else self._local()
+            self._await_workers()
+            self._check_workers()
+            self._stack = self._stack.pop_all()
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, traceback: TracebackType | None
+    ) -> None:
+        self._stack.close()
+
+    def look(self, every: float = 0.0) -> None:
+        """See what workers there are, unless that was less than so many seconds ago.
+
+        Raises
+        ------
+        FileError
+            the scheduler is gone
+        UsageError
+            no worker has been there for a while
+        """
+        now = time.monotonic()
+        if now - self._looked < every:
+            return
+        self._looked = now
+        self.refuse_lost()
+        try:
+            self.threads = sum(within(REPLY, self.client.nthreads).values())
+        except (OSError, *self.dask.cancelled) as error:  # a TimeoutError is one
+            raise self._lost() from error
+        if self.threads or not self._seen:
+            self._seen = now
+        elif now - self._seen > self._options.patience:
+            raise UsageError("scheduler-lost", self._no_worker())
+
+    def refuse_lost(self, cause: BaseException | None = None) -> None:
+        """FileError where the scheduler is gone."""
+        if self.client.status != "running":
+            raise self._lost() from cause
+
+    @contextmanager
+    def lost_where_it_fails(self) -> Iterator[None]:
+        """What cannot be handed over is the scheduler's end: FileError."""
+        try:
+            yield
+        except (OSError, RuntimeError, *self.dask.cancelled) as error:
+            raise self._lost() from error
+
+    def ask_quietly(self, ask: Callable[[Any], Any]) -> None:
+        """Ask the client for what is only of use while the scheduler is there, and not for long."""
+        if self.client is not None and self.client.status == "running":
+            with suppress(Exception):
+                within(PARTING, lambda: ask(self.client))
+
+    # --- opening ------------------------------------------------------------------------------------------------------
+
+    def _local(self) -> Any:
+        """Workers inside this program, each with a process for its points: no port at which others find a scheduler."""
+        dask, workers = self.dask, self._options.workers
+        self._stack.enter_context(dask.configured(QUIET))
+        dask.inside._ip = LOOPBACK.split(":")[0]  # it would look for the way to another machine to find its own address
+        node = {"protocol": "inproc://", "dashboard": False, "dashboard_address": LOOPBACK}
+        cluster = dask.SpecCluster(
+            scheduler={"cls": dask.Scheduler, "options": node},
+            workers={
+                n: {"cls": dask.Worker, "options": node | {"nthreads": 1, "memory_limit": 0}} for n in range(workers)
+            },
+            silence_logs=logging.CRITICAL,
+        )
+        self._stack.callback(end_processes)  # of a batch that a worker began while it was told to end
+        self._stack.callback(_quietly, lambda: cluster.close(timeout=PARTING))
+        client = dask.Client(cluster, set_as_default=False)
+        self._stack.callback(_quietly, lambda: client.close(timeout=PARTING))
+        return client
+
+    def _remote(self) -> Any:
+        options, dask = self._options, self.dask
+        address = options.scheduler or self._address_in_file()
+        security = {"tls_ca_file": "--tls-ca-file", "tls_client_cert": "--tls-cert", "tls_client_key": "--tls-key"}
+        files = {key: str(options.tls_files[name]) for key, name in security.items() if name in options.tls_files}
+        try:
+            client = dask.Client(
+                address,
+                security=dask.Security(**files, require_encryption=True if address.startswith("tls://") else None),
+                timeout=options.patience,
+                set_as_default=False,
+            )
+        except Exception as error:
+            said = str(error.__cause__ or error) or type(error).__name__
+            message = f"no connection to the scheduler {address}: {' '.join(said.split())}"
+            remedy = "; a tls:// address needs --tls-ca-file, --tls-cert and --tls-key" if address[:3] == "tls" else ""
+            raise UsageError("scheduler-lost", message + remedy) from error
+        self._stack.callback(_quietly, lambda: client.close(timeout=PARTING))
+        return client
+
+    def _address_in_file(self) -> str:
+        """The address that a scheduler wrote, waited for as long as for the scheduler itself."""
+        path, until = self._options.scheduler_file, time.monotonic() + self._options.patience
+        assert path is not None
+        while True:
+            try:
+                return str(json.loads(path.read_text(encoding="utf-8"))["address"])
+            except FileNotFoundError:
+                words = "there is no such file; `dask scheduler --scheduler-file` writes it"
+            except OSError as error:
+                raise UsageError("scheduler-file", f"--scheduler-file {path}: {error.strerror}") from error
+            except (ValueError, KeyError, TypeError):
+                words = "not a file that `dask scheduler --scheduler-file` wrote"  # or not yet the whole of it
+            if time.monotonic() > until:
+                raise UsageError("scheduler-file", f"--scheduler-file {path}: {words}")
+            time.sleep(LOOK / 10)
+
+    def _await_workers(self) -> None:
+        until = time.monotonic() + self._options.patience
+        while True:
+            self.look()
+            if self.threads:
+                return
+            if time.monotonic() > until:
+                raise UsageError("scheduler-lost", self._no_worker())
+            time.sleep(LOOK / 10)
+
+    def _check_workers(self) -> None:
+        """UsageError naming each worker that has another mbla or other libraries than this process."""
+        client = self.client
+        try:
+            answers = within(REPLY, lambda: client.run(describe, on_error="return"))
+        except TimeoutError:
+            raise UsageError(
+                "scheduler-lost", f"a worker of {self._name()} does not answer within {REPLY:g} s: restart it"
+            ) from None
+        faults = []
+        for worker, answer in sorted(answers.items()):
+            if isinstance(answer, ImportError):
+                faults.append(f"worker {worker} cannot import this mbla: {_line(answer)}")
+            elif isinstance(answer, Exception):
+                if not isinstance(answer, OSError):  # that is one that has just gone
+                    faults.append(f"worker {worker}: {type(answer).__name__}: {_line(answer)}")
+            elif words := difference({"mbla": program_identity()} | self.libraries, _versions(answer)):
+                faults.append(f"worker {worker} on {answer['machine']}: {words}")
+        if faults:
+            raise UsageError(
+                "workers-differ", "\n".join([*faults, "install the same versions in the workers' environment"])
+            )
+
+    def _no_worker(self) -> str:
+        return (
+            f"{self._name()} has had no worker for {self._options.patience:g} s: "
+            "start some with `dask worker`; what was solved is in the journal, --resume goes on from it"
+        )
+
+    def _name(self) -> str:
+        named = self._options.scheduler or self._options.scheduler_file
+        return f"the scheduler {named}" if named else "this machine"
+
+    def _lost(self) -> FileError:
+        return FileError(
+            "scheduler-lost",
+            f"{self._name()} is gone; finished points are in the journal, --resume goes on with the rest",
+        )
+
+
+MISSING = "several processes and clusters need an extra that is not installed: pip install 'mbla[dask]'"
+
+
+def refuse_missing() -> None:
+    """UsageError where the extra is not installed; imports nothing, for that takes a second."""
+    if importlib.util.find_spec("distributed") is None:
+        raise UsageError("extra-missing", MISSING)
+
+
+def dask_parts() -> Any:
+    """What is used of Dask, by name; UsageError where the extra is not installed."""
+    try:
+        from asyncio import CancelledError as Cancelled
+        from concurrent.futures import CancelledError
+
+        from dask import config
+        from distributed import Client, Scheduler, Security, SpecCluster, Worker
+        from distributed.comm.inproc import global_manager
+        from distributed.scheduler import KilledWorker
+    except ImportError as error:
+        raise UsageError("extra-missing", MISSING) from error
+    return SimpleNamespace(
+        Client=Client,
+        Scheduler=Scheduler,
+        SpecCluster=SpecCluster,
+        Worker=Worker,
+        Security=Security,
+        KilledWorker=KilledWorker,
+        cancelled=(Cancelled, CancelledError),
+        configured=config.set,
+        inside=global_manager,
+    )
+
+
+@contextmanager
+def silenced() -> Iterator[None]:
+    """What Dask remarks on lost workers and connections is told in words of this program instead."""
+    names = [name for name in logging.root.manager.loggerDict if name.split(".")[0] in ("distributed", "tornado")]
+    loggers = [logging.getLogger(name) for name in names]
+    levels = [logger.level for logger in loggers]
+    for logger in loggers:
+        logger.setLevel(logging.CRITICAL + 1)
+    try:
+        yield
+    finally:
+        for logger, level in zip(loggers, levels, strict=True):
+            logger.setLevel(level)
+
+
+def within(seconds: float, ask: Callable[[], Answer]) -> Answer:
+    """The answer; TimeoutError where it does not come in time, whatever the library waits for."""
+    answers: queue.Queue[tuple[Answer | None, BaseException | None]] = queue.Queue()
+
+    def answer() -> None:
+        try:
+            answers.put((ask(), None))
+        except BaseException as error:
+            answers.put((None, error))
+
+    threading.Thread(target=answer, daemon=True).start()
+    try:
+        value, error = answers.get(timeout=seconds)
+    except queue.Empty:
+        raise TimeoutError from None
+    if error is not None:
+        raise error
+    return value  # type: ignore[return-value]
+
+
+def _quietly(close: Callable[[], Any]) -> None:
+    with suppress(Exception):
+        within(2 * PARTING, close)
+
+
+def _versions(answer: dict[str, Any]) -> dict[str, str]:
+    return {"mbla": answer["program"], **answer["libraries"]}
+
+
+def _line(error: BaseException) -> str:
+    return " ".join(str(error).split())

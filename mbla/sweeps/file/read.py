@@ -1,0 +1,86 @@
+"""From a sweep file to checked content, by the reader of decks."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+
+from mbla.deck.expressions import is_expression
+from mbla.deck.file_kind import FileKind
+from mbla.deck.include import read_files
+from mbla.deck.references import find
+from mbla.deck.suggestions import unknown
+from mbla.deck.tree import Tree
+from mbla.deck.units import Units
+from mbla.deck.validation import validate
+from mbla.errors import DeckError, Fault, Message, ValueRefused, first_faults
+from mbla.process.collector import no_collection
+from mbla.sweeps.file import design_rules as design_rules
+from mbla.sweeps.file import rules as rules
+from mbla.sweeps.file.content import SweepContent
+from mbla.sweeps.file.parts import KINDS
+from mbla.sweeps.file.sweep import Sweep
+
+SWEEP_FILE = FileKind(
+    name="sweep file",
+    begins="mbla_sweep: 1",
+    includes=False,
+    large="say values as ranges or samples, or divide it into several sweeps",
+    alias="write the value out",
+    merge="write its keys out",
+)
+
+
+def read_sweep(path: Path, overrides: Sequence[str] = ()) -> Sweep:
+    """Read and check a sweep file; its base deck is another step (``base.py``).
+
+    path      : the sweep file
+    overrides : ``key.path=value`` texts for the deck, for every point
+
+    Raises
+    ------
+    DeckError
+        with every fault found
+    FileError
+        if the file cannot be opened
+    """
+    with no_collection():
+        return _read(path, overrides)
+
+
+def _read(path: Path, overrides: Sequence[str]) -> Sweep:
+    tree, reading = read_files(path, kind=SWEEP_FILE)
+    if not reading.whole:  # what could not be read would be reported as missing
+        raise DeckError(reading.faults)
+    if "mbla" in tree.data and "mbla_sweep" not in tree.data:
+        message = "this is a deck, not a sweep file: mbla run solves it; a sweep file names it as its deck"
+        raise DeckError([tree.fault(("mbla",), Message("sweep-file-and-deck", message), at_key=True)])
+    content, faults = validate(tree, SweepContent, _number, reading.reported, reading.damaged)
+    faults += reading.faults
+    seen = {(fault.place, fault.key) for fault in faults}
+    faults += [fault for fault in first_faults(_unknown_parameters(tree)) if (fault.place, fault.key) not in seen]
+    if content is None or faults:
+        raise DeckError(list(dict.fromkeys(faults)))
+    text = reading.sources[0].text
+    sha256 = hashlib.sha256(text.encode()).hexdigest()
+    return Sweep(path, content, text, sha256, tuple(overrides), tree.fault)
+
+
+def _number(text: str, dimension: str) -> float:
+    """Number of a text, where a sweep file takes one: a time with its unit."""
+    if is_expression(text):
+        raise ValueRefused(
+            "sweep-values", "expressions belong to decks: write the number, or vary a parameter that the deck uses"
+        )
+    return Units().convert(text, dimension)
+
+
+def _unknown_parameters(tree: Tree) -> Iterator[Fault]:
+    """Faults of names in `of` that no parameter has."""
+    parameters = tree.data.get("parameters")
+    known = list(parameters) if isinstance(parameters, dict) else []
+    for kind in KINDS:
+        for path, name in find(tree.data, ["design", "#", kind, "of", "#"]):
+            if isinstance(name, str) and name not in known:
+                yield tree.fault(path, Message("unknown-name", unknown("parameter", name, known, "known")))

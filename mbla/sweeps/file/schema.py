@@ -1,0 +1,93 @@
+"""JSON Schema of the sweep file, generated from its types; ``python -m mbla.sweeps.file.schema --write`` writes
+it and the key reference.
+
+A schema sees single values and the keys of one mapping. Names, designs and the base deck are left to mbla itself.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from mbla.deck.key_reference import section_tables
+from mbla.deck.quantities import EXPRESSION_PATTERN, QUANTITY_PATTERN
+from mbla.deck.schema import REPOSITORY, between, tidy, write_generated
+from mbla.sweeps.file.content import SweepContent
+from mbla.sweeps.file.rules import EXACTLY_ONE
+
+MARKERS = ("<!-- sweep keys:begin -->", "<!-- sweep keys:end -->")
+VALUE_TYPES = ["number", "string", "boolean", "array"]
+"""what a value of a parameter may be"""
+
+
+def sweep_schema() -> dict[str, Any]:
+    """JSON Schema (draft 2020-12) of a whole sweep file."""
+    schema = SweepContent.model_json_schema(by_alias=True)
+    definitions = {name: _without_expressions(tidy(each)) for name, each in schema.pop("$defs").items()}
+    for section, keys in EXACTLY_ONE.items():
+        definitions[section.__name__]["oneOf"] = [{"required": [key]} for key in keys]
+    definitions["Parameter"]["properties"]["values"]["items"] = {"type": VALUE_TYPES}
+    return {
+        "$schema": "https://json-schema.org/draft/2020-12/schema",
+        "$id": "urn:mbla:schema:sweep:1",
+        "title": "mbla sweep file",
+        **_without_expressions(tidy(schema)),
+        "$defs": definitions,
+    }
+
+
+def sweep_schema_text() -> str:
+    """The schema as the file in ``schemas/`` has it."""
+    return json.dumps(sweep_schema(), indent=1, ensure_ascii=False) + "\n"
+
+
+def _without_expressions(node: Any) -> Any:
+    """A schema without the ``"=..."`` texts that a deck takes for numbers."""
+    if isinstance(node, list):
+        return [_without_expressions(each) for each in node]
+    if not isinstance(node, dict):
+        return node
+    node = {key: _without_expressions(value) for key, value in node.items()}
+    if node.get("pattern") == QUANTITY_PATTERN:
+        node["pattern"] = QUANTITY_PATTERN.replace("=|", "", 1)
+    branches = [each for each in node.get("anyOf", ()) if each.get("pattern") != EXPRESSION_PATTERN]
+    if len(branches) == 1:
+        del node["anyOf"]
+        return {**branches[0], **node}
+    return node
+
+
+def sweep_key_reference() -> str:
+    """A table for every section of a sweep file: key, value, default, meaning."""
+    introduction = (
+        "Numbers are plain: no expressions. What goes into the deck (`values` of parameters, `set`) is written as the "
+        "deck takes it there.\n"
+    )
+    return "\n".join([introduction, *section_tables(SweepContent, "sweep file")])
+
+
+def with_sweep_key_reference(text: str) -> str:
+    """A text with the key reference of sweep files between its two markers."""
+    return between(text, MARKERS, sweep_key_reference())
+
+
+def write_sweep_schema(folder: Path = REPOSITORY) -> list[Path]:
+    """Write ``schemas/sweep.schema.json`` and, between its markers, the key reference of ``README.md``."""
+    return write_generated(folder, "sweep", sweep_schema_text(), MARKERS, with_sweep_key_reference)
+
+
+def main(arguments: Sequence[str] | None = None) -> None:
+    """Entry of ``python -m mbla.sweeps.file.schema``."""
+    parser = argparse.ArgumentParser(
+        prog="python -m mbla.sweeps.file.schema", description="Generated files of the types of sweep files."
+    )
+    parser.add_argument("--write", action="store_true", required=True, help="write schema and key reference")
+    parser.parse_args(arguments)
+    write_sweep_schema()
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,192 @@
+"""Distribution of a result over a sample: histogram, and cumulative curve with its confidence band.
+
+The band is that of Dvoretzky, Kiefer and Wolfowitz with the constant of Massart, Ann. Probab. 18 (1990) 1269-1283,
+doi:10.1214/aop/1176990746: the whole curve of the population lies in it with the confidence stated, for independent
+points. What does not stand counts below every value, what nothing brings down above; what failed is unknown: the lower
+edge of the band takes it as above, the upper edge as below.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from mbla.arrays import BoolArray, FloatArray
+from mbla.results.pictures.options import PictureOptions
+from mbla.results.pictures.palette import VERMILION
+from mbla.sweeps.answers import Answers
+from mbla.sweeps.pictures.axes import axis_of, grid_axes, is_sampled
+from mbla.sweeps.pictures.sheet import Sheet, dress, open_sheet
+from mbla.sweeps.pictures.view import View, column_by_name
+
+CONFIDENCE = 0.95
+MOST_CURVES = 12
+"""curves of which each can be found again; more ask for one parameter with --by"""
+MOST_FILLED = 3
+"""curves whose bands can be filled without hiding each other; those of more are lines"""
+MOST_BINS = 60
+
+
+@dataclass(frozen=True)
+class Cumulative:
+    """A cumulative curve.
+
+    values : verified ones, ascending
+    share  : of all points that lie at or below each of them
+    low, high : edges of the band there
+    below, above, unknown : points below every value, above every value, and without an answer
+    points : all
+    """
+
+    values: FloatArray
+    share: FloatArray
+    low: FloatArray
+    high: FloatArray
+    below: int
+    above: int
+    unknown: int
+    points: int
+
+
+def refusal(view: View) -> str:
+    """Why there can be no distribution, or nothing."""
+    if view.text_refused:
+        return view.text_refused
+    count = len(_groups(view))
+    if count > MOST_CURVES:
+        return f"{count} combinations of the other parameters; {MOST_CURVES} have room, choose one with --by"
+    return "" if view.answers.good.any() else "no point has a verified value"
+
+
+def usual(view: View) -> bool:
+    """Whether it is drawn without being asked for: of random samples."""
+    return bool(view.table.samples) and not refusal(view)
+
+
+def cumulative(answers: Answers, own: BoolArray, band: bool = True) -> Cumulative:
+    """The curve of some points, (n_points,) true for those; without a band its edges tell only what is unknown."""
+    values = np.sort(answers.values[own & answers.good])
+    below, above, unknown = (int((which & own).sum()) for which in (answers.below, answers.above, answers.unknown))
+    points = int(own.sum())
+    reach = float(np.sqrt(np.log(2 / (1 - CONFIDENCE)) / (2 * points))) if band else 0.0
+    least = (below + np.searchsorted(values, values, side="right")) / points
+    share = least * points / max(points - unknown, 1)
+    low, high = np.clip(least - reach, 0, 1), np.clip(least + unknown / points + reach, 0, 1)
+    return Cumulative(values, share, low, high, below, above, unknown, points)
+
+
+def draw(path: Path, view: View, options: PictureOptions) -> None:
+    """Write the picture; raises as ``open_page`` does."""
+    groups = _groups(view)
+    sampled = bool(view.table.samples)
+    curves = [(name, cumulative(view.answers, own, sampled), own) for name, own in groups]
+
+    def handles(page: Any) -> list[Any]:
+        sheet = Sheet(page, 0, 1)
+        lines = [
+            page.parts.Line2D([], [], label=name, linewidth=2 * page.scale, **_style(sheet, i, len(curves)))
+            for i, (name, _, _) in enumerate(curves)
+            if name
+        ]
+        marked = [page.parts.Line2D([], [], color=VERMILION, linestyle="--", label="demand")] if view.demands else []
+        return lines + marked
+
+    notes = _notes(view, [curve for _, curve, _ in curves])
+    with open_sheet(path, view, f"distribution of {view.answers.label}", options, handles, notes) as sheet:
+        frames = sheet.panels(2, 1, sharex=True, height_ratios=(2, 3))
+        upper, lower = frames[:, 0]
+        dress(sheet, upper, "", "points")
+        dress(sheet, lower, view.answers.label, "probability of a lower value" if sampled else "share of the points")
+        _draw_histogram(sheet, upper, view, [own for _, _, own in curves])
+        for i, (_, curve, _) in enumerate(curves):
+            _draw_curve(sheet, lower, curve, _style(sheet, i, len(curves)), len(curves))
+        lower.set_ylim(-0.02, 1.02)
+        _draw_demands(sheet, (upper, lower), view)
+
+
+def _groups(view: View) -> list[tuple[str, BoolArray]]:
+    """Points of each value of the chosen parameter, or of each combination of those that are not sampled."""
+    table = view.table
+    axes = grid_axes(table) if table.samples else ()
+    if view.by and not is_sampled(table, column_by_name(table, view.by).dimension):
+        axes = (axis_of(table, column_by_name(table, view.by)),)
+    groups = [("", np.ones(len(table), dtype=bool))]
+    for axis in axes:
+        unit = f" {axis.column.unit}" if axis.column.unit else ""
+        names = [f"{axis.column.name} {name}{unit}" for name in axis.names]
+        groups = [
+            (f"{earlier}, {name}" if earlier else name, own & (axis.place == place))
+            for earlier, own in groups
+            for place, name in enumerate(names)
+        ]
+    return [(name, own) for name, own in groups if own.any()]
+
+
+def _style(sheet: Sheet, number: int, count: int) -> dict[str, Any]:
+    return {
+        "color": sheet.colour(number / max(count - 1, 1) if count > 1 else 0.3),
+        "linestyle": ("-", "--", "-.", ":")[number % 4],
+    }
+
+
+def _draw_histogram(sheet: Sheet, axes: Any, view: View, groups: Sequence[BoolArray]) -> None:
+    values = view.answers.values
+    known = values[view.answers.good]
+    edges = np.histogram_bin_edges(known, bins="auto")
+    if len(edges) - 1 > MOST_BINS:
+        edges = np.histogram_bin_edges(known, bins=MOST_BINS)
+    for i, own in enumerate(groups):
+        style = _style(sheet, i, len(groups))
+        if len(groups) == 1:
+            axes.hist(values[own & view.answers.good], bins=edges, color=style["color"], edgecolor="white")
+        else:
+            axes.hist(values[own & view.answers.good], bins=edges, histtype="step", linewidth=1.6 * sheet.page.scale,
+                      **style)  # fmt: skip
+
+
+def _draw_curve(sheet: Sheet, axes: Any, curve: Cumulative, style: dict[str, Any], count: int) -> None:
+    """Steps from what lies below every value to what lies not above the greatest."""
+    if not len(curve.values):
+        return
+    start = curve.below / max(curve.points - curve.unknown, 1)
+    edge = curve.values[0]
+    steps = np.concatenate([[edge], curve.values]), np.concatenate([[start], curve.share])
+    dense = len(curve.values) > 5000
+    axes.plot(*steps, drawstyle="steps-post", linewidth=1.8 * sheet.page.scale, rasterized=dense, zorder=3, **style)
+    if count <= MOST_FILLED:
+        axes.fill_between(curve.values, curve.low, curve.high, step="post", alpha=0.2, color=style["color"],
+                          linewidth=0.0, rasterized=dense, zorder=1)  # fmt: skip
+    else:
+        for side in (curve.low, curve.high):
+            axes.plot(curve.values, side, drawstyle="steps-post", linewidth=0.5 * sheet.page.scale, alpha=0.7,
+                      rasterized=dense, zorder=1, **style)  # fmt: skip
+
+
+def _draw_demands(sheet: Sheet, frames: Sequence[Any], view: View) -> None:
+    for demand in view.demands:
+        for axes in frames:
+            axes.axvline(demand, color=VERMILION, linestyle="--", linewidth=1.4 * sheet.page.scale, zorder=2)
+        frames[0].annotate(
+            f"{demand:.4g}", (demand, 1), xycoords=frames[0].get_xaxis_transform(), xytext=(3, -2), va="top",
+            textcoords="offset points", fontsize=sheet.small, color=VERMILION,
+        )  # fmt: skip
+
+
+def _notes(view: View, curves: Sequence[Cumulative]) -> list[str]:
+    notes = []
+    if view.table.samples:
+        kind = view.table.sampling.replace("_", " ")
+        band = f"band: {CONFIDENCE:.0%} for the whole curve (Dvoretzky-Kiefer-Wolfowitz)"
+        exact = "" if kind == "random" else f", which holds for independent points; those of {kind} spread more evenly"
+        notes.append(f"{kind} sample; {band}{exact}")
+    else:
+        notes.append("points of no random sample: shares of the points, no probabilities")
+    if any(curve.below or curve.above for curve in curves):
+        notes.append("no equilibrium counts below every value, unbounded above every value")
+    if any(curve.unknown for curve in curves):
+        notes.append("line: over the points with an answer; the band takes those without one as below and as above")
+    return notes

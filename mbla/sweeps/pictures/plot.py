@@ -1,0 +1,160 @@
+"""``mbla sweep-plot``: which pictures of a sweep go to which files."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import Any
+
+from mbla.errors import UsageError
+from mbla.results.pictures.options import LEAST_DPI, MOST_DPI, PictureOptions, format_of, parse_size
+from mbla.results.whole_file import writing_whole
+from mbla.sweeps.pictures.demands import demands_of
+from mbla.sweeps.pictures.kinds import KINDS
+from mbla.sweeps.pictures.view import View, chosen_results, view_of
+from mbla.sweeps.tables.read_table import read_sweep_table
+from mbla.sweeps.tables.sweep_table import SweepTable
+
+CLASS = "mechanism.class"
+"""text result of which a map is made beside that of the load factor"""
+
+
+@dataclass(frozen=True)
+class SweepPictures:
+    """What a user chooses about pictures of a sweep.
+
+    kinds   : names in ``KINDS``; empty for those that suit the table
+    every   : of the kinds those that the table does not fit are left out, rather than refused
+    result  : name or key path of result columns; None for the load factors
+    by      : parameter that comes first
+    demands : of result columns by their names, marked in distributions
+    page    : size, dots per inch and format
+    """
+
+    kinds: tuple[str, ...] = ()
+    every: bool = False
+    result: str | None = None
+    by: str = ""
+    demands: Mapping[str, tuple[float, ...]] = field(default_factory=dict)
+    page: PictureOptions = field(default_factory=PictureOptions)
+
+
+@dataclass(frozen=True)
+class Chosen:
+    """A picture to make."""
+
+    kind: str
+    view: View
+
+    @property
+    def name(self) -> str:
+        """``curve_load_factor``: what is no letter, number, full stop or hyphen becomes a low line."""
+        return f"{self.kind}_{re.sub(r'[^A-Za-z0-9.-]+', '_', self.view.answers.column.name)}"
+
+
+def plot_sweep_files(path: Path, arguments: Any) -> list[Path]:
+    """Pictures of a sweep from its folder, sweep.csv or sweep.json, as the command line asks for them.
+
+    Raises as ``sweep_picture_options``, ``read_sweep_table`` and ``plot_sweep`` do.
+    """
+    chosen = sweep_picture_options(arguments)
+    table = read_sweep_table(path)
+    folder = path if path.is_dir() else path.parent
+    return plot_sweep(table, arguments.output or folder, replace(chosen, demands=demands_of(folder)))
+
+
+def sweep_picture_options(arguments: Any) -> SweepPictures:
+    """Choices from the texts of the command line; UsageError for what is none."""
+    if not LEAST_DPI <= arguments.dpi <= MOST_DPI:
+        raise UsageError("picture-option", f"--dpi {arguments.dpi}: {LEAST_DPI} to {MOST_DPI} dots per inch")
+    kinds, every = _parse_kinds(arguments.kind) if arguments.kind is not None else ((), False)
+    page = PictureOptions(size=parse_size(arguments.size), dpi=arguments.dpi, format=arguments.format)
+    return SweepPictures(kinds, every, arguments.result, arguments.by or "", page=page)
+
+
+def plot_sweep(table: SweepTable, target: Path, chosen: SweepPictures | None = None) -> list[Path]:
+    """Pictures of a sweep; the paths written.
+
+    ``sweep_KIND_RESULT.png`` and so on; earlier ones of the same names are replaced.
+
+    target : a file with the suffix .png, .svg or .pdf, for a single picture: the first that suits the table unless a
+             kind and a result are chosen; else a folder, created if missing
+
+    Raises
+    ------
+    UsageError
+        A kind that does not fit the table, no such result or parameter, several pictures for one file, another suffix,
+        nothing to draw; the extra for pictures is not installed.
+    FileError
+        A picture or the folder cannot be written.
+    """
+    chosen = chosen or SweepPictures()
+    pictures = pictures_of(table, chosen)
+    if target.suffix and not target.is_dir():
+        format_of(target)
+        pictures = pictures if chosen.kinds else pictures[:1]
+        if len(pictures) > 1:
+            names = ", ".join(picture.name for picture in pictures)
+            raise UsageError(
+                "several-pictures-one-file",
+                f"{target}: one file for {len(pictures)} pictures ({names}); choose one, or name a folder",
+            )
+        paths = [target]
+    else:
+        paths = [target / f"sweep_{picture.name}.{chosen.page.format}" for picture in pictures]
+    for picture, path in zip(pictures, paths, strict=True):
+        with writing_whole(path) as temporary:
+            KINDS[picture.kind].draw(temporary, picture.view, chosen.page)
+    return paths
+
+
+def pictures_of(table: SweepTable, chosen: SweepPictures) -> list[Chosen]:
+    """The pictures to make, kind by kind of each result; raises as ``plot_sweep`` does."""
+    if not len(table):
+        raise UsageError("nothing-to-draw", "the sweep has no points to draw")
+    views = [
+        view_of(table, result, chosen.by, chosen.demands.get(result.name, ()))
+        for result in chosen_results(table, chosen.result)
+    ]
+    if chosen.kinds:
+        pictures = [Chosen(kind, view) for view in views for kind in chosen.kinds if _fits(kind, view, chosen.every)]
+    else:
+        pictures = [Chosen(kind, view) for view in views for kind in KINDS if KINDS[kind].usual(view)]
+        if chosen.result is None:
+            pictures += _class_maps(table, chosen)
+    if not pictures:
+        raise UsageError("nothing-to-draw", _nothing(views))
+    return pictures
+
+
+def _class_maps(table: SweepTable, chosen: SweepPictures) -> list[Chosen]:
+    """Maps of mechanism classes where any is known."""
+    columns = [column for column in table.of_role("result") if column.path == CLASS]
+    views = [view_of(table, column, chosen.by) for column in columns]
+    return [Chosen("map", view) for view in views if view.answers.good.any() and KINDS["map"].usual(view)]
+
+
+def _fits(kind: str, view: View, every: bool) -> bool:
+    reason = KINDS[kind].refusal(view)
+    if reason and not every:
+        raise UsageError("nothing-to-draw", f"--kind {kind} of {view.answers.column.name}: {reason}")
+    return not reason
+
+
+def _nothing(views: Sequence[View]) -> str:
+    reasons = [f"{kind}: {KINDS[kind].refusal(views[0]) or 'only where --kind asks for it'}" for kind in KINDS]
+    return f"no kind of picture suits {views[0].answers.column.name} ({'; '.join(reasons)})"
+
+
+def _parse_kinds(text: str) -> tuple[tuple[str, ...], bool]:
+    """Kinds in their own order, and whether all were asked for; UsageError for others."""
+    asked = [part.strip() for part in text.split(",") if part.strip()]
+    if asked == ["all"]:
+        return tuple(KINDS), True
+    if not asked or set(asked) - set(KINDS):
+        raise UsageError(
+            "picture-option", f"--kind {text}: there are {', '.join(KINDS)}, or all; several with commas between them"
+        )
+    return tuple(kind for kind in KINDS if kind in asked), False

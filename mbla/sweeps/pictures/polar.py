@@ -1,0 +1,151 @@
+"""Polar diagram: a result over load directions around the horizon; a map of azimuth and elevation over a sphere."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from mbla.arrays import FloatArray
+from mbla.results.pictures.options import PictureOptions
+from mbla.results.pictures.palette import INK
+from mbla.sweeps.answers import Answer
+from mbla.sweeps.pictures import sphere
+from mbla.sweeps.pictures.axes import Axis, axis_of, is_sampled, over_sphere
+from mbla.sweeps.pictures.cells import Cells, pooled
+from mbla.sweeps.pictures.curve import MOST_NAMED, add_scale, line_style
+from mbla.sweeps.pictures.marks import MARKS
+from mbla.sweeps.pictures.panels import MOST_PANELS, panel_places, panel_title
+from mbla.sweeps.pictures.sheet import Sheet, mark_handles, open_sheet
+from mbla.sweeps.pictures.view import View
+from mbla.sweeps.tables.sweep_table import SweepColumn
+
+WIDEST_STEP = 1.5
+"""gap over the full circle, in usual steps of the azimuth, across which a curve is still closed"""
+LEAST_ROOM = 1e-9
+"""relative room between the least radius and the greatest: of equal values the diagram is a circle, not a point"""
+
+
+def refusal(view: View) -> str:
+    """Why there can be no polar diagram, or nothing."""
+    if view.text_refused:
+        return view.text_refused
+    if sphere.directions(view) is not None:
+        return sphere.refusal(view)
+    column = _azimuth(view)
+    if column is None:
+        return "no parameter is a direction around the horizon of a grid, or over a sphere"
+    return "" if len(axis_of(view.table, column).levels) > 2 else "needs three directions"
+
+
+def usual(view: View) -> bool:
+    """Whether it is drawn without being asked for."""
+    return not refusal(view)
+
+
+def draw(path: Path, view: View, options: PictureOptions) -> None:
+    """Write the picture; raises as ``open_page`` does."""
+    if sphere.directions(view) is not None:
+        sphere.draw(path, view, options)
+        return
+    column = _azimuth(view)
+    assert column is not None
+    turn = axis_of(view.table, column)
+    rest = [axis for axis in view.axes if axis.column.dimension != column.dimension]
+    lines = rest[0] if rest else None
+    panels = rest[1] if len(rest) > 1 and len(rest[1].levels) <= MOST_PANELS else None
+    chosen = [axis for axis in (panels, lines, turn) if axis is not None]
+    cells = pooled(view.answers, chosen)
+    shape = (len(panels.levels) if panels else 1, len(lines.levels) if lines else 1, len(turn.levels))
+    cells = cells.shaped(shape)
+    notes = [f"line: median of up to {cells.count.max()} points of the other parameters"] * cells.several
+
+    def handles(page: Any) -> list[Any]:
+        sheet = Sheet(page, 0, 1)
+        named = lines.names if lines is not None and len(lines.levels) <= MOST_NAMED else []
+        of_lines = [
+            page.parts.Line2D([], [], label=f"{lines.column.name} {name}", **line_style(sheet, i, shape[1]))
+            for i, name in enumerate(named)
+            if lines is not None
+        ]
+        return of_lines + mark_handles(page, cells.answer)
+
+    what = f"{view.answers.label} over {turn.label}" + (f", a curve for each {lines.label}" if lines else "")
+    with open_sheet(path, view, what, options, handles, notes) as sheet:
+        rows, columns = panel_places(shape[0], sheet)
+        frames = sheet.panels(rows, columns, "compressed", subplot_kw={"projection": "polar"})
+        for number, axes in enumerate(frames.flat):
+            if number >= shape[0]:
+                axes.set_axis_off()
+                continue
+            _dress(sheet, axes, panel_title(panels, number), _radii(cells))
+            for line in range(shape[1]):
+                _draw_curve(sheet, axes, turn, cells.part(number, line), line_style(sheet, line, shape[1]))
+        if lines is not None and not len(lines.levels) <= MOST_NAMED:
+            add_scale(sheet, frames, lines)
+
+
+def _azimuth(view: View) -> SweepColumn | None:
+    """Directions around the horizon of a grid, that of ``by`` first."""
+    found = [
+        column
+        for column in view.table.of_role("azimuth")
+        if not over_sphere(view.table, column.dimension) and not is_sampled(view.table, column.dimension)
+    ]
+    chosen = [column for column in found if column.name == view.by]
+    return next(iter((*chosen, *found)), None)
+
+
+def _radii(cells: Cells) -> tuple[float, float]:
+    """Value at the middle, zero unless there are values below it, and at the rim."""
+    known = cells.value[np.isfinite(cells.value)]
+    least, most = min(0.0, known.min(initial=0.0)), max(0.0, known.max(initial=0.0))
+    if most - least <= LEAST_ROOM:
+        return least, least + 1.0
+    return least * 1.05, most * 1.08
+
+
+def _dress(sheet: Sheet, axes: Any, title: str, radii: tuple[float, float]) -> None:
+    axes.set_rlim(*radii)
+    axes.tick_params(labelsize=sheet.small, colors=INK)
+    rings = sheet.page.parts.MaxNLocator(5).tick_values(*radii)
+    axes.set_rgrids([ring for ring in rings if radii[0] < ring < radii[1]])
+    axes.set_rlabel_position(22.5)
+    axes.grid(visible=True, color="#CCCCCC", linewidth=0.6)
+    axes.set_thetagrids(range(0, 360, 45), ["0° (+x)", "45°", "90° (+y)", "135°", "180°", "225°", "270°", "315°"])
+    axes.set_title(title, fontsize=sheet.small, color=INK, parse_math=False, pad=1.2 * sheet.small)
+    if radii[0] < 0:  # zero is a circle then, not the middle
+        axes.plot(np.linspace(0, 2 * np.pi, 181), np.zeros(181), color=INK, linewidth=sheet.page.scale, zorder=2)
+
+
+def _draw_curve(sheet: Sheet, axes: Any, turn: Axis, cells: Cells, style: dict[str, Any]) -> None:
+    """A curve, closed where the directions go around; broken where there is no value; markers of other answers."""
+    angle = np.radians(turn.coordinates)
+    value = np.where(np.isin(cells.answer, (Answer.VALUE, Answer.PARTLY)), cells.value, np.nan)
+    if closes(turn.coordinates):
+        shown = np.append(angle, angle[0] + 2 * np.pi), np.append(value, value[0])
+    else:
+        shown = angle, value
+    if len(angle) > 48:
+        style = style | {"marker": "."}
+    axes.plot(*shown, zorder=3, **style)
+    least, most = axes.get_ylim()
+    for kind, mark in MARKS.items():
+        own = cells.answer == kind
+        radius = {Answer.UNVERIFIED: cells.value[own], Answer.PARTLY: cells.value[own], Answer.NO_EQUILIBRIUM: 0.0}
+        if own.any():
+            axes.plot(angle[own], np.broadcast_to(radius.get(kind, most), own.sum()), linestyle="none",
+                      marker=mark.marker, markerfacecolor="none", markeredgecolor=mark.colour,
+                      markeredgewidth=1.5 * sheet.page.scale, markersize=8 * sheet.page.scale, clip_on=False,
+                      zorder=4)  # fmt: skip
+    axes.set_rlim(least, most)
+
+
+def closes(azimuths: FloatArray) -> bool:
+    """Whether directions in degrees, ascending, go around the full circle without a gap."""
+    if len(azimuths) < 3:
+        return False
+    steps = np.diff(azimuths)
+    gap = azimuths[0] + 360.0 - azimuths[-1]
+    return bool(0 < gap <= WIDEST_STEP * np.median(steps))

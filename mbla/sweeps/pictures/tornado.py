@@ -1,0 +1,187 @@
+"""Tornado: which parameters a result depends on most, the greatest at the top."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from mbla.results.pictures.options import PictureOptions
+from mbla.results.pictures.palette import BLUE, GHOST, INK, VERMILION
+from mbla.sweeps.pictures.axes import axis_of, design_columns, over_sphere
+from mbla.sweeps.pictures.sensitivities import (
+    CONFIDENCE,
+    LEAST_POINTS,
+    Correlation,
+    Swing,
+    correlation,
+    rank_correlation,
+    swing,
+)
+from mbla.sweeps.pictures.sheet import Sheet, dress, open_sheet
+from mbla.sweeps.pictures.view import View
+from mbla.sweeps.tables.sweep_table import SweepColumn
+
+INTERVAL = f"{CONFIDENCE:.0%} interval"
+
+
+def refusal(view: View) -> str:
+    """Why there can be no tornado, or nothing."""
+    if view.text_refused:
+        return view.text_refused
+    if view.sampled:
+        good = int(view.answers.good.sum())
+        if good < LEAST_POINTS:
+            return f"{good} points with a verified value; correlations of samples need {LEAST_POINTS}"
+        return "" if _ordered(view) else "no parameter is a number that can be put in order"
+    if not view.axes:
+        return "no parameter has two values"
+    if not any(each.combinations for each in _swings(view)):
+        return "nowhere has every value of a parameter a verified result, the others kept"
+    return ""
+
+
+def usual(view: View) -> bool:
+    """Whether it is drawn without being asked for: of one parameter there is nothing to compare."""
+    return not refusal(view) and len(_ordered(view) if view.sampled else view.axes) > 1
+
+
+def draw(path: Path, view: View, options: PictureOptions) -> None:
+    """Write the picture; raises as ``open_page`` does."""
+    if view.sampled:
+        _draw_correlations(path, view, options)
+    else:
+        _draw_swings(path, view, options)
+
+
+def _ordered(view: View) -> list[SweepColumn]:
+    """Parameters whose values have an order: no texts, no directions."""
+    columns = design_columns(view.table)
+    return [column for column in columns if column.role == "parameter" and column.kind in ("float", "int")]
+
+
+def _swings(view: View) -> list[Swing]:
+    return [swing(view, axis) for axis in view.axes]
+
+
+def _draw_correlations(path: Path, view: View, options: PictureOptions) -> None:
+    found = [correlation(view, column) for column in _ordered(view)]
+    found.sort(key=lambda each: np.nan_to_num(-abs(each.value), nan=1.0))
+    mixed = len(view.table.dimensions) > 1
+    notes = [f"bars: Spearman rank correlation over {found[0].points} points with a verified value"]
+    if mixed:
+        notes[0] += "; no interval, as samples that are repeated over a grid are not independent"
+    else:
+        notes[0] += f"; whiskers: {INTERVAL} (Bonett and Wright), which takes the points as independent"
+    notes += _tangled(view)
+    left = [column.name for column in design_columns(view.table) if column not in _ordered(view)]
+    if left:
+        notes.append(f"no order, so not here: {', '.join(left)}")
+    with open_sheet(path, view, f"{view.answers.label}: sensitivity to parameters", options, None, notes) as sheet:
+        axes = sheet.panels(1, 1)[0, 0]
+        dress(sheet, axes, f"rank correlation with {view.answers.label}")
+        rows = np.arange(len(found))
+        values = np.nan_to_num(np.array([each.value for each in found]))
+        colours = [VERMILION if value < 0 else BLUE for value in values]
+        axes.barh(rows, values, color=colours, height=_thickness(len(found)), zorder=2)
+        if not mixed:
+            _whiskers(sheet, axes, rows, [each.low for each in found], [each.high for each in found])
+        axes.set_xlim(-1.05, 1.05)
+        _name_rows(sheet, axes, [each.name for each in found], [_words(each) for each in found])
+
+
+LEAST_TANGLED = 0.3
+"""rank correlation of two parameters with each other from which what each does cannot be told by this picture"""
+
+
+def _tangled(view: View) -> list[str]:
+    """A warning where parameters of the sample go together, as constraints and zipped lists make them."""
+    columns = _ordered(view)
+    good = view.answers.good
+    together = []
+    for i, first in enumerate(columns):
+        for second in columns[i + 1 :]:
+            one, other = (np.asarray(view.table[column.name], dtype=float)[good] for column in (first, second))
+            if abs(rank_correlation(one, other)) > LEAST_TANGLED:
+                together.append(f"{first.name} with {second.name}")
+    return [f"parameters that go together, so that their bars cannot be told apart: {', '.join(together)}"] * bool(
+        together
+    )
+
+
+def _draw_swings(path: Path, view: View, options: PictureOptions) -> None:
+    found = sorted(_swings(view), key=lambda each: np.nan_to_num(-each.span, nan=1.0))
+    notes = [
+        "bars: mean change from the least to the greatest value of the parameter at each combination of the others; "
+        "whiskers: least and most of these changes; outline: mean range over all its values"
+    ]
+    left = [f"{each.name} {each.left_out} of {each.left_out + each.combinations}" for each in found if each.left_out]
+    if left:
+        notes.append(f"combinations left out as a point has no verified value: {', '.join(left)}")
+    spheres = [column.name for column in view.table.of_role("azimuth") if over_sphere(view.table, column.dimension)]
+    if spheres:
+        notes.append(f"directions over a sphere have no least and greatest, so not here: {', '.join(spheres)}")
+    what = f"{view.answers.label}: sensitivity to parameters"
+    with open_sheet(path, view, what, options, None, notes) as sheet:
+        axes = sheet.panels(1, 1)[0, 0]
+        dress(sheet, axes, f"change of {view.answers.label}")
+        rows, thick = np.arange(len(found)), _thickness(len(found))
+        change = np.nan_to_num(np.array([each.change for each in found]))
+        span = np.nan_to_num(np.array([each.span for each in found])) * np.where(change < 0, -1.0, 1.0)
+        axes.barh(rows, span, facecolor="none", edgecolor=GHOST, linewidth=1.2 * sheet.page.scale,
+                  height=thick, zorder=2)  # fmt: skip
+        colours = [VERMILION if each < 0 else BLUE for each in change]
+        axes.barh(rows, change, color=colours, height=0.75 * thick, zorder=2)
+        _whiskers(sheet, axes, rows, [each.least for each in found], [each.most for each in found])
+        axes.margins(x=0.12)
+        _name_rows(sheet, axes, [_ends(view, each) for each in found], [_swing_words(each) for each in found])
+
+
+def _thickness(count: int) -> float:
+    """Of bars, share of the distance between them: a few need not fill the page."""
+    return min(0.6, 0.1 + 0.12 * count)
+
+
+def _whiskers(sheet: Sheet, axes: Any, rows: Any, low: Sequence[float], high: Sequence[float]) -> None:
+    for row, first, last in zip(rows, low, high, strict=True):
+        if np.isfinite(first) and np.isfinite(last):
+            axes.plot([first, last], [row, row], color=INK, marker="|", markersize=9 * sheet.page.scale,
+                      linewidth=1.4 * sheet.page.scale, zorder=3)  # fmt: skip
+
+
+def _name_rows(sheet: Sheet, axes: Any, names: Sequence[str], words: Sequence[str]) -> None:
+    """Names at the left, figures at the right, the first row at the top."""
+    axes.axvline(0.0, color=INK, linewidth=sheet.page.scale, zorder=4)
+    axes.set_ylim(len(names) - 0.4, -0.6)
+    axes.set_yticks(range(len(names)), names)
+    axes.grid(visible=False, axis="y")
+    other = axes.twinx()
+    other.set_ylim(axes.get_ylim())
+    other.set_yticks(range(len(names)), words)
+    other.tick_params(labelsize=sheet.small, colors=INK, length=0)
+    other.spines[["top", "right", "bottom", "left"]].set_visible(False)
+    for text in (*axes.get_yticklabels(), *other.get_yticklabels()):
+        text.set_parse_math(False)
+
+
+def _words(found: Correlation) -> str:
+    return "does not vary" if np.isnan(found.value) else f"{found.value:+.2f}"
+
+
+def _swing_words(found: Swing) -> str:
+    if not found.combinations:
+        return "not known"
+    return f"range {found.span:.3g}" if np.isnan(found.change) else f"{found.change:+.3g}, range {found.span:.3g}"
+
+
+def _ends(view: View, found: Swing) -> str:
+    """Name of a parameter with its least and greatest value, or the number of values that have no order."""
+    column = next(column for column in design_columns(view.table) if column.name == found.name)
+    axis = axis_of(view.table, column)
+    unit = f" {column.unit}" if column.unit else ""
+    partners = f", with {', '.join(axis.partners)}" if axis.partners else ""
+    if axis.categorical or column.role != "parameter":
+        return f"{found.name}{partners}\n{len(axis.levels)} values"
+    return f"{found.name}{partners}\n{axis.names[0]} to {axis.names[-1]}{unit}"

@@ -1,0 +1,120 @@
+"""The table of a sweep read back from its files, for pictures: sweep.csv, and sweep.json, which says what it holds."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+import math
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Any
+
+from mbla.errors import FileError
+from mbla.results.disk import file_errors
+from mbla.results.tables.column import Values
+from mbla.sweeps.design.design import Dimension
+from mbla.sweeps.plan import Plain
+from mbla.sweeps.results import OWN_COLUMNS
+from mbla.sweeps.tables.from_outcomes import column_values
+from mbla.sweeps.tables.sweep_json import VERSION, positions_at
+from mbla.sweeps.tables.sweep_table import SweepColumn, SweepTable
+
+CSV, JSON = "sweep.csv", "sweep.json"
+TRUTH = {"True": True, "False": False}
+READ: dict[str, Callable[[str], Plain]] = {"float": float, "int": int, "bool": TRUTH.__getitem__, "text": str}
+"""from a cell that is not empty to its value"""
+
+
+def read_sweep_table(path: Path) -> SweepTable:
+    """The table of a sweep from its folder, its sweep.csv or its sweep.json.
+
+    Raises
+    ------
+    FileError
+        there is none, it cannot be read, it is no table of a sweep, or the two files do not belong together
+    """
+    folder = path if path.is_dir() else path.parent
+    if path != folder and path.name not in (CSV, JSON):
+        raise FileError("sweep-table-damaged", f"{path}: is no table of a sweep; name its folder, {CSV} or {JSON}")
+    if not (folder / JSON).is_file() or not (folder / CSV).is_file():
+        missing = JSON if not (folder / JSON).is_file() else CSV
+        raise FileError(
+            "sweep-table-damaged",
+            f"{folder / missing}: there is none; mbla sweep writes {CSV} and {JSON} into one folder",
+        )
+    record = _record(folder / JSON)
+    rows = _rows(folder / CSV)
+    try:
+        return _table(record, rows)
+    except (KeyError, TypeError, ValueError, IndexError, AttributeError) as error:
+        what = str(error.args[0]) if error.args else type(error).__name__
+        raise FileError(
+            "sweep-table-damaged", f"{folder / CSV}: is not the table that {JSON} describes: {what}"
+        ) from error
+
+
+def _record(path: Path) -> dict[str, Any]:
+    with file_errors(path):
+        data = path.read_bytes()
+    try:
+        record = json.loads(data.decode("utf-8"))
+    except (ValueError, RecursionError) as error:
+        raise FileError("sweep-table-damaged", f"{path}: is no JSON: {str(error).splitlines()[0]}") from error
+    if not isinstance(record, dict) or not {"sweep", "version", "columns", "design"} <= set(record):
+        raise FileError("sweep-table-damaged", f"{path}: is no record of a sweep")
+    if record["version"] != VERSION:
+        raise FileError(
+            "sweep-table-damaged",
+            f"{path}: version {record['version']} of the record, written by mbla {record.get('mbla')}; "
+            f"this mbla reads version {VERSION}",
+        )
+    return record
+
+
+def _rows(path: Path) -> list[list[str]]:
+    with file_errors(path):
+        data = path.read_bytes()
+    try:
+        text = data.decode("utf-8")
+        return list(csv.reader(io.StringIO(text, newline=""), strict=True))
+    except (ValueError, csv.Error) as error:
+        raise FileError("sweep-table-damaged", f"{path}: is no CSV: {error}") from error
+
+
+def _table(record: dict[str, Any], rows: Sequence[Sequence[str]]) -> SweepTable:
+    columns = tuple(SweepColumn(**column) for column in record["columns"])
+    design = record["design"]
+    dimensions = tuple(Dimension(**dimension) for dimension in design["dimensions"])
+    if not rows or list(rows[0]) != [column.header for column in columns]:
+        raise ValueError("its columns differ")
+    places = design["places"]
+    points = math.prod(dimension.size for dimension in dimensions) if places is None else len(places)
+    if len(rows) - 1 != points:
+        raise ValueError(f"{len(rows) - 1} rows, {points} points")
+    position = positions_at(places, dimensions)
+    if not set(OWN_COLUMNS) <= {column.name for column in columns}:
+        raise ValueError("columns are missing")
+    if wrong := next((number for number, row in enumerate(rows, 1) if len(row) != len(columns)), None):
+        raise ValueError(f"row {wrong} has {len(rows[wrong - 1])} cells, {len(columns)} columns")
+    cells = list(zip(*rows[1:], strict=True)) or [()] * len(columns)
+    return SweepTable(
+        title=str(record["title"]),
+        columns=columns,
+        values=tuple(_values(column, own) for column, own in zip(columns, cells, strict=True)),
+        dimensions=dimensions,
+        position=position,
+        samples=design["samples"] or "",
+        sampling=design["sampling"] or "",
+    )
+
+
+def _values(column: SweepColumn, cells: Sequence[str]) -> Values:
+    read = READ[column.kind]
+    values: list[Plain] = []
+    for row, cell in enumerate(cells, 2):
+        try:
+            values.append(read(cell) if cell else None)
+        except (KeyError, ValueError) as error:
+            raise ValueError(f"row {row}: {column.name} = {cell[:40]!r}") from error
+    return column_values(column.kind, values)

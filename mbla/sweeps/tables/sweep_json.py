@@ -1,0 +1,97 @@
+"""A sweep as one JSON object: what ``--json`` prints and ``sweep.json`` holds; the values are in sweep.csv."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass
+from typing import Any
+
+import numpy as np
+
+from mbla import __version__
+from mbla.arrays import IntArray
+from mbla.errors import Notice
+from mbla.results.records.json_record import notice_json
+from mbla.results.records.numbers import number
+from mbla.sweeps.design.design import Dimension
+from mbla.sweeps.outcome import DONE, FAILED
+from mbla.sweeps.tables.sweep_table import SweepTable
+
+VERSION = 1
+"""of this record and of the layout of sweep.h5; raised by one with every change that an older reader would misread"""
+
+
+@dataclass(frozen=True)
+class SweepRun:
+    """What is said of a sweep beside its table.
+
+    sweep     : file name of the sweep file
+    deck      : the base deck as the sweep file names it
+    created   : date of the run, UTC, ISO 8601
+    exit_code : of the sweep
+    left_out  : points of the design that broke a constraint
+    seconds   : of the whole run by the clock
+    notices   : remarks and warnings
+    """
+
+    sweep: str
+    deck: str
+    created: str
+    exit_code: int
+    left_out: int = 0
+    seconds: float = 0.0
+    notices: tuple[Notice, ...] = ()
+
+
+def sweep_json(
+    run: SweepRun, table: SweepTable, fragility: Sequence[dict[str, Any]] = (), files: Sequence[str] = ()
+) -> dict[str, Any]:
+    """The record; fragility as ``fragility_json`` gives it."""
+    return {
+        "mbla": __version__,
+        "sweep": run.sweep,
+        "version": VERSION,
+        "deck": run.deck,
+        "title": table.title,
+        "created": run.created,
+        "exit_code": run.exit_code,
+        "points": counts(table) | {"left_out": run.left_out},
+        "design": {
+            "dimensions": [asdict(dimension) for dimension in table.dimensions],
+            "samples": table.samples or None,
+            "sampling": table.sampling or None,
+            "places": _places(table.dimensions, table.position),
+        },
+        "columns": [asdict(column) for column in table.columns],
+        "fragility": list(fragility),
+        "notices": [notice_json(notice) for notice in run.notices],
+        "time": {"total": number(run.seconds)},
+        "files": list(files),
+    }
+
+
+def counts(table: SweepTable) -> dict[str, int]:
+    """Points of the table: all, done, failed, and those that have not been solved yet."""
+    states = table["state"].tolist()
+    done, failed = states.count(DONE), states.count(FAILED)
+    return {"all": len(table), "done": done, "failed": failed, "unfinished": len(table) - done - failed}
+
+
+def _places(dimensions: Sequence[Dimension], position: IntArray) -> list[int] | None:
+    """Place of each point in the whole design, the last dimension fastest, from 0; None where all are there."""
+    shape = tuple(dimension.size for dimension in dimensions)
+    places = np.ravel_multi_index(tuple(position.T), shape) if shape else np.zeros(len(position), dtype=np.int64)
+    return None if np.array_equal(places, np.arange(np.prod(shape))) else [int(place) for place in places]
+
+
+def positions_at(places: Sequence[int] | None, dimensions: Sequence[Dimension]) -> IntArray:
+    """Positions along each dimension, (n_points, n_dimensions), from the places; the way back.
+
+    Raises
+    ------
+    ValueError
+        a place lies outside the design
+    """
+    shape = tuple(dimension.size for dimension in dimensions)
+    where = np.arange(np.prod(shape, dtype=np.int64)) if places is None else np.array(places, dtype=np.int64)
+    return np.stack(np.unravel_index(where, shape), axis=1) if shape else np.zeros((len(where), 0), dtype=np.int64)

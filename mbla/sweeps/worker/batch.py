@@ -1,0 +1,147 @@
+"""Points in a worker of a cluster: plain data in and out, each solved in a supervised process of the worker.
+
+The functions are called by their import path. A worker has as many processes as it has threads that ask; they are kept
+for the next batch of the same plan, and ended when none has come for a while or the client says so.
+"""
+
+from __future__ import annotations
+
+import platform
+import threading
+import time
+from collections.abc import Mapping, Sequence
+from contextlib import suppress
+from typing import Any
+
+from mbla.errors import UsageError
+from mbla.sweeps.plan import Plan
+from mbla.sweeps.program import difference, library_versions, program_identity
+from mbla.sweeps.worker.messages import plan_of, record_of, task_of
+from mbla.sweeps.worker.supervised import StoppedError, SupervisedRunner
+
+IDLE = 60.0
+"""seconds without a batch after which the processes are ended: their client is gone"""
+ENOUGH = 2.0
+"""seconds after which a batch is handed back, what is left of it undone: so much is lost where a worker is killed, and
+no worker waits longer than that for one whose points take more than was expected"""
+
+
+class Processes:
+    """The processes of this worker."""
+
+    def __init__(self) -> None:
+        """None yet."""
+        self._lock = threading.Lock()
+        self._free: list[SupervisedRunner] = []
+        self._busy: list[SupervisedRunner] = []
+        self._plan: Plan | None = None
+        self._timer: threading.Timer | None = None
+
+    def expect(self, plan: Plan, count: int) -> None:
+        """Begin so many, which import everything until the first batches come."""
+        with self._lock:
+            self._end_free()
+            self._plan = plan
+            self._free = [SupervisedRunner(plan) for _ in range(count)]
+            for runner in self._free:
+                runner.expect()
+            self._start_timer()
+
+    def lend(self, plan: Plan) -> SupervisedRunner:
+        """One that no other thread has; those of another plan are ended."""
+        with self._lock:
+            self._stop_timer()
+            if plan != self._plan:
+                self._end_free()
+                self._plan = plan
+            runner = self._free.pop() if self._free else SupervisedRunner(plan)
+            self._busy.append(runner)
+            return runner
+
+    def give_back(self, runner: SupervisedRunner) -> None:
+        """Keep it for the next batch, if that may be of the same plan."""
+        with self._lock:
+            if runner in self._busy:
+                self._busy.remove(runner)
+            if runner.plan == self._plan and not runner.stopped:
+                self._free.append(runner)
+            else:
+                runner.__exit__(None, None, None)
+            self._start_timer()
+
+    def end(self) -> None:
+        """End all of them, also in the middle of a point."""
+        with self._lock:
+            self._stop_timer()
+            for runner in self._busy:
+                runner.kill()
+            self._end_free()
+
+    def _end_idle(self) -> None:
+        with self._lock:
+            if not self._busy:
+                self._end_free()
+
+    def _end_free(self) -> None:
+        for runner in self._free:
+            runner.__exit__(None, None, None)
+        self._free.clear()
+
+    def _start_timer(self) -> None:
+        self._stop_timer()
+        self._timer = threading.Timer(IDLE, self._end_idle)
+        self._timer.daemon = True
+        self._timer.start()
+
+    def _stop_timer(self) -> None:
+        if self._timer is not None:
+            self._timer.cancel()
+
+
+PROCESSES = Processes()
+
+
+def describe() -> dict[str, Any]:
+    """What this worker is: its mbla, the libraries that answers depend on, its machine."""
+    return {"program": program_identity(), "libraries": library_versions(), "machine": platform.node()}
+
+
+def run_batch(
+    plan_record: Mapping[str, Any], task_records: Sequence[Mapping[str, Any]], libraries: Mapping[str, str]
+) -> dict[str, Any]:
+    """Solve points until all are done or enough time is over.
+
+    libraries : versions that the client has; a worker that came later may have others
+
+    Returns
+    -------
+    dict
+        ``outcomes`` of the first tasks; ``refused``, in words, where this worker cannot solve points of this plan
+    """
+    plan = plan_of(plan_record)
+    outcomes: list[dict[str, Any]] = []
+    if words := difference(libraries, library_versions()):
+        return {"outcomes": outcomes, "refused": words}
+    runner = PROCESSES.lend(plan)
+    until = time.monotonic() + ENOUGH
+    try:
+        with suppress(StoppedError):  # nobody waits for these any more
+            for record in task_records:
+                outcomes.append(record_of(runner.run(task_of(record))))
+                if time.monotonic() > until:
+                    break
+    except UsageError as error:
+        return {"outcomes": outcomes, "refused": str(error)}
+    finally:
+        PROCESSES.give_back(runner)
+    return {"outcomes": outcomes}
+
+
+def expect_processes(plan: Plan, count: int) -> None:
+    """Begin processes in this one, whose batches of that plan come later; ``end_processes`` ends them in any case."""
+    PROCESSES.expect(plan, count)
+
+
+def end_processes() -> None:
+    """End the processes of this worker."""
+    PROCESSES.end()

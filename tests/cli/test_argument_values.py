@@ -1,0 +1,44 @@
+"""Values of options as they are written, and the words with which others are refused."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Callable
+
+import pytest
+
+from mbla.cli import argument_values as values
+
+
+@pytest.mark.parametrize(
+    ("value", "text", "expected"),
+    [
+        (values.names, "a, b", ["a", "b"]),
+        (values.seconds, "0.5", 0.5),
+        (values.relative, "0", 0.0),
+        (values.relative_above_zero, "1e-3", 1e-3),
+    ],
+)
+def test_taken(value: Callable[[str], object], text: str, expected: object) -> None:
+    assert value(text) == expected
+
+
+@pytest.mark.parametrize(
+    ("value", "text", "words"),
+    [
+        (values.names, "a,,b", "'a,,b' is not a list of names with commas between them"),
+        (values.names, "", "'' is not a list of names with commas between them"),
+        (values.seconds, "0", "a positive number of seconds"),
+        (values.seconds, "inf", "a positive number of seconds"),
+        (values.relative, "-1e-9", "a relative difference, 0 or more"),
+        (values.relative, "nan", "a relative difference, 0 or more"),
+        (values.relative_above_zero, "0", "a relative error between 0 and 1"),
+        (values.relative_above_zero, "1", "a relative error between 0 and 1"),
+        (values.relative_above_zero, "small", "a relative error between 0 and 1"),
+    ],
+)
+def test_refused(value: Callable[[str], object], text: str, words: str) -> None:
+    with pytest.raises(argparse.ArgumentTypeError) as caught:
+        value(text)
+    assert words in str(caught.value)
+    assert repr(text) in str(caught.value)

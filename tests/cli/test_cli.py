@@ -1,0 +1,306 @@
+"""The command line as scripts use it: exit status, standard output, files."""
+
+from __future__ import annotations
+
+import json
+from importlib import import_module
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from mbla.cli import main
+from mbla.program.convex import assemble_convex, convex_form
+from tests.line import BLOCK, WALL, line_of
+
+TWO_CASES = BLOCK.replace("load_cases:\n", "load_cases:\n  down: {live: [{acceleration: [0, 0, -1]}]}\n", 1)
+
+
+@pytest.fixture
+def deck(tmp_path: Path) -> Path:
+    path = tmp_path / "block.yaml"
+    path.write_text(BLOCK, encoding="utf-8")
+    return path
+
+
+def written(path: Path, text: str) -> Path:
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+def run_json(capsys: pytest.CaptureFixture[str], *arguments: str | Path) -> tuple[int, list[dict[str, Any]], str]:
+    """Exit status, objects on standard output, standard error; nothing but JSON lines may be on standard output."""
+    code = main([str(argument) for argument in arguments])
+    captured = capsys.readouterr()
+    return code, [json.loads(line) for line in captured.out.splitlines()], captured.err
+
+
+def test_run_writes_its_files_and_prints_one_object(deck: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    code, (record,), _ = run_json(capsys, "run", deck, "--json")
+    assert code == record["exit_code"] == 0
+    assert record["deck"] == "block.yaml"
+    assert record["model"]["blocks"] == record["model"]["free_blocks"] == 1
+    assert record["model"]["interfaces"] == 1
+    assert record["model"]["contact_points"] == 4
+    (case,) = record["cases"]
+    assert case["status"] == "solved"
+    assert case["load_factor"] == pytest.approx(0.5, rel=1e-7)
+    assert case["static_bound"] <= 0.5 + 1e-7
+    assert case["kinematic_bound"] >= 0.5 - 1e-7
+    stages = {stage for stage in record["time"] if "/" not in stage}
+    assert stages == {"read", "contacts", "solve", "write"}
+    parts = ("assemble", "programs", "repair", "standing", "verify")
+    assert {stage for stage in record["time"] if "/" in stage} == {
+        "write/failure",
+        *(f"solve/{part}" for part in parts),
+    }
+    assert sum(record["time"][f"solve/{part}"] for part in parts) < record["time"]["solve"]
+    folder = deck.with_suffix(".out")
+    expected = {"block.h5", "block.lst", "block.sta", "block.json", "block_push.pvd", "block_push_blocks.vtu"}
+    assert expected <= {path.name for path in folder.iterdir()}
+    assert json.loads((folder / "block.json").read_text())["cases"] == record["cases"]
+    lines = (folder / "block.sta").read_text().splitlines()
+    assert sum(line.startswith("push ") for line in lines) > 5
+
+
+def test_an_earlier_result_is_kept_without_force(deck: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["run", str(deck), "-q"]) == 0
+    before = (deck.with_suffix(".out") / "block.h5").read_bytes()
+    assert main(["run", str(deck), "-q"]) == 6
+    assert "--force" in capsys.readouterr().err
+    assert (deck.with_suffix(".out") / "block.h5").read_bytes() == before
+    assert main(["run", str(deck), "-q", "--force", "--set", "parameters.mu=0.3"]) == 0
+    assert (deck.with_suffix(".out") / "block.h5").read_bytes() != before
+
+
+def test_a_failed_run_leaves_the_earlier_result_alone(deck: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["run", str(deck), "-q"]) == 0
+    folder = deck.with_suffix(".out")
+    before = {path.name: path.read_bytes() for path in folder.iterdir()}
+    written(deck, BLOCK + "surplus: 1\n")
+    assert main(["run", str(deck), "-q", "--force"]) == 3
+    assert "surplus" in capsys.readouterr().err
+    written(deck, BLOCK.replace("[1, 0, 0]", "[0, 0, 0]"))
+    assert main(["run", str(deck), "-q", "--force"]) == 3
+    assert {path.name: path.read_bytes() for path in folder.iterdir()} == before
+
+
+def test_status_of_several_cases_is_that_of_the_gravest(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    deck = written(tmp_path / "two.yaml", TWO_CASES)
+    code, (record,), _ = run_json(capsys, "run", deck, "--json")
+    assert code == record["exit_code"] == 5
+    assert [case["status"] for case in record["cases"]] == ["unbounded", "solved"]
+    assert record["cases"][0]["load_factor"] is None
+    code, (record,), _ = run_json(capsys, "run", deck, "--json", "--force", "--case", "push")
+    assert code == 0
+    assert [case["name"] for case in record["cases"]] == ["push"]
+
+
+def test_an_unknown_case_is_wrong_usage(deck: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["run", str(deck), "--case", "pull"]) == 2
+    assert "it has push" in capsys.readouterr().err
+    assert not deck.with_suffix(".out").exists()
+
+
+@pytest.mark.parametrize(
+    ("arguments", "status"),
+    [
+        (["--set", "analysis.max_iterations=2"], 4),
+        (["--time-limit", "1e-9"], 7),
+        (["--set", "parameters.mu=0.3"], 0),
+        (["--accuracy", "draft", "--flow-rule", "non_associative"], 0),
+    ],
+)
+def test_exit_status(deck: Path, arguments: list[str], status: int) -> None:
+    assert main(["run", str(deck), "-q", *arguments]) == status
+
+
+def test_options_of_the_command_line_reach_the_analysis(deck: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    _, (record,), _ = run_json(
+        capsys, "run", deck, "--json", "--accuracy", "reference", "--flow-rule", "non_associative"
+    )
+    assert record["settings"]["tolerance"] == "1e-10"
+    assert record["cases"][0]["flow_rule"] == "non_associative"
+    assert record["cases"][0]["associative_load_factor"] == pytest.approx(0.5, rel=1e-8)
+
+
+def test_expected_figures_are_compared(deck: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["run", str(deck), "--expected"]) == 2
+    assert "no expected section" in capsys.readouterr().err
+    expected = "expected:\n  push: {load_factor: %s, tolerance: 1.0e-6, source: closed form}\n"
+    written(deck, BLOCK + expected % 0.5)
+    assert main(["run", str(deck), "-q", "--expected"]) == 0
+    written(deck, BLOCK + expected % 0.51)
+    code, (record,), _ = run_json(capsys, "run", deck, "--json", "--expected", "--force")
+    assert code == 4
+    (notice,) = [notice for notice in record["notices"] if notice["identifier"] == "not-as-expected"]
+    assert "expected 0.51" in notice["message"]
+
+
+def test_one_bad_deck_does_not_stop_the_next(deck: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    bad = written(deck.parent / "bad.yaml", BLOCK.replace("friction", "fricton"))
+    missing = deck.parent / "missing.yaml"
+    code, records, err = run_json(capsys, "run", bad, missing, deck, "--json")
+    assert code == 6
+    assert [record["exit_code"] for record in records] == [3, 6, 0]
+    assert "did you mean" in records[0]["errors"][0]
+    assert "fricton" in err
+    assert "Traceback" not in err
+
+
+def test_two_decks_may_not_share_their_files(deck: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (deck.parent / "other").mkdir()
+    other = written(deck.parent / "other" / "block.yaml", BLOCK)
+    assert main(["run", str(deck), str(other), "-o", str(deck.parent / "out")]) == 2
+    assert "same result files" in capsys.readouterr().err
+
+
+def test_overlapping_blocks_are_refused_by_name(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    overlapping = BLOCK.replace(
+        "blocks:\n", "blocks:\n  - box: {group: other, material: stone, min: [0.9, 0, 0], max: [2, 1, 1]}\n"
+    )
+    assert main(["run", str(written(tmp_path / "deck.yaml", overlapping))]) == 3
+    err = capsys.readouterr().err
+    assert "other[0] and block[0] overlap" in err
+    assert "deck.yaml:" in err
+
+
+def test_check_solves_nothing_and_writes_nothing(deck: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    code, (record,), _ = run_json(capsys, "check", deck, "--json")
+    assert code == 0
+    (needs,) = record["needs"].values()
+    assert (needs["dimension"], needs["unknown_velocities"], needs["half_lines"]) == (2, 3, 4)
+    planar = next(step for step in needs["reductions"] if step["name"] == "planar")
+    assert (planar["state"], planar["before"]["unknowns"], planar["after"]["unknowns"]) == ("applied", 6, 3)
+    _, (run,), _ = run_json(capsys, "run", deck, "--json", "-o", deck.parent / "elsewhere")
+    assert run["cases"][0]["reductions"] == needs["reductions"]
+    assert not deck.with_suffix(".out").exists()
+    assert main(["check", str(deck), "--vtu"]) == 0
+    assert f"files: {deck.with_suffix('.out') / 'block_check_*.vtu'}" in capsys.readouterr().out
+    assert {path.suffix for path in deck.with_suffix(".out").iterdir()} == {".vtu"}
+
+
+def test_check_counts_the_program_of_interface_resultants(deck: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """The unknowns and cones of the conditions, of torsion here, beside those of the points."""
+    _, (record,), _ = run_json(capsys, "check", deck, "--json", "--set", "analysis.contact_model=convex")
+    (needs,) = record["needs"].values()
+    line = line_of(BLOCK, "analysis.contact_model=convex")
+    convex = assemble_convex(line.model, line.contacts, line.load_case, "convex")
+    (program,) = (convex_form(convex).cone_program,)
+    n_cones = program.n_cones + sum(size > 1 for size in program.further_cones)
+    assert needs["unknown_velocities"] == len(convex.program.dead_load) > 6
+    assert (needs["cones"], needs["matrix_entries"]) == (n_cones, program.matrix.nnz)
+    assert needs["half_lines"] == program.n_half_lines + program.further_cones.count(1) > 0
+    (glued,) = needs["reductions"]
+    assert glued["after"]["unknowns"] == needs["unknown_velocities"]
+    assert glued["after"]["cones"] == n_cones
+
+
+@pytest.mark.parametrize(
+    ("units", "asked", "taken"),
+    [
+        (2, "auto", "clarabel"),
+        (20, "auto", "mbla"),
+        (2, "mbla", "mbla"),
+        (20, "clarabel", "clarabel"),
+        (2, "highs", "highs"),
+    ],
+)
+def test_check_says_which_solver_the_run_takes(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], units: int, asked: str, taken: str
+) -> None:
+    path = tmp_path / "wall.yaml"
+    path.write_text(WALL, encoding="utf-8")
+    options = ["--json", "--set", f"parameters.n={units}", "--set", f"analysis.solver={asked}"]
+    _, (record,), _ = run_json(capsys, "check", path, *options)
+    assert record["needs"]["push"]["solver"] == taken
+    code, (record,), _ = run_json(capsys, "run", path, *options)
+    (case,) = record["cases"]
+    assert (code, case["solver"]["asked"], case["solver"]["used"][0]) == (0, asked, taken)
+
+
+def test_show_and_verify_read_the_result_file_alone(deck: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    main(["run", str(deck), "-q"])
+    listing = (deck.with_suffix(".out") / "block.lst").read_text()
+    moved = deck.with_suffix(".out") / "block.h5"
+    moved = moved.rename(deck.parent / "moved.h5")
+    deck.unlink()
+    assert main(["show", str(moved)]) == 0
+    assert capsys.readouterr().out == listing
+    code, (record,), _ = run_json(capsys, "show", moved, "--json")
+    assert code == 0
+    assert record["cases"][0]["status"] == "solved"
+    code, (record,), _ = run_json(capsys, "verify", moved, "--json")
+    assert code == 0
+    assert record["cases"][0]["static_bound"] == pytest.approx(0.5, rel=1e-6)
+    assert main(["verify", str(moved)]) == 0
+
+
+@pytest.mark.parametrize("command", ["show", "verify", "plot"])
+def test_a_file_that_is_no_result_is_refused(command: str, deck: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main([command, str(deck)]) == 6
+    assert main([command, str(deck.parent / "missing.h5")]) == 6
+    assert "Traceback" not in capsys.readouterr().err
+
+
+def test_schema_is_the_one_in_the_repository(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["schema"]) == 0
+    shipped = Path(__file__).parents[2] / "schemas" / "deck.schema.json"
+    assert json.loads(capsys.readouterr().out) == json.loads(shipped.read_text())
+
+
+@pytest.mark.parametrize("arguments", [["run"], ["fly"], [], ["run", "a", "--threads", "0"], ["schema", "pictures"]])
+def test_wrong_usage(arguments: list[str]) -> None:
+    assert main(arguments) == 2
+
+
+def test_read_only_folder(deck: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    target = deck.parent / "file"
+    target.write_text("not a folder")
+    assert main(["run", str(deck), "-o", str(target)]) == 6
+    assert "Traceback" not in capsys.readouterr().err
+
+
+def test_a_folder_is_no_deck(capsys: pytest.CaptureFixture[str]) -> None:
+    for name in (".", "..", str(Path.cwd())):
+        assert main(["run", name]) == 6
+        assert "is a folder, not a deck" in capsys.readouterr().err
+
+
+def test_an_internal_error_is_one_line(
+    deck: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def broken(*_: object) -> None:
+        raise ZeroDivisionError("first\nsecond")
+
+    monkeypatch.setattr(import_module("mbla.run"), "run_and_write", broken)
+    for extra in ([], ["-v"], ["-q"]):
+        assert main(["run", str(deck), *extra]) == 1
+        err = capsys.readouterr().err
+        words = "internal error, please report it with the deck: ZeroDivisionError: first second"
+        assert err == f"mbla: {words}  [internal-error]\n"
+    monkeypatch.setenv("MBLA_TRACEBACK", "1")
+    assert main(["run", str(deck)]) == 1
+    assert "Traceback" in capsys.readouterr().err
+
+
+def test_json_and_verbose_keep_the_listing_off_standard_output(deck: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    code, records, err = run_json(capsys, "run", deck, "--json", "-v")
+    assert code == 0
+    assert len(records) == 1
+    assert err == (deck.with_suffix(".out") / "block.lst").read_text()
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["--time-limit", "abc"], "'abc' is not a positive number of seconds"),
+        (["--time-limit", "inf"], "'inf' is not a positive number of seconds"),
+        (["--threads", "1.5"], "'1.5' is not a whole number of threads, 1 to 1024"),
+    ],
+)
+def test_wrong_amounts_are_told_in_words(
+    deck: Path, arguments: list[str], words: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["run", str(deck), *arguments]) == 2
+    assert words in capsys.readouterr().err

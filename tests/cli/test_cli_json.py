@@ -1,0 +1,207 @@
+"""With ``--json`` a command that fails prints one object a line and nothing else, whatever went wrong."""
+
+from __future__ import annotations
+
+import argparse
+import errno
+import json
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from mbla import cli
+from mbla.cli.arguments import build_parser, wants_json
+from mbla.errors import LimitError
+from mbla.process.signals import Terminated
+from mbla.results.explanations.explanations import EXPLANATIONS
+from mbla.results.hdf5.result_file import write_results_hdf5
+from tests.cli.test_sweep_commands import SWEEP
+from tests.line import BLOCK
+from tests.results.synthetic import tower_results
+
+FILE = {
+    "run": "deck",
+    "check": "deck",
+    "interact": "deck",
+    "tradeoff": "deck",
+    "sweep": "sweep",
+    "show": "result",
+    "verify": "result",
+}
+"""what a command with one file is about, as its object names it"""
+
+
+def commands() -> dict[str, argparse.ArgumentParser]:
+    """Those with ``--json``, by name."""
+    (choices,) = (
+        action.choices for action in build_parser()._actions if isinstance(action, argparse._SubParsersAction)
+    )
+    return {name: parser for name, parser in choices.items() if "--json" in parser.format_help()}
+
+
+def wrong_values() -> Iterator[tuple[str, ...]]:
+    """Every option that takes only some values, with one that it does not take."""
+    for name, parser in commands().items():
+        for action in parser._actions:
+            if action.option_strings and (action.choices or action.type not in (None, Path)):
+                yield (name, action.option_strings[-1], "," if action.dest == "table" else "-")
+
+
+@pytest.fixture(scope="module")
+def result() -> bytes:
+    return write_results_hdf5(tower_results())
+
+
+@pytest.fixture
+def folder(tmp_path: Path, result: bytes, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.chdir(tmp_path)
+    Path("deck.yaml").write_text(BLOCK, encoding="utf-8")
+    Path("block.yaml").write_text(BLOCK, encoding="utf-8")
+    Path("sweep.yaml").write_text(SWEEP, encoding="utf-8")
+    Path("result.h5").write_bytes(result)
+    Path("cut.h5").write_bytes(result[:-100])
+    Path("empty").touch()
+    Path("binary").write_bytes(bytes(range(256)))
+    Path("faulty.yaml").write_text(BLOCK + SWEEP + "surplus: 1\n", encoding="utf-8")
+    Path("folder").mkdir()
+    return tmp_path
+
+
+def failure(capsys: pytest.CaptureFixture[str], *arguments: str) -> dict[str, Any]:
+    """The one object, which says what standard error and the exit status do."""
+    capsys.readouterr()
+    code = cli.main([*arguments, "--json"])
+    out, err = capsys.readouterr()
+    (line,) = out.splitlines()
+    record: dict[str, Any] = json.loads(line)
+    assert record["exit_code"] == code > 0
+    assert len(record["errors"]) == len(record["identifiers"]) > 0
+    assert set(record["identifiers"]) <= EXPLANATIONS.keys()
+    assert all(text.splitlines()[0] in err and text.endswith("]") for text in record["errors"])
+    assert "Traceback" not in err
+    return record
+
+
+def test_what_is_wrong_is_told_in_words(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    told = {
+        ("run", "result.h5"): "result.h5:1:1 is an HDF5 file, not a deck: mbla show reads results  [not-utf-8]",
+        ("sweep", "folder"): "mbla: folder: is a folder, not a sweep file  [folder-given]",
+        ("run", "deck.yaml", "-o", ""): "mbla: run: argument -o/--output: '' is no name of a file or a folder",
+        ("new", ""): "mbla: new '': is no name of a deck  [command-line]",
+        ("new", "folder/"): "mbla: new 'folder/': is no name of a deck  [command-line]",
+    }
+    for arguments, words in told.items():
+        assert cli.main(arguments) > 0
+        assert words in capsys.readouterr().err
+    assert not Path(".yaml").exists()
+
+
+@pytest.mark.parametrize("name", FILE)
+@pytest.mark.parametrize(
+    ("given", "status"), [("none", 6), ("folder", 6), ("empty", None), ("binary", None), ("faulty.yaml", None)]
+)
+def test_a_file_that_cannot_be_read(
+    folder: Path, name: str, given: str, status: int | None, capsys: pytest.CaptureFixture[str]
+) -> None:
+    record = failure(capsys, name, given)
+    assert record["exit_code"] == (status or (6 if FILE[name] == "result" else 3))
+    assert record[FILE[name]] == given
+
+
+@pytest.mark.parametrize("bad", ["none", "folder", "empty", "binary", "cut.h5"])
+def test_two_results_of_which_one_cannot_be_read(folder: Path, bad: str, capsys: pytest.CaptureFixture[str]) -> None:
+    for pair in ((bad, "result.h5"), ("result.h5", bad)):
+        record = failure(capsys, "diff", *pair)
+        assert (record["exit_code"], record["first"], record["second"]) == (6, *pair)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "identifier"),
+    [
+        (["verify", "cut.h5"], "damaged-result-file"),
+        (["explain", "nonsuch"], "explain-unknown"),
+        (["run", "deck.yaml", "--case", "nonsuch"], "unknown-load-case"),
+        (["run", "deck.yaml", "--set", "parameters.nonsuch=1"], "unknown-name"),
+        (["run", "deck.yaml", "--set", "nonsense"], "set-refused"),
+        (["run", "deck.yaml", "-o", "empty"], "file-not-written"),
+        (["run", "deck.yaml", "folder/../deck.yaml"], "same-result-files"),
+        (["check", "deck.yaml", "--vtu", "-o", "empty"], "file-not-written"),
+        (["run", "deck.yaml", "--expected"], "no-expectations"),
+        (["interact", "deck.yaml", "--case", "nonsuch"], "unknown-load-case"),
+        (["interact", "deck.yaml", "--directions", "-1"], "interact-option"),
+        (["tradeoff", "deck.yaml", "--case", "nonsuch"], "unknown-load-case"),
+        (["tradeoff", "deck.yaml", "--knob", "nonsense"], "tradeoff-option"),
+        (["tradeoff", "deck.yaml", "--knob", "analysis.nonsuch=1,2"], "tradeoff-option"),
+        (["run", "result.h5"], "not-utf-8"),
+        (["run", "deck.yaml", "-o", ""], "command-line"),
+        (["run", "deck.yaml", "--threads", "1" + "0" * 20], "command-line"),
+        (["sweep", "sweep.yaml", "-j", "100000"], "command-line"),
+        (["interact", "deck.yaml", "--directions", "many"], "command-line"),
+        (["sweep", "sweep.yaml", "--scheduler-file", "none", "-j", "2"], "sweep-option"),
+        (["sweep", "sweep.yaml", "--resume", "--force"], "sweep-option"),
+        (["run", "deck.yaml", "none.yaml", "--nonsuch"], "command-line"),
+        (["plot", "result.h5"], "command-line"),
+        (["nonsuch"], "command-line"),
+        ([], "command-line"),
+    ],
+)
+def test_what_a_command_is_asked_and_cannot_do(
+    folder: Path, arguments: list[str], identifier: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert failure(capsys, *arguments)["identifiers"] == [identifier]
+
+
+@pytest.mark.parametrize("name", [name for name in commands() if name != "explain"])
+def test_arguments_that_are_missing_or_unknown(name: str, capsys: pytest.CaptureFixture[str]) -> None:
+    for arguments in ([], ["a", "b", "--nonsuch"]):
+        assert failure(capsys, name, *arguments)["identifiers"] == ["command-line"]
+
+
+@pytest.mark.parametrize("arguments", list(wrong_values()), ids=" ".join)
+def test_every_option_with_a_wrong_value(arguments: tuple[str, ...], capsys: pytest.CaptureFixture[str]) -> None:
+    record = failure(capsys, *arguments)
+    assert (record["exit_code"], record["identifiers"]) == (2, ["command-line"])
+
+
+@pytest.mark.parametrize("name", commands())
+@pytest.mark.parametrize(
+    ("error", "status"),
+    [
+        (KeyboardInterrupt(), 130),
+        (Terminated(), 143),
+        (MemoryError(), 7),
+        (LimitError("out-of-memory", "out of memory"), 7),
+        (OSError(errno.EACCES, "Permission denied", "place"), 6),
+        (ZeroDivisionError("float division by zero"), 1),
+    ],
+)
+def test_whatever_ends_a_command(
+    folder: Path,
+    name: str,
+    error: BaseException,
+    status: int,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    def broken(options: argparse.Namespace) -> int:
+        raise error
+
+    monkeypatch.setitem(cli.COMMANDS, name, broken)
+    files = {"diff": ["a", "b"], "explain": []}.get(name, ["a"])
+    assert failure(capsys, name, *files)["exit_code"] == status
+
+
+def test_a_deck_that_fails_does_not_take_the_object_of_another(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert cli.main(["run", "none.yaml", "block.yaml", "--json"]) == 6
+    lines = [json.loads(line) for line in capsys.readouterr().out.splitlines()]
+    assert [(line["deck"], line["exit_code"]) for line in lines] == [("none.yaml", 6), ("block.yaml", 0)]
+
+
+def test_json_may_be_shortened_and_stands_before_the_files() -> None:
+    assert wants_json(["run", "--js", "a"])
+    assert not wants_json(["run", "--", "--json"])
+    assert not wants_json(["sweep", "-j", "2", "--j"])

@@ -1,0 +1,54 @@
+"""What a terminal shows while the command line works, and that nothing shows elsewhere."""
+
+from __future__ import annotations
+
+import sys
+from types import SimpleNamespace
+from typing import Any
+
+import pytest
+
+from mbla import cli
+from mbla.cli import study_commands
+
+
+def shown(monkeypatch: pytest.MonkeyPatch, module: Any, *, terminal: bool = True) -> list[str]:
+    """Texts that a module writes over each other."""
+    texts: list[str] = []
+    monkeypatch.setattr(sys.stderr, "isatty", lambda: terminal, raising=False)
+    monkeypatch.setattr(module, "rewrite_line", texts.append)
+    return texts
+
+
+def test_iterations_of_a_load_case(monkeypatch: pytest.MonkeyPatch) -> None:
+    texts = shown(monkeypatch, cli)
+    show = cli._progress()
+    assert show is not None
+    show("push", SimpleNamespace(program=2, iteration=7, load_factor=0.123456789))  # type: ignore[arg-type]
+    assert texts == ["push: program 2, iteration 7, load factor 0.123457"]
+
+
+def test_points_of_a_diagram(monkeypatch: pytest.MonkeyPatch) -> None:
+    texts = shown(monkeypatch, study_commands)
+    show = study_commands._point_progress()
+    assert show is not None
+    show(3, 24)
+    assert texts == ["3 of 24 points"]
+
+
+def test_settings_of_a_study(monkeypatch: pytest.MonkeyPatch) -> None:
+    texts = shown(monkeypatch, study_commands)
+    show = study_commands._rung_progress()
+    assert show is not None
+    show(2, 5, "draft", "")
+    show(2, 5, "draft", "push")
+    assert texts == ["setting 2 of 5: draft", "setting 2 of 5: draft, push done"]
+
+
+@pytest.mark.parametrize(
+    ("module", "progress"),
+    [(cli, "_progress"), (study_commands, "_point_progress"), (study_commands, "_rung_progress")],
+)
+def test_nothing_off_a_terminal(monkeypatch: pytest.MonkeyPatch, module: Any, progress: str) -> None:
+    shown(monkeypatch, module, terminal=False)
+    assert getattr(module, progress)() is None

@@ -1,0 +1,152 @@
+"""The command line of parameter sweeps as scripts use it: standard output, exit status."""
+
+from __future__ import annotations
+
+import io
+import json
+import sys
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from mbla.cli import main, sweep_commands
+from mbla.cli.sweep_commands import NAMED_FAILURES, _Reporter
+from mbla.sweeps.outcome import Outcome
+from mbla.sweeps.plan import Task
+from mbla.sweeps.progress import Progress
+from tests.line import BLOCK
+
+SWEEP = "mbla_sweep: 1\ndeck: block.yaml\nparameters: {mu: {values: [0.4, 0.5]}}\n"
+
+
+@pytest.fixture
+def sweep(tmp_path: Path) -> Path:
+    (tmp_path / "block.yaml").write_text(BLOCK, encoding="utf-8")
+    path = tmp_path / "friction.yaml"
+    path.write_text(SWEEP, encoding="utf-8")
+    return path
+
+
+def failure(capsys: pytest.CaptureFixture[str], *arguments: str | Path) -> tuple[int, dict[str, Any], list[str]]:
+    """Exit status, the one object on standard output, the lines on standard error."""
+    code = main([str(argument) for argument in arguments])
+    captured = capsys.readouterr()
+    return code, json.loads(captured.out), captured.err.splitlines()
+
+
+@pytest.mark.parametrize("option", ["--json", "--dry-run"])
+def test_a_faulty_sweep_file_is_told_as_an_object_too(
+    sweep: Path, capsys: pytest.CaptureFixture[str], option: str
+) -> None:
+    sweep.write_text(SWEEP.replace("values", "valves") + "surplus: 1\n", encoding="utf-8")
+    code, record, lines = failure(capsys, "sweep", sweep, option, "--json")
+    assert code == record["exit_code"] == 3
+    assert record["sweep"] == "friction.yaml"
+    assert record["errors"] == lines
+    assert len(lines) == 2
+    assert "valves" in lines[0]
+    assert "surplus" in lines[1]
+    assert not sweep.with_suffix(".out").exists()
+
+
+def test_a_faulty_base_deck_is_told_under_the_name_of_the_sweep(
+    sweep: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (sweep.parent / "block.yaml").write_text(BLOCK + "surplus: 1\n", encoding="utf-8")
+    code, record, lines = failure(capsys, "sweep", sweep, "--json")
+    assert code == record["exit_code"] == 3
+    assert record["sweep"] == "friction.yaml"
+    assert record["errors"] == lines
+    assert "block.yaml" in lines[0]
+
+
+def test_an_existing_sweep_is_a_failure_with_its_own_exit_status(
+    sweep: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (sweep.with_suffix(".out")).mkdir()
+    (sweep.with_suffix(".out") / "journal.csv").write_text("", encoding="utf-8")
+    code, record, lines = failure(capsys, "sweep", sweep, "--json")
+    assert code == record["exit_code"] == 6
+    assert lines == [f"mbla: {message}" for message in record["errors"]]
+
+
+@pytest.mark.parametrize("command", ["interact", "tradeoff"])
+def test_other_studies_of_a_faulty_deck_are_told_alike(
+    sweep: Path, capsys: pytest.CaptureFixture[str], command: str
+) -> None:
+    deck = sweep.parent / "block.yaml"
+    deck.write_text(BLOCK + "surplus: 1\n", encoding="utf-8")
+    code, record, lines = failure(capsys, command, deck, "--json")
+    assert code == record["exit_code"] == 3
+    assert record["deck"] == "block.yaml"
+    assert record["errors"] == lines
+
+
+@pytest.mark.parametrize("gone", ["closed", "broken"])
+def test_a_sweep_goes_on_where_nobody_reads_what_it_says(
+    sweep: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, gone: str
+) -> None:
+    """The window was closed, or the program that a log was piped into has ended; a point fails, of which it tells."""
+    sweep.write_text(SWEEP.replace("0.5]", "-1]"), encoding="utf-8")
+    monkeypatch.setattr("sys.stderr", None if gone == "closed" else Broken())
+    assert main(["sweep", str(sweep)]) == 8
+    sys.stderr.close()
+    assert "2: 1 done, 1 failed" in capsys.readouterr().out
+
+
+class Broken(io.StringIO):
+    """A stream whose reader has gone."""
+
+    def write(self, text: str) -> int:
+        raise BrokenPipeError
+
+
+def test_a_dry_run_tells_the_points_and_writes_nothing(sweep: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["sweep", str(sweep), "--dry-run"]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert lines[-3:] == ["  point   mu", "      1  0.4", "      2  0.5"]
+    code, record, lines = failure(capsys, "sweep", sweep, "--dry-run", "--json")
+    assert (code, lines) == (0, [])
+    assert (record["sweep"], record["different"], len(record["keys"])) == ("friction.yaml", 2, 2)
+    assert not sweep.with_suffix(".out").exists()
+
+
+def told(monkeypatch: pytest.MonkeyPatch, *, terminal: bool) -> tuple[_Reporter, list[str], list[str]]:
+    """A reporter, the lines that it says, and those that it writes over each other."""
+    said: list[str] = []
+    rewritten: list[str] = []
+    monkeypatch.setattr(sys.stderr, "isatty", lambda: terminal, raising=False)
+    monkeypatch.setattr(sweep_commands, "say", lambda text, _: said.append(text))
+    monkeypatch.setattr(sweep_commands, "rewrite_line", rewritten.append)
+    monkeypatch.setattr(sweep_commands, "clear_line", lambda _: None)
+    return _Reporter(), said, rewritten
+
+
+def test_of_many_points_that_fail_the_first_are_named(monkeypatch: pytest.MonkeyPatch) -> None:
+    reporter, said, rewritten = told(monkeypatch, terminal=False)
+    progress = Progress(100)
+    for number in range(1, NAMED_FAILURES + 5):
+        reporter(progress, Task("key", number, {}), Outcome("key", "failed", 1, "no disk", {}, 1, 0.1))
+    assert said == [
+        *(f"mbla: point {number} failed: no disk" for number in range(1, NAMED_FAILURES + 1)),
+        "mbla: more points failed: the journal has their reasons",
+    ]
+    assert rewritten == []
+
+
+def test_progress_is_a_bar_on_a_terminal_and_a_line_now_and_then_elsewhere(monkeypatch: pytest.MonkeyPatch) -> None:
+    progress, solved = Progress(4, earlier=1), Outcome("key", "done", 0, "", {}, 1, 0.1)
+    reporter, said, rewritten = told(monkeypatch, terminal=True)
+    reporter(progress, None, None)
+    progress.add(failed=False, seconds=1.0)
+    reporter(progress, Task("key", 1, {}), solved)
+    assert said == []
+    assert rewritten == ["[........................] 0 of 4 points", "[######..................] 1 of 4 points"]
+    reporter, said, rewritten = told(monkeypatch, terminal=False)
+    reporter(progress, None, None)
+    reporter(progress, Task("key", 1, {}), solved)
+    monkeypatch.setattr(sweep_commands, "BETWEEN_LINES", 0.0)
+    reporter(progress, Task("key", 1, {}), solved)
+    assert said == ["mbla: 4 points to solve, 1 are in the journal", "mbla: 1 of 4 points"]
+    assert rewritten == []

@@ -1,0 +1,84 @@
+"""The command keeps the linear algebra libraries to the threads that it is given."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+import mbla
+from mbla.cli import main
+from mbla.process.threads import VARIABLES
+from mbla.results.settings_words import threads_in_words
+from tests.line import BLOCK
+from tests.results.synthetic import tower_results
+
+ASK = """
+import os, sys
+from mbla.cli import main
+assert "numpy" not in sys.modules
+main(sys.argv[1:])
+print("|", *(os.environ[name] for name in {names!r}))
+"""
+
+
+@pytest.mark.parametrize(
+    ("arguments", "given", "expected"),
+    [
+        (["run", "missing.yaml"], {}, "1 1 1"),
+        (["run", "missing.yaml", "--threads", "2"], {}, "2 2 2"),
+        (["run", "missing.yaml", "--threads", "2"], {"OMP_NUM_THREADS": "3"}, "2 3 2"),
+    ],
+)
+def test_one_thread_unless_more_are_asked_for(arguments: list[str], given: dict[str, str], expected: str) -> None:
+    surroundings = {name: value for name, value in os.environ.items() if name not in VARIABLES} | given
+    command = [sys.executable, "-c", ASK.format(names=VARIABLES), *arguments]
+    done = subprocess.run(command, env=surroundings, capture_output=True, text=True, check=True)
+    assert done.stdout.split("|")[-1].strip() == expected
+
+
+@pytest.mark.parametrize(
+    ("libraries", "words"),
+    [
+        (("qdldl", "superlu"), "1; factorisations by qdldl, superlu are serial"),
+        (("pardiso", "qdldl"), "2; factorisations by qdldl are serial"),
+        (("pardiso",), "2"),
+        (("",), "1"),
+    ],
+)
+def test_what_came_of_the_threads_is_told(
+    libraries: tuple[str, ...], words: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("MKL_NUM_THREADS", "2")
+    case = tower_results().cases[0]
+    programs = tuple(replace(case.solution.programs[0], factorization=library) for library in libraries)
+    assert threads_in_words([replace(case, solution=replace(case.solution, programs=programs))]) == words
+
+
+def test_threads_that_cannot_be_used_are_not_passed_over(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    for name in VARIABLES:
+        monkeypatch.setenv(name, "1")
+    deck = tmp_path / "block.yaml"
+    deck.write_text(BLOCK, encoding="utf-8")
+    assert main(["run", str(deck), "--threads", "2", "--json"]) == 0
+    words = "1; factorisations by qdldl are serial"
+    assert capsys.readouterr().err.splitlines()[-1] == f"mbla: threads: {words}"
+    assert mbla.read_results(tmp_path / "block.out" / "block.h5").records.settings["threads"] == words
+
+
+def test_in_python_they_are_asked_for_too(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    for name in VARIABLES:
+        monkeypatch.setenv(name, "")
+        monkeypatch.delenv(name)
+    deck = tmp_path / "block.yaml"
+    deck.write_text(BLOCK, encoding="utf-8")
+    mbla.run(deck)
+    assert VARIABLES[0] not in os.environ
+    mbla.run(deck, threads=2)
+    assert {os.environ[name] for name in VARIABLES} == {"2"}

@@ -1,0 +1,115 @@
+"""What a comparison says in words, of two results made by hand."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from mbla.model.model import Ground
+from mbla.results.diff.cases import ReactionChange
+from mbla.results.diff.comparison import Comparison, compare_results
+from mbla.results.diff.joints import InterfaceChange
+from mbla.results.diff.matching import match_models
+from mbla.results.diff.mechanisms import angle_between
+from mbla.results.diff.units import factors_between
+from mbla.results.diff.words import MOST_LINES, MOST_NAMED, comparison_text
+from tests.results.synthetic import tower_results
+
+
+@pytest.fixture(scope="module")
+def same() -> Comparison:
+    """Of a result with itself."""
+    results = tower_results()
+    return compare_results(results, results)
+
+
+def text_of(comparison: Comparison) -> str:
+    """In one line, as lines are broken where they are full."""
+    return " ".join(comparison_text(comparison, ("a.h5", "b.h5")).split())
+
+
+def with_case(same: Comparison, **changes: object) -> Comparison:
+    return replace(same, cases=(replace(same.cases[0], **changes), *same.cases[1:]))  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("more", [0, 5])
+def test_of_a_long_diff_the_rest_is_counted(same: Comparison, more: int) -> None:
+    lines = tuple(f"+line {i + 1} of the deck" for i in range(MOST_LINES + more))
+    text = text_of(replace(same, deck=lines))
+    assert f"+line {MOST_LINES} of the deck" in text
+    assert (f"+line {MOST_LINES + 1} of the deck" in text) is False
+    assert ("and 5 more lines; --json has them all" in text) is (more > 0)
+
+
+def test_other_units_and_other_names_are_told(same: Comparison) -> None:
+    text = text_of(replace(same, model=replace(same.model, units=("m, N, kg", "mm, kN, t"), by="place")))
+    assert "Units: m, N, kg in A, mm, kN, t in B; everything here is in those of A." in text
+    assert "Blocks were matched by their place: their names are others, or in another order." in text
+    assert "Units" not in text_of(same)
+    assert "matched by their place" not in text_of(same)
+
+
+def test_another_flow_rule_is_told(same: Comparison) -> None:
+    text = text_of(with_case(same, rules=("associative", "non_associative, path")))
+    assert "flow rule associative in A, non_associative, path in B" in text
+    assert "flow rule" not in text_of(same)
+
+
+@pytest.mark.parametrize("more", [0, 3])
+def test_of_many_reactions_the_largest_are_named(same: Comparison, more: int) -> None:
+    changes = tuple(ReactionChange(f"pier[{i}]", np.array([0.0, 0.0, 2.0 + more])) for i in range(MOST_NAMED + more))
+    text = text_of(with_case(same, reactions=changes, load=10.0))
+    assert f"reaction of pier[0]: changes by (0, 0, {2 + more}), {0.2 + 0.1 * more:.2g} of the loads" in text
+    assert f"pier[{MOST_NAMED}]" not in text
+    assert ("and 3 more reactions" in text) is (more > 0)
+
+
+@pytest.mark.parametrize("more", [0, 2])
+def test_of_many_interfaces_in_another_mode_the_first_are_named(same: Comparison, more: int) -> None:
+    modes = same.cases[0].modes
+    assert modes is not None
+    place = np.array([1.0, 0.5, 2.0])
+    changes = tuple(InterfaceChange(f"a[{i}]/b[{i}]", place, ("slide", "hinge")) for i in range(MOST_NAMED + more))
+    text = text_of(with_case(same, modes=replace(modes, interfaces=changes)))
+    assert "interface a[0]/b[0] at (1, 0.5, 2): slide in A, hinge in B" in text
+    assert f"a[{MOST_NAMED}]" not in text
+    assert ("and 2 more interfaces; --json has them all" in text) is (more > 0)
+
+
+def test_without_a_motion_there_is_no_angle() -> None:
+    """A case without equilibrium for which no motion was found, and a mechanism of which nothing moves."""
+    results = tower_results()
+    solution = replace(results.cases[1].solution, certificate=None)
+    without = replace(results, cases=(results.cases[0], replace(results.cases[1], solution=solution)))
+    found = compare_results(results, without)
+    assert "mechanisms not compared: no motion is given" in text_of(found)
+    mechanics = results.cases[0].solution.mechanics
+    assert mechanics is not None
+    still = replace(mechanics, mechanism=np.zeros((3, 6)))
+    case = replace(results.cases[0], solution=replace(results.cases[0].solution, mechanics=still))
+    found = compare_results(results, replace(results, cases=(case, results.cases[1])))
+    assert found.cases[0].angle is None
+    assert "mechanisms not compared: a motion is zero" in text_of(found)
+
+
+def test_structures_that_are_others_have_no_angle() -> None:
+    """Only the tower has a match, a small part of the volume."""
+    model = tower_results().model
+    matching = match_models(model, model, factors_between(model.units, model.units))
+    motion = np.ones((3, 6))
+    assert angle_between(model.blocks, motion, motion, matching, 1.0) == pytest.approx(0.0)
+    assert angle_between(model.blocks, motion, motion, replace(matching, shares=(0.3, 1.0)), 1.0) is None
+
+
+def test_grounds_are_matched_by_their_planes() -> None:
+    """In another order, each once; one that lies 2 cm higher, more than places may differ, has no match."""
+    model = tower_results().model
+    level, wall = model.grounds
+    other = Ground(np.zeros(3), np.array([0.0, 1.0, 0.0]), "dry", None, "ground y = 0")
+    turned = replace(model, grounds=(other, wall, level))
+    factors = factors_between(model.units, model.units)
+    assert match_models(model, turned, factors).bodies.tolist() == [0, 1, 2, 5, 4]
+    raised = replace(level, point=level.point + np.array([0.0, 0.0, 0.02]))
+    assert match_models(model, replace(model, grounds=(raised, wall)), factors).bodies.tolist() == [0, 1, 2, -1, 4]

@@ -1,0 +1,77 @@
+import re
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from mbla.contacts.contacts import ContactReport
+from mbla.results.listing.contact_words import MOST_ROWS, contact_lines, finding_lines
+from tests.results.synthetic import empty_report, tower_contacts, tower_model
+
+
+def findings(**changes: Any) -> str:
+    report: ContactReport = replace(empty_report(), **changes)
+    return "\n".join(finding_lines(tower_model(), report))
+
+
+def test_counts_are_given_where_they_are_zero_too() -> None:
+    text = "\n".join(contact_lines(tower_model(), tower_contacts()))
+    assert re.search(r"interfaces between blocks +1\n", text)
+    assert re.search(r"interfaces on ground +1\n", text)
+    assert re.search(r"least, greatest area +1, 1 m2\n", text)
+    for name in ("nearly touching, no contact", "slivers dropped", "overlapping blocks", "blocks without contact"):
+        assert re.search(rf"{name} +none\n", text)
+    assert re.search(r"blocks held by no support +none\n", text)
+    assert "greatest gap" not in text
+
+
+def test_counts_of_what_was_found() -> None:
+    report = replace(
+        empty_report(),
+        slivers=np.array([[0, 1]]),
+        sliver_widths=np.array([1e-4]),
+        unsupported=(np.array([1, 2]),),
+        isolated=np.array([2]),
+    )
+    contacts = replace(tower_contacts(), report=report, gaps=np.array([0.0, -0.002]))
+    text = "\n".join(contact_lines(tower_model(), contacts))
+    assert re.search(r"slivers dropped +1\n", text)
+    assert re.search(r"blocks without contact +1\n", text)
+    assert re.search(r"blocks held by no support +2, 1 part\n", text)
+    assert re.search(r"greatest gap or overlap +2.0e-03 m\n", text)
+
+
+def test_nothing_found_takes_no_room() -> None:
+    assert findings() == ""
+
+
+def test_near_misses_the_closest_first_in_units_of_length() -> None:
+    text = findings(near_misses=np.array([[0, 1], [1, 2]]), near_miss_gaps=np.array([0.02, 0.004]))
+    size = float(tower_model().blocks.sizes[1])
+    rows = [line.split() for line in text.splitlines() if "/" in line and "[m]" not in line]
+    assert [row[0] for row in rows] == ["tower[0]/brick[0]", "base[0]/tower[0]"]
+    assert float(rows[1][1]) == np.round(0.02 * size, 4)
+
+
+def test_slivers_the_widest_first() -> None:
+    text = findings(slivers=np.array([[0, 1], [3, 2]]), sliver_widths=np.array([1e-5, 4e-4]))
+    assert text.index("ground z = 0/brick[0]") < text.index("base[0]/tower[0]")
+
+
+def test_blocks_and_parts_by_name() -> None:
+    text = findings(isolated=np.array([2]), unsupported=(np.array([1]), np.array([2])))
+    assert "Blocks without any contact: brick[0]." in text
+    assert "Held by no support: 1 block, tower[0]." in text
+
+
+def test_many_pairs_are_counted() -> None:
+    pairs = np.tile([[0, 1]], (MOST_ROWS + 7, 1))
+    text = findings(near_misses=pairs, near_miss_gaps=np.linspace(0.002, 0.01, len(pairs)))
+    assert "and 7 more" in text
+
+
+def test_pairs_that_were_not_checked_have_their_names_alone() -> None:
+    """The first of them; the others are counted."""
+    alone = " ".join(findings(unchecked=np.array([[1, 2]] * (MOST_ROWS + 3))).split())
+    assert alone.count("tower[0]/brick[0]") == MOST_ROWS
+    assert "and 3 more" in alone

@@ -1,0 +1,53 @@
+import numpy as np
+import pytest
+
+from mbla.results.listing.force_words import MOST_ROWS, force_range_lines, lock_lines
+from tests.results.synthetic import cuboids, horizontal_contacts, tower_contacts, tower_mechanics, tower_model
+
+MODEL, CONTACTS = tower_model(), tower_contacts()
+
+
+def words(lines: list[str]) -> str:
+    return " ".join(" ".join(lines).split())
+
+
+def test_locked_forces_are_named_by_interface_the_largest_first() -> None:
+    lock = np.zeros((8, 3))
+    lock[:4] = [1.0, -0.5, 0.0]
+    lock[4:] = [2.0, 0.0, 1.0]
+    lines = lock_lines(MODEL, CONTACTS, lock)
+    assert "balance the live load alone, so that any multiple of it is carried; 2 interfaces" in words(lines)
+    rows = [line.split() for line in lines[-2:]]
+    assert rows[0][:2] == ["ground", "z"]  # ground z = 0/brick[0]
+    assert rows[0][-2:] == ["8", "4"]
+    assert rows[1][0] == "base[0]/tower[0]"
+    assert rows[1][-2:] == ["4", "2"]
+
+
+def test_ranges_of_normal_forces_say_which_are_unique() -> None:
+    ranges = np.array([[10.0, 10.0], [2.0, np.inf]])
+    lines = force_range_lines(MODEL, CONTACTS, tower_mechanics(), ranges)
+    assert "1 of 2 are unique" in words(lines)
+    assert lines[-2].split()[-3:] == ["2", "unlimited", "10"]
+    assert lines[-1].split()[-3:] == ["10", "10", "10"]
+
+
+def test_an_end_that_was_not_found_has_no_figure_and_is_not_unique() -> None:
+    lines = force_range_lines(MODEL, CONTACTS, tower_mechanics(), np.array([[np.nan, 10.0], [2.0, 3.0]]))
+    assert "0 of 2 are unique" in words(lines)
+    assert lines[-2].split()[-3:] == ["2", "3", "10"]
+    assert lines[-1].split()[-3:] == ["-", "10", "10"]
+
+
+@pytest.mark.parametrize("interfaces", [MOST_ROWS, MOST_ROWS + 5])
+def test_long_tables_say_how_much_they_leave_out(interfaces: int) -> None:
+    lower = np.array([[i, 0, 0] for i in range(interfaces)] + [[0, 0, 1]], float)
+    upper = lower + 1
+    upper[-1] = [interfaces, 1, 2]
+    model = tower_model()
+    model = type(model)(**{**vars(model), "blocks": cuboids(lower, upper, ["plinth"] * interfaces + ["beam"])})
+    contacts = horizontal_contacts(
+        [[i, interfaces] for i in range(interfaces)], [(i, i + 1, 0, 1, 1) for i in range(interfaces)]
+    )
+    lines = lock_lines(model, contacts, np.ones((4 * interfaces, 3)))
+    assert ("and 5 more" in lines[-1]) == (interfaces > MOST_ROWS)

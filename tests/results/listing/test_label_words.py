@@ -1,0 +1,24 @@
+from __future__ import annotations
+
+import numpy as np
+
+from mbla.model.labels import join_labels, labels_of, no_labels
+from mbla.results.listing.label_words import label_words
+
+WALL = labels_of(4, ["pier", "lintel", "pier", ""], {"course": np.array([0, 5, 2, 3])}, copy=-1)
+
+
+def test_members_are_counted_and_positions_given_as_ranges() -> None:
+    assert label_words(WALL, np.arange(4)) == "members pier (2), lintel (1); course 0 .. 5"
+    assert label_words(WALL, np.array([1])) == "member lintel (1); course 5 .. 5"
+
+
+def test_many_members_are_not_all_named() -> None:
+    names = [f"stone_{number}" for number in range(20)]
+    words = label_words(labels_of(20, names, {}, copy=-1), np.arange(20))
+    assert words.startswith("members stone_0 (1), stone_1 (1)")
+    assert words.endswith("stone_7 (1) and 12 more")
+
+
+def test_blocks_without_labels() -> None:
+    assert label_words(join_labels([WALL, no_labels(2)]), np.array([4, 5])) == ""

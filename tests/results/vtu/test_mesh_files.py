@@ -1,0 +1,296 @@
+"""All files for ParaView of real runs, read back by meshio and vtk."""
+
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import meshio
+import numpy as np
+import pytest
+
+from mbla.deck.selectors import POSITIONS
+from mbla.results.files import OutputFolder
+from mbla.results.results import Results
+from mbla.results.vtu.hinge_file import write_hinges_vtu
+from mbla.results.vtu.layout import ANIMATION, ARRAYS, CELLS, SUPPORTS, arrays_of, arrays_table
+from mbla.results.vtu.load_file import DEAD, GUIDE, LIVE, REACTION, load_vectors
+from mbla.results.vtu.mesh_files import MESH_FILES, write_model_vtu
+from mbla.results.vtu.scene import Scene, scene_of
+from mbla.results.vtu.script import case_record
+from mbla.results.vtu.thrust_file import LINE, POINT, write_thrust_vtu
+from mbla.run import RunOptions, run
+from mbla.solution.solution import ContactMode, Status
+from mbla.solution.verification.statics import contact_velocities
+from tests.results.no_contacts import without_contacts
+from tests.results.pictures.rows_and_columns import row_of_blocks
+from tests.results.reading import read_vtk, vtk_array, vtk_volumes
+from tests.results.synthetic import full_results, tower_mechanics, tower_results
+
+PAGE = Path(__file__).parents[3] / "schemas" / "results.md"
+LABELS = {"member", *POSITIONS}
+HEAD = "mbla: 1\nmaterials: {stone: {density: 2000}}\njoints: {dry: {friction: 2}}\ncontacts: {joint: dry}\n"
+ARCH = (
+    HEAD
+    + """\
+blocks:
+  - arch: {group: arch, material: stone, shape: semicircular, span: 4, thickness: 0.6, width: 1, voussoirs: 15}
+supports: [{ground: {z: 0}}]
+load_cases:
+  push: {live: [{acceleration: [1, 0, 0]}]}
+  point: {live: [{force: [0, 0, -1000], on: {group: arch, index: 4}, at: [0.75, 0.3, 2.2]}]}
+output: {frames: 3}
+"""
+)
+GUIDED = (
+    HEAD.replace("friction: 2", "friction: 0.5")
+    + """\
+blocks:
+  - box: {group: bed, material: stone, min: [-1, 0, -1], max: [3, 2, 0]}
+  - box: {group: upright, material: stone, min: [0, 0, 0], max: [1, 1, 2]}
+supports: [{blocks: bed}, {blocks: upright, fixed: [rx, ry, rz]}]
+load_cases: {push: {live: [{acceleration: [1, 0, 0]}]}}
+output: {frames: 2}
+"""
+)
+
+
+def solved(folder: Path, text: str) -> tuple[Results, Path]:
+    (folder / "deck.yaml").write_text(text, encoding="utf-8")
+    return run(folder / "deck.yaml", RunOptions()), folder / "deck.out"
+
+
+@pytest.fixture(scope="module")
+def arch(tmp_path_factory: pytest.TempPathFactory) -> tuple[Results, Path]:
+    return solved(tmp_path_factory.mktemp("arch"), ARCH)
+
+
+@pytest.fixture(scope="module")
+def guided(tmp_path_factory: pytest.TempPathFactory) -> tuple[Results, Path]:
+    return solved(tmp_path_factory.mktemp("guided"), GUIDED)
+
+
+def scene_and_mesh(run: tuple[Results, Path], case: str, kind: str) -> tuple[Scene, Any]:
+    results, folder = run
+    return scene_of(results, results.case(case)), meshio.read(folder / f"deck_{case}_{kind}.vtu")
+
+
+def kind_of(path: Path, results: Results) -> str:
+    """File kind by the end of the name."""
+    name = path.stem.removeprefix("deck_")
+    for case in results.cases:
+        name = name.removeprefix(f"{case.load_case.name}_")
+    return ANIMATION if name.startswith("frame_") else name
+
+
+def test_page_holds_the_tables() -> None:
+    assert arrays_table() in PAGE.read_text(encoding="utf-8")
+    assert {file.kind for file in MESH_FILES} | {ANIMATION, SUPPORTS} == set(CELLS)
+    assert len({(each.file, each.on, each.name) for each in ARRAYS}) == len(ARRAYS)
+
+
+@pytest.mark.parametrize("which", ["arch", "guided"])
+def test_every_array_written_is_in_the_table_and_of_its_shape(which: str, request: pytest.FixtureRequest) -> None:
+    results, folder = request.getfixturevalue(which)
+    for path in folder.glob("*.vtu"):
+        kind, mesh, grid = kind_of(path, results), meshio.read(path), read_vtk(path)
+        for on, data, read in (
+            ("points", mesh.point_data, grid.GetPointData()),
+            ("cells", {name: np.concatenate(parts) for name, parts in mesh.cell_data.items()}, grid.GetCellData()),
+        ):
+            known = arrays_of(kind, on)
+            assert set(data) - LABELS <= set(known), path.name
+            for name in set(data) - LABELS:
+                assert data[name].reshape(len(data[name]), -1).shape[1] == known[name].shape, (path.name, name)
+                assert vtk_array(read, name) == pytest.approx(data[name], nan_ok=True), (path.name, name)
+
+
+def test_every_array_of_the_table_is_written_where_there_is_something(arch: Any) -> None:
+    results, folder = arch
+    for kind in (file.kind for file in MESH_FILES):
+        mesh = meshio.read(folder / f"deck_push_{kind}.vtu")
+        for on, data in (("points", mesh.point_data), ("cells", mesh.cell_data)):
+            assert set(arrays_of(kind, on)) - LABELS <= set(data), kind
+    assert {kind_of(path, results) for path in folder.glob("*.vtu")} == set(CELLS)
+
+
+def test_blocks_have_the_volume_of_the_model_in_both_readers(arch: Any) -> None:
+    results, folder = arch
+    for name in ("blocks", "frame_000", "frame_001", "frame_002"):
+        assert vtk_volumes(folder / f"deck_push_{name}.vtu") == pytest.approx(results.model.blocks.volumes)
+
+
+def test_thrust_points_lie_inside_their_interfaces(arch: Any) -> None:
+    """Between the two ends of each joint: intrados at radius 2 m, extrados at 2.6 m, or a little less on the chords."""
+    scene, mesh = scene_and_mesh(arch, "push", "thrust")
+    contacts, owner = scene.contacts, mesh.point_data["interface"]
+    off = np.einsum("ij,ij->i", mesh.points - contacts.centroids[owner], contacts.normals[owner])
+    assert np.abs(off).max() < 1e-9
+    for point, interface in zip(mesh.points, owner, strict=True):
+        corners = contacts.points[contacts.point_start[interface] : contacts.point_start[interface + 1]]
+        slack = 1e-6
+        assert (point >= corners.min(axis=0) - slack).all()
+        assert (point <= corners.max(axis=0) + slack).all()
+    assert mesh.point_data["eccentricity"].min() >= 0
+    assert mesh.point_data["eccentricity"].max() == pytest.approx(1, abs=1e-5)
+
+
+def test_thrust_line_of_an_arch_is_one_chain_that_touches_the_edge_at_its_four_hinges(arch: Any) -> None:
+    scene, mesh = scene_and_mesh(arch, "push", "thrust")
+    n_interfaces = len(scene.contacts)
+    assert [(cells.type, len(cells)) for cells in mesh.cells] == [("vertex", n_interfaces), ("line", n_interfaces - 1)]
+    vertices, lines = (cells.data for cells in mesh.cells)
+    assert vertices.ravel().tolist() == list(range(n_interfaces))
+    assert lines[:-1, 1].tolist() == lines[1:, 0].tolist()
+    assert sorted({lines[0, 0], *lines[:, 1]}) == list(range(n_interfaces))
+    kinds, numbers = mesh.cell_data["kind"], mesh.cell_data["line"]
+    assert [set(each.tolist()) for each in kinds] == [{POINT}, {LINE}]
+    assert [set(each.tolist()) for each in numbers] == [{-1}, {0}]
+    at_edge = mesh.point_data["interface"][mesh.point_data["eccentricity"] > 1 - 1e-5]
+    hinges = scene_and_mesh(arch, "push", "hinges")[1]
+    assert sorted(at_edge.tolist()) == sorted(hinges.cell_data["interface"][0].tolist())
+    assert len(at_edge) == 4
+
+
+def test_hinges_are_edges_of_the_arch_across_its_width(arch: Any) -> None:
+    scene, mesh = scene_and_mesh(arch, "push", "hinges")
+    ends = mesh.points[mesh.cells[0].data]
+    assert np.abs(ends[:, 1] - ends[:, 0]) == pytest.approx(np.tile([0.0, 1.0, 0.0], (4, 1)), abs=1e-6)
+    for end in ends.reshape(-1, 3):  # each is a corner of some block
+        assert np.linalg.norm(scene.model.blocks.vertices - end, axis=1).min() < 1e-6
+    assert np.abs(mesh.cell_data["rotation"][0]).min() > 0
+
+
+@pytest.mark.parametrize(("which", "case"), [("arch", "push"), ("arch", "point"), ("guided", "push")])
+def test_reactions_balance_the_loads(which: str, case: str, request: pytest.FixtureRequest) -> None:
+    """Forces, and moments about the origin, over all vertices on bodies that can move."""
+    scene, mesh = scene_and_mesh(request.getfixturevalue(which), case, "loads")
+    data = mesh.point_data
+    assert scene.mechanics is not None
+    forces = data["dead_load"] + scene.mechanics.load_factor * data["live_load"] + data["reaction"]
+    own = np.where((data["kind"] == LIVE)[:, None], scene.mechanics.load_factor, 1.0) * data["moment"]
+    moments = own + np.cross(mesh.points, forces)
+    there = data["fixed"] == 0
+    size = np.abs(data["dead_load"]).sum()
+    assert forces[there].sum(axis=0) == pytest.approx(np.zeros(3), abs=1e-6 * size)
+    assert moments[there].sum(axis=0) == pytest.approx(np.zeros(3), abs=1e-5 * size)
+    assert np.abs(data["reaction"]).sum() > 0.1 * size
+
+
+def test_a_force_at_a_point_acts_on_its_line_and_leaves_no_moment(arch: Any) -> None:
+    scene, mesh = scene_and_mesh(arch, "point", "loads")
+    live = mesh.point_data["kind"] == LIVE
+    assert mesh.point_data["live_load"][live] == pytest.approx(np.array([[0, 0, -1000.0]]))
+    assert mesh.points[live][0, :2] == pytest.approx([0.75, 0.3])
+    assert mesh.points[live][0, 2] == pytest.approx(scene.model.blocks.centroids[4, 2])
+    assert not mesh.point_data["moment"][live].any()
+    dead = mesh.point_data["kind"] == DEAD
+    assert mesh.points[dead] == pytest.approx(scene.model.blocks.centroids)
+
+
+def test_guides_react_and_blocks_say_that_they_are_guided(guided: Any) -> None:
+    """The upright block slides at 0.5; its guide takes the moment of the push at half its height."""
+    results, _ = guided
+    scene, mesh = scene_and_mesh(guided, "push", "blocks")
+    assert np.concatenate(mesh.cell_data["guided"]).tolist() == [0, 1]
+    kinds = {vectors.kind: vectors for vectors in load_vectors(scene)}
+    assert set(kinds) == {DEAD, LIVE, REACTION, GUIDE}
+    assert kinds[GUIDE].bodies.tolist() == [1]
+    supports = meshio.read(guided[1] / "deck_supports.vtu")
+    assert np.concatenate(supports.cell_data["kind"]).tolist() == [1, 2]
+    assert vtk_volumes(guided[1] / "deck_supports.vtu") == pytest.approx(results.model.blocks.volumes)
+
+
+def test_ground_is_a_slab_under_the_springers(arch: Any) -> None:
+    """Its top lies in the plane, and it covers both feet of the arch, 5.2 m apart and 1 m wide."""
+    results, folder = arch
+    mesh = meshio.read(folder / "deck_supports.vtu")
+    assert np.concatenate(mesh.cell_data["kind"]).tolist() == [0]
+    assert np.concatenate(mesh.cell_data["body"]).tolist() == [len(results.model.blocks)]
+    low, high = mesh.points.min(axis=0), mesh.points.max(axis=0)
+    assert high[2] == pytest.approx(0, abs=1e-12)
+    assert low[0] < -0.6
+    assert high[0] > 4.6
+    assert low[1] < 0
+    assert high[1] > 1
+    assert vtk_volumes(folder / "deck_supports.vtu").sum() == pytest.approx(np.prod(high - low))
+
+
+def test_use_of_friction_and_modes_agree_between_files(arch: Any) -> None:
+    scene, interfaces = scene_and_mesh(arch, "push", "interfaces")
+    data = {name: np.concatenate(parts) for name, parts in interfaces.cell_data.items()}
+    thrust = scene_and_mesh(arch, "push", "thrust")[1].point_data
+    assert data["friction_use"] == pytest.approx(thrust["friction_use"])
+    # in a plane nothing twists
+    assert data["torsion_use"] == pytest.approx(data["friction_use"], abs=1e-6)
+    assert thrust["torsion_use"] == pytest.approx(data["torsion_use"])
+    assert data["shear_force"] / (2 * data["normal_force"]) == pytest.approx(data["friction_use"])
+    blocks = scene_and_mesh(arch, "push", "blocks")[1].cell_data
+    largest = np.concatenate(blocks["largest_friction_use"])
+    for block in range(len(scene.model.blocks)):
+        here = (scene.contacts.bodies == block).any(axis=1)
+        assert largest[block] == pytest.approx(data["friction_use"][here].max())
+    assert set(data["result"].tolist()) == {1}
+    assert sorted(data["mode"].tolist()) == [0] * 12 + [3] * 4
+
+
+def test_a_hinge_about_a_corner_is_a_vertex(tmp_path: Path) -> None:
+    """The tower turns about the corner (1, 1, 1) of its bed."""
+    results = tower_results()
+    mechanism = np.zeros((3, 6))
+    mechanism[1] = [*np.cross([-1, 1, 0], results.model.blocks.centroids[1] - [1, 1, 1]), -1, 1, 0]
+    velocities = contact_velocities(results.model, results.contacts, mechanism)
+    modes = np.where(velocities[:, 0] > 1e-9, ContactMode.OPEN, ContactMode.STICK)
+    case = results.cases[0]
+    mechanics = replace(tower_mechanics(), mechanism=mechanism, contact_velocities=velocities, modes=modes)
+    case = replace(case, solution=replace(case.solution, mechanics=mechanics))
+    path = tmp_path / "hinges.vtu"
+    write_hinges_vtu(path, scene_of(replace(results, cases=(case,)), case))
+    mesh = meshio.read(path)
+    assert [(cells.type, cells.data.tolist()) for cells in mesh.cells] == [("vertex", [[0]])]
+    assert mesh.points.tolist() == [[1, 1, 1]]
+    assert mesh.cell_data["interface"][0].tolist() == [0]
+    assert abs(mesh.cell_data["rotation"][0][0]) > 0
+
+
+def test_what_a_case_does_not_have_is_not_written(tmp_path: Path) -> None:
+    """Without a mechanism no hinges, without forces no thrust, without a case no views and no use of friction."""
+    results = tower_results()
+    falls = scene_of(results, results.cases[1])
+    assert falls.forces is None
+    assert falls.torsion_use is None
+    with pytest.raises(ValueError, match="has no thrust"):
+        write_thrust_vtu(tmp_path / "thrust.vtu", falls)
+    with pytest.raises(ValueError, match="has no hinges"):
+        write_hinges_vtu(tmp_path / "hinges.vtu", falls)
+    model = Scene(results.model, results.contacts, None)
+    assert model.torsion_use is None
+    with pytest.raises(ValueError, match="those of a load case"):
+        case_record(results, model, {})
+    assert not list(tmp_path.iterdir())
+
+
+def test_forces_that_lock_leave_guides_the_live_load_alone() -> None:
+    """No dead load: the guide takes what the contacts leave of the live load."""
+    results = tower_results()
+    model = full_results().model
+    case = results.cases[0]
+    forces = tower_mechanics().contact_forces
+    solution = replace(case.solution, mechanics=None, status=Status.UNBOUNDED, lock=0 * forces)
+    load_case = replace(case.load_case, settlement=None)
+    locked = replace(case, load_case=load_case, solution=solution, status=Status.UNBOUNDED)
+    results = replace(results, model=replace(model, load_cases=(load_case,)), cases=(locked,))
+    (guide,) = (each for each in load_vectors(scene_of(results, locked)) if each.kind == GUIDE)
+    assert guide.forces == pytest.approx(-load_case.live_load[model.guides.blocks, :3])
+
+
+@pytest.mark.parametrize("held", [True, False])
+def test_supports_have_a_file_where_there_are_any(tmp_path: Path, held: bool) -> None:
+    """Blocks on the ground, and the same with nothing below them."""
+    results = row_of_blocks(2)
+    if not held:
+        results = replace(results, contacts=without_contacts(results.contacts))
+    with OutputFolder(tmp_path, "row") as out:
+        write_model_vtu(results, out)
+    names = {path.name for path in tmp_path.glob("*.vtu")}
+    assert "row_blocks.vtu" in names
+    assert ("row_supports.vtu" in names) is held

@@ -1,0 +1,286 @@
+"""Cone programs with known answers, and how runs end."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import scipy.sparse as sp
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from mbla.errors import SolverError
+from mbla.program.associative_static import associative_static_form
+from mbla.program.kinematic import kinematic_form
+from mbla.program.static import gravity_form
+from mbla.solution.cone_solvers.clarabel_adapter import ClarabelProgram
+from mbla.solution.cone_solvers.cone_vectors import ConeVectors
+from mbla.solution.cone_solvers.interior_point.condensation import Condensation
+from mbla.solution.cone_solvers.interior_point.cone_data import cone_data
+from mbla.solution.cone_solvers.interior_point.cones import ConeProduct
+from mbla.solution.cone_solvers.interior_point.homogeneous import solve_embedded
+from mbla.solution.cone_solvers.interior_point.method import solve_cone_program
+from mbla.solution.cone_solvers.interior_point.on_multipliers import OnMultipliers
+from mbla.solution.cone_solvers.interior_point.on_unknowns import OnUnknowns
+from mbla.solution.cone_solvers.interior_point.program import MOST_EQUATIONS, CondensedProgram, fits
+from mbla.solution.cone_solvers.interior_point.run import Ended, Outcome, Run
+from mbla.solution.cone_solvers.interior_point.scaling import Scaling
+from mbla.solution.settings import SolverSettings
+from mbla.solution.solution import IterationRecord, Status
+from tests.line import BLOCK, WALL, line_of
+from tests.solution.cone_solvers.interior_point.held_programs import held, least_in_cones, small, wall
+from tests.solution.cone_solvers.interior_point.vectors import Known, known_program, known_static_program
+
+Make = Callable[[int, bool], Known]
+
+quick = settings(max_examples=25, derandomize=True)
+
+seeds = st.integers(0, 2**32 - 1)
+
+RUN = Run(1e-9, 100, None, 0.0, lambda number, measures, length: None)
+
+
+def kinematic(seed: int, quadratic: bool) -> Known:
+    rng = np.random.default_rng(seed)
+    product = ConeProduct(int(rng.integers(0, 12)), int(rng.integers(6, 12)))
+    return known_program(rng, int(rng.integers(4, 13)), int(rng.integers(0, 4)), product, quadratic)
+
+
+def static(seed: int, quadratic: bool) -> Known:
+    rng = np.random.default_rng(seed)
+    return known_static_program(rng, int(rng.integers(6, 10)), quadratic)
+
+
+@pytest.mark.parametrize("quadratic", [False, True], ids=["linear", "quadratic"])
+@pytest.mark.parametrize("make", [kinematic, static])
+@quick
+@given(seed=seeds)
+def test_programs_made_around_a_solution_give_its_value(seed: int, make: Make, quadratic: bool) -> None:
+    """Some end at 1.02e-9 instead of 1e-9 and say so: the value is as good."""
+    known = make(seed, quadratic)
+    solution = held(known.program).solve(1, 1.0)
+    assert solution.status in (Status.SOLVED, Status.APPROXIMATE), solution.verdict
+    size = 1.0 + abs(known.optimum)
+    assert solution.objective == pytest.approx(known.optimum, abs=1e-7 * size)
+    program = known.program
+    bent = 0.0 if program.quadratic is None else program.quadratic * solution.x
+    stationary = program.cost + bent + program.matrix.T @ solution.z
+    assert np.abs(stationary).max() <= 1e-7 * (1.0 + np.abs(solution.z).max() + np.abs(program.cost).max())
+    slack = program.rhs - program.matrix @ solution.x
+    assert np.abs(slack[: program.n_equations]).max(initial=0.0) <= 1e-7 * (1.0 + np.abs(solution.x).max())
+    cones = ConeVectors.of(program)
+    assert least_in_cones(program, solution.z[program.n_equations :]) >= 0.0
+    assert least_in_cones(program, slack[program.n_equations :]) >= -1e-7 * (1.0 + np.abs(slack).max())
+    assert abs(slack @ solution.z) <= 1e-6 * size * len(cones.sizes)
+
+
+@quick
+@given(a=st.floats(-5.0, 5.0), b=st.floats(-5.0, 5.0), radius=st.floats(0.1, 10.0))
+def test_a_linear_function_over_a_disc(a: float, b: float, radius: float) -> None:
+    """min a x + b y, x² + y² ≤ r²: −r √(a² + b²)."""
+    program = small([a, b, 0.0], [[0, 0, 1.0], [0, 0, -1.0], [-1.0, 0, 0], [0, -1.0, 0]], [radius, 0, 0, 0], 0, 1)
+    solution = held(program).solve(1, 1.0)
+    assert solution.status is Status.SOLVED
+    assert solution.objective == pytest.approx(-radius * np.hypot(a, b), abs=1e-7 * (1.0 + radius))
+
+
+@quick
+@given(target=st.lists(st.floats(-3.0, 3.0), min_size=2, max_size=5))
+def test_the_projection_on_a_simplex(target: list[float]) -> None:
+    """min ½‖x − t‖², Σ x = 1, x ≥ 0: max(t − θ, 0), found by sorting."""
+    t = np.array(target)
+    n = len(t)
+    program = replace(
+        small((-t).tolist(), [[1.0] * n, *(-np.eye(n)).tolist()], [1.0, *[0.0] * n], n), quadratic=np.ones(n)
+    )
+    ordered = np.sort(t)[::-1]
+    theta = (np.cumsum(ordered) - 1.0) / np.arange(1, n + 1)
+    expected = np.maximum(t - theta[np.flatnonzero(ordered > theta)[-1]], 0.0)
+    solution = held(program).solve(1, 1.0)
+    assert solution.status is Status.SOLVED
+    np.testing.assert_allclose(solution.x, expected, atol=1e-4)
+    assert solution.objective == pytest.approx(0.5 * expected @ expected - t @ expected, abs=1e-7)
+
+
+def test_strengths_far_beyond_the_weights_leave_the_answer_alone() -> None:
+    """Costs of 1e8 beside loads of 1: the first motions looked like rays along which the cost falls without end."""
+    text = BLOCK.replace("tensile_strength", "compressive_strength: 1.e+13, tensile_strength")
+    line = line_of(text, "parameters.mu=0.3", "parameters.h=0.5")
+    program = kinematic_form(line.program, line.program.limits).cone_program
+    assert np.abs(program.cost).max() > 1e7
+    solution = held(program).solve(1, 1.0)
+    assert solution.status in (Status.SOLVED, Status.APPROXIMATE), solution.verdict
+    assert line.program.scaling.load_factor(solution.objective) == pytest.approx(0.3, rel=1e-5)
+
+
+@pytest.mark.parametrize("make", [kinematic, static])
+@pytest.mark.parametrize("quadratic", [False, True], ids=["linear", "quadratic"])
+def test_the_embedding_has_the_same_optimum(make: Make, quadratic: bool) -> None:
+    """It is run where the method fails only; here it has to do all by itself."""
+    for seed in range(6):
+        known = make(seed, quadratic)
+        data = cone_data(known.program)
+        kind = OnUnknowns if make is kinematic else OnMultipliers
+        ended = solve_embedded(data, kind(data, "qdldl"), RUN)
+        assert ended.outcome in (Outcome.SOLVED, Outcome.ALMOST), (seed, ended.outcome)
+        assert ended.measures.primal_objective == pytest.approx(known.optimum, abs=1e-5 * (1.0 + abs(known.optimum)))
+
+
+def test_the_embedding_finds_both_rays() -> None:
+    infeasible = small([1.0, 1.0], [[1.0, 0.0], [1.0, 0.0], [0.0, -1.0]], [1.0, 0.5, 0.0], 2)
+    unbounded = small([0.0, -1.0], [[1.0, 0.0], [0.0, -1.0]], [1.0, 0.0], 1)
+    for program, outcome in ((infeasible, Outcome.INFEASIBLE), (unbounded, Outcome.UNBOUNDED)):
+        data = cone_data(program)
+        ended = solve_embedded(data, OnUnknowns(data, "qdldl"), RUN)
+        assert ended.outcome is outcome
+
+
+def test_a_deadline_that_has_passed_ends_the_run() -> None:
+    solution = held(wall(), deadline=time.monotonic() - 1.0).solve(1, 1.0)
+    assert solution.status is Status.TIME_LIMIT
+    assert np.isfinite(solution.x).all()
+
+
+def test_the_limit_of_iterations_is_kept() -> None:
+    log: list[IterationRecord] = []
+    solution = held(wall(), log, max_iterations=4).solve(1, 1.0)
+    assert solution.status is Status.ITERATION_LIMIT
+    assert solution.iterations == 4
+    assert len(log) == 5
+
+
+def test_every_iteration_is_logged_once() -> None:
+    log: list[IterationRecord] = []
+    solution = held(wall(), log).solve(7, 2.0)
+    assert [record.iteration for record in log] == list(range(solution.iterations + 1))
+    assert {record.program for record in log} == {7}
+    assert log[-1].load_factor == pytest.approx(2.0 * solution.objective, rel=1e-12)
+    assert max(log[-1].gap, log[-1].primal_residual, log[-1].dual_residual) <= 1e-9
+
+
+def test_what_the_log_raises_arrives() -> None:
+    def log(record: IterationRecord) -> None:
+        if record.iteration == 2:
+            raise OSError("disk full")
+
+    with pytest.raises(OSError, match="disk full"):
+        CondensedProgram(wall(), SolverSettings(1e-9, solver="mbla"), log).solve(1, 1.0)
+
+
+def test_enough_stops_early_well_inside_the_cones() -> None:
+    program = wall()
+    whole, rough = held(program).solve(1, 1.0), held(program).solve_once(1, 1.0, enough=1e-2)
+    assert (whole.status, rough.status) == (Status.SOLVED, Status.APPROXIMATE)
+    assert 0 < rough.iterations < whole.iterations
+    assert rough.objective == pytest.approx(whole.objective, rel=0.1)
+    inside = [least_in_cones(program, solution.z[program.n_equations :]) for solution in (rough, whole)]
+    assert inside[0] > 100.0 * max(inside[1], 0.0)
+    assert inside[0] > 0.0
+
+
+@pytest.mark.parametrize("part", ["cost", "rhs"])
+def test_an_update_gives_the_answer_of_a_new_program(part: str) -> None:
+    program = wall()
+    solver = held(program)
+    first = solver.solve(1, 1.0)
+    change = {part: 2.0 * getattr(program, part)}
+    solver.update(**change)
+    again, fresh = solver.solve(2, 1.0), held(replace(program, **change)).solve(1, 1.0)
+    assert (again.status, fresh.status) == (Status.SOLVED, Status.SOLVED)
+    assert again.objective == pytest.approx(fresh.objective, rel=1e-8)
+    assert again.objective == pytest.approx(2.0 * first.objective, rel=1e-8)
+
+
+def test_an_update_may_take_the_solution_away_and_bring_it_back() -> None:
+    """What is remembered of the first program must not pass for an answer of the next."""
+    feasible, missed = np.array([2.0, 3.0, 0.0]), np.array([2.0, 1.0, 0.0])
+    solver = held(small([1.0, 1.0], [[1.0, 0.0], [1.0, 0.0], [0.0, -1.0]], feasible.tolist(), 2))
+    assert solver.solve(1, 1.0).objective == pytest.approx(2.0)
+    solver.update(rhs=missed)
+    assert solver.solve(2, 1.0).status is Status.UNBOUNDED
+    solver.update(rhs=feasible)
+    assert solver.solve(3, 1.0).objective == pytest.approx(2.0)
+
+
+@pytest.mark.parametrize("part", ["cost", "matrix", "rhs", "quadratic"])
+@pytest.mark.parametrize("value", [np.nan, np.inf])
+def test_numbers_that_are_not_finite_are_refused(part: str, value: float) -> None:
+    program = replace(wall(), quadratic=np.ones(wall().matrix.shape[1]))
+    if part == "matrix":
+        spoiled = program.matrix.copy()
+        spoiled.data[0] = value
+        program = replace(program, matrix=spoiled)
+    else:
+        vector = getattr(program, part).copy()
+        vector[0] = value
+        program = replace(program, **{part: vector})
+    with pytest.raises(SolverError, match="not finite"):
+        held(program).solve(1, 1.0)
+
+
+def test_the_best_iterate_is_kept_where_the_method_breaks_down() -> None:
+    data = cone_data(wall())
+
+    class Failing(OnUnknowns):
+        """Breaks down after as many factorisations."""
+
+        left = 8
+
+        def factorize(self, scaling: Scaling) -> bool:
+            self.left -= 1
+            return self.left >= 0 and super().factorize(scaling)
+
+    seen: list[float] = []
+    run = Run(1e-9, 100, None, 0.0, lambda number, measures, length: seen.append(measures.worst))
+    condensation: Condensation = Failing(data, "qdldl")
+    ended: Ended = solve_cone_program(data, condensation, run)
+    assert ended.outcome is Outcome.NUMERICAL
+    assert ended.measures.worst == min(seen)
+    nothing = Failing(data, "qdldl")
+    nothing.left = 0
+    at_once = solve_cone_program(data, nothing, run)
+    assert at_once.outcome is Outcome.NUMERICAL
+    assert np.isfinite(at_once.point.x).all()
+
+
+def test_runs_are_alike_to_the_last_bit() -> None:
+    program = wall()
+    one, other = held(program).solve(1, 1.0), held(program).solve(1, 1.0)
+    np.testing.assert_array_equal(one.x, other.x)
+    np.testing.assert_array_equal(one.z, other.z)
+    assert one.objective == other.objective
+
+
+def test_the_gravity_state_is_that_of_clarabel() -> None:
+    """A static form, condensed onto the multipliers: forces are unique, and known to the root of the gap."""
+    program = gravity_form(line_of(WALL, "parameters.n=3").program).cone_program
+    assert fits(program)
+    one = held(program).solve(1, 0.0)
+    other = ClarabelProgram(program, SolverSettings(1e-9), lambda record: None).solve(1, 0.0)
+    assert one.status is Status.SOLVED
+    assert one.objective == pytest.approx(other.objective, rel=1e-7)
+    np.testing.assert_allclose(one.x, other.x, atol=1e-4 * np.abs(other.x).max())
+
+
+def test_a_program_of_another_shape_does_not_fit() -> None:
+    program = wall()
+    assert fits(program)
+    rows = sp.csc_array(sp.vstack([program.matrix, sp.csr_array((4, program.matrix.shape[1]))]))
+    assert not fits(replace(program, matrix=rows, rhs=np.append(program.rhs, np.ones(4)), further_cones=(4,)))
+    assert not fits(replace(program, n_half_lines=0, n_cones=0))
+
+
+@pytest.mark.parametrize("overrides", [(), ("parameters.b=3",)])
+def test_the_static_form_of_one_block_has_few_equations_and_is_solved(overrides: tuple[str, ...]) -> None:
+    """Six equations, as many as a kinematic form may have; but its load factor is in no cone, so that N on the unknowns
+    was singular and the equations were not met."""
+    line = line_of(BLOCK, *overrides)
+    program = associative_static_form(line.program).cone_program
+    assert program.n_equations <= MOST_EQUATIONS
+    solution = held(program).solve(1, 1.0)
+    assert solution.status is Status.SOLVED, solution.verdict
+    factor = line.program.scaling.load_factor(-solution.objective)
+    assert factor == pytest.approx(0.5, rel=1e-7)

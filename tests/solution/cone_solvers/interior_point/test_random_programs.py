@@ -1,0 +1,138 @@
+"""Random assemblies, by the condensed method and by clarabel: what either says must not contradict the other.
+
+Of the first thousand (counted by ``python -m`` with this folder's ``random_programs 0 1000``) the condensed method
+decides 978 and clarabel 970, with bounds a median 4e-10 and 2e-9 of the load factor apart, without a contradiction.
+Neither decides some of those with friction of a thousand or a million in space, and some whose factor is a millionth of
+the loads; strengths of a hundred million block weights are hard for the condensed method.
+"""
+
+from __future__ import annotations
+
+import statistics
+import sys
+from collections import Counter
+
+import pytest
+
+from mbla.solution.associative.proved_answer import ACCEPTED_GAP
+from mbla.solution.solution import Status
+from tests.solution.cone_solvers.interior_point.random_programs import (
+    Outcome,
+    compared,
+    contradiction,
+    outcome_of,
+    random_case,
+)
+from tests.solution.cone_solvers.interior_point.raw_programs import CERTAIN, disagreement, raw_programs, solved_by_both
+
+SHORT = range(40)
+LONG = range(1000)
+
+UNUSUAL = 2.0
+"""Friction beyond which, and strength (in mean block loads) beyond which single cone programs are not compared as they
+are: an answer for them needs the fallbacks that ``solve_associative`` has."""
+
+STRONG = 1e6
+
+
+def test_the_generator_gives_every_kind_and_always_the_same() -> None:
+    cases = [random_case(seed) for seed in SHORT]
+    assert len({case.kind for case in cases}) >= 9
+    assert random_case(7) == random_case(7)
+    assert len({case.reduced for case in cases}) == 2
+
+
+def test_neither_solver_contradicts_the_other() -> None:
+    count = compared(SHORT)
+    assert count.contradictions == []
+    assert len(count.undecided["mbla"]) <= 2, count.undecided["mbla"]
+    assert len(count.undecided["mbla"]) <= len(count.undecided["clarabel"])
+    statuses = set(count.outcomes["mbla"])
+    assert {"solved", "no_equilibrium", "unbounded"} <= statuses
+    known = [gap for gap in count.gaps["mbla"] if gap == gap]
+    assert statistics.median(known) < 1e-8
+
+
+WRONG_BEFORE = (85, 229, 232, 298, 318, 556, 789, 798)
+"""Friction of a thousand or a million, where a huge self-stress passed for a proof that there is no mechanism."""
+
+
+@pytest.mark.parametrize("seed", WRONG_BEFORE)
+def test_rough_joints_have_a_load_factor_that_is_proved(seed: int) -> None:
+    program = random_case(seed).program
+    outcome = outcome_of(program, "mbla")
+    assert outcome.result.status is Status.SOLVED
+    assert outcome.gap <= ACCEPTED_GAP
+    assert contradiction(program, outcome, outcome_of(program, "clarabel")) == ""
+
+
+def test_what_contradicts_is_seen() -> None:
+    """The comparison itself: one factor moved by more than both gaps, and one status turned."""
+    first = random_case(next(seed for seed in SHORT if random_case(seed).kind == "arch")).program
+    solved = outcome_of(first, "mbla")
+    if solved.bounds is None:
+        pytest.fail("the first arch has no load factor")
+    moved = 1.0 + 1e-5
+    other = Outcome(
+        solved.result,
+        type(solved.bounds)(
+            solved.bounds.static * moved,
+            solved.bounds.kinematic * moved,
+            solved.bounds.gap,
+            solved.bounds.forces,
+            solved.bounds.load_factor * moved,
+            solved.bounds.velocities,
+        ),
+    )
+    assert "apart" in contradiction(first, solved, other)
+    assert contradiction(first, solved, solved) == ""
+
+
+def compared_raw(seeds: range) -> tuple[Counter[tuple[str, str]], list[str]]:
+    """How often each solver is certain of each kind of program, and what they disagree about."""
+    certain: Counter[tuple[str, str]] = Counter()
+    disagreements = []
+    for seed in seeds:
+        program = random_case(seed).program
+        limits = program.limits
+        strengths = [limits.cohesion.max(), limits.tension.max(), *limits.compression[limits.compression < 1e300]]
+        if limits.friction.max() > UNUSUAL or max(strengths) > STRONG:
+            continue
+        for kind, cone_program in raw_programs(program, outcome_of(program, "clarabel").result.state).items():
+            own, other = solved_by_both(cone_program)
+            certain[kind, "all"] += 1
+            certain[kind, "mbla"] += own.status in CERTAIN
+            certain[kind, "clarabel"] += other.status in CERTAIN
+            words = disagreement(own, other)
+            if words:
+                disagreements.append(f"seed {seed}, {kind}: {words}")
+    return certain, disagreements
+
+
+def test_single_cone_programs_have_the_same_optimum() -> None:
+    certain, disagreements = compared_raw(range(10))
+    assert disagreements == []
+    for kind in ("kinematic", "reversed", "gravity", "proximal", "static"):
+        assert certain[kind, "mbla"] >= certain[kind, "clarabel"] - 1, (kind, certain)
+    assert certain["proximal", "all"] >= 6
+
+
+@pytest.mark.long
+def test_a_thousand_random_programs(capsys: pytest.CaptureFixture[str]) -> None:
+    count = compared(LONG)
+    with capsys.disabled():
+        sys.stdout.write("\n" + count.words() + "\n")
+    assert count.contradictions == []
+    assert len(count.undecided["mbla"]) <= 30
+    assert len(count.undecided["mbla"]) <= len(count.undecided["clarabel"])
+
+
+@pytest.mark.long
+def test_single_cone_programs_of_three_hundred_structures(capsys: pytest.CaptureFixture[str]) -> None:
+    certain, disagreements = compared_raw(range(300))
+    with capsys.disabled():
+        sys.stdout.write("\n".join(["", *map(str, sorted(certain.items())), *disagreements, ""]))
+    # seed 130, reversed: clarabel calls itself solved 1.2e-6 off; with a tolerance of 1e-10 it has the other figure
+    assert len(disagreements) <= 1
+    for kind in ("kinematic", "reversed", "gravity", "proximal"):
+        assert certain[kind, "mbla"] >= certain[kind, "clarabel"] - 2, (kind, certain)

@@ -1,0 +1,75 @@
+"""The return map of the exact joint law: what it promises of every joint, its tangent, its two limits."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from mbla.arrays import FloatArray
+from mbla.program.program import Program
+from mbla.solution.linear_algebra.stiffness import stiffness_of
+from mbla.solution.nonassociative.joint_law import joint_state, joint_tangents
+from tests.line import WALL, line_of
+
+RHO = 0.7
+COHESIVE = "joints.dry.cohesion=300", "joints.dry.tensile_strength=200", "joints.dry.compressive_strength=20000"
+
+
+def wall(*overrides: str) -> Program:
+    return line_of(WALL, "parameters.n=3", *overrides).program
+
+
+def scattered(program: Program, seed: int = 3) -> tuple[FloatArray, FloatArray]:
+    """Anchor forces and velocities that bring joints to every branch of the law."""
+    rng = np.random.default_rng(seed)
+    anchor = rng.normal(size=(program.n_points, 3)) + np.array([1.0, 0, 0])
+    return anchor, rng.normal(size=len(program.dead_load))
+
+
+@pytest.mark.parametrize("overrides", [(), COHESIVE])
+@pytest.mark.parametrize("share", [0.0, 0.4, 1.0])
+def test_what_the_forces_leave_of_the_motion_obeys_the_law(share: float, overrides: tuple[str, ...]) -> None:
+    """v + rho (x - anchor): opens without force, slides against friction, dilates by its angle."""
+    program = wall(*overrides)
+    limits, slope = program.limits, share * program.limits.friction
+    anchor, u = scattered(program)
+    x = joint_state(stiffness_of(program), slope, anchor, RHO, u).forces
+    v = (program.equilibrium_matrix.T @ u).reshape(-1, 3) + RHO * (x - anchor)
+    strength = limits.friction * x[:, 0] + limits.cohesion
+    sliding = np.linalg.norm(v[:, 1:], axis=1)
+    surplus = v[:, 0] - slope * sliding
+    inside = (x[:, 0] > -limits.tension + 1e-9) & (x[:, 0] < limits.compression - 1e-9)
+    assert 0 < np.count_nonzero(inside) < program.n_points
+    assert np.all(x[:, 0] >= -limits.tension)
+    assert np.all(x[:, 0] <= limits.compression)
+    assert np.all(np.linalg.norm(x[:, 1:], axis=1) <= strength + 1e-12)
+    assert surplus[inside] == pytest.approx(0.0, abs=1e-12)
+    assert np.all(surplus[x[:, 0] <= -limits.tension] >= -1e-12)
+    assert np.all(surplus[x[:, 0] >= limits.compression] <= 1e-12)
+    assert strength * sliding + (x[:, 1:] * v[:, 1:]).sum(axis=1) == pytest.approx(0.0, abs=1e-12)
+
+
+@pytest.mark.parametrize("overrides", [(), COHESIVE])
+@pytest.mark.parametrize("share", [0.0, 0.4, 1.0])
+def test_the_exact_law_agrees_with_its_tangent(share: float, overrides: tuple[str, ...]) -> None:
+    """Consistent linearisation: the directional derivative of the forces, by differences."""
+    program = wall(*overrides)
+    slope = share * program.limits.friction
+    anchor, u = scattered(program)
+    du = np.random.default_rng(5).normal(size=len(u))
+    here = joint_state(stiffness_of(program), slope, anchor, RHO, u)
+    there = joint_state(stiffness_of(program), slope, anchor, RHO, u + 1e-7 * du)
+    velocity = (program.equilibrium_matrix.T @ du).reshape(-1, 3)
+    expected = -np.einsum("pij,pj->pi", joint_tangents(program, slope, RHO, here), velocity)
+    assert (there.forces - here.forces) / 1e-7 == pytest.approx(expected, abs=1e-5)
+
+
+def test_with_the_friction_angle_it_is_the_projection_on_the_cone() -> None:
+    """What is cut off lies in the polar cone and is at right angles to the force (Moreau)."""
+    program = wall()
+    anchor, u = scattered(program)
+    trial = anchor - (program.equilibrium_matrix.T @ u).reshape(-1, 3) / RHO
+    x = joint_state(stiffness_of(program), program.limits.friction, anchor, RHO, u).forces
+    cut = trial - x
+    assert (x * cut).sum(axis=1) == pytest.approx(0.0, abs=1e-12)
+    assert np.all(cut[:, 0] + program.limits.friction * np.linalg.norm(cut[:, 1:], axis=1) <= 1e-12)

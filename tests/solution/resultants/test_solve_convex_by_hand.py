@@ -1,0 +1,150 @@
+"""The analysis with interface resultants where its programs, steps or repairs come to nothing."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from mbla.program.convex import ConvexProgram, assemble_convex
+from mbla.solution.resultants import convex_associative, convex_law, convex_repair
+from mbla.solution.resultants import solve_convex as convex
+from mbla.solution.resultants.convex_associative import solve_convex_associative
+from mbla.solution.resultants.convex_law import exact_convex_step
+from mbla.solution.resultants.convex_proximal import ConvexSequence
+from mbla.solution.resultants.convex_repair import repaired_convex_forces
+from mbla.solution.settings import SolverSettings
+from mbla.solution.solution import Standing, StandingResult, Status
+from mbla.solution.solve import ONLY_BY_SELF_STRESS
+from mbla.solution.standing.standing import DeadLoadState
+from tests.line import BLOCK, line_of
+from tests.solution.convex_structures import DECKS
+from tests.solution.convex_structures import convex as convex_of
+
+SETTINGS = SolverSettings(1e-8)
+
+
+def sliding() -> ConvexProgram:
+    """A block that slides at 0.5."""
+    line = line_of(BLOCK, "parameters.h=0.5")
+    return assemble_convex(line.model, line.contacts, line.load_case, "convex")
+
+
+@pytest.mark.parametrize("sense", [1.0, -1.0])
+def test_a_program_without_an_answer_leaves_no_load_factor(sense: float, monkeypatch: pytest.MonkeyPatch) -> None:
+    solve = convex_associative._solved
+
+    def late(run: Any, own: float) -> Any:
+        form, solution = solve(run, own)
+        return form, replace(solution, status=Status.TIME_LIMIT) if own == sense else solution
+
+    monkeypatch.setattr(convex_associative, "_solved", late)
+    result = solve_convex_associative(sliding(), SETTINGS, lambda record: None)
+    assert result.status is Status.TIME_LIMIT
+    assert result.state is None
+    assert ("whether the dead load alone is carried is not known" in result.reason) is (sense < 0)
+
+
+def test_light_blocks_that_stay_lost_are_given_their_own_units_no_more_often_than_that(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    program = sliding()
+    once = solve_convex_associative(program, SETTINGS, lambda record: None)
+    monkeypatch.setattr(convex_associative, "loses_light_blocks", lambda *arguments: True)
+    result = solve_convex_associative(program, SETTINGS, lambda record: None)
+    assert len(result.programs) == (1 + convex_associative.OWN_UNITS) * len(once.programs)
+    assert result.state is not None
+    assert program.points.scaling.load_factor(result.state.load_factor) == pytest.approx(0.5, rel=1e-6)
+
+
+def test_forces_that_no_repair_brings_near_to_balance_are_given_where_that_is_enough(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    program = sliding()
+    state = solve_convex_associative(program, SETTINGS, lambda record: None).state
+    assert state is not None
+    monkeypatch.setattr(convex_repair, "GOOD_EQUILIBRIUM", -1.0)
+    assert repaired_convex_forces(program, state.forces, state.load_factor, sharp=True) is None
+    found = repaired_convex_forces(program, state.forces, state.load_factor)
+    assert found is not None
+    assert found[1] == pytest.approx(state.load_factor, rel=1e-6)
+    result = solve_convex_associative(program, SETTINGS, lambda record: None)
+    assert result.state is not None
+    assert program.points.scaling.load_factor(result.state.load_factor) == pytest.approx(0.5, rel=1e-6)
+
+
+@pytest.mark.parametrize("answer", [None, np.nan], ids=["singular", "not a number"])
+def test_a_step_of_the_law_without_a_direction_stays_where_it_is(
+    answer: float | None, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    program = sliding()
+    law = convex_law.convex_law(program)
+    anchor = np.ones((program.points.n_points, 3))
+    start = np.zeros(len(law.program.live_load))
+    solve = None if answer is None else lambda rhs: np.full_like(rhs, answer)
+    monkeypatch.setattr(convex_law, "factorize", lambda system: solve)
+    step = exact_convex_step(law, anchor, 1e-2, start, 0.1)
+    assert not step.velocities.any()
+    assert step.load_factor == 0.1
+    assert step.factorizations > 1
+    assert step.residual > 1e-3
+
+
+def test_a_step_of_the_law_ends_with_its_factorisations(monkeypatch: pytest.MonkeyPatch) -> None:
+    program = sliding()
+    law = convex_law.convex_law(program)
+    anchor = np.ones((program.points.n_points, 3))
+    start = np.zeros(len(law.program.live_load))
+    far = exact_convex_step(law, anchor, 1e-2, start, 0.1)
+    assert far.factorizations > 1
+    monkeypatch.setattr(convex_law, "MOST_STEPS", 1)
+    step = exact_convex_step(law, anchor, 1e-2, start, 0.1)
+    assert step.factorizations == 1
+    assert step.residual > far.residual
+
+
+def test_what_locks_with_dilatancy_has_no_answer_without_a_state_of_the_law(monkeypatch: pytest.MonkeyPatch) -> None:
+    line = line_of((DECKS / "groove.yaml").read_text(encoding="utf-8"), "parameters.mu=2", "expected={}")
+    nothing = ConvexSequence(Status.APPROXIMATE, None, "did not come to rest", ())
+    monkeypatch.setattr(convex, "solve_convex_proximal", lambda *arguments: nothing)
+    solution, _ = convex_of(line, "non_associative")
+    assert solution.associative is None
+    assert solution.status is Status.NOT_VERIFIED
+    assert solution.mechanics is None
+    assert solution.reason == convex.LOCKED
+
+
+def test_what_stands_by_self_stress_alone_has_no_load_factor_without_dilatancy(monkeypatch: pytest.MonkeyPatch) -> None:
+    held = StandingResult(Standing.SELF_STRESS, 0, "only by forces locked in before")
+    monkeypatch.setattr(convex, "assess_dead_load", lambda *arguments: DeadLoadState(held, None, None))
+    for rule, status in (("associative", Status.SOLVED), ("non_associative", Status.NOT_VERIFIED)):
+        solution, _ = convex_of(line_of(BLOCK, "parameters.h=0.5"), rule)
+        assert solution.status is status
+        assert solution.standing is held
+        assert (solution.reason == ONLY_BY_SELF_STRESS) is (rule == "non_associative")
+
+
+def test_a_bar_between_two_walls_that_locks_with_dilatancy_has_no_load_factor_without() -> None:
+    """Forces that carry its weight are known, as it locks: that it falls from the stress-free assembly is no doubt."""
+    line = line_of((DECKS / "bar_between_walls.yaml").read_text(encoding="utf-8"))
+    solution, _ = convex_of(line, "non_associative")
+    assert solution.associative is None
+    assert solution.mechanics is not None
+    assert solution.standing is not None
+    assert solution.standing.verdict is Standing.SELF_STRESS
+    assert (solution.status, solution.reason) == (Status.NOT_VERIFIED, ONLY_BY_SELF_STRESS)
+
+
+@pytest.mark.parametrize("rule", ["associative", "non_associative"])
+def test_a_block_that_hangs_on_a_guide_without_an_interface_is_moved_by_any_push(rule: str) -> None:
+    """A pendulum about an axis above it: at rest under its weight, and nothing resists."""
+    text = BLOCK.replace("{ground: {z: 0}}", "{blocks: block, turn: {axis: [0, 1, 0], about: [0.5, 0, 3]}}")
+    line = line_of(text)
+    assert len(line.contacts) == 0
+    solution, checks = convex_of(line, rule)
+    assert solution.status is Status.SOLVED
+    assert checks.verified
+    assert solution.mechanics is not None
+    assert solution.mechanics.load_factor == pytest.approx(0.0, abs=1e-12)

@@ -1,0 +1,187 @@
+"""The law of the stress-free assembly, its tangent, and states on springs."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import scipy.sparse as sp
+
+from mbla.arrays import FloatArray
+from mbla.solution.nonassociative.lagged_limits import convex_minimum
+from mbla.solution.settings import SolverSettings
+from mbla.solution.standing.spring_newton import newton_step
+from mbla.solution.standing.spring_problem import (
+    PATTERN_FROM,
+    Joints,
+    LatePattern,
+    SpringProblem,
+    joints_at,
+    spring_problem,
+    stiffness_at,
+)
+from mbla.solution.standing.spring_state import spring_state
+from mbla.solution.standing.weak_spring_continuation import Outcome, is_diagonal, springs_of, weaken_springs
+from tests.line import BLOCK, WALL, line_of
+from tests.solution.standing_structures import arch, overhang, rafters, wall_with_opening
+
+
+def problem_of(text: str, *overrides: str) -> SpringProblem:
+    """The dead load of a deck on springs of unit size."""
+    program = line_of(text, *overrides).program
+    springs = sp.csr_array(sp.eye_array(len(program.dead_load), format="csr"))
+    return spring_problem(program.equilibrium_matrix, program.dead_load, program.limits, springs, None)
+
+
+@pytest.mark.parametrize("lagged", [False, True])
+def test_the_tangent_is_that_of_the_law(lagged: bool) -> None:
+    """By differences, at displacements at which joints are open, stick and slide."""
+    problem = replace(problem_of(WALL, "parameters.n=3"), shear_stiffness=0.4)
+    rng = np.random.default_rng(3)
+    u, du = rng.normal(size=(2, len(problem.load)))
+    limit = np.full(len(problem.limits.friction), 0.3) if lagged else None
+    here, there = joints_at(problem, 0.2, u, limit), joints_at(problem, 0.2, u + 1e-7 * du, limit)
+    slips, open_ = here.size > here.limit, ~here.follows
+    assert 0 < slips.sum() < len(slips)
+    assert 0 < open_.sum() < len(open_)
+    tangent = stiffness_at(problem, 0.2, here, lagged)
+    assert (here.unbalanced - there.unbalanced) / 1e-7 == pytest.approx(tangent @ du, abs=1e-5)
+
+
+@pytest.mark.parametrize("lagged", [False, True])
+@pytest.mark.parametrize("reductions", ["true", "false"])
+def test_a_step_on_the_pattern_is_newtons_step(reductions: str, lagged: bool) -> None:
+    """The same as by products of sparse matrices, planar and in space, with joints open, sticking and sliding."""
+    program = line_of(WALL, "parameters.n=3", f"analysis.reductions.planar={reductions}").program
+    springs = springs_of(program, "dead_load")[0]
+    problem = spring_problem(program.equilibrium_matrix, program.dead_load, program.limits, springs, None)
+    here = joints_at(problem, 0.2, np.random.default_rng(3).normal(size=len(problem.load)), None)
+    assert is_diagonal(springs)
+    late = replace(problem, pattern=LatePattern(program))
+    steps = [newton_step(late, 0.2, here, lagged=lagged) for _ in range(PATTERN_FROM + 1)]
+    first, last = steps[0], steps[-1]
+    plain = newton_step(problem, 0.2, here, lagged=lagged)
+    assert first is not None
+    assert last is not None
+    assert plain is not None
+    assert np.array_equal(first, plain)
+    assert not np.array_equal(last, plain)  # by another order of elimination
+    assert last == pytest.approx(plain, rel=1e-9, abs=1e-12)
+
+
+def test_springs_that_join_rows_are_no_diagonal() -> None:
+    assert not is_diagonal(sp.csr_array(np.array([[1.0, 0.1], [0.1, 1.0]])))
+
+
+@pytest.mark.parametrize("kappa", [1.0, 1e-3])
+def test_a_block_on_springs_settles_as_two_springs_in_parallel(kappa: float) -> None:
+    """Four joints of stiffness 1 and one of κ under a weight of 1."""
+    problem = problem_of(BLOCK)
+    u = spring_state(problem, kappa, [np.zeros(6)])
+    assert u is not None
+    assert u[2] == pytest.approx(-1 / (4 + kappa), rel=1e-9)
+    assert np.delete(u, 2) == pytest.approx(0, abs=1e-12)
+
+
+def test_held_limits_of_shear_leave_a_minimum_that_is_found() -> None:
+    """From a start far off, and with other limits than those that belong to it: balance under the held limits."""
+    problem = problem_of(rafters(0.6))
+    start = np.random.default_rng(1).normal(size=len(problem.load))
+    limit = joints_at(problem, 1e-3, start, None).limit
+    u = convex_minimum(problem, 1e-3, start, limit)
+    assert np.abs(joints_at(problem, 1e-3, u, limit).unbalanced).max() < 1e-9
+
+
+@pytest.mark.parametrize(("lags", "dashpot_steps"), [(9, 0), (0, 60)], ids=["limits", "dashpots"])
+def test_detours_find_the_state_where_newtons_method_does_not(
+    lags: int, dashpot_steps: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Two steps of Newton's method do not lead there from rest; close by they do."""
+    problem = problem_of(rafters(0.4))
+    start = [np.zeros(len(problem.load))]
+    direct = spring_state(problem, 1e-3, start)
+    assert direct is not None
+    for name, value in (
+        ("standing.spring_newton.NEWTON_STEPS", 2),
+        ("nonassociative.lagged_limits.LAGS", 0),
+        ("standing.dashpots.DASHPOT_STEPS", 0),
+    ):
+        monkeypatch.setattr(f"mbla.solution.{name}", value)
+    assert spring_state(problem, 1e-3, start) is None
+    monkeypatch.setattr("mbla.solution.nonassociative.lagged_limits.LAGS", lags)
+    monkeypatch.setattr("mbla.solution.standing.dashpots.DASHPOT_STEPS", dashpot_steps)
+    assert spring_state(problem, 1e-3, start) == pytest.approx(direct, abs=1e-9)
+
+
+def test_the_share_is_what_friction_leaves_over() -> None:
+    """A block pushed by 0.6 of its weight on friction 0.5: its spring keeps 0.1, whatever its stiffness."""
+    line = line_of(
+        BLOCK, "parameters.h=0.2", "load_cases.push.dead=[{acceleration: [0.6, 0, 0]}, {gravity: [0, 0, -9.81]}]"
+    )
+    settings = SolverSettings(tolerance=1e-8)
+    weakening = weaken_springs(line.program, "dead_load", line.program.limits, settings)
+    # the load is sqrt(1 + 0.6²) weights; the moment of the push is balanced by the joints
+    assert weakening.share == pytest.approx(0.1 / np.hypot(1, 0.6), rel=1e-2)
+
+
+def test_where_nothing_slides_or_opens_one_step_finds_the_state_that_the_path_leads_to(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    program, settings = line_of(WALL).program, SolverSettings(tolerance=1e-8)
+    steps = counted_steps(monkeypatch)
+    at_once = weaken_springs(program, "dead_load", program.limits, settings)
+    assert len(steps) == 1
+    monkeypatch.setattr("mbla.solution.standing.weak_spring_continuation._elastic_state", lambda problem, blocks: None)
+    by_path = weaken_springs(program, "dead_load", program.limits, settings)
+    assert len(steps) == 5
+    assert at_once.outcome is by_path.outcome is Outcome.CARRIED
+    assert at_once.block == by_path.block
+    # springs carry 1e-7 of a load at the end of the path
+    assert at_once.forces == pytest.approx(by_path.forces, abs=1e-6)
+
+
+def test_where_joints_slide_one_step_decides_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
+    program = line_of(arch(0.15)).program
+    steps = counted_steps(monkeypatch)
+    weakening = weaken_springs(program, "dead_load", program.limits, SolverSettings(tolerance=1e-8))
+    assert weakening.outcome is Outcome.CARRIED
+    assert len(steps) > 5
+
+
+@pytest.mark.parametrize(
+    ("text", "outcome"),
+    [
+        pytest.param(arch(0.108), Outcome.CARRIED, id="thin arch"),
+        pytest.param(wall_with_opening((1.0, 2.0)), Outcome.FALLS, id="lintel squeezed between its jambs"),
+        pytest.param(overhang(1.001), Outcome.FALLS, id="overhang"),
+    ],
+)
+def test_how_well_states_on_the_way_are_balanced_changes_nothing(
+    text: str, outcome: Outcome, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    program, settings = line_of(text).program, SolverSettings(tolerance=1e-8)
+    steps = counted_steps(monkeypatch)
+    nearly = weaken_springs(program, "dead_load", program.limits, settings)
+    few = len(steps)
+    monkeypatch.setattr("mbla.solution.standing.spring_problem.NEARLY", 0.0)
+    exactly = weaken_springs(program, "dead_load", program.limits, settings)
+    assert few < len(steps) - few
+    assert nearly.outcome is exactly.outcome is outcome
+    assert nearly.block == exactly.block
+    assert nearly.share == pytest.approx(exactly.share, rel=1e-3)
+    if outcome is Outcome.CARRIED:
+        assert nearly.forces == pytest.approx(exactly.forces, abs=1e-6)
+
+
+def counted_steps(monkeypatch: pytest.MonkeyPatch) -> list[float]:
+    """The stiffness of springs at every step of Newton's method from now on."""
+    steps: list[float] = []
+
+    def counted(problem: SpringProblem, kappa: float, joints: Joints, *, lagged: bool) -> FloatArray | None:
+        steps.append(kappa)
+        return newton_step(problem, kappa, joints, lagged=lagged)
+
+    for module in ("standing.spring_newton", "nonassociative.lagged_limits", "standing.weak_spring_continuation"):
+        monkeypatch.setattr(f"mbla.solution.{module}.newton_step", counted)
+    return steps

@@ -1,0 +1,119 @@
+"""The closed forms of the verification against brute force: points sampled from the sets that they describe."""
+
+import numpy as np
+import pytest
+
+from mbla.arrays import FloatArray
+from mbla.solution.verification.interface_laws import (
+    InterfaceLaws,
+    interface_laws,
+    sliding_power,
+    torsion_excess,
+    torsion_power,
+)
+from tests.line import HEAD, line_of
+
+ONE = (
+    HEAD
+    + """\
+joints: {dry: {friction: 0.5, cohesion: 3000, tensile_strength: 1000, compressive_strength: 50000}}
+blocks:
+  - polyhedron: {group: block, material: stone, vertices: VERTICES, faces: FACES}
+supports: [{ground: {z: 0}}]
+load_cases: {push: {live: [{acceleration: [1, 0, 0]}]}}
+"""
+)
+OUTLINES: dict[str, list[tuple[float, float]]] = {
+    "rectangle": [(0, 0), (1.2, 0), (1.2, 0.7), (0, 0.7)],
+    "turned": [(0, 0), (0.8, 0.6), (0.5, 1.0), (-0.3, 0.4)],
+    "pentagon": [(0, 0), (1, 0), (1.3, 0.6), (0.6, 1.1), (-0.2, 0.5)],
+}
+
+
+def laws_of(name: str) -> InterfaceLaws:
+    outline = OUTLINES[name]
+    n = len(outline)
+    vertices = [[x, y, z] for z in (0, 1) for x, y in outline]
+    faces = [list(range(n)), list(range(n, 2 * n))]
+    faces += [[i, (i + 1) % n, n + (i + 1) % n, n + i] for i in range(n)]
+    text = ONE.replace("VERTICES", str(vertices)).replace("FACES", str(faces))
+    whole = line_of(text, "joints.dry={friction: 0.5}").contacts  # a joint that can crush is in pieces
+    return interface_laws(line_of(text).model, whole, "convex")
+
+
+def many(laws: InterfaceLaws, n: int) -> InterfaceLaws:
+    """The same interface n times."""
+    start = np.append(np.tile(laws.shapes.start[:-1], 1), len(laws.shapes.corners))
+    count = int(start[1])
+    shapes = laws.shapes.__class__(
+        corners=np.tile(laws.shapes.corners, (n, 1)),
+        start=count * np.arange(n + 1),
+        **{
+            name: np.repeat(getattr(laws.shapes, name), n, axis=0)
+            for name in ("convex", "rectangles", "sides", "axes", "radii", "thetas")
+        },
+    )
+    rest = ("friction", "cohesion", "tension", "strength", "torsional", "crushable")
+    return InterfaceLaws(shapes, **{name: np.repeat(getattr(laws, name), n) for name in rest})
+
+
+def beyond_outline(laws: InterfaceLaws, r: FloatArray) -> FloatArray:
+    """Positive where the force point of N + f_t A lies outside of the outline."""
+    moment = np.column_stack([-r[:, 5], r[:, 4]])
+    of_edge = (laws.shapes.edge_slopes() * moment[laws.shapes.interface_of_corner]).sum(axis=1)
+    return np.asarray(of_edge.reshape(len(r), -1).max(axis=1) - r[:, 0] - laws.tension)
+
+
+def admissible(laws: InterfaceLaws, n: int) -> FloatArray:
+    """Random resultants at the border of torsion, or of the strength: directions from a point well inside."""
+    rng = np.random.default_rng(7)
+    size = float(laws.strength[0])
+    arm = float(laws.shapes.radii[0])
+    scale = size * np.array([0.3, 0.2, 0.2, 0.2 * arm, 0.3 * arm, 0.3 * arm])
+    centre = np.array([0.3 * size, 0, 0, 0, 0, 0])
+    direction = rng.normal(size=(n, 6)) * scale
+    low, high = np.zeros(n), np.full(n, 20.0)
+    laws = many(laws, n)
+    for _ in range(60):
+        middle = 0.5 * (low + high)
+        r = centre + middle[:, None] * direction
+        inside = (torsion_excess(laws, r) <= 0) & (r[:, 0] <= size) & (beyond_outline(laws, r) <= 0)
+        low, high = np.where(inside, middle, low), np.where(inside, high, middle)
+    return np.asarray(centre + low[:, None] * direction)
+
+
+@pytest.mark.parametrize("name", OUTLINES)
+def test_torsion_dissipates_at_most_what_is_said(name: str) -> None:
+    laws = laws_of(name)
+    rng = np.random.default_rng(2)
+    r = admissible(laws, 3000)
+    for motion in rng.normal(size=(40, 6)) * np.array([0.2, 1, 1, 3, 0.3, 0.3]):
+        power, lack = torsion_power(laws, motion[None])
+        motion[0] += max(float(lack[0]), 0.0)  # opens just enough
+        power, lack = torsion_power(laws, motion[None])
+        assert lack[0] <= 1e-12
+        assert (-(r @ motion)).max() <= power[0] * (1 + 1e-9)
+        # with any less opening some pressure, taken often enough, dissipates without bound
+        lacking = motion - 1e-3 * np.eye(6)[0]
+        assert torsion_power(laws, lacking[None])[1][0] > 0
+
+
+def test_sliding_without_dilatancy_is_the_support_of_the_section() -> None:
+    laws = laws_of("rectangle")
+    r = np.array([20000.0, 0, 0, 0, 900.0, -700.0])
+    rng = np.random.default_rng(3)
+    direction = rng.normal(size=(8000, 3)) * [1, 1, 0.3]
+    low, high = np.zeros(8000), np.full(8000, 1e6)
+    repeated = many(laws, 8000)
+    for _ in range(60):
+        middle = 0.5 * (low + high)
+        at = np.tile(r, (8000, 1))
+        at[:, 1:4] = middle[:, None] * direction
+        inside = torsion_excess(repeated, at) <= 0
+        low, high = np.where(inside, middle, low), np.where(inside, high, middle)
+    border = low[:, None] * direction
+    for motion in rng.normal(size=(20, 3)) * [1, 1, 3]:
+        found = float(sliding_power(laws, r[None], np.array([[0, *motion, 0, 0]]))[0])
+        most = (-(border @ motion)).max()
+        assert most <= found * (1 + 1e-9)
+        assert most >= 0.98 * found

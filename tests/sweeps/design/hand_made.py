@@ -1,0 +1,50 @@
+"""Designs from sweep files written as dicts."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from mbla.deck.tree import KeyPath, key_text
+from mbla.errors import Fault, Message, Place
+from mbla.sweeps.design.build import design_of
+from mbla.sweeps.design.design import Design
+from mbla.sweeps.design.ways.way import Vector
+from mbla.sweeps.file import design_rules, rules
+from mbla.sweeps.file.content import SweepContent
+
+CHECKED_BY = (rules, design_rules)
+"""register the checks of sweep files, so that what is made here is what a file could hold"""
+
+
+def content_of(parameters: Mapping[str, Any], **keys: Any) -> SweepContent:
+    """Content of a sweep file with these parameters and further keys."""
+    return SweepContent.model_validate({"mbla_sweep": 1, "deck": "deck.yaml", "parameters": parameters, **keys})
+
+
+def fault_at(path: KeyPath, message: Message) -> Fault:
+    return Fault(Place("sweep.yaml", 1, 1), key_text(path), message)
+
+
+def design(
+    parameters: Mapping[str, Any],
+    *,
+    vectors: Mapping[str, Vector] | None = None,
+    units: Mapping[str, str] | None = None,
+    known: Mapping[str, object] | None = None,
+    **keys: Any,
+) -> Design:
+    """The design of such a sweep over a deck with these vectors, units and parameters."""
+    return design_of(content_of(parameters, **keys), vectors or {}, units or {}, known or {}, fault_at)
+
+
+def column(design: Design, name: str) -> list[Any]:
+    """Values of a column at all points."""
+    place = [column.name for column in design.columns].index(name)
+    return [point.values[place] for point in design.points]
+
+
+def drawn(parameter: Mapping[str, Any], points: int = 2000, kind: str = "random", **keys: Any) -> Design:
+    """One parameter ``x`` drawn alone."""
+    vectors = {"x": (3.0, 4.0, -12.0)}
+    return design({"x": {"key": "a.x", **parameter}}, design=[{kind: {"points": points, **keys}}], vectors=vectors)

@@ -1,0 +1,129 @@
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+from scipy import stats
+from scipy.spatial import SphericalVoronoi
+
+from mbla.errors import DeckError
+from mbla.sweeps.design.design import Design
+from mbla.sweeps.design.ways.directions import sine_cosine
+from mbla.sweeps.design.ways.way import Vector
+from tests.sweeps.design.hand_made import column, design, drawn
+
+BASE: Vector = (3.0, 4.0, -12.0)
+
+
+def directions(parameter: dict[str, Any], vector: Vector = BASE) -> Design:
+    return design({"x": {"key": "loads.wind", **parameter}}, vectors={"x": vector})
+
+
+def vectors_of(found: Design) -> np.ndarray[Any, np.dtype[np.float64]]:
+    return np.array([next(iter(point.settings.values())) for point in found.points], dtype=float)
+
+
+@pytest.mark.parametrize("turns", [-360, 0, 360])
+def test_sine_and_cosine_are_exact_along_the_axes(turns: float) -> None:
+    found = [sine_cosine(angle + turns) for angle in (0, 90, 180, 270)]
+    assert found == [(0, 1), (1, 0), (0, -1), (-1, 0)]
+    assert not any(math.copysign(1, value) < 0 for pair in found for value in pair if value == 0)
+
+
+def test_sine_and_cosine_of_the_common_angles() -> None:
+    half, root = math.sqrt(0.5), math.sqrt(0.75)
+    assert [sine_cosine(angle) for angle in (30, 45, 60, 120)] == [(0.5, root), (half, half), (root, 0.5), (root, -0.5)]
+    assert [sine_cosine(angle) for angle in (135, 225, 315)] == [(half, -half), (-half, -half), (-half, half)]
+
+
+def test_sine_and_cosine_of_other_angles() -> None:
+    angles = np.linspace(-720, 720, 1001)
+    found = np.array([sine_cosine(angle) for angle in angles])
+    assert found[:, 0] == pytest.approx(np.sin(np.radians(angles)), abs=3e-15)
+    assert found[:, 1] == pytest.approx(np.cos(np.radians(angles)), abs=3e-15)
+
+
+def test_the_horizon_turns_the_horizontal_part_and_keeps_the_vertical_one() -> None:
+    found = directions({"horizon": {"points": 4}})
+    assert vectors_of(found).tolist() == [[5, 0, -12], [0, 5, -12], [-5, 0, -12], [0, -5, -12]]
+    assert column(found, "x") == [0, 90, 180, 270]  # the full circle has its end left out
+    assert (found.columns[0].role, found.columns[0].unit, found.columns[0].random) == ("azimuth", "degree", False)
+
+
+def test_an_arc_has_both_ends() -> None:
+    assert column(directions({"horizon": {"from": -90, "to": 90, "points": 5}}), "x") == [-90, -45, 0, 45, 90]
+
+
+def test_a_full_circle_may_begin_anywhere() -> None:
+    assert column(directions({"horizon": {"from": -60, "to": 300, "points": 6}}), "x") == [-60, 0, 60, 120, 180, 240]
+
+
+def test_one_direction_is_the_first() -> None:
+    assert column(directions({"horizon": {"from": 30, "points": 1}}), "x") == [30]
+
+
+def test_the_size_may_be_given() -> None:
+    found = vectors_of(directions({"horizon": {"points": 2, "size": 0.2}}))
+    assert found.tolist() == [[0.2, 0, -12], [-0.2, 0, -12]]
+
+
+def test_drawn_azimuths_are_uniform() -> None:
+    found = drawn({"horizon": {"from": 0, "to": 90}}, 500, "latin_hypercube")
+    counts, _ = np.histogram(column(found, "x"), np.linspace(0, 90, 11))
+    assert counts.tolist() == [50] * 10
+    assert np.linalg.norm(vectors_of(found), axis=1) == pytest.approx(np.full(500, 13))
+    assert found.columns[0].random
+
+
+def test_points_over_a_sphere_have_equal_shares_of_it() -> None:
+    """Areas of their Voronoi cells: half within 1 %, those at the poles, where no spiral is even, within 12 %."""
+    points = 400
+    unit = vectors_of(directions({"sphere": {"points": points, "size": 1}}))
+    assert np.linalg.norm(unit, axis=1) == pytest.approx(np.ones(points), abs=1e-15)
+    share = SphericalVoronoi(unit).calculate_areas() * points / (4 * math.pi)
+    assert np.median(abs(share - 1)) < 0.01
+    assert abs(share - 1).max() < 0.12
+
+
+def test_a_band_of_the_sphere_is_filled_evenly() -> None:
+    found = directions({"sphere": {"from": -30, "to": 90, "points": 300}})
+    elevation = np.array(column(found, "x_elevation"))
+    counts, _ = np.histogram(np.sin(np.radians(elevation)), np.linspace(-0.5, 1, 16))
+    assert counts.tolist() == [20] * 15
+    assert np.linalg.norm(vectors_of(found), axis=1) == pytest.approx(np.full(300, 13))
+    assert [column.role for column in found.columns] == ["azimuth", "elevation"]
+
+
+def test_azimuth_and_elevation_of_the_table_are_those_of_the_vector() -> None:
+    found = directions({"sphere": {"points": 50, "size": 1}})
+    x, y, z = vectors_of(found).T
+    assert np.degrees(np.arcsin(z)) == pytest.approx(column(found, "x_elevation"), abs=1e-9)
+    assert np.degrees(np.arctan2(y, x)) % 360 == pytest.approx(column(found, "x_azimuth"), abs=1e-9)
+
+
+def test_drawn_directions_are_uniform_over_the_sphere() -> None:
+    x, y, z = vectors_of(drawn({"sphere": {}}, 4000)).T / 13
+    for component in (x, y, z):  # Archimedes: each component by itself is uniform; 1.63/sqrt(n) for one in a hundred
+        assert stats.kstest(component, stats.uniform(-1, 2).cdf).statistic < 1.63 / math.sqrt(4000)
+
+
+@pytest.mark.parametrize(
+    ("parameter", "vector", "message"),
+    [
+        (
+            {"horizon": {"points": 4}},
+            (0.0, 0.0, -1.0),
+            "turns a vector that has no length in these directions: give its size",
+        ),
+        ({"sphere": {"points": 4}}, (0.0, 0.0, 0.0), "turns a vector that has no length in these directions"),
+        ({"sphere": {"points": 4}}, (1.7e308, 1.7e308, 0.0), "turns a vector that is longer than a number holds"),
+    ],
+)
+def test_refusals(parameter: dict[str, Any], vector: Vector, message: str) -> None:
+    with pytest.raises(DeckError) as caught:
+        directions(parameter, vector)
+    [fault] = caught.value.faults
+    assert fault.key == f"parameters.x.{next(iter(parameter))}"
+    assert fault.message.startswith(message)

@@ -1,0 +1,139 @@
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from mbla.deck.section import Section
+from mbla.errors import DeckError
+from mbla.sweeps.design.ways import WAYS
+from mbla.sweeps.design.ways.way import WayError
+from mbla.sweeps.file import ways
+from mbla.sweeps.file.content import LinearRange, LogRange, Normal, Parameter
+from tests.sweeps.design.hand_made import column, design, drawn
+
+
+def levels(parameter: dict[str, Any]) -> list[Any]:
+    return column(design({"x": {"key": "a.x", **parameter}}), "x")
+
+
+def test_every_way_of_the_sweep_file_is_registered() -> None:
+    assert set(WAYS) == set(Parameter.model_fields) - {"key", "unit"} == set(ways.WAYS)
+    assert {key for key, way in WAYS.items() if way.random} == set(ways.RANDOM)
+
+
+def test_a_linear_range_is_as_a_person_would_write_it() -> None:
+    found = levels({"linear": {"from": 0.1, "to": 0.2, "points": 11}})
+    assert found == [0.1, 0.11, 0.12, 0.13, 0.14, 0.15, 0.16, 0.17, 0.18, 0.19, 0.2]
+
+
+def test_a_linear_range_may_fall_and_cross_zero() -> None:
+    found = levels({"linear": {"from": 0.3, "to": -0.3, "points": 7}})
+    assert found == [0.3, 0.2, 0.1, 0.0, -0.1, -0.2, -0.3]
+
+
+def test_a_small_range_far_from_zero_keeps_the_digits_that_numbers_of_that_size_have() -> None:
+    found = levels({"linear": {"from": 1e6, "to": 1000000.001, "points": 11}})
+    assert found[3] == 1000000.0003
+    assert len(set(found)) == 11
+
+
+FINITE = st.floats(-1e9, 1e9).filter(lambda value: value == 0 or abs(value) > 1e-9)
+
+
+@given(FINITE, FINITE, st.integers(2, 40))
+def test_linear_ranges_have_exact_ends_and_equal_steps(start: float, end: float, points: int) -> None:
+    if abs(end - start) <= 1e-9 * max(abs(start), abs(end)):
+        return
+    found = levels({"linear": {"from": start, "to": end, "points": points}})
+    assert found[0] == start
+    assert found[-1] == end
+    # What is rounded away: 12 digits of the span, or 15 of the values where that is coarser.
+    rounding = 1e-11 * abs(end - start) + 2e-14 * max(abs(start), abs(end))
+    assert np.diff(found) == pytest.approx(np.full(points - 1, (end - start) / (points - 1)), abs=rounding)
+
+
+def test_a_logarithmic_range_hits_the_powers_of_ten() -> None:
+    assert levels({"log": {"from": 0.001, "to": 1000, "points": 7}}) == [0.001, 0.01, 0.1, 1.0, 10.0, 100.0, 1000.0]
+
+
+@given(st.floats(1e-12, 1e12), st.floats(1.001, 1e6), st.integers(2, 40))
+def test_logarithmic_ranges_have_exact_ends_and_equal_ratios(start: float, ratio: float, points: int) -> None:
+    end = start * ratio
+    found = levels({"log": {"from": start, "to": end, "points": points}})
+    assert (found[0], found[-1]) == (start, end)
+    assert np.diff(np.log(found)) == pytest.approx(np.full(points - 1, math.log(ratio) / (points - 1)), abs=2e-11)
+
+
+@pytest.mark.parametrize("way", ["linear", "log"])
+def test_levels_that_cannot_be_told_apart_are_refused(way: str) -> None:
+    with pytest.raises(DeckError, match=rf"x\.{way}: has 5 points that numbers do not tell apart") as caught:
+        levels({way: {"from": 1.0, "to": 1.00000000000001, "points": 5}})
+    assert len(caught.value.faults) == 1
+
+
+def test_a_range_wider_than_numbers_is_refused() -> None:
+    with pytest.raises(DeckError, match=r"x\.linear: has ends that numbers do not tell apart, or lie too far apart"):
+        levels({"linear": {"from": -1.7e308, "to": 1.7e308, "points": 5}})
+
+
+ENDS = {"from": 1, "to": 2}
+
+
+@pytest.mark.parametrize(
+    ("way", "section", "message"),
+    [
+        ("linear", LinearRange.model_validate(ENDS), "needs points"),
+        ("log", LogRange.model_validate(ENDS), "needs points"),
+        ("normal", Normal(mean=1, deviation=1), "draw it in a part random, latin_hypercube or sobol"),
+    ],
+)
+def test_what_has_no_levels_gives_none(way: str, section: Section, message: str) -> None:
+    """Sweep files with these are refused when they are read; nothing is made up here either."""
+    with pytest.raises(WayError, match=message):
+        WAYS[way].levels(section, None)
+
+
+def test_whole_numbers_are_each_of_them() -> None:
+    found = design({"x": {"key": "a.x", "whole": {"from": -1, "to": 2}}})
+    assert column(found, "x") == [-1, 0, 1, 2]
+    assert found.columns[0].kind == "int"
+
+
+@pytest.mark.parametrize(
+    ("values", "kind", "shown"),
+    [
+        ([1, 2], "int", [1, 2]),
+        ([1, 2.5], "float", [1.0, 2.5]),
+        ([True, False], "bool", [True, False]),
+        (["arch", "dome"], "text", ["arch", "dome"]),
+        ([[1, 0.5], "20 mm", True, 3], "text", ["[1, 0.5]", "20 mm", "true", "3"]),
+    ],
+)
+def test_the_kind_of_a_list_is_that_of_its_values(values: list[Any], kind: str, shown: list[Any]) -> None:
+    found = design({"x": {"key": "a.x", "values": values}}, units={"x": "m"})
+    assert column(found, "x") == shown
+    assert [type(value) for value in column(found, "x")] == [type(value) for value in shown]
+    assert [point.settings for point in found.points] == [{"a.x": value} for value in values]
+    assert found.columns[0].kind == kind
+    assert found.columns[0].unit == ("m" if kind in ("int", "float") else "")
+
+
+def test_values_that_are_drawn_come_equally_often() -> None:
+    found = column(drawn({"values": ["a", "b", "c"]}, points=300, kind="latin_hypercube"), "x")
+    assert [found.count(value) for value in "abc"] == [100, 100, 100]
+
+
+def test_whole_numbers_that_are_drawn_come_equally_often_with_both_ends() -> None:
+    found = column(drawn({"whole": {"from": 1, "to": 6}}, points=600, kind="latin_hypercube"), "x")
+    assert [found.count(value) for value in range(0, 8)] == [0, 100, 100, 100, 100, 100, 100, 0]
+
+
+def test_a_logarithmic_range_is_drawn_by_its_decades() -> None:
+    found = column(drawn({"log": {"from": 0.01, "to": 100}}, points=400, kind="latin_hypercube"), "x")
+    counts, _ = np.histogram(found, [0.01, 0.1, 1, 10, 100])
+    assert counts.tolist() == [100, 100, 100, 100]

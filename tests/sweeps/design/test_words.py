@@ -1,0 +1,77 @@
+from __future__ import annotations
+
+from typing import Any
+
+from mbla.results.listing.text import WIDTH
+from mbla.sweeps.design.words import design_lines
+from tests.sweeps.design.hand_made import design
+
+PARAMETERS: dict[str, Any] = {
+    "mu": {"key": "joints.dry.friction", "values": [0.5, 0.65]},
+    "t": {"key": "blocks.0.arch.thickness", "linear": {"from": 0.2, "to": 0.3, "points": 3}},
+    "shape": {"key": "blocks.0.arch.shape", "values": ["pointed", "segmental"]},
+    "tie": {"key": "x.tie", "values": [True, False]},
+}
+
+
+def test_a_design_is_listed_with_parts_counts_and_every_point() -> None:
+    found = design(
+        PARAMETERS,
+        units={"t": "m"},
+        design=[{"grid": {"of": ["mu", "t"]}}, {"zip": {}}],
+        constraints=["t < mu*0.5", "t > 0.1"],
+    )
+    assert design_lines(found) == [
+        "",
+        "Design",
+        "------",
+        "  grid                            mu (2) × t (3)",
+        "  zip                             shape and tie: 2 points",
+        "  points                          8",
+        "  left out by constraints         4 of 12",
+        "    t < mu*0.5                    broken by 4",
+        "    t > 0.1                       broken by 0",
+        "",
+        "Points",
+        "------",
+        "  point    mu     t  shape        tie",
+        "                  m",
+        "      1   0.5   0.2  pointed     true",
+        "      2   0.5   0.2  segmental  false",
+        "      3  0.65   0.2  pointed     true",
+        "      4  0.65   0.2  segmental  false",
+        "      5  0.65  0.25  pointed     true",
+        "      6  0.65  0.25  segmental  false",
+        "      7  0.65   0.3  pointed     true",
+        "      8  0.65   0.3  segmental  false",
+    ]
+
+
+def test_seeds_and_remarks_are_told() -> None:
+    drawn = {"n": {"key": "n", "normal": {"mean": 1, "deviation": 0.1}}, "m": {"key": "m", "values": [1, 2]}}
+    lines = design_lines(design(drawn, design=[{"sobol": {"points": 3, "seed": 5}}]))
+    assert "  sobol                           n and m: 3 points, seed 5" in lines
+    assert any(line.startswith("  3 points of a Sobol sequence are spread less evenly") for line in lines)
+    assert any(line.startswith("  sobol: m has no distribution") for line in lines)
+
+
+def test_many_columns_go_below_each_other_and_none_is_lost() -> None:
+    parameters = {f"a_long_name_{i}": {"key": f"k{i}", "values": [i + 0.5, i + 0.25]} for i in range(20)}
+    lines = design_lines(design(parameters, design=[{"zip": {}}]))
+    assert max(map(len, lines)) <= WIDTH
+    words = " ".join(lines[lines.index("Points") :]).split()
+    assert [word for word in words if word.startswith("a_long")] == list(parameters)
+    assert words.count("point") == 4
+    assert {f"{i + share:g}" for i in range(20) for share in (0.5, 0.25)} <= set(words)
+
+
+def test_a_column_shows_as_many_digits_as_tell_its_values_apart() -> None:
+    lines = design_lines(design({"x": {"key": "x", "values": [1000000.0, 1000000.25]}}))
+    assert [line.split()[1] for line in lines[-2:]] == ["1000000", "1000000.25"]
+    lines = design_lines(design({"x": {"key": "x", "values": [0.1, 0.1 + 1e-14]}}))
+    assert [line.split()[1] for line in lines[-2:]] == ["0.1", "0.1"]  # twelve digits are the most
+
+
+def test_long_texts_are_shortened() -> None:
+    lines = design_lines(design({"x": {"key": "x", "values": [[0.123456] * 10, "a"]}}))
+    assert lines[-2] == "      1  [0.123456, .., 0.123456]"

@@ -1,0 +1,55 @@
+"""Which engine is had for which options, and what is refused."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+import pytest
+
+from mbla.errors import UsageError
+from mbla.sweeps.engine.choice import engine_for
+from mbla.sweeps.engine.cluster import ClusterEngine
+from mbla.sweeps.engine.options import EngineOptions
+from mbla.sweeps.engine.serial import SerialEngine
+
+TLS = "tls://host:8786"
+
+
+def test_the_engine() -> None:
+    assert isinstance(engine_for(EngineOptions()), SerialEngine)
+    assert isinstance(engine_for(EngineOptions(workers=2)), ClusterEngine)
+    assert isinstance(engine_for(EngineOptions(scheduler="tcp://host:8786")), ClusterEngine)
+    assert isinstance(engine_for(EngineOptions(scheduler_file=Path("s.json"))), ClusterEngine)
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        (EngineOptions(workers=0), "-j 0: at least 1"),
+        (EngineOptions(2, TLS), "-j is for processes of this machine; with a scheduler its workers are all used"),
+        (EngineOptions(1, TLS, Path("f")), "--scheduler and --scheduler-file: one of them says where the scheduler is"),
+        (
+            EngineOptions(scheduler="host:8786"),
+            "--scheduler host:8786: an address is tcp://HOST:PORT or tls://HOST:PORT",
+        ),
+        (
+            EngineOptions(scheduler="tcp://host:8786", tls_ca_file=Path(__file__)),
+            "--tls-ca-file: only for a scheduler at a tls:// address",
+        ),
+        (EngineOptions(tls_ca_file=Path(__file__)), "--tls-ca-file: only for a scheduler at a tls:// address"),
+        (EngineOptions(scheduler=TLS, tls_cert=Path(__file__)), "--tls-cert and --tls-key belong together"),
+        (EngineOptions(scheduler=TLS, tls_ca_file=Path("none")), "--tls-ca-file none: there is no such file"),
+    ],
+)
+def test_refused(options: EngineOptions, words: str) -> None:
+    with pytest.raises(UsageError) as refused:
+        engine_for(options)
+    assert str(refused.value) == words
+
+
+def test_without_the_extra(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "distributed", None)
+    assert isinstance(engine_for(EngineOptions()), SerialEngine)
+    with pytest.raises(UsageError, match=r"an extra that is not installed: pip install 'mbla\[dask\]'$"):
+        engine_for(EngineOptions(workers=2))

@@ -1,0 +1,147 @@
+"""What a scheduler and its workers may say when a sweep connects, and how it is told."""
+
+from __future__ import annotations
+
+import sys
+import threading
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from mbla.errors import FileError, UsageError
+from mbla.sweeps.engine import connection
+from mbla.sweeps.worker.batch import describe
+from tests.sweeps.engine.certificates import write_certificates
+from tests.sweeps.engine.scripted import ADDRESS, Script, scripted_engine
+
+GONE = f"the scheduler {ADDRESS} is gone; finished points are in the journal, --resume goes on with the rest"
+NO_WORKER = (
+    f"the scheduler {ADDRESS} has had no worker for 0.2 s: start some with `dask worker`; "
+    "what was solved is in the journal, --resume goes on from it"
+)
+
+
+def refusal(monkeypatch: pytest.MonkeyPatch, script: Script, **options: Any) -> str:
+    """Words with which a connection is refused."""
+    engine = scripted_engine(monkeypatch, script, **options)
+    with pytest.raises((UsageError, FileError)) as caught, engine:
+        pass
+    return str(caught.value)
+
+
+def test_workers_that_are_as_here(monkeypatch: pytest.MonkeyPatch) -> None:
+    script = Script(threads=(0, 0, 3))
+    with scripted_engine(monkeypatch, script):
+        assert script.asked == ["describe"]
+    assert script.asked == ["describe", "close"]
+
+
+def test_a_scheduler_without_workers(monkeypatch: pytest.MonkeyPatch) -> None:
+    script = Script(threads=(0,))
+    assert refusal(monkeypatch, script) == NO_WORKER
+    assert script.asked == ["close"]
+
+
+@pytest.mark.parametrize("error", [TimeoutError(), OSError("connection reset")])
+def test_a_scheduler_that_does_not_say_what_workers_it_has(monkeypatch: pytest.MonkeyPatch, error: OSError) -> None:
+    assert refusal(monkeypatch, Script(threads=(error,))) == GONE
+
+
+def test_a_scheduler_that_does_not_answer(monkeypatch: pytest.MonkeyPatch) -> None:
+    script = Script(refusal=OSError("Timed out\n  during handshake"))
+    words = f"no connection to the scheduler {ADDRESS}: Timed out during handshake"
+    assert refusal(monkeypatch, script) == words
+
+
+def test_a_tls_address_without_certificates(monkeypatch: pytest.MonkeyPatch) -> None:
+    refused = ValueError()
+    refused.__cause__ = OSError("certificate required")
+    assert refusal(monkeypatch, Script(refusal=refused), scheduler="tls://host:8786") == (
+        "no connection to the scheduler tls://host:8786: certificate required"
+        "; a tls:// address needs --tls-ca-file, --tls-cert and --tls-key"
+    )
+
+
+def test_certificates_are_handed_on(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    files, script = write_certificates(tmp_path), Script()
+    options = {"tls_ca_file": files["ca"], "tls_cert": files["cert"], "tls_key": files["key"]}
+    with scripted_engine(monkeypatch, script, scheduler="tls://host:8786", **options):
+        security = script.options["security"]
+    assert script.options["address"] == "tls://host:8786"
+    assert security.require_encryption
+    assert security.tls_ca_file == str(files["ca"])
+    assert (security.tls_client_cert, security.tls_client_key) == (str(files["cert"]), str(files["key"]))
+
+
+def test_workers_that_differ(monkeypatch: pytest.MonkeyPatch) -> None:
+    own = describe()
+    workers = {
+        "tcp://a": own | {"machine": "north", "program": "0.0.9+abc"},
+        "tcp://b": ImportError("No module named\n'mbla.sweeps'"),
+        "tcp://c": RuntimeError("no disk"),
+        "tcp://d": OSError("connection closed"),
+        "tcp://e": own,
+        "tcp://f": own | {"machine": "south", "libraries": own["libraries"] | {"numpy": "1.0"}},
+    }
+    assert refusal(monkeypatch, Script(workers=workers)).splitlines() == [
+        f"worker tcp://a on north: its mbla is 0.0.9+abc, here it is {own['program']}",
+        "worker tcp://b cannot import this mbla: No module named 'mbla.sweeps'",
+        "worker tcp://c: RuntimeError: no disk",
+        f"worker tcp://f on south: its numpy is 1.0, here it is {own['libraries']['numpy']}",
+        "install the same versions in the workers' environment",
+    ]
+
+
+def test_a_worker_that_does_not_answer(monkeypatch: pytest.MonkeyPatch) -> None:
+    within = connection.within
+
+    def late(seconds: float, ask: Any) -> Any:
+        if ask.__qualname__.startswith("Connection._check_workers"):
+            raise TimeoutError
+        return within(seconds, ask)
+
+    monkeypatch.setattr(connection, "within", late)
+    assert refusal(monkeypatch, Script()) == (
+        f"a worker of the scheduler {ADDRESS} does not answer within 30 s: restart it"
+    )
+
+
+@pytest.mark.parametrize("content", ["{}", "[", '"tcp://host"', ""])
+def test_a_scheduler_file_that_is_none(monkeypatch: pytest.MonkeyPatch, tmp_path: Path, content: str) -> None:
+    path = tmp_path / "scheduler.json"
+    path.write_text(content, encoding="utf-8")
+    words = refusal(monkeypatch, Script(), scheduler="", scheduler_file=path)
+    assert words == f"--scheduler-file {path}: not a file that `dask scheduler --scheduler-file` wrote"
+
+
+def test_a_scheduler_file_that_cannot_be_read(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    words = refusal(monkeypatch, Script(), scheduler="", scheduler_file=tmp_path)
+    assert words == f"--scheduler-file {tmp_path}: Is a directory"
+
+
+def test_the_scheduler_of_a_file(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    path = tmp_path / "scheduler.json"
+    path.write_text('{"address": "tcp://other:1"}', encoding="utf-8")
+    script = Script(refusal=OSError("closed"))
+    words = refusal(monkeypatch, script, scheduler="", scheduler_file=path)
+    assert words == "no connection to the scheduler tcp://other:1: closed"
+
+
+def test_what_takes_too_long_is_not_waited_for() -> None:
+    def fail() -> None:
+        raise KeyError("none")
+
+    assert connection.within(5.0, lambda: 7) == 7
+    with pytest.raises(KeyError):
+        connection.within(5.0, fail)
+    over = threading.Event()
+    with pytest.raises(TimeoutError):
+        connection.within(0.01, over.wait)
+    over.set()
+
+
+def test_an_extra_that_is_half_installed(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "distributed.scheduler", None)
+    with pytest.raises(UsageError, match=r"an extra that is not installed: pip install 'mbla\[dask\]'$"):
+        connection.dask_parts()

@@ -1,0 +1,183 @@
+"""What the reader of sweep files accepts, and what it does with files; its words are in tests/invalid_sweeps."""
+
+from __future__ import annotations
+
+import hashlib
+from pathlib import Path
+
+import pytest
+
+from mbla.deck import read_deck
+from mbla.errors import DeckError, FileError, Message
+from mbla.sweeps.file.content import MAX_POINTS
+from mbla.sweeps.file.keys import key_paths, spelt
+from mbla.sweeps.file.parts import design_parts, is_random
+from mbla.sweeps.file.read import read_sweep
+from mbla.sweeps.file.sweep import Sweep
+from mbla.sweeps.file.ways import WAYS, level_count, way_of
+from mbla.sweeps.results import OWN_COLUMNS
+from mbla.sweeps.tables.own_columns import AFTER, POINT, STATE
+from tests.deck.decks import BLOCK, write
+from tests.sweeps.file.sweeps import ALL_WAYS, GOOD
+
+
+def sweep_of(folder: Path, text: str) -> Sweep:
+    return read_sweep(write(folder, text, "sweep.yaml"), ("title=x",))
+
+
+def faults(folder: Path, text: str | bytes) -> list[str]:
+    path = folder / "sweep.yaml"
+    path.write_bytes(text if isinstance(text, bytes) else text.encode())
+    with pytest.raises(DeckError) as caught:
+        read_sweep(path)
+    return [str(fault).removeprefix(f"{path}:") for fault in caught.value.faults]
+
+
+def test_content_text_and_places(tmp_path: Path) -> None:
+    sweep = sweep_of(tmp_path, GOOD)
+    assert sweep.content.parameters["mu"].linear is not None
+    assert sweep.content.parameters["mu"].linear.end == 0.7
+    assert sweep.text == GOOD
+    assert sweep.sha256 == hashlib.sha256(GOOD.encode()).hexdigest()
+    assert sweep.overrides == ("title=x",)
+    fault = sweep.fault_at(("parameters", "mu", "linear", "to"), Message("not-a-number", "no"))
+    assert str(fault) == f"{tmp_path}/sweep.yaml:5:32 parameters.mu.linear.to = 0.7: no"
+
+
+def test_every_way_is_read(tmp_path: Path) -> None:
+    content = sweep_of(tmp_path, ALL_WAYS).content
+    assert {way_of(each) for each in content.parameters.values()} == set(WAYS)
+    assert content.limits.time == 120.0
+
+
+def test_values_keep_their_kinds(tmp_path: Path) -> None:
+    text = GOOD.replace("[0.1, 0.15, 0.2]", '[1, 2.0, 1e-3, "1", no, true, "=mu", [0, 1]]')
+    values = sweep_of(tmp_path, text).content.parameters["t"].values
+    assert values == [1, 2.0, 0.001, "1", "no", True, "=mu", [0, 1]]
+    assert [type(each) for each in values] == [int, float, float, str, str, bool, str, list]
+
+
+def test_parts_of_the_design(tmp_path: Path) -> None:
+    content = sweep_of(tmp_path, ALL_WAYS).content
+    parts = design_parts(content)
+    assert [(part.kind, part.names, part.points, part.seed) for part in parts] == [
+        ("grid", ("mu", "law"), 0, 0),
+        ("zip", ("t", "n"), 0, 0),
+        ("random", ("joints.dry.cohesion",), 4, 7),
+        ("latin_hypercube", ("tension", "g"), 4, 1),
+        ("sobol", ("density", "radius"), 4, 1),
+        ("grid", ("d",), 0, 0),
+    ]
+    assert [is_random(part, content) for part in parts] == [False, False, True, True, True, False]
+
+
+def test_without_a_design_there_is_one_grid(tmp_path: Path) -> None:
+    (part,) = design_parts(sweep_of(tmp_path, GOOD).content)
+    assert (part.kind, part.names, part.path) == ("grid", ("mu", "t"), ("parameters",))
+
+
+def test_levels_and_key_paths(tmp_path: Path) -> None:
+    parameters = sweep_of(tmp_path, ALL_WAYS).content.parameters
+    assert {name: level_count(each) for name, each in parameters.items()} == {
+        "mu": 3,
+        "t": 3,
+        "n": 3,
+        "joints.dry.cohesion": None,
+        "tension": None,
+        "density": None,
+        "radius": None,
+        "d": 4,
+        "g": None,
+        "law": 2,
+    }
+    assert key_paths("mu", parameters["mu"]) == ("parameters.mu",)
+    assert key_paths("joints.dry.cohesion", parameters["joints.dry.cohesion"]) == ("joints.dry.cohesion",)
+    assert key_paths("density", parameters["density"]) == ("materials.stone.density",)
+    assert spelt(" blocks.007.arch") == ("blocks", "7", "arch")
+
+
+def test_own_columns_are_those_of_the_table() -> None:
+    """They are written twice, so that a faulty sweep file is told before numpy is imported."""
+    assert tuple(column.name for column in (POINT, STATE, *AFTER)) == OWN_COLUMNS
+
+
+@pytest.mark.parametrize(
+    ("points", "accepted"), [("n: {whole: {from: 1, to: 1000}}", True), ("n: {whole: {from: 1, to: 1001}}", False)]
+)
+def test_the_number_of_points_is_that_of_the_product(tmp_path: Path, points: str, accepted: bool) -> None:
+    assert MAX_POINTS == 1000 * 1000
+    text = f"mbla_sweep: 1\ndeck: d.yaml\nparameters:\n  m: {{whole: {{from: 1, to: 1000}}}}\n  {points}\n"
+    if accepted:
+        sweep_of(tmp_path, text)
+    else:
+        assert faults(tmp_path, text) == [
+            "3:1 parameters: makes 1001000 points, at most 1000000 are taken: a sample needs fewer"
+        ]
+
+
+def test_product_of_parts_is_told(tmp_path: Path) -> None:
+    text = GOOD + "design:\n  - grid: {of: [mu, t]}\n  - sobol: {points: 100000}\n"
+    text = text.replace("  t: {", "  r: {uniform: {from: 0, to: 1}}\n  t: {")
+    assert faults(tmp_path, text) == [
+        "9:3 design: makes 15 x 100000 = 1500000 points, at most 1000000 are taken: a sample needs fewer"
+    ]
+
+
+def test_all_faults_at_once(tmp_path: Path) -> None:
+    text = GOOD.replace("to: 0.7", "to: 0.3").replace("values: [", "vlues: [") + "results: 3\n"
+    assert [line.split(" ")[0] for line in faults(tmp_path, text)] == ["5:32", "6:7", "7:10"]
+
+
+@pytest.mark.parametrize(
+    ("content", "expected"),
+    [
+        (GOOD.encode() + b"# \xff", "7:3 byte 0xFF is not UTF-8: save the sweep file as UTF-8"),
+        (GOOD.encode("utf-16"), "1:1 is UTF-16 text: save it as UTF-8"),
+        (GOOD.encode() + b"# \x07", "7:3 control character U+0007 is not allowed in a sweep file"),
+    ],
+)
+def test_bytes_that_are_no_text(tmp_path: Path, content: bytes, expected: str) -> None:
+    assert faults(tmp_path, content) == [expected]
+
+
+def test_byte_order_mark_is_allowed(tmp_path: Path) -> None:
+    path = tmp_path / "sweep.yaml"
+    path.write_bytes(b"\xef\xbb\xbf" + GOOD.encode())
+    assert read_sweep(path).content.title == "Arch over friction and thickness"
+
+
+def test_a_huge_file_is_not_read(tmp_path: Path) -> None:
+    path = tmp_path / "sweep.yaml"
+    with path.open("wb") as file:
+        file.truncate(64 * 1024 * 1024 + 1)
+    with pytest.raises(DeckError, match="is larger than 16 MB: say values as ranges or samples, or divide it"):
+        read_sweep(path)
+
+
+def test_missing_file(tmp_path: Path) -> None:
+    with pytest.raises(FileError, match=r"none\.yaml: cannot be opened"):
+        read_sweep(tmp_path / "none.yaml")
+
+
+def test_nothing_is_included(tmp_path: Path) -> None:
+    write(tmp_path, "cases: [push]\n", "more.yaml")
+    (line,) = faults(tmp_path, "include: [more.yaml]\n" + GOOD)
+    assert line.startswith("1:1 include = [more.yaml]: unknown key")
+
+
+def test_a_sweep_file_is_no_deck(tmp_path: Path) -> None:
+    path = write(tmp_path, GOOD, "sweep.yaml")
+    with pytest.raises(DeckError) as caught:
+        read_deck(path)
+    assert str(caught.value) == f"{path}:1:1 mbla_sweep = 1: this is a sweep file, not a deck: mbla sweep runs it"
+
+
+def test_a_deck_is_no_sweep_file(tmp_path: Path) -> None:
+    (line,) = faults(tmp_path, BLOCK)
+    assert line.startswith("1:1 mbla = 1: this is a deck, not a sweep file: mbla run solves it")
+
+
+def test_fragility_takes_a_random_part_beside_a_grid(tmp_path: Path) -> None:
+    text = GOOD.replace("  t: {", "  r: {uniform: {from: 0, to: 1}}\n  t: {")
+    text += "design:\n  - grid: {of: [mu, t]}\n  - random: {points: 4}\nfragility: {demand: [0.1]}\n"
+    assert sweep_of(tmp_path, text).content.fragility is not None

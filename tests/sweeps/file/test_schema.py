@@ -1,0 +1,134 @@
+from __future__ import annotations
+
+import json
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import jsonschema
+import pytest
+
+from mbla.cli import main
+from mbla.deck.fields import section_keys
+from mbla.deck.reader import read_yaml
+from mbla.deck.schema import REPOSITORY
+from mbla.deck.section import Section
+from mbla.deck.sources import SourceText
+from mbla.errors import DeckError
+from mbla.sweeps.file import content
+from mbla.sweeps.file.read import read_sweep
+from mbla.sweeps.file.schema import (
+    main as write_main,
+)
+from mbla.sweeps.file.schema import (
+    sweep_key_reference,
+    sweep_schema,
+    sweep_schema_text,
+    with_sweep_key_reference,
+    write_sweep_schema,
+)
+from tests.sweeps.file.sweeps import ALL_WAYS, GOOD, INVALID
+
+BEYOND = "# schema: accepts"
+"""line of a faulty sweep file that the schema lets pass: names, sums over keys, designs, the base deck"""
+
+
+@cache
+def validator() -> Any:
+    return jsonschema.Draft202012Validator(sweep_schema())
+
+
+def schema_accepts(text: str) -> bool:
+    return bool(validator().is_valid(read_yaml(SourceText("sweep", text), 0).data))
+
+
+def test_file_is_up_to_date() -> None:
+    assert (REPOSITORY / "schemas" / "sweep.schema.json").read_text(encoding="utf-8") == sweep_schema_text()
+
+
+def test_schema_is_a_schema() -> None:
+    jsonschema.Draft202012Validator.check_schema(sweep_schema())
+
+
+def test_every_key_is_described_and_none_may_be_null() -> None:
+    schema = sweep_schema()
+    for name, section in {"": schema, **schema["$defs"]}.items():
+        for key, value in section["properties"].items():
+            assert "description" in value, f"{name}.{key}"
+    assert '"null"' not in sweep_schema_text()
+    assert ": null" not in sweep_schema_text()
+
+
+@pytest.mark.parametrize("text", [GOOD, ALL_WAYS])
+def test_good_files_pass_both(tmp_path: Path, text: str) -> None:
+    path = tmp_path / "sweep.yaml"
+    path.write_text(text, encoding="utf-8")
+    read_sweep(path)
+    assert schema_accepts(text)
+
+
+SEEN = [path for path in INVALID if BEYOND not in path.read_text(encoding="utf-8")]
+
+
+@pytest.mark.parametrize("path", SEEN, ids=lambda path: path.stem)
+def test_faulty_files_fail_both(path: Path) -> None:
+    with pytest.raises(DeckError):
+        read_sweep(path)
+    assert not schema_accepts(path.read_text(encoding="utf-8"))
+
+
+def test_many_faulty_files_are_within_sight() -> None:
+    assert len(SEEN) >= 35
+
+
+def test_expressions_are_not_numbers_but_times_have_units() -> None:
+    assert not schema_accepts(GOOD.replace("to: 0.7", 'to: "=0.7"'))
+    assert schema_accepts(GOOD + 'limits: {time: "10 min"}\n')
+    assert not schema_accepts(GOOD + 'limits: {time: "=10"}\n')
+
+
+def test_command_prints_it(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["schema", "sweep"]) == 0
+    assert json.loads(capsys.readouterr().out) == sweep_schema()
+
+
+def test_write(tmp_path: Path) -> None:
+    (tmp_path / "schemas").mkdir()
+    readme = tmp_path / "README.md"
+    readme.write_text("a\n<!-- sweep keys:begin -->\nold\n<!-- sweep keys:end -->\nz\n", encoding="utf-8")
+    assert write_sweep_schema(tmp_path) == [tmp_path / "schemas" / "sweep.schema.json", readme]
+    text = readme.read_text(encoding="utf-8")
+    assert text.startswith("a\n<!-- sweep keys:begin -->\n\nNumbers are plain")
+    assert text.endswith("\n<!-- sweep keys:end -->\nz\n")
+    assert "\nold\n" not in text
+    with pytest.raises(SystemExit):
+        write_main([])
+
+
+def test_the_module_writes_into_the_repository(monkeypatch: pytest.MonkeyPatch) -> None:
+    written: list[tuple[object, ...]] = []
+    monkeypatch.setattr("mbla.sweeps.file.schema.write_generated", lambda *what: written.append(what))
+    write_main(["--write"])
+    ((folder, name, text, *_),) = written
+    assert (folder, name) == (REPOSITORY, "sweep")
+    assert json.loads(str(text)) == sweep_schema()
+
+
+def test_readme_is_up_to_date() -> None:
+    text = (REPOSITORY / "README.md").read_text(encoding="utf-8")
+    assert with_sweep_key_reference(text) == text
+
+
+def test_every_key_of_every_section_has_a_row_with_a_meaning() -> None:
+    tables: dict[str, list[str]] = {}
+    for line in sweep_key_reference().splitlines():
+        if line.startswith("#### "):
+            tables[line] = []
+        elif line.startswith("| `"):
+            key, *cells = [cell.strip() for cell in line.strip("|").split(" | ")]
+            assert cells[-1]
+            list(tables.values())[-1].append(key.strip("`"))
+    sections = [each for each in vars(content).values() if isinstance(each, type) and issubclass(each, Section)]
+    ours = [each for each in sections if each.__module__ == content.__name__]
+    assert sorted(tables.values()) == sorted(section_keys(each) for each in ours)
+    assert len(ours) >= 15

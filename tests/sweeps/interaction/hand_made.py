@@ -1,0 +1,147 @@
+"""Decks, points and diagrams made by hand."""
+
+from __future__ import annotations
+
+from collections.abc import Generator, Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+from mbla.deck import read_deck
+from mbla.deck.units import Units
+from mbla.model import build_model
+from mbla.sweeps.interaction.angles import unit_vector
+from mbla.sweeps.interaction.command import question_of
+from mbla.sweeps.interaction.domain import domain_of
+from mbla.sweeps.interaction.point import Point
+from mbla.sweeps.interaction.question import DIRECTION, TWO_LOADS, Question
+from mbla.sweeps.interaction.study import Study, plan_of, study_points
+from mbla.sweeps.outcome import Outcome
+from mbla.sweeps.plan import Plan, Task
+from mbla.sweeps.worker.runner import PointRunner
+from tests.line import HEAD
+
+BLOCK = (
+    HEAD
+    + """\
+parameters: {mu: 0.9, bx: 1, by: 1, h: 2, W: "=2000*9.81*bx*by*h"}
+joints: {dry: {friction: "=mu"}}
+blocks:
+  - box: {group: block, material: stone, min: [0, 0, 0], max: ["=bx", "=by", "=h"]}
+supports: [{ground: {z: 0}}]
+loads: {quake: [{acceleration: [0, -2, 0]}]}
+load_cases:
+  push: {live: [{acceleration: [1, 0, 0]}]}
+  top: {live: [{force: ["=W", 0, 0], on: block, at: ["=bx/2", "=by/2", "=h"]}]}
+  named: {live: [{loads: quake, factor: -0.5}]}
+  down: {live: [{force: [0, 0, -1], on: block}]}
+  slanted: {live: [{acceleration: [1, 0, -0.5]}]}
+  apart: {live: [{acceleration: [1, 0, 0]}, {force: [0, "=W", 0], on: block}]}
+  weighed: {dead: [{gravity: [0, 0, -5]}], live: [{acceleration: [1, 0, 0]}]}
+  twist: {live: [{acceleration: [1, 0, 0]}, {moment: [0, 0, 1], on: block}]}
+  tilted: {live: [{tilt: {axis: [0, 1, 0]}}]}
+analysis: {flow_rule: associative}
+"""
+)
+"""A block on the ground under loads of many kinds."""
+
+
+class Asked:
+    """What the command line asks."""
+
+    def __init__(self, **given: Any) -> None:
+        self.case = given.get("case")
+        self.loads = given.get("loads")
+        self.directions = given.get("directions")
+        self.start = given.get("start")
+        self.end = given.get("end")
+
+
+class ThisProcess:
+    """An engine that solves the points where it is."""
+
+    def expect(self, plan: Plan, points: int) -> None:
+        """Nothing takes long to begin here."""
+
+    def run(self, plan: Plan, tasks: Sequence[Task]) -> Generator[Outcome, None, None]:
+        """Outcomes, the last task first: the order must not matter."""
+        runner = PointRunner(plan)
+        for task in reversed(tasks):
+            yield runner.run(task)
+
+
+def question(folder: Path, overrides: Sequence[str] = (), **asked: Any) -> Question:
+    """What is asked of the block."""
+    return question_of(read_deck(written(folder), overrides), Asked(**asked))
+
+
+def written(folder: Path) -> Path:
+    """The deck of the block as a file."""
+    path = folder / "block.yaml"
+    path.write_text(BLOCK, encoding="utf-8")
+    return path
+
+
+def solved(folder: Path, overrides: Sequence[str] = (), **asked: Any) -> Study:
+    """The diagram of the block."""
+    path = written(folder)
+    deck = read_deck(path, overrides)
+    wanted = question_of(deck, Asked(**asked))
+    return study_points(deck, overrides, wanted, plan_of(path, overrides, wanted), ThisProcess(), None)
+
+
+def live_load(folder: Path, settings: Sequence[str], case: str) -> Any:
+    """Live load of the block under a case, (6,), and its dead load."""
+    model = build_model(read_deck(written(folder), settings))
+    (found,) = [one for one in model.load_cases if one.name == case]
+    return found.live_load[0], found.dead_load[0]
+
+
+def point(angle: float, factor: float = 0.5, **changes: Any) -> Point:
+    """A verified point of associative flow whose mechanism bounds the domain across its ray."""
+    cosine, sine = unit_vector(angle)
+    plain = Point(
+        angle,
+        True,
+        0,
+        "solved",
+        factor,
+        factor,
+        factor,
+        factor,
+        "yes",
+        "sliding",
+        {"A": cosine, "B": sine},
+        seconds=0.1,
+    )
+    return replace(plain, **changes)
+
+
+def study(points: Sequence[Point], kind: str = DIRECTION, flow_rule: str = "associative") -> Study:
+    """The diagram of these points."""
+    pair = ("A", "B")
+    closed = kind == DIRECTION
+    asked = Question(
+        kind=kind,
+        case="push" if closed else "interact",
+        axes=("along x", "along y") if closed else ("factor of A", "factor of B"),
+        short=("x", "y") if closed else pair,
+        pair=pair,
+        angles=tuple(one.angle for one in points),
+        settings=tuple({} for _ in points),
+        fixed=(),
+        closed=closed,
+        absolute=True,
+        words=("what is asked",),
+    )
+    assert kind in (DIRECTION, TWO_LOADS)
+    domain = domain_of(points, pair, closed=closed)
+    provenance = {"mbla": "0"}
+    return Study(
+        "block.yaml", "Block", (), Units("m", "N", "kg"), flow_rule, asked, tuple(points), domain, 1.0, provenance
+    )
+
+
+def around(count: int, **changes: Any) -> list[Point]:
+    """Points all around at one radius."""
+    return [point(360.0 * number / count, **changes) for number in range(count)]

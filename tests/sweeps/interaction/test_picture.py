@@ -1,0 +1,149 @@
+"""What is drawn of a study made by hand: curves, polygons, edges of the diagram and marks at them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from mbla.sweeps.interaction.picture import ROOM, draw_study
+from mbla.sweeps.interaction.point import Point
+from mbla.sweeps.interaction.question import TWO_LOADS
+from tests.sweeps.drawn import names_in_legend, places
+from tests.sweeps.interaction.hand_made import around, point, study
+
+pytest.importorskip("matplotlib")
+NAN = float("nan")
+NO_FIGURE: dict[str, Any] = {
+    "load_factor": NAN, "associative": NAN, "static_bound": NAN, "kinematic_bound": NAN, "powers": {},
+}  # fmt: skip
+SAFE = "safe by static bounds (associative flow)"
+BOUND = "bound by mechanisms (associative flow)"
+FACTOR = "load factor, associative flow"
+
+
+def free(angle: float) -> Point:
+    """A ray on which nothing brings collapse."""
+    return replace(point(angle), exit_code=5, status="unbounded", **NO_FIGURE)
+
+
+def late(angle: float) -> Point:
+    """A point that was stopped."""
+    return replace(point(angle), answered=False, exit_code=7, status="", standing="",
+                   reason="stopped after 3 s", **NO_FIGURE)  # fmt: skip
+
+
+def drawn(folder: Path, figures: list[Any], points: Sequence[Point], *kind: str) -> Any:
+    """The figure of a study."""
+    draw_study(folder / "diagram.png", study(points, *kind))
+    return figures[-1]
+
+
+def test_of_two_loads_the_factors_are_the_coordinates(tmp_path: Path, figures: list[Any]) -> None:
+    points = [point(0.0, 0.4), point(45.0, 0.3), point(90.0, 0.25)]
+    figure = drawn(tmp_path, figures, points, TWO_LOADS)
+    (axes,) = figure.axes
+    assert (axes.get_xlabel(), axes.get_ylabel()) == ("factor of A", "factor of B")
+    (curve,) = [line for line in axes.lines if line.get_linestyle() == "-" and len(line.get_xdata()) == 3]
+    corners = [(0.4, 0.0), (0.3 * np.sqrt(0.5), 0.3 * np.sqrt(0.5)), (0.0, 0.25)]
+    assert places(curve) == pytest.approx(np.array(corners), abs=1e-15)
+    assert axes.get_xlim() == pytest.approx((-0.02 * ROOM * 0.4, ROOM * 0.4))
+    assert axes.get_ylim() == pytest.approx((-0.02 * ROOM * 0.25, ROOM * 0.25))
+    safe = [(float(x), float(y)) for x, y in axes.patches[0].get_xy()[:-1]]  # the last corner is the first
+    assert sorted(safe) == pytest.approx(np.array(sorted([(0.0, 0.0), *corners])), abs=1e-15)
+    assert names_in_legend(figure) == [SAFE, BOUND, FACTOR]
+
+
+def test_loads_the_other_way_have_room(tmp_path: Path, figures: list[Any]) -> None:
+    points = [point(angle, 0.5) for angle in (0.0, 90.0, 180.0, 270.0)]
+    (axes,) = drawn(tmp_path, figures, points, TWO_LOADS).axes
+    assert axes.get_xlim() == pytest.approx((-ROOM * 0.5, ROOM * 0.5))
+    assert axes.get_ylim() == pytest.approx((-ROOM * 0.5, ROOM * 0.5))
+
+
+def test_a_direction_in_which_nothing_has_a_factor_has_the_room_of_the_other(
+    tmp_path: Path, figures: list[Any]
+) -> None:
+    (axes,) = drawn(tmp_path, figures, [point(0.0, 0.4), late(90.0)], TWO_LOADS).axes
+    assert axes.get_ylim() == pytest.approx((-0.02 * ROOM * 0.4, ROOM * 0.4))
+
+
+@pytest.mark.parametrize(
+    ("angle", "place"),
+    [
+        (45.0, (ROOM * 0.25, ROOM * 0.25)),  # at the upper edge, which is nearer than the right one
+        (90.0, (0.0, ROOM * 0.25)),
+    ],
+)
+def test_what_never_collapses_is_marked_at_the_edge(
+    tmp_path: Path, figures: list[Any], angle: float, place: tuple[float, float]
+) -> None:
+    points = {0.0: point(0.0, 0.4), 90.0: point(90.0, 0.25), 120.0: point(120.0, 0.25 / np.sin(np.radians(120)))}
+    points = {**{key: one for key, one in points.items() if key != angle}, angle: free(angle)}
+    figure = drawn(tmp_path, figures, [points[key] for key in sorted(points)], TWO_LOADS)
+    (mark,) = [line for line in figure.axes[0].lines if line.get_marker() == "^"]
+    assert places(mark) == pytest.approx(np.array([place]), abs=1e-12)
+    assert "never collapses (at the rim)" in names_in_legend(figure)
+
+
+def test_a_point_without_an_answer_is_crossed_where_its_bound_is(tmp_path: Path, figures: list[Any]) -> None:
+    doubtful = replace(point(90.0), answered=False, exit_code=4, status="not_verified", load_factor=NAN,
+                       static_bound=0.2, kinematic_bound=0.3)  # fmt: skip
+    figure = drawn(tmp_path, figures, [point(0.0, 0.4), doubtful], TWO_LOADS)
+    (mark,) = [line for line in figure.axes[0].lines if line.get_marker() == "x"]
+    assert places(mark) == pytest.approx(np.array([(0.0, 0.2)]), abs=1e-15)
+    assert "NOT VERIFIED at 1 point of 2" in [text.get_text() for text in figure.texts]
+
+
+@pytest.mark.parametrize(
+    ("doubt", "told"),
+    [
+        (False, "ERROR OF VERIFICATION: bounds contradict each other"),
+        (True, "ERROR OF VERIFICATION: bounds contradict each other; NOT VERIFIED at 1 point of 6"),
+    ],
+)
+def test_on_bounds_that_contradict_each_other_nothing_is_called_safe(
+    tmp_path: Path, figures: list[Any], doubt: bool, told: str
+) -> None:
+    points = around(6)
+    points[0] = replace(points[0], static_bound=1.5, kinematic_bound=1.5)
+    points[3] = late(180.0) if doubt else points[3]
+    figure = drawn(tmp_path, figures, points)
+    assert told in [text.get_text() for text in figure.texts]
+    assert SAFE not in names_in_legend(figure)
+    assert not figure.axes[0].patches
+    assert BOUND in names_in_legend(figure)
+
+
+def test_bounds_that_leave_no_place_draw_no_polygon(tmp_path: Path, figures: list[Any]) -> None:
+    """Two mechanisms at opposite azimuths, each of which asks for the load of the other: nothing lies within both."""
+    points = [replace(one, kinematic_bound=-0.5) if one.angle in (0, 180) else one for one in around(4)]
+    made = study(points)
+    assert made.domain is not None
+    assert len(made.domain.outer) == 0
+    assert np.isnan(made.domain.gap)
+    assert made.exit_code == 4
+    figure = drawn(tmp_path, figures, points)
+    assert names_in_legend(figure) == [FACTOR]
+
+
+@pytest.mark.parametrize(("standing", "corners"), [("yes", 2), ("doubtful", 1)])
+def test_of_one_safe_point_there_is_no_polygon(tmp_path: Path, figures: list[Any], standing: str, corners: int) -> None:
+    """With the dead load alone it is a line; neither passes a bound."""
+    points = [point(0.0, standing=standing), late(90.0), late(180.0), late(270.0)]
+    domain = study(points).domain
+    assert domain is not None
+    assert len(domain.inner) == corners
+    assert not domain.crossings
+    figure = drawn(tmp_path, figures, points)
+    assert SAFE not in names_in_legend(figure)
+
+
+def test_of_no_point_there_are_words_alone(tmp_path: Path, figures: list[Any]) -> None:
+    figure = drawn(tmp_path, figures, [])
+    assert figure.axes == []
+    assert "what is asked" in " ".join(text.get_text() for text in figure.texts)

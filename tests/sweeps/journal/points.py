@@ -1,0 +1,36 @@
+"""Points made by hand for the tests of journals: results of every kind and of very different length."""
+
+from __future__ import annotations
+
+from random import Random
+
+from mbla.sweeps.journal import JournalHeader
+from mbla.sweeps.outcome import DONE, FAILED, Outcome
+from mbla.sweeps.plan import Plain, Task
+
+HEADER = JournalHeader(
+    "0.1.0+abc", "f00d", ("status", "load_factor", 'a,"b"#'), "Arch, #1", ("push",), {"numpy": "2.3.0"}
+)
+
+LENGTHS = (0, 3, 3, 40, 40, 400, 4000)
+"""of the texts of a point"""
+
+
+def point(number: int) -> tuple[Task, Outcome]:
+    """Point of this number, always the same one."""
+    draw = Random(number)
+    key = f"{draw.getrandbits(128):032x}"
+    text = "".join(draw.choice('aö",#\n\0\\[{ ') for _ in range(draw.choice(LENGTHS)))
+    values: list[Plain] = [None, True, 7, draw.gauss(0, 1), 1e300 * draw.random(), text, [1, 2.5, None], {"a": [text]}]
+    failed = draw.random() < 0.2
+    results = {} if failed else {name: draw.choice(values) for name in HEADER.columns}
+    task = Task(key, number, {"parameters.mu": draw.random(), "title": text})
+    return task, Outcome(
+        key, FAILED if failed else DONE, 4 if failed else 0, text if failed else "", results, 1, draw.random()
+    )
+
+
+def as_read(outcome: Outcome) -> Outcome:
+    """The outcome as a journal gives it back: with every column."""
+    results = {name: outcome.results.get(name) for name in HEADER.columns}
+    return Outcome(**{**vars(outcome), "results": results})

@@ -1,0 +1,155 @@
+"""A disk that is full or fails: the run is told, what was reported stays, and no part of a row is left."""
+
+from __future__ import annotations
+
+import errno
+import os
+import resource
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from mbla.errors import FileError
+from mbla.sweeps.journal import Journal
+from mbla.sweeps.journal.reading import read_journal
+from tests.sweeps.journal.forked import forked
+from tests.sweeps.journal.points import HEADER, point
+
+POINTS = [point(number) for number in range(1, 13)]
+
+
+def failing(call: Callable[..., Any], at: int, error: int, *, part: int = 0) -> Callable[..., Any]:
+    """The call, which fails from its ``at``-th time on; one that writes may take a part of it first."""
+    times = 0
+
+    def instead(descriptor: int, *what: Any) -> Any:
+        nonlocal times
+        times += 1
+        if times < at:
+            return call(descriptor, *what)
+        if part and times == at:
+            return call(descriptor, what[0][:part])
+        raise OSError(error, os.strerror(error))
+
+    return instead
+
+
+def add_all(path: Path, patch: dict[str, Callable[..., Any]]) -> tuple[set[str], str]:
+    """Keys of the points that were reported as added, and what was said of the first that was not."""
+    added: set[str] = set()
+    with Journal(path, HEADER, resume=True, force=False) as journal, pytest.MonkeyPatch.context() as context:
+        for name, call in patch.items():
+            context.setattr(os, name, call)
+        for task, outcome in POINTS:
+            if task.key in journal.finished:
+                continue
+            try:
+                journal.add(task, outcome)
+            except FileError as error:
+                with pytest.raises(FileError):
+                    journal.add(task, outcome)
+                return added, str(error)
+            added.add(task.key)
+    return added, ""
+
+
+@pytest.mark.parametrize("part", [0, 1, 40])
+@pytest.mark.parametrize("at", range(1, 12))
+def test_a_write_fails(tmp_path: Path, at: int, part: int) -> None:
+    path = tmp_path / "journal.csv"
+    added, said = add_all(path, {"write": failing(os.write, at, errno.ENOSPC, part=part)})
+    assert said == f"{path}: No space left on device"
+    assert len(added) == at - 1
+    rows = read_journal(path, HEADER)
+    assert (set(rows.finished), rows.torn) == (added, 0)
+    assert add_all(path, {})[1] == ""
+    assert len(read_journal(path, HEADER).finished) == len(POINTS)
+
+
+@pytest.mark.parametrize("at", [1, 2, 7])
+def test_a_part_of_a_row_cannot_even_be_taken_back(tmp_path: Path, at: int) -> None:
+    path = tmp_path / "journal.csv"
+    write, cut = failing(os.write, at, errno.ENOSPC, part=9), failing(os.ftruncate, 1, errno.EIO)
+    added, said = add_all(path, {"write": write, "ftruncate": cut})
+    assert said == f"{path}: No space left on device"
+    rows = read_journal(path, HEADER)
+    assert (set(rows.finished), rows.torn) == (added, 9)
+    assert add_all(path, {})[1] == ""
+    rows = read_journal(path, HEADER)
+    assert (len(rows.finished), rows.torn) == (len(POINTS), 0)
+
+
+@pytest.mark.parametrize("at", [1, 2, 7])
+def test_the_disk_does_not_take_what_was_written(tmp_path: Path, at: int) -> None:
+    path = tmp_path / "journal.csv"
+    added, said = add_all(path, {"fsync": failing(os.fsync, at, errno.EIO)})
+    assert said == f"{path}: Input/output error"
+    rows = read_journal(path, HEADER)
+    assert (set(rows.finished), rows.torn, len(added)) == (added, 0, at - 1)
+
+
+def test_after_the_disk_refused_a_row_no_other_is_trusted_to_it(tmp_path: Path) -> None:
+    with (
+        Journal(tmp_path / "journal.csv", HEADER, resume=False, force=False) as journal,
+        pytest.MonkeyPatch.context() as context,
+    ):
+        context.setattr(os, "fsync", failing(os.fsync, 1, errno.EIO))
+        with pytest.raises(FileError, match="Input/output error"):
+            journal.add(*POINTS[0])
+        context.undo()
+        with pytest.raises(FileError, match="the disk did not take a row; what is in it before that is whole"):
+            journal.add(*POINTS[1])
+
+
+def test_room_is_made_on_a_full_disk(tmp_path: Path) -> None:
+    path = tmp_path / "journal.csv"
+    with Journal(path, HEADER, resume=False, force=False) as journal:
+        with pytest.MonkeyPatch.context() as context:
+            context.setattr(os, "write", failing(os.write, 1, errno.ENOSPC, part=5))
+            with pytest.raises(FileError, match="No space left"):
+                journal.add(*POINTS[0])
+        journal.add(*POINTS[0])
+    assert read_journal(path, HEADER).finished.keys() == {POINTS[0][0].key}
+
+
+@pytest.mark.parametrize("room", [1, 700, 5000, 12000])
+def test_a_file_system_without_room(tmp_path: Path, room: int) -> None:
+    """No wrapper: the operating system itself refuses what lies beyond the largest file that it allows."""
+    path = tmp_path / "journal.csv"
+
+    def write(report: Callable[[str], None]) -> None:
+        with Journal(path, HEADER, resume=False, force=False) as journal:
+            limit = path.stat().st_size + room
+            resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit))
+            for task, outcome in POINTS:
+                try:
+                    journal.add(task, outcome)
+                except FileError as error:
+                    return report(str(error))
+                report(task.key)
+
+    with forked(write) as child:
+        *added, said = child.lines()
+    assert said == f"{path}: File too large"
+    rows = read_journal(path, HEADER)
+    assert (list(rows.finished), rows.torn) == (added, 0)
+    assert add_all(path, {})[1] == ""
+    assert len(read_journal(path, HEADER).finished) == len(POINTS)
+
+
+def test_nothing_is_begun_where_there_is_no_room_for_the_header(tmp_path: Path) -> None:
+    path = tmp_path / "arch.out" / "journal.csv"
+
+    def begin(report: Callable[[str], None]) -> None:
+        path.parent.mkdir()
+        resource.setrlimit(resource.RLIMIT_FSIZE, (100, 100))
+        try:
+            Journal(path, HEADER, resume=False, force=False).__enter__()
+        except FileError as error:
+            report(str(error))
+
+    with forked(begin) as child:
+        assert child.lines() == [f"{path}: File too large"]
+    assert list(path.parent.iterdir()) == []

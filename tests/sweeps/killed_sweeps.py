@@ -1,0 +1,291 @@
+"""Sweeps in processes that are killed: begun, watched, ended at random moments, and what they left compared."""
+
+from __future__ import annotations
+
+import os
+import signal
+import socket
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager, suppress
+from dataclasses import dataclass, replace
+from pathlib import Path
+from random import Random
+
+from mbla.cli import main
+from mbla.sweeps.command import Prepared, SweepOptions, prepare, run_sweep
+from mbla.sweeps.engine.line_process import PACKAGES
+from mbla.sweeps.engine.options import EngineOptions
+from mbla.sweeps.file.read import read_sweep
+from mbla.sweeps.journal.shards import journals_in
+from tests.line import BLOCK
+from tests.sweeps.journal.forked import Forked, forked
+
+HOW_IT_WENT = b",tries,seconds [s]"
+"""the last columns, which say how a point was solved, not what its answer is"""
+GONE = 30.0
+"""seconds in which processes must have ended whose parent was killed, or be there; it takes hundredths, or one"""
+BEGUN = 180.0
+"""seconds in which a killed process of a cluster must have been begun again; importing Dask alone may take tens of them
+on a busy machine"""
+CLIENT, SCHEDULER = "client", "scheduler"
+KINDS = {
+    SCHEDULER: "distributed.cli.dask_scheduler",
+    "nanny": "distributed.cli.dask_worker",
+    "worker": "multiprocessing.spawn",
+    "points": "mbla.sweeps.worker.child",
+}
+"""kinds of processes of a cluster, and by what their command lines are known"""
+
+
+def written(folder: Path, points: int) -> Path:
+    """A sweep file of a block that slides or overturns, and for one thickness cannot stand: done and failed points."""
+    (folder / "block.yaml").write_text(BLOCK, encoding="utf-8")
+    path = folder / "block_sweep.yaml"
+    path.write_text(
+        f"""\
+mbla_sweep: 1
+deck: block.yaml
+parameters:
+  mu: {{linear: {{from: 0.1, to: 0.9, points: {points // 2}}}}}
+  c: {{values: [0, -1]}}
+""",
+        encoding="utf-8",
+    )
+    return path
+
+
+@dataclass(frozen=True)
+class Scene:
+    """A sweep, where its files go, and how it is run."""
+
+    prepared: Prepared
+    options: SweepOptions
+
+    @property
+    def folder(self) -> Path:
+        """Of its files."""
+        return self.options.folder_for(self.prepared.sweep.path)
+
+    @property
+    def n_points(self) -> int:
+        """That are solved."""
+        return len(self.prepared.tasks)
+
+    def goes_on(self) -> Callable[[Callable[[str], None]], None]:
+        """A client that goes on with the journal and reports the key of each point, then ``finished``."""
+
+        def work(report: Callable[[str], None]) -> None:
+            options = replace(self.options, resume=True)
+            told = run_sweep(self.prepared, options, lambda _, task, __: report("begun" if task is None else task.key))
+            report(f"finished {told.exit_code}")
+
+        return work
+
+
+def scene(path: Path, folder: Path, engine: EngineOptions | None = None) -> Scene:
+    """The sweep file's sweep with its files in the folder."""
+    options = SweepOptions(folder=folder, engine=engine or EngineOptions())
+    return Scene(prepare(read_sweep(path, ()), options), options)
+
+
+def table_of(folder: Path) -> list[bytes]:
+    """Lines of sweep.csv byte for byte, but for the last two columns: how often a point was begun, and its time."""
+    header, *rows = (folder / "sweep.csv").read_bytes().splitlines()
+    assert header.endswith(HOW_IT_WENT)
+    return [line.rsplit(b",", 2)[0] for line in (header, *rows)]
+
+
+def keys_in_journals(folder: Path) -> list[str]:
+    """Key of each row."""
+    lines = [line for path in journals_in(folder) for line in path.read_text(encoding="utf-8").splitlines()[2:]]
+    return [line.split(",")[0].strip('"') for line in lines]
+
+
+def descendants(pid: int) -> list[int]:
+    """Processes that a process has begun, and those that they have."""
+    found: list[int] = []
+    with suppress(OSError):  # it has ended meanwhile
+        for task in Path(f"/proc/{pid}/task").iterdir():
+            for child in (task / "children").read_text(encoding="ascii").split():
+                found += [int(child), *descendants(int(child))]
+    return found
+
+
+@contextmanager
+def all_ending(pid: int) -> Iterator[None]:
+    """What a process has begun when the block is entered ends by itself soon after the block, which ends it."""
+    begun = descendants(pid)
+    yield
+    until = time.monotonic() + GONE
+    while any(_is_alive(each) for each in begun):
+        assert time.monotonic() < until, "processes of a client that was killed go on"
+        time.sleep(0.01)
+
+
+def _is_alive(pid: int) -> bool:
+    with suppress(OSError):
+        return Path(f"/proc/{pid}/stat").read_text(encoding="ascii").rpartition(")")[2].split()[0] not in "ZX"
+    return False
+
+
+def kill_a_child(client: Forked, draw: Random) -> bool:
+    """Kill one of the processes that a client has begun; whether there was one."""
+    children = descendants(client.pid)
+    if not children:
+        return False
+    with suppress(ProcessLookupError):
+        os.kill(draw.choice(children), signal.SIGKILL)
+    return True
+
+
+def with_kills(scene: Scene, kills: int, draw: Random, wait: float, at_client: float) -> tuple[int, set[str]]:
+    """Go on with a sweep until so many kills are done or it is finished; real kills, and points that were reported.
+
+    wait      : longest time from a report to the kill [s]; most are short, as most of the time goes into points
+    at_client : share of the kills that hit the client; the others one of its processes
+    """
+    reported: list[str] = []
+    done = 0
+    while done < kills and len(set(reported)) < scene.n_points:
+        with forked(scene.goes_on()) as client:
+            assert client.line() == "begun"
+            while done < kills and len(set(reported)) < scene.n_points:
+                time.sleep(draw.random() ** 3 * wait)
+                if draw.random() < at_client:
+                    with all_ending(client.pid):
+                        client.kill()
+                        reported += client.lines()
+                    done += 1
+                    break
+                done += kill_a_child(client, draw)
+                reported += [client.line() for _ in range(2)]  # its second try, and one more, go undisturbed
+    return done, {line for line in reported if len(line) > 20}
+
+
+def finish(scene: Scene) -> str:
+    """Go on to the end as the command does, in one process; its exit status."""
+    command = ["sweep", str(scene.prepared.sweep.path), "-o", str(scene.folder), "--resume", "-q"]
+    with forked(lambda report: report(f"exit {main(command)}")) as client:
+        return client.lines()[-1]
+
+
+def kind_of(pid: int) -> str:
+    """What a process of a cluster is: scheduler, nanny (which begins a worker anew), worker, or points."""
+    with suppress(OSError):
+        command = Path(f"/proc/{pid}/cmdline").read_bytes().decode().replace("\0", " ")
+        for kind, sign in KINDS.items():
+            if sign in command:
+                return kind
+    return ""
+
+
+class Cluster:
+    """Context manager: a Dask scheduler and workers on loopback, each of which is begun again where it has ended."""
+
+    def __init__(self, folder: Path, workers: int, tls: Mapping[str, Path] | None = None) -> None:
+        """
+        tls : files ``ca``, ``cert`` and ``key``, for encrypted connections
+        """
+        self.file = folder / "scheduler.json"
+        protocol, port = "tls" if tls else "tcp", _free_port()
+        self.address = f"{protocol}://127.0.0.1:{port}"
+        self._workers = workers
+        self._place = ("--host", "127.0.0.1", "--port", str(port), "--no-dashboard", "--protocol", protocol)
+        names = {"ca": "--tls-ca-file", "cert": "--tls-cert", "key": "--tls-key"}
+        self._tls = [part for kind, name in names.items() if tls for part in (name, str(tls[kind]))]
+        self._processes: dict[str, subprocess.Popen[bytes]] = {}
+        paths = [str(PACKAGES), os.environ.get("PYTHONPATH", "")]
+        self._environment = os.environ | {"PYTHONPATH": os.pathsep.join(path for path in paths if path)}
+
+    def __enter__(self) -> Cluster:
+        self.mend()
+        return self
+
+    def __exit__(self, *what: object) -> None:
+        for name in sorted(self._processes, reverse=True):  # workers first
+            self.end(name)
+
+    def mend(self) -> None:
+        """Begin what is not there; a scheduler is ready when this returns."""
+        ended = [name for name, process in self._processes.items() if process.poll() is not None]
+        if SCHEDULER in ended or not self._processes:
+            for name in sorted(self._processes, reverse=True):
+                self.end(name)  # workers of a scheduler that is gone are ended by whoever runs the cluster
+            self._processes.clear()
+            self.file.unlink(missing_ok=True)
+            self._begin(SCHEDULER, "dask_scheduler", *self._place)
+            until = time.monotonic() + GONE
+            while not self.file.exists():
+                assert time.monotonic() < until, "no scheduler"
+                time.sleep(0.05)
+        for name in [f"worker {number}" for number in range(self._workers)]:
+            if name in ended or name not in self._processes:
+                self._begin(name, "dask_worker", "--nthreads", "1", "--no-dashboard", "--host", "127.0.0.1")
+
+    def _begin(self, name: str, module: str, *options: str) -> None:
+        command = [sys.executable, "-P", "-m", f"distributed.cli.{module}", "--scheduler-file", str(self.file)]
+        self._processes[name] = subprocess.Popen(
+            [*command, *options, *self._tls],
+            env=self._environment,
+            cwd=self.file.parent,
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL,
+        )
+
+    def end(self, name: str) -> None:
+        """Kill a process and all that it has begun."""
+        process = self._processes[name]
+        for pid in (process.pid, *descendants(process.pid)):
+            with suppress(ProcessLookupError):
+                os.kill(pid, signal.SIGKILL)
+        process.wait()
+
+    def kill_one(self, kind: str, draw: Random) -> None:
+        """Kill one process of that kind, as soon as there is one."""
+        until = time.monotonic() + BEGUN
+        while True:
+            roots = [process.pid for process in self._processes.values()]
+            found = [pid for root in roots for pid in (root, *descendants(root)) if kind_of(pid) == kind]
+            with suppress(ProcessLookupError):
+                if found:
+                    return os.kill(draw.choice(found), signal.SIGKILL)
+            assert time.monotonic() < until, f"no process of kind {kind}"
+            time.sleep(0.01)
+
+
+def _free_port() -> int:
+    with socket.create_server(("127.0.0.1", 0)) as server:
+        return int(server.getsockname()[1])
+
+
+def with_cluster_kills(scene: Scene, cluster: Cluster, times: int, draw: Random, wait: float) -> int:
+    """Go on with a sweep on a cluster while its client and each kind of its processes is killed so many times.
+
+    What an earlier kill took is begun again before the next, and two more points are solved; a client that a kill
+    left without its scheduler ends by itself, and another one goes on. Returns the number of kills.
+    """
+    wanted = [CLIENT, *KINDS] * times
+    draw.shuffle(wanted)
+    done, said = 0, ""
+    while done < len(wanted) and not said.startswith("finished"):
+        cluster.mend()
+        with forked(scene.goes_on()) as client:
+            said = client.line()
+            while done < len(wanted) and said and not said.startswith("finished"):
+                time.sleep(draw.random() ** 3 * wait)
+                kind, done = wanted[done], done + 1
+                if kind == CLIENT:
+                    client.kill()
+                else:
+                    cluster.kill_one(kind, draw)
+                if kind in (CLIENT, SCHEDULER):  # what it had said before may still be read, but it will end
+                    client.lines()
+                    break
+                cluster.mend()
+                for _ in range(2):
+                    said = client.line()
+    cluster.mend()
+    return done

@@ -1,0 +1,121 @@
+"""Lines, bands, scales and notes of curves."""
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from tests.sweeps.drawn import names_in_legend
+from tests.sweeps.pictures.drawing import draw, lines_with, names_along, words
+from tests.sweeps.pictures.hand_made import FAILED, FALLEN, Row, grid, sphere, table_of
+
+
+def curves(axes: Any) -> list[Any]:
+    return [line for line in axes.lines if line.get_linestyle() == "-" and len(line.get_xdata()) > 2]
+
+
+def test_each_value_of_a_third_parameter_has_its_diagram(tmp_path: Path, figures: list[Any]) -> None:
+    levels = {"mu": [1.0, 2.0, 3.0, 4.0, 5.0], "height": [1.0, 2.0, 3.0, 4.0], "thickness": [0.1, 0.2, 0.3]}
+    draw(grid(levels, lambda mu, height, thickness: mu + 10 * height + 100 * thickness), tmp_path, "curve")
+    first, *_, bare = figures[0].axes
+    titles = [axes.get_title() for axes in figures[0].axes]
+    assert titles == ["thickness 0.1 m", "thickness 0.2 m", "thickness 0.3 m", ""]
+    assert not bare.axison
+    assert [line.get_ydata().tolist() for line in curves(first)] == [
+        [mu + 10 * height + 100 * 0.1 for mu in levels["mu"]] for height in levels["height"]
+    ]
+    assert names_in_legend(figures[0]) == ["height 1", "height 2", "height 3", "height 4"]
+
+
+def test_more_lines_than_a_legend_names_have_a_scale(tmp_path: Path, figures: list[Any]) -> None:
+    """Of 20 values every second is named, each in the middle of its step."""
+    levels = {"mu": list(np.linspace(0, 1, 21)), "thickness": [float(i) for i in range(20)]}
+    draw(grid(levels, lambda mu, thickness: mu + thickness), tmp_path, "curve")
+    axes, bar = figures[0].axes
+    assert len(curves(axes)) == 20
+    assert bar.get_ylabel() == "thickness [m]"
+    assert names_along(bar, "y") == [str(i) for i in range(0, 20, 2)]
+    assert bar.get_yticks().tolist() == list(range(0, 20, 2))
+    assert bar.get_ylim() == (-0.5, 19.5)
+    assert names_in_legend(figures[0]) == []
+
+
+@pytest.mark.parametrize(
+    ("failed", "marker"),
+    [((), "none"), ((30,), "none"), ((30, 32), ".")],
+)
+def test_points_of_long_lines_have_a_marker_where_no_line_leads_to_one(
+    tmp_path: Path, figures: list[Any], failed: tuple[int, ...], marker: str
+) -> None:
+    """The point between two failed ones would be seen by nothing else."""
+    table = grid({"mu": [float(i) for i in range(61)]}, lambda mu: FAILED if mu in failed else mu)
+    draw(table, tmp_path, "curve")
+    (line,) = curves(figures[0].axes[0])
+    assert line.get_marker() == marker
+    assert np.flatnonzero(np.isnan(line.get_ydata())).tolist() == list(failed)
+
+
+def test_texts_have_markers_without_lines(tmp_path: Path, figures: list[Any]) -> None:
+    draw(grid({"bond": ["stack", "running", "flemish"]}, lambda bond: len(bond)), tmp_path, "curve")
+    (axes,) = figures[0].axes
+    (shown,) = [line for line in axes.lines if len(line.get_xdata()) == 3]
+    assert (shown.get_linestyle(), shown.get_marker()) == ("None", "o")
+    assert shown.get_ydata().tolist() == [5.0, 7.0, 7.0]
+    assert names_along(axes, "x") == ["stack", "running", "flemish"]
+
+
+def test_without_a_value_there_are_marks_and_no_numbers(tmp_path: Path, figures: list[Any]) -> None:
+    draw(grid({"mu": [0.1, 0.2, 0.3]}, lambda mu: FAILED), tmp_path, "curve")
+    (axes,) = figures[0].axes
+    assert axes.get_yticks().tolist() == []
+    assert lines_with(axes, "x")[0].get_xdata().tolist() == [0.1, 0.2, 0.3]
+    assert "3 points: 0 with a verified value, 3 failed" in words(figures[0])
+
+
+def test_other_results_have_no_band_and_no_zero_line(tmp_path: Path, figures: list[Any]) -> None:
+    """What does not stand has no number of hinges: it is marked at the lower edge."""
+
+    def solve(mu: float) -> Row:
+        own = FALLEN if mu == 1 else {"status": "solved", "load_factor": mu, "mechanism.class": "sliding"}
+        return {**own, "static_bound": mu, "kinematic_bound": mu, "hinges": None if mu == 1 else mu + 3}
+
+    draw(grid({"mu": [1.0, 2.0, 3.0]}, solve), tmp_path, "curve", result="hinges")
+    (axes,) = figures[0].axes
+    assert axes.get_ylabel() == "hinges"
+    assert not axes.collections
+    (fallen,) = lines_with(axes, "v")
+    assert fallen.get_transform() != axes.transData
+    assert "band" not in words(figures[0])
+
+
+def test_of_several_points_a_line_is_the_median_and_the_band_their_range(tmp_path: Path, figures: list[Any]) -> None:
+    """Over a sphere of directions; bounds of each point have no place then."""
+
+    def solve(mu: float, to_azimuth: float, to_elevation: float) -> Row:
+        value = mu + to_azimuth
+        return {"status": "solved", "load_factor": value, "static_bound": value - 1, "kinematic_bound": value + 1}
+
+    draw(sphere([(0.0, 0.0), (100.0, 30.0), (150.0, 60.0)], {"mu": [1.0, 2.0]}, solve), tmp_path, "curve")
+    (axes,) = figures[0].axes
+    (line,) = [line for line in axes.lines if len(line.get_xdata()) == 2]
+    assert line.get_ydata().tolist() == [101.0, 102.0]
+    band = axes.collections[0].get_paths()[0].vertices
+    assert {tuple(each) for each in band} == {(1.0, 1.0), (1.0, 151.0), (2.0, 2.0), (2.0, 152.0)}
+    assert "line: median of up to 3 points of to; band: least to greatest" in words(figures[0])
+    assert "static to kinematic" not in words(figures[0])
+
+
+@pytest.mark.parametrize(("more", "told"), [([], "2 combinations have"), ([(2, 1)], "1 combination has")])
+def test_combinations_without_a_point_are_counted(
+    tmp_path: Path, figures: list[Any], more: list[tuple[int, int]], told: str
+) -> None:
+    places = [(0, 0), (1, 0), (1, 1), (2, 0), *more]
+    rows = [{"mu": 1.0 + i, "thickness": 1.0 + j} for i, j in places]
+    table = table_of(rows, lambda mu, thickness: mu, [("mu", 3), ("thickness", 2)], places,
+                     {"mu": "mu", "thickness": "thickness"})  # fmt: skip
+    draw(table, tmp_path, "curve", by="mu")
+    first, second = curves(figures[0].axes[0])
+    assert first.get_ydata().tolist() == [1.0, 2.0, 3.0]
+    assert np.array_equal(second.get_ydata(), [np.nan, 2.0, 3.0 if more else np.nan], equal_nan=True)
+    assert f"{told} no point" in words(figures[0])

@@ -1,0 +1,142 @@
+"""Cells, contours and figures of maps."""
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from mbla.errors import UsageError
+from mbla.results.pictures.palette import GROUPS
+from mbla.sweeps.pictures.axes import value_words
+from mbla.sweeps.pictures.map import NO_POINT_COLOUR
+from mbla.sweeps.pictures.plot import SweepPictures, pictures_of
+from tests.sweeps.drawn import names_in_legend
+from tests.sweeps.pictures.drawing import draw, names_along, words
+from tests.sweeps.pictures.hand_made import FAILED, Row, grid, table_of
+
+FINE = list(np.linspace(0.1, 1.6, 16))
+"""so many that their values have no room in the cells"""
+
+
+def texts(axes: Any) -> list[str]:
+    return [text.get_text() for text in axes.texts]
+
+
+def contours(axes: Any) -> Any:
+    """The lines of equal value, None where there are none."""
+    return next((each for each in axes.collections if hasattr(each, "levels")), None)
+
+
+def mechanism(name: str) -> Row:
+    return {"status": "solved", "load_factor": 1.0, "mechanism.class": name}
+
+
+def test_cells_of_several_points_are_their_median(tmp_path: Path, figures: list[Any]) -> None:
+    levels = {"mu": [1.0, 2.0, 3.0], "thickness": [1.0, 2.0, 3.0], "height": [1.0, 2.0], "width": [1.0, 2.0]}
+    draw(grid(levels, lambda mu, thickness, height, width: 100 * mu + 10 * thickness + height + width / 10), tmp_path,
+         "map")  # fmt: skip
+    low, high, _ = figures[0].axes
+    assert [axes.get_title() for axes in (low, high)] == ["height 1", "height 2"]
+    shown = [100 * mu + 10 * thickness + 1.15 for thickness in (1, 2, 3) for mu in (1, 2, 3)]
+    assert low.collections[0].get_array().ravel().tolist() == pytest.approx(shown, rel=1e-12)
+    assert "cell: median of up to 2 points of the other parameters" in words(figures[0])
+
+
+def test_cells_of_several_classes_are_their_class_where_it_is_one(tmp_path: Path, figures: list[Any]) -> None:
+    """With mu 1 both widths slide, with mu 2 one of them hinges, with mu 3 neither has a class."""
+
+    def solve(mu: float, thickness: float, height: float, width: float) -> Row:
+        return FAILED if mu == 3 else mechanism("hinging" if (mu, width) == (2, 2) else "sliding")
+
+    levels = {"mu": [1.0, 2.0, 3.0], "thickness": [1.0, 2.0, 3.0], "height": [1.0, 2.0], "width": [1.0, 2.0]}
+    draw(grid(levels, solve), tmp_path, "map", result="mechanism.class")
+    shown = figures[0].axes[0].collections[0].get_array()
+    assert shown.tolist() == [[1.0, None, None]] * 3
+    assert names_in_legend(figures[0]) == ["sliding", "failed", "different from point to point"]
+    assert "cell: class of up to 2 points of the other parameters where it is the same" in words(figures[0])
+
+
+def test_places_without_a_map_stay_empty(tmp_path: Path, figures: list[Any]) -> None:
+    """Three values of a parameter are three maps; the fourth place of two rows is bare."""
+    levels = {"mu": [1.0, 2.0, 3.0, 4.0], "thickness": [1.0, 2.0, 3.0, 4.0], "height": [5.0, 6.0, 7.0]}
+    draw(grid(levels, lambda mu, thickness, height: mu), tmp_path, "map")
+    assert [axes.get_title() for axes in figures[0].axes[:4]] == ["height 5", "height 6", "height 7", ""]
+    assert [axes.axison for axes in figures[0].axes[:4]] == [True, True, True, False]
+
+
+def test_contours_are_lines_of_equal_value(tmp_path: Path, figures: list[Any]) -> None:
+    """Of a plane they are straight: along each the sum of both parameters is the level that its label names."""
+    draw(grid({"mu": FINE, "thickness": FINE}, lambda mu, thickness: mu + thickness), tmp_path, "map")
+    axes, bar = figures[0].axes
+    found = contours(axes)
+    lines = [path.vertices for path in found.get_paths() if len(path.vertices)]
+    assert len(lines) >= 4
+    for line in lines:
+        total = line.sum(axis=1)
+        assert total == pytest.approx(total[0], rel=1e-9)
+        assert np.abs(found.levels - total[0]).min() == pytest.approx(0.0, abs=1e-9)
+    assert set(texts(axes)) <= {value_words(float(level)) for level in found.levels}
+    assert texts(axes)
+    assert bar.get_ylabel() == "load factor"
+
+
+def test_equal_values_have_no_contours(tmp_path: Path, figures: list[Any]) -> None:
+    draw(grid({"mu": FINE, "thickness": FINE}, lambda mu, thickness: 1.0), tmp_path, "map")
+    axes = figures[0].axes[0]
+    assert set(axes.collections[0].get_array().ravel()) == {1.0}
+    assert contours(axes) is None
+    assert texts(axes) == []
+
+
+@pytest.mark.parametrize(("other", "drawn"), [([str(i) for i in range(12)], False), (FINE[:4], False), (FINE, True)])
+def test_contours_need_numbers_and_five_of_them(
+    tmp_path: Path, figures: list[Any], other: Sequence[Any], drawn: bool
+) -> None:
+    table = grid({"mu": list(np.linspace(0, 1, 40)), "other": list(other)}, lambda mu, other: mu)
+    draw(table, tmp_path, "map")
+    assert (contours(figures[0].axes[0]) is not None) is drawn
+
+
+def test_a_map_without_a_value_has_no_scale_of_colours(tmp_path: Path, figures: list[Any]) -> None:
+    draw(grid({"mu": [1.0, 2.0], "thickness": [1.0, 2.0]}, lambda mu, thickness: FAILED), tmp_path, "map")
+    (axes,) = figures[0].axes
+    assert names_in_legend(figures[0]) == ["failed"]
+    assert [each.get_hatch() for each in axes.collections] == ["xx"]
+
+
+def test_combinations_without_a_point_are_named(tmp_path: Path, figures: list[Any]) -> None:
+    places = [(0, 0), (1, 0), (1, 1)]
+    rows = [{"mu": 1.0 + i, "thickness": 1.0 + j} for i, j in places]
+    table = table_of(rows, lambda mu, thickness: 10 * mu + thickness, [("mu", 2), ("thickness", 2)], places,
+                     {"mu": "mu", "thickness": "thickness"})  # fmt: skip
+    draw(table, tmp_path, "map", by="mu")
+    axes = figures[0].axes[0]
+    assert axes.collections[0].get_array().tolist() == [[11.0, 21.0], [None, 22.0]]
+    bare = axes.collections[1]
+    assert bare.get_paths()[0].get_extents().extents.tolist() == [0.5, 1.5, 1.5, 2.5]
+    assert np.round(255 * bare.get_facecolor()[0, :3]).astype(int).tolist() == [
+        int(NO_POINT_COLOUR[i : i + 2], 16) for i in (1, 3, 5)
+    ]
+    assert names_in_legend(figures[0]) == ["no point"]
+    assert texts(axes) == ["11", "21", "22"]
+
+
+def test_edges_of_cells_lie_half_way_in_ratio_on_a_log_axis(tmp_path: Path, figures: list[Any]) -> None:
+    """Of one value alone, which a user may put first, the cell is as wide as the unit."""
+    table = grid({"mu": [0.5], "k": [1e6, 1e7, 1e8]}, lambda mu, k: k)
+    draw(table, tmp_path, "map", by="mu")
+    axes = figures[0].axes[0]
+    assert axes.get_xlim() == (0.0, 1.0)
+    assert names_along(axes, "x") == ["0.5"]
+    assert axes.get_yscale() == "log"
+    assert axes.get_ylim() == pytest.approx((10**5.5, 10**8.5))
+    assert texts(axes) == ["1e+06", "1e+07", "1e+08"]
+
+
+def test_more_texts_than_tints_are_refused() -> None:
+    levels = {"mu": [float(i) for i in range(len(GROUPS) + 1)], "thickness": [1.0, 2.0]}
+    table = grid(levels, lambda mu, thickness: mechanism(f"class {mu:.0f}"))
+    with pytest.raises(UsageError, match="9 different texts; 8 can be told apart"):
+        pictures_of(table, SweepPictures(("map",), result="mechanism.class"))

@@ -1,0 +1,162 @@
+"""Which pictures are made, refused, and where they go."""
+
+import json
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from mbla.cli import main
+from mbla.errors import UsageError
+from mbla.results.pictures.options import PictureOptions
+from mbla.sweeps.fragility import Fragility
+from mbla.sweeps.pictures.kinds import KINDS
+from mbla.sweeps.pictures.plot import SweepPictures, pictures_of, plot_sweep
+from mbla.sweeps.tables.sweep_table import SweepTable
+from mbla.sweeps.tables.write_tables import TableFiles, write_tables
+from tests.sweeps.pictures.hand_made import FAILED, grid, sample
+from tests.sweeps.tables.synthetic import RUN, table
+
+pytest.importorskip("matplotlib")
+SMALL = PictureOptions(size=(400, 300))
+
+
+def names(swept: SweepTable, **changes: Any) -> list[str]:
+    return [picture.name for picture in pictures_of(swept, SweepPictures(**changes))]
+
+
+def plane(points: int = 4) -> SweepTable:
+    levels = list(np.linspace(0.2, 0.8, points))
+    return grid({"mu": levels, "thickness": levels}, lambda mu, thickness: mu * thickness)
+
+
+def drawn(points: int = 20) -> SweepTable:
+    rng = np.random.default_rng(1)
+    return sample({"mu": list(rng.uniform(size=points)), "thickness": list(rng.uniform(size=points))},
+                  lambda mu, thickness: mu + thickness)  # fmt: skip
+
+
+def test_kinds_suit_the_table() -> None:
+    assert names(plane()) == [
+        "curve_load_factor", "map_load_factor", "tornado_load_factor", "map_mechanism.class",
+    ]  # fmt: skip
+    assert names(drawn()) == ["scatter_load_factor", "distribution_load_factor", "tornado_load_factor"]
+    turned = grid({"azimuth": [0.0, 90.0, 180.0, 270.0]}, lambda azimuth: 1.0)
+    assert names(turned) == ["curve_load_factor", "polar_load_factor"]
+    assert names(grid({"mu": [0.1, 0.2, 0.3]}, lambda mu: FAILED)) == ["curve_load_factor"]  # seen to have failed
+
+
+def test_all_is_all_that_fit() -> None:
+    assert names(drawn(), kinds=tuple(KINDS), every=True) == [
+        "scatter_load_factor", "distribution_load_factor", "tornado_load_factor",
+    ]  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("swept", "changes", "told"),
+    [
+        (drawn(), {"kinds": ("curve",)}, "--kind curve of load_factor: no parameter has two values of a grid"),
+        (drawn(), {"kinds": ("map",)}, "needs two parameters of a grid"),
+        (drawn(), {"kinds": ("polar",)}, "no parameter is a direction"),
+        (drawn(5), {"kinds": ("tornado",)}, "5 points with a verified value; correlations of samples need 10"),
+        (plane(), {"kinds": ("curve",), "result": "mechanism.class"}, "the result is text; map and scatter show it"),
+        (plane(), {"kinds": ("tornado",), "result": "mechanism.class"}, "the result is text; map and scatter show it"),
+        (plane(), {"result": "load_facter"}, "did you mean load_factor"),
+        (plane(), {"by": "thicknes"}, "did you mean thickness"),
+        (grid({"mu": [0.5]}, lambda mu: mu), {"kinds": ("scatter",)}, "no parameter has two values"),
+        (grid({"mu": [0.5]}, lambda mu: mu), {}, "no kind of picture suits load_factor"),
+        (grid({"mu": [0.5, 0.6]}, lambda mu: FAILED), {"kinds": ("distribution",)}, "no point has a verified value"),
+    ],
+)  # fmt: skip
+def test_what_does_not_fit_is_refused_with_the_reason(swept: SweepTable, changes: Any, told: str) -> None:
+    with pytest.raises(UsageError, match=told):
+        pictures_of(swept, SweepPictures(**changes))
+
+
+def test_by_puts_a_parameter_first() -> None:
+    swept = grid({"mu": [0.1, 0.2, 0.3], "thickness": [1.0, 2.0]}, lambda mu, thickness: mu)
+    for by in ("mu", "thickness"):
+        (picture,) = pictures_of(swept, SweepPictures(("curve",), by=by))
+        assert picture.view.axes[0].column.name == by
+
+
+@pytest.mark.parametrize(("ending", "start"), [("png", b"\x89PNG"), ("svg", b"<?xml"), ("pdf", b"%PDF")])
+def test_formats(tmp_path: Path, ending: str, start: bytes) -> None:
+    page = PictureOptions(size=(400, 300), format=ending)
+    (path,) = plot_sweep(plane(), tmp_path, SweepPictures(("map",), page=page))
+    assert path.name == f"sweep_map_load_factor.{ending}"
+    assert path.read_bytes().startswith(start)
+
+
+def test_the_same_picture_is_the_same_file(tmp_path: Path) -> None:
+    first, second = (
+        plot_sweep(drawn(), tmp_path / name, SweepPictures(("scatter",), page=SMALL))[0].read_bytes()
+        for name in ("a.svg", "b.svg")
+    )
+    assert first == second
+
+
+def test_one_file_is_the_first_that_suits(tmp_path: Path, figures: list[Any]) -> None:
+    assert plot_sweep(plane(), tmp_path / "s.png", SweepPictures(page=SMALL)) == [tmp_path / "s.png"]
+    assert len(figures) == 1
+    with pytest.raises(UsageError, match="one file for 2 pictures"):
+        plot_sweep(plane(), tmp_path / "s.png", SweepPictures(("curve", "map"), page=SMALL))
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    (column,) = [each for each in table().columns if each.name == "load_factor"]
+    none = np.zeros(1)
+    fragility = [Fragility(column, {}, {}, 1, 0, np.array([0.2]), none.astype(int), 0, none, none, 0.95, "random")]
+    write_tables(tmp_path / "wall.out", False, RUN, table(), TableFiles(), fragility)
+    return tmp_path / "wall.out"
+
+
+def test_the_command_writes_into_the_folder_of_the_sweep_and_replaces(
+    folder: Path, capsys: pytest.CaptureFixture[str], figures: list[Any]
+) -> None:
+    wanted = folder / "sweep_distribution_load_factor.png"
+    wanted.write_bytes(b"earlier")
+    command = ["sweep-plot", "--kind", "distribution", "--size", "800x500"]
+    for given in (folder, folder / "sweep.csv"):
+        assert main([*command, str(given)]) == 0
+        assert capsys.readouterr().out.splitlines() == [str(wanted)]
+    assert wanted.read_bytes().startswith(b"\x89PNG")
+    assert [0.2, 0.2] in [list(line.get_xdata()) for line in figures[0].axes[0].lines]  # the demand of the record
+
+
+def test_all_kinds_of_the_command_are_those_that_the_sweep_fits(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["sweep-plot", "--kind", "all", "--size", "800x500", str(folder)]) == 0
+    written = [Path(line).name for line in capsys.readouterr().out.splitlines()]
+    assert written == [f"sweep_{kind}_load_factor.png" for kind in ("curve", "scatter", "distribution")]
+
+
+@pytest.mark.parametrize(
+    ("options", "status", "told"),
+    [
+        (["--kind", "bars"], 2, "--kind bars: there are curve, map"),
+        (["--kind", "map"], 2, "needs two parameters"),
+        (["--dpi", "5"], 2, "20 to 1200"),
+        (["--size", "big"], 2, "width x height"),
+        (["-o", "picture.jpg"], 2, "PNG, SVG or PDF"),
+        (["--size", "300x200"], 2, "--size 300x200: words and legend leave no room"),
+    ],
+)
+def test_refusals_of_the_command(
+    folder: Path, capsys: pytest.CaptureFixture[str], options: list[str], status: int, told: str
+) -> None:
+    assert main(["sweep-plot", str(folder), *options]) == status
+    lines = capsys.readouterr().err.splitlines()
+    assert len(lines) == 1
+    assert told in lines[0]
+
+
+def test_a_record_whose_fragility_is_none_is_told(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    record = json.loads((folder / "sweep.json").read_text(encoding="utf-8"))
+    record["fragility"] = [{"result": "load_factor"}]
+    (folder / "sweep.json").write_text(json.dumps(record), encoding="utf-8")
+    assert main(["sweep-plot", str(folder)]) == 6
+    assert "sweep.json: its fragility cannot be read" in capsys.readouterr().err

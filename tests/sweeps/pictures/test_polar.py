@@ -1,0 +1,129 @@
+"""Diagrams around the horizon, and maps of a sphere."""
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from mbla.errors import UsageError
+from mbla.sweeps.pictures.plot import SweepPictures, pictures_of
+from mbla.sweeps.pictures.sphere import MOST_DOTS
+from mbla.sweeps.tables.sweep_table import SweepTable
+from tests.sweeps.drawn import names_in_legend
+from tests.sweeps.pictures.drawing import draw, lines_with, names_along
+from tests.sweeps.pictures.hand_made import FAILED, Row, grid, sample, sphere, table_of
+
+QUARTERS = [0.0, 90.0, 180.0, 270.0]
+OVER = [(0.0, 0.0), (120.0, 0.0), (240.0, 0.0), (0.0, 89.0)]
+
+
+def curves(axes: Any) -> list[Any]:
+    return [line for line in axes.lines if line.get_linestyle() == "-"]
+
+
+def test_each_value_of_a_third_parameter_has_its_diagram(tmp_path: Path, figures: list[Any]) -> None:
+    levels = {"to_azimuth": QUARTERS, "height": [1.0, 2.0, 3.0, 4.0], "thickness": [0.1, 0.2, 0.3]}
+    draw(grid(levels, lambda to_azimuth, height, thickness: height + thickness), tmp_path, "polar")
+    titles = [axes.get_title() for axes in figures[0].axes]
+    assert titles == ["thickness 0.1 m", "thickness 0.2 m", "thickness 0.3 m", ""]
+    assert [axes.axison for axes in figures[0].axes] == [True, True, True, False]
+    for axes, thickness in zip(figures[0].axes, levels["thickness"], strict=False):
+        assert [set(line.get_ydata()) for line in curves(axes)] == [{height + thickness} for height in (1, 2, 3, 4)]
+    assert names_in_legend(figures[0]) == ["height 1", "height 2", "height 3", "height 4"]
+
+
+def test_more_curves_than_a_legend_names_have_a_scale(tmp_path: Path, figures: list[Any]) -> None:
+    levels = {"azimuth": QUARTERS, "mu": [float(i) for i in range(1, 12)]}
+    draw(grid(levels, lambda azimuth, mu: mu), tmp_path, "polar")
+    axes, bar = figures[0].axes
+    assert [line.get_ydata()[0] for line in curves(axes)] == levels["mu"]
+    assert bar.get_ylabel() == "mu"
+    assert names_along(bar, "y") == [str(i) for i in range(1, 12)]
+
+
+@pytest.mark.parametrize("answer", [0.0, FAILED])
+def test_without_a_value_above_zero_the_rim_is_one(tmp_path: Path, figures: list[Any], answer: Row | float) -> None:
+    draw(grid({"azimuth": QUARTERS}, lambda azimuth: answer), tmp_path, "polar")
+    (axes,) = figures[0].axes
+    assert (axes.get_rmin(), axes.get_rmax()) == (0.0, 1.0)
+
+
+def test_half_a_circle_is_open_and_many_directions_have_dots(tmp_path: Path, figures: list[Any]) -> None:
+    turns = list(np.linspace(0.0, 180.0, 61))
+    draw(grid({"azimuth": turns}, lambda azimuth: 1.0 + azimuth), tmp_path, "polar")
+    (line,) = curves(figures[0].axes[0])
+    assert np.degrees(line.get_xdata()).tolist() == pytest.approx(turns)
+    assert line.get_ydata().tolist() == [1.0 + turn for turn in turns]
+    assert line.get_marker() == "."
+
+
+def text_of(**values: float) -> Row:
+    return {"status": "solved", "load_factor": 1.0, "mechanism.class": "sliding"}
+
+
+@pytest.mark.parametrize(
+    ("swept", "result", "told"),
+    [
+        (grid({"azimuth": QUARTERS}, text_of), "mechanism.class", "the result is text; scatter shows it"),
+        (grid({"mu": [1.0, 2.0]}, text_of), "mechanism.class", "the result is text; scatter shows it"),
+        (grid({"azimuth": QUARTERS, "mu": [1.0, 2.0]}, text_of), "mechanism.class",
+         "the result is text; map and scatter show it"),
+        (grid({"azimuth": QUARTERS[:2]}, text_of), None, "needs three directions"),
+        (sphere(OVER[:2], {}, text_of), None, "needs three directions"),
+        (sphere(OVER, {"mu": [1.0, 2.0]}, text_of), None,
+         "a map of a sphere has one point for each direction; this sweep has other parameters too"),
+        (sample({"to_azimuth": [0.0, 100.0, 200.0], "to_elevation": [0.0, 10.0, 20.0]}, text_of), None,
+         "no parameter is a direction around the horizon of a grid, or over a sphere"),
+    ],
+)  # fmt: skip
+def test_what_is_not_drawn_is_refused_with_the_reason(swept: SweepTable, result: str | None, told: str) -> None:
+    with pytest.raises(UsageError, match=told):
+        pictures_of(swept, SweepPictures(("polar",), result=result))
+
+
+def test_a_sphere_beside_one_value_of_another_parameter_is_a_map(tmp_path: Path, figures: list[Any]) -> None:
+    table = sphere(OVER, {"mu": [0.5]}, lambda to_azimuth, to_elevation, mu: to_azimuth)
+    draw(table, tmp_path, "polar")
+    axes = figures[0].axes[0]
+    assert set(np.unique(axes.collections[0].get_array())) == {0.0, 120.0, 240.0}
+    (dots,) = [line for line in axes.lines if line.get_marker() == "."]
+    assert list(zip(*dots.get_data(), strict=True)) == OVER
+
+
+def test_a_sphere_without_a_value_is_hatched(tmp_path: Path, figures: list[Any]) -> None:
+    draw(sphere(OVER, {}, lambda to_azimuth, to_elevation: FAILED), tmp_path, "polar")
+    (axes,) = figures[0].axes  # no scale of colours beside it
+    assert [hatch for each in axes.collections for hatch in each.hatches] == ["xx"]
+    assert names_in_legend(figures[0]) == ["failed"]
+
+
+def test_very_many_directions_have_no_dots(tmp_path: Path, figures: list[Any]) -> None:
+    turns = np.linspace(0.0, 359.0, MOST_DOTS + 1)
+    rises = np.degrees(np.arcsin(np.linspace(-1, 1, MOST_DOTS + 1)))
+    table = sphere(list(zip(turns.tolist(), rises.tolist(), strict=True)), {},
+                   lambda to_azimuth, to_elevation: to_azimuth)  # fmt: skip
+    draw(table, tmp_path, "polar")
+    axes = figures[0].axes[0]
+    assert len(axes.collections[0].get_array().ravel()) > MOST_DOTS
+    assert not axes.lines
+
+
+def test_of_two_directions_the_one_over_a_sphere_is_the_map(tmp_path: Path, figures: list[Any]) -> None:
+    """The other, around the horizon, has one value; it is no part of the sphere."""
+    rows = [{"push_azimuth": 45.0, "to_azimuth": azimuth, "to_elevation": elevation} for azimuth, elevation in OVER]
+    table = table_of(rows, lambda push_azimuth, to_azimuth, to_elevation: to_azimuth, [("push", 1), ("to", 4)],
+                     [(0, i) for i in range(4)],
+                     {"push_azimuth": "push", "to_azimuth": "to", "to_elevation": "to"})  # fmt: skip
+    draw(table, tmp_path, "polar")
+    (dots,) = [line for line in figures[0].axes[0].lines if line.get_marker() == "."]
+    assert list(zip(*dots.get_data(), strict=True)) == OVER
+    with pytest.raises(UsageError, match="the result is text; scatter shows it"):
+        pictures_of(table, SweepPictures(("polar",), result="mechanism.class"))
+
+
+def test_marks_of_failed_directions_lie_at_the_rim(tmp_path: Path, figures: list[Any]) -> None:
+    draw(grid({"azimuth": QUARTERS}, lambda azimuth: FAILED if azimuth == 90 else 2.0), tmp_path, "polar")
+    (axes,) = figures[0].axes
+    (mark,) = lines_with(axes, "x")
+    assert mark.get_ydata().tolist() == pytest.approx([axes.get_rmax()])

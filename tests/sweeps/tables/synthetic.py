@@ -1,0 +1,65 @@
+"""A sweep made by hand: friction in a grid with a sample of thickness and a seed, one point of it left out."""
+
+from mbla.deck.units import Units
+from mbla.sweeps.design.design import Design, DesignColumn, Dimension, Point
+from mbla.sweeps.outcome import DONE, FAILED, Outcome
+from mbla.sweeps.plan import Plain
+from mbla.sweeps.result_columns import result_columns
+from mbla.sweeps.tables.from_outcomes import sweep_table
+from mbla.sweeps.tables.sweep_json import SweepRun
+from mbla.sweeps.tables.sweep_table import SweepTable
+
+RUN = SweepRun("wall.sweep.yaml", "wall.yaml", "2026-11-21T10:00:00Z", 8, left_out=1, seconds=3.5)
+RESULTS = ("status", "load_factor", "verified", "mechanism.hinges", "model.total_weight", "time.solve/standing")
+FRICTION, THICKNESS = (0.5, 0.7), (0.1, 0.2, 1 / 3)
+LEFT_OUT = (1, 2)
+
+
+def design() -> Design:
+    columns = (
+        DesignColumn("mu", "", "friction", "float", "parameter", "mu"),
+        DesignColumn("t", "m", "thickness", "float", "parameter", "sobol", random=True),
+        DesignColumn("seed", "", "seed of the bond", "int", "parameter", "sobol"),
+    )
+    places = [(i, j) for i in range(2) for j in range(3) if (i, j) != LEFT_OUT]
+    points = tuple(
+        Point(number, (i, j), (FRICTION[i], THICKNESS[j], j + 4), {"parameters.mu": FRICTION[i]})
+        for number, (i, j) in enumerate(places, 1)
+    )
+    levels: tuple[tuple[Plain, ...], ...] = (FRICTION, THICKNESS, (4, 5, 6))
+    return Design(columns, (Dimension("mu", 2), Dimension("sobol", 3)), points, levels, 1, "sobol", "sobol")
+
+
+def keys() -> list[str]:
+    return [f"key{point.number}" for point in design().points]
+
+
+def outcomes() -> dict[str, Outcome]:
+    """Solved, without equilibrium, solved, failed; the fifth has what the fourth has not."""
+    solved: dict[str, Plain] = {
+        "status": "solved",
+        "load_factor": 0.1 + 0.2,
+        "verified": True,
+        "mechanism.hinges": 4,
+        "model.total_weight": 65.0,
+        "time.solve/standing": 0.25,
+    }
+    none: dict[str, Plain] = dict.fromkeys(solved)
+    found: list[tuple[str, int, str, dict[str, Plain]]] = [
+        (DONE, 0, "", solved),
+        (DONE, 5, 'a block, "the top", falls\nby itself', {**none, "status": "no_equilibrium", "verified": True}),
+        (DONE, 0, "", {**solved, "load_factor": 1e-300, "mechanism.hinges": 0}),
+        (FAILED, 4, "not verified", {**none, "status": "not_verified", "verified": False}),
+        (DONE, 0, "", solved),
+    ]
+    return {
+        key: Outcome(key, state, code, reason, results, 1, 0.25)
+        for key, (state, code, reason, results) in zip(keys(), found, strict=True)
+    }
+
+
+def table(*without: str) -> SweepTable:
+    """The table; points with these keys have not been solved yet."""
+    columns = result_columns(RESULTS, ("push",), Units(force="kN"))
+    known = {key: outcome for key, outcome in outcomes().items() if key not in without}
+    return sweep_table("Wände", design(), columns, known, keys(), unfinished=bool(without))

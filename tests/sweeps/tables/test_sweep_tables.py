@@ -1,0 +1,328 @@
+"""The table of a sweep and its files, read back by mbla, csv, pandas and xarray."""
+
+from __future__ import annotations
+
+import csv
+import json
+import sys
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pandas
+import pytest
+import xarray
+
+from mbla.deck.units import Units
+from mbla.errors import FileError, UsageError
+from mbla.results.tables.column import Values
+from mbla.sweeps.fragility import fragility_of
+from mbla.sweeps.result_columns import result_columns
+from mbla.sweeps.tables.from_outcomes import as_text, column_values, sweep_table
+from mbla.sweeps.tables.read_table import read_sweep_table
+from mbla.sweeps.tables.sweep_json import sweep_json
+from mbla.sweeps.tables.sweep_table import SweepTable
+from mbla.sweeps.tables.table_csv import sweep_csv
+from mbla.sweeps.tables.table_hdf5 import NO_NUMBER, sweep_hdf5
+from mbla.sweeps.tables.write_tables import TableFiles, refuse_tables, table_names, write_tables
+from tests.sweeps.tables.synthetic import (
+    FRICTION,
+    LEFT_OUT,
+    RESULTS,
+    RUN,
+    THICKNESS,
+    design,
+    keys,
+    outcomes,
+    table,
+)
+
+ALL = TableFiles(parquet=True, hdf5=True, others=("journal.csv",))
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("sweep") / "wall.out"
+    write_tables(folder, False, RUN, table(), ALL)
+    return folder
+
+
+def same(one: Values, other: Values) -> bool:
+    """Equal values, missing where the other's are."""
+    kinds = one.dtype == other.dtype and isinstance(one, np.ma.MaskedArray) == isinstance(other, np.ma.MaskedArray)
+    masks = np.array_equal(np.ma.getmaskarray(one), np.ma.getmaskarray(other))
+    plain = one.dtype.kind == "f"
+    return bool(kinds and masks and np.array_equal(np.ma.filled(one, 0), np.ma.filled(other, 0), equal_nan=plain))
+
+
+def same_tables(one: SweepTable, other: SweepTable) -> bool:
+    """Equal in all that files hold of a table."""
+    values = all(same(a, b) for a, b in zip(one.values, other.values, strict=True))
+    plain = ("title", "columns", "dimensions", "samples", "sampling")
+    others = all(getattr(one, name) == getattr(other, name) for name in plain)
+    return values and others and np.array_equal(one.position, other.position)
+
+
+def test_rows_stand_in_the_order_of_the_design_whatever_order_outcomes_came_in() -> None:
+    found = table()
+    assert found["point"].tolist() == [1, 2, 3, 4, 5]
+    assert found["t"].tolist() == [*THICKNESS, *THICKNESS[:2]]
+    assert found["state"].tolist() == ["done", "done", "done", "failed", "done"]
+    backwards = dict(reversed(list(outcomes().items())))
+    other = sweep_table(found.title, design(), found.of_role("result"), backwards, keys())
+    assert same_tables(found, other)
+
+
+def test_columns_stand_in_their_order() -> None:
+    names = [column.name for column in table().columns]
+    assert names[:4] == ["point", "mu", "t", "seed"]
+    assert names[4:7] == ["state", "status", "load_factor"]
+    assert names[-4:] == ["exit_code", "reason", "tries", "seconds"]
+
+
+def test_a_point_without_verified_answer_has_no_load_factor() -> None:
+    found = table()
+    assert np.isnan(found["load_factor"]).tolist() == [False, True, False, True, False]
+    assert found["mechanism.hinges"].tolist() == [4, None, 0, None, 4]
+    assert found["verified"].tolist() == [True, True, True, False, True]
+
+
+def test_points_of_one_key_share_their_outcome() -> None:
+    one = outcomes()["key1"]
+    found = sweep_table("", design(), table().of_role("result"), {"same": one}, ["same"] * 5)
+    assert found["load_factor"].tolist() == [0.1 + 0.2] * 5
+
+
+def test_a_missing_outcome_is_an_error_of_the_caller() -> None:
+    known = outcomes()
+    del known["key4"]
+    with pytest.raises(KeyError, match="key4"):
+        sweep_table("", design(), (), known, keys())
+    found = table("key4")
+    assert found["state"].tolist() == ["done", "done", "done", None, "done"]
+    assert found["exit_code"].tolist() == [0, 5, 0, None, 0]
+    assert sweep_json(RUN, found)["points"] == {"all": 5, "done": 4, "failed": 0, "unfinished": 1, "left_out": 1}
+
+
+def test_a_table_that_would_not_fit_its_design_is_an_error_of_the_caller() -> None:
+    twice = result_columns(("load_factor",), ("push",), Units()) * 2
+    with pytest.raises(AssertionError, match="columns of one name: load_factor"):
+        sweep_table("", design(), twice, outcomes(), keys())
+    with pytest.raises(AssertionError, match="4 keys of 5 points"):
+        sweep_table("", design(), (), outcomes(), keys()[:4])
+
+
+def test_a_table_has_no_column_of_another_name() -> None:
+    with pytest.raises(KeyError, match="load_facter"):
+        table()["load_facter"]
+
+
+@pytest.mark.parametrize(("kind", "value"), [("int", 0.5), ("float", True), ("bool", 1), ("float", "0.5")])
+def test_values_of_another_kind_are_refused(kind: str, value: object) -> None:
+    with pytest.raises(ValueError, match=f"column of kind {kind}"):
+        column_values(kind, [None, value])  # type: ignore[list-item]
+
+
+def test_lists_and_objects_are_text() -> None:
+    assert as_text([1, 0.5, [True, "a"]]) == "[1, 0.5, [true, a]]"
+    assert as_text({"box": {"min": [0, 1], "name": None}}) == "{box: {min: [0, 1], name: null}}"
+    assert column_values("text", [[1, 2], "", None]).tolist() == ["[1, 2]", None, None]
+
+
+# --- files --------------------------------------------------------------------------------------------------------
+
+
+def test_the_csv_has_units_and_every_bit(folder: Path) -> None:
+    text = (folder / "sweep.csv").read_bytes().decode("utf-8")
+    header, *rows = list(csv.reader(text.splitlines(keepends=True)))
+    assert header[:3] == ["point", "mu", "t [m]"]
+    assert "model.total_weight [kN]" in header
+    assert header[-1] == "seconds [s]"
+    assert [float(row[2]) for row in rows] == [*THICKNESS, *THICKNESS[:2]]
+    assert rows[0][header.index("load_factor")] == "0.30000000000000004"
+    assert rows[1][header.index("load_factor")] == ""
+    assert rows[1][header.index("reason")] == 'a block, "the top", falls\nby itself'
+    assert text.count("\r\n") == 6
+
+
+@pytest.mark.parametrize("name", ["", "sweep.csv", "sweep.json"])
+def test_the_table_is_read_back_from_its_folder_or_either_file(folder: Path, name: str) -> None:
+    assert same_tables(read_sweep_table(folder / name), table())
+
+
+def test_an_unfinished_table_is_read_back(tmp_path: Path) -> None:
+    write_tables(tmp_path, False, RUN, table("key1", "key2", "key3", "key4", "key5"), TableFiles())
+    found = read_sweep_table(tmp_path)
+    assert found["state"].tolist() == [None] * 5
+    assert np.isnan(found["load_factor"]).all()
+
+
+def test_pandas_reads_both_tables(folder: Path) -> None:
+    frame = pandas.read_parquet(folder / "sweep.parquet")
+    assert frame.attrs["units"]["t"] == "m"
+    assert frame.attrs["units"]["model.total_weight"] == "kN"
+    assert frame.attrs["meanings"]["mu"] == "friction"
+    assert frame["load_factor"].isna().tolist() == [False, True, False, True, False]
+    assert frame.groupby("mu")["state"].count().tolist() == [3, 2]
+    text = pandas.read_csv(folder / "sweep.csv", dtype=str)  # numbers of its own lose bits in some versions
+    assert text["t [m]"].astype(float).tolist() == frame["t"].tolist()
+    assert text["load_factor"].astype(float).equals(frame["load_factor"])
+
+
+def test_xarray_opens_the_file_along_the_axes_of_the_design(folder: Path) -> None:
+    with xarray.open_dataset(folder / "sweep.h5", engine="h5netcdf") as data:
+        assert dict(data.sizes) == {"mu": 2, "sobol": 3}
+        assert data.indexes["mu"].tolist() == list(FRICTION)
+        assert set(data.coords) == {"mu", "sobol", "t", "seed"}
+        assert data["t"].dims == ("sobol",)
+        assert data["t"].values.tolist() == list(THICKNESS)
+        assert data["t"].attrs["units"] == "m"
+        factors = data["load_factor"]
+        assert factors.dims == ("mu", "sobol")
+        assert factors.sel(mu=0.5).isel(sobol=0) == 0.1 + 0.2
+        assert np.isnan(factors.values[LEFT_OUT])
+        assert np.isnan(factors.values).sum() == 3  # left out, no equilibrium, failed
+        assert factors.attrs["long_name"].startswith("load factor")
+        assert data["model.total_weight"].attrs["units"] == "kN"
+        assert data["time.solve_standing"].attrs["column"] == "time.solve/standing"
+        assert data["state"].values.tolist() == [["done", "done", "done"], ["failed", "done", ""]]
+        hinges = data["mechanism.hinges"].values
+        assert np.isnan(hinges).tolist() == [[False, True, False], [True, False, True]]
+        assert hinges[0, 0] == 4
+        verified = data["verified"].values
+        assert (verified[0, 0], verified[1, 0], np.isnan(verified[LEFT_OUT])) == (1, 0, True)
+        assert data.attrs["filetype"] == "mbla sweep"
+        assert (data.attrs["complete"], data.attrs["created"], data.attrs["title"]) == (1, RUN.created, "Wände")
+
+
+def test_a_level_of_which_constraints_leave_no_point_keeps_its_value(tmp_path: Path) -> None:
+    """The scale of a dimension has no gaps: xarray could not select along it."""
+    whole = design()
+    points = tuple(point for point in whole.points if point.position[0] == 1)
+    kept = [key for key, point in zip(keys(), whole.points, strict=True) if point in points]
+    found = sweep_table(
+        "", replace(whole, points=points), result_columns(RESULTS, ("push",), Units()), outcomes(), kept
+    )
+    (tmp_path / "sweep.h5").write_bytes(sweep_hdf5(RUN, found))
+    with xarray.open_dataset(tmp_path / "sweep.h5", engine="h5netcdf") as data:
+        assert data.indexes["mu"].tolist() == list(FRICTION)
+        assert data["t"].values.tolist() == list(THICKNESS)
+        assert np.isnan(data["load_factor"].sel(mu=FRICTION[0])).all()
+
+
+def test_an_unfinished_sweep_says_so_in_its_file(tmp_path: Path) -> None:
+    path = tmp_path / "sweep.h5"
+    path.write_bytes(sweep_hdf5(RUN, table("key3")))
+    with xarray.open_dataset(path, engine="h5netcdf", mask_and_scale=False) as data:
+        assert data.attrs["complete"] == 0
+        assert data["exit_code"].values[0, 2] == NO_NUMBER
+
+
+def test_the_same_table_gives_the_same_bytes() -> None:
+    assert sweep_hdf5(RUN, table()) == sweep_hdf5(RUN, table())
+    assert sweep_csv(table()) == sweep_csv(table())
+
+
+def test_files_appear_together_and_nothing_is_overwritten_unasked(folder: Path, tmp_path: Path) -> None:
+    record = json.loads((folder / "sweep.json").read_text(encoding="utf-8"))
+    assert record["files"] == ["journal.csv", "sweep.csv", "sweep.h5", "sweep.json", "sweep.parquet"]
+    assert sorted(path.name for path in folder.iterdir()) == sorted(table_names(ALL))
+    (tmp_path / "sweep.h5").write_bytes(b"mine")
+    with pytest.raises(FileError, match=r"sweep\.h5: exists already"):
+        write_tables(tmp_path, False, RUN, table(), ALL)
+    assert [path.name for path in tmp_path.iterdir()] == ["sweep.h5"]
+    write_tables(tmp_path, True, RUN, table(), ALL)
+    assert same_tables(read_sweep_table(tmp_path), table())
+
+
+def test_probabilities_stand_in_the_record_and_in_a_file_of_their_own(tmp_path: Path) -> None:
+    found = fragility_of(table(), "load_factor", (0.2,), 0.95)
+    record = write_tables(tmp_path, False, RUN, table(), TableFiles(), found)
+    assert [each["at"] for each in record["fragility"]] == [{"mu": 0.5}, {"mu": 0.7}]
+    assert "sweep_fragility.csv" in record["files"]
+    frame = pandas.read_csv(tmp_path / "sweep_fragility.csv")
+    assert frame["below"].tolist() == [2, 0]  # that which does not stand, and the tiny one
+    assert frame["unknown"].tolist() == [0, 1]
+    left = _only(tmp_path, "sweep_fragility.csv")
+    refuse_tables(left, TableFiles(), replace=False)
+    with pytest.raises(FileError, match=r"sweep_fragility\.csv: exists already"):
+        refuse_tables(left, TableFiles(), replace=False, fragility=True)
+
+
+def test_parquet_without_its_extra_is_refused_before_the_work(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "pyarrow", None)
+    with pytest.raises(UsageError, match=r"pip install 'mbla\[tables\]'"):
+        refuse_tables(tmp_path, TableFiles(parquet=True), replace=False)
+
+
+def _only(folder: Path, name: str) -> Path:
+    """The folder with that file alone."""
+    for path in folder.iterdir():
+        if path.name != name:
+            path.unlink()
+    return folder
+
+
+# --- files that are none ------------------------------------------------------------------------------------------
+
+
+def _record(change: Callable[[dict], object]) -> Callable[[Path], None]:  # type: ignore[type-arg]
+    def apply(folder: Path) -> None:
+        path = folder / "sweep.json"
+        record = json.loads(path.read_text(encoding="utf-8"))
+        change(record)
+        path.write_text(json.dumps(record), encoding="utf-8")
+
+    return apply
+
+
+def _csv(change: Callable[[str], str]) -> Callable[[Path], None]:
+    def apply(folder: Path) -> None:
+        path = folder / "sweep.csv"
+        path.write_bytes(change(path.read_bytes().decode("utf-8")).encode("utf-8"))
+
+    return apply
+
+
+def _without_state(folder: Path) -> None:
+    """A column of every table has another name, in both files."""
+    _record(lambda record: next(c for c in record["columns"] if c["name"] == "state").update(name="stat"))(folder)
+    _csv(lambda text: text.replace(",state,", ",stat,", 1))(folder)
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        (_without_state, "columns are missing"),
+        (lambda folder: (folder / "sweep.csv").write_bytes(b"point\xff"), r"sweep\.csv: is no CSV: .*utf-8"),
+        (_csv(lambda text: text + '"point'), r"sweep\.csv: is no CSV: unexpected end of data"),
+        (lambda folder: (folder / "sweep.csv").unlink(), r"sweep\.csv: there is none"),
+        (lambda folder: (folder / "sweep.json").unlink(), r"sweep\.json: there is none"),
+        (lambda folder: (folder / "sweep.json").write_text("{"), r"sweep\.json: is no JSON"),
+        (lambda folder: (folder / "sweep.json").write_text("{}"), r"sweep\.json: is no record of a sweep"),
+        (_record(lambda record: record.update(version=99)), "version 99 .* this mbla reads version"),
+        (_record(lambda record: record["columns"].pop()), "its columns differ"),
+        (_record(lambda record: record["columns"][0].update(kind="number")), r"not the table that .*number"),
+        (_record(lambda record: record["design"].update(places=None)), "5 rows, 6 points"),
+        (_record(lambda record: record["design"].update(places=[0, 1, 2, 3, 99])), "not the table"),
+        (_csv(lambda text: text.replace("t [m]", "t [mm]")), "its columns differ"),
+        (_csv(lambda text: text + text.splitlines(keepends=True)[-1]), "6 rows, 5 points"),
+        (_csv(lambda text: text.replace("0.30000000000000004", "0,3", 1)), r"row 2 has 16 cells, 15 columns"),
+        (_csv(lambda text: text.replace("0.30000000000000004", "a third", 1)), "row 2: load_factor = 'a third'"),
+    ],
+)
+def test_a_file_that_is_no_table_is_refused_in_one_line(
+    tmp_path: Path, change: Callable[[Path], None], words: str
+) -> None:
+    write_tables(tmp_path, False, RUN, table(), TableFiles())
+    read_sweep_table(tmp_path)
+    change(tmp_path)
+    with pytest.raises(FileError, match=words) as caught:
+        read_sweep_table(tmp_path)
+    assert "\n" not in str(caught.value)
+
+
+def test_another_file_is_no_table(tmp_path: Path) -> None:
+    with pytest.raises(FileError, match=r"wall\.h5: is no table of a sweep"):
+        read_sweep_table(tmp_path / "wall.h5")

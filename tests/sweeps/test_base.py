@@ -1,0 +1,356 @@
+"""What the base deck of a sweep gives, and what the key of a point depends on; faults are in tests/invalid_sweeps."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from mbla.deck import read_deck
+from mbla.deck.overrides import RefusedError
+from mbla.errors import DeckError
+from mbla.sweeps.base import Base, read_base
+from mbla.sweeps.base_keys import path_of_key, unit_at
+from mbla.sweeps.base_points import check_points
+from mbla.sweeps.design.build import design_of
+from mbla.sweeps.design.design import Point
+from mbla.sweeps.file.read import read_sweep
+from mbla.sweeps.fingerprint import fingerprint_of, key_hash
+from mbla.sweeps.settings import override_texts
+from tests.deck.decks import BLOCK, write
+from tests.sweeps.file.sweeps import ALL_WAYS, ARCH, GOOD, base_of
+
+
+@pytest.fixture
+def base(tmp_path: Path) -> Base:
+    return base_of(tmp_path, ALL_WAYS)
+
+
+def test_paths_units_vectors(base: Base) -> None:
+    assert base.paths["t"] == (("parameters", "t"),)
+    assert base.paths["n"] == (("blocks", 0, "arch", "voussoirs"),)
+    assert base.paths["joints.dry.cohesion"] == (("joints", "dry", "cohesion"),)
+    assert base.units == {
+        "mu": "",
+        "t": "m",  # a parameter of the deck has no unit there: this one is of the sweep file
+        "n": "",
+        "joints.dry.cohesion": "N/m^2",
+        "tension": "N/m^2",
+        "density": "kg/m^3",
+        "radius": "",
+        "d": "degree",
+        "g": "degree",
+        "law": "",
+    }
+    assert base.vectors == {"d": (1.0, 0.0, 0.0), "g": (0.0, 0.0, -1.0)}
+    assert base.known == {"mu": 0.65, "radius": 1.0, "t": 0.15, "spare": 1}
+    assert base.cases == ("down", "push_x")
+    assert base.fixed == ("blocks.0.arch.width=0.4", 'analysis.accuracy="draft"')
+    assert base.deck.content.blocks[0].arch is not None
+    assert base.deck.content.blocks[0].arch.width == 0.4
+
+
+def test_all_load_cases_unless_some_are_named(tmp_path: Path) -> None:
+    assert base_of(tmp_path).cases == ("push_x", "down")
+
+
+@pytest.mark.parametrize(
+    ("key", "unit"),
+    [
+        ("joints.dry.friction", ""),
+        ("joints.dry.cohesion", "N/cm^2"),
+        ("blocks.0.arch.thickness", "cm"),
+        ("blocks.0.arch.voussoirs", ""),
+        ("blocks.0.arch.shape", ""),
+        ("materials.stone.unit_weight", "N/cm^3"),
+        ("load_cases.push_x.live.0.acceleration", ""),
+        ("load_cases.push_x.live.0.force", "N"),
+        ("load_cases.push_x.live.0.moment", "N*cm"),
+        ("load_cases.push_x.live.0.line.force_per_length", "N/cm"),
+        ("load_cases.push_x.dead", ""),
+        ("load_cases.push_x.live.0.on", ""),  # a section, or the name of a group in its place
+        ("blocks.0.arch.group", ""),
+        ("contacts.points.rounding", "cm"),
+        ("contacts.points.per_edge", ""),
+        ("analysis.time_limit", "s"),
+        ("parameters.t", ""),
+    ],
+)
+def test_unit_of_key(tmp_path: Path, key: str, unit: str) -> None:
+    base = base_of(tmp_path, GOOD, ARCH + "units: {length: cm}\n")
+    assert unit_at(path_of_key(base.tree.data, key), base.deck.units) == unit
+
+
+def test_no_key(tmp_path: Path) -> None:
+    with pytest.raises(RefusedError, match="unknown key thick in blocks"):
+        path_of_key(base_of(tmp_path).tree.data, "blocks.0.arch.thick")
+
+
+def test_a_whole_list_of_the_deck_may_change(tmp_path: Path) -> None:
+    base = base_of(tmp_path, GOOD + "  s: {key: masses, values: [[]]}\n")
+    assert base.paths["s"] == (("masses",),)
+    assert base.units["s"] == ""
+
+
+def test_texts_with_units_of_their_own_have_no_unit_of_the_column(tmp_path: Path) -> None:
+    text = GOOD.replace("t: {values: [0.1, 0.15, 0.2]}", 'w: {key: blocks.0.arch.width, values: ["20 cm", 0.3]}')
+    assert base_of(tmp_path, text).units["w"] == ""
+
+
+def test_a_vector_with_expressions_is_evaluated(tmp_path: Path) -> None:
+    deck = ARCH.replace("acceleration: [1, 0, 0]", 'acceleration: ["=2*radius", 0, -0.5]')
+    assert base_of(tmp_path, ALL_WAYS, deck).vectors["d"] == (2.0, 0.0, -0.5)
+
+
+def test_overrides_come_after_set(tmp_path: Path) -> None:
+    base = base_of(tmp_path, ALL_WAYS, ARCH, "blocks.0.arch.width=0.7")
+    assert base.deck.content.blocks[0].arch is not None
+    assert base.deck.content.blocks[0].arch.width == 0.7
+
+
+@pytest.mark.parametrize(
+    ("override", "expected"),
+    [
+        ("blocks.0.arch.width=-1", "--set:2:21 blocks[0].arch.width = -1: must be > 0"),
+        ("blocks.0.arch.with=1", "--set:2:1 blocks[0].arch.with = 1: unknown key; the key reference"),
+        ("parameters.t=0.3", "--set:2:1 parameters.t: has no effect: parameter t of the sweep sets it in every point"),
+        ("nothing", "--set:2:1 nothing: must be key.path=value, on one line: there is no ="),
+    ],
+)
+def test_faults_of_the_command_line_are_told_there(tmp_path: Path, override: str, expected: str) -> None:
+    """They count from 1 as the user gave them, whatever ``set`` brings before."""
+    text = GOOD + "set: {materials.stone.density: 1900, title: x}\n"
+    if "with=" in override:
+        expected = expected.split(";")[0]
+    with pytest.raises(DeckError) as caught:
+        base_of(tmp_path, text, ARCH, "blocks.0.arch.voussoirs=10", override)
+    assert [str(fault).split("; did")[0] for fault in caught.value.faults] == [expected]
+
+
+def test_faults_of_the_deck_are_its_own(tmp_path: Path) -> None:
+    with pytest.raises(DeckError) as caught:
+        base_of(tmp_path, GOOD, ARCH.replace("width: 0.3", "width: 0"))
+    assert [str(fault) for fault in caught.value.faults] == [
+        f"{tmp_path}/deck.yaml:17:14 blocks[0].arch.width = 0: must be > 0"
+    ]
+
+
+def test_the_deck_may_lie_anywhere(tmp_path: Path) -> None:
+    write(tmp_path / "decks", ARCH)
+    sweep = write(tmp_path / "sweeps", GOOD.replace("deck.yaml", "../decks/deck.yaml"), "sweep.yaml")
+    assert read_base(read_sweep(sweep)).path == tmp_path.resolve() / "decks" / "deck.yaml"
+
+
+def test_what_another_parameter_brings_into_use_has_an_effect(tmp_path: Path) -> None:
+    """The joint law mortar alone changes nothing: tests/invalid_sweeps."""
+    text = """mbla_sweep: 1
+deck: deck.yaml
+parameters:
+  mortar: {key: joints.mortar.friction, values: [0.4, 0.5]}
+  law: {key: contacts.joint, values: [dry, mortar]}
+  spare: {values: [1, 2]}
+  w: {key: blocks.0.arch.width, values: [0.2, "=spare/2"]}
+"""
+    assert base_of(tmp_path, text).units["w"] == ""
+
+
+def points_of(base: Base) -> tuple[Point, ...]:
+    return design_of(base.sweep.content, base.vectors, base.units, base.known, base.sweep.fault_at).points
+
+
+def test_a_sweep_of_which_no_point_can_be_read_is_refused(tmp_path: Path) -> None:
+    """The joint law has a friction angle: a friction beside it breaks a rule at every point."""
+    text = GOOD.replace("  mu: {", "  mu: {key: joints.dry.friction, ")
+    base = base_of(tmp_path, text, ARCH.replace('dry: {friction: "=mu"}', "dry: {friction_angle: 30}"))
+    with pytest.raises(DeckError) as caught:
+        check_points(base, points_of(base))
+    assert [str(fault) for fault in caught.value.faults] == [
+        f"{tmp_path}/sweep.yaml:4:1 parameters: the deck is refused at the first, middle and last point: "
+        "joints.dry.friction_angle: only one of friction or friction_angle may be given, here are friction and "
+        "friction_angle"
+    ]
+
+
+def test_a_sweep_with_a_corner_that_cannot_be_read_begins(tmp_path: Path) -> None:
+    """An arch of radius 1 cannot be thicker than twice that; such points fail on their own, with their reason."""
+    base = base_of(tmp_path, GOOD.replace("[0.1, 0.15, 0.2]", "[3, 0.15, 0.2]"))
+    points = points_of(base)
+    check_points(base, points)
+    with pytest.raises(DeckError, match="the deck is refused at the only point: "):
+        check_points(base, points[:1])
+
+
+EXPECTING = ARCH + 'expected: {push_x: {load_factor: "=sqrt(t - 0.12)/spare", source: "closed form", tolerance: 1.}}\n'
+
+
+def test_expectations_of_the_deck_are_not_those_of_its_points(tmp_path: Path) -> None:
+    """They are defined at the values of the deck, and need not be elsewhere: 0.1 - 0.12 has no root."""
+    base = base_of(tmp_path, GOOD.replace("[0.1, 0.15, 0.2]", "[0.1, 0.11]"), EXPECTING)
+    with pytest.raises(DeckError, match="is not defined"):
+        read_deck(base.path, ("parameters.t=0.1",))
+    check_points(base, points_of(base))
+
+
+def test_a_parameter_that_only_an_expectation_uses_has_no_effect(tmp_path: Path) -> None:
+    with pytest.raises(DeckError, match=r"parameters\.spare: has no effect: the deck does not use parameters\.spare"):
+        base_of(tmp_path, GOOD.replace("  t: {", "  spare: {"), EXPECTING)
+
+
+# --- fingerprint --------------------------------------------------------------------------------------------------
+
+
+def fingerprint(folder: Path, deck: str, *overrides: str) -> str:
+    return fingerprint_of(write(folder, deck), overrides)
+
+
+SAME = {
+    "comments": lambda deck: deck.replace("mbla: 1", "# other words\nmbla: 1"),
+    "layout": lambda deck: deck.replace("  stone: {density: 2000}", "  stone:\n      density:   2000"),
+    "title": lambda deck: deck.replace("title: Semi", "title: Demi"),
+    "output": lambda deck: deck + "output: {vtu: false}\n",
+    "expected": lambda deck: deck + "expected: {push_x: {load_factor: 1, source: none}}\n",
+    "order of keys": lambda deck: deck.replace("      width: 0.3\n", "").replace(
+        "      group: arch\n", "      width: 0.3\n      group: arch\n"
+    ),
+}
+OTHER = {
+    "a value": lambda deck: deck.replace("density: 2000", "density: 2001"),
+    "last bit": lambda deck: deck.replace("width: 0.3", "width: 0.30000000000000004"),
+    "a parameter": lambda deck: deck.replace("t: 0.15", "t: 0.16"),
+    "a section": lambda deck: deck + "analysis: {accuracy: draft}\n",
+    "order of a list": lambda deck: deck.replace("[0, 0, -1]", "[0, -1, 0]"),
+}
+
+
+@pytest.mark.parametrize("change", SAME.values(), ids=SAME)
+def test_what_does_not_count(tmp_path: Path, change: Callable[[str], str]) -> None:
+    assert change(ARCH) != ARCH
+    assert fingerprint(tmp_path, change(ARCH)) == fingerprint(tmp_path, ARCH)
+
+
+@pytest.mark.parametrize("change", OTHER.values(), ids=OTHER)
+def test_what_counts(tmp_path: Path, change: Callable[[str], str]) -> None:
+    assert change(ARCH) != ARCH
+    assert fingerprint(tmp_path, change(ARCH)) != fingerprint(tmp_path, ARCH)
+
+
+def test_a_fixed_value_is_as_if_the_deck_had_it(tmp_path: Path) -> None:
+    other = ARCH.replace("width: 0.3", "width: 0.5")
+    assert fingerprint(tmp_path, ARCH, "blocks.0.arch.width=0.5", "title=x") == fingerprint(tmp_path, other)
+
+
+def test_an_included_part_is_as_if_the_deck_had_it(tmp_path: Path) -> None:
+    joints = ARCH[ARCH.index("joints:") : ARCH.index("blocks:")]
+    write(tmp_path / "two", joints, "joints.yaml")
+    two = fingerprint(tmp_path / "two", ARCH.replace(joints, "include: [joints.yaml]\n"))
+    assert two == fingerprint(tmp_path / "one", ARCH)
+
+
+def test_fingerprint_of_the_base_is_what_workers_compute(base: Base) -> None:
+    assert fingerprint_of(base.path, base.fixed) == base.fingerprint
+
+
+def test_a_deck_has_the_same_fingerprint_for_good(tmp_path: Path) -> None:
+    """A journal names it: another value here is another format of journals, to be said in the release notes."""
+    assert fingerprint(tmp_path, BLOCK) == "d8ee98c44b2103e6d825a239e2921eb677d4c780a913f510f9c85ff282ca98fe"
+
+
+# --- keys of points -----------------------------------------------------------------------------------------------
+
+
+def test_keys_of_points(base: Base) -> None:
+    keys = {
+        base.key_of(settings)
+        for settings in (
+            {},
+            {"parameters.mu": 0.3},
+            {"parameters.mu": 0.30000000000000004},
+            {"parameters.t": 0.3},
+            {"parameters.mu": 0.3, "parameters.t": 0.3},
+            {"parameters.mu": "0.3"},
+        )
+    }
+    assert len(keys) == 6
+    assert all(len(key) == 64 for key in keys)
+    assert base.key_of({"parameters.t": 0.1, "parameters.mu": 0.3}) == base.key_of(
+        {"parameters.mu": 0.3, "parameters.t": 0.1}
+    )
+
+
+def test_keys_are_those_of_the_base(tmp_path: Path) -> None:
+    one = base_of(tmp_path / "one")
+    other = base_of(tmp_path / "two", GOOD, ARCH.replace("width: 0.3", "width: 0.4"))
+    again = base_of(tmp_path / "three", "# words\n" + GOOD)
+    settings = {"parameters.mu": 0.3}
+    assert one.key_of(settings) != other.key_of(settings)
+    assert one.key_of(settings) == again.key_of(settings)
+
+
+def test_the_key_of_a_point_is_the_same_for_good() -> None:
+    """In every process and on every machine, as the fingerprint above."""
+    key = key_hash("0" * 64, {"parameters.t": 0.1, "parameters.mu": 1e-7, "a": [1, "\N{DEGREE SIGN}", True]}, ["b"])
+    assert key == "0de9e83a32792b65751b87c50e1c9fe672d67d496e30b0085b323d014e773f6a"
+
+
+TABLE = "group,index,fx,fy,fz\narch,10,0,0,{force}\n"
+TABLE_DECK = ARCH.replace("live: [{acceleration: [1, 0, 0]}]", "live: [{table: loads.csv}]")
+TABLE_SWEEP = """mbla_sweep: 1
+deck: deck.yaml
+parameters:
+  loads: {key: load_cases.push_x.live.0.table, values: [loads.csv, more.csv]}
+  live: {key: load_cases.down.live, values: [[{table: loads.csv}], [{table: more.csv}]]}
+"""
+
+
+def with_tables(folder: Path, first: int, second: int) -> Base:
+    write(folder, TABLE.format(force=first), "loads.csv")
+    write(folder, TABLE.format(force=second), "more.csv")
+    return base_of(folder, TABLE_SWEEP, TABLE_DECK)
+
+
+def test_files_that_the_deck_names_count(tmp_path: Path) -> None:
+    same = [with_tables(tmp_path / name, -1, -2).fingerprint for name in "ab"]
+    assert same[0] == same[1] != with_tables(tmp_path / "c", -3, -2).fingerprint
+
+
+@pytest.mark.parametrize(
+    "settings", [{"load_cases.push_x.live.0.table": "more.csv"}, {"load_cases.down.live": [{"table": "more.csv"}]}]
+)
+def test_files_that_a_point_names_count(tmp_path: Path, settings: dict[str, object]) -> None:
+    a, b = with_tables(tmp_path / "a", -1, -2), with_tables(tmp_path / "b", -1, -3)
+    assert a.fingerprint == b.fingerprint
+    assert a.key_of(settings) != b.key_of(settings)  # type: ignore[arg-type]
+    assert a.key_of({"parameters.mu": 1.0}) == b.key_of({"parameters.mu": 1.0})
+
+
+def test_a_file_that_several_points_name_is_read_once(tmp_path: Path) -> None:
+    """What a sweep is made of does not change while its points are numbered."""
+    base = with_tables(tmp_path, -1, -2)
+    settings = {"load_cases.push_x.live.0.table": "more.csv"}
+    first = base.key_of(settings)
+    (tmp_path / "more.csv").unlink()
+    assert base.key_of(settings) == first
+
+
+def test_a_text_that_names_no_file_is_no_deck(tmp_path: Path) -> None:
+    text = GOOD.replace("deck: deck.yaml", f"deck: {'a' * 4001}")
+    with pytest.raises(DeckError, match=r"sweep\.yaml:3:7 deck = .*: is not a file name"):
+        base_of(tmp_path, text)
+
+
+def test_a_file_that_is_missing_is_a_fault_of_its_point(tmp_path: Path) -> None:
+    base = with_tables(tmp_path, -1, -2)
+    settings = {"load_cases.push_x.live.0.table": "none.csv"}
+    assert base.key_of(settings) != base.key_of({"load_cases.push_x.live.0.table": "more.csv"})
+    with pytest.raises(DeckError):
+        fingerprint_of(base.path, ("load_cases.push_x.live.0.table=none.csv",))
+
+
+@pytest.mark.parametrize("text", ["\N{GRINNING FACE}", "a\x85b", "a\u2028b", 'q"\\', "tab\tx", "=mu", "no", "1e3", "é"])
+def test_texts_of_settings_are_read_back(tmp_path: Path, text: str) -> None:
+    """JSON writes some characters so that YAML reads them otherwise."""
+    deck = read_deck(
+        write(tmp_path, ARCH), override_texts({"expected": {"push_x": {"load_factor": 1, "source": text}}})
+    )
+    assert deck.content.expected["push_x"].source == text

@@ -1,0 +1,217 @@
+"""Probabilities below a demand, from outcomes whose probabilities are known."""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scipy.stats import binomtest, lognorm, norm
+
+from mbla.arrays import FloatArray
+from mbla.deck.units import Units
+from mbla.errors import UsageError
+from mbla.results.records.json_record import json_line
+from mbla.sweeps.design.design import Design, DesignColumn, Dimension, Point
+from mbla.sweeps.design.sampling import quantiles
+from mbla.sweeps.fragility import fragility_of, interval
+from mbla.sweeps.fragility_words import fragility_csv, fragility_json, fragility_lines
+from mbla.sweeps.outcome import DONE, FAILED, Outcome
+from mbla.sweeps.result_columns import result_columns
+from mbla.sweeps.tables.from_outcomes import sweep_table
+from mbla.sweeps.tables.sweep_table import SweepTable
+
+RESULTS = ("status", "load_factor", "mechanism.class", "mechanism.moving_weight_share")
+Found = tuple[str, str, float | None]
+"""state, status, load factor of a point"""
+
+
+def table_of(
+    points: Sequence[Sequence[Found]],
+    sampling: str = "random",
+    thickness: Sequence[float] = (),
+    asked: Sequence[str] = RESULTS,
+) -> SweepTable:
+    """A table of samples, one row of points for each thickness, or for none."""
+    thick = list(thickness) or [0.0]
+    outside = [DesignColumn("t", "m", "thickness", "float", "parameter", "t")] if thickness else []
+    columns = (*outside, DesignColumn("mu", "", "friction", "float", "parameter", "sample", random=True))
+    dimensions = (*([Dimension("t", len(thick))] if thickness else []), Dimension("sample", len(points[0])))
+    design: list[Point] = []
+    outcomes: dict[str, Outcome] = {}
+    for row, each in enumerate(points):
+        for place, (state, status, factor) in enumerate(each):
+            key = f"{row} {place}"
+            results = {"status": status, "load_factor": factor, "mechanism.moving_weight_share": factor}
+            outcomes[key] = Outcome(key, state, 0, "", results, 1, 0.1)
+            at, values = ((row,), (thick[row],)) if thickness else ((), ())
+            design.append(Point(len(design) + 1, (*at, place), (*values, 0.5), {}))
+    levels = (*([tuple(thick)] if thickness else []), (0.5,) * len(points[0]))
+    return sweep_table(
+        "",
+        Design(columns, dimensions, tuple(design), levels, 0, "sample", sampling),
+        result_columns(asked, ("push",), Units()),
+        outcomes,
+        list(outcomes),
+    )
+
+
+def solved(factors: FloatArray | Sequence[float]) -> list[Found]:
+    return [(DONE, "solved", float(factor)) for factor in factors]
+
+
+# --- a sliding block: the load factor is the friction -------------------------------------------------------------
+
+MEAN, DEVIATION, DEMAND, POINTS = 0.6, 0.12, 0.45, 60
+SPREAD = np.sqrt(np.log(1 + (DEVIATION / MEAN) ** 2))
+FRICTION = lognorm(s=SPREAD, scale=MEAN * np.exp(-(SPREAD**2) / 2))
+EXACT = float(FRICTION.cdf(DEMAND))
+
+
+def coverage(samples: Sequence[FloatArray], confidence: float) -> float:
+    """Share of samples whose interval holds the exact probability."""
+    below = np.array([(sample < DEMAND).sum() for sample in samples])
+    lower, upper = interval(below, 0, POINTS, confidence)
+    return float(np.mean((lower <= EXACT) & (upper >= EXACT)))
+
+
+def test_the_probability_of_a_sliding_block() -> None:
+    """P(mu < demand) of a lognormal friction; a large sample comes near, and its interval holds it."""
+    factors = FRICTION.rvs(4000, random_state=np.random.default_rng(1))
+    (found,) = fragility_of(table_of([solved(factors)]), "load_factor", (DEMAND,), 0.99)
+    assert pytest.approx(norm.cdf((np.log(DEMAND / MEAN) + SPREAD**2 / 2) / SPREAD)) == EXACT
+    assert found.lower[0] < EXACT < found.upper[0]
+    assert found.least[0] == found.greatest[0] == np.mean(factors < DEMAND)
+    assert found.upper[0] - found.lower[0] < 0.03
+
+
+@pytest.mark.parametrize("confidence", [0.5, 0.9, 0.95, 0.99])
+def test_the_interval_holds_its_confidence_over_many_samples(confidence: float) -> None:
+    """At least as often as it says: 4000 samples, three standard errors of that count."""
+    draws = FRICTION.rvs((4000, POINTS), random_state=np.random.default_rng(2))
+    scatter = 3 * np.sqrt(confidence * (1 - confidence) / 4000)
+    assert coverage(list(draws), confidence) >= confidence - scatter
+
+
+def test_the_interval_is_too_wide_for_a_latin_hypercube() -> None:
+    """The friction alone is sampled: every sample has nearly the same count, so that the interval always holds."""
+    draws = [FRICTION.ppf(quantiles("latin_hypercube", POINTS, seed, ["mu"])[:, 0]) for seed in range(200)]
+    assert coverage(draws, 0.5) == 1.0
+
+
+@pytest.mark.parametrize(("below", "points"), [(0, 20), (1, 20), (7, 20), (20, 20), (3, 500)])
+def test_the_interval_is_that_of_clopper_and_pearson(below: int, points: int) -> None:
+    lower, upper = interval(np.array([below]), 0, points, 0.95)
+    expected = binomtest(below, points).proportion_ci(0.95, "exact")
+    assert (lower[0], upper[0]) == pytest.approx((expected.low, expected.high), rel=1e-9)
+
+
+# --- answers that are no load factor ------------------------------------------------------------------------------
+
+MIXED: list[Found] = [
+    (DONE, "solved", 0.2),
+    (DONE, "solved", 0.4),
+    (DONE, "no_equilibrium", None),
+    (DONE, "unbounded", None),
+    (FAILED, "not_verified", None),
+]
+
+
+def test_without_status_nobody_knows_on_which_side_a_missing_load_factor_is() -> None:
+    with pytest.raises(UsageError, match="load_factor needs status among the results"):
+        fragility_of(table_of([MIXED], asked=RESULTS[1:]), "load_factor", (0.3,), 0.95)
+    (found,) = fragility_of(table_of([MIXED], asked=RESULTS[1:]), "mechanism.moving_weight_share", (0.3,), 0.95)
+    assert (found.below[0], found.unknown) == (1, 3)  # a share has no side for what does not stand
+
+
+def test_what_does_not_stand_is_below_and_what_never_falls_above() -> None:
+    (found,) = fragility_of(table_of([MIXED[:4]]), "load_factor", (0.1, 0.2, 0.3, 9.0), 0.95)
+    assert found.below.tolist() == [1, 1, 2, 3]  # a load factor equal to the demand bears it
+    assert found.unknown == 0
+
+
+def test_a_failed_point_is_counted_both_ways() -> None:
+    (found,) = fragility_of(table_of([MIXED]), "load_factor", (0.3,), 0.95)
+    assert (found.below.tolist(), found.unknown, found.points) == ([2], 1, 5)
+    assert (found.least[0], found.greatest[0]) == (0.4, 0.6)
+    assert found.lower[0] == pytest.approx(binomtest(2, 5).proportion_ci(0.95, "exact").low)
+    assert found.upper[0] == pytest.approx(binomtest(3, 5).proportion_ci(0.95, "exact").high)
+    text = " ".join(" ".join(fragility_lines([found])).split())
+    assert "0.3 5 2 1 0.4000 to 0.6000" in text
+    assert "counted both as below and as above a demand" in text
+
+
+def test_nothing_known_says_nothing() -> None:
+    (found,) = fragility_of(table_of([[MIXED[4]] * 3]), "load_factor", (0.3,), 0.95)
+    assert (found.lower[0], found.upper[0]) == (0.0, 1.0)
+
+
+def test_only_load_factors_have_a_side_where_nothing_stands() -> None:
+    (found,) = fragility_of(table_of([MIXED[:4]]), "mechanism.moving_weight_share", (0.3,), 0.95)
+    assert (found.below.tolist(), found.unknown) == ([1], 2)
+
+
+# --- words and files ----------------------------------------------------------------------------------------------
+
+
+def test_each_combination_of_what_is_not_sampled_stands_by_itself() -> None:
+    table = table_of([solved([0.1, 0.2]), solved([0.3, 0.4])], "sobol", (0.25, 1 / 3))
+    found = fragility_of(table, "load_factor", (0.15, 0.35), 0.9)
+    assert [one.at for one in found] == [{"t": 0.25}, {"t": 1 / 3}]
+    assert [one.below.tolist() for one in found] == [[1, 2], [0, 1]]
+    record = fragility_json(found)
+    json_line({"fragility": record})
+    assert record[1]["demands"][1]["probability"] == [0.5, 0.5]
+    rows = list(csv.DictReader(fragility_csv(found).splitlines()))
+    assert [(float(row["t [m]"]), float(row["demand"]), int(row["below"])) for row in rows] == [
+        (0.25, 0.15, 1),
+        (0.25, 0.35, 2),
+        (1 / 3, 0.15, 0),
+        (1 / 3, 0.35, 1),
+    ]
+    lines = fragility_lines(found)
+    assert lines[0] == "  probability that load_factor lies below a demand, with its 90 % interval:"
+    assert lines[1].split() == ["t", "[m]", "demand", "points", "below", "unknown", "probability", "interval"]
+    assert lines[2].split() == ["0.25", "0.15", "2", "1", "0", "0.5000", "0.0253", "to", "0.9747"]
+    assert "Sobol" in " ".join(lines[6:])
+
+
+def test_points_drawn_at_random_need_no_remark() -> None:
+    lines = fragility_lines(fragility_of(table_of([solved([0.1, 0.2])]), "load_factor", (0.15,), 0.95))
+    assert len(lines) == 3
+
+
+def test_a_value_that_is_the_demand_but_for_rounding_bears_it() -> None:
+    table = table_of([solved([0.3 * (1 - 1e-9), 0.3 * (1 - 1e-5)])])
+    (found,) = fragility_of(table, "load_factor", (0.3,), 0.95)
+    assert found.below.tolist() == [1]
+
+
+def test_points_that_constraints_leave_out_are_counted() -> None:
+    table = table_of([solved([0.1, 0.2])])
+    found = fragility_of(replace(table, dimensions=(Dimension("sample", 5),)), "load_factor", (0.15,), 0.95)
+    assert found[0].left_out == 3
+    assert fragility_json(found)[0]["left_out"] == 3  # in words it is a remark of the design
+
+
+@pytest.mark.parametrize(
+    ("result", "words"),
+    [
+        ("load", "no result load; the table has status, load_factor"),
+        ("mechanism.class", "mechanism.class is no number"),
+    ],
+)
+def test_a_result_that_is_none_is_refused(result: str, words: str) -> None:
+    with pytest.raises(UsageError, match=words):
+        fragility_of(table_of([solved([0.1])]), result, (0.1,), 0.95)
+
+
+def test_a_design_without_a_sample_is_refused() -> None:
+    with pytest.raises(UsageError, match="random design"):
+        fragility_of(replace(table_of([solved([0.1])]), samples=""), "load_factor", (0.1,), 0.95)
+
+
+def test_without_demands_there_is_no_text_of_a_file() -> None:
+    assert fragility_csv(()) == ""

@@ -1,0 +1,103 @@
+"""A finished sweep in words: least and greatest verified values, each point told once, failures with their reasons."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from mbla.results.listing.text import WIDTH
+from mbla.sweeps.tables.from_outcomes import sweep_table
+from mbla.sweeps.words import NAMED, failure_lines, result_lines, sweep_lines
+from tests.sweeps.pictures.hand_made import FALLEN, Row, grid
+from tests.sweeps.tables import synthetic
+
+UNSURE = {"status": "not_verified", "load_factor": None, "static_bound": 9.0, "mechanism.class": None}
+
+
+def two_bounds(mu: float) -> Row:
+    """Bounds a little apart; at the last but one friction nothing stands, at the last the answer is not verified."""
+    if mu == 0.8:
+        return {"status": FALLEN["status"], "load_factor": None, "static_bound": None, "mechanism.class": None}
+    if mu == 0.9:
+        return UNSURE
+    return {"status": "solved", "load_factor": mu, "static_bound": mu - 0.01, "mechanism.class": "sliding"}
+
+
+def test_a_line_for_each_result_and_each_point_told_once() -> None:
+    table = grid({"mu": [0.4, 0.3, 0.5, 0.8, 0.9]}, lambda mu: two_bounds(mu))
+    lines = [" ".join(line.split()) for line in result_lines(table)]
+    assert lines == [
+        "status solved 3, no_equilibrium 1, not_verified 1",
+        "mechanism.class sliding 3",
+        "",
+        "result least point greatest point without",
+        "load_factor 0.3 2 0.5 3 2",
+        "static_bound 0.29 2 0.49 3 2",  # and not the 9 of a point without a verified answer
+        "point 2: mu 0.3",
+        "point 3: mu 0.5",
+        "",
+    ]
+
+
+def test_values_that_are_shown_alike_have_no_least_and_no_greatest_point() -> None:
+    """The last digits of the solver do not make one point the weakest."""
+    table = grid({"mu": [0.2, 0.3, 0.4]}, lambda mu: {"status": "solved", "load_factor": 0.25 + 1e-10 * mu})
+    lines = [" ".join(line.split()) for line in result_lines(table)]
+    assert "load_factor 0.25 all 0.25 all" in lines
+    assert not any(line.startswith("point ") for line in lines)
+
+
+def test_the_first_of_points_that_cannot_be_told_apart_is_named() -> None:
+    """So that two results that have their least value at the same point name the same one."""
+    table = grid({"mu": [0.2, 0.3, 0.4]}, lambda mu: {"status": "solved", "load_factor": max(0.3, mu) - 1e-9 * mu})
+    assert "load_factor 0.3 1 0.4 3" in [" ".join(line.split()) for line in result_lines(table)]
+
+
+def test_no_verified_value_at_all() -> None:
+    table = grid({"mu": [0.8, 0.9]}, lambda mu: two_bounds(mu))
+    lines = [" ".join(line.split()) for line in result_lines(table)]
+    assert "load_factor - - - - 2" in lines
+    assert not any(line.startswith("point ") for line in lines)
+
+
+def test_many_extreme_points_are_counted_and_every_line_has_room() -> None:
+    """Each of ten results is least and greatest at points of its own."""
+
+    def solve(n: int) -> Row:
+        results = {f"result_{i}": float(abs(n - 2 * i) if n // 2 == i else 0.5) for i in range(10)}
+        return {"status": "solved", "load_factor": 1.0, "mechanism.class": "sliding", **results}
+
+    lines = result_lines(grid({"n": list(range(20)), "name": ["a" * 40]}, lambda n, name: solve(n)))
+    assert sum(line.startswith("  point ") for line in lines) == NAMED
+    assert "  14 further points: see sweep.csv" in lines
+    assert max(map(len, lines)) <= WIDTH
+
+
+def test_of_many_texts_the_most_common_are_told() -> None:
+    """Eight of ten, each as often as it is there."""
+    table = grid({"n": list(range(11))}, lambda n: {"status": f"state {min(n, 9)}", "load_factor": 1.0})
+    told = " ".join(" ".join(result_lines(table)).split())
+    assert told.startswith("status state 9 2, " + ", ".join(f"state {n} 1" for n in range(7)) + ", 2 others result")
+
+
+def test_notices_of_the_deck_stand_between_results_and_time() -> None:
+    notice = {"severity": "warning", "message": "joint dry of the deck is not used"}
+    points = {"all": 5, "done": 4, "failed": 1, "unfinished": 0, "left_out": 1}
+    record = {"sweep": "wall.sweep.yaml", "title": "", "deck": "wall.yaml", "points": points, "notices": [notice],
+              "time": {"total": 4.0}}  # fmt: skip
+    lines = [" ".join(line.split()) for line in sweep_lines(record, synthetic.table())]
+    assert lines[:2] == ["wall.sweep.yaml: wall.yaml", "points 5: 4 done, 1 failed; constraints left out 1 more"]
+    assert lines[-3:-1] == ["failed: point 4: mu 0.7, t 0.1 m, seed 4: not verified", f"warning: {notice['message']}"]
+    assert lines[-1] == "time 4 s"
+
+
+def test_of_many_failures_the_first_are_told_and_the_others_counted() -> None:
+    """The first five of seven, of which no reason is known."""
+    found = synthetic.outcomes()
+    failed = replace(found["key4"], reason="")
+    design = synthetic.design()
+    points = tuple(replace(point, number=i) for i, point in enumerate((*design.points, *design.points[:2]), 1))
+    table = sweep_table("", replace(design, points=points), (), {"key": failed}, ["key"] * 7)
+    lines = [" ".join(line.split()) for line in failure_lines(table)]
+    assert len(lines) == 6
+    assert lines[0] == "failed: point 1: mu 0.5, t 0.1 m, seed 4: no reason known"
+    assert lines[-1] == "and 2 other failed points; column reason of sweep.csv has why"

@@ -1,0 +1,95 @@
+"""What is drawn of a trade: points, front, names beside them, and what is told where nothing can be drawn."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from mbla.results.pictures.options import PictureOptions
+from mbla.results.pictures.palette import GHOST, VERMILION
+from mbla.sweeps.tradeoff.ladder_run import RungRun
+from mbla.sweeps.tradeoff.picture import draw_trade
+from tests.sweeps.drawn import places
+from tests.sweeps.tradeoff.hand_made import ladder, measured, run_of, study_of
+
+pytest.importorskip("matplotlib")
+
+
+def drawn(folder: Path, figures: list[Any], runs: list[RungRun], **page: Any) -> Any:
+    """The figure of a study of one load case."""
+    draw_trade(folder / "trade.png", "A block", study_of(runs).trades[0], "Take what you like.", PictureOptions(**page))
+    return figures[-1]
+
+
+def told(figure: Any) -> str:
+    return " ".join(" ".join(text.get_text() for text in figure.texts).split())
+
+
+def test_points_are_time_and_distance_and_the_front_is_a_line(tmp_path: Path, figures: list[Any]) -> None:
+    figure = drawn(tmp_path, figures, ladder())
+    (axes,) = figure.axes
+    marks = {line.get_label(): places(line) for line in axes.lines if line.get_linestyle() == "None"}
+    assert marks["Pareto front"] == pytest.approx(np.array([(0.8, 2e-5), (2.0, 1e-9), (0.2, 1e-3)]), rel=1e-6)
+    assert marks["verified"] == pytest.approx(np.array([(1.5, 4e-5)]), rel=1e-6)
+    assert marks["not verified"] == [(0.1, 1e-9)]
+    (front,) = [line for line in axes.lines if line.get_drawstyle() == "steps-post"]
+    assert (front.get_color(), [x for x, _ in places(front)]) == (VERMILION, [0.2, 0.8, 2.0])
+    names = {text.get_text(): text.get_weight() for text in axes.texts}
+    assert names["accuracy: draft"] == "bold"
+    assert names["form: static"] == "normal"
+    assert "not drawn, as their difference is no error: flow_rule: associative" in told(figure)
+
+
+def test_without_a_verified_run_there_is_no_front(tmp_path: Path, figures: list[Any]) -> None:
+    doubtful = {"verified": False, "status": "approximate"}
+    runs = [
+        run_of("accuracy: reference", measured(0.5, 2.0, accuracy=1e-3, **doubtful)),
+        run_of("accuracy: draft", measured(0.51, 0.1, accuracy=1e-2, **doubtful)),
+    ]
+    figure = drawn(tmp_path, figures, runs)
+    (axes,) = figure.axes
+    assert not [line for line in axes.lines if line.get_drawstyle() == "steps-post"]
+    assert [text.get_text() for text in axes.get_legend().get_texts()] == ["resolution", "not verified"]
+    assert "NOT VERIFIED: no run is verified that the others could be held against" in told(figure)
+
+
+def test_of_a_verdict_there_are_words_alone(tmp_path: Path, figures: list[Any]) -> None:
+    none = measured(math.nan, 1.0, status="unbounded", verdict="unbounded", accuracy=math.nan)
+    figure = drawn(tmp_path, figures, [run_of("accuracy: reference", none), run_of("accuracy: draft", none)])
+    (axes,) = figure.axes
+    assert not axes.axison
+    assert not axes.lines
+    assert "load case push: all are held against accuracy: reference: unbounded" in told(figure)
+
+
+def crowd(count: int) -> list[RungRun]:
+    """A reference, and runs that are all as fast and as near as each other."""
+    same = measured(0.50001, 0.5)
+    return [
+        run_of("accuracy: reference", measured(0.5, 2.0)),
+        *(run_of(f"tolerance: 1e-{i}", same) for i in range(count)),
+    ]
+
+
+def test_a_name_that_went_far_is_joined_to_its_point(tmp_path: Path, figures: list[Any]) -> None:
+    (axes,) = drawn(tmp_path, figures, crowd(6)).axes
+    leaders = [line for line in axes.lines if line.get_color() == GHOST and line.get_linestyle() == "-"]
+    assert 0 < len(leaders) < 6
+    for line in leaders:
+        assert places(line)[0] == pytest.approx((0.5, 2e-5), rel=1e-6)
+    assert len(axes.texts) == 7
+
+
+def test_a_name_without_room_is_left_out(tmp_path: Path, figures: list[Any]) -> None:
+    """The point is there all the same."""
+    runs = [*crowd(3), run_of("one knob after the other " * 8, measured(0.5002, 0.7))]
+    (axes,) = drawn(tmp_path, figures, runs, size=(500, 400)).axes
+    names = [text.get_text() for text in axes.texts]
+    assert not [name for name in names if name.startswith("one knob")]
+    assert "accuracy: reference" in names
+    points = [place for line in axes.lines if line.get_linestyle() == "None" for place in places(line)]
+    assert any(place == pytest.approx((0.7, 4e-4), rel=1e-6) for place in points)

@@ -1,0 +1,113 @@
+"""Range and peak are left out where nothing shows them, and every value that is shown stays the same."""
+
+from __future__ import annotations
+
+import io
+import json
+from typing import Any
+
+import numpy as np
+import pytest
+
+from mbla.deck import read_deck
+from mbla.results.records.description import RUN_RECORD
+from mbla.results.records.json_record import results_json
+from mbla.results.sta import StatusFile
+from mbla.run import solve_deck
+from mbla.run_options import RunOptions
+from mbla.solution import further_results as beside
+from mbla.sweeps.file.content import SweepContent
+from mbla.sweeps.plan import Plan, Task
+from mbla.sweeps.settings import override_texts
+from mbla.sweeps.worker.asked import WITHOUT_THEM, with_what_is_asked
+from mbla.sweeps.worker.runner import PointRunner
+from tests.sweeps.worker.sharing_decks import ARCH, DECKS, SMALL_ARCH, VARIED, Settings
+
+PLANK = "benchmarks/plank_in_clamp.yaml"
+"""carries more on the way than at rest"""
+
+
+def plan_of(deck: str, *results: str, keep: str = "none", cases: tuple[str, ...] = ()) -> Plan:
+    return Plan(str(DECKS / deck), "", (), cases, results, keep, "", None, None, "")
+
+
+def record_of(deck: str, settings: Settings, plan: Plan | None) -> dict[str, Any]:
+    read = read_deck(DECKS / deck, override_texts(settings))
+    asked = read if plan is None else with_what_is_asked(read, plan)
+    results = solve_deck(asked, RunOptions(), StatusFile(io.StringIO(), ""), None, 0.0)
+    return results_json(results)
+
+
+def shown(record: dict[str, Any]) -> list[str]:
+    """Every value that does not ask for range and peak, number by number."""
+    cases = [{key: value for key, value in case.items() if key in WITHOUT_THEM} for case in record["cases"]]
+    return [json.dumps(part) for part in (record["model"], record["exit_code"], *cases)]
+
+
+@pytest.mark.parametrize(("deck", "settings"), [(ARCH, SMALL_ARCH), (PLANK, {})])
+def test_nothing_else_changes_without_them(deck: str, settings: Settings) -> None:
+    full, lean = record_of(deck, settings, None), record_of(deck, settings, plan_of(deck, "load_factor"))
+    assert shown(full) == shown(lean)
+    assert any(case["range"] for case in full["cases"])
+    assert not any(case["range"] or case["peak"] for case in lean["cases"])
+    if deck == PLANK:
+        assert any(case["peak"] for case in full["cases"])
+
+
+@pytest.mark.long
+def test_nothing_else_changes_in_any_deck() -> None:
+    different = []
+    for deck, variants in VARIED.items():
+        for settings in variants:
+            try:
+                full = record_of(deck, settings, None)
+            except Exception:  # refused decks are so before anything is asked
+                continue
+            if shown(full) != shown(record_of(deck, settings, plan_of(deck, "load_factor"))):
+                different.append(f"{deck} {settings}")
+    assert not different
+
+
+@pytest.mark.parametrize(
+    ("results", "keep"),
+    [(("load_factor", "range.0"), "none"), (("peak",), "none"), (("factor_unique",), "none"), (("status",), "failed")],
+)
+def test_they_are_worked_out_where_they_are_shown_or_kept(results: tuple[str, ...], keep: str) -> None:
+    deck = read_deck(DECKS / ARCH)
+    assert with_what_is_asked(deck, plan_of(ARCH, *results, keep=keep)) is deck
+
+
+def test_the_default_columns_need_neither() -> None:
+    default = SweepContent.model_fields["results"].get_default(call_default_factory=True)
+    assert with_what_is_asked(read_deck(DECKS / ARCH), plan_of(ARCH, *default)).analysis.range is False
+
+
+def test_every_key_that_needs_neither_is_one_of_the_record() -> None:
+    known = {key.path.removeprefix("cases[].").partition(".")[0] for key in RUN_RECORD}
+    assert known >= WITHOUT_THEM
+    assert not {"range", "peak", "factor_unique", "programs", "iterations", "remarks", "settings"} & WITHOUT_THEM
+
+
+def test_a_column_of_the_range_shows_it() -> None:
+    outcome = PointRunner(plan_of(ARCH, "load_factor", "range.0", "range.1", cases=("push_x",))).run(
+        Task("1", 1, SMALL_ARCH)
+    )
+    low, factor, high = (outcome.results[name] for name in ("range.0", "load_factor", "range.1"))
+    assert isinstance(low, float)
+    assert isinstance(factor, float)
+    assert isinstance(high, float)
+    assert low <= factor * (1 + 1e-7)
+    assert factor <= high * (1 + 1e-7)
+
+
+def test_a_load_factor_survives_a_range_whose_equations_break_down(monkeypatch: pytest.MonkeyPatch) -> None:
+    expected = record_of(ARCH, SMALL_ARCH, None)["cases"][0]
+
+    def singular(*args: object) -> None:
+        raise np.linalg.LinAlgError("Singular matrix")
+
+    monkeypatch.setattr(beside, "factor_range", singular)
+    case = record_of(ARCH, SMALL_ARCH, None)["cases"][0]
+    assert (case["status"], case["load_factor"]) == ("solved", expected["load_factor"])
+    assert case["range"] is None
+    assert any("broke down (singular matrix)" in remark for remark in case["remarks"])

@@ -1,0 +1,152 @@
+"""A batch of points in a worker, and the processes that it keeps for the next, with processes that only say so."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from mbla.errors import UsageError
+from mbla.sweeps.outcome import DONE, Outcome
+from mbla.sweeps.plan import Plan, Task
+from mbla.sweeps.program import library_versions
+from mbla.sweeps.worker import batch
+from mbla.sweeps.worker.batch import Processes, end_processes, expect_processes, run_batch
+from mbla.sweeps.worker.messages import record_of
+from mbla.sweeps.worker.supervised import StoppedError
+from tests.sweeps.small_plan import frictions, plan_over
+
+
+class Runner:
+    """Stands in for a supervised process."""
+
+    error: Exception | None = None
+    """what the second point comes to"""
+
+    def __init__(self, plan: Plan) -> None:
+        self.plan, self.stopped, self.ended, self.points = plan, False, False, 0
+
+    def expect(self) -> None:
+        """Nothing to begin."""
+
+    def kill(self) -> None:
+        """As from another thread."""
+        self.stopped = True
+
+    def run(self, task: Task) -> Outcome:
+        """Solved at once."""
+        self.points += 1
+        if self.points == 2 and self.error is not None:
+            raise self.error
+        return Outcome(task.key, DONE, 0, "", {}, 1, 0.0)
+
+    def __exit__(self, *_: object) -> None:
+        self.ended = True
+
+
+@pytest.fixture
+def processes(monkeypatch: pytest.MonkeyPatch) -> Processes:
+    """Those of a worker, none yet."""
+    monkeypatch.setattr(batch, "SupervisedRunner", Runner)
+    monkeypatch.setattr(batch, "PROCESSES", found := Processes())
+    monkeypatch.setattr(Runner, "error", None)
+    return found
+
+
+def answer(folder: Path, **libraries: str) -> dict[str, Any]:
+    """Of three points."""
+    records = [record_of(task) for task in frictions(3)]
+    return run_batch(record_of(plan_over(folder)), records, library_versions() | libraries)
+
+
+def lent(processes: Processes, plan: Plan) -> Any:
+    """A process that stands in for one, with what became of it."""
+    return processes.lend(plan)
+
+
+def keys(answer: dict[str, Any]) -> list[str]:
+    return [outcome["key"] for outcome in answer["outcomes"]]
+
+
+def test_all_points_of_a_batch(processes: Processes, tmp_path: Path) -> None:
+    found = answer(tmp_path)
+    assert keys(found) == ["key1", "key2", "key3"]
+    assert "refused" not in found
+    end_processes()
+
+
+def test_a_batch_is_handed_back_when_enough_time_is_over(
+    processes: Processes, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(batch, "ENOUGH", -1.0)
+    assert keys(answer(tmp_path)) == ["key1"]
+    processes.end()
+
+
+def test_other_libraries_than_those_of_the_client_are_refused(processes: Processes, tmp_path: Path) -> None:
+    words = f"its numpy is {library_versions()['numpy']}, here it is 0.1"
+    assert answer(tmp_path, numpy="0.1") == {"outcomes": [], "refused": words}
+
+
+def test_a_process_that_refuses_the_plan_leaves_what_was_solved(
+    processes: Processes, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(Runner, "error", UsageError("deck-changed", "another deck"))
+    found = answer(tmp_path)
+    assert (keys(found), found["refused"]) == (["key1"], "another deck")
+    processes.end()
+
+
+def test_what_was_stopped_is_nobodys_fault(
+    processes: Processes, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(Runner, "error", StoppedError())
+    found = answer(tmp_path)
+    assert keys(found) == ["key1"]
+    assert "refused" not in found
+    processes.end()
+
+
+def test_a_process_is_kept_for_the_next_batch_of_the_same_plan_only(processes: Processes, tmp_path: Path) -> None:
+    plan, other = plan_over(tmp_path), plan_over(tmp_path, keep="all")
+    first = lent(processes, plan)
+    processes.give_back(first)
+    assert lent(processes, plan) is first
+    processes.give_back(first)
+    second = lent(processes, other)
+    assert second is not first
+    assert first.ended
+    late = lent(processes, plan)
+    processes.give_back(second)
+    assert second.ended  # its plan is over
+    processes.give_back(late)
+    processes.give_back(late)
+    processes.end()
+    assert late.ended
+
+
+def test_the_end_stops_what_is_under_way_and_keeps_nothing(processes: Processes, tmp_path: Path) -> None:
+    runner = lent(processes, plan_over(tmp_path))
+    processes.end()
+    assert runner.stopped
+    assert not runner.ended  # by the thread that has it
+    processes.give_back(runner)
+    assert runner.ended
+    processes.end()
+
+
+def test_processes_that_nobody_asks_for_are_ended(
+    processes: Processes, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(batch, "IDLE", 0.01)
+    plan = plan_over(tmp_path)
+    expect_processes(plan, 2)
+    assert processes._timer is not None
+    processes._timer.join()
+    assert processes._free == []
+    busy = lent(processes, plan)
+    processes._end_idle()
+    assert not busy.ended
+    processes.give_back(busy)
+    processes.end()

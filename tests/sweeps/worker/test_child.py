@@ -1,0 +1,63 @@
+"""The process that solves points, alone: it ends with its parent, whatever it is doing."""
+
+from __future__ import annotations
+
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from mbla.errors import UsageError
+from mbla.sweeps.engine.line_process import PACKAGES
+from mbla.sweeps.worker import child
+from mbla.sweeps.worker.child import prepared
+from tests.sweeps.measure.test_measuring import runs
+from tests.sweeps.small_plan import plan_over
+from tests.sweeps.worker.test_supervised import wait_for
+
+PARENT = """
+import sys
+from pathlib import Path
+from mbla.sweeps.plan import Task
+from mbla.sweeps.worker.supervised import SupervisedRunner
+from tests.sweeps.small_plan import ROW, plan_over
+runner = SupervisedRunner(plan_over(Path(sys.argv[1]), ROW))
+runner.run(Task("small", 1, {}))
+print(runner._process._process.pid, flush=True)
+runner.run(Task("large", 2, {"parameters.n": 40}))
+print("solved")
+"""
+
+
+def test_it_ends_in_the_middle_of_a_point_when_its_parent_is_killed(tmp_path: Path) -> None:
+    command = (sys.executable, "-c", PARENT, str(tmp_path))
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True, cwd=PACKAGES) as parent:
+        assert parent.stdout is not None
+        number = int(parent.stdout.readline())
+        assert runs(number)
+        parent.send_signal(signal.SIGKILL)
+        assert parent.stdout.read() == ""  # the large point was not solved yet
+    wait_for(lambda: not runs(number))
+
+
+def test_another_program_refuses(tmp_path: Path) -> None:
+    expected = r"^its mbla is .*\+.*, the sweep was planned by 0\.0\.9\+abc$"
+    with pytest.raises(UsageError, match=expected):
+        prepared(plan_over(tmp_path, program="0.0.9+abc"))
+
+
+def test_a_base_deck_that_was_changed_is_refused(tmp_path: Path) -> None:
+    plan = plan_over(tmp_path)
+    deck = Path(plan.deck)
+    deck.write_text(deck.read_text(encoding="utf-8").replace("2000", "2001"), encoding="utf-8")
+    with pytest.raises(UsageError, match=r"base\.yaml on .* is not the deck that was planned: it, or a file that it"):
+        prepared(plan)
+
+
+def test_a_memory_limit_where_the_system_has_none_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(child, "can_limit", lambda: False)
+    prepared(plan_over(tmp_path))
+    with pytest.raises(UsageError, match=r"^limits\.memory: .* has no limit on the memory of a process; leave it out$"):
+        prepared(plan_over(tmp_path, memory_limit=1e9))
