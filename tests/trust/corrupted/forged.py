@@ -132,9 +132,19 @@ def claims_changed(one: Content, other: Content) -> list[str]:
     )
 
 
-def is_proof(claim: str) -> bool:
-    """Whether what was changed is another proof of a claim that stayed."""
-    return claim.startswith("cases/") and claim.split("/", 2)[2] in PROOFS
+def is_proof(claim: str, forged: Content) -> bool:
+    """Whether what was changed is another proof of a claim that stayed.
+
+    So it is where the associative answer of a case by associative flow was left out: by the layout the case's own
+    forces and mechanism are that answer then, and the bounds of the file must follow from them.
+    """
+    if not claim.startswith("cases/"):
+        return False
+    _, case, name = claim.split("/", 2)
+    group = f"cases/{case}/associative/"
+    own = forged.get((f"cases/{case}/flow_rule", "")) == b"associative"
+    left_out = own and not any(path.startswith(group) for path, _ in forged)
+    return name in PROOFS or (left_out and claim.startswith(group))
 
 
 def _is_told(path: str, attribute: str, one: Content, other: Content) -> bool:

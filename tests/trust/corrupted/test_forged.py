@@ -27,8 +27,9 @@ def judged(path: Path, original: Path) -> tuple[str, list[str]]:
         return "refused", []
     if disagreements:
         return "disagreed", []
-    changed = claims_changed(content_of(original), content_of(path))
-    return ("proved" if changed else "told"), [claim for claim in changed if not is_proof(claim)]
+    forged = content_of(path)
+    changed = claims_changed(content_of(original), forged)
+    return ("proved" if changed else "told"), [claim for claim in changed if not is_proof(claim, forged)]
 
 
 def counted(folder: Path, originals: Mapping[str, Path], number: int, seed: int) -> tuple[Counter[str], list[str]]:
@@ -75,6 +76,16 @@ def test_what_is_a_changed_claim(key: tuple[str, str], value: Any, claim: str | 
     content = {**of_case, ("model/title", ""): b"x", ("", "created"): b"2026", ("", "deck_sha256"): b"ab"}
     assert claims_changed(content, content) == []
     assert claims_changed(content, content | {key: value}) == ([] if claim is None else [claim])
+
+
+@pytest.mark.parametrize("rule", [b"associative", b"non_associative"])
+@pytest.mark.parametrize("left", [(), ("modes",)])
+def test_an_associative_answer_is_left_out_whole_where_the_case_is_its_own(rule: bytes, left: tuple[str, ...]) -> None:
+    forged = {("cases/a@1/flow_rule", ""): rule, **{(f"cases/a@1/associative/{name}", ""): 0 for name in left}}
+    assert is_proof("cases/a@1/associative/load_factor", forged) == (rule == b"associative" and not left)
+    assert is_proof("cases/a@1/lock", forged)
+    assert not is_proof("cases/a@1/load_factor", forged)
+    assert not is_proof("model/title", forged)
 
 
 @pytest.mark.trust
