@@ -116,12 +116,17 @@ def diff(options: argparse.Namespace) -> int:
 def explain(options: argparse.Namespace) -> int:
     """Print what identifiers mean."""
     with loading():
-        from mbla.results.explanations.explanations import EXPLANATIONS, find_explanations
-        from mbla.results.explanations.words import all_text, explanation_json, explanation_text
+        from mbla.results.explanations import (
+            all_text,
+            explanation_json,
+            explanation_text,
+            explanations,
+            find_explanations,
+        )
         from mbla.results.records.json_record import json_line
 
     asked = " ".join(options.identifier)
-    found = find_explanations(asked) if asked.strip() else tuple(EXPLANATIONS.values())
+    found = find_explanations(asked) if asked.strip() else tuple(explanations().values())
     if options.json:
         print(json_line({"explanations": [explanation_json(entry) for entry in found]}))
     else:

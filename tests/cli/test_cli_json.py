@@ -15,7 +15,7 @@ from mbla import cli
 from mbla.cli.arguments import build_parser, wants_json
 from mbla.errors import LimitError
 from mbla.process.signals import Terminated
-from mbla.results.explanations.explanations import EXPLANATIONS
+from mbla.results.explanations import explanations
 from mbla.results.hdf5.result_file import write_results_hdf5
 from tests.cli.test_sweep_commands import SWEEP
 from tests.line import BLOCK
@@ -78,7 +78,7 @@ def failure(capsys: pytest.CaptureFixture[str], *arguments: str) -> dict[str, An
     record: dict[str, Any] = json.loads(line)
     assert record["exit_code"] == code > 0
     assert len(record["errors"]) == len(record["identifiers"]) > 0
-    assert set(record["identifiers"]) <= EXPLANATIONS.keys()
+    assert set(record["identifiers"]) <= explanations().keys()
     assert all(text.splitlines()[0] in err and text.endswith("]") for text in record["errors"])
     assert "Traceback" not in err
     return record

@@ -6,8 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from mbla.errors import Notice
-from mbla.results.explanations.explanation import Explanation
-from mbla.results.explanations.explanations import EXPLANATIONS
+from mbla.results.explanations import Explanation, explanations
 
 
 @dataclass(frozen=True)
@@ -26,6 +25,6 @@ def notice_kinds(notices: Sequence[Notice]) -> list[NoticeKind]:
     for notice in sorted(notices, key=lambda each: each.severity != "warning"):
         messages.setdefault((notice.severity, notice.identifier), []).append(notice.message)
     return [
-        NoticeKind(severity, identifier, tuple(texts), EXPLANATIONS.get(identifier))
+        NoticeKind(severity, identifier, tuple(texts), explanations().get(identifier))
         for (severity, identifier), texts in messages.items()
     ]

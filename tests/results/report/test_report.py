@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from mbla.errors import FileError, Notice, UsageError
-from mbla.results.explanations.explanations import EXPLANATIONS
+from mbla.results.explanations import explanations
 from mbla.results.listing.case_words import case_sections
 from mbla.results.listing.contact_words import contact_lines
 from mbla.results.listing.elements import Entry, Heading, Table, elements_of
@@ -229,7 +229,7 @@ def test_a_warning_is_explained_once() -> None:
     twice = tuple(Notice("warning", "near-misses", f"pair {i}") for i in range(2))
     text = page_of(replace(results, notices=twice)).one("section", id="warnings").text
     assert text.count("warning [near-misses]: pair") == 2
-    for part in (EXPLANATIONS["near-misses"].meaning, EXPLANATIONS["near-misses"].remedy):
+    for part in (explanations()["near-misses"].meaning, explanations()["near-misses"].remedy):
         assert text.count(" ".join(part.split())) == 1
 
 

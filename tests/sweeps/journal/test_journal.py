@@ -11,7 +11,7 @@ import pandas as pd
 import pytest
 
 from mbla.errors import FileError, UsageError
-from mbla.results.explanations.explanations import EXPLANATIONS
+from mbla.results.explanations import explanations
 from mbla.sweeps.journal import Journal, JournalHeader
 from mbla.sweeps.journal.header import header_text
 from mbla.sweeps.journal.reading import read_journal
@@ -278,7 +278,7 @@ def test_what_is_cut_off_is_told(path: Path) -> None:
         assert f"({len(torn)} bytes)" in journal.notices[0].message
         journal.add(*point(99))
     assert read_journal(path, HEADER).finished.keys() == {*EXPECTED, point(99)[0].key}
-    assert "journal-repaired" in EXPLANATIONS
+    assert "journal-repaired" in explanations()
 
 
 def test_an_outcome_without_results_is_read_with_every_column(tmp_path: Path) -> None:

@@ -17,7 +17,7 @@ import pytest
 from mbla.arrays import FloatArray
 from mbla.cli import main
 from mbla.errors import UsageError
-from mbla.results.explanations.explanations import find_explanations
+from mbla.results.explanations import find_explanations
 from mbla.results.hdf5.result_file import read_results_hdf5
 
 DECK = """\

@@ -16,7 +16,7 @@ import mbla
 from mbla.deck import read_deck
 from mbla.errors import DeckError
 from mbla.model import build_model
-from mbla.results.explanations.explanations import EXPLANATIONS, find_explanations
+from mbla.results.explanations import explanations, find_explanations
 from mbla.results.failures import lines_of
 from mbla.run import contacts_of
 from mbla.sweeps.base import read_base
@@ -116,11 +116,11 @@ def test_no_error_is_made_without_an_identifier() -> None:
 
 
 def test_every_identifier_is_explained() -> None:
-    assert {name for name in identifiers() if name not in EXPLANATIONS} == set()
+    assert {name for name in identifiers() if name not in explanations()} == set()
 
 
 def test_no_error_is_explained_that_cannot_occur() -> None:
-    errors = {name for name, entry in EXPLANATIONS.items() if entry.kind in ("error", "error in a deck")}
+    errors = {name for name, entry in explanations().items() if entry.kind in ("error", "error in a deck")}
     told_in_rows = {"point-beyond-limit", "point-given-up"}  # reasons of points of a sweep
     assert errors - told_in_rows <= identifiers()
 
@@ -165,7 +165,7 @@ def test_every_error_as_it_is_printed(
         {
             "places in the program that make a message or an error": len(sites()),
             "identifiers": len(kinds),
-            "identifiers with an entry": len(kinds & EXPLANATIONS.keys()),
+            "identifiers with an entry": len(kinds & explanations().keys()),
             "printed errors compared with their exact text": len(lines),
         },
     )
