@@ -17,9 +17,8 @@ from mbla.process.collector import loading
 
 if TYPE_CHECKING:
     from mbla.sweeps.command import SweepOptions
-    from mbla.sweeps.outcome import Outcome
-    from mbla.sweeps.plan import Task
-    from mbla.sweeps.progress import Progress
+    from mbla.sweeps.plan import Outcome, Task
+    from mbla.sweeps.words import Progress
 
 NAMED_FAILURES = 20
 """failed points that have a line of their own while the sweep goes on"""
@@ -38,7 +37,7 @@ def sweep(options: argparse.Namespace) -> int:
         from mbla.results.records.json_record import json_line
         from mbla.sweeps.command import dry_run_json, prepare, run_sweep
         from mbla.sweeps.design.words import design_lines
-        from mbla.sweeps.fragility_words import fragility_lines
+        from mbla.sweeps.fragility import fragility_lines
         from mbla.sweeps.words import sweep_lines
 
     chosen = _sweep_options(options)

@@ -13,7 +13,7 @@ import numpy as np
 from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.results.tables.column import Values
 from mbla.solution.solution import Status
-from mbla.sweeps.outcome import DONE
+from mbla.sweeps.plan import DONE
 from mbla.sweeps.results import FACTORS, OF_RUN, STATUS
 from mbla.sweeps.tables.sweep_table import SweepColumn, SweepTable
 

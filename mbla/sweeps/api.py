@@ -11,11 +11,10 @@ from mbla.errors import LimitError
 from mbla.sweeps.command import SweepOptions, prepare, run_sweep
 from mbla.sweeps.engine.options import EngineOptions
 from mbla.sweeps.file.read import read_sweep as read_file
-from mbla.sweeps.outcome import Outcome
-from mbla.sweeps.plan import Task
-from mbla.sweeps.progress import Progress
+from mbla.sweeps.plan import Outcome, Task
 from mbla.sweeps.tables.read_table import read_sweep_table
 from mbla.sweeps.tables.sweep_table import SweepTable
+from mbla.sweeps.words import Progress
 
 
 def sweep(

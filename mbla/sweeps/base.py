@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
@@ -17,13 +17,12 @@ from mbla.deck.tree import KeyPath, Tree, key_text
 from mbla.errors import DeckError, Fault, FileError, Message, Place
 from mbla.sweeps.base_keys import path_of_key, unit_at, vector_at
 from mbla.sweeps.base_rules import base_faults
+from mbla.sweeps.design.design import Point
 from mbla.sweeps.file.design_rules import key_places
-from mbla.sweeps.file.keys import key_paths
-from mbla.sweeps.file.sweep import Sweep
-from mbla.sweeps.file.ways import DIRECTIONS, way_of
-from mbla.sweeps.fingerprint import deck_fingerprint, effective_tree, file_hashes, key_hash
-from mbla.sweeps.plan import Plain
-from mbla.sweeps.settings import override_texts
+from mbla.sweeps.file.parts import DIRECTIONS, key_paths, way_of
+from mbla.sweeps.file.read import Sweep
+from mbla.sweeps.identity import deck_fingerprint, effective_tree, file_hashes, key_hash
+from mbla.sweeps.plan import Plain, override_texts
 
 
 @dataclass(frozen=True)
@@ -213,3 +212,34 @@ def _paths(sweep: Sweep, tree: Tree, faults: list[Fault]) -> dict[str, tuple[Key
 
 def _remedy(name: str) -> str:
     return "" if "." in name else "; or give the key path in the deck with key"
+
+
+def check_points(base: Base, points: Sequence[Point]) -> None:
+    """Refuse a sweep whose first, middle and last points are all refused as decks.
+
+    One that is readable is enough: corners of a design may be no structure, and their rows then say so.
+
+    Raises
+    ------
+    DeckError
+        with what is wrong with the first point
+    """
+    tried = list({point.number: point for point in (points[0], points[len(points) // 2], points[-1])}.values())
+    refused: list[DeckError] = []
+    for point in tried:
+        try:
+            read_deck(base.path, (*base.fixed, *override_texts(point.settings)), expected=False)
+        except DeckError as error:
+            refused.append(error)
+        else:
+            return
+    where = "first, middle and last point" if len(tried) > 1 else "only point"
+    said = f"the deck is refused at the {where}: "
+    raise DeckError(
+        [
+            base.sweep.fault_at(
+                ("parameters",), fault.message.around(before=f"{said}{fault.key}: " if fault.key else said)
+            )
+            for fault in refused[0].faults
+        ]
+    )

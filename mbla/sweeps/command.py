@@ -13,30 +13,25 @@ from typing import Any
 from mbla import __version__
 from mbla.errors import Notice, UsageError
 from mbla.results.listing.text import counted
-from mbla.sweeps.base import Base, read_base
-from mbla.sweeps.base_points import check_points
+from mbla.sweeps.base import Base, check_points, read_base
 from mbla.sweeps.design.build import design_of
-from mbla.sweeps.design.design import Design
-from mbla.sweeps.design.record import design_json
+from mbla.sweeps.design.design import Design, design_json
 from mbla.sweeps.engine.choice import engine_for
 from mbla.sweeps.engine.options import EngineOptions
-from mbla.sweeps.file.sweep import Sweep
-from mbla.sweeps.fragility import Fragility, fragility_of
-from mbla.sweeps.fragility_words import fragility_json
+from mbla.sweeps.file.read import Sweep
+from mbla.sweeps.fragility import Fragility, fragility_json, fragility_of
+from mbla.sweeps.identity import library_versions, program_identity
 from mbla.sweeps.journal.header import JournalHeader
 from mbla.sweeps.journal.journal import Journal
 from mbla.sweeps.journal.reading import merged
 from mbla.sweeps.journal.shards import WHOLE, journal_name, journals_in, shard_of
-from mbla.sweeps.outcome import FAILED, Outcome
-from mbla.sweeps.plan import Plan, Task
-from mbla.sweeps.program import library_versions, program_identity
-from mbla.sweeps.progress import Progress
+from mbla.sweeps.plan import FAILED, Outcome, Plan, Task
 from mbla.sweeps.reasons import shown_folders
-from mbla.sweeps.result_columns import result_columns
-from mbla.sweeps.tables.from_outcomes import sweep_table
+from mbla.sweeps.results import result_columns
 from mbla.sweeps.tables.sweep_json import SweepRun, counts, sweep_json
-from mbla.sweeps.tables.sweep_table import SweepColumn, SweepTable
+from mbla.sweeps.tables.sweep_table import SweepColumn, SweepTable, sweep_table
 from mbla.sweeps.tables.write_tables import TableFiles, refuse_tables, write_tables
+from mbla.sweeps.words import Progress
 
 FAILED_POINTS = 8
 """exit status of a sweep some of whose points failed"""

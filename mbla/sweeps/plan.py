@@ -1,10 +1,11 @@
-"""What workers are asked for, as plain data: JSON in, JSON out, whatever process or machine they are in."""
+"""What workers are asked for and what they answer, as plain data: JSON in, JSON out, whatever process or machine."""
 
 from __future__ import annotations
 
+import json
 from collections.abc import Mapping
-from dataclasses import dataclass
-from typing import TypeAlias
+from dataclasses import asdict, dataclass
+from typing import Any, TypeAlias
 
 Plain: TypeAlias = "bool | int | float | str | list[Plain] | dict[str, Plain] | None"
 """what JSON holds, numbers finite"""
@@ -51,3 +52,64 @@ class Task:
     key: str
     number: int
     settings: Mapping[str, Plain]
+
+
+DONE, FAILED = "done", "failed"
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """One finished point.
+
+    key       : of its task
+    state     : ``done`` where every load case has a verified answer, which may be that there is no load factor;
+                ``failed`` otherwise
+    exit_code : that ``mbla run`` of the same deck would end with; 7 beyond a limit of time or memory, 1 where the
+                process of the point died twice
+    reason    : in one line; empty where there is nothing to say
+    results   : value of each result column by its name; None where there is none
+    tries     : how often it was begun
+    seconds   : by the clock, of the last try
+    """
+
+    key: str
+    state: str
+    exit_code: int
+    reason: str
+    results: Mapping[str, Plain]
+    tries: int
+    seconds: float
+
+
+def override_texts(settings: Mapping[str, Plain]) -> tuple[str, ...]:
+    """One text for each key path; JSON is YAML, and writes floats so that they are read back to the same bits."""
+    return tuple(f"{key}={_written(value)}" for key, value in settings.items())
+
+
+def _written(value: Plain) -> str:
+    """JSON that YAML reads alike: it knows no pairs of surrogates, and takes U+0085 for the end of a line."""
+    return json.dumps(value, allow_nan=False, ensure_ascii=False).replace("\x85", "\\u0085")
+
+
+LISTS = ("fixed", "cases", "results")
+"""fields of a plan that are tuples, which JSON has not"""
+
+
+def record_of(item: Plan | Task | Outcome) -> dict[str, Any]:
+    """Fields by name."""
+    return asdict(item)
+
+
+def plan_of(record: Mapping[str, Any]) -> Plan:
+    """The plan that ``record_of`` wrote."""
+    return Plan(**{**record, **{name: tuple(record[name]) for name in LISTS}})
+
+
+def task_of(record: Mapping[str, Any]) -> Task:
+    """The task that ``record_of`` wrote."""
+    return Task(**record)
+
+
+def outcome_of(record: Mapping[str, Any]) -> Outcome:
+    """The outcome that ``record_of`` wrote."""
+    return Outcome(**record)

@@ -7,8 +7,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from mbla.deck.overrides import LABEL
-from mbla.sweeps.outcome import Outcome
-from mbla.sweeps.plan import Plan
+from mbla.sweeps.plan import Outcome, Plan
 
 BEGINS = r"""(?<![^\s'"(=:,;])"""
 """where a path may begin in a text"""

@@ -12,9 +12,8 @@ import pytest
 
 from mbla.cli import main, sweep_commands
 from mbla.cli.sweep_commands import NAMED_FAILURES, _Reporter
-from mbla.sweeps.outcome import Outcome
-from mbla.sweeps.plan import Task
-from mbla.sweeps.progress import Progress
+from mbla.sweeps.plan import Outcome, Task
+from mbla.sweeps.words import Progress
 from tests.line import BLOCK
 
 SWEEP = "mbla_sweep: 1\ndeck: block.yaml\nparameters: {mu: {values: [0.4, 0.5]}}\n"

@@ -13,7 +13,7 @@ from mbla.results.records.description import record_page
 from mbla.results.tables.tables import tables_page
 from mbla.results.vtu.layout import arrays_table
 from mbla.sweeps.interaction.description import interact_record_page
-from mbla.sweeps.tables.description import sweep_columns_page, sweep_record_page
+from mbla.sweeps.tables.sweep_json import sweep_columns_page, sweep_record_page
 
 PAGE = Path(__file__).parents[2] / "schemas" / "results.md"
 

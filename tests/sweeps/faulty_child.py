@@ -18,8 +18,7 @@ LOG = "MBLA_TEST_LOG"
 
 def main() -> None:
     """As the real process."""
-    from mbla.sweeps.outcome import Outcome
-    from mbla.sweeps.plan import Plain, Task
+    from mbla.sweeps.plan import Outcome, Plain, Task
     from mbla.sweeps.worker import child
     from mbla.sweeps.worker.runner import PointRunner
 

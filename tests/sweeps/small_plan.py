@@ -6,9 +6,8 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from mbla.sweeps.fingerprint import fingerprint_of
+from mbla.sweeps.identity import fingerprint_of, program_identity
 from mbla.sweeps.plan import Plan, Task
-from mbla.sweeps.program import program_identity
 from tests.line import BLOCK
 
 ROW = (

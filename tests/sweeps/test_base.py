@@ -10,14 +10,13 @@ import pytest
 from mbla.deck import read_deck
 from mbla.deck.overrides import RefusedError
 from mbla.errors import DeckError
-from mbla.sweeps.base import Base, read_base
+from mbla.sweeps.base import Base, check_points, read_base
 from mbla.sweeps.base_keys import path_of_key, unit_at
-from mbla.sweeps.base_points import check_points
 from mbla.sweeps.design.build import design_of
 from mbla.sweeps.design.design import Point
 from mbla.sweeps.file.read import read_sweep
-from mbla.sweeps.fingerprint import fingerprint_of, key_hash
-from mbla.sweeps.settings import override_texts
+from mbla.sweeps.identity import fingerprint_of, key_hash
+from mbla.sweeps.plan import override_texts
 from tests.deck.decks import BLOCK, write
 from tests.sweeps.file.sweeps import ALL_WAYS, ARCH, GOOD, base_of
 

@@ -16,12 +16,10 @@ from mbla.errors import UsageError
 from mbla.results.records.json_record import json_line
 from mbla.sweeps.design.design import Design, DesignColumn, Dimension, Point
 from mbla.sweeps.design.sampling import quantiles
-from mbla.sweeps.fragility import fragility_of, interval
-from mbla.sweeps.fragility_words import fragility_csv, fragility_json, fragility_lines
-from mbla.sweeps.outcome import DONE, FAILED, Outcome
-from mbla.sweeps.result_columns import result_columns
-from mbla.sweeps.tables.from_outcomes import sweep_table
-from mbla.sweeps.tables.sweep_table import SweepTable
+from mbla.sweeps.fragility import fragility_csv, fragility_json, fragility_lines, fragility_of, interval
+from mbla.sweeps.plan import DONE, FAILED, Outcome
+from mbla.sweeps.results import result_columns
+from mbla.sweeps.tables.sweep_table import SweepTable, sweep_table
 
 RESULTS = ("status", "load_factor", "mechanism.class", "mechanism.moving_weight_share")
 Found = tuple[str, str, float | None]

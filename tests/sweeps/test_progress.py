@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from mbla.sweeps.progress import WINDOW, Progress, duration_words, rate_words
+from mbla.sweeps.words import WINDOW, Progress, duration_words, rate_words
 
 
 def test_a_line_has_counts_rate_and_time_left() -> None:

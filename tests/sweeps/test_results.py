@@ -12,8 +12,7 @@ import mbla
 from mbla.deck.units import Units
 from mbla.results.records.json_record import results_json
 from mbla.sweeps.file.content import SweepContent
-from mbla.sweeps.result_columns import result_columns, result_faults
-from mbla.sweeps.results import reason_of, result_places, values_of
+from mbla.sweeps.results import reason_of, result_columns, result_faults, result_places, values_of
 from tests.results.synthetic import tower_results
 
 DECKS = Path(__file__).parents[2] / "decks" / "benchmarks"

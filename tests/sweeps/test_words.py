@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from mbla.results.listing.text import WIDTH
-from mbla.sweeps.tables.from_outcomes import sweep_table
+from mbla.sweeps.tables.sweep_table import sweep_table
 from mbla.sweeps.words import NAMED, failure_lines, result_lines, sweep_lines
 from tests.sweeps.pictures.hand_made import FALLEN, Row, grid
 from tests.sweeps.tables import synthetic

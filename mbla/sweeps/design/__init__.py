@@ -2,10 +2,10 @@
 
     content ──> axes ──────────> constraints ──> points
                 axis.py          constraints.py  build.py
-                ways/ (values of a parameter)
+                ways.py (values of a parameter)
                 sampling.py (quantiles)
 
-``build.py`` puts the parts together; ``words.py`` and ``record.py`` show a design. Nothing in a design depends on the
+``build.py`` puts the parts together; ``words.py`` shows a design. Nothing in a design depends on the
 machine: drawn quantiles come from a seed and from names alone, and values are rounded to 12 significant digits, which
 hides the last digits of mathematical libraries.
 """

@@ -11,12 +11,10 @@ from mbla.deck.tree import KeyPath
 from mbla.errors import DeckError, Fault, Message
 from mbla.sweeps.design.design import DesignColumn, Dimension, Part
 from mbla.sweeps.design.sampling import quantiles
-from mbla.sweeps.design.ways import WAYS
-from mbla.sweeps.design.ways.way import Filled, Form, Vector, Way, WayError
+from mbla.sweeps.design.ways import WAYS, Filled, Form, Vector, Way, WayError
 from mbla.sweeps.file import parts
 from mbla.sweeps.file.content import SweepContent
-from mbla.sweeps.file.keys import key_paths
-from mbla.sweeps.file.ways import way_of
+from mbla.sweeps.file.parts import key_paths, way_of
 from mbla.sweeps.plan import Plain
 
 FaultAt: TypeAlias = Callable[[KeyPath, Message], Fault]

@@ -11,7 +11,7 @@ from mbla.results.listing.text import counted
 from mbla.sweeps.design.axis import Axis, FaultAt, Sources, axes_of
 from mbla.sweeps.design.constraints import BoolArray, Constrained, constrained, read_constraints
 from mbla.sweeps.design.design import Design, Part, Point
-from mbla.sweeps.design.ways.way import Vector
+from mbla.sweeps.design.ways import Vector
 from mbla.sweeps.file.content import SweepContent
 from mbla.sweeps.plan import Plain
 

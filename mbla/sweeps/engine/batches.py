@@ -10,8 +10,7 @@ import math
 from collections import deque
 from collections.abc import Sequence
 
-from mbla.sweeps.outcome import Outcome
-from mbla.sweeps.plan import Task
+from mbla.sweeps.plan import Outcome, Task
 
 SECONDS = 1.0
 """that a batch should take: hundreds of times what handing it out costs"""

@@ -17,10 +17,8 @@ from mbla.errors import UsageError
 from mbla.sweeps.engine.batches import STRIKES, Batches
 from mbla.sweeps.engine.connection import LOOK, REPLY, Connection
 from mbla.sweeps.engine.options import EngineOptions
-from mbla.sweeps.outcome import FAILED, Outcome
-from mbla.sweeps.plan import Plan, Task
+from mbla.sweeps.plan import FAILED, Outcome, Plan, Task, outcome_of, record_of
 from mbla.sweeps.worker.batch import end_processes, expect_processes, run_batch
-from mbla.sweeps.worker.messages import outcome_of, record_of
 
 WINDOW = 2
 """batches under way for each thread of the workers: one is solved, the next waits beside it"""

@@ -18,7 +18,7 @@ from typing import Any, TypeVar
 
 from mbla.errors import FileError, UsageError
 from mbla.sweeps.engine.options import EngineOptions
-from mbla.sweeps.program import difference, library_versions, program_identity
+from mbla.sweeps.identity import difference, library_versions, program_identity
 from mbla.sweeps.worker.batch import describe, end_processes
 
 LOOK = 1.0

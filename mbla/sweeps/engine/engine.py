@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Generator, Sequence
 from typing import Protocol
 
-from mbla.sweeps.outcome import Outcome
-from mbla.sweeps.plan import Plan, Task
+from mbla.sweeps.plan import Outcome, Plan, Task
 
 
 class Engine(Protocol):

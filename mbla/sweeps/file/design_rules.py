@@ -11,9 +11,19 @@ from mbla.deck.suggestions import did_you_mean, listed
 from mbla.deck.tree import shorten
 from mbla.errors import Message
 from mbla.sweeps.file.content import MAX_POINTS, Parameter, SweepContent
-from mbla.sweeps.file.keys import key_paths, spelt
-from mbla.sweeps.file.parts import SAMPLED, Part, design_parts, is_random
-from mbla.sweeps.file.ways import DISTRIBUTIONS, RANDOM, WITH_POINTS, level_count, way_of
+from mbla.sweeps.file.parts import (
+    DISTRIBUTIONS,
+    RANDOM,
+    SAMPLED,
+    WITH_POINTS,
+    Part,
+    design_parts,
+    is_random,
+    key_paths,
+    level_count,
+    spelt,
+    way_of,
+)
 from mbla.sweeps.results import FACTORS, OWN_COLUMNS, STATUS
 
 # --- parameters ---------------------------------------------------------------------------------------------------

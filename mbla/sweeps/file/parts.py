@@ -1,12 +1,49 @@
-"""Parts of the design with the parameters that each of them changes."""
+"""Parameters and parts of a checked sweep file: keys that they set, how they say values, what changes together."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
 from mbla.deck.tree import KeyPath
-from mbla.sweeps.file.content import DesignPart, Sampled, SweepContent
-from mbla.sweeps.file.ways import RANDOM, way_of
+from mbla.sweeps.file.content import DesignPart, Parameter, Sampled, SweepContent
+
+DISTRIBUTIONS = ("normal", "lognormal", "uniform", "triangular")
+"""they have no levels: a grid cannot take them"""
+WITH_POINTS = ("linear", "log", "horizon", "sphere")
+"""they need a number of points where they are levels, and have none where they are sampled"""
+WAYS = ("values", "linear", "log", "whole", *DISTRIBUTIONS, "horizon", "sphere")
+RANDOM = (*DISTRIBUTIONS, "whole", "horizon", "sphere")
+"""drawn values of these have a probability; those of plain ranges and lists only fill the space"""
+DIRECTIONS = ("horizon", "sphere")
+"""they turn a vector of the deck"""
+
+
+def way_of(parameter: Parameter) -> str:
+    """The one way that a checked parameter uses."""
+    return next(way for way in WAYS if getattr(parameter, way) is not None)
+
+
+def level_count(parameter: Parameter) -> int | None:
+    """How many values a parameter has in a grid; None where it does not say, or has no levels."""
+    if parameter.values is not None:
+        return len(parameter.values)
+    if parameter.whole is not None:
+        return parameter.whole.end - parameter.whole.start + 1
+    points: int | None = getattr(getattr(parameter, way_of(parameter)), "points", None)
+    return points
+
+
+def key_paths(name: str, parameter: Parameter) -> tuple[str, ...]:
+    """Key paths of a parameter: those that it gives, or what its name stands for."""
+    if parameter.key is None:
+        return (name if "." in name else f"parameters.{name}",)
+    return (parameter.key,) if isinstance(parameter.key, str) else tuple(parameter.key)
+
+
+def spelt(key: str) -> tuple[str, ...]:
+    """Parts of a key path, numbers of items in one spelling: ``blocks.00.box`` is ``blocks.0.box``."""
+    return tuple(str(int(part)) if part.isascii() and part.isdecimal() else part for part in key.strip().split("."))
+
 
 KINDS = tuple(DesignPart.model_fields)
 SAMPLED = ("random", "latin_hypercube", "sobol")

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 
 from mbla.deck.expressions import is_expression
@@ -11,7 +12,7 @@ from mbla.deck.file_kind import FileKind
 from mbla.deck.include import read_files
 from mbla.deck.references import find
 from mbla.deck.suggestions import unknown
-from mbla.deck.tree import Tree
+from mbla.deck.tree import KeyPath, Tree
 from mbla.deck.units import Units
 from mbla.deck.validation import validate
 from mbla.errors import DeckError, Fault, Message, ValueRefused, first_faults
@@ -20,7 +21,27 @@ from mbla.sweeps.file import design_rules as design_rules
 from mbla.sweeps.file import rules as rules
 from mbla.sweeps.file.content import SweepContent
 from mbla.sweeps.file.parts import KINDS
-from mbla.sweeps.file.sweep import Sweep
+
+
+@dataclass(frozen=True)
+class Sweep:
+    """A checked sweep file; its base deck is not read yet.
+
+    path      : the file
+    content   : what it says
+    text      : as read
+    sha256    : of the text, 64 hex digits
+    overrides : ``--set`` texts for the deck, for every point, after those of `set`
+    """
+
+    path: Path
+    content: SweepContent
+    text: str
+    sha256: str
+    overrides: tuple[str, ...]
+    fault_at: Callable[[KeyPath, Message], Fault]
+    """Fault for a key path such as ("parameters", "mu", "linear") with a message; finds place and value itself."""
+
 
 SWEEP_FILE = FileKind(
     name="sweep file",

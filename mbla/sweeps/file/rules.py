@@ -9,15 +9,13 @@ from typing import Any
 from mbla.deck.rules.common import exactly_one
 from mbla.deck.section import Finding, Section, rule
 from mbla.errors import Message
+from mbla.sweeps.design.directions import FULL_CIRCLE
 from mbla.sweeps.file import content as types
-from mbla.sweeps.file.parts import KINDS
-from mbla.sweeps.file.ways import WAYS
+from mbla.sweeps.file.parts import KINDS, WAYS
 
 EXACTLY_ONE: dict[type[Section], tuple[str, ...]] = {types.Parameter: WAYS, types.DesignPart: KINDS}
 """Keys of which a section has exactly one; the schema says so too."""
 
-FULL_CIRCLE = 360.0
-"""degrees"""
 FARTHEST = 40
 """deviations: no sample lies so far from the mean in double precision"""
 

@@ -9,7 +9,7 @@ from typing import Any
 
 from mbla.solution.solution import Status
 from mbla.sweeps.interaction.angles import unit_vector
-from mbla.sweeps.outcome import DONE, Outcome
+from mbla.sweeps.plan import DONE, Outcome
 
 RESULTS = (
     "status",

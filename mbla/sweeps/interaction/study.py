@@ -15,12 +15,11 @@ from mbla.results.provenance import collect_provenance
 from mbla.results.results import now
 from mbla.run import title_of
 from mbla.sweeps.engine.engine import Engine
-from mbla.sweeps.fingerprint import fingerprint_of, key_hash
+from mbla.sweeps.identity import fingerprint_of, key_hash, program_identity
 from mbla.sweeps.interaction.domain import Domain, domain_of
 from mbla.sweeps.interaction.point import NAN, POWER, RESULTS, Point, point_of
 from mbla.sweeps.interaction.question import Question
 from mbla.sweeps.plan import Plan, Task
-from mbla.sweeps.program import program_identity
 from mbla.sweeps.reasons import shown_folders
 
 STOPPED = tuple(status for status, _ in SIGNALS.values())

@@ -7,8 +7,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, field
 from typing import Any
 
+from mbla.sweeps.identity import difference as other_versions
 from mbla.sweeps.journal.cells import quoted
-from mbla.sweeps.program import difference as other_versions
 
 FORMAT = 1
 """of journals; a program with another one does not go on with them"""

@@ -23,8 +23,7 @@ from mbla.sweeps.journal.header import BEGIN_ANEW, JournalHeader, header_text
 from mbla.sweeps.journal.reading import keep, merged, read_journal
 from mbla.sweeps.journal.rows import read_row, row_of
 from mbla.sweeps.journal.shards import is_of_shard, journal_name, journals_in
-from mbla.sweeps.outcome import FAILED, Outcome
-from mbla.sweeps.plan import Task
+from mbla.sweeps.plan import FAILED, Outcome, Task
 
 _SWEEP = "sweep"
 """what is locked in the folder: alone by a whole run, together by shards"""

@@ -16,7 +16,7 @@ from mbla.errors import FileError
 from mbla.results.disk import file_errors
 from mbla.sweeps.journal.header import BEGIN_ANEW, JournalHeader, difference, header_text, read_header
 from mbla.sweeps.journal.rows import read_row
-from mbla.sweeps.outcome import FAILED, Outcome
+from mbla.sweeps.plan import FAILED, Outcome
 
 FAULTS_TOLD = 10
 """of broken rows; where there are more, the rest is counted"""

@@ -11,8 +11,7 @@ from zlib import crc32
 
 from mbla.sweeps.journal.cells import cell_of, quoted, split_cells, values_of_cells
 from mbla.sweeps.journal.header import FIRST, LAST, JournalHeader
-from mbla.sweeps.outcome import DONE, FAILED, Outcome
-from mbla.sweeps.plan import Plain, Task
+from mbla.sweeps.plan import DONE, FAILED, Outcome, Plain, Task
 
 _CHECK = 8
 """digits of the check sum"""

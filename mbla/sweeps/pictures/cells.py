@@ -9,7 +9,7 @@ import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
 from mbla.sweeps.answers import Answer, Answers
-from mbla.sweeps.pictures.axes import Axis
+from mbla.sweeps.pictures.view import Axis
 
 
 @dataclass(frozen=True)

@@ -11,11 +11,19 @@ from mbla.arrays import FloatArray
 from mbla.results.listing.text import counted
 from mbla.results.pictures.options import PictureOptions
 from mbla.sweeps.answers import Answer, answers_of
-from mbla.sweeps.pictures.axes import Axis
 from mbla.sweeps.pictures.cells import NO_POINT, Cells, pooled
-from mbla.sweeps.pictures.panels import MOST_PANELS, panel_places, panel_title
-from mbla.sweeps.pictures.sheet import Sheet, dress, mark_handles, open_sheet, place_marks, scale_axis
-from mbla.sweeps.pictures.view import View
+from mbla.sweeps.pictures.sheet import (
+    MOST_PANELS,
+    Sheet,
+    dress,
+    mark_handles,
+    open_sheet,
+    panel_places,
+    panel_title,
+    place_marks,
+    scale_axis,
+)
+from mbla.sweeps.pictures.view import Axis, View
 
 MOST_NAMED = 10
 """lines that a legend names; more have a scale of colours beside them"""

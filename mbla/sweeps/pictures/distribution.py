@@ -19,9 +19,8 @@ from mbla.arrays import BoolArray, FloatArray
 from mbla.results.pictures.options import PictureOptions
 from mbla.results.pictures.palette import VERMILION
 from mbla.sweeps.answers import Answers
-from mbla.sweeps.pictures.axes import axis_of, grid_axes, is_sampled
 from mbla.sweeps.pictures.sheet import Sheet, dress, open_sheet
-from mbla.sweeps.pictures.view import View, column_by_name
+from mbla.sweeps.pictures.view import View, axis_of, column_by_name, grid_axes, is_sampled
 
 CONFIDENCE = 0.95
 MOST_CURVES = 12

@@ -11,12 +11,19 @@ from mbla.arrays import FloatArray, IntArray
 from mbla.results.pictures.options import DOTS_PER_INCH, PictureOptions
 from mbla.results.pictures.palette import GROUPS, INK
 from mbla.sweeps.answers import Answer
-from mbla.sweeps.pictures.axes import Axis, value_words
 from mbla.sweeps.pictures.cells import NO_POINT, Cells, pooled
-from mbla.sweeps.pictures.marks import MARKS
-from mbla.sweeps.pictures.panels import MOST_PANELS, panel_places, panel_title
-from mbla.sweeps.pictures.sheet import SCALE, Sheet, dress, open_sheet, scale_axis
-from mbla.sweeps.pictures.view import View
+from mbla.sweeps.pictures.sheet import (
+    MARKS,
+    MOST_PANELS,
+    SCALE,
+    Sheet,
+    dress,
+    open_sheet,
+    panel_places,
+    panel_title,
+    scale_axis,
+)
+from mbla.sweeps.pictures.view import Axis, View, value_words
 
 LEAST_CONTOURED = 5
 """values along each side from which contours tell more than the cells"""

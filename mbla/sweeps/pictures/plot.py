@@ -2,20 +2,64 @@
 
 from __future__ import annotations
 
+import json
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
-from mbla.errors import UsageError
+from mbla.errors import FileError, UsageError
+from mbla.results.disk import file_errors
 from mbla.results.pictures.options import LEAST_DPI, MOST_DPI, PictureOptions, format_of, parse_size
 from mbla.results.whole_file import writing_whole
-from mbla.sweeps.pictures.demands import demands_of
-from mbla.sweeps.pictures.kinds import KINDS
+from mbla.sweeps.pictures import curve, distribution, map, polar, scatter, tornado
 from mbla.sweeps.pictures.view import View, chosen_results, view_of
-from mbla.sweeps.tables.read_table import read_sweep_table
+from mbla.sweeps.tables.read_table import JSON, read_sweep_table
 from mbla.sweeps.tables.sweep_table import SweepTable
+
+
+@dataclass(frozen=True)
+class Kind:
+    """A kind of picture.
+
+    refusal : why a table does not fit it, in words; empty where it does
+    usual   : whether it is drawn of a table without being asked for
+    draw    : writes it; raises as ``mbla.results.pictures.page.open_page`` does
+    """
+
+    refusal: Callable[[View], str]
+    usual: Callable[[View], bool]
+    draw: Callable[[Path, View, PictureOptions], None]
+
+
+KINDS = {
+    "curve": Kind(curve.refusal, curve.usual, curve.draw),
+    "map": Kind(map.refusal, map.usual, map.draw),
+    "polar": Kind(polar.refusal, polar.usual, polar.draw),
+    "scatter": Kind(scatter.refusal, scatter.usual, scatter.draw),
+    "distribution": Kind(distribution.refusal, distribution.usual, distribution.draw),
+    "tornado": Kind(tornado.refusal, tornado.usual, tornado.draw),
+}
+"""by name, in the order in which they are made"""
+
+
+def demands_of(folder: Path) -> dict[str, tuple[float, ...]]:
+    """Demands on each result column by its name, ascending; none where the sweep asks for no fragility.
+
+    Raises FileError where the record cannot be read or is none.
+    """
+    path = folder / JSON
+    with file_errors(path):
+        text = path.read_bytes()
+    found: dict[str, set[float]] = {}
+    try:
+        for one in json.loads(text)["fragility"]:
+            found.setdefault(str(one["result"]), set()).update(float(each["demand"]) for each in one["demands"])
+    except (KeyError, TypeError, ValueError, RecursionError) as error:
+        raise FileError("sweep-table-damaged", f"{path}: its fragility cannot be read") from error
+    return {name: tuple(sorted(demands)) for name, demands in found.items()}
+
 
 CLASS = "mechanism.class"
 """text result of which a map is made beside that of the load factor"""

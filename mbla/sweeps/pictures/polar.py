@@ -12,13 +12,10 @@ from mbla.results.pictures.options import PictureOptions
 from mbla.results.pictures.palette import INK
 from mbla.sweeps.answers import Answer
 from mbla.sweeps.pictures import sphere
-from mbla.sweeps.pictures.axes import Axis, axis_of, is_sampled, over_sphere
 from mbla.sweeps.pictures.cells import Cells, pooled
 from mbla.sweeps.pictures.curve import MOST_NAMED, add_scale, line_style
-from mbla.sweeps.pictures.marks import MARKS
-from mbla.sweeps.pictures.panels import MOST_PANELS, panel_places, panel_title
-from mbla.sweeps.pictures.sheet import Sheet, mark_handles, open_sheet
-from mbla.sweeps.pictures.view import View
+from mbla.sweeps.pictures.sheet import MARKS, MOST_PANELS, Sheet, mark_handles, open_sheet, panel_places, panel_title
+from mbla.sweeps.pictures.view import Axis, View, axis_of, is_sampled, over_sphere
 from mbla.sweeps.tables.sweep_table import SweepColumn
 
 WIDEST_STEP = 1.5

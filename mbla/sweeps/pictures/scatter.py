@@ -11,11 +11,19 @@ from mbla.arrays import FloatArray
 from mbla.results.pictures.options import PictureOptions
 from mbla.results.pictures.palette import BLUE, CASES
 from mbla.sweeps.answers import Answer, Answers, answers_of, numbers_of
-from mbla.sweeps.pictures.axes import Axis, axis_of, design_columns, label_of
-from mbla.sweeps.pictures.panels import MOST_PANELS, panel_places
-from mbla.sweeps.pictures.sensitivities import LEAST_POINTS, correlation
-from mbla.sweeps.pictures.sheet import MANY, Sheet, dress, mark_handles, open_sheet, place_marks, scale_axis
-from mbla.sweeps.pictures.view import View
+from mbla.sweeps.pictures.sheet import (
+    MANY,
+    MOST_PANELS,
+    Sheet,
+    dress,
+    mark_handles,
+    open_sheet,
+    panel_places,
+    place_marks,
+    scale_axis,
+)
+from mbla.sweeps.pictures.tornado import LEAST_POINTS, correlation
+from mbla.sweeps.pictures.view import Axis, View, axis_of, design_columns, label_of
 from mbla.sweeps.tables.sweep_table import SweepColumn
 
 CLASS = "mechanism.class"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import warnings
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
@@ -15,11 +16,62 @@ from mbla.arrays import IntArray
 from mbla.errors import UsageError
 from mbla.results.pictures.options import DOTS_PER_INCH, PictureOptions
 from mbla.results.pictures.page import LETTER, Page, add_legend, add_words, open_page
-from mbla.results.pictures.palette import INK
+from mbla.results.pictures.palette import GHOST, INK, PURPLE, WARNING
 from mbla.sweeps.answers import Answer, Answers
-from mbla.sweeps.pictures.axes import Axis
-from mbla.sweeps.pictures.marks import MARKS, count_words
-from mbla.sweeps.pictures.view import View
+from mbla.sweeps.pictures.view import Axis, View
+from mbla.sweeps.results import STATUS
+
+
+@dataclass(frozen=True)
+class Mark:
+    """How an answer that is no value is shown: words of legends and notes, marker, colour, hatch of cells."""
+
+    words: str
+    marker: str
+    colour: str
+    hatch: str
+
+
+MARKS = {
+    Answer.UNVERIFIED: Mark("not verified", "o", WARNING, "xx"),
+    Answer.NO_EQUILIBRIUM: Mark("no equilibrium (does not stand)", "v", INK, "///"),
+    Answer.UNBOUNDED: Mark("unbounded (no collapse)", "^", PURPLE, 3 * "\\"),
+    Answer.NONE: Mark("has no such value", "|", GHOST, "--"),
+    Answer.FAILED: Mark("failed", "x", WARNING, "xx"),
+    Answer.NOT_RUN: Mark("not solved yet", ".", GHOST, "oo"),
+    Answer.MIXED: Mark("different from point to point", "d", GHOST, "++"),
+    Answer.PARTLY: Mark("some points without a verified value", "o", WARNING, "//"),
+}
+
+
+def count_words(answers: Answers) -> str:
+    """``48 points: 40 with a verified value, 5 no equilibrium (does not stand), 3 failed``."""
+    total = len(answers.answer)
+    counts = [(answers.of(answer).sum(), mark.words) for answer, mark in MARKS.items()]
+    known = "with a value" if answers.column.path == STATUS else "with a verified value"
+    parts = [f"{answers.good.sum()} {known}", *(f"{count} {words}" for count, words in counts if count)]
+    return f"{total} point{'s' * (total != 1)}: {', '.join(parts)}"
+
+
+MOST_PANELS = 16
+"""diagrams on a page in which anything can be read"""
+
+
+def panel_places(count: int, sheet: Any) -> tuple[int, int]:
+    """Rows and columns of diagrams that are about half as wide again as high, no row empty."""
+    width, height = sheet.page.options.size
+    columns = min(count, max(1, round(math.sqrt(count * width / (1.5 * height * max(sheet.top - sheet.bottom, 0.2))))))
+    rows = -(-count // columns)
+    return rows, -(-count // rows)
+
+
+def panel_title(axis: Axis | None, number: int) -> str:
+    """``thickness 0.3 m``."""
+    if axis is None:
+        return ""
+    unit = f" {axis.column.unit}" if axis.column.unit else ""
+    return f"{axis.column.name} {axis.names[number]}{unit}"
+
 
 LEAST_LETTER = 8.0
 """points of the smallest letters"""

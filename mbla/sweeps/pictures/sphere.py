@@ -11,11 +11,9 @@ from scipy.spatial import cKDTree
 from mbla.arrays import FloatArray, IntArray
 from mbla.results.pictures.options import PictureOptions
 from mbla.sweeps.answers import Answer, numbers_of
-from mbla.sweeps.pictures.axes import is_sampled
 from mbla.sweeps.pictures.map import hatch_handles
-from mbla.sweeps.pictures.marks import MARKS
-from mbla.sweeps.pictures.sheet import SCALE, Sheet, dress, open_sheet
-from mbla.sweeps.pictures.view import View
+from mbla.sweeps.pictures.sheet import MARKS, SCALE, Sheet, dress, open_sheet
+from mbla.sweeps.pictures.view import View, is_sampled
 
 STEP = 1.0
 """degrees of azimuth and elevation between the places of the image"""

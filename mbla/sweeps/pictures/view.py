@@ -1,15 +1,141 @@
-"""What a picture of a sweep is made from: the table, one result of it, and what the user chose."""
+"""What a picture of a sweep is made from: one result of its table, and the axes of its parameters."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
+import numpy as np
+
+from mbla.arrays import FloatArray, IntArray
 from mbla.deck.suggestions import unknown
 from mbla.errors import UsageError
-from mbla.sweeps.answers import Answers, answers_of
-from mbla.sweeps.pictures.axes import Axis, axis_of, design_columns, grid_axes, is_sampled
+from mbla.sweeps.answers import Answers, answers_of, numbers_of
 from mbla.sweeps.tables.sweep_table import SweepColumn, SweepTable
+
+SAME_RATIO = 1e-6
+"""relative: how equal the ratios of neighbouring values are in a range of equal ratios; tables hold full precision"""
+WIDE = 30.0
+"""greatest by least value from which three values of equal ratios, which a list may have too, are a log range"""
+ROUNDING = 1e-12
+"""relative: of values that a range makes, as 0.30000000000000004"""
+DIRECTIONS = ("azimuth", "elevation")
+
+
+@dataclass(frozen=True)
+class Axis:
+    """A parameter with its values.
+
+    levels  : numbers ascending; texts in the order of the design
+    place   : (n_points,) which of them each point has
+    log     : the values are a logarithmic range
+    partners: parameters that change together with it
+    """
+
+    column: SweepColumn
+    levels: tuple[Any, ...]
+    place: IntArray
+    log: bool = False
+    partners: tuple[str, ...] = ()
+
+    @property
+    def categorical(self) -> bool:
+        """Whether the values have names rather than places on a scale."""
+        return self.column.kind in ("text", "bool")
+
+    @property
+    def coordinates(self) -> FloatArray:
+        """(n_levels,) values, or the numbers of categories from 0."""
+        return np.arange(len(self.levels), dtype=float) if self.categorical else np.array(self.levels, dtype=float)
+
+    @property
+    def label(self) -> str:
+        """``thickness [m]``, with what changes together with it."""
+        return label_of(self.column) + (f", with {', '.join(self.partners)}" if self.partners else "")
+
+    @property
+    def names(self) -> list[str]:
+        """Each value in few letters."""
+        return [value_words(level) for level in self.levels]
+
+    @property
+    def names_exact(self) -> bool:
+        """Whether the names of numbers are the numbers, not roundings of them."""
+        return self.categorical or all(
+            abs(float(name) - level) <= ROUNDING * abs(level)
+            for name, level in zip(self.names, self.levels, strict=True)
+        )
+
+
+def label_of(column: SweepColumn) -> str:
+    """Name and unit of a parameter."""
+    return f"{column.name} [{column.unit}]" if column.unit else column.name
+
+
+def value_words(value: Any) -> str:
+    """A value of a parameter in few letters."""
+    if isinstance(value, bool | np.bool_):
+        return "yes" if value else "no"
+    return f"{value:.4g}" if isinstance(value, int | float) else str(value)
+
+
+def design_columns(table: SweepTable) -> tuple[SweepColumn, ...]:
+    """Columns that the design fills."""
+    return table.of_role("parameter", *DIRECTIONS)
+
+
+def is_sampled(table: SweepTable, dimension: str) -> bool:
+    """Whether the points along a dimension are a sample: nearly every one has values of its own."""
+    if dimension == table.samples:
+        return True
+    own = [column for column in design_columns(table) if column.dimension == dimension]
+    return bool(own) and dimension.startswith(("random", "latin_hypercube", "sobol")) and own[0].name != dimension
+
+
+def over_sphere(table: SweepTable, dimension: str) -> bool:
+    """Whether a dimension is that of directions over a sphere."""
+    return any(column.dimension == dimension for column in table.of_role("elevation"))
+
+
+def axis_of(table: SweepTable, column: SweepColumn) -> Axis:
+    """The axis of a column of the design."""
+    partners = tuple(
+        other.name
+        for other in design_columns(table)
+        if other.dimension == column.dimension and other.name != column.name and not is_sampled(table, other.dimension)
+    )
+    if column.kind in ("text", "bool"):
+        found: dict[Any, int] = {}
+        numbers = [found.setdefault(value, len(found)) for value in table[column.name].tolist()]
+        return Axis(column, tuple(found), np.array(numbers, dtype=np.int64), partners=partners)
+    levels, place = np.unique(numbers_of(column, table[column.name]), return_inverse=True)
+    return Axis(column, tuple(levels.tolist()), place.reshape(-1).astype(np.int64), _is_log(levels), partners)
+
+
+def grid_axes(table: SweepTable) -> tuple[Axis, ...]:
+    """One axis for each dimension of two values and more that is no sample and no sphere; most values first.
+
+    Of parameters that change together the first number is taken.
+    """
+    axes = []
+    for dimension in table.dimensions:
+        columns = [column for column in design_columns(table) if column.dimension == dimension.name]
+        if not columns or is_sampled(table, dimension.name) or over_sphere(table, dimension.name):
+            continue
+        numeric = [column for column in columns if column.kind in ("float", "int")]
+        axis = axis_of(table, (numeric or columns)[0])
+        if len(axis.levels) > 1:
+            axes.append(axis)
+    return tuple(sorted(axes, key=lambda axis: (axis.categorical, -len(axis.levels))))
+
+
+def _is_log(levels: FloatArray) -> bool:
+    if len(levels) < 3 or levels[0] <= 0:
+        return False
+    ratios = levels[1:] / levels[:-1]
+    equal = np.ptp(ratios) <= SAME_RATIO * ratios[0]
+    return bool(equal and (len(levels) > 3 or levels[-1] >= WIDE * levels[0]))
 
 
 @dataclass(frozen=True)

@@ -16,9 +16,8 @@ from mbla.results.tables.column import Values
 from mbla.sweeps.design.design import Dimension
 from mbla.sweeps.plan import Plain
 from mbla.sweeps.results import OWN_COLUMNS
-from mbla.sweeps.tables.from_outcomes import column_values
 from mbla.sweeps.tables.sweep_json import VERSION, positions_at
-from mbla.sweeps.tables.sweep_table import SweepColumn, SweepTable
+from mbla.sweeps.tables.sweep_table import SweepColumn, SweepTable, column_values
 
 CSV, JSON = "sweep.csv", "sweep.json"
 TRUTH = {"True": True, "False": False}

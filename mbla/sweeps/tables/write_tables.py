@@ -7,17 +7,32 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from mbla import __version__
 from mbla.results.files import OutputFolder
-from mbla.results.tables.parquet_file import require_parquet
-from mbla.sweeps.fragility import Fragility
-from mbla.sweeps.fragility_words import fragility_csv, fragility_json
+from mbla.results.tables.csv_file import csv_text
+from mbla.results.tables.parquet_file import ParquetColumn, parquet_bytes, require_parquet
+from mbla.sweeps.fragility import Fragility, fragility_csv, fragility_json
 from mbla.sweeps.measure.study_files import record_text
 from mbla.sweeps.tables.read_table import CSV, JSON
 from mbla.sweeps.tables.sweep_json import SweepRun, sweep_json
 from mbla.sweeps.tables.sweep_table import SweepTable
-from mbla.sweeps.tables.table_csv import sweep_csv
 from mbla.sweeps.tables.table_hdf5 import sweep_hdf5
-from mbla.sweeps.tables.table_parquet import sweep_parquet
+
+
+def sweep_parquet(run: SweepRun, table: SweepTable) -> bytes:
+    """The bytes of sweep.parquet, units as metadata; UsageError where pyarrow is not installed."""
+    columns = [
+        ParquetColumn(column.name, column.kind, column.unit, column.words, values)
+        for column, values in zip(table.columns, table.values, strict=True)
+    ]
+    about = {"table": "sweep", "sweep": run.sweep, "deck": run.deck, "mbla": __version__, "created": run.created}
+    return parquet_bytes(columns, about)
+
+
+def sweep_csv(table: SweepTable) -> str:
+    """The text of sweep.csv: units in the header, a row for each point; see ``csv_text`` for the cells."""
+    return csv_text([column.header for column in table.columns], table.values)
+
 
 PARQUET, HDF5, FRAGILITY = "sweep.parquet", "sweep.h5", "sweep_fragility.csv"
 

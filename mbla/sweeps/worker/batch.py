@@ -14,9 +14,8 @@ from contextlib import suppress
 from typing import Any
 
 from mbla.errors import UsageError
-from mbla.sweeps.plan import Plan
-from mbla.sweeps.program import difference, library_versions, program_identity
-from mbla.sweeps.worker.messages import plan_of, record_of, task_of
+from mbla.sweeps.identity import difference, library_versions, program_identity
+from mbla.sweeps.plan import Plan, plan_of, record_of, task_of
 from mbla.sweeps.worker.supervised import StoppedError, SupervisedRunner
 
 IDLE = 60.0

@@ -23,12 +23,10 @@ from typing import IO, Any
 from mbla.errors import UsageError
 from mbla.process.memory_limit import can_limit, limited, written
 from mbla.results.failures import words_of
-from mbla.sweeps.fingerprint import fingerprint_of
+from mbla.sweeps.identity import fingerprint_of, program_identity
 from mbla.sweeps.measure.measuring_process import import_everything
 from mbla.sweeps.measure.peak_memory import resident
-from mbla.sweeps.plan import Plan
-from mbla.sweeps.program import program_identity
-from mbla.sweeps.worker.messages import plan_of, record_of, task_of
+from mbla.sweeps.plan import Plan, plan_of, record_of, task_of
 from mbla.sweeps.worker.runner import PointRunner
 
 PR_SET_PDEATHSIG = 1

@@ -8,8 +8,7 @@ from mbla.deck.types import OutputSection
 from mbla.results.files import OutputFolder
 from mbla.results.results import Results
 from mbla.results.write import write_results
-from mbla.sweeps.outcome import FAILED
-from mbla.sweeps.plan import Plan, Task
+from mbla.sweeps.plan import FAILED, Plan, Task
 
 FOLDER = "points"
 """in the folder of the sweep; one folder for each point in it, by its number"""

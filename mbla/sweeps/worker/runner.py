@@ -13,10 +13,8 @@ from mbla.results.records.json_record import results_json
 from mbla.results.sta import StatusFile
 from mbla.run import solve_deck, title_of
 from mbla.run_options import RunOptions
-from mbla.sweeps.outcome import DONE, FAILED, Outcome
-from mbla.sweeps.plan import Plain, Plan, Task
+from mbla.sweeps.plan import DONE, FAILED, Outcome, Plain, Plan, Task, override_texts
 from mbla.sweeps.results import reason_of, result_places, values_of
-from mbla.sweeps.settings import override_texts
 from mbla.sweeps.worker.asked import with_what_is_asked
 from mbla.sweeps.worker.kept import keep_files, wanted
 from mbla.sweeps.worker.memory import Memory

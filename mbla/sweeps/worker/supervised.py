@@ -10,9 +10,7 @@ from types import TracebackType
 
 from mbla.errors import LimitError, UsageError
 from mbla.sweeps.engine.line_process import LineProcess
-from mbla.sweeps.outcome import FAILED, Outcome
-from mbla.sweeps.plan import Plan, Task
-from mbla.sweeps.worker.messages import outcome_of, record_of
+from mbla.sweeps.plan import FAILED, Outcome, Plan, Task, outcome_of, record_of
 
 COMMAND = (sys.executable, "-P", "-m", "mbla.sweeps.worker.child")
 ENVIRONMENT = dict.fromkeys(("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS", "RAYON_NUM_THREADS"), "1")

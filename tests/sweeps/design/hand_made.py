@@ -9,7 +9,7 @@ from mbla.deck.tree import KeyPath, key_text
 from mbla.errors import Fault, Message, Place
 from mbla.sweeps.design.build import design_of
 from mbla.sweeps.design.design import Design
-from mbla.sweeps.design.ways.way import Vector
+from mbla.sweeps.design.ways import Vector
 from mbla.sweeps.file import design_rules, rules
 from mbla.sweeps.file.content import SweepContent
 

@@ -15,12 +15,9 @@ import pytest
 from scipy import stats
 
 from mbla.arrays import FloatArray
-from mbla.sweeps.design.ways import WAYS
-from mbla.sweeps.design.ways.cut_normal import cut_normal
-from mbla.sweeps.design.ways.rounding import rounded_within
-from mbla.sweeps.design.ways.way import WayError
+from mbla.sweeps.design.ways import WAYS, WayError, cut_normal, rounded_within
 from mbla.sweeps.file.content import Parameter
-from mbla.sweeps.file.ways import way_of
+from mbla.sweeps.file.parts import way_of
 from tests.sweeps.design.hand_made import column, drawn
 
 U = np.array([1e-12, 1e-6, 0.01, 0.2, 0.5, 0.8, 0.99, 1 - 1e-6])

@@ -10,9 +10,8 @@ from hypothesis import strategies as st
 
 from mbla.deck.section import Section
 from mbla.errors import DeckError
-from mbla.sweeps.design.ways import WAYS
-from mbla.sweeps.design.ways.way import WayError
-from mbla.sweeps.file import ways
+from mbla.sweeps.design.ways import WAYS, WayError
+from mbla.sweeps.file import parts
 from mbla.sweeps.file.content import LinearRange, LogRange, Normal, Parameter
 from tests.sweeps.design.hand_made import column, design, drawn
 
@@ -22,8 +21,8 @@ def levels(parameter: dict[str, Any]) -> list[Any]:
 
 
 def test_every_way_of_the_sweep_file_is_registered() -> None:
-    assert set(WAYS) == set(Parameter.model_fields) - {"key", "unit"} == set(ways.WAYS)
-    assert {key for key, way in WAYS.items() if way.random} == set(ways.RANDOM)
+    assert set(WAYS) == set(Parameter.model_fields) - {"key", "unit"} == set(parts.WAYS)
+    assert {key for key, way in WAYS.items() if way.random} == set(parts.RANDOM)
 
 
 def test_a_linear_range_is_as_a_person_would_write_it() -> None:

@@ -2,7 +2,7 @@ from __future__ import annotations
 
 import json
 
-from mbla.sweeps.design.record import design_json
+from mbla.sweeps.design.design import design_json
 from tests.sweeps.design.hand_made import design
 
 

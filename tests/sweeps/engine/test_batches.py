@@ -5,8 +5,7 @@ from __future__ import annotations
 import pytest
 
 from mbla.sweeps.engine.batches import MOST, Batches
-from mbla.sweeps.outcome import DONE, Outcome
-from mbla.sweeps.plan import Task
+from mbla.sweeps.plan import DONE, Outcome, Task
 from tests.sweeps.small_plan import frictions
 
 

@@ -8,8 +8,7 @@ from typing import Any
 import pytest
 
 from mbla.errors import FileError, UsageError
-from mbla.sweeps.outcome import DONE, Outcome
-from mbla.sweeps.worker.messages import record_of
+from mbla.sweeps.plan import DONE, Outcome, record_of
 from tests.sweeps.engine.scripted import Script, scripted_engine
 from tests.sweeps.engine.test_connection import GONE, NO_WORKER
 from tests.sweeps.small_plan import frictions, plan_over

@@ -15,8 +15,7 @@ from mbla.errors import FileError, UsageError
 from mbla.sweeps.engine.choice import engine_for
 from mbla.sweeps.engine.line_process import PACKAGES
 from mbla.sweeps.engine.options import EngineOptions
-from mbla.sweeps.outcome import DONE, Outcome
-from mbla.sweeps.plan import Task
+from mbla.sweeps.plan import DONE, Outcome, Task
 from tests.sweeps.engine.certificates import write_certificates
 from tests.sweeps.engine.real_cluster import kill, real_cluster
 from tests.sweeps.small_plan import ROW, frictions, plan_over

@@ -10,13 +10,10 @@ import pytest
 from mbla.deck import read_deck
 from mbla.errors import DeckError, FileError, Message
 from mbla.sweeps.file.content import MAX_POINTS
-from mbla.sweeps.file.keys import key_paths, spelt
-from mbla.sweeps.file.parts import design_parts, is_random
-from mbla.sweeps.file.read import read_sweep
-from mbla.sweeps.file.sweep import Sweep
-from mbla.sweeps.file.ways import WAYS, level_count, way_of
+from mbla.sweeps.file.parts import WAYS, design_parts, is_random, key_paths, level_count, spelt, way_of
+from mbla.sweeps.file.read import Sweep, read_sweep
 from mbla.sweeps.results import OWN_COLUMNS
-from mbla.sweeps.tables.own_columns import AFTER, POINT, STATE
+from mbla.sweeps.tables.sweep_table import AFTER, POINT, STATE
 from tests.deck.decks import BLOCK, write
 from tests.sweeps.file.sweeps import ALL_WAYS, GOOD
 

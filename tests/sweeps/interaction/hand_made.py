@@ -16,8 +16,7 @@ from mbla.sweeps.interaction.domain import domain_of
 from mbla.sweeps.interaction.point import Point
 from mbla.sweeps.interaction.question import DIRECTION, TWO_LOADS, Question
 from mbla.sweeps.interaction.study import Study, plan_of, study_points
-from mbla.sweeps.outcome import Outcome
-from mbla.sweeps.plan import Plan, Task
+from mbla.sweeps.plan import Outcome, Plan, Task
 from mbla.sweeps.worker.runner import PointRunner
 from tests.line import HEAD
 

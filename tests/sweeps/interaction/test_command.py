@@ -17,8 +17,7 @@ from mbla.process.signals import Terminated
 from mbla.sweeps.interaction.command import factor_ratio, file_name, question_of
 from mbla.sweeps.interaction.study import plan_of, study_points
 from mbla.sweeps.interaction.words import conclusions
-from mbla.sweeps.outcome import Outcome
-from mbla.sweeps.plan import Plan, Task
+from mbla.sweeps.plan import Outcome, Plan, Task
 from tests.sweeps.interaction.hand_made import Asked, ThisProcess, question, solved, written
 
 

@@ -12,7 +12,7 @@ from mbla.deck import read_deck
 from mbla.errors import UsageError
 from mbla.sweeps.interaction.angles import unit_vector
 from mbla.sweeps.interaction.direction import direction_question
-from mbla.sweeps.settings import override_texts
+from mbla.sweeps.plan import override_texts
 from tests.sweeps.interaction.hand_made import live_load, question, written
 
 WEIGHT = 2000 * 9.81 * 2

@@ -10,7 +10,7 @@ from mbla.errors import UsageError
 from mbla.model import build_model
 from mbla.sweeps.interaction.angles import unit_vector
 from mbla.sweeps.interaction.two_loads import two_loads_question
-from mbla.sweeps.settings import override_texts
+from mbla.sweeps.plan import override_texts
 from tests.sweeps.interaction.hand_made import live_load, question
 
 

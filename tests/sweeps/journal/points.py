@@ -5,8 +5,7 @@ from __future__ import annotations
 from random import Random
 
 from mbla.sweeps.journal import JournalHeader
-from mbla.sweeps.outcome import DONE, FAILED, Outcome
-from mbla.sweeps.plan import Plain, Task
+from mbla.sweeps.plan import DONE, FAILED, Outcome, Plain, Task
 
 HEADER = JournalHeader(
     "0.1.0+abc", "f00d", ("status", "load_factor", 'a,"b"#'), "Arch, #1", ("push",), {"numpy": "2.3.0"}

@@ -16,7 +16,7 @@ from mbla.sweeps.journal import Journal, JournalHeader
 from mbla.sweeps.journal.header import header_text
 from mbla.sweeps.journal.reading import read_journal
 from mbla.sweeps.journal.rows import read_row, row_of
-from mbla.sweeps.outcome import DONE, FAILED, Outcome
+from mbla.sweeps.plan import DONE, FAILED, Outcome
 from tests.sweeps.journal.points import HEADER, as_read, point
 
 POINTS = [point(number) for number in range(1, 31)]

@@ -3,7 +3,7 @@ from typing import Any
 import numpy as np
 
 from mbla.sweeps.answers import Answer, answers_of
-from mbla.sweeps.pictures.marks import count_words
+from mbla.sweeps.pictures.sheet import count_words
 from mbla.sweeps.pictures.view import chosen_results
 from tests.sweeps.pictures.hand_made import FAILED, FALLEN, UNBOUNDED, Row, grid
 from tests.sweeps.tables import synthetic

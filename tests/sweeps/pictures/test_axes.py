@@ -1,8 +1,7 @@
 import numpy as np
 import pytest
 
-from mbla.sweeps.pictures.axes import axis_of, grid_axes, is_sampled
-from mbla.sweeps.pictures.view import column_by_name
+from mbla.sweeps.pictures.view import axis_of, column_by_name, grid_axes, is_sampled
 from tests.sweeps.pictures.hand_made import grid, sample, table_of
 
 

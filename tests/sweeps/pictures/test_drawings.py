@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 from mbla.sweeps.answers import Answer
-from mbla.sweeps.pictures.marks import MARKS
 from mbla.sweeps.pictures.plot import SweepPictures, plot_sweep
 from mbla.sweeps.pictures.polar import closes
+from mbla.sweeps.pictures.sheet import MARKS
 from mbla.sweeps.pictures.sphere import nearest_direction
 from tests.sweeps.pictures.drawing import SMALL, draw, lines_with, words
 from tests.sweeps.pictures.hand_made import FAILED, FALLEN, UNBOUNDED, Row, grid, sample, table_of

@@ -9,9 +9,9 @@ import pytest
 
 from mbla.errors import UsageError
 from mbla.results.pictures.palette import GROUPS
-from mbla.sweeps.pictures.axes import value_words
 from mbla.sweeps.pictures.map import NO_POINT_COLOUR
 from mbla.sweeps.pictures.plot import SweepPictures, pictures_of
+from mbla.sweeps.pictures.view import value_words
 from tests.sweeps.drawn import names_in_legend
 from tests.sweeps.pictures.drawing import draw, names_along, words
 from tests.sweeps.pictures.hand_made import FAILED, Row, grid, table_of

@@ -11,8 +11,7 @@ from mbla.cli import main
 from mbla.errors import UsageError
 from mbla.results.pictures.options import PictureOptions
 from mbla.sweeps.fragility import Fragility
-from mbla.sweeps.pictures.kinds import KINDS
-from mbla.sweeps.pictures.plot import SweepPictures, pictures_of, plot_sweep
+from mbla.sweeps.pictures.plot import KINDS, SweepPictures, pictures_of, plot_sweep
 from mbla.sweeps.tables.sweep_table import SweepTable
 from mbla.sweeps.tables.write_tables import TableFiles, write_tables
 from tests.sweeps.pictures.hand_made import FAILED, grid, sample

@@ -4,9 +4,8 @@ import numpy as np
 import pytest
 from scipy.stats import spearmanr
 
-from mbla.sweeps.pictures.axes import axis_of
-from mbla.sweeps.pictures.sensitivities import correlation, swing
-from mbla.sweeps.pictures.view import View, chosen_results, column_by_name, view_of
+from mbla.sweeps.pictures.tornado import correlation, swing
+from mbla.sweeps.pictures.view import View, axis_of, chosen_results, column_by_name, view_of
 from tests.sweeps.pictures.hand_made import FAILED, grid, sample
 
 

@@ -2,12 +2,10 @@
 
 from mbla.deck.units import Units
 from mbla.sweeps.design.design import Design, DesignColumn, Dimension, Point
-from mbla.sweeps.outcome import DONE, FAILED, Outcome
-from mbla.sweeps.plan import Plain
-from mbla.sweeps.result_columns import result_columns
-from mbla.sweeps.tables.from_outcomes import sweep_table
+from mbla.sweeps.plan import DONE, FAILED, Outcome, Plain
+from mbla.sweeps.results import result_columns
 from mbla.sweeps.tables.sweep_json import SweepRun
-from mbla.sweeps.tables.sweep_table import SweepTable
+from mbla.sweeps.tables.sweep_table import SweepTable, sweep_table
 
 RUN = SweepRun("wall.sweep.yaml", "wall.yaml", "2026-11-21T10:00:00Z", 8, left_out=1, seconds=3.5)
 RESULTS = ("status", "load_factor", "verified", "mechanism.hinges", "model.total_weight", "time.solve/standing")

@@ -8,10 +8,8 @@ from typing import Any
 
 from mbla.errors import Notice
 from mbla.results.records.json_record import json_line
-from mbla.sweeps.fragility import fragility_of
-from mbla.sweeps.fragility_words import fragility_json
-from mbla.sweeps.tables.description import SWEEP_RECORD
-from mbla.sweeps.tables.sweep_json import SweepRun, sweep_json
+from mbla.sweeps.fragility import fragility_json, fragility_of
+from mbla.sweeps.tables.sweep_json import SWEEP_RECORD, SweepRun, sweep_json
 from tests.sweeps.tables.synthetic import RUN, table
 
 TYPES: dict[str, Any] = {

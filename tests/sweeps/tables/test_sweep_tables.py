@@ -18,14 +18,12 @@ from mbla.deck.units import Units
 from mbla.errors import FileError, UsageError
 from mbla.results.tables.column import Values
 from mbla.sweeps.fragility import fragility_of
-from mbla.sweeps.result_columns import result_columns
-from mbla.sweeps.tables.from_outcomes import as_text, column_values, sweep_table
+from mbla.sweeps.results import result_columns
 from mbla.sweeps.tables.read_table import read_sweep_table
 from mbla.sweeps.tables.sweep_json import sweep_json
-from mbla.sweeps.tables.sweep_table import SweepTable
-from mbla.sweeps.tables.table_csv import sweep_csv
+from mbla.sweeps.tables.sweep_table import SweepTable, as_text, column_values, sweep_table
 from mbla.sweeps.tables.table_hdf5 import NO_NUMBER, sweep_hdf5
-from mbla.sweeps.tables.write_tables import TableFiles, refuse_tables, table_names, write_tables
+from mbla.sweeps.tables.write_tables import TableFiles, refuse_tables, sweep_csv, table_names, write_tables
 from tests.sweeps.tables.synthetic import (
     FRICTION,
     LEFT_OUT,

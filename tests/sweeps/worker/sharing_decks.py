@@ -17,8 +17,7 @@ from mbla.results.results import Results
 from mbla.results.sta import StatusFile
 from mbla.run import solve_deck
 from mbla.run_options import RunOptions
-from mbla.sweeps.plan import Plain
-from mbla.sweeps.settings import override_texts
+from mbla.sweeps.plan import Plain, override_texts
 
 DECKS = Path(__file__).parents[3] / "decks"
 Settings = Mapping[str, Plain]

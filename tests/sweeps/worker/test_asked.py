@@ -17,8 +17,7 @@ from mbla.run import solve_deck
 from mbla.run_options import RunOptions
 from mbla.solution import further_results as beside
 from mbla.sweeps.file.content import SweepContent
-from mbla.sweeps.plan import Plan, Task
-from mbla.sweeps.settings import override_texts
+from mbla.sweeps.plan import Plan, Task, override_texts
 from mbla.sweeps.worker.asked import WITHOUT_THEM, with_what_is_asked
 from mbla.sweeps.worker.runner import PointRunner
 from tests.sweeps.worker.sharing_decks import ARCH, DECKS, SMALL_ARCH, VARIED, Settings

@@ -8,12 +8,10 @@ from typing import Any
 import pytest
 
 from mbla.errors import UsageError
-from mbla.sweeps.outcome import DONE, Outcome
-from mbla.sweeps.plan import Plan, Task
-from mbla.sweeps.program import library_versions
+from mbla.sweeps.identity import library_versions
+from mbla.sweeps.plan import DONE, Outcome, Plan, Task, record_of
 from mbla.sweeps.worker import batch
 from mbla.sweeps.worker.batch import Processes, end_processes, expect_processes, run_batch
-from mbla.sweeps.worker.messages import record_of
 from mbla.sweeps.worker.supervised import StoppedError
 from tests.sweeps.small_plan import frictions, plan_over
 

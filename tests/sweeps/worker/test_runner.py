@@ -6,8 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from mbla.sweeps.outcome import DONE
-from mbla.sweeps.plan import Task
+from mbla.sweeps.plan import DONE, Task
 from mbla.sweeps.worker.runner import PointRunner
 from tests.line import BLOCK
 from tests.sweeps.small_plan import plan_over

@@ -14,10 +14,8 @@ from pathlib import Path
 import pytest
 
 from mbla.errors import UsageError
-from mbla.sweeps.outcome import DONE, FAILED, Outcome
-from mbla.sweeps.plan import Plan, Task
+from mbla.sweeps.plan import DONE, FAILED, Outcome, Plan, Task, record_of
 from mbla.sweeps.worker.batch import Processes
-from mbla.sweeps.worker.messages import record_of
 from mbla.sweeps.worker.supervised import GROWTH, STARTS, StoppedError, SupervisedRunner
 from tests.sweeps.measure.test_measuring import runs
 from tests.sweeps.small_plan import ROW, frictions, plan_over

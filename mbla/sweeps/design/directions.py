@@ -3,18 +3,17 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
 
-from mbla.sweeps.design.ways.way import WayError
-
+FULL_CIRCLE = 360.0
+"""degrees"""
 _QUARTER = 90.0
 _HALF_ROOT = math.sqrt(0.5)
 
 
 def sine_cosine(degrees: float) -> tuple[float, float]:
     """Sine and cosine: exactly 0, 1/2 and 1 where they are, and equal to each other at 45 degrees."""
-    quarters = round(math.remainder(degrees, 360.0) / _QUARTER)
-    rest = math.remainder(degrees, 360.0) - quarters * _QUARTER
+    quarters = round(math.remainder(degrees, FULL_CIRCLE) / _QUARTER)
+    rest = math.remainder(degrees, FULL_CIRCLE) - quarters * _QUARTER
     if abs(rest) == 45.0:
         sine, cosine = math.copysign(_HALF_ROOT, rest), _HALF_ROOT
     elif abs(rest) == 30.0:
@@ -22,26 +21,7 @@ def sine_cosine(degrees: float) -> tuple[float, float]:
     else:
         sine, cosine = math.sin(math.radians(rest)), math.cos(math.radians(rest))
     turned = [(sine, cosine), (cosine, -sine), (-sine, -cosine), (-cosine, sine)][quarters % 4]
-    return turned[0] + 0.0, turned[1] + 0.0
-
-
-def length_to_turn(components: Iterable[float], given: float | None) -> float:
-    """Length of what is turned: as given, or that of a vector of the base deck.
-
-    Raises
-    ------
-    WayError
-        there is nothing to turn
-    """
-    size = math.hypot(*components) if given is None else given
-    if size == 0:
-        raise WayError(
-            "sweep-directions",
-            "turns a vector that has no length in these directions: give its size, or change it in the deck",
-        )
-    if math.isinf(size):
-        raise WayError("sweep-directions", "turns a vector that is longer than a number holds")
-    return size
+    return turned[0] + 0.0, turned[1] + 0.0  # no zero with a sign
 
 
 def horizontal(azimuth: float, size: float) -> tuple[float, float]:
