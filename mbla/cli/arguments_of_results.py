@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import argparse
 from pathlib import Path
 from typing import Any
 
@@ -84,13 +85,11 @@ def add_report(commands: Any) -> None:
 
 def add_export(commands: Any) -> None:
     """``mbla export``."""
-    command = commands.add_parser("export", help="tables of blocks, interfaces, points and load cases; VTKHDF meshes")
+    command = commands.add_parser("export", help="tables of blocks, interfaces, points and load cases")
     command.add_argument("result", type=Path, metavar="RESULT.h5")
     command.add_argument("--csv", action="store_true", help="CSV, units in the header (what is written by default)")
     command.add_argument("--parquet", action="store_true", help="Parquet (extra mbla[tables])")
-    command.add_argument(
-        "--vtkhdf", action="store_true", help="VTKHDF for ParaView with VTK 9.6 or later, one file per load case"
-    )
+    command.add_argument("--vtkhdf", action="store_true", help=argparse.SUPPRESS)
     command.add_argument(
         "-o", "--output", type=place, metavar="DIR", help="folder of the files (default: that of the result)"
     )

@@ -9,6 +9,7 @@ from __future__ import annotations
 import argparse
 import sys
 
+from mbla.errors import UsageError
 from mbla.process.collector import loading
 
 
@@ -86,7 +87,11 @@ def export(options: argparse.Namespace) -> int:
 
     results = read_results_hdf5(options.result)
     folder = options.output or options.result.parent
-    formats = Formats(options.csv, options.parquet, options.vtkhdf)
+    if options.vtkhdf:
+        raise UsageError(
+            "command-line", "export: --vtkhdf is no more: ParaView reads the VTU files that every run writes"
+        )
+    formats = Formats(options.csv, options.parquet)
     for path in export_results(
         results, folder, options.result.stem, formats, options.case, options.table, options.force
     ):

@@ -93,7 +93,6 @@ def steps(results: Results, folder: Path) -> dict[str, Callable[[], object]]:
         "one frame": lambda: write_frame_vtu(folder / "frame.vtu", scene(), 0.5),
         "csv": lambda: export_results(results, folder, "wall", Formats(csv=True), force=True),
         "parquet": lambda: export_results(results, folder, "wall", Formats(parquet=True), force=True),
-        "vtkhdf": lambda: export_results(results, folder, "wall", Formats(vtkhdf=True), force=True),
         f"all files, {FRAMES} frames": lambda: write_outputs(
             results, folder / "all", "wall", True, OutputSection(frames=FRAMES)
         ),

@@ -1,4 +1,4 @@
-"""Result files changed after they were written, and sealed anew: what is in them is judged, not their seal."""
+"""Result files changed after they were written."""
 
 from __future__ import annotations
 
@@ -11,17 +11,14 @@ from typing import Any
 import h5py
 
 from mbla.results.hdf5.result_file import write_results_hdf5
-from mbla.results.hdf5.seal import SEAL_BYTES, sealed
 from mbla.results.results import Results
 
 
 @contextlib.contextmanager
 def changing(path: Path) -> Iterator[h5py.File]:
-    """The file without its seal, open to be changed; sealed at the end."""
-    path.write_bytes(path.read_bytes()[:-SEAL_BYTES])
+    """The file, open to be changed."""
     with h5py.File(path, "r+") as file:
         yield file
-    path.write_bytes(sealed(path.read_bytes()))
 
 
 def change(path: Path, name: str, value: Any) -> None:
@@ -41,7 +38,7 @@ def replace_dataset(path: Path, name: str, array: Any) -> None:
 
 
 def written(tmp_path: Path, results: Results) -> Path:
-    """A file of changed results: whole, sealed, and consistent in all that a writer derives."""
+    """A file of changed results: whole, and consistent in all that a writer derives."""
     path = tmp_path / "forged.h5"
     path.write_bytes(write_results_hdf5(results))
     return path

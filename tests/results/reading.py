@@ -1,4 +1,4 @@
-"""VTU and VTKHDF files read back by vtk."""
+"""VTU files read back by vtk."""
 
 import warnings
 from importlib.metadata import version
@@ -58,35 +58,3 @@ def vtk_array(data: Any, name: str) -> Any:
     array = data.GetArray(name)
     values = [array.GetTuple(i) for i in range(array.GetNumberOfTuples())]
     return np.array(values)[:, 0] if array.GetNumberOfComponents() == 1 else np.array(values)
-
-
-def read_vtkhdf(path: Path, time: float = 0.0) -> dict[str, Any]:
-    """The grids of a VTKHDF file by name at a time, as vtk reads them; its reader must not complain."""
-    with warnings.catch_warnings():
-        warnings.filterwarnings("ignore", category=DeprecationWarning, module="vtk.*")
-        from vtkmodules.vtkCommonDataModel import vtkCompositeDataSet, vtkUnstructuredGrid
-        from vtkmodules.vtkIOHDF import vtkHDFReader
-
-        reader = vtkHDFReader()
-        reader.SetFileName(str(path))
-        complaints = []
-        reader.AddObserver("ErrorEvent", lambda *_: complaints.append("error"))  # type: ignore[arg-type]
-        reader.UpdateTimeStep(time)
-        assert not complaints
-        whole, grids = reader.GetOutputDataObject(0), {}
-        for row in range(whole.GetNumberOfPartitionedDataSets()):
-            grid = vtkUnstructuredGrid()
-            grid.ShallowCopy(whole.GetPartition(row, 0))
-            grids[whole.GetMetaData(row).Get(vtkCompositeDataSet.NAME())] = grid
-        return grids
-
-
-def vtkhdf_times(path: Path) -> list[float]:
-    """The steps that a VTKHDF file says it has."""
-    from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline
-    from vtkmodules.vtkIOHDF import vtkHDFReader
-
-    reader = vtkHDFReader()
-    reader.SetFileName(str(path))
-    reader.UpdateInformation()
-    return list(reader.GetOutputInformation(0).Get(vtkStreamingDemandDrivenPipeline.TIME_STEPS()) or ())

@@ -124,7 +124,7 @@ def test_files_pictures_and_report(name: str, tmp_path: Path) -> None:
         assert len(meshio.read(path).points) == pyvista.read(path).n_points
     options = PictureOptions(kinds=KINDS, size=(600, 400))
     assert all(path.stat().st_size > 0 for path in plot_results(results, tmp_path / "pictures", "odd", options))
-    assert export_results(results, tmp_path / "tables", "odd", Formats(csv=True, parquet=True, vtkhdf=True))
+    assert export_results(results, tmp_path / "tables", "odd", Formats(csv=True, parquet=True))
     page, remarks = report_html(results, view=False)
     assert not remarks
     hidden = re.compile(r'<style.*?</style>|<svg.*?</svg>|<pre.*?</pre>|"data:[^"]*"', re.DOTALL)

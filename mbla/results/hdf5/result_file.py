@@ -1,9 +1,9 @@
 """The HDF5 result file: written as one image in memory, read back in full (only importer of h5py).
 
 The file is built in memory because a process that is killed, or a disk that fills up, while HDF5 writes leaves a file
-that nothing can read. Arrays are chunked with gzip, shuffle and Fletcher-32 checksums; single values are stored inside
-object headers, which carry checksums from HDF5 1.10 on. A seal over all of it (:mod:`mbla.results.hdf5.seal`) is
-checked before HDF5 opens the file. So a file that was damaged or changed is found out instead of giving other numbers.
+that nothing can read. Arrays are chunked with gzip and shuffle; single values are stored inside
+object headers, which carry checksums from HDF5 1.10 on. So a file that was damaged is found out instead of giving other
+numbers: gzip has a checksum of its own. What was changed on purpose, ``mbla verify`` finds.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ import re
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
-from pathlib import Path, PurePosixPath
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -33,7 +33,6 @@ from mbla.results.hdf5.layout import (
 )
 from mbla.results.hdf5.reading import check_indices, read_field, strings, text_of
 from mbla.results.hdf5.restore import results_from
-from mbla.results.hdf5.seal import check_seal, sealed
 from mbla.results.results import Results
 
 if TYPE_CHECKING:
@@ -47,15 +46,6 @@ LARGEST_RATIO = 2000
 
 DAMAGE = (KeyError, RuntimeError, ValueError, TypeError, IndexError, AttributeError, OverflowError, MemoryError)
 """what reading a damaged file may end with"""
-
-
-@dataclass(frozen=True)
-class PlainFile:
-    """An HDF5 file of another layout than ours: arrays, attributes of their owners, and links by their paths."""
-
-    arrays: Mapping[str, np.typing.NDArray[Any]]
-    attributes: Mapping[str, Mapping[str, Any]]
-    links: Mapping[str, str]
 
 
 @dataclass(frozen=True)
@@ -97,7 +87,7 @@ def write_results_hdf5(results: Results) -> bytes:
                 _write_field(file, scales, path, field, content.pop(path), results.model.units)
         if content:
             raise AssertionError(f"not in the layout: {sorted(content)}")
-    return sealed(image.getvalue())
+    return image.getvalue()
 
 
 @contextmanager
@@ -126,7 +116,6 @@ def read_results_hdf5(path: Path) -> Results:
 
     _try_opening(path)
     try:
-        check_seal(path)
         with h5py.File(path, "r", locking=False) as file:
             attributes = _read_attributes(file, path)
             content = _read_content(file, path.stat().st_size)
@@ -204,26 +193,6 @@ def _create_labelled(file: h5py.File, name: str, content: Labelled) -> h5py.Data
     return dataset
 
 
-def write_hdf5(content: PlainFile) -> bytes:
-    """Any other HDF5 file as bytes, arrays compressed with checksums; the same content gives the same bytes."""
-    import h5py
-
-    with _image() as (image, file):
-        for path in content.links:  # whoever lists the groups of links finds them in this order
-            for parent in reversed(PurePosixPath(path).parents[:-1]):
-                if str(parent) not in file:
-                    file.create_group(str(parent), track_order=True)
-        for path, array in content.arrays.items():
-            _create(file, path, np.ascontiguousarray(array))
-        for path, attributes in content.attributes.items():
-            owner = file.require_group(path) if path not in file else file[path]
-            for name, value in attributes.items():
-                owner.attrs[name] = np.bytes_(value) if isinstance(value, str) else value
-        for path, target in content.links.items():
-            file[path] = h5py.SoftLink(target)
-    return image.getvalue()
-
-
 # --- writing ------------------------------------------------------------------------------------------------------
 
 
@@ -294,9 +263,7 @@ def _create(file: h5py.File, path: str, array: np.typing.NDArray[Any]) -> h5py.D
         return file.create_dataset(path, data=array)
     row_bytes = max(1, array.nbytes // len(array))
     chunk = (max(1, min(len(array), CHUNK_BYTES // row_bytes)), *array.shape[1:])
-    return file.create_dataset(
-        path, data=array, chunks=chunk, compression="gzip", compression_opts=4, shuffle=True, fletcher32=True
-    )
+    return file.create_dataset(path, data=array, chunks=chunk, compression="gzip", compression_opts=4, shuffle=True)
 
 
 def _scale(file: h5py.File, scales: dict[str, h5py.Dataset], path: str, name: str, size: int) -> h5py.Dataset:

@@ -1,1 +1,1 @@
-"""Results as tables: one description of the columns, written as CSV and Parquet; meshes as VTKHDF."""
+"""Results as tables: one description of the columns, written as CSV and Parquet."""

@@ -1,4 +1,4 @@
-"""The files of ``mbla export``: tables as CSV and Parquet, meshes as VTKHDF, all put in place together.
+"""The files of ``mbla export``: tables as CSV and Parquet, put in place together.
 
 One file holds a table for all load cases, with a column ``case``: a spreadsheet filters it, pandas groups by it, and
 nothing has to be read from names of files. Tables without rows are written too, so that no earlier file stays behind.
@@ -10,12 +10,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from mbla.errors import UsageError
-from mbla.results.chosen_cases import chosen_cases
 from mbla.results.files import OutputFolder
 from mbla.results.results import Results
 from mbla.results.tables.csv_file import table_csv
-from mbla.results.tables.meshes import case_vtkhdf
 from mbla.results.tables.parquet_file import table_parquet
 from mbla.results.tables.table import Table
 from mbla.results.tables.tables import tables_of
@@ -27,7 +24,6 @@ class Formats:
 
     csv: bool = False
     parquet: bool = False
-    vtkhdf: bool = False
 
 
 def export_results(
@@ -39,31 +35,25 @@ def export_results(
     tables: Sequence[str] = (),
     force: bool = False,
 ) -> list[Path]:
-    """Write ``STEM_TABLE.csv``, ``STEM_TABLE.parquet`` and ``STEM_CASE.vtkhdf``; the paths written.
+    """Write ``STEM_TABLE.csv`` and ``STEM_TABLE.parquet``; the paths written.
 
     cases, tables : only these; all where none is named
 
     Raises
     ------
     UsageError
-        No such load case or table, tables named where none is written, or the extra for Parquet is not installed.
+        No such load case or table, or the extra for Parquet is not installed.
     FileError
         A file is there already and ``force`` is not set, or cannot be written.
     """
-    as_tables = formats.csv or formats.parquet or not formats.vtkhdf
-    if tables and not as_tables:
-        raise UsageError("table-option", "--table chooses what --csv and --parquet write, and neither is asked for")
-    chosen = tables_of(results, tables or None, cases or None) if as_tables else {}
+    chosen = tables_of(results, tables or None, cases or None)
     with OutputFolder(folder, stem, force, beside=True) as out:
-        if formats.csv or not (formats.parquet or formats.vtkhdf):
+        if formats.csv or not formats.parquet:
             for name, table in chosen.items():
                 out.write_text(f"{stem}_{name}.csv", table_csv(table))
         if formats.parquet:
             for name, table in chosen.items():
                 out.write_bytes(f"{stem}_{name}.parquet", table_parquet(table, _about(results, table)))
-        if formats.vtkhdf:
-            for case in chosen_cases(results, cases or None):
-                out.write_bytes(f"{stem}_{case.load_case.name}.vtkhdf", case_vtkhdf(results, case))
     return [folder / name for name in out.names]
 
 

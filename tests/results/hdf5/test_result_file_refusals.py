@@ -13,12 +13,11 @@ import pytest
 
 from mbla.errors import FileError
 from mbla.results.hdf5.result_file import read_results_hdf5, write_results_hdf5
-from mbla.results.hdf5.seal import SEAL_BYTES, sealed
 from mbla.results.results import Results
 from mbla.run import RunOptions, run
 from tests.line import BLOCK
 from tests.results.changed_files import change, changing, remove, replace_dataset
-from tests.results.synthetic import full_results, tower_results
+from tests.results.synthetic import full_results, same, tower_results
 
 
 @pytest.fixture(scope="module")
@@ -70,8 +69,6 @@ def test_other_hdf5_file(tmp_path: Path) -> None:
     with h5py.File(path, "w") as file:
         file["x"] = 1
     assert "not an mbla result file" in refused(path)
-    path.write_bytes(sealed(path.read_bytes()))
-    assert refused(path) == f"{path}: not an mbla result file"
 
 
 def test_other_version_is_named(path: Path) -> None:
@@ -185,37 +182,23 @@ def test_resultants_without_forces_are_refused(tmp_path: Path) -> None:
 def test_truncated_files_are_refused(path: Path, image: bytes) -> None:
     for length in np.linspace(1, len(image) - 1, 40).astype(int):
         path.write_bytes(image[:length])
-        assert ("not an HDF5 file" if length < 8 else "no check sum at its end") in refused(path)
+        refused(path)
 
 
-def test_flipped_bits_are_refused(path: Path, image: bytes) -> None:
-    """Seeded, and those of the seal besides."""
+def test_flipped_bits_are_refused_or_change_nothing(path: Path, image: bytes, results: Results) -> None:
+    """Seeded: what no checksum covers is padding and tables of dimensions, which are not read."""
     generator = random.Random(1)
-    places = [generator.randrange(8, len(image)) for _ in range(200)] + list(range(len(image) - SEAL_BYTES, len(image)))
-    for place in places:
-        damaged = bytearray(image)
-        damaged[place] ^= 1 << generator.randrange(8)
-        path.write_bytes(damaged)
-        assert "check sum" in refused(path)
-
-
-def test_bytes_behind_the_seal_are_refused(path: Path, image: bytes) -> None:
-    for more in (b"\n", b"x", bytes(4096)):
-        path.write_bytes(image + more)
-        assert "no check sum at its end" in refused(path)
-
-
-def test_what_changes_a_file_through_hdf5_breaks_its_seal(path: Path) -> None:
-    with h5py.File(path, "r+") as file:
-        file["cases/push_x/load_factor"][()] = 0.75
-    assert "no check sum at its end: cut off or changed since it was written" in refused(path)
-
-
-def test_an_old_seal_behind_changed_content_is_refused(path: Path, image: bytes) -> None:
-    with h5py.File(path, "r+") as file:
-        file["cases/push_x/load_factor"][()] = 0.75
-    path.write_bytes(path.read_bytes() + image[-SEAL_BYTES:])
-    assert "damaged or changed since it was written" in refused(path)
+    unnoticed = 0
+    for _ in range(200):
+        spoilt = bytearray(image)
+        spoilt[generator.randrange(8, len(image))] ^= 1 << generator.randrange(8)
+        path.write_bytes(spoilt)
+        try:
+            assert same(read_results_hdf5(path), results)
+            unnoticed += 1
+        except FileError:
+            continue
+    assert unnoticed < 100
 
 
 @pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="needs named pipes")
@@ -227,11 +210,8 @@ def test_what_is_no_regular_file_is_told_in_plain_words(tmp_path: Path) -> None:
         assert "synchronously" not in str(caught.value)
 
 
-def test_a_sealed_file_that_is_no_hdf5_is_refused(path: Path, image: bytes) -> None:
-    """By its first bytes; with these right and the next ones wrong it is damaged."""
-    path.write_bytes(sealed(b"mbla: 1\n" * 100))
-    assert refused(path) == f"{path}: not an HDF5 file"
-    path.write_bytes(sealed(image[:8] + b"\xff" * 40 + image[48:-SEAL_BYTES]))
+def test_a_file_with_a_wrong_superblock_is_damaged(path: Path, image: bytes) -> None:
+    path.write_bytes(image[:8] + b"\xff" * 40 + image[48:])
     assert refused(path).startswith(f"{path}: damaged: ")
 
 

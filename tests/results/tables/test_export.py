@@ -15,7 +15,7 @@ from pyarrow import parquet
 
 from mbla.cli import main
 from mbla.deck.units import Units
-from mbla.errors import FileError, UsageError
+from mbla.errors import FileError
 from mbla.results.hdf5.result_file import write_results_hdf5
 from mbla.results.results import Results
 from mbla.results.tables.export import Formats, export_results
@@ -104,11 +104,6 @@ def test_files_that_are_there_are_kept(results: Results, tmp_path: Path) -> None
     assert (tmp_path / "t_points.csv").read_text().startswith("case,")
 
 
-def test_tables_that_nobody_writes_cannot_be_chosen(results: Results, tmp_path: Path) -> None:
-    with pytest.raises(UsageError, match="--table"):
-        export_results(results, tmp_path, "t", Formats(vtkhdf=True), tables=["blocks"])
-
-
 def test_the_command_writes_beside_the_result(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     path = tmp_path / "tower.h5"
     path.write_bytes(write_results_hdf5(full_results()))
@@ -119,6 +114,7 @@ def test_the_command_writes_beside_the_result(tmp_path: Path, capsys: pytest.Cap
     assert main(["export", str(path), "--table", "beams", "--force"]) == 2
     assert main(["export", str(path), "--case", "beams", "--force"]) == 2
     assert main(["export", str(tmp_path / "none.h5")]) == 6
+    assert main(["export", str(path), "--vtkhdf"]) == 2
     assert path.exists()
 
 

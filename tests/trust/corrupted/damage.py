@@ -1,11 +1,9 @@
-"""Files whose bytes are not those that were written: damage of disks and copies, and edits that do not seal anew."""
+"""Files whose bytes are not those that were written: damage of disks and copies."""
 
 from __future__ import annotations
 
 import random
 from collections.abc import Callable
-
-from mbla.results.hdf5.seal import SEAL_BYTES
 
 PAGE = 4096
 
@@ -19,10 +17,6 @@ def _flipped(image: bytes, generator: random.Random) -> bytes:
 
 def _cut_off(image: bytes, generator: random.Random) -> bytes:
     return image[: generator.randrange(len(image))]
-
-
-def _cut_and_sealed_by_the_old_one(image: bytes, generator: random.Random) -> bytes:
-    return image[: generator.randrange(8, len(image) - SEAL_BYTES)] + image[-SEAL_BYTES:]
 
 
 def _zeroed(image: bytes, generator: random.Random) -> bytes:
@@ -58,7 +52,6 @@ def _over(image: bytes, place: int, stretch: bytes) -> bytes:
 DAMAGES: dict[str, Callable[[bytes, random.Random], bytes]] = {
     "bits flipped": _flipped,
     "cut off": _cut_off,
-    "cut off before an old seal": _cut_and_sealed_by_the_old_one,
     "page zeroed": _zeroed,
     "stretch overwritten": _overwritten,
     "page moved": _moved,

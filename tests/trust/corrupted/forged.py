@@ -1,4 +1,4 @@
-"""Files forged through HDF5 and sealed anew: any dataset or attribute changed, removed, or swapped between cases."""
+"""Files forged through HDF5: any dataset or attribute changed, removed, or swapped between cases."""
 
 from __future__ import annotations
 
@@ -238,7 +238,7 @@ KINDS: tuple[Forgery, ...] = (_changed, _changed, _changed, _removed, _swapped, 
 
 
 def forge(original: Path, path: Path, generator: random.Random) -> str:
-    """Forge a file in one thing, and seal it; what was done, in words."""
+    """Forge a file in one thing; what was done, in words."""
     before = original_content(original)
     while True:
         shutil.copy(original, path)

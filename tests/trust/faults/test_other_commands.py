@@ -40,7 +40,7 @@ class Writing:
 
 COMMANDS = {
     "check": Writing(("check", "block.yaml", "--vtu", "--force", "-o", "out")),
-    "export": Writing(("export", "block.h5", "--csv", "--vtkhdf", "--parquet", "--force", "-o", "out")),
+    "export": Writing(("export", "block.h5", "--csv", "--parquet", "--force", "-o", "out")),
     "plot-png": Writing(("plot", "block.h5", "--kind", "mechanism", "--size", "300x200", "-o", "out/a.png")),
     "plot-svg": Writing(("plot", "block.h5", "--size", "300x200", "--format", "svg", "-o", "out"), together=False),
     "plot-pdf": Writing(("plot", "block.h5", "--kind", "forces", "--size", "300x200", "-o", "out/a.pdf")),

@@ -275,11 +275,6 @@ def film_of_what_stands_still(folder: Path, patch: Patch) -> None:
     animation.write_animation(tower_results(), tower_results().cases[0], folder / "a.gif")
 
 
-@brings("table-option")
-def table_for_vtkhdf(folder: Path, patch: Patch) -> object:
-    return command("export", str(result(folder)), "--vtkhdf", "--table", "cases")
-
-
 @brings("unknown-table")
 def table_that_is_none(folder: Path, patch: Patch) -> object:
     return tables_of(tower_results(), ["walls"], None)

@@ -72,9 +72,6 @@ EXPECTED: dict[str, tuple[str, ...]] = {
     "film_of_what_stands_still": (
         "load case push_x: there is no mechanism, so there is nothing to animate  [no-mechanism]",
     ),
-    "table_for_vtkhdf": (
-        "mbla: --table chooses what --csv and --parquet write, and neither is asked for  [table-option]",
-    ),
     "table_that_is_none": (
         "no table walls; there are cases, blocks, interfaces, points, reactions, programs, iterations, "
         "path, series, notices  [unknown-table]",

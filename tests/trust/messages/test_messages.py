@@ -39,7 +39,6 @@ LONG = frozenset(
         "picture_as_a_text",
         "picture_of_an_unknown_kind",
         "pictures_in_one_file",
-        "table_for_vtkhdf",
         "status_of_another_version",
         "machine_without_opengl",
     }

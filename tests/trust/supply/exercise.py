@@ -32,7 +32,7 @@ BESIDE = (
     (0, ("plot", DOME, "--kind", "model", "-o", "out/dome.png")),
     (0, ("plot", WALL, "--animate", "mp4", "-o", "out/films")),
     (0, ("report", WALL, "-o", "out/wall.html")),
-    (0, ("export", WALL, "--csv", "--parquet", "--vtkhdf", "-o", "out/tables")),
+    (0, ("export", WALL, "--csv", "--parquet", "-o", "out/tables")),
     (0, ("sweep", "sweep.yaml", "-j", "2", "-q")),
 )
 """exit status, and arguments"""
