@@ -8,13 +8,12 @@ from dataclasses import replace
 from pathlib import Path
 
 from mbla.contacts import Contacts, find_contacts
-from mbla.contacts.bent_contacts import bent_faults
 from mbla.contacts.broad_phase import PairsRefused
+from mbla.contacts.findings import bent_faults, glue_findings
 from mbla.contacts.glue import Solids, held_model, solids_of
-from mbla.contacts.glue_findings import glue_findings
 from mbla.contacts.held_twice import SupportsAtOdds
-from mbla.contacts.interface_points import PointsRefused
 from mbla.contacts.notices import overlap_messages
+from mbla.contacts.points import PointsRefused
 from mbla.deck import Deck, read_deck
 from mbla.errors import DeckError, Message, Notice, UsageError, first_faults
 from mbla.model import Model, build_model

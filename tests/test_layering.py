@@ -22,7 +22,7 @@ DOORS = {
     "pint": "deck/units.py",
     "meshio": "model/geometry/meshio_files.py",
     "ezdxf": "model/geometry/dxf.py",
-    "manifold3d": "contacts/solids.py",
+    "manifold3d": "contacts/overlaps.py",
     "clarabel": "solution/cone_solvers/clarabel_adapter.py",
     "cvxopt": "solution/linear_algebra/cholmod_factors.py",
     "qdldl": "solution/linear_algebra/qdldl_factors.py",

@@ -12,11 +12,10 @@ import numpy as np
 from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.contacts.facets import Facets
 from mbla.contacts.polygons import CrowdedError, box_pairs
-from mbla.contacts.ragged import rows_and_items
 from mbla.errors import Refusal
 from mbla.model.blocks import Blocks
 from mbla.model.generators.amounts import most_pairs
-from mbla.model.ragged import chunks
+from mbla.model.ragged import chunks, rows_and_items
 
 NEAR_MISS = 10.0
 """Gaps up to this many tolerances are near misses."""

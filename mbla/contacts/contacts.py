@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
@@ -111,7 +111,3 @@ class ContactReport:
     glued: IntArray
     held: IntArray
     notices: tuple[Notice, ...]
-
-    def with_notices(self, notices: tuple[Notice, ...]) -> ContactReport:
-        """The same report with other notices."""
-        return replace(self, notices=notices)

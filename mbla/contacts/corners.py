@@ -22,6 +22,8 @@ _COLLINEAR = 1e-9
 _SHARE_OF_WIDTH = 0.1
 # The first corner of an outline is the least one along a direction that no edge of a building is likely to follow.
 _ODD_DIRECTION = np.array([0.8253356, 0.5646425])
+PARALLEL = 1e-9
+"""Difference of the two diagonals' middles, over their lengths, up to which four corners make a parallelogram."""
 
 
 @dataclass(frozen=True)
@@ -87,6 +89,20 @@ def areas_and_centroids(corners: Corners, n_polygons: int) -> tuple[FloatArray, 
         [np.bincount(polygon, weights=(p + q)[:, axis] * cross, minlength=n_polygons) / 6 for axis in (0, 1)], axis=1
     )
     return area, anchor + moment / area[:, None]
+
+
+def parallelograms(corners: Corners, n: int) -> BoolArray:
+    """Polygons with four corners and parallel edges, (n,)."""
+    found = np.zeros(n, dtype=bool)
+    one_ring = np.bincount(corners.polygon_of_ring, minlength=n) == 1
+    rings = np.flatnonzero((np.diff(corners.ring_start) == 4) & one_ring[corners.polygon_of_ring])
+    spots = corners.points[corners.ring_start[rings][:, None] + np.arange(4)]
+    first, second = spots[:, 2] - spots[:, 0], spots[:, 3] - spots[:, 1]
+    off = np.linalg.norm(spots[:, 0] + spots[:, 2] - spots[:, 1] - spots[:, 3], axis=1)
+    found[corners.polygon_of_ring[rings]] = off <= PARALLEL * (
+        np.linalg.norm(first, axis=1) + np.linalg.norm(second, axis=1)
+    )
+    return found
 
 
 def _crossing_after(corners: Corners, keep: BoolArray) -> BoolArray:

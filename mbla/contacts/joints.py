@@ -37,13 +37,13 @@ ROUNDING = 1e-9
 class Sites:
     """What decides about joint laws: ``bodies`` (n, 2), unit ``normals`` (n, 3) and ``centroids`` (n, 3) m.
 
-    given : (n) name of the law that the table of interfaces gives; empty where it gives none; None without a table
+    prescribed : (n) name of the law that the table of interfaces gives; empty where it gives none; None without a table
     """
 
     bodies: IntArray
     normals: FloatArray
     centroids: FloatArray
-    given: Sequence[str] | None = None
+    prescribed: Sequence[str] | None = None
 
 
 @dataclass(frozen=True)
@@ -81,9 +81,9 @@ def joints_of_interfaces(model: Model, section: ContactsSection, sites: Sites) -
     for index, ground in enumerate(model.grounds):
         rows[sites.bodies[:, 0] == n_blocks + index] = names.index(ground.joint)
     settled = np.zeros(len(rows), dtype=bool)
-    if sites.given is not None:
-        settled = np.array([bool(name) for name in sites.given], dtype=bool)
-        rows[settled] = [names.index(name) for name in sites.given if name]
+    if sites.prescribed is not None:
+        settled = np.array([bool(name) for name in sites.prescribed], dtype=bool)
+        rows[settled] = [names.index(name) for name in sites.prescribed if name]
     roster = build_roster(model.blocks, frozenset(), _not_to_be_reported) if section.overrides else None
     notices = []
     for override in section.overrides:

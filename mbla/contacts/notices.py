@@ -6,13 +6,14 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from mbla.arrays import IntArray
-from mbla.contacts.between import HeldApart
-from mbla.contacts.connectivity import held_blocks
+from mbla.arrays import FloatArray, IntArray
 from mbla.contacts.contacts import ContactReport
+from mbla.contacts.corners import Corners
 from mbla.contacts.glue import Glue
-from mbla.contacts.nearest import nearest_words
-from mbla.contacts.reach import WIDEST, joining_gap
+from mbla.contacts.narrow_phase import Patches
+from mbla.contacts.polygons import areas
+from mbla.contacts.report import WIDEST, Findings, held_blocks, joining_gap, nearest_words
+from mbla.contacts.third_block import SeparatedPairs
 from mbla.deck.types import ContactsSection
 from mbla.errors import Notice
 from mbla.model.model import Model
@@ -25,9 +26,10 @@ WHOLE = 1e-6
 
 
 def report_notices(
-    model: Model, section: ContactsSection, report: ContactReport, bodies: IntArray
+    model: Model, section: ContactsSection, report: ContactReport, findings: Findings
 ) -> tuple[Notice, ...]:
-    """What the report has to say; bodies (n, 2) of all contacts."""
+    """What the report and the findings it was made of have to say."""
+    bodies = findings.contacts.overlays.bodies
     joined = _joined(model, report, bodies)
     return (
         *_isolated(model, section, report, joined),
@@ -37,10 +39,12 @@ def report_notices(
         *_slivers(model, section, report),
         *_grounds(model, section, bodies),
         *_fixed_contacts(report),
+        *_separated_pairs(model, findings.separated),
+        *_glue(report, findings.glue),
     )
 
 
-def glue_notices(report: ContactReport, glue: Glue) -> tuple[Notice, ...]:
+def _glue(report: ContactReport, glue: Glue) -> list[Notice]:
     """What open and glued joints left out, and what glue made of the blocks."""
     found = []
     if report.open_interfaces:
@@ -49,13 +53,13 @@ def glue_notices(report: ContactReport, glue: Glue) -> tuple[Notice, ...]:
     if len(report.glued):
         text = f"{_count(len(report.glued), 'interface')} glued, and left out: {glue_words(report, glue.sizes)}"
         found.append(Notice("notice", "blocks-glued", text))
-    return tuple(found)
+    return found
 
 
-def held_apart_notices(model: Model, held: HeldApart) -> tuple[Notice, ...]:
+def _separated_pairs(model: Model, held: SeparatedPairs) -> list[Notice]:
     """Faces within the tolerance of each other that are no contacts, for a third block lies between."""
     if not len(held):
-        return ()
+        return []
     overlays = held.patches.overlays
     gaps = held.patches.mid_gaps
     row = int(np.argmax(gaps * overlays.sizes))
@@ -65,7 +69,7 @@ def held_apart_notices(model: Model, held: HeldApart) -> tuple[Notice, ...]:
         f"{_pair(model, pair)} stand {_length(model, pair.tolist(), float(gaps[row]))} apart on "
         f"{model.body_name(int(held.between[row]))}{', and others' if len(held) > 1 else ''}"
     )
-    return (Notice("notice", "thin-block-between", text),)
+    return [Notice("notice", "thin-block-between", text)]
 
 
 def glue_words(report: ContactReport, sizes: IntArray) -> str:
@@ -246,3 +250,32 @@ def _by_tolerance(relative: float, text: str) -> str:
     """The text with the tolerance that would do, or nothing where no allowed tolerance would."""
     rounded = float(f"{relative * 1.05:.1e}")
     return text.format(rounded) if rounded < WIDEST else ""
+
+
+SEEN = 1e-4
+"""Share of its area, taken off or added, from which on an outline is called simpler than the surface: the edges about
+which blocks turn move by about that share of their distance, and the load factor by rocking with them."""
+
+
+def outline_notices(
+    model: Model, section: ContactsSection, patches: Patches, corners: Corners, drawn: FloatArray
+) -> list[Notice]:
+    """A notice where corners that were left out change the area of a common surface, or nothing.
+
+    patches : with the outlines as they were cut
+    corners : those that stay
+    drawn   : (n_patches,) area within these, relative like the outlines
+    """
+    changes = np.abs(drawn / areas(patches.polygons) - 1.0)
+    simpler = int((changes > SEEN).sum())
+    if not simpler:
+        return []
+    most = int(np.argmax(changes))
+    first, second = (model.body_name(int(body)) for body in patches.overlays.bodies[most])
+    stay = int((corners.polygon_of_corner == most).sum())
+    text = (
+        f"corners within the tolerance of {section.tolerance:g} of the outline are left out, which changes the area of "
+        f"{simpler} common surface{'' if simpler == 1 else 's'}, most that of {first} and {second}, drawn by {stay} "
+        f"corners, by {100 * changes[most]:.2g} %: a smaller contacts.tolerance keeps more of them"
+    )
+    return [Notice("notice", "outlines-simplified", text)]

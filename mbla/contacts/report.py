@@ -1,4 +1,10 @@
-"""The report on the search for contacts: what was dropped, missed or found wrong."""
+"""The report on the search for contacts: what was dropped, missed or found wrong, and what hangs together.
+
+The near misses of a structure that hangs together lie within ten times its tolerance. Where some of its blocks reach no
+support the tolerance says nothing about the gaps that were left there, so that all up to ``WIDEST`` are looked at,
+whatever the tolerance is: the same gaps are reported, and the same tolerance that closes them. What lies nearest to
+such a part is named by the boxes around blocks, along the axes: exact for walls and piers, a lower limit for all else.
+"""
 
 from __future__ import annotations
 
@@ -7,15 +13,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
-from mbla.contacts.between import HeldApart
-from mbla.contacts.connectivity import held_blocks, isolated_blocks, unsupported_parts
+from mbla.contacts.broad_phase import NEAR_MISS, PairsRefused, find_block_pairs
 from mbla.contacts.contacts import ContactReport
+from mbla.contacts.facets import Facets
 from mbla.contacts.glue import Glue
-from mbla.contacts.narrow_phase import Patches
-from mbla.contacts.notices import glue_notices, held_apart_notices, report_notices
+from mbla.contacts.narrow_phase import Patches, find_patches, judge
 from mbla.contacts.overlaps import Overlaps
-from mbla.deck.types import ContactsSection
-from mbla.errors import Notice
+from mbla.contacts.third_block import SeparatedPairs
 from mbla.model.model import Model
 
 
@@ -31,19 +35,19 @@ class Findings:
     slivers: Patches
     near_misses: Patches
     overlaps: Overlaps
-    held_apart: HeldApart
+    separated: SeparatedPairs
     open_bodies: IntArray
     glued_bodies: IntArray
     glue: Glue
 
 
-def build_report(model: Model, section: ContactsSection, findings: Findings, notices: list[Notice]) -> ContactReport:
-    """Report with the given notices and those on the findings."""
+def build_report(model: Model, findings: Findings) -> ContactReport:
+    """The findings in numbers, without notices."""
     overlaps, touching = findings.overlaps, findings.contacts.overlays.bodies
     bodies = _without(touching, findings.open_bodies, len(model.blocks) + len(model.grounds))
     slivers, widths = _slivers(model, findings.slivers)
     near_misses, gaps = _near_misses(model, findings.near_misses, overlaps)
-    report = ContactReport(
+    return ContactReport(
         slivers=slivers,
         sliver_widths=widths,
         near_misses=near_misses,
@@ -58,14 +62,6 @@ def build_report(model: Model, section: ContactsSection, findings: Findings, not
         glued=findings.glued_bodies,
         held=np.flatnonzero(findings.glue.held),
         notices=(),
-    )
-    return report.with_notices(
-        (
-            *notices,
-            *report_notices(model, section, report, touching),
-            *held_apart_notices(model, findings.held_apart),
-            *glue_notices(report, findings.glue),
-        )
     )
 
 
@@ -108,3 +104,132 @@ def _near_misses(model: Model, misses: Patches, overlaps: Overlaps) -> tuple[Int
     rows = rows[least]
     rows = rows[np.lexsort((bodies[rows, 1], bodies[rows, 0]))]
     return bodies[rows], misses.gaps[rows]
+
+
+def isolated_blocks(n_blocks: int, bodies: IntArray) -> IntArray:
+    """Blocks that occur in none of the contacts between bodies (n, 2), sorted."""
+    touched = np.zeros(n_blocks, dtype=bool)
+    touched[bodies[bodies < n_blocks]] = True
+    return np.flatnonzero(~touched)
+
+
+def held_blocks(model: Model) -> BoolArray:
+    """Blocks that a support holds, wholly or in some of their ways, (n_blocks,)."""
+    held = model.fixed.copy()
+    held[model.guides.blocks] = True
+    return held
+
+
+def unsupported_parts(fixed: BoolArray, bodies: IntArray) -> tuple[IntArray, ...]:
+    """Connected parts of free blocks without contact to a fixed block or the ground, each sorted.
+
+    fixed  : (n_blocks,)
+    bodies : (n, 2) bodies in contact; those from n_blocks on are ground
+    """
+    from scipy.sparse import coo_array
+    from scipy.sparse.csgraph import connected_components
+
+    n_blocks = len(fixed)
+    support = np.ones(max(n_blocks, int(bodies.max(initial=-1)) + 1), dtype=bool)
+    support[:n_blocks] = fixed
+    # Supports do not hang together with each other through their contacts: links between free blocks only.
+    free_links = bodies[~support[bodies].any(axis=1)]
+    graph = coo_array((np.ones(len(free_links)), (free_links[:, 0], free_links[:, 1])), shape=(n_blocks, n_blocks))
+    n_parts, part = connected_components(graph, directed=False)
+    held = np.zeros(n_parts, dtype=bool)
+    a, b = bodies.T
+    held[part[a[support[b] & ~support[a]]]] = True
+    held[part[b[support[a] & ~support[b]]]] = True
+    blocks = np.flatnonzero(~fixed & ~held[part])
+    order = blocks[np.argsort(part[blocks], kind="stable")]
+    if not len(order):
+        return ()
+    cuts = np.flatnonzero(np.diff(part[order])) + 1
+    return tuple(sorted(np.split(order, cuts), key=lambda found: int(found[0])))
+
+
+WIDEST = 0.1
+"""Gap relative to block size up to which faces nearly touch where blocks reach no support: the greatest tolerance."""
+
+
+def misses_within(model: Model, facets: Facets, tolerance: float) -> Patches | None:
+    """Near misses with gaps up to ``WIDEST``; None where those of the search reach as far, or cannot be looked at."""
+    if NEAR_MISS * tolerance >= WIDEST:
+        return None
+    coarse = WIDEST / NEAR_MISS
+    try:
+        pairs = find_block_pairs(model.blocks, coarse)
+    except PairsRefused:
+        return None
+    patches = find_patches(model.blocks, facets, pairs, model.grounds, coarse)
+    found = judge(patches, tolerance, WIDEST).near_misses
+    # what is narrower than its gap would be no contact if the gap were none
+    return found.take((found.widths >= np.abs(found.gaps)) & (np.abs(found.gaps) <= WIDEST))
+
+
+def joining_gap(fixed: BoolArray, bodies: IntArray, near: IntArray, gaps: FloatArray) -> float | None:
+    """The least gap g such that every free block reaches a support if near misses up to g were contacts; None for none.
+
+    fixed  : (n_blocks,)
+    bodies : (n, 2) bodies in contact
+    near   : (m, 2) bodies of near misses
+    gaps   : (m,) of them
+    """
+    sizes = np.unique(np.abs(gaps))
+    low, high = 0, len(sizes)
+    while low < high:
+        middle = (low + high) // 2
+        closed = near[np.abs(gaps) <= sizes[middle]]
+        if unsupported_parts(fixed, np.concatenate([bodies, closed])):
+            low = middle + 1
+        else:
+            high = middle
+    return float(sizes[low]) if low < len(sizes) else None
+
+
+NEAREST_COMPARED = 300
+"""blocks of either side, those nearest to the box around the other side, that are compared one by one"""
+
+NO_DISTANCE = 1e-9
+"""distance relative to the block size that is rounding of coordinates"""
+
+
+def nearest_words(model: Model, part: IntArray) -> str:
+    """``; nearest to it is lower[33], 0.0128 m from upper[0] ...``; nothing where nothing else is there."""
+    blocks, units = model.blocks, model.units
+    first = blocks.vertex_start[:-1]
+    least, greatest = np.minimum.reduceat(blocks.vertices, first), np.maximum.reduceat(blocks.vertices, first)
+    found: list[tuple[float, str, int]] = []
+    others = np.setdiff1d(np.arange(len(blocks)), part)
+    if len(others):
+        gap, own, other = _nearest_pair(least, greatest, part, others)
+        found.append((gap, blocks.name(other), own))
+    for ground in model.grounds:
+        carried = part if ground.blocks is None else np.intersect1d(part, ground.blocks)
+        if len(carried):
+            heights = np.minimum.reduceat((blocks.vertices - ground.point) @ ground.normal, first)[carried]
+            lowest = int(np.argmin(np.abs(heights)))
+            found.append((abs(float(heights[lowest])), ground.label, int(carried[lowest])))
+    if not found:
+        return ""
+    gap, name, own = min(found)
+    if gap <= NO_DISTANCE * blocks.sizes[own]:
+        return f"; nearest to it is {name}, which {blocks.name(own)} meets or overlaps without a common surface"
+    return f"; nearest to it is {name}, {gap:.3g} {units.length} from {blocks.name(own)}, by the boxes around them"
+
+
+def _nearest_pair(least: FloatArray, greatest: FloatArray, part: IntArray, others: IntArray) -> tuple[float, int, int]:
+    """Distance of the two nearest boxes, one of the part and one of the others, and their blocks."""
+    part = _nearest_to(least, greatest, part, others)
+    others = _nearest_to(least, greatest, others, part)  # by the box around what is left of the part
+    apart = np.maximum(least[part, None] - greatest[None, others], least[None, others] - greatest[part, None])
+    gaps = np.linalg.norm(np.maximum(apart, 0.0), axis=2)
+    own, other = np.unravel_index(int(np.argmin(gaps)), gaps.shape)
+    return float(gaps[own, other]), int(part[own]), int(others[other])
+
+
+def _nearest_to(least: FloatArray, greatest: FloatArray, chosen: IntArray, side: IntArray) -> IntArray:
+    """Those of the blocks ``chosen`` that are nearest to the box around ``side``."""
+    low, high = least[side].min(axis=0), greatest[side].max(axis=0)
+    apart = np.maximum(np.maximum(least[chosen] - high, low - greatest[chosen]), 0.0)
+    return chosen[np.argsort(np.linalg.norm(apart, axis=1), kind="stable")[:NEAREST_COMPARED]]

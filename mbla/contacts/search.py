@@ -6,29 +6,25 @@ from dataclasses import replace
 
 import numpy as np
 
-from mbla.arrays import BoolArray, FloatArray, IntArray
-from mbla.contacts.between import HeldApart, without_held_apart
+from mbla.arrays import BoolArray, FloatArray, IntArray, row_of_item
 from mbla.contacts.broad_phase import BlockPairs, find_block_pairs
-from mbla.contacts.connectivity import held_blocks, unsupported_parts
 from mbla.contacts.contacts import ContactReport, Contacts
 from mbla.contacts.corners import areas_and_centroids, needed_corners
 from mbla.contacts.facets import Facets, build_facets
-from mbla.contacts.given import patches_of
 from mbla.contacts.glue import Glue, glue_blocks
 from mbla.contacts.held_twice import counted_once
-from mbla.contacts.interface_points import interface_points
 from mbla.contacts.joints import Sites, joints_of_interfaces
-from mbla.contacts.narrow_phase import Patches, Verdicts, find_patches, judge
-from mbla.contacts.near_misses import without_covered
-from mbla.contacts.outline_notices import outline_notices
+from mbla.contacts.narrow_phase import Patches, Verdicts, drop_covered_near_misses, find_patches, judge
+from mbla.contacts.notices import outline_notices, report_notices
 from mbla.contacts.overlaps import find_overlaps
-from mbla.contacts.pieces import in_pieces
-from mbla.contacts.polygons import centroids
-from mbla.contacts.reach import misses_within
+from mbla.contacts.overlay import Overlays, frames_from_normals
+from mbla.contacts.points import in_pieces, interface_points
+from mbla.contacts.polygons import centroids, polygons_from_loops, widths
 from mbla.contacts.refine import InterfacePoints, point_starts
-from mbla.contacts.report import Findings, both_fixed, build_report
+from mbla.contacts.report import Findings, both_fixed, build_report, held_blocks, misses_within, unsupported_parts
+from mbla.contacts.third_block import SeparatedPairs, drop_pairs_separated_by_third_block
 from mbla.deck.types import ContactsSection
-from mbla.model.model import Joint, Model
+from mbla.model.model import Joint, Model, PrescribedInterfaces
 from mbla.process.sharing import shared
 
 # Interfaces of one pair of bodies are sorted along a direction that no building is likely to be square to, so that
@@ -42,7 +38,7 @@ def find_contacts(model: Model, section: ContactsSection) -> Contacts:
     Tolerances are relative to block size, the cube root of the volume of the smaller block of a pair. Contacts between
     two bodies that are both fixed are counted in the report and left out: nothing depends on their forces. So are open
     interfaces, and those inside of the rigid bodies that glued ones make. Of joint laws only the names count,
-    and whether they can crush: surfaces that can are in pieces (:mod:`mbla.contacts.pieces`).
+    and whether they can crush: surfaces that can are in pieces (:mod:`mbla.contacts.points`).
 
     Raises
     ------
@@ -63,7 +59,7 @@ def _found(model: Model, section: ContactsSection) -> Contacts:
     """Contacts of a model without loads, its joint laws as ``find_contacts`` leaves them."""
     pairs = find_block_pairs(model.blocks, section.tolerance)
     facets = build_facets(model.blocks)
-    verdicts, held_apart = _verdicts(model, facets, pairs, section.tolerance)
+    verdicts, separated = _verdicts(model, facets, pairs, section.tolerance)
     overlaps = find_overlaps(model.blocks, facets, pairs, section.tolerance)
     order = _order(verdicts.contacts, ~both_fixed(model, verdicts.contacts.overlays.bodies))
     movable = verdicts.contacts.take(order)
@@ -88,30 +84,31 @@ def _found(model: Model, section: ContactsSection) -> Contacts:
     findings = Findings(
         contacts=verdicts.contacts,
         slivers=verdicts.slivers,
-        near_misses=without_covered(verdicts.near_misses, verdicts.contacts),
+        near_misses=drop_covered_near_misses(verdicts.near_misses, verdicts.contacts),
         overlaps=overlaps,
-        held_apart=held_apart,
+        separated=separated,
         open_bodies=bodies[laws.open],
         glued_bodies=bodies[inside & ~laws.open],
         glue=glue,
     )
-    report = build_report(model, section, findings, [*notices, *twice, *simpler, *left_alone])
-    return _contacts(kept, areas, found, (law_of, names), report, glue.solid_of_block)
+    report = build_report(model, findings)
+    told = (*notices, *twice, *simpler, *left_alone, *report_notices(model, section, report, findings))
+    return _contacts(kept, areas, found, (law_of, names), replace(report, notices=told), glue.solid_of_block)
 
 
-def _verdicts(model: Model, facets: Facets, pairs: BlockPairs, tolerance: float) -> tuple[Verdicts, HeldApart]:
-    """What touches, what nearly does, and what a third body holds apart; given interfaces are taken as they are."""
+def _verdicts(model: Model, facets: Facets, pairs: BlockPairs, tolerance: float) -> tuple[Verdicts, SeparatedPairs]:
+    """What touches, what nearly does, what a third block separates; prescribed interfaces are taken as they are."""
     if model.interfaces is None:
         found = judge(find_patches(model.blocks, facets, pairs, model.grounds, tolerance), tolerance)
-        verdicts, held_apart = without_held_apart(found, model.blocks, tolerance)
+        verdicts, separated = drop_pairs_separated_by_third_block(found, model.blocks, tolerance)
         if unsupported_parts(held_blocks(model), found.contacts.overlays.bodies):
             wide = replace(found, near_misses=misses_within(model, facets, tolerance) or found.near_misses)
-            near_misses = without_held_apart(wide, model.blocks, tolerance)[0].near_misses
+            near_misses = drop_pairs_separated_by_third_block(wide, model.blocks, tolerance)[0].near_misses
             verdicts = replace(verdicts, near_misses=near_misses)
-        return verdicts, held_apart
-    given = patches_of(model, model.interfaces)
-    nothing = given.take(np.empty(0, dtype=np.int64))
-    return Verdicts(given, nothing, nothing), HeldApart(nothing, np.empty(0, dtype=np.int64))
+        return verdicts, separated
+    prescribed = patches_of_prescribed(model, model.interfaces)
+    nothing = prescribed.take(np.empty(0, dtype=np.int64))
+    return Verdicts(prescribed, nothing, nothing), SeparatedPairs(nothing, np.empty(0, dtype=np.int64))
 
 
 def _contacts(
@@ -155,10 +152,10 @@ def _inside(model: Model, glue: Glue, bodies: IntArray) -> BoolArray:
 
 
 def _sites(model: Model, patches: Patches, order: IntArray) -> Sites:
-    """What decides about joint laws; ``order`` has the rows of the patches among all that were found or given."""
-    given = None if model.interfaces is None else [model.interfaces.joints[row] for row in order.tolist()]
+    """What decides about joint laws; ``order`` has the rows of the patches among all that were found or prescribed."""
+    prescribed = None if model.interfaces is None else [model.interfaces.joints[row] for row in order.tolist()]
     centres = _in_space(patches, np.arange(len(patches)), centroids(patches.polygons))
-    return Sites(patches.overlays.bodies, patches.overlays.frames[:, 0], centres, given)
+    return Sites(patches.overlays.bodies, patches.overlays.frames[:, 0], centres, prescribed)
 
 
 def _order(patches: Patches, chosen: BoolArray) -> IntArray:
@@ -176,3 +173,20 @@ def _in_space(patches: Patches, row: IntArray, points: FloatArray) -> FloatArray
     offsets = np.einsum("ka,kai->ki", points, overlays.frames[row, 1:])
     result: FloatArray = overlays.origins[row] + overlays.sizes[row, None] * offsets
     return result
+
+
+def patches_of_prescribed(model: Model, prescribed: PrescribedInterfaces) -> Patches:
+    """Prescribed interfaces as common surfaces without a gap, in the form of those that are found."""
+    n = len(prescribed.bodies)
+    row = row_of_item(prescribed.corner_start)
+    counts = np.diff(prescribed.corner_start)[:, None]
+    origins = np.add.reduceat(prescribed.corners, prescribed.corner_start[:-1], axis=0) / counts
+    all_sizes = np.append(model.blocks.sizes, np.full(len(model.grounds), np.inf))
+    sizes = all_sizes[prescribed.bodies].min(axis=1)
+    frames = frames_from_normals(prescribed.normals)
+    arms = (prescribed.corners - origins[row]) / sizes[row, None]
+    local = np.einsum("ki,kai->ka", arms, frames[row, 1:])
+    polygons = polygons_from_loops(local, prescribed.corner_start)
+    nothing = np.full((n, 2), -1, dtype=np.int64)
+    overlays = Overlays(prescribed.bodies, nothing, origins, frames, sizes, np.zeros((n, 3)))
+    return Patches(overlays, polygons, widths(polygons), np.zeros(n), np.zeros(n), np.ones(n))

@@ -2,7 +2,7 @@
 
 Outlines of free faces (a rubble face, a doubly curved extrados) decide volume and mass only, and two triangles in
 place of a bent quadrilateral are as good. Common surfaces need planes: where a bent face turns out to touch something,
-the search for contacts refuses it (:mod:`mbla.contacts.bent_contacts`). Two bent faces with the same corners are split
+the search for contacts refuses it (:mod:`mbla.contacts.findings`). Two bent faces with the same corners are split
 along the same diagonal, so that they are found to touch.
 
 The triangles of a face take its number and numbers behind those of all other faces of its block, which keep theirs.

@@ -17,7 +17,7 @@ from mbla.deck.tree import KeyPath
 from mbla.errors import DeckError, Fault, Message
 from mbla.model.blocks import Blocks
 from mbla.model.interface_overlaps import overlapping
-from mbla.model.model import GivenInterfaces, Ground
+from mbla.model.model import Ground, PrescribedInterfaces
 from mbla.model.selectors import Roster
 from mbla.model.tables import Table, TableRefused, read_table
 
@@ -33,7 +33,7 @@ FACING = 0.99
 
 def read_interfaces(
     deck: Deck, roster: Roster, grounds: tuple[Ground, ...], faults: list[Fault]
-) -> GivenInterfaces | None:
+) -> PrescribedInterfaces | None:
     """Interfaces of the deck's table; None where it has none, or where it is at fault."""
     path: KeyPath = ("contacts", "table")
     if deck.contacts.table is None or roster.partial:
@@ -41,7 +41,7 @@ def read_interfaces(
     try:
         table = read_table(deck.resolve_file(path, deck.contacts.table), COLUMNS, OPTIONAL)
         laws = (*deck.content.joints, *BUILT_IN)
-        return given_interfaces(table, roster.blocks, roster.members, grounds, laws, deck.contacts.tolerance)
+        return prescribed_interfaces(table, roster.blocks, roster.members, grounds, laws, deck.contacts.tolerance)
     except DeckError as error:
         faults += error.faults
     except TableRefused as refused:
@@ -49,14 +49,14 @@ def read_interfaces(
     return None
 
 
-def given_interfaces(
+def prescribed_interfaces(
     table: Table,
     blocks: Blocks,
     members: dict[str, IntArray],
     grounds: tuple[Ground, ...],
     joints: Collection[str],
     tolerance: float,
-) -> GivenInterfaces:
+) -> PrescribedInterfaces:
     """Interfaces of a table with the columns ``COLUMNS``, a row for each corner, those of an interface together.
 
     members : blocks of each group; joints : names of laws; tolerance : relative to block size
@@ -76,7 +76,7 @@ def given_interfaces(
     pairs = [_ground_first(bodies[row].tolist(), len(blocks)) for row in first]
     normals, outlines = _fitted(table, points, start, pairs, blocks, grounds, tolerance)
     laws = table.columns.get("joint", [""] * len(table))
-    return GivenInterfaces(
+    return PrescribedInterfaces(
         np.array(pairs), np.array(normals), np.concatenate(outlines), start, tuple(laws[row] for row in first)
     )
 

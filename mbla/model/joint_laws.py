@@ -9,7 +9,7 @@ from mbla.deck.deck import Deck
 from mbla.deck.joints import FRICTIONLESS
 from mbla.deck.types import JointLaw
 from mbla.errors import Notice
-from mbla.model.model import GivenInterfaces, Ground, Joint
+from mbla.model.model import Ground, Joint, PrescribedInterfaces
 
 UNLIMITED = 1e6
 """Greatest friction coefficient and tangent of the dilatancy angle, 0.2 seconds of arc from a right angle: what is
@@ -17,7 +17,7 @@ steeper is taken for this. A load factor changes by a millionth between here and
 is rounding times friction, would be the whole answer at 1e15."""
 
 
-def build_joints(deck: Deck, grounds: Sequence[Ground], interfaces: GivenInterfaces | None) -> dict[str, Joint]:
+def build_joints(deck: Deck, grounds: Sequence[Ground], interfaces: PrescribedInterfaces | None) -> dict[str, Joint]:
     """Joint laws of the deck, and that without friction where it is asked for by its name."""
     laws = {name: build_joint(name, law) for name, law in deck.content.joints.items()}
     used = {deck.contacts.joint, *(override.joint for override in deck.contacts.overrides)}

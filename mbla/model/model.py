@@ -171,7 +171,7 @@ class LoadCase:
 
 
 @dataclass(frozen=True)
-class GivenInterfaces:
+class PrescribedInterfaces:
     """Interfaces by their outlines, in the order of the table.
 
     bodies       : (n, 2)  blocks, then grounds, numbered as in ``Contacts``; a < b, but ground is always a
@@ -216,7 +216,7 @@ class Model:
     notices: tuple[Notice, ...]
     guides: Guides = NO_GUIDES
     mirrors: tuple[tuple[float, float, float, float], ...] = ()
-    interfaces: GivenInterfaces | None = None
+    interfaces: PrescribedInterfaces | None = None
     bent: BentFaces = NO_BENT_FACES
 
     def of_case(self, load_case: LoadCase) -> Model:

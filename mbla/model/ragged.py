@@ -1,4 +1,7 @@
-"""Index arithmetic on ragged arrays (see :mod:`mbla.arrays`)."""
+"""Index arithmetic on ragged arrays (see :mod:`mbla.arrays`).
+
+Products over ragged arrays: every item of one row with every item of another, without a loop.
+"""
 
 from __future__ import annotations
 
@@ -60,3 +63,12 @@ def chunks(counts: IntArray, limit: int) -> list[slice]:
         slices.append(slice(first, last))
         first = last
     return slices
+
+
+def rows_and_items(first: IntArray, counts: IntArray) -> tuple[IntArray, IntArray]:
+    """Items first[i] ... first[i] + counts[i] - 1 of every row i, and the row of each.
+
+    >>> rows_and_items(np.array([5, 0]), np.array([2, 3]))
+    (array([0, 0, 1, 1, 1]), array([5, 6, 0, 1, 2]))
+    """
+    return np.repeat(np.arange(len(counts)), counts), ranges(first, counts)

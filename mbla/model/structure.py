@@ -15,7 +15,7 @@ from mbla.model.collect_items import collect_items
 from mbla.model.far_coordinates import far_fault, far_notices
 from mbla.model.interfaces import read_interfaces
 from mbla.model.item_defects import defects_in_words
-from mbla.model.model import GivenInterfaces
+from mbla.model.model import PrescribedInterfaces
 from mbla.model.overrides import check_overrides
 from mbla.model.selectors import Roster, build_roster
 from mbla.model.supports import Supports, build_supports
@@ -36,7 +36,7 @@ class Structure:
 
     roster: Roster
     supports: Supports
-    interfaces: GivenInterfaces | None
+    interfaces: PrescribedInterfaces | None
     bent: BentFaces
     first_notices: tuple[Notice, ...]
     notices: tuple[Notice, ...]

@@ -17,7 +17,7 @@ from scipy.optimize import linprog, minimize
 
 from mbla.arrays import FloatArray
 from mbla.contacts.corners import areas_and_centroids, needed_corners
-from mbla.contacts.interface_points import interface_points
+from mbla.contacts.points import interface_points
 from mbla.contacts.refine import InterfacePoints
 from mbla.deck.types import ContactPoints
 from tests.line import HEAD, factor_of

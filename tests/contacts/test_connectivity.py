@@ -2,7 +2,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from mbla.contacts.connectivity import isolated_blocks, unsupported_parts
+from mbla.contacts.report import isolated_blocks, unsupported_parts
 
 
 def parts(fixed: list[bool], bodies: list[tuple[int, int]]) -> list[list[int]]:

@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mbla.arrays import FloatArray, starts
-from mbla.contacts.convex_clip import clip_convex
+from mbla.contacts.convex import clip_convex
 
 
 def clip(first: FloatArray, second: FloatArray) -> FloatArray:

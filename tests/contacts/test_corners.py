@@ -7,8 +7,8 @@ import pytest
 import shapely
 
 from mbla.contacts.corners import areas_and_centroids, needed_corners
-from mbla.contacts.point_areas import point_areas
 from mbla.contacts.polygons import Polygons
+from mbla.contacts.refine import point_areas
 
 Outline = Sequence[Sequence[float]]
 

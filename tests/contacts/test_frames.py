@@ -3,7 +3,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from mbla.contacts.frames import frames_from_normals, unit
+from mbla.contacts.overlay import frames_from_normals, unit
 
 
 @pytest.mark.parametrize(

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from mbla.arrays import FloatArray
-from mbla.contacts.glued_guides import guides_at_odds
+from mbla.contacts.glue import guides_at_odds
 from mbla.errors import DeckError
 from mbla.model.guides import Guides
 from tests.line import HEAD, case_of, factor_of

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from mbla.contacts.loops import convex_loops, signed_areas
+from mbla.contacts.convex import convex_loops, signed_areas
 
 
 def test_convexity_of_loops() -> None:

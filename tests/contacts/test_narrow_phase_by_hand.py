@@ -8,10 +8,10 @@ import shapely
 
 from mbla.contacts.broad_phase import find_block_pairs
 from mbla.contacts.facets import build_facets
-from mbla.contacts.given import patches_of
 from mbla.contacts.narrow_phase import Patches, find_patches, judge
 from mbla.contacts.overlay import Overlays
-from mbla.model.model import GivenInterfaces
+from mbla.contacts.search import patches_of_prescribed
+from mbla.model.model import PrescribedInterfaces
 from tests.contacts.structures import blocks_of, boxes, ground, model_of
 
 TOLERANCE = 0.01
@@ -115,14 +115,14 @@ def test_surfaces_that_are_given() -> None:
     model = model_of(blocks, grounds=(ground(),))
     triangle = [[2.0, 0.0, 0.0], [2.0, 0.6, 0.0], [2.0, 0.0, 0.9]]
     square = [[2.0, 0.0, 0.0], [3.0, 0.0, 0.0], [3.0, 1.0, 0.0], [2.0, 1.0, 0.0]]
-    given = GivenInterfaces(
+    given = PrescribedInterfaces(
         bodies=np.array([[0, 1], [2, 1]]),
         normals=np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0]]),
         corners=np.array([*triangle, *square]),
         corner_start=np.array([0, 3, 7]),
         joints=("", ""),
     )
-    found = patches_of(model, given)
+    found = patches_of_prescribed(model, given)
     assert len(found) == 2
     assert found.overlays.bodies.tolist() == [[0, 1], [2, 1]]
     assert found.overlays.facets.tolist() == [[-1, -1], [-1, -1]]

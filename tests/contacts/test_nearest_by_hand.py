@@ -8,7 +8,7 @@ from importlib import import_module
 import numpy as np
 import pytest
 
-from mbla.contacts.nearest import nearest_words
+from mbla.contacts.report import nearest_words
 from mbla.deck.units import Units
 from mbla.model.model import Ground
 from tests.contacts.structures import blocks_of, boxes, ground, model_of
@@ -83,7 +83,7 @@ def test_lengths_are_those_of_the_deck() -> None:
 
 def test_of_many_blocks_only_the_nearest_are_compared(monkeypatch: pytest.MonkeyPatch) -> None:
     """The two boxes of each side that are nearest to the box around the other side."""
-    monkeypatch.setattr(import_module("mbla.contacts.nearest"), "MOST", 2)
+    monkeypatch.setattr(import_module("mbla.contacts.report"), "NEAREST_COMPARED", 2)
     part = [at(-3.0 * x, 0.0, 0.0) for x in range(4)]
     others = [at(4.0 + 3.0 * x, 0.0, 0.0) for x in range(4)]
     assert words([0, 1, 2, 3], *part, *others).startswith("; nearest to it is b4[0], 3 m from b0[0]")
@@ -92,7 +92,7 @@ def test_of_many_blocks_only_the_nearest_are_compared(monkeypatch: pytest.Monkey
 
 def test_the_box_around_many_reaches_to_its_farthest(monkeypatch: pytest.MonkeyPatch) -> None:
     """Of the part only the block that is nearest to the whole box of the others is looked at."""
-    monkeypatch.setattr(import_module("mbla.contacts.nearest"), "MOST", 1)
+    monkeypatch.setattr(import_module("mbla.contacts.report"), "NEAREST_COMPARED", 1)
     others = [at(0.0, 0.0, 0.0), at(10.0, 0.0, 0.0)]
     assert words([2, 3], *others, at(11.5, 0.0, 0.0), at(-3.0, 0.0, 0.0)).startswith(
         "; nearest to it is b1[0], 0.5 m from b2[0]"

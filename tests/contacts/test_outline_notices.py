@@ -10,7 +10,7 @@ import shapely
 
 from mbla.contacts.corners import Corners
 from mbla.contacts.narrow_phase import Patches
-from mbla.contacts.outline_notices import outline_notices
+from mbla.contacts.notices import outline_notices
 from mbla.contacts.overlay import Overlays
 from tests.contacts.structures import blocks_of, boxes, model_of, section
 from tests.line import line_of

@@ -5,8 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from mbla.contacts.frames import frames_from_normals
-from mbla.contacts.overlay import Overlays, Planes, build_overlays, concatenate, gap_at, local_maps
+from mbla.contacts.overlay import Overlays, Planes, build_overlays, concatenate, frames_from_normals, gap_at, local_maps
 
 ANGLE, TOWARDS = 0.1, np.array([0.6, 0.8])
 """Of the upper plane, which rises along a direction between x and y."""

@@ -7,7 +7,7 @@ import pytest
 import shapely
 
 from mbla.contacts.corners import areas_and_centroids, needed_corners
-from mbla.contacts.pieces import in_pieces
+from mbla.contacts.points import in_pieces
 
 OUTLINES = {
     "rectangle": (shapely.box(0, 0, 2, 1), 1),

@@ -7,7 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mbla.contacts.corners import areas_and_centroids, needed_corners
-from mbla.contacts.point_areas import point_areas
+from mbla.contacts.refine import point_areas
 
 L_SHAPE = [[0, 0], [2, 0], [2, 1], [1, 1], [1, 2], [0, 2]]
 

@@ -7,7 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mbla.contacts import polygons
-from mbla.contacts.loops import signed_areas
+from mbla.contacts.convex import signed_areas
 from mbla.contacts.polygons import (
     CrowdedError,
     Polygons,

@@ -7,7 +7,7 @@ import pytest
 
 from mbla.contacts import find_contacts
 from mbla.contacts.contacts import ContactReport
-from mbla.contacts.reach import joining_gap
+from mbla.contacts.report import joining_gap
 from tests.contacts.structures import blocks_of, boxes, ground, model_of, section
 
 PILE = boxes(([0, 0, 0], [1, 1, 1]), ([0, 0, 1.004], [1, 1, 2]), ([0, 0, 2.012], [1, 1, 3]), ([1.05, 0, 0], [2, 1, 3]))

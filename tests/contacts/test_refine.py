@@ -9,9 +9,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mbla.contacts.corners import areas_and_centroids, needed_corners
-from mbla.contacts.interface_points import MOST_PARTS, PointsRefused, interface_points
-from mbla.contacts.point_areas import point_areas
-from mbla.contacts.refine import InterfacePoints, point_starts
+from mbla.contacts.points import MOST_PARTS, PointsRefused, interface_points
+from mbla.contacts.refine import InterfacePoints, point_areas, point_starts
 from mbla.deck.types import ContactPoints
 from mbla.errors import Notice
 from tests.analytic.cases import ASSOCIATIVE, answer, answers

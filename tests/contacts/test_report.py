@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from mbla.contacts import ContactReport, find_contacts
-from mbla.contacts.near_misses import _on_same_facet
+from mbla.contacts.narrow_phase import _on_same_facet
 from mbla.contacts.notices import _by_tolerance, overlap_messages
 from mbla.deck.units import Units
 from mbla.model.polyhedra import join_polyhedra

@@ -8,7 +8,7 @@ import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray, row_of_item, starts
 from mbla.contacts.contacts import Contacts
-from mbla.contacts.loops import convex_loops
+from mbla.contacts.convex import convex_loops
 from mbla.contacts.polygons import convex_hulls
 from mbla.model.ragged import items_of_rows, next_item, row_sums
 from mbla.program.convex.friction_curve import disc_radius, fitted_curves, rectangle_curve

@@ -43,7 +43,7 @@ EXPLAINED: dict[tuple[str, str, str], str] = {
         "True -> False",
     ): "there are as many areas as names: minlength, and joints are rows of the names",
     (
-        "mbla/contacts/connectivity.py",
+        "mbla/contacts/report.py",
         "support = np.ones(max(n_blocks, int(bodies.max(initial=-1)) + 1), dtype=bool)",
         "1 -> 2",
     ): "room for one body more, or for as many as there are",
@@ -63,33 +63,33 @@ EXPLAINED: dict[tuple[str, str, str], str] = {
         "0.0 -> 1.0",
     ): "of these laws only the names are read",
     (
-        "mbla/contacts/convex_clip.py",
+        "mbla/contacts/convex.py",
         "return np.asarray(2 ** np.ceil(np.log2(np.maximum(counts, 4))), dtype=np.int64)",
         "4 -> 5",
     ): "more room in tables of corners that need less",
     (
-        "mbla/contacts/convex_clip.py",
+        "mbla/contacts/convex.py",
         "clockwise = area < 0",
         "area < 0 -> area <= 0",
     ): "a polygon of no area is a line there and back: turned round it is the same, and so is what it leaves",
     (
-        "mbla/contacts/convex_clip.py",
+        "mbla/contacts/convex.py",
         "return np.take_along_axis(points, source[..., None], axis=1), counts > 0",
         "0 -> 1",
     ): "never one: of what is cut two crossings are left with each run of corners, of what is not all corners",
     (
-        "mbla/contacts/glued_guides.py",
+        "mbla/contacts/glue.py",
         "differs = np.abs(motions - motions[first[row]]).max(axis=(1, 2), initial=0.0) > AGREE * size",
         "np.abs(motions - motions[first[row]]).max(axis=(1, 2), initial=0.0) > AGREE * size"
         " -> np.abs(motions - motions[first[row]]).max(axis=(1, 2), initial=0.0) >= AGREE * size",
     ): "a rough limit met exactly; no guide is without a motion, so that it is above zero",
     (
-        "mbla/contacts/between.py",
+        "mbla/contacts/third_block.py",
         "least, most = np.full(face.max() + 1, np.inf), np.full(face.max() + 1, -np.inf)",
         "1 -> 2",
     ): "room for one face more",
     (
-        "mbla/contacts/given.py",
+        "mbla/contacts/search.py",
         "overlays = Overlays(given.bodies, nothing, origins, frames, sizes, np.zeros((n, 3)))",
         "3 -> 4",
     ): "a column that nobody reads",
@@ -109,7 +109,7 @@ EXPLAINED: dict[tuple[str, str, str], str] = {
         "np.abs(normals[:, 2]) > BED + ROUNDING -> np.abs(normals[:, 2]) >= BED + ROUNDING",
     ): "a rough limit met exactly",
     (
-        "mbla/contacts/outline_notices.py",
+        "mbla/contacts/notices.py",
         "simpler = int((changes > SEEN).sum())",
         "changes > SEEN -> changes >= SEEN",
     ): "a rough limit met exactly",

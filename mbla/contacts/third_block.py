@@ -18,8 +18,8 @@ from mbla.arrays import BoolArray, FloatArray, IntArray, starts
 from mbla.contacts.narrow_phase import Patches, Verdicts
 from mbla.contacts.overlay import concatenate, local_maps
 from mbla.contacts.polygons import areas, box_pairs, corners, intersect, map_polygons, widths
-from mbla.contacts.ragged import rows_and_items
 from mbla.model.blocks import Blocks
+from mbla.model.ragged import rows_and_items
 
 # Difference of two gaps, relative to block size, below which they are one: some last digits of a coordinate.
 _ROUNDING = 1e-13
@@ -31,7 +31,7 @@ _SHARE = 0.1
 
 
 @dataclass(frozen=True)
-class HeldApart:
+class SeparatedPairs:
     """Common surfaces within the tolerance that are no contacts.
 
     patches : n of them
@@ -45,7 +45,9 @@ class HeldApart:
         return len(self.between)
 
 
-def without_held_apart(verdicts: Verdicts, blocks: Blocks, tolerance: float) -> tuple[Verdicts, HeldApart]:
+def drop_pairs_separated_by_third_block(
+    verdicts: Verdicts, blocks: Blocks, tolerance: float
+) -> tuple[Verdicts, SeparatedPairs]:
     """Verdicts without faces that see each other through blocks, without contacts across a third body, and these.
 
     The third body lies behind the same part of a facet as the farther of the two others, and either is no thicker than
@@ -65,7 +67,7 @@ def without_held_apart(verdicts: Verdicts, blocks: Blocks, tolerance: float) -> 
     held = np.zeros(len(contacts), dtype=bool)
     held[far] = True
     kept = Verdicts(contacts.take(~held), slivers, near_misses)
-    return kept, HeldApart(contacts.take(held), third[between][first])
+    return kept, SeparatedPairs(contacts.take(held), third[between][first])
 
 
 def _third(patches: Patches, far: IntArray, closer: IntArray) -> IntArray:
