@@ -16,6 +16,7 @@ from mbla.deck import read_deck
 from mbla.errors import MblaError
 from mbla.results.outcome import result_of
 from mbla.results.results import CaseResult
+from mbla.solution import Status
 from tests.performance.standard_set import FLOW_RULES
 
 DECKS = Path(__file__).parents[2] / "decks"
@@ -24,6 +25,8 @@ PROVED = 1e-7
 """distance of the bounds of the reference"""
 ROUNDING = 1e-9
 """distance of the bounds, as a factor, that is rounding where the factor is a thousandth (overhang_stack)"""
+UNSETTLED = 1e-3
+"""of sequences of the published scheme that do not settle and end approximate: their last factors lie that far apart"""
 LONG = {
     "arch_on_piers", "barrel_vault", "bridge_with_parapets", "corner", "cross_vault", "crossvault", "dome",
     "gable_wall", "crossvault_without_dilatancy", "dome_24_voussoirs", "dome_in_bond", "dome_of_slices",
@@ -61,5 +64,6 @@ def test_presets_keep_their_promise(deck: Path, rule: str) -> None:
             found, exact = result_of(case), result_of(sharp)
             assert (found is None) == (exact is None), case.load_case.name
             if found is not None and exact is not None:
-                expected = pytest.approx(exact.load_factor, rel=share, abs=ROUNDING)
+                unsettled = UNSETTLED if sharp.status is Status.APPROXIMATE else 0.0
+                expected = pytest.approx(exact.load_factor, rel=max(share, unsettled), abs=ROUNDING)
                 assert found.load_factor == expected, f"{accuracy}, {case.load_case.name}"

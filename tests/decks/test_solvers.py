@@ -13,9 +13,9 @@ ROUNDING = 1e-9
 SEQUENCE = 1e-4
 """Without normality a load factor has no bounds: sequences of steps end where their tolerance lets them."""
 
-NOT_UNIQUE = ("ferris_wall_3_slope", "crossvault_without_dilatancy")
+NOT_UNIQUE = ("ferris_wall_3_slope", "crossvault_without_dilatancy", "house")
 """A published scheme whose steps do not come to rest, and which says so: exit status 4, factors 0.2 % apart; a vault
-whose state at rest depends on the rounding of sums, factors 1 % apart."""
+whose state at rest depends on the rounding of sums, factors 1 % apart; a house pushed along y without dilatancy."""
 
 ALMOST = ("cross_vault_on_piers",)
 """clarabel alone ends AlmostSolved, with proved bounds 1.03e-5 apart where 1e-5 is asked, and so says approximate."""
@@ -24,7 +24,9 @@ ALMOST = ("cross_vault_on_piers",)
 @pytest.mark.long
 @every_deck
 def test_both_solvers_say_the_same_of_a_deck(path: Path) -> None:
-    if deck_of(path).content.analysis.contact_model == "convex":
+    content = deck_of(path).content
+    crushes = any(joint.compressive_strength is not None for joint in content.joints.values())
+    if content.analysis.contact_model == "convex" or crushes:
         pytest.skip("cones of larger dimensions are clarabel's alone")
     own, other = (run_deck(path, "--set", f"analysis.solver={solver}") for solver in ("mbla", "clarabel"))
     assert own.exit_status == other.exit_status or (path.stem in ALMOST and other.exit_status == 4)
