@@ -112,6 +112,16 @@ class Program:
             reduction=None if way is None else replace(way, full=way.full.without_live_load()),
         )
 
+    def in_unit_of_force(self, unit: float) -> Program:
+        """The same with forces in a unit given in its own; velocities for unit live power stay."""
+        scaling = self.scaling
+        return replace(
+            self,
+            dead_load=self.dead_load / unit,
+            limits=self.limits.scaled(1.0 / unit),
+            scaling=replace(scaling, force=scaling.force * unit, live=scaling.live * unit, row=scaling.row / unit),
+        )
+
     @property
     def n_points(self) -> int:
         """Number of contact points."""

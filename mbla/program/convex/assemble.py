@@ -111,8 +111,27 @@ def with_crushing_of(convex: ConvexProgram, interfaces: BoolArray) -> ConvexProg
     rows = limits.interfaces[kept]
     strength, tension = np.full(n, np.inf), np.zeros(n)
     strength[rows], tension[rows] = (limits.strength - limits.tension)[kept], limits.tension[kept]
+    return _with_strengths(convex, strength, tension)
+
+
+def in_unit_of_force(convex: ConvexProgram, unit: float) -> ConvexProgram:
+    """The program with forces in a unit given in its own; velocities and motions stay what they are."""
+    if unit == 1.0:
+        return convex
+    limits, n = convex.crushing, len(convex.shapes.radii)
+    strength, tension = np.full(n, np.inf), np.zeros(n)
+    strength[limits.interfaces] = (limits.strength - limits.tension) / unit
+    tension[limits.interfaces] = limits.tension / unit
+    torsion = replace(convex.torsion, cohesion=convex.torsion.cohesion / unit)
+    conditions = (torsion_rows(torsion, n), convex.conditions[1])
+    points = convex.points.in_unit_of_force(unit)
+    return _with_strengths(replace(convex, points=points, torsion=torsion, conditions=conditions), strength, tension)
+
+
+def _with_strengths(convex: ConvexProgram, strength: FloatArray, tension: FloatArray) -> ConvexProgram:
+    """The program with other strengths of its interfaces, (n_interfaces,)."""
     crushing = crushing_limits(convex.shapes, strength, tension)
-    conditions = (convex.conditions[0], crushing_rows(crushing, n))
+    conditions = (convex.conditions[0], crushing_rows(crushing, len(strength)))
     program = _with_conditions(convex.points, joined(conditions), convex.resultants)
     return replace(convex, program=program, crushing=crushing, conditions=conditions)
 

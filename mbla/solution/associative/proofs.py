@@ -24,7 +24,7 @@ from mbla.solution.associative.force_repair import repaired_forces
 from mbla.solution.associative.mechanism_repair import repaired_mechanisms
 from mbla.solution.solution import Mechanics
 from mbla.solution.verification.guides import allowed_motion
-from mbla.solution.verification.load_scale import LoadScale, forces_on_blocks
+from mbla.solution.verification.load_scale import LoadScale
 from mbla.solution.verification.residuals import unbalanced_loads, unbalanced_wrenches
 from mbla.solution.verification.statics import contact_velocities, power
 
@@ -33,7 +33,7 @@ PROVED_RESIDUAL = 2e-9
 
 ROUNDING = 1e-6
 """Share of the forces on a block that its scale is not less than there: thin light blocks pass on forces whose rounding
-is more than their weight. No more than the mean and the live load, or forces locked in would prove what one likes."""
+is more than their weight."""
 
 LARGE, LARGE_GAP = 30_000, 1e-5
 """Rows of equilibrium, 5,000 blocks in space, beyond which a mechanism that proves a load factor so close to the static
@@ -159,9 +159,7 @@ def _forces_prove(
     """Whether forces balance the loads within the yield conditions up to rounding."""
     unbalanced = unbalanced_loads(model, contacts, load_case, forces, factor, scale)
     excess = yield_violation(forces, limits)
-    passed_on = forces_on_blocks(contacts, forces, len(scale.own))  # of each block: elsewhere they may be huge
-    rounding = np.minimum(ROUNDING * passed_on, scale.most_rounding(factor))
-    block_scale = np.maximum(scale.block_scale(contacts, forces), rounding)
+    block_scale = scale.rounded_scale(contacts, forces, factor, ROUNDING)
     point_scale = scale.of_lighter(contacts, block_scale)
     return bool(np.all(unbalanced <= PROVED_RESIDUAL * block_scale) and np.all(excess <= PROVED_RESIDUAL * point_scale))
 

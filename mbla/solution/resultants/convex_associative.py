@@ -15,14 +15,20 @@ import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray
 from mbla.program.convex import ConvexProgram, convex_form
-from mbla.program.convex.assemble import near_crushing, with_crushing_of
+from mbla.program.convex.assemble import in_unit_of_force, near_crushing, with_crushing_of
 from mbla.program.convex.crushing import crushing_violation
 from mbla.program.kinematic import KinematicForm
 from mbla.solution.cone_solvers.choice import interior_point_solver
 from mbla.solution.cone_solvers.cone_solution import ConeSolution, Log
 from mbla.solution.resultants.convex_repair import repaired_convex_forces
 from mbla.solution.resultants.convex_state import ConvexState
-from mbla.solution.resultants.convex_units import in_units, loses_light_blocks, units_of_unknowns
+from mbla.solution.resultants.convex_units import (
+    HEAVY,
+    in_units,
+    loses_light_blocks,
+    unit_at_collapse,
+    units_of_unknowns,
+)
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import ProgramRecord, Status
 
@@ -48,8 +54,12 @@ BEYOND = 1e-9
 OWN_UNITS = 2
 """Times that it is solved again in units which give light blocks their due, each from the forces of the time before."""
 
+FAR, CHANGES = 10.0, 3
+"""How far from the load at collapse a unit of force is not good, and how often it is changed."""
+
 WITH_VALUE = (Status.SOLVED, Status.APPROXIMATE)
 DECIDED = (Status.SOLVED, Status.NO_EQUILIBRIUM, Status.UNBOUNDED)
+BROKEN = (Status.NUMERICAL_ERROR, Status.ITERATION_LIMIT)
 
 
 @dataclass(frozen=True)
@@ -72,18 +82,31 @@ class ConvexAssociative:
 
 @dataclass
 class _Run:
+    """What is being solved; ``forces`` in the unit of ``convex``, ``unit`` of force for the live load as it is."""
+
     convex: ConvexProgram
     settings: SolverSettings
     log: Log
     records: list[ProgramRecord]
     forces: FloatArray | None = None
+    unit: float = 1.0
 
-    def solve(self, form: KinematicForm, sense: float) -> ConeSolution:
-        """The program with the live load as it is, or reversed; in own units where ``forces`` give them."""
-        units = None if self.forces is None else units_of_unknowns(form, self.convex, self.forces)
+    def unit_for(self, sense: float) -> float:
+        """Unit of force: the common one for the live load reversed, which asks whether the dead load is carried."""
+        return self.unit if sense > 0 else 1.0
+
+    def program(self, sense: float) -> ConvexProgram:
+        """The program in the unit of force for the live load as it is, or reversed."""
+        return in_unit_of_force(self.convex, self.unit_for(sense))
+
+    def solve(self, convex: ConvexProgram, form: KinematicForm, sense: float) -> ConeSolution:
+        """A program with the live load as it is, or reversed; in own units where ``forces`` give them."""
+        units = None
+        if self.forces is not None:
+            units = units_of_unknowns(form, convex, self.forces / self.unit_for(sense))
         own = form.cone_program if units is None else in_units(form.cone_program, units)
         program = replace(own, rhs=sense * own.rhs)
-        number, live = len(self.records) + 1, sense * self.convex.points.scaling.live
+        number, live = len(self.records) + 1, sense * convex.points.scaling.live
         solution = interior_point_solver(program, self.settings, self.log).solve(number, live)
         value = solution.objective * live if solution.status in WITH_VALUE else np.nan
         kind = "associative" if sense > 0 else "reverse"
@@ -118,7 +141,10 @@ def _in_own_units(run: _Run, result: ConvexAssociative) -> ConvexAssociative:
     convex = run.convex
     for _ in range(OWN_UNITS):
         state = result.state
-        if state is None or not loses_light_blocks(convex, state.forces, state.load_factor):
+        if state is None:
+            break
+        forces, factor = state.forces / run.unit, state.load_factor / run.unit
+        if not loses_light_blocks(run.program(1.0), forces, factor):
             break
         run.forces = state.forces
         again = _attempt(run)
@@ -149,31 +175,49 @@ def _repaired(convex: ConvexProgram, state: ConvexState) -> ConvexState:
 
 def _attempt(run: _Run) -> ConvexAssociative:
     """The program and, with the live load reversed, whether the dead load is carried."""
-    convex = run.convex
-    form, forward = _solved(run, 1.0)
+    form, forward = _forward(run)
     if forward.status not in (*WITH_VALUE, Status.UNBOUNDED):
-        return _without_value(run, form, forward, _words(forward))
-    _, reverse = _solved(run, -1.0)
+        return _without_value(run, form, forward, 1.0, _words(forward))
+    back, reverse = _solved(run, -1.0)
     if reverse.status not in (*WITH_VALUE, Status.UNBOUNDED):
-        return _without_value(
-            run, form, reverse, f"whether the dead load alone is carried is not known: {_words(reverse)}"
-        )
-    for solution in (forward, reverse):
-        if solution.status in WITH_VALUE and _negative(convex, solution.objective):
-            return _without_equilibrium(run, form, solution)
+        words = f"whether the dead load alone is carried is not known: {_words(reverse)}"
+        return _without_value(run, back, reverse, -1.0, words)
+    for found, solution, sense in ((form, forward, 1.0), (back, reverse, -1.0)):
+        if solution.status in WITH_VALUE and _negative(run.program(sense), solution.objective):
+            return _without_equilibrium(run, found, solution, sense)
     if forward.status is Status.UNBOUNDED:
         return _unbounded(run, form, forward)
-    doubtful = reverse.status is Status.APPROXIMATE and _near_zero(convex, reverse.objective)
+    doubtful = reverse.status is Status.APPROXIMATE and _near_zero(run.convex, reverse.objective)
     status, reason = (Status.APPROXIMATE, _words(reverse)) if doubtful else (Status.SOLVED, "")
     velocities = form.velocities(forward.x)
     state = ConvexState(
-        forces=form.contact_forces(forward.z),
-        velocities=velocities[: convex.n_block_rows],
-        motions=convex.flows(velocities),
-        load_factor=forward.objective,
+        forces=form.contact_forces(forward.z) * run.unit,
+        velocities=velocities[: run.convex.n_block_rows],
+        motions=run.program(1.0).flows(velocities),
+        load_factor=forward.objective * run.unit,
         residual=np.nan,
     )
     return replace(run.result(status, reason), state=state)
+
+
+def _forward(run: _Run) -> tuple[KinematicForm, ConeSolution]:
+    """The program with the live load as it is, in the unit of the loads at collapse where these are far larger."""
+    form, solution = _solved(run, 1.0)
+    for _ in range(CHANGES):
+        unit = _unit_after(run, solution)
+        if run.unit / FAR <= unit <= FAR * run.unit:
+            break
+        run.unit = unit
+        form, solution = _solved(run, 1.0)
+    return form, solution
+
+
+def _unit_after(run: _Run, solution: ConeSolution) -> float:
+    """Unit of force by what was found; that of the greatest strength where the solver broke down."""
+    if solution.status in WITH_VALUE:
+        return unit_at_collapse(run.convex, solution.objective * run.unit)
+    strongest = float(run.convex.crushing.strength.max(initial=0.0))
+    return strongest if solution.status in BROKEN and strongest > HEAVY else run.unit
 
 
 def _solved(run: _Run, sense: float) -> tuple[KinematicForm, ConeSolution]:
@@ -182,12 +226,13 @@ def _solved(run: _Run, sense: float) -> tuple[KinematicForm, ConeSolution]:
     Both have the same constraints: a proof that there is no mechanism is one for both, and stays one where the solver
     breaks down on the plain program.
     """
-    form = convex_form(run.convex, stabilised=True)
-    solution = run.solve(form, sense)
-    if solution.status is Status.SOLVED and not _negative(run.convex, solution.objective):
+    convex = run.program(sense)
+    form = convex_form(convex, stabilised=True)
+    solution = run.solve(convex, form, sense)
+    if solution.status is Status.SOLVED and not _negative(convex, solution.objective):
         return form, solution
-    plain_form = convex_form(run.convex)
-    plain = run.solve(plain_form, sense)
+    plain_form = convex_form(convex)
+    plain = run.solve(convex, plain_form, sense)
     if plain.status in DECIDED or solution.status not in (*WITH_VALUE, Status.UNBOUNDED):
         return plain_form, plain
     return form, solution
@@ -207,19 +252,21 @@ def _near_zero(convex: ConvexProgram, objective: float) -> bool:
     return abs(objective) < DOUBTFUL / STANDS_MARGIN * _noise(convex)
 
 
-def _without_value(run: _Run, form: KinematicForm, solution: ConeSolution, words: str) -> ConvexAssociative:
+def _without_value(
+    run: _Run, form: KinematicForm, solution: ConeSolution, sense: float, words: str
+) -> ConvexAssociative:
     if solution.status is Status.NO_EQUILIBRIUM:
-        return _without_equilibrium(run, form, solution)
+        return _without_equilibrium(run, form, solution, sense)
     return run.result(solution.status, words)
 
 
-def _without_equilibrium(run: _Run, form: KinematicForm, solution: ConeSolution) -> ConvexAssociative:
+def _without_equilibrium(run: _Run, form: KinematicForm, solution: ConeSolution, sense: float) -> ConvexAssociative:
     """The mechanism that proves it."""
     velocities = form.velocities(solution.x)
     reason = (
         "the dead load alone is not carried: a mechanism exists in which it does more work than the joints dissipate"
     )
-    blocks, motions = velocities[: run.convex.n_block_rows], run.convex.flows(velocities)
+    blocks, motions = velocities[: run.convex.n_block_rows], run.program(sense).flows(velocities)
     return replace(run.result(Status.NO_EQUILIBRIUM, reason), velocities=blocks, motions=motions)
 
 

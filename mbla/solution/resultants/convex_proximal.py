@@ -16,6 +16,7 @@ import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.program.convex import ConvexProgram
+from mbla.program.convex.assemble import in_unit_of_force
 from mbla.program.convex.friction_limit import friction_limit
 from mbla.program.convex.static import ConvexStaticForm, convex_proximal_data, convex_proximal_form
 from mbla.program.static import gravity_form
@@ -42,8 +43,9 @@ NEAR = 0.2
 MOST_WORK = 600
 """Factorisations of one try of the exact law."""
 
-EXACT = 1e-9
-"""Residual at which a state counts as one of the exact law."""
+EXACT, NEARLY_EXACT = 1e-9, 1e-8
+"""Residual at which a state counts as one of the exact law, and at which it does after a try of the law in vain: where
+an interface is all but wholly crushed convex steps come to 3e-9, and tries, of 600 factorisations each, to no less."""
 
 BALANCED = 1e-4
 """Unbalanced force, in mean block loads, up to which a step of the exact law leads to the next: velocities over ρ are
@@ -118,13 +120,19 @@ def solve_convex_proximal(
     max_programs: int,
     settings: SolverSettings,
     log: Log,
+    unit: float = 1.0,
 ) -> ConvexSequence:
-    """Run the scheme; ``records`` are those of the programs before it."""
+    """Run the scheme; ``records`` are those of the programs before it.
+
+    unit : of force, in that of the program, in which states are given; of the loads at collapse if it is not 1
+    """
     run = _Run(convex, replace(settings, tolerance=min(settings.tolerance, QUIET)), log, list(records))
     gravity = _gravity_state(run)
     if isinstance(gravity, ConvexSequence):
         return gravity
-    anchor, rho = gravity, STEP / max(float((gravity**2).sum()), 1e-300)
+    run.convex = convex = in_unit_of_force(convex, unit)
+    anchor, least = gravity / unit, 1e-300 if unit == 1.0 else 1.0
+    rho = STEP / max(float((anchor**2).sum()), least)
     form, law = convex_proximal_form(convex, rho), convex_law(convex)
     solver = interior_point_solver(form.cone_program, run.settings, log)
     for step in range(1, max_programs + 1):
@@ -140,7 +148,7 @@ def solve_convex_proximal(
         if state.residual <= EXACT or _is_enough(run):
             break
         due = step >= FIRST_TRY and (step - FIRST_TRY) % TRY_EVERY == 0 and state.residual < NEAR
-        if due and _exact(run, law, anchor, rho, state):
+        if due and (_exact(run, law, anchor, rho, state) or _is_nearly_exact(run)):
             break
         if _is_stuck(run):
             break
@@ -213,6 +221,11 @@ def _is_stuck(run: _Run) -> bool:
     """Whether the last steps have not halved the least residual, those of the exact law left out."""
     earlier, last = run.of_steps[:-PATIENCE], run.of_steps[-PATIENCE:]
     return bool(earlier) and min(last) > 0.5 * min(earlier)
+
+
+def _is_nearly_exact(run: _Run) -> bool:
+    """Whether a state fits the law so well that no more is tried after a try in vain."""
+    return min(state.residual for state in run.states) <= NEARLY_EXACT
 
 
 def _finished(run: _Run) -> ConvexSequence:

@@ -20,11 +20,12 @@ import scipy.sparse as sp
 from mbla.arrays import FloatArray
 from mbla.process.stopwatch import timed
 from mbla.program.convex import ConvexProgram, convex_form
+from mbla.program.convex.assemble import in_unit_of_force
 from mbla.solution.associative.least_step import Equilibrium, StepOf, augmented_step, normal_step
 from mbla.solution.associative.mechanism_repair import repaired_mechanisms
 from mbla.solution.cone_solvers.cone_vectors import ConeVectors
 from mbla.solution.resultants.convex_slacks import slacks_of
-from mbla.solution.resultants.convex_units import in_units, units_of_unknowns
+from mbla.solution.resultants.convex_units import in_units, unit_at_collapse, units_of_unknowns
 
 ROUNDS = 6
 PROGRESS = 0.5
@@ -34,10 +35,15 @@ EQUILIBRIUM_TOLERANCE, GOOD_EQUILIBRIUM = 1e-11, 3e-10
 """Residual of Mᵀz = −cost, in mean block loads or in what a light block carries, at which corrections stop, and at
 which no other start is tried; of the largest load where that is more, by a large load factor."""
 
+LARGEST_UNIT = 1e5
+"""Unit of force, in mean block loads, beyond which these are no more than its rounding."""
+
 INSIDES = (1e-10, 1e-8, 1e-7)
 """Distances from the borders of the cones, relative to the size of a vector, from which corrections start: where a
 whole plane slides all its forces are on their cones, and rounding keeps corrections from succeeding too close to
-them."""
+them. Where none of them will do, vectors of crushing are moved by as much of the unit of force: where all of an
+interface is nearly crushed they are small differences of its strength and its force, which the solver knows no better
+than the rest."""
 
 THRESHOLDS = (0.0, 1e-6, np.inf)
 """Share of the largest contact speed below which the motion of an interface is taken for rounding and left out."""
@@ -52,6 +58,8 @@ def repaired_convex_forces(
     forces : (n_points, 3), non-dimensional like the load factor. None where no repair is found.
     sharp  : None too where they are not as near to equilibrium as ``GOOD_EQUILIBRIUM``
     """
+    unit = unit_at_collapse(convex, load_factor)
+    convex, forces, load_factor = in_unit_of_force(convex, unit), forces / unit, load_factor / unit
     form = convex_form(convex)
     cones = ConeVectors.of(form.cone_program)
     units = units_of_unknowns(form, convex, forces)
@@ -60,17 +68,21 @@ def repaired_convex_forces(
     equilibrium = Equilibrium(rows[1:], rows[[0]].toarray().ravel(), cone_program.cost)
     slacks, sizes = slacks_of(convex, form, forces), _sizes(cones, sp.csr_array(form.cone_program.matrix)[1:], units)
     loads = np.abs(equilibrium.cost) + np.abs(load_factor * equilibrium.live)
-    best, least, good = None, np.inf, GOOD_EQUILIBRIUM * max(1.0, float(loads.max(initial=0.0)))
-    for inside, step_of in product(INSIDES, (normal_step, augmented_step)):
-        z = np.concatenate([[-load_factor], cones.pulled_inside(slacks, inside, sizes)])
-        z, residual = _corrected(equilibrium, cones, z, step_of)
+    tolerance, good = (share / min(unit, LARGEST_UNIT) for share in (EQUILIBRIUM_TOLERANCE, GOOD_EQUILIBRIUM))
+    good *= max(1.0, float(loads.max(initial=0.0)))
+    best, least = None, np.inf
+    of_crushing = np.arange(len(sizes)) >= len(sizes) - len(convex.conditions[1].cone_sizes)
+    for apart, inside, step_of in product((0.0, 1.0), INSIDES, (normal_step, augmented_step)):
+        distance = np.where(of_crushing, apart * inside * np.minimum(sizes, 1.0), 0.0)
+        z = np.concatenate([[-load_factor], cones.pulled_inside(slacks, inside, sizes, distance)])
+        z, residual = _corrected(equilibrium, cones, z, step_of, tolerance)
         if residual < least:
             best, least = z, residual
         if least <= good:
             break
     if best is None or (sharp and not least <= good):
         return None
-    return form.contact_forces(best), -float(best[0])
+    return form.contact_forces(best) * unit, -float(best[0]) * unit
 
 
 @timed("repair")
@@ -108,7 +120,7 @@ def _sizes(cones: ConeVectors, matrix: sp.csr_array, units: FloatArray) -> Float
 
 
 def _corrected(
-    equilibrium: Equilibrium, cones: ConeVectors, z: FloatArray, step_of: StepOf
+    equilibrium: Equilibrium, cones: ConeVectors, z: FloatArray, step_of: StepOf, tolerance: float
 ) -> tuple[FloatArray, float]:
     """The best of the corrections of z that keep it inside the cones, and its residual."""
     best, least = z, np.inf
@@ -122,6 +134,6 @@ def _corrected(
         stalled = longest >= 1.0 and residual > PROGRESS * least
         if residual < least:
             best, least = z, residual
-        if stalled or least <= EQUILIBRIUM_TOLERANCE:
+        if stalled or least <= tolerance:
             break
     return best, least

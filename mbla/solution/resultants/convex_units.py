@@ -1,9 +1,13 @@
-"""Units of the unknowns of the convex contact model in which light blocks are not lost beside heavy ones.
+"""Units of the convex contact model: of the forces at collapse, and of the unknowns so that light blocks are not lost.
 
-As ``in_own_units`` of ``associative_form``: the solver's tolerance is one for all equations, and the
-quadratic term of the stabilised form one for all velocities, which where only light blocks fall are large. The velocity
-of a block is counted in units of 1 over what it carries; what conditions and multipliers add to the motion of an
-interface or a point in units of 1 over what the lighter of its blocks carries.
+*Forces.* A joint with a strength of thousands of block loads may carry all of it at collapse. Its conditions are then
+differences of numbers of that size, and nothing of them is left in the unit of the mean load: the largest load of a
+block at collapse takes its place.
+
+*Unknowns.* As ``in_own_units`` of ``associative_form``: the solver's tolerance is one for all
+equations, and the quadratic term of the stabilised form one for all velocities, which where only light blocks fall are
+large. The velocity of a block is counted in units of 1 over what it carries; what conditions and multipliers add to the
+motion of an interface or a point in units of 1 over what the lighter of its blocks carries.
 """
 
 from __future__ import annotations
@@ -24,6 +28,17 @@ LOST = 1e-6
 
 LINKS = 4
 """Steps along the cones of a condition from an unknown that moves its interface to one that does not: one is usual."""
+
+
+HEAVY = 100.0
+"""Load of a block at collapse, in mean dead loads, up to which the mean dead load is the unit of force."""
+
+
+def unit_at_collapse(convex: ConvexProgram, load_factor: float) -> float:
+    """Unit of force, in that of the program, where the collapse is at a load factor."""
+    program = convex.points
+    largest = float(np.abs(program.dead_load + load_factor * program.live_load).max(initial=0.0))
+    return largest if largest > HEAVY else 1.0
 
 
 def units_of_unknowns(form: KinematicForm, convex: ConvexProgram, forces: FloatArray) -> FloatArray:

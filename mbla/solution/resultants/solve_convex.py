@@ -11,6 +11,7 @@ from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.deck.accuracy import knobs_of
 from mbla.deck.analysis import AnalysisSection
 from mbla.program.convex import ConvexProgram
+from mbla.program.convex.assemble import in_unit_of_force
 from mbla.program.convex.crushing import crushing_violation
 from mbla.program.convex.friction_limit import torsion_reserve
 from mbla.solution.cone_solvers.cone_solution import Log
@@ -20,6 +21,7 @@ from mbla.solution.mechanics import contact_velocities
 from mbla.solution.resultants.convex_associative import ConvexAssociative, solve_convex_associative
 from mbla.solution.resultants.convex_proximal import ConvexSequence, solve_convex_proximal
 from mbla.solution.resultants.convex_state import ConvexState
+from mbla.solution.resultants.convex_units import unit_at_collapse
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import ContactMode, IterationRecord, Mechanics, Solution, Standing, Status
 from mbla.solution.solve import ONLY_BY_SELF_STRESS
@@ -55,17 +57,20 @@ def solve_convex(
 
 def _solved(convex: ConvexProgram, analysis: AnalysisSection, settings: SolverSettings, log: Log) -> Solution:
     associative = solve_convex_associative(convex, settings, log)
-    sequence = None
+    sequence, unit = None, 1.0
     locked = associative.status is Status.UNBOUNDED
     if analysis.flow_rule != "associative" and (associative.state is not None or locked):
         max_programs = analysis.proximal.max_programs
-        sequence = solve_convex_proximal(convex, associative.programs, max_programs, settings, log)
+        if associative.state is not None:
+            unit = unit_at_collapse(convex, associative.state.load_factor)
+        sequence = solve_convex_proximal(convex, associative.programs, max_programs, settings, log, unit)
         if locked and sequence.status is not Status.SOLVED:
             sequence = replace(sequence, status=Status.NOT_VERIFIED, state=None, reason=LOCKED)
     mechanics = of_associative = _mechanics(convex, associative.state, convex.points.limits.friction)
     status, reason, programs = associative.status, associative.reason, associative.programs
     if sequence is not None:
-        mechanics = _mechanics(convex, sequence.state, np.zeros(convex.points.n_points))
+        own = in_unit_of_force(convex, unit)
+        mechanics = _mechanics(own, sequence.state, np.zeros(convex.points.n_points))
         status, reason, programs = _status(associative, sequence), sequence.reason or reason, sequence.programs
     certificate, motions = _certificate(convex, associative)
     live = convex.points.scaling.live
@@ -81,7 +86,7 @@ def _solved(convex: ConvexProgram, analysis: AnalysisSection, settings: SolverSe
         seconds=0.0,
         scheme="" if sequence is None else "proximal",
         remarks=() if sequence is None else (*sequence.remarks, NO_RANGE),
-        spread=None if sequence is None or sequence.spread is None else _scaled(sequence.spread, live),
+        spread=None if sequence is None or sequence.spread is None else _scaled(sequence.spread, live * unit),
         certificate_motions=motions,
         contact_model=convex.contact_model,
         stress_blocks=bool(len(convex.crushing.interfaces)),

@@ -45,13 +45,20 @@ class LoadScale:
         total = self.own + forces_on_blocks(contacts, contact_forces, len(self.own))
         return np.asarray(np.minimum(total, self.mean))
 
+    def rounded_scale(self, contacts: Contacts, contact_forces: FloatArray, factor: float, share: float) -> FloatArray:
+        """``block_scale``, but no less than a share of the forces on the block, for their rounding, (n_blocks,).
+
+        No more of that than the mean and the live load, or forces locked in would prove what one likes.
+        """
+        passed_on = forces_on_blocks(
+            contacts, contact_forces, len(self.own)
+        )  # of each block: elsewhere they may be huge
+        rounding = np.minimum(share * passed_on, self.mean + abs(factor) * self.live)
+        return np.maximum(self.block_scale(contacts, contact_forces), rounding)
+
     def point_scale(self, contacts: Contacts, contact_forces: FloatArray) -> FloatArray:
         """The scale of the lighter free block at every contact point, (n_points,)."""
         return self.of_lighter(contacts, self.block_scale(contacts, contact_forces))
-
-    def most_rounding(self, factor: float) -> float:
-        """What no scale is raised beyond for rounding of forces: those locked in may be as large as one likes."""
-        return self.mean + abs(factor) * self.live
 
     def of_lighter(self, contacts: Contacts, values: FloatArray) -> FloatArray:
         """The lesser of the values, (n_blocks,), of the free blocks at every contact point, (n_points,)."""

@@ -41,6 +41,10 @@ ROUNDED_OFF = 1e-9
 """Excess of an interface over what it carries when it crushes, over its normal force, that is rounding: where all of it
 is crushed the excess grows with the square root of that of the conditions."""
 
+SHARP = 1e-4
+"""Share of the forces on a block that the scale of its residuals is not less than: joints that crush under thousands of
+times its weight are solved to 1e-9 of what they bear."""
+
 WRONG_RESULTANTS = 1e-9
 """Relative distance of stored resultants from those of the stored contact forces that is rounding."""
 
@@ -180,9 +184,8 @@ def _forces_prove(case: _Case, forces: FloatArray, factor: float) -> bool:
     """Whether forces balance the loads within all conditions up to rounding."""
     scale, contacts = case.scale, case.contacts
     unbalanced = unbalanced_loads(case.model, contacts, case.load_case, forces, factor, scale)
-    rounding = min(ROUNDING * float(np.abs(forces).max(initial=0.0)), scale.most_rounding(factor))
-    block_scale = np.maximum(scale.block_scale(contacts, forces), rounding)
-    point_scale = np.maximum(scale.point_scale(contacts, forces), rounding)
+    block_scale = scale.rounded_scale(contacts, forces, factor, ROUNDING)
+    point_scale = scale.of_lighter(contacts, block_scale)
     allowed = PROVED_RESIDUAL * point_scale
     pressed = np.maximum(np.add.reduceat(forces[:, 0], contacts.point_start[:-1]), 0.0)
     interface_allowed = np.maximum(
@@ -271,11 +274,12 @@ def _residuals(case: _Case, mechanics: Mechanics, flow_rule: str) -> Residuals:
     balance = max(abs(factor * live_power), abs(dead_power), frictional, scale.least_factor(u))
     dissipated = flow.dissipated + float(twisted.sum() + crushed.sum())
     unbalanced = unbalanced_loads(case.model, case.contacts, case.load_case, x, factor, scale)[case.model.free]
-    point_scale = scale.point_scale(case.contacts, x)
+    block_scale = scale.rounded_scale(case.contacts, x, factor, SHARP)
+    point_scale = scale.of_lighter(case.contacts, block_scale)
     interface_scale = np.minimum.reduceat(point_scale, case.contacts.point_start[:-1])
     excess = float((yield_violation(x, limits) / point_scale).max(initial=0.0))
     return Residuals(
-        equilibrium=float((unbalanced / scale.block_scale(case.contacts, x)[case.model.free]).max(initial=0.0)),
+        equilibrium=float((unbalanced / block_scale[case.model.free]).max(initial=0.0)),
         yielding=max(excess, float((_interface_excess(case, x) / interface_scale).max(initial=0.0))),
         tension=float((np.maximum(-x[:, 0] - limits.tension, 0.0) / point_scale).max(initial=0.0)),
         penetration=max(penetration_of(closing, speed, u, scale.arms), off_guides(case.model, u, scale.arms)),

@@ -441,11 +441,11 @@ def test_small_forces_charge_little(dry: Line) -> None:
 @pytest.mark.parametrize(("off", "proves"), [(0.9, True), (1.1, False)])
 def test_of_large_forces_more_may_be_rounding(off: float, proves: bool) -> None:
     """Pressed between two walls with 2^34 at each of eight corners, with the weight and a push of 2^23 on them: 1e-6 of
-    the largest force times 2e-9."""
+    the forces on the cube times 2e-9, as where joints crush at their points."""
     line = cube(supports="{ground: {x: 0}}, {ground: {point: [1, 0, 0], normal: [-1, 0, 0]}}")
     line = replace(line, load_case=loaded(line.load_case, DEAD, (0, 8, 0, 0, 0, 0)))
     sign = np.where(line.contacts.bodies[line.contacts.interface_of_point][:, 1] == 0, 1.0, -1.0)
-    hung = sign[:, None] * np.array([0.0, -(2.0**20), (32.0 - off * 2e-15 * 2.0**34) / 8])
+    hung = sign[:, None] * np.array([0.0, -(2.0**20), (32.0 - off * 2e-15 * 8 * 2.0**34) / 8])
     forces = np.einsum("pjx,px->pj", line.contacts.frames, hung)
     forces[:, 0] = 2.0**34
     static, _ = proved(line, state(forces, np.zeros((1, 6)), 2.0**20))
