@@ -13,9 +13,9 @@ from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.contacts.facets import Facets
 from mbla.contacts.polygons import CrowdedError, box_pairs
 from mbla.errors import Refusal
-from mbla.model.blocks import Blocks
 from mbla.model.generators.amounts import most_pairs
-from mbla.model.ragged import chunks, rows_and_items
+from mbla.model.solids.blocks import Blocks
+from mbla.model.solids.ragged import chunks, rows_and_items
 
 NEAR_MISS = 10.0
 """Gaps up to this many tolerances are near misses."""

@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray, starts
-from mbla.model.ragged import next_item
+from mbla.model.solids.ragged import next_item
 
 
 def convex_loops(points: FloatArray, loop_start: IntArray) -> BoolArray:

@@ -13,8 +13,8 @@ import numpy as np
 from mbla.arrays import BoolArray, FloatArray, IntArray, row_of_item, starts
 from mbla.contacts.overlay import frames_from_normals, unit
 from mbla.contacts.polygons import Polygons, areas, convex_polygons, map_polygons, polygons_from_loops, union_by_row
-from mbla.model.blocks import Blocks
-from mbla.model.ragged import next_item, rows_and_items
+from mbla.model.solids.blocks import Blocks
+from mbla.model.solids.ragged import next_item, rows_and_items
 
 # Snapping grid, relative to block size, for uniting outlines whose edges may differ by rounding: an order of magnitude
 # slower than floating arithmetic, which is enough where faces share their edges, and checked by the area.

@@ -16,10 +16,10 @@ from mbla.contacts.glue import Solids, guides_at_odds, held_model, solids_of
 from mbla.deck.deck import Deck
 from mbla.deck.tree import KeyPath
 from mbla.errors import Fault, Message
-from mbla.model.defects import planarity_defects
-from mbla.model.item_defects import defects_in_words
+from mbla.model.items import defects_in_words
 from mbla.model.model import LoadCase, Model
-from mbla.model.ragged import rows_and_items
+from mbla.model.solids.defects import planarity_defects
+from mbla.model.solids.ragged import rows_and_items
 from mbla.model.wording import named
 
 CANCELLED = 1e-12

@@ -29,7 +29,7 @@ from mbla.contacts.polygons import (
 )
 from mbla.errors import Notice, Refusal
 from mbla.model.model import Model
-from mbla.model.ragged import rows_and_items
+from mbla.model.solids.ragged import rows_and_items
 
 _ONE_FACE = 0.99
 """Cosine of the angle between two normals of common surfaces of one face."""

@@ -24,8 +24,7 @@ from mbla.deck.joints import BUILT_IN, GLUED, OPEN
 from mbla.deck.types import AboutNormal, ContactOverride, ContactsSection, Selector
 from mbla.errors import Fault, Notice
 from mbla.model.model import Model
-from mbla.model.overrides import bodies_selected, selector_words
-from mbla.model.selectors import Roster, build_roster
+from mbla.model.selectors import Roster, bodies_selected, build_roster, selector_words
 from mbla.model.wording import vector
 
 BED = math.cos(math.radians(45))

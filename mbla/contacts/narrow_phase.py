@@ -36,9 +36,9 @@ from mbla.contacts.polygons import (
     map_polygons,
     widths,
 )
-from mbla.model.blocks import Blocks
 from mbla.model.model import Ground
-from mbla.model.ragged import rows_and_items
+from mbla.model.solids.blocks import Blocks
+from mbla.model.solids.ragged import rows_and_items
 
 _EDGE = 1e-3
 _NARROW_FACET = 0.5

@@ -17,7 +17,7 @@ from mbla.contacts.third_block import SeparatedPairs
 from mbla.deck.types import ContactsSection
 from mbla.errors import Notice
 from mbla.model.model import Model
-from mbla.model.ragged import next_item
+from mbla.model.solids.ragged import next_item
 
 # So many are named in a notice; the arrays of the report have all.
 _NAMED = 3

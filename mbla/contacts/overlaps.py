@@ -18,8 +18,8 @@ from mbla.contacts.broad_phase import BlockPairs
 from mbla.contacts.facets import Facets
 from mbla.contacts.overlay import frames_from_normals
 from mbla.errors import MOST_FAULTS
-from mbla.model.blocks import Blocks
-from mbla.model.ragged import chunks, ranges, rows_and_items
+from mbla.model.solids.blocks import Blocks
+from mbla.model.solids.ragged import chunks, ranges, rows_and_items
 
 # Heights of vertices over facets computed together: bounds memory to some 100 MB.
 _BATCH = 1_000_000

@@ -29,7 +29,7 @@ from mbla.contacts.polygons import polygons_from_rings, triangles
 from mbla.contacts.refine import InterfacePoints, divided
 from mbla.deck.types import ContactPoints
 from mbla.errors import Notice, Refusal
-from mbla.model.ragged import next_item
+from mbla.model.solids.ragged import next_item
 
 _SEEN = 1e-9
 """Area of the triangle of an edge and the centroid, over that of the interface, from which on it is seen plainly."""

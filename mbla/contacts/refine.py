@@ -54,7 +54,7 @@ from mbla.arrays import BoolArray, FloatArray, IntArray, starts
 from mbla.contacts.convex import convex_loops
 from mbla.contacts.corners import Corners, parallelograms
 from mbla.contacts.polygons import polygons_from_rings, triangles
-from mbla.model.ragged import next_item
+from mbla.model.solids.ragged import next_item
 
 
 @dataclass(frozen=True)

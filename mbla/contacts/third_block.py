@@ -18,8 +18,8 @@ from mbla.arrays import BoolArray, FloatArray, IntArray, starts
 from mbla.contacts.narrow_phase import Patches, Verdicts
 from mbla.contacts.overlay import concatenate, local_maps
 from mbla.contacts.polygons import areas, box_pairs, corners, intersect, map_polygons, widths
-from mbla.model.blocks import Blocks
-from mbla.model.ragged import rows_and_items
+from mbla.model.solids.blocks import Blocks
+from mbla.model.solids.ragged import rows_and_items
 
 # Difference of two gaps, relative to block size, below which they are one: some last digits of a coordinate.
 _ROUNDING = 1e-13

@@ -11,9 +11,8 @@ from mbla.arrays import BoolArray
 from mbla.deck.tree import KeyPath
 from mbla.deck.types import AddedMass
 from mbla.errors import Fault, Message, Notice
-from mbla.model.blocks import Blocks
-from mbla.model.outside import distance_outside
 from mbla.model.selectors import Roster, select_blocks
+from mbla.model.solids.blocks import Blocks, distance_outside
 from mbla.model.wording import named, vector
 
 

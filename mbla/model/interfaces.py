@@ -1,11 +1,15 @@
-"""Interfaces that a deck gives as a table of their corners, instead of having them found.
+"""Prescribed interfaces: a deck gives them as a table of their corners, instead of having them found.
 
-Each must lie on a face of either body, within the tolerance of contacts: what lies beside a face is no interface.
+Each must lie on a face of either body, within the tolerance of contacts: what lies beside a face is no interface. Nor
+may two of one pair of bodies lie on each other. Outlines are fans of triangles about their first corner, each with the
+sign of its turn, so that the area that two outlines have in common is the sum of the signed common areas of their
+triangles, convex or not.
 """
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Iterator, Sequence
+from itertools import combinations
 
 import numpy as np
 
@@ -15,10 +19,10 @@ from mbla.deck.joints import BUILT_IN
 from mbla.deck.suggestions import did_you_mean, unknown
 from mbla.deck.tree import KeyPath
 from mbla.errors import DeckError, Fault, Message
-from mbla.model.blocks import Blocks
-from mbla.model.interface_overlaps import overlapping
 from mbla.model.model import Ground, PrescribedInterfaces
 from mbla.model.selectors import Roster
+from mbla.model.solids.blocks import Blocks
+from mbla.model.solids.plane import intersections, plane_axes, signed_areas
 from mbla.model.tables import Table, TableRefused, read_table
 
 GROUND = "ground"
@@ -242,3 +246,53 @@ def _within(point: FloatArray, outline: FloatArray, normal: FloatArray, reach: f
     following = np.roll(flat, -1, axis=0)
     angles = np.arctan2(np.cross(flat, following) @ normal, np.einsum("ij,ij->i", flat, following))
     return bool(abs(angles.sum()) > np.pi)
+
+
+SAME_PLANE = 0.99
+"""cosine of the angle between normals from which outlines may lie on each other, as that of faces of one facet"""
+
+
+def overlapping(
+    bodies: Sequence[tuple[int, int]], normals: Sequence[FloatArray], outlines: Sequence[FloatArray], reach: FloatArray
+) -> Iterator[tuple[int, int]]:
+    """Numbers of interfaces, the earlier one first, that share more than a strip as wide as ``reach`` along an edge.
+
+    outlines : (n, 3) corners of each, counter-clockwise about its normal
+    reach    : (n,) length below which a distance is rounding
+    """
+    of_pair: dict[tuple[int, int], list[int]] = {}
+    for number, pair in enumerate(bodies):
+        of_pair.setdefault(pair, []).append(number)
+    for numbers in of_pair.values():
+        for first, second in combinations(numbers, 2):
+            normal = normals[first]
+            if normal @ normals[second] < SAME_PLANE:
+                continue
+            away = (outlines[second] - outlines[first][0]) @ normal
+            if np.abs(away).min() > reach[first]:
+                continue  # steps of one bed
+            if common_area(outlines[first], outlines[second], normal) > reach[first] * _half_perimeter(
+                outlines[first], outlines[second]
+            ):
+                yield first, second
+
+
+def common_area(outline: FloatArray, other: FloatArray, normal: FloatArray) -> float:
+    """Area that two outlines, both counter-clockwise about a unit normal, have in common as seen along it."""
+    frame = plane_axes(normal[None])[0].T
+    origin = outline.mean(axis=0)
+    own, others = _fan((outline - origin) @ frame), _fan((other - origin) @ frame)
+    signs = np.sign(signed_areas(others))
+    others[signs < 0] = others[signs < 0][:, ::-1]
+    pairs = np.repeat(own, len(others), axis=0), np.tile(others, (len(own), 1, 1))
+    return float(signed_areas(intersections(*pairs)) @ np.tile(signs, len(own)))
+
+
+def _fan(corners: FloatArray) -> FloatArray:
+    """Triangles about the first corner, (n - 2, 3, 2)."""
+    return np.stack([np.broadcast_to(corners[0], corners[2:].shape), corners[1:-1], corners[2:]], axis=1)
+
+
+def _half_perimeter(*outlines: FloatArray) -> float:
+    """Half the perimeter of the shortest outline: no edge of a convex one is longer."""
+    return min(float(np.linalg.norm(np.roll(each, -1, axis=0) - each, axis=1).sum()) for each in outlines) / 2

@@ -21,12 +21,11 @@ from mbla.arrays import FloatArray, IntArray
 from mbla.deck.tree import KeyPath
 from mbla.deck.types import SettlementSection
 from mbla.errors import Fault, Message
-from mbla.model.blocks import Blocks
-from mbla.model.guides import slide, turn
 from mbla.model.model import LoadCase, Settlement
 from mbla.model.selectors import Roster, select_blocks
-from mbla.model.supports import Supports
-from mbla.model.supports.guide import unit
+from mbla.model.solids.blocks import Blocks
+from mbla.model.supports.build import Supports
+from mbla.model.supports.guides import slide, turn, unit
 from mbla.model.wording import counted, named, vector
 
 

@@ -17,7 +17,7 @@ import numpy as np
 from mbla.arrays import FloatArray
 from mbla.deck.types import Reflection, Repetition, Rotation, TransformStep
 from mbla.model.generators.generator import Generated, GroundPart, Part
-from mbla.model.polyhedra import Polyhedra, turn_faces
+from mbla.model.solids.polyhedra import Polyhedra, turn_faces
 
 
 @dataclass(frozen=True)

@@ -9,7 +9,7 @@ from mbla.contacts.contacts import Contacts
 from mbla.deck.analysis import AnalysisSection
 from mbla.errors import Notice
 from mbla.model.model import Model
-from mbla.model.ragged import next_item
+from mbla.model.solids.ragged import next_item
 from mbla.program.convex.choice import crushable_interfaces, has_conditions_on_interfaces
 
 STRAIGHT = 1e-9

@@ -7,9 +7,9 @@ import numpy as np
 from mbla.arrays import FloatArray
 from mbla.contacts.contacts import Contacts
 from mbla.model.model import Model
-from mbla.model.polyhedra import Polyhedra
-from mbla.model.ragged import row_sums
-from mbla.model.volumes import volumes_and_centroids
+from mbla.model.solids.measures import volumes_and_centroids
+from mbla.model.solids.polyhedra import Polyhedra
+from mbla.model.solids.ragged import row_sums
 
 ROUNDING = 1e-6
 """Difference over the size of a block, or of an area over the largest, that is no contradiction."""

@@ -14,8 +14,8 @@ from mbla.deck.notices import GRAVITY_TOLERANCE
 from mbla.deck.suggestions import did_you_mean
 from mbla.deck.units import STANDARD_GRAVITY
 from mbla.errors import UsageError
-from mbla.model.build_blocks import PLANAR
-from mbla.model.joint_laws import UNLIMITED
+from mbla.model.build import UNLIMITED
+from mbla.model.solids.build import PLANAR
 from mbla.results.collapse.interface_modes import TOGETHER
 from mbla.results.listing.text import WIDTH, heading, sentence
 from mbla.results.outcome import CLEAN_RESIDUAL, UNIQUE

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from mbla.arrays import FloatArray
-from mbla.model.blocks import Blocks
 from mbla.model.model import TravelPosition
+from mbla.model.solids.blocks import Blocks
 
 ROUNDING = 1e-12
 """share of the load of the axles on a block below which what is left of its load is none"""

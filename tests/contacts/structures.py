@@ -12,11 +12,10 @@ from mbla.arrays import FloatArray, IntArray
 from mbla.contacts import Contacts, find_contacts
 from mbla.deck.types import ContactOverride, ContactsSection
 from mbla.deck.units import Units
-from mbla.model.blocks import Blocks
-from mbla.model.build_blocks import Labels, blocks_from_polyhedra, build_blocks, indices_in_groups
-from mbla.model.labels import no_labels
 from mbla.model.model import Ground, Joint, Model
-from mbla.model.polyhedra import Polyhedra, cuboids, polyhedra_from_lists, take_polyhedra
+from mbla.model.solids.blocks import Blocks, no_labels
+from mbla.model.solids.build import Labels, blocks_from_polyhedra, build_blocks, indices_in_groups
+from mbla.model.solids.polyhedra import Polyhedra, cuboids, polyhedra_from_lists, take_polyhedra
 
 DECKS = Path(__file__).parents[2] / "decks"
 

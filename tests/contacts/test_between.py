@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from mbla.contacts import Contacts
-from mbla.model.polyhedra import Polyhedra, join_polyhedra, polyhedra_from_lists
+from mbla.model.solids.polyhedra import Polyhedra, join_polyhedra, polyhedra_from_lists
 from tests.contacts.structures import any_rotation, boxes, contacts_of, ground, moved
 
 HEIGHTS = (1e-2, 1e-3, 1e-5, 1e-7, 1e-9)

@@ -18,8 +18,8 @@ from mbla.contacts.broad_phase import (
     opposite,
 )
 from mbla.contacts.facets import build_facets
-from mbla.model.blocks import Blocks
-from mbla.model.polyhedra import join_polyhedra, polyhedra_from_lists
+from mbla.model.solids.blocks import Blocks
+from mbla.model.solids.polyhedra import join_polyhedra, polyhedra_from_lists
 from tests.contacts.structures import blocks_of, boxes, profile
 
 TOLERANCE = 0.01

@@ -9,7 +9,7 @@ import shapely
 from mbla.arrays import IntArray
 from mbla.contacts.facets import Facets, _face_areas, build_facets, facets_on_one_plane
 from mbla.contacts.polygons import Polygons, union_by_row
-from mbla.model.polyhedra import Polyhedra, join_polyhedra, polyhedra_from_lists
+from mbla.model.solids.polyhedra import Polyhedra, join_polyhedra, polyhedra_from_lists
 from tests.contacts.structures import any_rotation, blocks_of, boxes, moved, profile
 
 

@@ -9,7 +9,7 @@ from mbla.contacts import Contacts, find_contacts
 from mbla.contacts.glue import glue_blocks, held_model, solid_sizes, solids_of
 from mbla.deck.types import ContactOverride, ContactsSection
 from mbla.model.model import LoadCase, Model
-from mbla.model.polyhedra import take_polyhedra
+from mbla.model.solids.polyhedra import take_polyhedra
 from tests.contacts.structures import blocks_of, boxes, ground, model_of
 
 TOWER = boxes(*(([0, 0, i], [1, 1, i + 1]) for i in range(5)))

@@ -10,7 +10,7 @@ import pytest
 from mbla.contacts import Contacts, find_contacts
 from mbla.contacts.held_twice import SupportsAtOdds
 from mbla.model.model import Ground, Model
-from mbla.model.polyhedra import Polyhedra
+from mbla.model.solids.polyhedra import Polyhedra
 from tests.contacts.structures import blocks_of, boxes, ground, model_of, section
 from tests.line import line_of_file, load_factor
 

@@ -11,7 +11,7 @@ from mbla.contacts import find_contacts
 from mbla.contacts.broad_phase import find_block_pairs
 from mbla.contacts.facets import build_facets
 from mbla.contacts.overlaps import Overlaps, find_overlaps
-from mbla.model.polyhedra import Polyhedra, join_polyhedra, polyhedra_from_lists
+from mbla.model.solids.polyhedra import Polyhedra, join_polyhedra, polyhedra_from_lists
 from tests.contacts.structures import (
     any_rotation,
     blocks_of,

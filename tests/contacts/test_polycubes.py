@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mbla.contacts import find_contacts
-from mbla.model.polyhedra import Polyhedra, polyhedra_from_lists
+from mbla.model.solids.polyhedra import Polyhedra, polyhedra_from_lists
 from tests.contacts.structures import any_rotation, blocks_of, model_of, moved, section
 
 Cell = tuple[int, int, int]

@@ -11,7 +11,7 @@ from mbla.contacts import ContactReport, find_contacts
 from mbla.contacts.narrow_phase import _on_same_facet
 from mbla.contacts.notices import _by_tolerance, overlap_messages
 from mbla.deck.units import Units
-from mbla.model.polyhedra import join_polyhedra
+from mbla.model.solids.polyhedra import join_polyhedra
 from tests.contacts.structures import (
     any_rotation,
     blocks_of,

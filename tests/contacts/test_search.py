@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from mbla.contacts import Contacts, find_contacts
-from mbla.model.polyhedra import Polyhedra, join_polyhedra
+from mbla.model.solids.polyhedra import Polyhedra, join_polyhedra
 from tests.contacts.structures import (
     any_rotation,
     blocks_of,

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from mbla.contacts import find_contacts
-from mbla.model.polyhedra import Polyhedra, join_polyhedra, polyhedra_from_lists
+from mbla.model.solids.polyhedra import Polyhedra, join_polyhedra, polyhedra_from_lists
 from tests.contacts.structures import any_rotation, blocks_of, boxes, contacts_of, model_of, moved, prism, section
 from tests.contacts.test_search import assert_consistent
 

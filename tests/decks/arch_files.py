@@ -14,7 +14,7 @@ from collections.abc import Callable, Iterator
 import numpy as np
 
 from mbla.arrays import FloatArray
-from mbla.model.polyhedra import HEXAHEDRON
+from mbla.model.solids.polyhedra import HEXAHEDRON
 from tests.decks.folder import DECKS
 
 FOLDER = DECKS / "benchmarks" / "data"

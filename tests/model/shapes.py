@@ -10,9 +10,9 @@ from scipy.spatial import ConvexHull
 
 from mbla.arrays import FloatArray
 from mbla.deck import Deck, read_deck
-from mbla.model.build_blocks import BuiltBlocks, Labels, build_blocks
-from mbla.model.labels import no_labels
-from mbla.model.polyhedra import Polyhedra, polyhedra_from_lists
+from mbla.model.solids.blocks import no_labels
+from mbla.model.solids.build import BuiltBlocks, Labels, build_blocks
+from mbla.model.solids.polyhedra import Polyhedra, polyhedra_from_lists
 
 Shape = tuple[Sequence[Sequence[float]], Sequence[Sequence[int]]]
 

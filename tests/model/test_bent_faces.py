@@ -5,7 +5,7 @@ import itertools
 import numpy as np
 import pytest
 
-from mbla.model.build_blocks import BuiltBlocks
+from mbla.model.solids.build import BuiltBlocks
 from tests.model.shapes import Shape, box, build, moved, rotation
 
 

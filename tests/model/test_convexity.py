@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 from scipy.spatial import ConvexHull
 
-from mbla.model.convexity import find_convex
-from mbla.model.face_geometry import face_geometry
+from mbla.model.solids.measures import face_geometry, find_convex
 from tests.model.shapes import L_OUTLINE, TETRAHEDRON, box, build, hull, moved, prism, raw, rotation
 
 
@@ -47,13 +46,13 @@ def test_huge_polyhedra_are_judged_as_large_ones(monkeypatch: pytest.MonkeyPatch
         shapes.append(moved((dented.tolist(), faces), scale * rotation(0)))
     large = build(*shapes).blocks.convex.tolist()
     assert set(large) == {True, False}
-    monkeypatch.setattr("mbla.model.convexity.HUGE", 0)
+    monkeypatch.setattr("mbla.model.solids.measures.HUGE", 0)
     assert build(*shapes).blocks.convex.tolist() == large
 
 
 def test_huge_polyhedra_are_not_called_convex_where_nothing_is_allowed(monkeypatch: pytest.MonkeyPatch) -> None:
     polyhedra = raw(box(), box())
-    monkeypatch.setattr("mbla.model.convexity.LARGE", 0)
-    monkeypatch.setattr("mbla.model.convexity.HUGE", 0)
+    monkeypatch.setattr("mbla.model.solids.measures.LARGE", 0)
+    monkeypatch.setattr("mbla.model.solids.measures.HUGE", 0)
     convex = find_convex(polyhedra, face_geometry(polyhedra), np.array([0.0, 1e-3]))
     assert convex.tolist() == [False, True]

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from mbla.errors import MblaError
-from mbla.model.build_blocks import blocks_from_polyhedra
+from mbla.model.solids.build import blocks_from_polyhedra
 from tests.model.shapes import TETRAHEDRON, Shape, box, build, build_raw, moved, raw, rotation
 
 

@@ -3,7 +3,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from mbla.model.face_geometry import face_geometry
+from mbla.model.solids.measures import face_geometry
 from tests.model.shapes import L_OUTLINE, box, moved, prism, raw, rotation
 
 

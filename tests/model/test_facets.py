@@ -4,10 +4,9 @@ import numpy as np
 import pytest
 from scipy.spatial import ConvexHull
 
-from mbla.model.build_blocks import blocks_from_polyhedra
-from mbla.model.face_geometry import face_geometry
-from mbla.model.facets import find_facets
-from mbla.model.orientation import find_edges
+from mbla.model.solids.build import blocks_from_polyhedra
+from mbla.model.solids.facets import find_facets
+from mbla.model.solids.measures import face_geometry, find_edges
 from tests.model.shapes import L_OUTLINE, Shape, box, build, moved, prism, raw, rotation
 
 

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from mbla.model.orientation import count_pieces, faces_to_turn, find_edges
+from mbla.model.solids.measures import count_pieces, faces_to_turn, find_edges
 from tests.model.shapes import L_OUTLINE, Shape, box, build, hull, prism, raw
 
 

@@ -9,10 +9,10 @@ from pydantic import TypeAdapter
 from mbla.deck.tree import KeyPath
 from mbla.deck.types import Selector
 from mbla.errors import Fault, Message, Place
-from mbla.model.build_blocks import Labels, build_blocks
-from mbla.model.labels import BlockLabels, join_labels, labels_of
-from mbla.model.polyhedra import cuboids
 from mbla.model.selectors import Roster, build_roster, select_blocks
+from mbla.model.solids.blocks import BlockLabels, join_labels, labels_of
+from mbla.model.solids.build import Labels, build_blocks
+from mbla.model.solids.polyhedra import cuboids
 
 
 def fault_at(path: KeyPath, message: Message) -> Fault:

@@ -3,7 +3,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from mbla.model.self_intersection import _strictly_apart
+from mbla.model.solids.self_intersection import _strictly_apart
 from tests.model.shapes import L_OUTLINE, Shape, box, build, moved, prism, rotation
 
 PENTAGRAM = [(np.cos(4 * np.pi * i / 5), np.sin(4 * np.pi * i / 5)) for i in range(5)]

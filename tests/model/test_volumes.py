@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from mbla.model.volumes import volumes_and_centroids
+from mbla.model.solids.measures import volumes_and_centroids
 from tests.model.shapes import L_OUTLINE, TETRAHEDRON, box, build, hull, moved, prism, raw, rotation
 
 

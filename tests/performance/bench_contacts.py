@@ -13,7 +13,7 @@ import numpy as np
 
 from mbla.contacts import find_contacts
 from mbla.model.model import Model
-from mbla.model.polyhedra import Polyhedra
+from mbla.model.solids.polyhedra import Polyhedra
 from tests.contacts.structures import any_rotation, blocks_of, model_of, moved, running_bond, section
 from tests.performance.recording import best_time, record
 

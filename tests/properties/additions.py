@@ -10,12 +10,11 @@ from mbla.arrays import FloatArray, IntArray
 from mbla.deck.joints import GLUED
 from mbla.deck.selectors import SelectorTerm
 from mbla.deck.types import ContactOverride
-from mbla.model.blocks import Blocks
-from mbla.model.build_blocks import Labels, build_blocks
-from mbla.model.labels import BlockLabels, join_labels, no_labels
-from mbla.model.mirrored_blocks import polyhedra_of
+from mbla.model.join import polyhedra_of
 from mbla.model.model import Joint, LoadCase, Model
-from mbla.model.polyhedra import Polyhedra, cuboids, join_polyhedra, polyhedra_from_lists, take_polyhedra
+from mbla.model.solids.blocks import BlockLabels, Blocks, join_labels, no_labels
+from mbla.model.solids.build import Labels, build_blocks
+from mbla.model.solids.polyhedra import Polyhedra, cuboids, join_polyhedra, polyhedra_from_lists, take_polyhedra
 from tests.properties.scenes import Scene, with_section
 
 FAR_LAW = "law_of_the_far_part"

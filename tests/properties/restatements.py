@@ -12,7 +12,7 @@ from mbla.contacts import Contacts
 from mbla.deck.loads import Load, LoadCaseSection
 from mbla.deck.units import Units
 from mbla.model import build_model
-from mbla.model.ragged import items_of_rows
+from mbla.model.solids.ragged import items_of_rows
 from tests.properties.rigid_motions import in_other_units, moved_scene, renumbered, with_forces
 from tests.properties.scenes import Scene, Solved, with_analysis
 

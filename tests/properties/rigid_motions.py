@@ -8,12 +8,11 @@ import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
 from mbla.deck.units import KILOGRAMS, METRES, NEWTONS, Units
-from mbla.model.blocks import Blocks
-from mbla.model.build_blocks import Labels, build_blocks
-from mbla.model.labels import BlockLabels
-from mbla.model.mirrored_blocks import polyhedra_of
+from mbla.model.join import polyhedra_of
 from mbla.model.model import LoadCase, Model
-from mbla.model.polyhedra import Polyhedra, take_polyhedra, turn_faces
+from mbla.model.solids.blocks import BlockLabels, Blocks
+from mbla.model.solids.build import Labels, build_blocks
+from mbla.model.solids.polyhedra import Polyhedra, take_polyhedra, turn_faces
 from tests.properties.scenes import Scene, with_section
 
 

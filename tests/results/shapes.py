@@ -5,8 +5,7 @@ from typing import Any
 import numpy as np
 
 from mbla.arrays import FloatArray
-from mbla.model.blocks import Blocks
-from mbla.model.labels import no_labels
+from mbla.model.solids.blocks import Blocks, no_labels
 
 TETRA = ([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]], 1 / 6)
 WEDGE = (

@@ -131,11 +131,7 @@ def squeezed(text: str) -> str:
     return " ".join(text.casefold().split())
 
 
-VERIFIERS = [
-    tree
-    for path, tree in SOURCES.items()
-    if path.parent.name == "verification" or path.name == "proofs.py"
-]
+VERIFIERS = [tree for path, tree in SOURCES.items() if path.parent.name == "verification" or path.name == "proofs.py"]
 SOLVERS = [tree for path, tree in SOURCES.items() if "solution" in path.parts]
 
 

@@ -25,7 +25,7 @@ from mbla.model.generators.arches.section import Section, Thickness, build_secti
 from mbla.model.generators.curves import Curve, named_curve
 from mbla.model.generators.curves.spline import through
 from mbla.model.generators.generator import Generated, GroundPart, ItemRefused, Part, Site
-from mbla.model.polyhedra import Polyhedra
+from mbla.model.solids.polyhedra import Polyhedra
 
 
 def amount_arch(item: ArchItem) -> Amount:

@@ -14,7 +14,7 @@ from mbla.model.generators.amounts import Amount, refuse_too_many
 from mbla.model.generators.chains import prisms
 from mbla.model.generators.generator import Generated, GroundPart, Part, Site
 from mbla.model.generators.vault_sections import VaultSection, vault_section
-from mbla.model.polyhedra import Polyhedra
+from mbla.model.solids.polyhedra import Polyhedra
 
 NO_UNIT = 1e-6
 """length of a remainder, relative to the unit, that is no unit of its own"""

@@ -28,7 +28,7 @@ from mbla.model.generators.mitres import (
     mitred,
     reflected,
 )
-from mbla.model.polyhedra import Polyhedra, join_polyhedra
+from mbla.model.solids.polyhedra import Polyhedra, join_polyhedra
 
 LEAST_EDGE = 1e-3
 """of the thickness: the webs end at least so far beyond the feet of the groins"""

@@ -24,7 +24,7 @@ from mbla.model.generators.chains import chains
 from mbla.model.generators.curves import Circle, named_curve
 from mbla.model.generators.generator import Generated, ItemRefused, Part, Site, level_ground
 from mbla.model.generators.rings import meridians, ring_blocks
-from mbla.model.polyhedra import Polyhedra, join_polyhedra
+from mbla.model.solids.polyhedra import Polyhedra, join_polyhedra
 
 FLUSH = 1e-9
 """relative to the thickness: lengths and heights that differ by no more are the same"""

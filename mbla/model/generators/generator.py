@@ -12,7 +12,7 @@ import numpy as np
 from mbla.arrays import FloatArray, IntArray
 from mbla.deck.tree import KeyPath
 from mbla.errors import Message, Notice
-from mbla.model.polyhedra import Polyhedra
+from mbla.model.solids.polyhedra import Polyhedra
 
 
 @dataclass(frozen=True)

@@ -19,7 +19,7 @@ from mbla.model.geometry.cell_sets import join_cells
 from mbla.model.geometry.geometry import Geometry, GeometryFileError
 from mbla.model.geometry.member_names import member_name
 from mbla.model.geometry.repair import repair
-from mbla.model.polyhedra import take_polyhedra
+from mbla.model.solids.polyhedra import take_polyhedra
 
 UPRIGHT = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])
 """turns y of the file into z by a right angle about x"""

@@ -21,7 +21,7 @@ from mbla.deck.items.vault import VaultItem
 from mbla.model.generators.chains import chains
 from mbla.model.generators.generator import Part
 from mbla.model.generators.vault_sections import vault_section
-from mbla.model.polyhedra import Polyhedra
+from mbla.model.solids.polyhedra import Polyhedra
 
 CORNERS = ((1, 1), (-1, 1), (-1, -1), (1, -1))
 """signs of x and y in the four corners of the bay, counter-clockwise"""

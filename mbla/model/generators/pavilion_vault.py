@@ -24,7 +24,7 @@ from mbla.model.generators.mitres import (
     mitred,
     reflected,
 )
-from mbla.model.polyhedra import Polyhedra, join_polyhedra
+from mbla.model.solids.polyhedra import Polyhedra, join_polyhedra
 
 
 def amount_pavilion_vault(item: PavilionVaultItem) -> Amount:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from mbla.deck.types import PolyhedronItem
 from mbla.model.generators.generator import Generated, Part, Site
-from mbla.model.polyhedra import polyhedra_from_lists
+from mbla.model.solids.polyhedra import polyhedra_from_lists
 
 
 def generate_polyhedron(item: PolyhedronItem, site: Site) -> Generated:

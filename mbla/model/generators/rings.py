@@ -16,7 +16,7 @@ import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.model.generators.chains import chains
-from mbla.model.polyhedra import Polyhedra
+from mbla.model.solids.polyhedra import Polyhedra
 
 
 def meridians(count: int) -> FloatArray:

@@ -18,7 +18,7 @@ from mbla.deck.types import SpiralStairItem
 from mbla.model.generators.amounts import Amount, refuse_too_many
 from mbla.model.generators.chains import chains
 from mbla.model.generators.generator import Generated, Part, Site, level_ground
-from mbla.model.polyhedra import Polyhedra, join_polyhedra, polyhedra_from_cells
+from mbla.model.solids.polyhedra import Polyhedra, join_polyhedra, polyhedra_from_cells
 
 
 def amount_spiral_stair(item: SpiralStairItem) -> Amount:

@@ -12,7 +12,7 @@ from mbla.arrays import FloatArray
 from mbla.deck.types import StackItem
 from mbla.model.generators.amounts import Amount, refuse_too_many
 from mbla.model.generators.generator import Generated, Part, Site
-from mbla.model.polyhedra import cuboids
+from mbla.model.solids.polyhedra import cuboids
 
 
 def amount_stack(item: StackItem) -> Amount:

@@ -10,7 +10,7 @@ from mbla.deck.types import TableItem
 from mbla.errors import Message
 from mbla.model.generators.generator import Generated, ItemRefused, Part, Site
 from mbla.model.geometry.member_names import member_name
-from mbla.model.polyhedra import Polyhedra
+from mbla.model.solids.polyhedra import Polyhedra
 from mbla.model.tables import Table, TableRefused, read_table
 
 

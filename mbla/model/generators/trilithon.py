@@ -6,7 +6,7 @@ import numpy as np
 
 from mbla.deck.types import TrilithonItem
 from mbla.model.generators.generator import Generated, Part, Site
-from mbla.model.polyhedra import cuboids
+from mbla.model.solids.polyhedra import cuboids
 
 
 def generate_trilithon(item: TrilithonItem, site: Site) -> Generated:

@@ -9,7 +9,7 @@ import numpy as np
 from mbla.model.geometry.duplicate_faces import face_codes
 from mbla.model.geometry.geometry import Geometry
 from mbla.model.geometry.welding import own_vertices, weld
-from mbla.model.polyhedra import Polyhedra, take_polyhedra
+from mbla.model.solids.polyhedra import Polyhedra, take_polyhedra
 
 
 def join_cells(geometry: Geometry) -> Geometry:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from mbla.model.polyhedra import HEXAHEDRON
+from mbla.model.solids.polyhedra import HEXAHEDRON
 
 VOLUME_CELLS: dict[str, tuple[int, Sequence[Sequence[int]]]] = {
     "tetra": (4, ((0, 2, 1), (0, 1, 3), (1, 2, 3), (2, 0, 3))),

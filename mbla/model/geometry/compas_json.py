@@ -22,7 +22,7 @@ from mbla.model.geometry.geometry import Geometry, GeometryFileError
 from mbla.model.geometry.json_text import parse_json
 from mbla.model.geometry.leftovers import empty_objects
 from mbla.model.geometry.welding import own_vertices
-from mbla.model.polyhedra import Polyhedra, join_polyhedra
+from mbla.model.solids.polyhedra import Polyhedra, join_polyhedra
 from mbla.model.wording import counted, was
 
 SUPPORT = "support"

@@ -11,9 +11,9 @@ from __future__ import annotations
 import numpy as np
 
 from mbla.arrays import BoolArray, IntArray
-from mbla.model.orientation import connected_labels
-from mbla.model.polyhedra import Polyhedra
-from mbla.model.ragged import ranges
+from mbla.model.solids.measures import connected_labels
+from mbla.model.solids.polyhedra import Polyhedra
+from mbla.model.solids.ragged import ranges
 
 
 def face_codes(polyhedra: Polyhedra, *, oriented: bool) -> IntArray:

@@ -16,11 +16,11 @@ import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.errors import Notice
-from mbla.model.defects import LARGEST_COORDINATE
 from mbla.model.geometry.geometry import Geometry, GeometryFileError
 from mbla.model.geometry.line_networks import enclosed_fields
 from mbla.model.geometry.outlines import prism
-from mbla.model.polyhedra import join_polyhedra
+from mbla.model.solids.defects import LARGEST_COORDINATE
+from mbla.model.solids.polyhedra import join_polyhedra
 from mbla.model.wording import counted, was
 
 CURVES = frozenset({"LWPOLYLINE", "POLYLINE", "LINE", "ARC", "CIRCLE", "ELLIPSE", "SPLINE"})

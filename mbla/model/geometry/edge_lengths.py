@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 
 from mbla.arrays import FloatArray
-from mbla.model.polyhedra import Polyhedra
+from mbla.model.solids.polyhedra import Polyhedra
 
 
 def shortest_edges(polyhedra: Polyhedra) -> FloatArray:

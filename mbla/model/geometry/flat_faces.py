@@ -8,9 +8,9 @@ from __future__ import annotations
 import numpy as np
 
 from mbla.arrays import BoolArray
-from mbla.model.face_geometry import face_geometry
-from mbla.model.polyhedra import Polyhedra
-from mbla.model.ragged import row_maxima
+from mbla.model.solids.measures import face_geometry
+from mbla.model.solids.polyhedra import Polyhedra
+from mbla.model.solids.ragged import row_maxima
 
 FLAT = 1e-6
 """width over the longest edge up to which a face is a line; coordinates in single precision leave some 1e-7"""

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from mbla.errors import Notice, Refusal
-from mbla.model.polyhedra import Polyhedra
+from mbla.model.solids.polyhedra import Polyhedra
 
 LONGEST_LINE = 1_000_000
 """characters of a line of text, with those that continue it: a face of some hundred thousand corners"""

@@ -21,7 +21,7 @@ from mbla.model.geometry.gltf_accessors import Buffers, entry_of, read_accessor
 from mbla.model.geometry.json_text import parse_json
 from mbla.model.geometry.leftovers import empty_objects
 from mbla.model.geometry.welding import own_vertices
-from mbla.model.polyhedra import join_polyhedra
+from mbla.model.solids.polyhedra import join_polyhedra
 from mbla.model.wording import counted, was
 
 GLB_MAGIC, JSON_CHUNK, BINARY_CHUNK = 0x46546C67, 0x4E4F534A, 0x004E4942

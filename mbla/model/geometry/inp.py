@@ -21,7 +21,7 @@ from mbla.model.geometry.cells import VOLUME_CELLS
 from mbla.model.geometry.geometry import Geometry, GeometryFileError, refuse_long_line
 from mbla.model.geometry.leftovers import unused_points
 from mbla.model.geometry.welding import own_vertices
-from mbla.model.polyhedra import Polyhedra, join_polyhedra, polyhedra_from_cells, take_polyhedra
+from mbla.model.solids.polyhedra import Polyhedra, join_polyhedra, polyhedra_from_cells, take_polyhedra
 
 SOLIDS = re.compile(r"(?:C3D|F3D|DC3D|AC3D)(4|6|8|10|15|20|27)(?:[A-Z].*)?$")
 """solid elements of stress, fluid and heat flow; the number is that of the nodes, letters are variants"""

@@ -6,7 +6,7 @@ import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.model.geometry.geometry import GeometryFileError
-from mbla.model.orientation import connected_labels
+from mbla.model.solids.measures import connected_labels
 
 MEET = 1e-6
 """distance, relative to the extent of the lines, at which ends meet: drawings are kept in double precision"""

@@ -37,7 +37,7 @@ from mbla.model.geometry.mesh_counts import (
 from mbla.model.geometry.ply_header import readable_header
 from mbla.model.geometry.vtu_cells import CELLS, VARIABLE, checked_cells, refuse_other_faces
 from mbla.model.geometry.welding import own_vertices
-from mbla.model.polyhedra import Polyhedra, join_polyhedra, polyhedra_from_cells
+from mbla.model.solids.polyhedra import Polyhedra, join_polyhedra, polyhedra_from_cells
 
 SURFACE_CELLS = {"triangle": 3, "VTK_LAGRANGE_TRIANGLE": 3, "quad": 4, "VTK_LAGRANGE_QUADRILATERAL": 4, "polygon": 0}
 """number of corners; 0 where it is that of the cell"""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from mbla.arrays import FloatArray
-from mbla.model.polyhedra import Polyhedra, polyhedra_from_cells
+from mbla.model.solids.polyhedra import Polyhedra, polyhedra_from_cells
 
 
 def prism(outline: FloatArray) -> Polyhedra:

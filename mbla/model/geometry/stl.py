@@ -11,7 +11,7 @@ import numpy as np
 
 from mbla.model.geometry.geometry import Geometry, GeometryFileError
 from mbla.model.geometry.leftovers import empty_objects
-from mbla.model.polyhedra import Polyhedra, join_polyhedra
+from mbla.model.solids.polyhedra import Polyhedra, join_polyhedra
 
 HEADER, TRIANGLE = 84, 50
 """bytes before the first triangle of a binary file, and of each triangle"""

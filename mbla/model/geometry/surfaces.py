@@ -15,13 +15,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from mbla.arrays import FloatArray, IntArray, starts
-from mbla.model.face_geometry import face_geometry
 from mbla.model.geometry.duplicate_faces import face_codes
 from mbla.model.geometry.welding import own_vertices
-from mbla.model.orientation import connected_labels
-from mbla.model.plane_axes import plane_axes
-from mbla.model.polyhedra import Polyhedra
-from mbla.model.ragged import ranges
+from mbla.model.solids.measures import connected_labels, face_geometry
+from mbla.model.solids.plane import plane_axes
+from mbla.model.solids.polyhedra import Polyhedra
+from mbla.model.solids.ragged import ranges
 
 SAME_DIRECTION = 0.05
 """angle in radians below which two faces at an edge lie on each other and bound different blocks: where blocks meet

@@ -11,7 +11,7 @@ import numpy as np
 
 from mbla.arrays import FloatArray, IntArray, starts
 from mbla.model.geometry.edge_lengths import lone_edge_corners
-from mbla.model.polyhedra import Polyhedra
+from mbla.model.solids.polyhedra import Polyhedra
 
 
 def insert_t_junctions(polyhedra: Polyhedra, reach: FloatArray) -> tuple[Polyhedra, int]:

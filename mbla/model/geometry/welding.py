@@ -9,9 +9,9 @@ import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray, row_of_item, starts
 from mbla.errors import Notice
-from mbla.model.orientation import connected_labels
-from mbla.model.polyhedra import Polyhedra, drop_unused_vertices
-from mbla.model.ragged import next_item
+from mbla.model.solids.measures import connected_labels
+from mbla.model.solids.polyhedra import Polyhedra, drop_unused_vertices
+from mbla.model.solids.ragged import next_item
 from mbla.model.wording import counted, was
 
 

@@ -16,8 +16,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
-from mbla.model.blocks import Blocks
-from mbla.model.ragged import items_of_rows, next_item
+from mbla.model.solids.blocks import Blocks
+from mbla.model.solids.ragged import items_of_rows, next_item
 
 GRAZING = 1e-9
 """cosine between a face's normal and the direction, below which the direction runs along the face"""

@@ -1,4 +1,7 @@
-"""Load `force`: a force F at a point p of a block with centroid x brings the moment (p - x) x F."""
+"""Loads `force` and `moment` on one block.
+
+A force F at a point p of a block with centroid x brings the moment (p - x) x F; where a couple acts does not matter.
+"""
 
 from __future__ import annotations
 
@@ -9,7 +12,7 @@ from mbla.deck.tree import KeyPath
 from mbla.deck.types import Load
 from mbla.errors import Message
 from mbla.model.loads.load_kind import AppliedLoad, LoadSite, wrenches_of
-from mbla.model.outside import distance_outside
+from mbla.model.solids.blocks import distance_outside
 from mbla.model.wording import vector
 
 
@@ -34,3 +37,15 @@ def force_load(load: Load, blocks: IntArray | None, path: KeyPath, site: LoadSit
     else:
         words += " at its centroid"
     return AppliedLoad(blocks, wrenches_of(np.array([load.force]), point[None], centroid[None]), words)
+
+
+def moment_load(load: Load, blocks: IntArray | None, path: KeyPath, site: LoadSite) -> AppliedLoad | None:
+    """A moment on one block."""
+    assert load.moment is not None  # what makes it this kind
+    assert blocks is not None  # a rule of the deck: a moment says on which block it acts
+    if len(blocks) != 1:
+        message = f"a moment acts on one block, {len(blocks)} are selected: give an index, or one moment for each"
+        site.refuse((*path, "on"), Message("one-block-only", message))
+        return None
+    words = f"moment {vector(load.moment)} {site.units.force} {site.units.length} on {site.blocks.name(int(blocks[0]))}"
+    return AppliedLoad(blocks, np.array([[0.0, 0.0, 0.0, *load.moment]]), words)

@@ -12,11 +12,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
-from mbla.model.blocks import Blocks
 from mbla.model.model import Ground
-from mbla.model.plane_axes import plane_axes
-from mbla.model.ragged import chunks, items_of_rows, ranges, row_maxima
-from mbla.model.signed_polygons import intersections, signed_areas
+from mbla.model.solids.blocks import Blocks
+from mbla.model.solids.plane import intersections, plane_axes, signed_areas
+from mbla.model.solids.ragged import chunks, items_of_rows, ranges, row_maxima
 
 FACING = 0.99
 """cosine of the greatest angle between two faces that lie against each other"""

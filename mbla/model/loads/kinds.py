@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-from mbla.model.loads.acceleration import acceleration_load
-from mbla.model.loads.force import force_load
-from mbla.model.loads.gravity import gravity_load
+from mbla.model.loads.force import force_load, moment_load
+from mbla.model.loads.gravity import acceleration_load, gravity_load
 from mbla.model.loads.line import line_load
 from mbla.model.loads.load_kind import LoadKind
-from mbla.model.loads.moment import moment_load
 from mbla.model.loads.pressure import pressure_load
 from mbla.model.loads.table import table_load
 

@@ -15,8 +15,7 @@ from mbla.deck.types import Load, LoadCaseSection
 from mbla.errors import Message
 from mbla.model.loads.gravity import with_gravity
 from mbla.model.loads.kinds import LOAD_KINDS
-from mbla.model.loads.load_kind import AppliedLoad, LoadSite
-from mbla.model.loads.named_loads import Entry, entries_of
+from mbla.model.loads.load_kind import AppliedLoad, Entry, LoadSite, entries_of
 from mbla.model.loads.tilt import tilt_loads
 from mbla.model.loads.travel import PositionLoad, case_name, travel_loads, travel_of
 from mbla.model.model import LoadCase, Tilt

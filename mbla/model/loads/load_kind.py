@@ -1,12 +1,13 @@
 """What a kind of load gets and gives.
 
 A kind is a function ``(load, blocks, path, site) -> AppliedLoad | None``; where it gives None, it left a fault in
-``site.faults``.
+``site.faults``. Combinations name loads: these stand in for the entries that refer to them, with the product of their
+factors.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TypeAlias
@@ -18,9 +19,9 @@ from mbla.deck.tree import KeyPath
 from mbla.deck.types import Load
 from mbla.deck.units import Units
 from mbla.errors import Fault, Message, Notice
-from mbla.model.blocks import Blocks
 from mbla.model.model import Ground
 from mbla.model.selectors import Roster
+from mbla.model.solids.blocks import Blocks
 
 
 @dataclass(frozen=True)
@@ -93,3 +94,25 @@ def sum_on_blocks(blocks: IntArray, wrenches: FloatArray) -> tuple[IntArray, Flo
     total = np.zeros((len(unique), 6))
     np.add.at(total, row, wrenches)
     return unique, total
+
+
+@dataclass(frozen=True)
+class Entry:
+    """A load that is none but itself: its place in the deck, and the factor on it."""
+
+    load: Load
+    path: KeyPath
+    factor: float
+
+
+def entries_of(loads: Sequence[Load], path: KeyPath, named: Mapping[str, Sequence[Load]]) -> Iterator[Entry]:
+    """All loads of a list, named ones among them; the deck has no cycle of names."""
+    waiting = [Entry(load, (*path, number), load.factor) for number, load in reversed(list(enumerate(loads)))]
+    while waiting:
+        entry = waiting.pop()
+        name = entry.load.loads
+        if name is None:
+            yield entry
+            continue
+        below = [Entry(load, ("loads", name, i), entry.factor * load.factor) for i, load in enumerate(named[name])]
+        waiting += reversed(below)

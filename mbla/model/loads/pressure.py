@@ -18,12 +18,12 @@ from mbla.arrays import FloatArray, IntArray
 from mbla.deck.tree import KeyPath
 from mbla.deck.types import Load, PressureLoad
 from mbla.errors import Message
-from mbla.model.blocks import Blocks
 from mbla.model.loads.blocks_under import unit
 from mbla.model.loads.free_faces import FaceParts, face_parts
 from mbla.model.loads.load_kind import AppliedLoad, LoadSite, sum_on_blocks
-from mbla.model.ragged import items_of_rows, row_means
-from mbla.model.signed_polygons import cut
+from mbla.model.solids.blocks import Blocks
+from mbla.model.solids.plane import cut
+from mbla.model.solids.ragged import items_of_rows, row_means
 from mbla.model.wording import counted, vector
 
 

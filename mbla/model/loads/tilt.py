@@ -19,10 +19,8 @@ from mbla.deck.tree import KeyPath
 from mbla.deck.types import Tilt as TiltSection
 from mbla.errors import Message
 from mbla.model.loads.blocks_under import unit
-from mbla.model.loads.gravity import vector_of
-from mbla.model.loads.load_kind import LoadSite
-from mbla.model.loads.mass_forces import mass_forces
-from mbla.model.loads.named_loads import Entry
+from mbla.model.loads.gravity import mass_forces, vector_of
+from mbla.model.loads.load_kind import Entry, LoadSite
 from mbla.model.model import Tilt
 
 ALONG = 1e-9

@@ -17,8 +17,7 @@ from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.deck.types import Load, Travel
 from mbla.errors import Message
 from mbla.model.loads.blocks_under import block_under
-from mbla.model.loads.load_kind import AppliedLoad, LoadSite, sum_on_blocks, wrenches_of
-from mbla.model.loads.named_loads import Entry
+from mbla.model.loads.load_kind import AppliedLoad, Entry, LoadSite, sum_on_blocks, wrenches_of
 from mbla.model.model import TravelPosition
 from mbla.model.selectors import select_blocks
 from mbla.model.wording import vector

@@ -11,7 +11,7 @@ import numpy as np
 import scipy.sparse as sp
 
 from mbla.arrays import FloatArray
-from mbla.model.ragged import next_item
+from mbla.model.solids.ragged import next_item
 from mbla.program.convex.conditions import M1, M2, Entries, N
 from mbla.program.convex.torsion import TorsionLimits
 

@@ -10,7 +10,7 @@ from mbla.arrays import BoolArray, FloatArray, IntArray, row_of_item, starts
 from mbla.contacts.contacts import Contacts
 from mbla.contacts.convex import convex_loops
 from mbla.contacts.polygons import convex_hulls
-from mbla.model.ragged import items_of_rows, next_item, row_sums
+from mbla.model.solids.ragged import items_of_rows, next_item, row_sums
 from mbla.program.convex.friction_curve import disc_radius, fitted_curves, rectangle_curve
 
 STRAIGHT = 1e-6

@@ -10,8 +10,8 @@ import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
 from mbla.contacts.contacts import Contacts
-from mbla.model.blocks import Blocks
 from mbla.model.model import Model
+from mbla.model.solids.blocks import Blocks
 from mbla.results.results import CaseResult
 
 SHARE_OF_SIZE = 0.1

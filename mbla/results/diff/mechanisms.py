@@ -12,7 +12,7 @@ from collections.abc import Callable
 import numpy as np
 
 from mbla.arrays import FloatArray, row_of_item
-from mbla.model.blocks import Blocks
+from mbla.model.solids.blocks import Blocks
 from mbla.results.diff.matching import Matching
 
 

@@ -12,8 +12,8 @@ from mbla.arrays import FloatArray, IntArray, starts
 from mbla.contacts.contacts import Contacts
 from mbla.deck.selectors import POSITIONS
 from mbla.errors import Notice
-from mbla.model.labels import BlockLabels
 from mbla.model.model import LoadCase, Model
+from mbla.model.solids.blocks import BlockLabels
 from mbla.results.hdf5.case_content import Content, case_content
 from mbla.results.hdf5.layout import FILETYPE, VERSION, fields_of
 from mbla.results.hdf5.load_fields import RECORD_NAMES

@@ -14,10 +14,9 @@ from mbla.contacts.contacts import ContactReport, Contacts
 from mbla.deck.selectors import POSITIONS
 from mbla.deck.units import KILOGRAMS, METRES, NEWTONS, Units
 from mbla.errors import Notice
-from mbla.model.blocks import Blocks
-from mbla.model.guides import NO_GUIDES, Guides
-from mbla.model.labels import BlockLabels
 from mbla.model.model import Ground, Joint, LoadCase, Model, Settlement, Tilt, TravelPosition
+from mbla.model.solids.blocks import BlockLabels, Blocks
+from mbla.model.supports.guides import NO_GUIDES, Guides
 from mbla.results.coherence import incoherences
 from mbla.results.hdf5.case_content import Content
 from mbla.results.hdf5.case_restore import case_from

@@ -6,7 +6,7 @@ from collections import Counter
 
 from mbla.arrays import IntArray
 from mbla.deck.selectors import POSITIONS
-from mbla.model.labels import BlockLabels
+from mbla.model.solids.blocks import BlockLabels
 
 MOST_NAMED = 8
 """members that are named one by one"""

@@ -6,8 +6,8 @@ import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray, row_of_item
 from mbla.contacts.contacts import Contacts
-from mbla.model.blocks import Blocks
 from mbla.model.model import LoadCase, Model
+from mbla.model.solids.blocks import Blocks
 
 THIN = 0.35
 """extent over the next larger one below which a structure is seen from the front"""

@@ -6,7 +6,7 @@ import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray, row_of_item, starts
 from mbla.contacts.polygons import triangulate
-from mbla.model.blocks import Blocks
+from mbla.model.solids.blocks import Blocks
 
 ROUNDING = 1e-9
 """of the square of a face's size: turns smaller than this are straight"""

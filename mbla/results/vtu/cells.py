@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from mbla.arrays import IntArray
-from mbla.model.blocks import Blocks
+from mbla.model.solids.blocks import Blocks
 
 
 @dataclass(frozen=True)

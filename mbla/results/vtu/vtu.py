@@ -15,8 +15,8 @@ from mbla.arrays import FloatArray
 from mbla.contacts.contacts import Contacts
 from mbla.deck.selectors import POSITIONS
 from mbla.model.geometry.meshio_files import write_mesh
-from mbla.model.labels import BlockLabels
 from mbla.model.model import Model
+from mbla.model.solids.blocks import BlockLabels
 from mbla.results.collapse.mechanics import global_forces, interface_resultants
 from mbla.results.collapse.thrust import point_friction_use
 from mbla.results.collapse.work import work_of

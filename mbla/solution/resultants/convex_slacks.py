@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
-from mbla.model.ragged import next_item
+from mbla.model.solids.ragged import next_item
 from mbla.program.convex import ConvexProgram
 from mbla.program.convex.crushing import Corners, corner_values, values
 from mbla.program.convex.torsion import TorsionLimits

@@ -19,7 +19,7 @@ from typing import Any
 from mbla.deck import Deck
 from mbla.errors import UsageError
 from mbla.model.loads.load_case import kind_of
-from mbla.model.loads.named_loads import Entry
+from mbla.model.loads.load_kind import Entry
 from mbla.results.listing.text import counted
 from mbla.sweeps.interaction.angles import angles_around, unit_vector
 from mbla.sweeps.interaction.entries import live_entries, section_of, written

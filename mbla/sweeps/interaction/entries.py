@@ -9,7 +9,7 @@ from mbla.deck import Deck
 from mbla.deck.tree import KeyPath
 from mbla.deck.types import Load, LoadCaseSection
 from mbla.errors import UsageError
-from mbla.model.loads.named_loads import Entry, entries_of
+from mbla.model.loads.load_kind import Entry, entries_of
 
 NO_SUM = {
     "travel": "travels: a load case for each of its positions",

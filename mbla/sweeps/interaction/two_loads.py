@@ -10,7 +10,7 @@ import numpy as np
 
 from mbla.deck import Deck
 from mbla.errors import UsageError
-from mbla.model.loads.named_loads import Entry
+from mbla.model.loads.load_kind import Entry
 from mbla.model.model import Model
 from mbla.sweeps.interaction.angles import angles_between, closes, unit_vector
 from mbla.sweeps.interaction.direction import free_name

@@ -12,10 +12,10 @@ from shapely.ops import unary_union
 from mbla.arrays import FloatArray
 from mbla.contacts import find_contacts
 from mbla.deck.types import BridgeItem, ContactsSection
-from mbla.model.blocks import Blocks
 from mbla.model.generators.bridge import generate_bridge
 from mbla.model.generators.generator import Generated, ItemRefused, Site
-from mbla.model.polyhedra import join_polyhedra
+from mbla.model.solids.blocks import Blocks
+from mbla.model.solids.polyhedra import join_polyhedra
 from tests.contacts.structures import blocks_of, model_of
 
 SITE = Site(1e-3, lambda path, name: Path(name))

@@ -6,10 +6,10 @@ from typing import Any
 import pytest
 
 from mbla.deck.types import BlockItem, BoxItem, MeshItem, PolyhedronItem
-from mbla.model.build_blocks import BuiltBlocks
 from mbla.model.generators import KINDS, generator_of
 from mbla.model.generators.generator import ItemRefused, Part, Site
 from mbla.model.generators.mesh import generate_mesh
+from mbla.model.solids.build import BuiltBlocks
 from tests.model.shapes import TETRAHEDRON, box, build_raw
 
 

@@ -9,7 +9,7 @@ import pytest
 from mbla.deck.types import WallItem
 from mbla.model.generators.generator import ItemRefused, Site
 from mbla.model.generators.wall import generate_wall
-from mbla.model.polyhedra import Polyhedra
+from mbla.model.solids.polyhedra import Polyhedra
 
 SITE = Site(1e-3, lambda path, name: Path(name))
 A, B = [0.5, 1, 1, 1, 1, 0.5], [1, 1, 1, 1, 1]

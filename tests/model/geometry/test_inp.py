@@ -9,7 +9,7 @@ from mbla.model.geometry.cell_sets import join_cells
 from mbla.model.geometry.geometry import Geometry, GeometryFileError
 from mbla.model.geometry.inp import read_inp
 from mbla.model.geometry.repair import repair
-from mbla.model.polyhedra import cuboids
+from mbla.model.solids.polyhedra import cuboids
 from tests.model.shapes import box, build_raw
 
 LOW = "*NODE\n" + "".join(f"{i + 1}, {x}, {y}, {z}\n" for i, (x, y, z) in enumerate(box()[0]))

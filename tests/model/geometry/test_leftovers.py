@@ -11,7 +11,7 @@ from mbla.model.geometry import read_geometry
 from mbla.model.geometry.geometry import Geometry, GeometryFileError
 from mbla.model.geometry.json_text import parse_json
 from mbla.model.geometry.repair import repair
-from mbla.model.polyhedra import join_polyhedra
+from mbla.model.solids.polyhedra import join_polyhedra
 from tests.model.shapes import box, build_raw, raw
 from tests.trust.geometry.formats import FORMATS
 from tests.trust.geometry.shapes import no_faces

@@ -15,7 +15,7 @@ from mbla.model.geometry import READERS, read_geometry
 from mbla.model.geometry.geometry import Geometry, GeometryFileError
 from mbla.model.geometry.meshio_files import write_mesh
 from mbla.model.geometry.repair import repair
-from mbla.model.polyhedra import HEXAHEDRON, cuboids
+from mbla.model.solids.polyhedra import HEXAHEDRON, cuboids
 from tests.model.shapes import box, build_raw, moved, rotation
 
 FORMATS = {".ply": "ply", ".stl": "stl", ".vtu": "vtu", ".msh": "gmsh", ".inp": "abaqus"}

@@ -7,7 +7,7 @@ import pytest
 
 from mbla.model.geometry.geometry import Geometry
 from mbla.model.geometry.repair import repair
-from mbla.model.polyhedra import Polyhedra, join_polyhedra
+from mbla.model.solids.polyhedra import Polyhedra, join_polyhedra
 from tests.model.geometry.test_surfaces import soup
 from tests.model.shapes import Shape, box, build_raw, moved, raw, rotation
 

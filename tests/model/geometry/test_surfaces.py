@@ -5,7 +5,7 @@ import pytest
 
 from mbla.model.geometry.geometry import Geometry
 from mbla.model.geometry.repair import repair
-from mbla.model.polyhedra import Polyhedra, join_polyhedra
+from mbla.model.solids.polyhedra import Polyhedra, join_polyhedra
 from tests.model.shapes import Shape, box, build_raw, moved, prism, raw, rotation
 
 

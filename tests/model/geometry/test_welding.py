@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from mbla.model.geometry.welding import own_vertices, weld, weld_near
-from mbla.model.polyhedra import Polyhedra
+from mbla.model.solids.polyhedra import Polyhedra
 from tests.model.geometry.test_surfaces import soup
 from tests.model.shapes import box, raw
 

@@ -12,10 +12,9 @@ import mbla
 from mbla.arrays import FloatArray, IntArray, starts
 from mbla.contacts.contacts import Contacts
 from mbla.errors import DeckError
-from mbla.model.blocks import Blocks
-from mbla.model.labels import BlockLabels
 from mbla.model.model import LoadCase, Model
-from mbla.model.ragged import items_of_rows
+from mbla.model.solids.blocks import BlockLabels, Blocks
+from mbla.model.solids.ragged import items_of_rows
 from mbla.solution.solution import Mechanics
 from tests.properties.random_decks import random_deck
 from tests.properties.random_items import Tree

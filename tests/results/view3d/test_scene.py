@@ -6,8 +6,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from mbla.model.blocks import Blocks
 from mbla.model.model import LoadCase, Settlement
+from mbla.model.solids.blocks import Blocks
 from mbla.results.results import Results
 from mbla.results.view3d.arrow import BESIDE, load_arrow
 from mbla.results.view3d.colours import MOST_NAMES, by_part

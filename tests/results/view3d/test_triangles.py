@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from mbla.contacts.polygons import triangulate
-from mbla.model.blocks import Blocks
+from mbla.model.solids.blocks import Blocks
 from mbla.results.view3d.triangles import face_triangles, reentrant_faces, triangle_normals
 from tests.results.synthetic import cuboids
 

@@ -6,7 +6,7 @@ import meshio
 import numpy as np
 import pytest
 
-from mbla.model.labels import labels_of
+from mbla.model.solids.blocks import labels_of
 from mbla.results.collapse.interface_modes import InterfaceMode
 from mbla.results.collapse.motion import SHARE_OF_SIZE, movable_size
 from mbla.results.results import Results

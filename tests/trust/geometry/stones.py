@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from mbla.arrays import FloatArray
-from mbla.model.polyhedra import HEXAHEDRON
+from mbla.model.solids.polyhedra import HEXAHEDRON
 from tests.decks.arch_files import voussoirs
 
 Face = tuple[int, ...]

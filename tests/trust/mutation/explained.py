@@ -134,12 +134,12 @@ EXPLAINED: dict[tuple[str, str, str], str] = {
         "0 -> 1",
     ): "the library gives every triangle clockwise: all of them are turned, whatever their size",
     (
-        "mbla/model/convexity.py",
+        "mbla/model/solids/measures.py",
         "convex = np.zeros(len(polyhedra), dtype=bool)",
         "np.zeros -> np.ones",
     ): "every entry is overwritten",
     (
-        "mbla/model/orientation.py",
+        "mbla/model/solids/measures.py",
         "block_of_piece = np.zeros(labels.max() + 1, dtype=np.int64)",
         "np.zeros -> np.ones",
     ): "every entry is overwritten",
@@ -184,12 +184,12 @@ EXPLAINED: dict[tuple[str, str, str], str] = {
         "1 -> 2",
     ): "of a shape, any negative number is the length that is left",
     (
-        "mbla/model/polyhedra.py",
+        "mbla/model/solids/polyhedra.py",
         "loops=(flat + vertex_start[:-1, None]).reshape(-1),",
         "1 -> 2",
     ): "of a shape, any negative number is the length that is left",
     (
-        "mbla/model/polyhedra.py",
+        "mbla/model/solids/polyhedra.py",
         "[[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1]], dtype=bool",
         "1 -> 2",
     ): "a truth value: 2 is true, too",
@@ -209,27 +209,27 @@ EXPLAINED: dict[tuple[str, str, str], str] = {
         "0 -> 1",
     ): "other random numbers",
     (
-        "mbla/model/defects.py",
+        "mbla/model/solids/defects.py",
         "multipliers = np.array([73856093, 19349663, 83492791, 2654435761], dtype=np.int64)",
         "19349663 -> 19349664",
     ): "another hash; cells are compared themselves where it is equal",
     (
-        "mbla/model/defects.py",
+        "mbla/model/solids/defects.py",
         "for number, face in zip(blocks.tolist(), (flat[first] - polyhedra.face_start[blocks]).tolist(), strict=True):",
         "True -> False",
     ): "both have an entry for each of the blocks",
     (
-        "mbla/model/facets.py",
+        "mbla/model/solids/facets.py",
         "closes = lengths < STEEPEST  # the faces go round a curve, all the way round they cancel each other",
         "lengths < STEEPEST -> lengths <= STEEPEST",
     ): "a limit that is a rough one, met exactly",
     (
-        "mbla/model/self_intersection.py",
+        "mbla/model/solids/self_intersection.py",
         "slope = np.divide(along[:, 0], along[:, 1], out=np.zeros(len(along)), where=rises)",
         "np.zeros -> np.ones",
     ): "read only where it is overwritten",
     (
-        "mbla/model/self_intersection.py",
+        "mbla/model/solids/self_intersection.py",
         "clear = np.linalg.norm(arms - share[:, None] * along, axis=1) > np.repeat(eps, counts)",
         "np.linalg.norm(arms - share[:, None] * along, axis=1) > np.repeat(eps, counts)"
         " -> np.linalg.norm(arms - share[:, None] * along, axis=1) >= np.repeat(eps, counts)",

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from mbla.arrays import FloatArray
-from mbla.model.polyhedra import Polyhedra, join_polyhedra, polyhedra_from_cells, take_polyhedra
+from mbla.model.solids.polyhedra import Polyhedra, join_polyhedra, polyhedra_from_cells, take_polyhedra
 
 
 def prisms(polygons: Sequence[FloatArray], across: FloatArray, shear: float = 0.0) -> Polyhedra:

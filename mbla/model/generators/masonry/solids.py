@@ -10,8 +10,8 @@ from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.model.generators.generator import Part
 from mbla.model.generators.masonry.courses import lay_courses
 from mbla.model.generators.masonry.leg import Leg
-from mbla.model.labels import NONE
-from mbla.model.polyhedra import Polyhedra, cuboids, join_polyhedra, polyhedra_from_lists, take_polyhedra
+from mbla.model.solids.blocks import NONE
+from mbla.model.solids.polyhedra import Polyhedra, cuboids, join_polyhedra, polyhedra_from_lists, take_polyhedra
 
 
 def units_of(leg: Leg) -> Part:

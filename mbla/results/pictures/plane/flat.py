@@ -13,8 +13,8 @@ import shapely
 
 from mbla.arrays import FloatArray, IntArray, row_of_item
 from mbla.contacts.contacts import Contacts
-from mbla.model.blocks import Blocks
 from mbla.model.model import Model
+from mbla.model.solids.blocks import Blocks
 from mbla.results.pictures.options import PictureOptions
 from mbla.results.pictures.scene import Scene
 

@@ -14,8 +14,8 @@ from mbla.contacts import find_contacts
 from mbla.contacts.contacts import Contacts
 from mbla.deck import read_deck
 from mbla.model import build_model
-from mbla.model.blocks import Blocks
 from mbla.model.model import Model
+from mbla.model.solids.blocks import Blocks
 
 UNIT = [0.4, 0.2, 0.15]
 

@@ -13,12 +13,11 @@ import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray, starts
 from mbla.errors import Message
-from mbla.model.defects import Defect, Extents
-from mbla.model.face_geometry import FaceGeometry
-from mbla.model.orientation import Edges
-from mbla.model.plane_axes import plane_axes
-from mbla.model.polyhedra import Polyhedra
-from mbla.model.ragged import chunks, items_of_rows, next_item, ranges, row_maxima
+from mbla.model.solids.defects import Defect, Extents
+from mbla.model.solids.measures import Edges, FaceGeometry
+from mbla.model.solids.plane import plane_axes
+from mbla.model.solids.polyhedra import Polyhedra
+from mbla.model.solids.ragged import chunks, items_of_rows, next_item, ranges, row_maxima
 
 AT_ONCE = 500_000
 """edge-face pairs held in memory together"""

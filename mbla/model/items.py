@@ -1,8 +1,9 @@
-"""What the items of a deck generate, put together: polyhedra, names, densities, and the supports they bring along."""
+"""What the items of a deck generate, put together: polyhedra, names, densities, supports; and their faults in words."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections import Counter
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -12,14 +13,15 @@ from mbla.deck.deck import Deck
 from mbla.deck.tree import KeyPath
 from mbla.deck.types import BlockItem, Item, Material
 from mbla.deck.units import Units
-from mbla.errors import DeckError, Fault, Notice
-from mbla.model.build_blocks import Labels, indices_in_groups
+from mbla.errors import DeckError, Fault, Message, Notice
 from mbla.model.generators import KINDS, amount_of, amounts, generator_of
 from mbla.model.generators.amounts import Amount
 from mbla.model.generators.generator import Generated, ItemRefused, Site
-from mbla.model.labels import NONE, BlockLabels, join_labels, labels_of
 from mbla.model.model import Ground
-from mbla.model.polyhedra import Polyhedra, join_polyhedra
+from mbla.model.solids.blocks import NONE, BlockLabels, Blocks, join_labels, labels_of
+from mbla.model.solids.build import Labels, indices_in_groups
+from mbla.model.solids.defects import Defect
+from mbla.model.solids.polyhedra import Polyhedra, join_polyhedra
 from mbla.model.transform import build_transform, repetitions, transform_item
 
 CORNERS_OF_A_BLOCK = 8
@@ -215,3 +217,47 @@ def _named(ground: Ground, labels: Labels) -> Ground:
     assert ground.blocks is not None  # an item's ground carries blocks of its own
     more = f" and {len(ground.blocks) - 1} more" if len(ground.blocks) > 1 else ""
     return replace(ground, label=f"ground under {labels.name(int(ground.blocks[0]))}{more}")
+
+
+FROM_FILES = ("mesh", "table")
+"""kinds of items whose blocks have names of their own"""
+MOST_FAULTS_PER_ITEM = 10
+"""defects of blocks of one item that are told one by one; a mesh in the wrong format has one in every block"""
+
+
+def defects_in_words(deck: Deck, defects: Sequence[Defect], item_of_block: IntArray, blocks: Blocks) -> list[Fault]:
+    """A fault for each defect; many of one item are counted only.
+
+    item_of_block : (n_blocks,) item of the deck that each block comes from
+    """
+    faults = []
+    told: Counter[int] = Counter()
+    for defect in defects:
+        number = int(item_of_block[defect.block])
+        told[number] += 1
+        if told[number] <= MOST_FAULTS_PER_ITEM:
+            path = _path(deck, defect.face, number)
+            faults.append(
+                deck.fault_at(
+                    path, defect.message.around(before=f"block {_called(deck, blocks, defect.block, number)}: ")
+                )
+            )
+    for number, count in told.items():
+        if count > MOST_FAULTS_PER_ITEM:
+            message = f"{count - MOST_FAULTS_PER_ITEM} more blocks of this item are refused"
+            faults.append(deck.fault_at(_path(deck, None, number), Message("more-faults", message)))
+    return faults
+
+
+def _called(deck: Deck, blocks: Blocks, block: int, number: int) -> str:
+    """Name of a block; with that which its file gives it, where it comes from one: ``vault[17] (key_stone)``."""
+    member = blocks.labels.members[block] if kind_of(deck.content.blocks[number])[0] in FROM_FILES else ""
+    return f"{blocks.name(block)}{f' ({member})' if member else ''}"
+
+
+def _path(deck: Deck, face: int | None, number: int) -> KeyPath:
+    """The face of a block that the deck spells out, the file of a mesh, or the item."""
+    kind, _ = kind_of(deck.content.blocks[number])
+    if kind == "polyhedron" and face is not None:
+        return ("blocks", number, kind, "faces", face)
+    return ("blocks", number, kind, "file") if kind == "mesh" else ("blocks", number, kind)

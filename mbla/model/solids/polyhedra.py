@@ -10,7 +10,7 @@ from itertools import chain
 import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray, row_of_item, starts
-from mbla.model.ragged import items_of_rows, next_item, ranges
+from mbla.model.solids.ragged import items_of_rows, next_item, ranges
 
 HEXAHEDRON = ((0, 3, 2, 1), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7))
 """Outward faces of a hexahedron: corners 0-3 counter-clockwise seen from 4-7, which lie above them in turn."""

@@ -9,10 +9,8 @@ import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.errors import MblaError, Message, Notice
-from mbla.model.bent_faces import NO_BENT_FACES, BentFaces, can_be_split, split_faces
-from mbla.model.blocks import Blocks
-from mbla.model.convexity import find_convex
-from mbla.model.defects import (
+from mbla.model.solids.blocks import BlockLabels, Blocks, no_labels
+from mbla.model.solids.defects import (
     Defect,
     Extents,
     coordinate_defects,
@@ -24,13 +22,25 @@ from mbla.model.defects import (
     planarity_defects,
     size_defects,
 )
-from mbla.model.face_geometry import FaceGeometry, face_geometry
-from mbla.model.facets import find_facets
-from mbla.model.labels import BlockLabels, no_labels
-from mbla.model.orientation import Edges, count_pieces, faces_to_turn, find_edges
-from mbla.model.polyhedra import Polyhedra, drop_unused_vertices, polyhedra_from_lists, take_polyhedra, turn_faces
-from mbla.model.self_intersection import intersection_defects
-from mbla.model.volumes import volumes_and_centroids
+from mbla.model.solids.facets import NO_BENT_FACES, BentFaces, can_be_split, find_facets, split_faces
+from mbla.model.solids.measures import (
+    Edges,
+    FaceGeometry,
+    count_pieces,
+    face_geometry,
+    faces_to_turn,
+    find_convex,
+    find_edges,
+    volumes_and_centroids,
+)
+from mbla.model.solids.polyhedra import (
+    Polyhedra,
+    drop_unused_vertices,
+    polyhedra_from_lists,
+    take_polyhedra,
+    turn_faces,
+)
+from mbla.model.solids.self_intersection import intersection_defects
 from mbla.model.wording import counted, named, was
 
 PLANAR = 1e-9

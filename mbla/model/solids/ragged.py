@@ -1,7 +1,4 @@
-"""Index arithmetic on ragged arrays (see :mod:`mbla.arrays`).
-
-Products over ragged arrays: every item of one row with every item of another, without a loop.
-"""
+"""Index arithmetic on ragged arrays (see :mod:`mbla.arrays`)."""
 
 from __future__ import annotations
 

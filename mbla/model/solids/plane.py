@@ -1,4 +1,4 @@
-"""Polygons cut by half-planes, many at once, as loops of which only the signed integral counts.
+"""Computing in planes: axes across a normal, and polygons cut by half-planes, of which the signed integral counts.
 
 Sutherland and Hodgman 1974 (doi:10.1145/360767.360802): along each edge a corner inside is kept, and where an edge
 crosses the line the crossing is added. Corners that fall away repeat the one before them, so that all loops of an array
@@ -10,6 +10,14 @@ from __future__ import annotations
 import numpy as np
 
 from mbla.arrays import FloatArray
+
+
+def plane_axes(normals: FloatArray) -> FloatArray:
+    """Two unit vectors across each unit normal, (n, 2, 3), right-handed with it: normal × first = second."""
+    away = np.eye(3)[np.argmin(np.abs(normals), axis=1)]
+    first = np.cross(normals, away)
+    first /= np.linalg.norm(first, axis=1)[:, None]
+    return np.stack([first, np.cross(normals, first)], axis=1)
 
 
 def cut(loops: FloatArray, heights: FloatArray) -> FloatArray:

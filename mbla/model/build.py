@@ -1,0 +1,224 @@
+"""From the deck to the model: items, blocks, supports, joints, loads, images, in this order.
+
+The structure (blocks, supports, prescribed interfaces) depends on no load, joint law or setting of the analysis: decks
+that differ in these only share it.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+from mbla.deck.deck import Deck
+from mbla.deck.joints import FRICTIONLESS
+from mbla.deck.tree import KeyPath
+from mbla.deck.types import AnalysisSection, JointLaw, LoadCaseSection, OutputSection
+from mbla.errors import DeckError, Fault, Message, Notice
+from mbla.model.added_masses import with_added_masses
+from mbla.model.interfaces import read_interfaces
+from mbla.model.items import collect_items, defects_in_words
+from mbla.model.loads import LoadSite, build_load_cases
+from mbla.model.model import Ground, Joint, LoadCase, Model, PrescribedInterfaces
+from mbla.model.selectors import Roster, build_roster, check_overrides
+from mbla.model.settlement import build_settlement
+from mbla.model.solids.build import build_blocks
+from mbla.model.solids.defects import far_fault, far_notices
+from mbla.model.solids.facets import BentFaces
+from mbla.model.supports.build import Supports, build_supports, does_nothing
+from mbla.model.symmetry import symmetry_faults, with_images
+from mbla.process.sharing import once
+
+
+def build_model(deck: Deck) -> Model:
+    """The model that a checked deck describes.
+
+    Raises
+    ------
+    DeckError
+        with every fault found: items that cannot be built, blocks that are no blocks, selectors without blocks,
+        supports and loads that do nothing
+    """
+    structure = structure_of(deck)
+    faults, notices = list(structure.faults), list(structure.notices)
+    load_cases = _all_load_cases(deck, structure.roster, structure.supports, faults, notices)
+    if faults:
+        raise DeckError(faults)
+    supports, interfaces = structure.supports, structure.interfaces
+    model = Model(
+        title=deck.content.title,
+        units=deck.units,
+        blocks=structure.roster.blocks,
+        fixed=supports.fixed,
+        grounds=supports.grounds,
+        joints=build_joints(deck, supports.grounds, interfaces),
+        load_cases=load_cases,
+        notices=(*structure.first_notices, *joint_notices(deck), *notices),
+        guides=supports.guides,
+        interfaces=interfaces,
+        bent=structure.bent,
+    )
+    if faults := symmetry_faults(deck, model):
+        raise DeckError(faults)
+    return with_images(deck, model)
+
+
+def _all_load_cases(
+    deck: Deck, roster: Roster, supports: Supports, faults: list[Fault], notices: list[Notice]
+) -> tuple[LoadCase, ...]:
+    """Load cases of the deck, in its order."""
+    site = LoadSite(
+        roster=roster,
+        fixed=supports.fixed,
+        units=deck.units,
+        resolve_file=deck.resolve_file,
+        grounds=supports.grounds,
+        named=deck.content.loads,
+        tolerance=deck.contacts.tolerance,
+        faults=faults,
+        notices=notices,
+    )
+    sections = deck.content.load_cases.items()
+    return tuple(case for name, section in sections for case in _load_cases(name, section, site, supports))
+
+
+def _load_cases(name: str, section: LoadCaseSection, site: LoadSite, supports: Supports) -> Sequence[LoadCase]:
+    """Loads of one case, or of one for each position of a load that travels; or a support that gives way."""
+    load_cases = build_load_cases(name, section, site)
+    path: KeyPath = ("load_cases", name)
+    if section.settlement is not None:
+        settles = (*path, "settlement")
+        return [
+            build_settlement(section.settlement, settles, load_case, supports, site.roster, site.faults)
+            for load_case in load_cases
+        ]
+    for load_case in load_cases:
+        if not site.faults and does_nothing(load_case.live_load, supports):
+            where = "" if load_case.travel is None else f" at position {load_case.travel.number}"
+            site.refuse(
+                (*path, "live"),
+                Message(
+                    "live-load-without-effect",
+                    f"the supports take every live load{where}, for they act on guided blocks across what these may do",
+                ),
+            )
+    return load_cases
+
+
+NO_LAW = JointLaw(friction=0.0)
+"""stands for every joint law: only their names count here"""
+
+
+@dataclass(frozen=True)
+class Structure:
+    """Blocks by name, with the masses that rest on them, and what holds them.
+
+    bent                   : faces that were split
+    first_notices, notices : before and after those on joint laws
+    faults                 : in the order in which they are told
+    """
+
+    roster: Roster
+    supports: Supports
+    interfaces: PrescribedInterfaces | None
+    bent: BentFaces
+    first_notices: tuple[Notice, ...]
+    notices: tuple[Notice, ...]
+    faults: tuple[Fault, ...]
+
+
+def structure_of(deck: Deck) -> Structure:
+    """Build it, or take that of an earlier deck that says the same of it in the same files."""
+    bare = _bare(deck)
+    keys_set = tuple(text.partition("=")[0] for text in deck.overrides)  # a file is looked for where its name is given
+    files = tuple(str(source.path.absolute()) for source in deck.sources)
+    content = (bare.content, bare.units, files, keys_set)
+    structure = once("structure", content, lambda: _build(bare), lasts=lambda structure: not structure.faults)
+    return replace(structure, roster=replace(structure.roster, fault_at=deck.fault_at))
+
+
+def _bare(deck: Deck) -> Deck:
+    """The deck without what its structure must not depend on."""
+    content = deck.content.model_copy(
+        update={
+            "title": "",
+            "parameters": {},
+            "joints": dict.fromkeys(deck.content.joints, NO_LAW),
+            "loads": {},
+            "load_cases": {},
+            "analysis": AnalysisSection(),
+            "output": OutputSection(),
+            "expected": {},
+        }
+    )
+    return replace(deck, content=content)
+
+
+def _unplaced(path: KeyPath, message: Message) -> Fault:
+    raise AssertionError(f"no deck to find {path} in: {message}")
+
+
+def _build(deck: Deck) -> Structure:
+    faults: list[Fault] = []
+    notices: list[Notice] = []
+    items = collect_items(deck, faults)
+    built = build_blocks(items.polyhedra, items.labels, deck.contacts.tolerance)
+    far = far_fault(items.polyhedra, deck.contacts.tolerance)
+    faults += (
+        defects_in_words(deck, built.defects, items.items, built.blocks)
+        if far is None
+        else [deck.fault_at(("blocks",), Message("coordinate-out-of-range", far))]
+    )
+    partial = items.partial | {built.blocks.groups[defect.block] for defect in built.defects}
+    roster = build_roster(built.blocks, partial, deck.fault_at)
+    supports = build_supports(deck, Supports(items.fixed, items.grounds), roster, faults)
+    check_overrides(deck.contacts.overrides, roster, faults)
+    interfaces = read_interfaces(deck, roster, supports.grounds, faults)
+    if deck.content.masses:
+        roster = replace(roster, blocks=with_added_masses(deck.content.masses, roster, supports.fixed, faults, notices))
+    first = (*items.notices, *built.notices, *far_notices(items.polyhedra, items.labels.name))
+    bent = replace(built.bent, items=items.items[built.bent.blocks])
+    roster = replace(roster, fault_at=_unplaced)  # places are those of one deck
+    return Structure(roster, supports, interfaces, bent, first, tuple(notices), tuple(faults))
+
+
+UNLIMITED = 1e6
+"""Greatest friction coefficient and tangent of the dilatancy angle, 0.2 seconds of arc from a right angle: what is
+steeper is taken for this. A load factor changes by a millionth between here and no limit; the power of sliding, which
+is rounding times friction, would be the whole answer at 1e15."""
+
+
+def build_joints(deck: Deck, grounds: Sequence[Ground], interfaces: PrescribedInterfaces | None) -> dict[str, Joint]:
+    """Joint laws of the deck, and that without friction where it is asked for by its name."""
+    laws = {name: build_joint(name, law) for name, law in deck.content.joints.items()}
+    used = {deck.contacts.joint, *(override.joint for override in deck.contacts.overrides)}
+    used |= {ground.joint for ground in grounds}
+    if FRICTIONLESS in used.union(interfaces.joints if interfaces else ()):
+        laws[FRICTIONLESS] = Joint(FRICTIONLESS, 0.0)
+    return laws
+
+
+def build_joint(name: str, law: JointLaw) -> Joint:
+    """Joint law with tangents for angles, and an unlimited compressive strength unless given."""
+    friction = law.friction
+    if friction is None:
+        assert law.friction_angle is not None  # a rule of the deck: one of friction and friction angle
+        friction = math.tan(math.radians(law.friction_angle))
+    return Joint(
+        name=name,
+        friction=min(friction, UNLIMITED),
+        cohesion=law.cohesion,
+        tensile_strength=law.tensile_strength,
+        compressive_strength=math.inf if law.compressive_strength is None else law.compressive_strength,
+        dilatancy=min(math.tan(math.radians(law.dilatancy)), UNLIMITED),
+    )
+
+
+def joint_notices(deck: Deck) -> list[Notice]:
+    """Laws whose friction is taken for less than the deck gives."""
+    steepest = math.degrees(math.atan(UNLIMITED))
+    return [
+        Notice("notice", "friction-limited", f"joint law {name}: its friction is taken for {UNLIMITED:g}")
+        for name, law in deck.content.joints.items()
+        if (law.friction or 0.0) > UNLIMITED or (law.friction_angle or 0.0) > steepest
+    ]

@@ -1,0 +1,130 @@
+"""Blocks joined to bigger ones, and halves of blocks with their mirror images.
+
+A joined block has the faces of its members, those on which they touch included. Volume and mass are the sums, the
+centroid is the common one of the volumes. Faces that members share stay inside, so that such a block is no closed
+surface without more; mechanics needs its centroid, size and mass only.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from mbla.arrays import BoolArray, FloatArray, IntArray, starts
+from mbla.model.solids.blocks import BlockLabels, Blocks
+from mbla.model.solids.polyhedra import Polyhedra, join_polyhedra, polyhedra_from_lists, take_polyhedra, turn_faces
+from mbla.model.solids.ragged import items_of_rows
+
+
+def join_blocks(blocks: Blocks, joined: IntArray) -> Blocks:
+    """The joined blocks, named after the first member of each.
+
+    joined : (n_blocks,) which joined block each becomes part of; numbered from 0 without gaps
+    """
+    order = np.argsort(joined, kind="stable")
+    count = int(joined.max(initial=-1)) + 1
+    first = order[np.searchsorted(joined[order], np.arange(count))]
+    vertices, faces = items_of_rows(blocks.vertex_start, order), items_of_rows(blocks.face_start, order)
+    corners = items_of_rows(blocks.loop_start, faces)
+    new_vertex = np.empty(len(blocks.vertices), dtype=np.int64)
+    new_vertex[vertices] = np.arange(len(vertices))
+    volumes = _sums(blocks.volumes, joined, count)
+    alone = np.bincount(joined, minlength=count) == 1
+    centroids = _sums(blocks.volumes[:, None] * blocks.centroids, joined, count) / volumes[:, None]
+    densities = _sums(blocks.volumes * blocks.densities, joined, count) / volumes
+    # what stands alone keeps its numbers to the last digit
+    centroids[alone], densities[alone] = blocks.centroids[first[alone]], blocks.densities[first[alone]]
+    added = _sums(blocks.added_masses, joined, count)
+    arms = blocks.added_mass_points - centroids[joined]
+    arms = _sums(blocks.added_masses[:, None] * arms, joined, count) / np.where(added > 0.0, added, 1.0)[:, None]
+    labels = blocks.labels
+    return Blocks(
+        vertices=blocks.vertices[vertices],
+        vertex_start=_joined_start(blocks.vertex_start, joined, count),
+        loops=new_vertex[blocks.loops[corners]],
+        loop_start=starts(np.diff(blocks.loop_start)[faces]),
+        face_start=_joined_start(blocks.face_start, joined, count),
+        facet_of_face=_numbered(blocks.facet_of_face[faces]),
+        face_normals=blocks.face_normals[faces],
+        convex=alone & blocks.convex[first],
+        volumes=volumes,
+        centroids=centroids,
+        densities=densities,
+        added_masses=added,
+        added_mass_points=centroids + arms,
+        groups=tuple(blocks.groups[block] for block in first),
+        group_indices=blocks.group_indices[first],
+        labels=BlockLabels(tuple(labels.members[block] for block in first), labels.positions[first]),
+    )
+
+
+def _sums(values: FloatArray, joined: IntArray, count: int) -> FloatArray:
+    total = np.zeros((count, *values.shape[1:]))
+    np.add.at(total, joined, values)
+    return total
+
+
+def _joined_start(start: IntArray, joined: IntArray, count: int) -> IntArray:
+    items = np.zeros(count, dtype=np.int64)
+    np.add.at(items, joined, np.diff(start))
+    return starts(items)
+
+
+def _numbered(facets: IntArray) -> IntArray:
+    """Facets numbered in the order in which they come."""
+    _, first, row = np.unique(facets, return_index=True, return_inverse=True)
+    number = np.empty(len(first), dtype=np.int64)
+    number[np.argsort(first)] = np.arange(len(first))
+    return np.asarray(number[row])
+
+
+def polyhedra_of(blocks: Blocks) -> Polyhedra:
+    """The polyhedra that blocks were made of, faces outwards."""
+    return Polyhedra(blocks.vertices, blocks.vertex_start, blocks.loops, blocks.loop_start, blocks.face_start)
+
+
+def reflected(polyhedra: Polyhedra, point: FloatArray, normal: FloatArray) -> Polyhedra:
+    """Mirror images, faces outwards."""
+    heights = (polyhedra.vertices - point) @ normal
+    vertices = polyhedra.vertices - 2.0 * heights[:, None] * normal
+    image = Polyhedra(vertices, polyhedra.vertex_start, polyhedra.loops, polyhedra.loop_start, polyhedra.face_start)
+    return turn_faces(image, np.ones(len(polyhedra.block_of_face), dtype=bool))
+
+
+def halves_joined(
+    own: Polyhedra, image: Polyhedra, halves: BoolArray, point: FloatArray, normal: FloatArray, allowed: FloatArray
+) -> Polyhedra:
+    """The polyhedra, those of ``halves`` (n,) as one with their images.
+
+    allowed : (n,) distance from the plane up to which corners lie on it; they are moved onto it
+    """
+    if not halves.any():
+        return own
+    chosen = np.flatnonzero(halves)
+    vertices, faces = zip(
+        *(_joined(own, image, int(block), point, normal, float(allowed[block])) for block in chosen), strict=True
+    )
+    everything = join_polyhedra([own, polyhedra_from_lists(vertices, faces)])
+    order = np.arange(len(own))
+    order[chosen] = len(own) + np.arange(len(chosen))
+    return take_polyhedra(everything, order)
+
+
+def _joined(
+    own: Polyhedra, image: Polyhedra, block: int, point: FloatArray, normal: FloatArray, allowed: float
+) -> tuple[FloatArray, list[list[int]]]:
+    """Vertices and faces of one block and its image without their faces on the plane."""
+    rows = slice(own.vertex_start[block], own.vertex_start[block + 1])
+    vertices = own.vertices[rows]
+    heights = (vertices - point) @ normal
+    on_plane = np.abs(heights) <= allowed
+    vertices = vertices - np.where(on_plane, heights, 0.0)[:, None] * normal
+    count = len(vertices)
+    number = np.where(on_plane, np.arange(count), count + np.cumsum(~on_plane) - 1)  # of images: shared on the plane
+    faces = []
+    for face in range(own.face_start[block], own.face_start[block + 1]):
+        loop = own.loops[own.loop_start[face] : own.loop_start[face + 1]] - own.vertex_start[block]
+        if on_plane[loop].all():
+            continue
+        mirrored = image.loops[image.loop_start[face] : image.loop_start[face + 1]] - own.vertex_start[block]
+        faces += [loop.tolist(), number[mirrored].tolist()]
+    return np.vstack([vertices, image.vertices[rows][~on_plane]]), faces
