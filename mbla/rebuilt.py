@@ -23,8 +23,7 @@ from mbla.model import Model, build_model
 from mbla.model.model import LoadCase, Tilt
 from mbla.model.settlement import with_reference
 from mbla.results.deck_record import deck_of
-from mbla.results.hdf5.case_content import Content, Value
-from mbla.results.hdf5.content import content_of
+from mbla.results.hdf5.content import Content, Value, content_of
 from mbla.results.results import Results
 from mbla.results.settings_words import settings_in_words
 from mbla.run import as_expected, contacts_of, notices_of

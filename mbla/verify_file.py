@@ -4,7 +4,7 @@ Model, contacts and loads are built again from the deck in the file (``rebuilt``
 mechanisms are taken, and all that follows from them is found again: velocities, modes, parts, work, residuals, bounds,
 ends of ranges, standing, angle, status. The file that this gives must be the one at hand, dataset by dataset. So the
 file is believed in nothing but the fields that say what the run alone can tell (``told`` of
-:class:`mbla.results.hdf5.field.Field`), which are marked in it and named in what is printed.
+:class:`mbla.results.record.quantity.Quantity`), which are marked in it and named in what is printed.
 """
 
 from __future__ import annotations

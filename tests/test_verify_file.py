@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 
 from mbla.errors import FileError
-from mbla.results.hdf5.field import WORDS
 from mbla.results.hdf5.reading import MOST
+from mbla.results.record.quantity import WORDS
 from mbla.run import run
 from mbla.run_options import RunOptions
 from mbla.verify_file import verify_file

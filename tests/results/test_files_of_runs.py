@@ -16,10 +16,10 @@ import xarray
 
 from mbla.cli.check import check
 from mbla.deck import read_deck
-from mbla.results.hdf5.layout import LAYOUT
 from mbla.results.hdf5.reading import text_of
 from mbla.results.hdf5.result_file import read_results_hdf5
 from mbla.results.outcome import result_of
+from mbla.results.record.stored import STORED
 from mbla.results.records.description import RECORD, record_page
 from mbla.results.records.json_record import check_json, results_json
 from mbla.results.tables.csv_file import table_csv
@@ -112,7 +112,7 @@ def test_the_file_holds_the_whole_record(folder: Path, name: str) -> None:
 
 @pytest.mark.parametrize("name", DECKS)
 def test_every_dataset_is_described(folder: Path, name: str) -> None:
-    fields = {field.path: field for field in LAYOUT}
+    fields = {field.path: field for field in STORED}
     with h5py.File(folder / f"{name}.h5") as file:
         found: list[str] = []
         file.visititems(lambda path, item: found.append(path) if isinstance(item, h5py.Dataset) else None)

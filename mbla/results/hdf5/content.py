@@ -1,68 +1,53 @@
-"""Results as the flat content of a result file, and back: path -> array, text or number (see ``layout``)."""
+"""Results as the flat content of a result file: path -> array, text or number, as the record describes them."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import fields
+from typing import Any, TypeAlias
 
 import numpy as np
 
 from mbla import __version__
 from mbla.arrays import FloatArray, IntArray, starts
-from mbla.contacts.contacts import Contacts
+from mbla.contacts.contacts import ContactReport, Contacts
 from mbla.deck.selectors import POSITIONS
 from mbla.errors import Notice
-from mbla.model.model import LoadCase, Model
-from mbla.model.solids.blocks import BlockLabels
-from mbla.results.hdf5.case_content import Content, case_content
+from mbla.model.model import Joint, LoadCase, Model, Settlement, Tilt, TravelPosition
+from mbla.model.solids.blocks import Blocks
+from mbla.program.reductions import ProgramSize
+from mbla.results.collapse.collapse import collapse_of
 from mbla.results.hdf5.layout import FILETYPE, VERSION, fields_of
-from mbla.results.hdf5.load_fields import RECORD_NAMES
-from mbla.results.results import Results
+from mbla.results.outcome import least_and_greatest
+from mbla.results.record.of_case import ANSWERS
+from mbla.results.record.stored import stored
+from mbla.results.results import CaseResult, Results
+from mbla.solution.solution import (
+    Checks,
+    IterationRecord,
+    Mechanics,
+    ModelSize,
+    PathPoint,
+    ProgramRecord,
+    ReductionStep,
+    Solution,
+    StandingResult,
+)
+from mbla.solution.verification.verification import residual_of
 
-BLOCK_ARRAYS = (
-    "vertices",
-    "vertex_start",
-    "loops",
-    "loop_start",
-    "face_start",
-    "facet_of_face",
-    "face_normals",
-    "convex",
-    "volumes",
-    "centroids",
-    "densities",
-    "added_masses",
-    "added_mass_points",
-    "group_indices",
-)
-CONTACT_ARRAYS = (
-    "bodies",
-    "normals",
-    "areas",
-    "centroids",
-    "gaps",
-    "joints",
-    "point_start",
-    "outline",
-    "points",
-    "frames",
-    "point_areas",
-)
-SETTLEMENT_FIELDS = ("blocks", "motions", "turns", "words", "reference", "unit")
-REPORT_FIELDS = (
-    "slivers",
-    "sliver_widths",
-    "near_misses",
-    "near_miss_gaps",
-    "overlaps",
-    "overlap_depths",
-    "unchecked",
-    "isolated",
-    "fixed_contacts",
-    "open_interfaces",
-    "glued",
-    "held",
-)
+Value: TypeAlias = "np.typing.NDArray[np.generic] | str | Sequence[Any] | float | int | bool"
+Content: TypeAlias = dict[str, Value]
+
+RECORD_NAMES = {
+    "travel/points": "travel/load_points",
+    "travel/blocks": "travel/carrying_blocks",
+    "tilt/axis": "tilt/turning_axis",
+}
+"""fields of a load case that have other names in the file: netCDF takes a dataset of the name of a dimension for the
+coordinate of that"""
+HISTORY: dict[str, type] = {"programs": ProgramRecord, "iterations": IterationRecord, "path": PathPoint}
+"""lists of records in a solution, each a group with a dataset a column"""
+MOTIONS = ("torsion_motions", "crushing_motions")
+"""motions of interfaces, in the order in which they are stacked"""
 
 
 def root_attributes(results: Results) -> dict[str, str | int]:
@@ -91,27 +76,40 @@ def content_of(results: Results) -> Content:
         **_mapping("provenance/names", "provenance/values", results.provenance),
         **_mapping("provenance/setting_names", "provenance/setting_values", results.settings),
         "provenance/stage_names": list(results.time),
-        "provenance/stage_seconds": np.array(list(results.time.values()), dtype=float),
+        "provenance/stage_seconds": list(results.time.values()),
         "provenance/files": results.files,
         "provenance/exit_code": results.exit_code,
-        **({} if results.complete else {"provenance/not_done": results.not_done}),
     }
+    if not results.complete:
+        content["provenance/not_done"] = results.not_done
     for load_case in results.model.load_cases:
-        content |= {f"cases/{load_case.name}/{key}": value for key, value in _loads(load_case).items()}
+        content |= _below(f"cases/{load_case.name}", _loads(load_case))
     for case in results.cases:
-        found = case_content(results.model, results.contacts, case)
-        content |= {f"cases/{case.load_case.name}/{key}": value for key, value in found.items()}
+        content |= _below(f"cases/{case.load_case.name}", case_content(results.model, results.contacts, case))
     return content
 
 
 def as_told(results: Results) -> tuple[str, ...]:
     """Kinds of statements in the results that the run alone can tell, so that nobody can verify them."""
     content = content_of(results)
-    cases = [case.name for case in results.model.load_cases]
-    placed = fields_of(cases)
-    held = ((field, content[path]) for path, field in placed if path in content)
-    kinds = (field.told_of(value) for field, value in held if np.size(np.asarray(value)))
+    placed = fields_of([case.name for case in results.model.load_cases])
+    kinds = (
+        field.told_of(content[path]) for path, field in placed if path in content and np.size(np.asarray(content[path]))
+    )
     return tuple(dict.fromkeys(kind for kind in kinds if kind))
+
+
+def _below(place: str, content: Content) -> Content:
+    return {f"{place}/{name}": value for name, value in content.items()}
+
+
+def _held(owner: object, kind: type, place: str) -> Content:
+    """Fields of a dataclass under the names of the record, those that are there."""
+    values = {name: getattr(owner, name) for name in stored(kind, place)}
+    return {name: value for name, value in values.items() if value is not None}
+
+
+# --- what was analysed --------------------------------------------------------------------------------------------
 
 
 def _side_files(files: Sequence[tuple[str, bytes]]) -> Content:
@@ -123,10 +121,10 @@ def _side_files(files: Sequence[tuple[str, bytes]]) -> Content:
     }
 
 
-def ragged(rows: Iterable[IntArray]) -> tuple[IntArray, IntArray]:
+def _ragged(rows: Iterable[IntArray]) -> tuple[IntArray, IntArray]:
     """Offsets and flat items of a list of index arrays."""
     listed = [np.asarray(row, dtype=np.int64) for row in rows]
-    flat = np.concatenate(listed) if listed else np.zeros(0, dtype=np.int64)
+    flat = np.concatenate([np.zeros(0, dtype=np.int64), *listed])
     return starts(np.array([len(row) for row in listed], dtype=np.int64)), flat
 
 
@@ -135,67 +133,54 @@ def _mapping(names: str, values: str, mapping: Mapping[str, str]) -> Content:
 
 
 def _notices(group: str, notices: Sequence[Notice]) -> Content:
-    return {
-        f"{group}/severity": [notice.severity for notice in notices],
-        f"{group}/identifier": [notice.identifier for notice in notices],
-        f"{group}/message": [notice.message for notice in notices],
-    }
+    return {f"{group}/{name}": [getattr(notice, name) for notice in notices] for name in stored(Notice, "notices")}
 
 
-def _labels(labels: BlockLabels) -> Content:
-    names = sorted(set(labels.members))
-    row = {name: i for i, name in enumerate(names)}
-    return {
-        "model/member_names": names,
-        "model/members": np.array([row[member] for member in labels.members], dtype=np.int64),
-        "model/position_names": list(POSITIONS),
-        "model/positions": labels.positions,
-    }
+def _numbered(names: Sequence[str]) -> tuple[list[str], IntArray]:
+    """Names in alphabetical order, and the row of each item's name."""
+    listed = sorted(set(names))
+    row = {name: i for i, name in enumerate(listed)}
+    return listed, np.array([row[name] for name in names], dtype=np.int64)
 
 
 def _model(model: Model) -> Content:
-    blocks, units = model.blocks, model.units
-    group_names = sorted(set(blocks.groups))
-    row = {name: i for i, name in enumerate(group_names)}
-    content: Content = {f"model/{name}": getattr(blocks, name) for name in BLOCK_ARRAYS}
-    content |= {
-        "model/title": model.title,
-        **_labels(blocks.labels),
-        "model/units": [units.length, units.force, units.mass],
-        "model/load_cases": [case.name for case in model.load_cases],
-        "model/group_names": group_names,
-        "model/groups": np.array([row[group] for group in blocks.groups], dtype=np.int64),
-        "model/weights": blocks.masses * units.standard_gravity * units.force_per_mass_acceleration,
-        "model/fixed": model.fixed,
-        **_joints(model),
-        **_grounds(model),
-        **_guides(model),
-        **_notices("model/notices", model.notices),
+    blocks, units, labels = model.blocks, model.units, model.blocks.labels
+    groups, members = _numbered(blocks.groups), _numbered(labels.members)
+    start, flat = _ragged(np.zeros(0, dtype=np.int64) if g.blocks is None else g.blocks for g in model.grounds)
+    content: Content = {
+        **_held(blocks, Blocks, "model"),
+        "title": model.title,
+        "units": [units.length, units.force, units.mass],
+        "load_cases": [case.name for case in model.load_cases],
+        "group_names": groups[0],
+        "groups": groups[1],
+        "member_names": members[0],
+        "members": members[1],
+        "position_names": list(POSITIONS),
+        "positions": labels.positions,
+        "weights": weights(model),
+        "fixed": model.fixed,
+        "joint_names": list(model.joints),
+        **{name: [getattr(law, name) for law in model.joints.values()] for name in stored(Joint, "model")},
+        "ground_labels": [ground.label for ground in model.grounds],
+        "ground_points": _points([ground.point for ground in model.grounds]),
+        "ground_normals": _points([ground.normal for ground in model.grounds]),
+        "ground_joints": [ground.joint for ground in model.grounds],
+        "ground_selective": [ground.blocks is not None for ground in model.grounds],
+        "ground_start": start,
+        "ground_blocks": flat,
     }
-    return content
+    guides = model.guides
+    if len(guides):
+        content |= {"guided_blocks": guides.blocks, "guided_bodies": guides.bodies}
+        content |= {"guide_motions": guides.motions, "guide_words": guides.words}
+    return _below("model", content) | _notices("model/notices", model.notices)
 
 
-def _joints(model: Model) -> Content:
-    laws = model.joints.values()
-    fields = ("friction", "cohesion", "tensile_strength", "compressive_strength", "dilatancy")
-    numbers: Content = {
-        f"model/{field}": np.array([getattr(law, field) for law in laws], dtype=float) for field in fields
-    }
-    return {"model/joint_names": list(model.joints), **numbers}
-
-
-def _grounds(model: Model) -> Content:
-    grounds = model.grounds
-    start, flat = ragged(np.zeros(0, dtype=np.int64) if g.blocks is None else g.blocks for g in grounds)
-    return {
-        "model/ground_labels": [ground.label for ground in grounds],
-        "model/ground_points": _points([ground.point for ground in grounds]),
-        "model/ground_normals": _points([ground.normal for ground in grounds]),
-        "model/ground_joints": [ground.joint for ground in grounds],
-        "model/ground_selective": np.array([ground.blocks is not None for ground in grounds], dtype=bool),
-        "model/ground_start": start,
-        "model/ground_blocks": flat,
-    }
+def weights(model: Model) -> FloatArray:
+    """Of each block under standard gravity, added mass included, (n_blocks,) N."""
+    units = model.units
+    return np.asarray(model.blocks.masses * units.standard_gravity * units.force_per_mass_acceleration)
 
 
 def _points(rows: Sequence[FloatArray]) -> FloatArray:
@@ -203,44 +188,112 @@ def _points(rows: Sequence[FloatArray]) -> FloatArray:
 
 
 def _contacts(contacts: Contacts) -> Content:
-    report, label = contacts.report, contacts.solid_of_block
-    start, flat = ragged(report.unsupported)
+    report = contacts.report
+    start, flat = _ragged(report.unsupported)
     return {
-        **{f"contacts/{name}": getattr(contacts, name) for name in CONTACT_ARRAYS},
-        "contacts/joint_names": contacts.joint_names,
-        **({} if label is None else {"contacts/solid_of_block": label}),
-        **{f"contacts/report/{name}": getattr(report, name) for name in REPORT_FIELDS},
+        **_below("contacts", _held(contacts, Contacts, "contacts")),
+        **_below("contacts/report", _held(report, ContactReport, "contacts/report")),
         "contacts/report/unsupported_start": start,
         "contacts/report/unsupported_blocks": flat,
         **_notices("contacts/notices", report.notices),
     }
 
 
-def _guides(model: Model) -> Content:
-    """Blocks that move in given ways only; nothing where there are none."""
-    guides = model.guides
-    if not len(guides):
-        return {}
-    return {
-        "model/guided_blocks": guides.blocks,
-        "model/guided_bodies": guides.bodies,
-        "model/guide_motions": guides.motions,
-        "model/guide_words": guides.words,
-    }
-
-
 def _loads(load_case: LoadCase) -> Content:
-    content: Content = {
-        name: getattr(load_case, name) for name in ("dead_load", "live_load", "dead_words", "live_words")
-    }
-    for name in ("travel", "tilt"):
+    content = _held(load_case, LoadCase, "cases/*")
+    for name, kind in (("travel", TravelPosition), ("tilt", Tilt), ("settlement", Settlement)):
         part = getattr(load_case, name)
         if part is not None:
-            content |= {f"{name}/{field.name}": getattr(part, field.name) for field in fields(part)}
-    for path, of_record in RECORD_NAMES.items():
-        if of_record in content:
-            content[path] = content.pop(of_record)
-    settlement = load_case.settlement
-    if settlement is not None:
-        content |= {f"settlement/{name}": getattr(settlement, name) for name in SETTLEMENT_FIELDS}
+            content |= _below(name, {field: getattr(part, field) for field in kind.__dataclass_fields__})
+    return {RECORD_NAMES.get(path, path): value for path, value in content.items()}
+
+
+# --- what was found for a load case -------------------------------------------------------------------------------
+
+
+def case_content(model: Model, contacts: Contacts, case: CaseResult) -> Content:
+    """Everything of one load case but its loads, by the path below it."""
+    solution, checks, model = case.solution, case.checks, model.of_case(case.load_case)
+    least, greatest = least_and_greatest(model, case)
+    content: Content = {
+        **_held(solution, Solution, "cases/*"),
+        "status": case.status.value,
+        "claimed_status": solution.status.value,
+        **_held(checks, Checks, "cases/*"),
+        "range": np.array([checks.lower, checks.upper]),
+        "least_load_factor": least,
+        "greatest_load_factor": greatest,
+    }
+    for group, kind in HISTORY.items():
+        content |= _columns(group, kind, getattr(solution, group))
+    settlement = case.load_case.settlement
+    if settlement is not None and solution.mechanics is not None:
+        content["reaction"] = settlement.reaction(solution.mechanics.load_factor)
+    for part, (group, _) in ANSWERS.items():
+        mechanics: Mechanics | None = getattr(solution, part)
+        if mechanics is not None and not (part == "associative" and associative_is_own(case)):
+            residual = residual_of(model, contacts, case.load_case, solution, part)
+            own = _answer(mechanics) | {"residual": residual}
+            content |= {f"{group}/{name}".lstrip("/"): value for name, value in own.items()}
+    return content | _collapse(model, contacts, case) | _further(solution)
+
+
+def _columns(group: str, kind: type, records: Sequence[object]) -> Content:
+    """A list of records, a dataset a column."""
+    names = stored(kind, f"cases/*/{group}")
+    return {f"{group}/{name}": [getattr(record, name) for record in records] for name in names}
+
+
+def _answer(mechanics: Mechanics) -> Content:
+    """Forces and velocities of an answer."""
+    content = _held(mechanics, Mechanics, "cases/*")
+    return content | _motions("", mechanics.interface_motions)
+
+
+def _motions(prefix: str, motions: FloatArray | None) -> Content:
+    return {} if motions is None else {f"{prefix}{name}": motions[:, row] for row, name in enumerate(MOTIONS)}
+
+
+def _collapse(model: Model, contacts: Contacts, case: CaseResult) -> Content:
+    """What follows from the mechanism, for readers of the file."""
+    mechanics = case.solution.mechanics
+    if mechanics is None:
+        return {}
+    collapse = collapse_of(model, contacts, case.load_case, mechanics)
+    motion = collapse.interfaces
+    return {
+        "parts": collapse.parts,
+        "interfaces/modes": motion.modes,
+        "interfaces/translations": motion.translation,
+        "interfaces/rotations": motion.rotation,
+        "interfaces/hinge_points": motion.hinge_points,
+        "interfaces/hinge_directions": motion.hinge_directions,
+        "interfaces/work": collapse.work.dissipated,
+    }
+
+
+def associative_is_own(case: CaseResult) -> bool:
+    """The associative answer is the case's own answer, so that the file need not hold it twice."""
+    solution = case.solution
+    return solution.flow_rule == "associative" and solution.associative is solution.mechanics
+
+
+def _further(solution: Solution) -> Content:
+    content = _motions("certificate_", solution.certificate_motions)
+    if solution.level_lock is not None:
+        content["level/lock"] = solution.level_lock
+    if solution.reductions:
+        content |= _columns("reductions", ReductionStep, solution.reductions)
+        for when in ("before", "after"):
+            for name in ProgramSize.__dataclass_fields__:
+                sizes = [getattr(getattr(step, when), name) for step in solution.reductions]
+                content[f"reductions/{name}_{when}"] = sizes
+    if solution.size is not None:
+        content |= _below("size", _held(solution.size, ModelSize, "cases/*/size"))
+    standing = solution.standing
+    if standing is not None:
+        content |= _below("standing", _held(standing, StandingResult, "cases/*/standing"))
+        content["standing/falls"] = [] if standing.block is None else [standing.block]
+        if standing.forces is not None:
+            content["standing/contact_forces"] = standing.forces
     return content

@@ -1,16 +1,13 @@
-"""The layout of the HDF5 result file as one table: it feeds the writer, the reader's checks and schemas/results.md.
-
-A ``*`` in a path stands for the name of a load case.
-"""
+"""The layout of the HDF5 result file: the stored part of the record, a dataset a quantity, at its place."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable
+from itertools import product
 
 from mbla.deck.units import Units
-from mbla.results.hdf5.case_fields import CASE_FIELDS
-from mbla.results.hdf5.field import COURSE, FILES, NOT_VERIFIED, TIMES, VERSIONS, Field, notice_fields, unit_text
-from mbla.results.hdf5.model_fields import MODEL_FIELDS
+from mbla.results.record.quantity import NOT_VERIFIED, Quantity, unit_text
+from mbla.results.record.stored import STORED
 
 FILETYPE = "mbla results"
 VERSION = 6
@@ -48,50 +45,19 @@ SHARED_DIMENSIONS = (
 )
 """dimensions with their scale in the root group, where every group sees it; that of others is beside their dataset"""
 
-RUN_FIELDS: tuple[Field, ...] = (
-    *notice_fields("notices", "all remarks of the run"),
-    Field("provenance/names", "text", ("entry",), "1", "programs, libraries, platform", told=VERSIONS),
-    Field("provenance/values", "text", ("entry",), "1", "their versions", told=VERSIONS),
-    Field("provenance/setting_names", "text", ("setting",), "1", "analysis settings in effect"),
-    Field("provenance/setting_values", "text", ("setting",), "1", "their values"),
-    Field("provenance/stage_names", "text", ("stage",), "1", "stages of the run", told=TIMES),
-    Field("provenance/stage_seconds", "float", ("stage",), "time", "time of each stage", told=TIMES),
-    Field("provenance/files", "text", ("file",), "1", "names of the files of this run", told=FILES),
-    Field("provenance/exit_code", "int", (), "1", "exit status of the run"),
-    Field(
-        "provenance/not_done",
-        "text",
-        ("case",),
-        "1",
-        "load cases not done by a stopped run",
-        part="stopped",
-        told=COURSE,
-    ),
-)
-"""what the run itself left: remarks, versions, settings, times"""
 
-LAYOUT: tuple[Field, ...] = (*MODEL_FIELDS, *CASE_FIELDS, *RUN_FIELDS)
-
-
-def fields_of_case(name: str) -> tuple[tuple[str, Field], ...]:
-    """Path and field of every dataset of one load case."""
-    return tuple((f.path.replace("*", name), f) for f in LAYOUT if "*" in f.path)
-
-
-COMMON_FIELDS: tuple[Field, ...] = tuple(f for f in LAYOUT if "*" not in f.path)
-
-
-def fields_of(cases: Iterable[str]) -> tuple[tuple[str, Field], ...]:
-    """The same of everything that a file with these cases may hold, in the order of writing."""
-    common = tuple((field.path, field) for field in COMMON_FIELDS)
-    return common + tuple(pair for name in cases for pair in fields_of_case(name))
+def fields_of(cases: Iterable[str]) -> tuple[tuple[str, Quantity], ...]:
+    """Path and quantity of every dataset that a file with these load cases may hold, in the order of writing."""
+    common = tuple((each.path, each) for each in STORED if "*" not in each.path)
+    own = (each for each in STORED if "*" in each.path)
+    return common + tuple((each.path.replace("*", name), each) for name, each in product(cases, tuple(own)))
 
 
 def layout_table() -> str:
     """The datasets as a Markdown table, as it stands in schemas/results.md; units as in a deck in m, N, kg."""
     lines = ["| dataset | type | dimensions | units | content |", "|---|---|---|---|---|"]
-    for field in LAYOUT:
-        content = field.long_name + (f" (part: {field.part})" if field.part else "")
+    for field in STORED:
+        content = field.words + (f" (part: {field.part})" if field.part else "")
         content += f"; {NOT_VERIFIED.format(field.told)}" if field.told else ""
         content += f" (verified where it is {' or '.join(field.proved)})" if field.proved else ""
         dims = ", ".join(field.dims) or "–"

@@ -6,9 +6,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from mbla.results.hdf5.case_content import Value
-from mbla.results.hdf5.field import Field
+from mbla.results.hdf5.content import Value
 from mbla.results.hdf5.layout import SHARED_DIMENSIONS
+from mbla.results.record.quantity import Quantity
 
 if TYPE_CHECKING:
     import h5py
@@ -29,7 +29,7 @@ def strings(dataset: h5py.Dataset) -> list[str]:
     return [text_of(value) for value in np.atleast_1d(dataset[()])]
 
 
-def read_field(dataset: h5py.Dataset, path: str, field: Field, sizes: dict[str, int]) -> Value:
+def read_field(dataset: h5py.Dataset, path: str, field: Quantity, sizes: dict[str, int]) -> Value:
     """One dataset, with the type, the dimensions and the range of numbers that the layout asks for."""
     if dataset.ndim != len(field.dims):
         raise ValueError(f"{path} has {dataset.ndim} dimensions instead of {len(field.dims)}")
@@ -55,7 +55,7 @@ def read_field(dataset: h5py.Dataset, path: str, field: Field, sizes: dict[str, 
     return array if field.dims else array.item()
 
 
-def check_indices(path: str, field: Field, value: Value, sizes: dict[str, int]) -> None:
+def check_indices(path: str, field: Quantity, value: Value, sizes: dict[str, int]) -> None:
     """Indices within what they count; offsets from zero, never falling, to the end of what they divide."""
 
     def size(name: str) -> int:

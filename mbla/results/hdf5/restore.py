@@ -5,7 +5,6 @@ The content has been checked against the layout already; what is checked here is
 
 from __future__ import annotations
 
-from dataclasses import fields
 from typing import Any, cast
 
 import numpy as np
@@ -18,10 +17,9 @@ from mbla.model.model import Ground, Joint, LoadCase, Model, Settlement, Tilt, T
 from mbla.model.solids.blocks import BlockLabels, Blocks
 from mbla.model.supports.guides import NO_GUIDES, Guides
 from mbla.results.coherence import incoherences
-from mbla.results.hdf5.case_content import Content
 from mbla.results.hdf5.case_restore import case_from
-from mbla.results.hdf5.content import BLOCK_ARRAYS, CONTACT_ARRAYS, REPORT_FIELDS, SETTLEMENT_FIELDS
-from mbla.results.hdf5.load_fields import RECORD_NAMES
+from mbla.results.hdf5.content import RECORD_NAMES, Content
+from mbla.results.record.stored import stored
 from mbla.results.results import DeckRecord, Results
 
 LEAST, MOST = 1e-120, 1e120
@@ -83,6 +81,11 @@ def _part(content: dict[str, Any], prefix: str) -> dict[str, Any]:
     return {path[len(prefix) :]: value for path, value in content.items() if path.startswith(prefix)}
 
 
+def _held(kind: type, place: str, get: dict[str, Any]) -> dict[str, Any]:
+    """Fields of a dataclass by name, those that are there."""
+    return {name: get[name] for name in stored(kind, place) if name in get}
+
+
 def _notices(get: dict[str, Any]) -> tuple[Notice, ...]:
     if not set(get["severity"]) <= {"notice", "warning"}:
         raise ValueError("severity of a notice")
@@ -100,7 +103,7 @@ def _model(get: dict[str, Any], load_cases: tuple[LoadCase, ...]) -> Model:
     return Model(
         title=get["title"],
         units=Units(length, force, mass),
-        blocks=Blocks(**{name: get[name] for name in BLOCK_ARRAYS}, groups=groups, labels=_labels(get)),
+        blocks=Blocks(**{**_held(Blocks, "model", get), "groups": groups, "labels": _labels(get)}),
         fixed=get["fixed"],
         grounds=_grounds(get),
         joints=_joints(get),
@@ -128,7 +131,7 @@ def _labels(get: dict[str, Any]) -> BlockLabels:
 
 
 def _joints(get: dict[str, Any]) -> dict[str, Joint]:
-    columns = [get[field.name].tolist() for field in fields(Joint) if field.name != "name"]
+    columns = [get[name].tolist() for name in stored(Joint, "model")]
     return {row[0]: Joint(*row) for row in zip(get["joint_names"], *columns, strict=True)}
 
 
@@ -155,21 +158,22 @@ def _contacts(get: dict[str, Any]) -> Contacts:
     parts = len(get["report/unsupported_start"]) - 1
     unsupported = np.split(get["report/unsupported_blocks"], get["report/unsupported_start"][1:-1]) if parts else []
     report = ContactReport(
-        **{name: get[f"report/{name}"] for name in REPORT_FIELDS},
+        **_held(ContactReport, "contacts/report", _part(get, "report/")),
         unsupported=tuple(unsupported),
         notices=_notices(_part(get, "notices/")),
     )
     if np.any((get["outline"] < 0) | (get["outline"] > np.diff(get["point_start"]))):
         raise ValueError("outline of an interface")
-    arrays = {name: get[name] for name in CONTACT_ARRAYS}
+    arrays = _held(Contacts, "contacts", get)
     label = get.get("solid_of_block")
     if label is not None and not np.array_equal(np.unique(label), np.arange(label.max(initial=-1) + 1)):
         raise ValueError("numbers of rigid bodies")
-    return Contacts(**arrays, joint_names=tuple(get["joint_names"]), report=report, solid_of_block=label)
+    return Contacts(**{**arrays, "joint_names": tuple(get["joint_names"]), "report": report})
 
 
 def _load_case(name: str, get: dict[str, Any]) -> LoadCase:
-    get = {RECORD_NAMES.get(path, path): value for path, value in get.items()}
+    names = {path: name for name, path in RECORD_NAMES.items()}
+    get = {names.get(path, path): value for path, value in get.items()}
     travel, tilt = _part(get, "travel/"), _part(get, "tilt/")
     if max(np.abs(get[load]).max(initial=0.0) for load in ("dead_load", "live_load")) > MOST:
         raise ValueError(f"{name}: a load beyond {MOST:.0e}")
@@ -179,7 +183,7 @@ def _load_case(name: str, get: dict[str, Any]) -> LoadCase:
         raise ValueError(f"{name}: a travelling load without forces")
     settlement = None
     if "settlement/blocks" in get:
-        settlement = Settlement(**{field: get[f"settlement/{field}"] for field in SETTLEMENT_FIELDS})
+        settlement = Settlement(**_held(Settlement, "cases/*/settlement", _part(get, "settlement/")))
         if len(np.unique(settlement.blocks)) < len(settlement.blocks) or not settlement.unit > 0:
             raise ValueError("settlement of a support")
     return LoadCase(

@@ -20,10 +20,8 @@ import numpy as np
 
 from mbla.deck.units import Units
 from mbla.errors import FileError
-from mbla.results.hdf5.case_content import Content, Value
 from mbla.results.hdf5.comparing import differences
-from mbla.results.hdf5.content import content_of, root_attributes
-from mbla.results.hdf5.field import NOT_VERIFIED, Field, unit_text
+from mbla.results.hdf5.content import Content, Value, content_of, root_attributes
 from mbla.results.hdf5.layout import (
     ATTRIBUTES,
     FILETYPE,
@@ -33,6 +31,7 @@ from mbla.results.hdf5.layout import (
 )
 from mbla.results.hdf5.reading import check_indices, read_field, strings, text_of
 from mbla.results.hdf5.restore import results_from
+from mbla.results.record.quantity import NOT_VERIFIED, Quantity, unit_text
 from mbla.results.results import Results
 
 if TYPE_CHECKING:
@@ -218,7 +217,7 @@ def _text_array(value: str | list[str] | tuple[str, ...]) -> np.typing.NDArray[A
     return array.reshape(()) if isinstance(value, str) else array
 
 
-def _as_array(value: Value, field: Field) -> np.typing.NDArray[Any]:
+def _as_array(value: Value, field: Quantity) -> np.typing.NDArray[Any]:
     if field.kind == "text":
         return _text_array(value)  # type: ignore[arg-type]
     kinds = {"float": np.float64, "int": np.int64, "bool": np.uint8, "byte": np.uint8}
@@ -229,12 +228,12 @@ def _as_array(value: Value, field: Field) -> np.typing.NDArray[Any]:
 
 
 def _write_field(
-    file: h5py.File, scales: dict[str, h5py.Dataset], path: str, field: Field, value: Value, units: Units
+    file: h5py.File, scales: dict[str, h5py.Dataset], path: str, field: Quantity, value: Value, units: Units
 ) -> None:
     array = _as_array(value, field)
     dataset = _create(file, path, array)
     _set_attribute(dataset, "units", unit_text(field.unit, units))
-    _set_attribute(dataset, "long_name", field.long_name)
+    _set_attribute(dataset, "long_name", field.words)
     if told := field.told_of(value):
         _set_attribute(dataset, "verification", NOT_VERIFIED.format(told))
     if field.kind == "text":

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from mbla.results.hdf5.field import UnitKind
+from mbla.results.record.quantity import UnitKind
 from mbla.results.records.key import Key
 
 MECHANISM = "cases[].mechanism"

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from mbla.deck.units import Units
-from mbla.results.hdf5.field import UnitKind, unit_text
+from mbla.results.record.quantity import UnitKind, unit_text
 
 
 @dataclass(frozen=True)

@@ -8,8 +8,8 @@ import numpy as np
 
 from mbla.results.collapse.interface_modes import InterfaceMode
 from mbla.results.collapse.rigid_parts import moving_share
-from mbla.results.hdf5.field import UnitKind
 from mbla.results.outcome import associative_of, best_iterate, factor_unique, least_and_greatest, range_of, result_of
+from mbla.results.record.quantity import UnitKind
 from mbla.results.tables.case_rows import CaseRows, case_rows
 from mbla.results.tables.column import Column, Values, as_text, bools, floats, ints, texts
 from mbla.results.tables.table import TableKind

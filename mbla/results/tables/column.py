@@ -9,7 +9,7 @@ from typing import Any, Generic, TypeAlias, TypeVar
 import numpy as np
 
 from mbla.deck.units import Units
-from mbla.results.hdf5.field import FieldKind, UnitKind, unit_text
+from mbla.results.record.quantity import Kind, UnitKind, unit_text
 
 Values: TypeAlias = "np.typing.NDArray[Any]"
 Source = TypeVar("Source")
@@ -24,7 +24,7 @@ class Column(Generic[Source]):
     """
 
     name: str
-    kind: FieldKind
+    kind: Kind
     unit: UnitKind
     words: str
     of: Callable[[Source], Values]

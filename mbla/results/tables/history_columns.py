@@ -12,8 +12,8 @@ import numpy as np
 from mbla.errors import Notice
 from mbla.model.model import TravelPosition
 from mbla.results.collapse.mechanics import Reaction, guide_reactions, support_reactions
-from mbla.results.hdf5.field import FieldKind, UnitKind
 from mbla.results.outcome import notices_of
+from mbla.results.record.quantity import Kind, UnitKind
 from mbla.results.results import CaseResult, Results
 from mbla.results.series import Series, factor_of, position_of, series_of
 from mbla.results.tables.case_rows import CaseRows, case_rows
@@ -21,15 +21,13 @@ from mbla.results.tables.column import Column, Values, as_text, bools, floats, i
 from mbla.results.tables.table import TableKind
 
 
-def _list_table(
-    name: str, words: str, records: str, columns: tuple[tuple[str, FieldKind, UnitKind, str], ...]
-) -> TableKind:
+def _list_table(name: str, words: str, records: str, columns: tuple[tuple[str, Kind, UnitKind, str], ...]) -> TableKind:
     """A table of the records that a solution lists under one name: column, type, unit, meaning."""
 
     def listed(case: CaseResult) -> tuple[Any, ...]:
         return tuple(getattr(case.solution, records))
 
-    def values(field: str, kind: FieldKind) -> Callable[[CaseResult], Values]:
+    def values(field: str, kind: Kind) -> Callable[[CaseResult], Values]:
         def of(case: CaseResult) -> Values:
             column = [getattr(record, field) for record in listed(case)]
             return as_text([str(value) for value in column]) if kind == "text" else np.array(column)

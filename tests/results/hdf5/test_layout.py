@@ -7,9 +7,10 @@ import h5py
 import pytest
 
 from mbla.deck.units import Units
-from mbla.results.hdf5.field import unit_text
-from mbla.results.hdf5.layout import ATTRIBUTES, LAYOUT, SHARED_DIMENSIONS, VERSION, layout_table
+from mbla.results.hdf5.layout import ATTRIBUTES, SHARED_DIMENSIONS, VERSION, layout_table
 from mbla.results.hdf5.result_file import write_results_hdf5
+from mbla.results.record.quantity import unit_text
+from mbla.results.record.stored import STORED
 from tests.results.synthetic import full_results
 
 PAGE = Path(__file__).parents[3] / "schemas" / "results.md"
@@ -49,7 +50,7 @@ def test_page_holds_the_table_and_every_attribute() -> None:
 
 
 def test_every_dataset_written_is_in_the_layout_and_the_reverse(file: Any) -> None:
-    assert {pattern(path) for path in datasets(file)} == {field.path for field in LAYOUT}
+    assert {pattern(path) for path in datasets(file)} == {field.path for field in STORED}
 
 
 def test_every_attribute_written_is_in_the_layout_and_the_reverse(file: Any) -> None:
@@ -59,15 +60,15 @@ def test_every_attribute_written_is_in_the_layout_and_the_reverse(file: Any) -> 
 
 
 def test_paths_are_unique() -> None:
-    assert len({field.path for field in LAYOUT}) == len(LAYOUT)
+    assert len({field.path for field in STORED}) == len(STORED)
 
 
 def test_every_dataset_carries_units_and_long_name_and_named_dimensions(file: Any) -> None:
-    fields = {field.path: field for field in LAYOUT}
+    fields = {field.path: field for field in STORED}
     for path, dataset in datasets(file).items():
         field = fields[pattern(path)]
         assert dataset.attrs["units"].decode() == unit_text(field.unit, Units())
-        assert dataset.attrs["long_name"].decode() == field.long_name
+        assert dataset.attrs["long_name"].decode() == field.words
         assert tuple(dimension.label for dimension in dataset.dims) == field.dims
         for dimension, name in zip(dataset.dims, field.dims, strict=True):
             assert [scale.name.rpartition("/")[2] for scale in dimension.values()] == [name]

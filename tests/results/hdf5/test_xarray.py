@@ -16,9 +16,10 @@ import pytest
 import xarray
 
 from mbla.deck.units import Units
-from mbla.results.hdf5.field import unit_text
-from mbla.results.hdf5.layout import LAYOUT, SHARED_DIMENSIONS, fields_of_case
+from mbla.results.hdf5.layout import SHARED_DIMENSIONS, fields_of
 from mbla.results.hdf5.result_file import write_results_hdf5
+from mbla.results.record.quantity import unit_text
+from mbla.results.record.stored import STORED
 from tests.results.synthetic import full_results
 
 PAGE = Path(__file__).parents[3] / "schemas" / "results.md"
@@ -45,8 +46,7 @@ def plain(values: Any) -> Any:
 
 
 def test_every_group_opens_with_named_dimensions_units_and_values(path: Path) -> None:
-    fields = {name: f for case in full_results().model.load_cases for name, f in fields_of_case(case.name)}
-    fields |= {field.path: field for field in LAYOUT}
+    fields = dict(fields_of(case.name for case in full_results().model.load_cases))
     seen = 0
     with h5py.File(path) as file:
         for group in groups_of(path):
@@ -58,7 +58,7 @@ def test_every_group_opens_with_named_dimensions_units_and_values(path: Path) ->
                     field = fields[f"{group}/{name}"]
                     assert variable.dims == field.dims, field.path
                     assert variable.attrs["units"] == unit_text(field.unit, Units())
-                    assert variable.attrs["long_name"] == field.long_name
+                    assert variable.attrs["long_name"] == field.words
                     assert np.array_equal(
                         variable.values.astype(str) if field.kind == "text" else variable.values,
                         plain(dataset[()]),
@@ -84,9 +84,9 @@ def test_the_file_opens_as_a_tree(path: Path) -> None:
 def test_no_dataset_has_the_name_of_a_dimension_that_it_sees() -> None:
     """netCDF takes it for the coordinate of that dimension."""
     scales = {
-        name if name in SHARED_DIMENSIONS else f"{f.path.rpartition('/')[0]}/{name}" for f in LAYOUT for name in f.dims
+        name if name in SHARED_DIMENSIONS else f"{f.path.rpartition('/')[0]}/{name}" for f in STORED for name in f.dims
     }
-    for field in LAYOUT:
+    for field in STORED:
         group, _, name = field.path.rpartition("/")
         parents = [group, *map(str, PurePosixPath(group).parents)]
         assert not scales & {name, *(f"{parent}/{name}" for parent in parents)}, field.path

@@ -6,11 +6,11 @@ from typing import Any
 import numpy as np
 import pytest
 
-from mbla.results.hdf5.field import CLAIMED, COURSE, TIMES, VERSIONS, WORDS
 from mbla.results.hdf5.result_file import read_results_hdf5, write_results_hdf5
 from mbla.results.listing.listing import check_listing, listing, verification_lines
 from mbla.results.listing.text import WIDTH
 from mbla.results.needs import CaseNeeds
+from mbla.results.record.quantity import CLAIMED, COURSE, TIMES, VERSIONS, WORDS
 from mbla.results.results import Results
 from mbla.solution.solution import Status
 from tests.results.synthetic import tower_mechanics, tower_results

@@ -4,8 +4,8 @@ from typing import Any
 
 import pytest
 
-from mbla.results.hdf5.field import CLAIMED, COURSE, TIMES, VERSIONS, WORDS
 from mbla.results.needs import CaseNeeds
+from mbla.results.record.quantity import CLAIMED, COURSE, TIMES, VERSIONS, WORDS
 from mbla.results.records.json_record import check_json, json_line, results_json, verification_json
 from mbla.results.records.power_json import powers_json
 from mbla.results.results import Results

@@ -13,7 +13,7 @@ import h5py
 import numpy as np
 
 from mbla.results.hdf5.comparing import AGREEMENT, LINKS
-from mbla.results.hdf5.layout import LAYOUT
+from mbla.results.record.stored import STORED
 from mbla.run import run
 from mbla.run_options import RunOptions
 from tests.results.changed_files import changing
@@ -67,11 +67,11 @@ FORGED: dict[str, tuple[str, ...]] = {
 }
 """decks and what is changed in them: every flow rule and contact model, and every kind of proof, between them"""
 
-SCALES = {(f"{field.path.rpartition('/')[0]}/{name}", field.told) for field in LAYOUT for name in field.dims}
-TOLD = {field.path for field in LAYOUT if field.told} | {path for path, told in SCALES if told}
+SCALES = {(f"{field.path.rpartition('/')[0]}/{name}", field.told) for field in STORED for name in field.dims}
+TOLD = {field.path for field in STORED if field.told} | {path for path, told in SCALES if told}
 TOLD -= {path for path, told in SCALES if not told}
 """datasets that say that they are not verified, and scales that none but these have"""
-PROVED = {(field.path, text.encode()) for field in LAYOUT for text in field.proved}
+PROVED = {(field.path, text.encode()) for field in STORED for text in field.proved}
 """values of these that are verified all the same"""
 PROOFS = {
     *("lock", "level/lock", "standing/contact_forces", "standing/settlement"),

@@ -1,0 +1,168 @@
+"""One quantity of a result: its name, type, shape, unit and meaning, the same in every format."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from typing import Literal
+
+from mbla.deck.units import Units
+
+Kind = Literal["float", "int", "bool", "byte", "text"]
+UnitKind = Literal[
+    "1",
+    "time",
+    "length",
+    "area",
+    "volume",
+    "density",
+    "mass",
+    "degree",
+    "radian",
+    "stress",
+    "force",
+    "moment",
+    "load",
+    "per_length",
+    "velocity",
+    "rotation",
+    "velocities",
+    "motion",
+    "displacement",
+]
+HALVES: dict[UnitKind, tuple[UnitKind, UnitKind]] = {
+    "load": ("force", "moment"),
+    "velocities": ("velocity", "rotation"),
+    "motion": ("1", "per_length"),
+    "displacement": ("length", "1"),
+}
+"""units of which the first three components have one, the last three the other"""
+COMPONENTS = {
+    "axis": ("x", "y", "z"),
+    "direction": ("N", "T1", "T2"),
+    "component": ("x", "y", "z", "rx", "ry", "rz"),
+    "pair": ("a", "b"),
+    "end": ("lower", "upper"),
+}
+"""what is along these dimensions, as columns of tables are named: ``contact_forces_N``"""
+
+NOT_VERIFIED = "not verified: {}"
+"""attribute of datasets that ``mbla verify`` takes as the run told them"""
+VERSIONS, TIMES, FILES = "versions and date", "times", "names of files"
+WORDS = "reasons and remarks in words"
+COURSE = "how it was solved: scheme, programs, iterations, steps of the path, sizes, reductions"
+SEARCHES = "tries that did not agree, ranges of normal forces"
+CLAIMED = "that no better answer was found than the status says, without associative flow that it does not fall before"
+STANDING = "that it stands only by self-stress, or that it is doubtful whether it stands"
+FALLS = "which block falls first"
+PASSED = "mechanism of a peak"
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """A quantity.
+
+    words    : its meaning
+    dims     : names of its dimensions; none for a single value
+    place    : what it belongs to: the group of the result file; ``*`` stands for the name of a load case
+    index_of : for indices: the dimension they count (``body`` for blocks and then grounds)
+    start_of : for offsets of ragged arrays: the dimension they divide
+    open     : non-finite values are allowed: nan for "nothing to say", inf for "unlimited"
+    part     : quantities of one part are all there or all missing; empty: always there
+    told     : what kind of statement it is, of those that the run alone can tell and ``mbla verify`` does not verify
+    proved   : texts that are verified all the same, as others prove them
+    """
+
+    name: str
+    kind: Kind
+    words: str
+    unit: UnitKind = "1"
+    dims: tuple[str, ...] = ()
+    place: str = ""
+    index_of: str = ""
+    start_of: str = ""
+    open: bool = False
+    part: str = ""
+    told: str = ""
+    proved: tuple[str, ...] = ()
+
+    @property
+    def path(self) -> str:
+        """Place and name: the dataset of the result file."""
+        return f"{self.place}/{self.name}"
+
+    def told_of(self, value: object) -> str:
+        """``told`` of a value, empty where that is verified."""
+        return "" if isinstance(value, str) and value in self.proved else self.told
+
+    def components(self) -> Iterator[tuple[str, UnitKind]]:
+        """Name and unit of each of its columns, as many as its last dimension has, one where it has none."""
+        names = COMPONENTS.get(self.dims[-1], ()) if self.dims else ()
+        if not names:
+            yield self.name, self.unit
+        halves = HALVES.get(self.unit, (self.unit, self.unit))
+        for row, name in enumerate(names):
+            yield f"{self.name}_{name}", halves[row // 3]
+
+
+def text(name: str, words: str, dims: str = "", *, told: str = "", proved: tuple[str, ...] = ()) -> Quantity:
+    """Text."""
+    return Quantity(name, "text", words, dims=tuple(dims.split()), told=told, proved=proved)
+
+
+def real(
+    name: str, words: str, unit: UnitKind = "1", dims: str = "", *, open: bool = False, told: str = ""
+) -> Quantity:
+    """Floating-point numbers."""
+    return Quantity(name, "float", words, unit, tuple(dims.split()), open=open, told=told)
+
+
+def whole(name: str, words: str, dims: str = "", *, index_of: str = "", start_of: str = "", told: str = "") -> Quantity:
+    """Whole numbers."""
+    return Quantity(name, "int", words, dims=tuple(dims.split()), index_of=index_of, start_of=start_of, told=told)
+
+
+def flag(name: str, words: str, dims: str = "") -> Quantity:
+    """Truth, stored as 0 and 1."""
+    return Quantity(name, "bool", words, dims=tuple(dims.split()))
+
+
+def at(place: str, *quantities: Quantity, part: str = "", told: str = "") -> tuple[Quantity, ...]:
+    """Quantities of one place and one part; ``told`` is of all of them."""
+    return tuple(replace(each, place=place, part=part, told=told or each.told) for each in quantities)
+
+
+def notices(place: str, what: str) -> tuple[Quantity, ...]:
+    """Columns of a list of notices."""
+    return at(
+        place,
+        text("severity", f"{what}: notice or warning", "notice"),
+        text("identifier", f"{what}: stable identifier, as `mbla explain` takes it", "notice"),
+        text("message", f"{what}: in words", "notice"),
+    )
+
+
+def unit_text(kind: UnitKind, units: Units) -> str:
+    """The unit in those of a deck."""
+    length, force = units.length, units.force
+    return {
+        "1": "1",
+        "time": "s",
+        "length": length,
+        "area": f"{length}2",
+        "volume": f"{length}3",
+        "density": f"{units.mass}/{length}3",
+        "mass": units.mass,
+        "degree": "degree",
+        "radian": "rad",
+        "stress": f"{force}/{length}2",
+        "force": force,
+        "moment": f"{force} {length}",
+        "per_length": f"1/{length}",
+        "load": f"{force}; {force} {length}",
+        "velocity": f"1/{force}",
+        "rotation": f"1/({force} {length})",
+        "velocities": f"1/{force}; 1/({force} {length})",
+        "motion": f"1; 1/{length}",
+        "displacement": f"{length}; 1",
+    }[kind]
