@@ -160,6 +160,20 @@ class Fault:
         return printable(f"{self.place} {subject}: {self.message}" if subject else f"{self.place} {self.message}")
 
 
+class Finding(tuple[tuple[str | int, ...], Message]):
+    """What a check of a part of a deck finds wrong: the key path below that part, and the message."""
+
+    __slots__ = ()
+
+    def __new__(cls, identifier: str, words: str, *path: str | int) -> Finding:
+        """A message of a kind about the value at a path, about the part itself without one."""
+        return super().__new__(cls, (path, Message(identifier, words)))
+
+    def below(self, *path: str | int) -> Finding:
+        """The same seen from further up."""
+        return Finding(self[1].identifier, self[1].words, *path, *self[0])
+
+
 MOST_FAULTS = 1000
 """of one kind that are told; a file that has more is none that somebody corrects fault by fault"""
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from mbla.deck.types import OutputSection
+from mbla.deck.sections.output import OutputSection
 from mbla.errors import DeckError, FileError, MblaError, Notice, UsageError
 from mbla.results.failures import StoppedRun, words_of
 from mbla.results.files import OutputFolder, is_partial, partial_stem

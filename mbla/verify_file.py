@@ -15,7 +15,7 @@ from pathlib import Path
 import numpy as np
 
 from mbla.deck import Deck
-from mbla.deck.accuracy import knobs_of
+from mbla.deck.sections.accuracy import knobs_of
 from mbla.model.model import Model
 from mbla.program.convex.choice import crushable_interfaces, takes_stress_blocks
 from mbla.rebuilt import rebuilt

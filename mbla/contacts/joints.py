@@ -20,8 +20,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
-from mbla.deck.joints import BUILT_IN, GLUED, OPEN
-from mbla.deck.types import AboutNormal, ContactOverride, ContactsSection, Selector
+from mbla.deck.sections.contacts import AboutNormal, ContactOverride, ContactsSection
+from mbla.deck.sections.materials import BUILT_IN, GLUED, OPEN
+from mbla.deck.sections.selectors import Selector
 from mbla.errors import Fault, Notice
 from mbla.model.model import Model
 from mbla.model.selectors import Roster, bodies_selected, build_roster, selector_words

@@ -14,7 +14,7 @@ from mbla.contacts.narrow_phase import Patches
 from mbla.contacts.polygons import areas
 from mbla.contacts.report import WIDEST, Findings, held_blocks, joining_gap, nearest_words
 from mbla.contacts.third_block import SeparatedPairs
-from mbla.deck.types import ContactsSection
+from mbla.deck.sections.contacts import ContactsSection
 from mbla.errors import Notice
 from mbla.model.model import Model
 from mbla.model.solids.ragged import next_item

@@ -27,7 +27,7 @@ from mbla.contacts.convex import convex_loops
 from mbla.contacts.corners import Corners, areas_and_centroids, parallelograms
 from mbla.contacts.polygons import polygons_from_rings, triangles
 from mbla.contacts.refine import InterfacePoints, divided
-from mbla.deck.types import ContactPoints
+from mbla.deck.sections.contacts import ContactPoints
 from mbla.errors import Notice, Refusal
 from mbla.model.solids.ragged import next_item
 

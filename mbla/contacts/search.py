@@ -23,7 +23,7 @@ from mbla.contacts.polygons import centroids, polygons_from_loops, widths
 from mbla.contacts.refine import InterfacePoints, point_starts
 from mbla.contacts.report import Findings, both_fixed, build_report, held_blocks, misses_within, unsupported_parts
 from mbla.contacts.third_block import SeparatedPairs, drop_pairs_separated_by_third_block
-from mbla.deck.types import ContactsSection
+from mbla.deck.sections.contacts import ContactsSection
 from mbla.model.model import Joint, Model, PrescribedInterfaces
 from mbla.process.sharing import shared
 

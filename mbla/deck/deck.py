@@ -6,8 +6,10 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
+from mbla.deck.content import DeckContent
+from mbla.deck.sections.analysis import AnalysisSection
+from mbla.deck.sections.contacts import ContactsSection
 from mbla.deck.tree import KeyPath
-from mbla.deck.types import AnalysisSection, ContactsSection, DeckContent
 from mbla.deck.units import Units
 from mbla.errors import Fault, Message, Notice
 

@@ -12,9 +12,9 @@ from pydantic import BaseModel
 from pydantic.fields import FieldInfo
 from pydantic_core import PydanticUndefined
 
+from mbla.deck.content import DeckContent
 from mbla.deck.names import NAME_PATTERN, PARAMETER_PATTERN
-from mbla.deck.quantities import Quantity, Whole
-from mbla.deck.types import DeckContent
+from mbla.deck.quantities import Integer, Quantity
 from mbla.deck.units import DIMENSIONS
 
 
@@ -113,7 +113,7 @@ def _value(annotation: Any, metadata: list[Any] | tuple[Any, ...] = ()) -> str:
     for item in metadata:
         if isinstance(item, Quantity):
             return _quantity(item)
-        if isinstance(item, Whole):
+        if isinstance(item, Integer):
             return _whole(item)
         if getattr(item, "pattern", None) in (NAME_PATTERN, PARAMETER_PATTERN):
             return "name"
@@ -147,7 +147,7 @@ def _plural(words: str) -> str:
     return words
 
 
-def _whole(item: Whole) -> str:
+def _whole(item: Integer) -> str:
     """``whole number, 2 to 1000``; limits beyond a million are none."""
     least, most = item.ge > -1_000_000, item.le < 1_000_000
     if not least:

@@ -5,12 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
+from mbla.deck.content import DeckContent
 from mbla.deck.expressions import Parameters
-from mbla.deck.idle import idle_keys
 from mbla.deck.references import unused_names
+from mbla.deck.sections.loads import Load
 from mbla.deck.tree import KeyPath, Tree, key_text
-from mbla.deck.types import DeckContent, Load
 from mbla.deck.units import METRES, STANDARD_GRAVITY, Units
+from mbla.deck.unused_keys import unused_keys
 from mbla.errors import Message, Notice
 
 GRAVITY_TOLERANCE = 0.02
@@ -19,7 +20,7 @@ GRAVITY_TOLERANCE = 0.02
 
 def notices_of(tree: Tree, content: DeckContent, units: Units, parameters: Parameters) -> tuple[Notice, ...]:
     """Warnings about unusual gravity and keys without effect, and remarks on names that nothing uses."""
-    return (*_gravity(tree, content, units), *idle_keys(tree, content), *_unused(tree, content, parameters))
+    return (*_gravity(tree, content, units), *unused_keys(tree, content), *_unused(tree, content, parameters))
 
 
 def _gravity(tree: Tree, content: DeckContent, units: Units) -> Iterator[Notice]:

@@ -7,17 +7,17 @@ the deck's units that raises ValueError.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Annotated, Any, TypeAlias
 
-from pydantic import Field, GetCoreSchemaHandler, GetJsonSchemaHandler
+from pydantic import AfterValidator, Field, GetCoreSchemaHandler, GetJsonSchemaHandler
 from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
 from mbla.deck.expressions import ParameterFaultError
-from mbla.deck.wrong_values import wrong_values
-from mbla.errors import ValueRefused
+from mbla.deck.section import wrong_values
+from mbla.errors import Finding, ValueRefused
 
 EXPRESSION_PATTERN = "^="
 QUANTITY_PATTERN = r"^(=|\s*[-+]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][-+]?[0-9]+)? *[A-Za-zµμ°])"
@@ -48,7 +48,7 @@ class Quantity:
 
 
 @dataclass(frozen=True)
-class Whole:
+class Integer:
     """Annotation of a field for whole numbers, with its bounds; ``6.0`` and expressions that give 6 are whole."""
 
     ge: int
@@ -101,6 +101,25 @@ def _whole(value: Any) -> Any:
     return value
 
 
+def _with_direction(vector: tuple[float, ...]) -> tuple[float, ...]:
+    if not any(vector):
+        raise PydanticCustomError("zero_vector", "must not be the zero vector")
+    return vector
+
+
+def _with_extents(box: tuple[Sequence[float], Sequence[float]]) -> tuple[Sequence[float], Sequence[float]]:
+    if findings := list(corners_in_order(*box, 1)):
+        raise PydanticCustomError("rules", "breaks a rule", {"findings": findings})
+    return box
+
+
+def corners_in_order(low: Sequence[float], high: Sequence[float], *path: str | int) -> Iterator[Finding]:
+    """Findings where a corner in space does not lie beyond the other along every axis; ``path`` is its own."""
+    for axis, (least, greatest) in enumerate(zip(low, high, strict=True)):
+        if not least < greatest:
+            yield Finding("out-of-bounds", f"must be > {least:g}, the {'xyz'[axis]} of the other corner", *path, axis)
+
+
 Number: TypeAlias = Annotated[float, Quantity("number")]
 NonNegativeNumber: TypeAlias = Annotated[float, Quantity("number", ge=0)]
 PositiveNumber: TypeAlias = Annotated[float, Quantity("number", gt=0)]
@@ -126,12 +145,15 @@ EmbraceAngle: TypeAlias = Annotated[float, Quantity("angle", gt=0, lt=360)]
 SideAngle: TypeAlias = Annotated[float, Quantity("angle", gt=0, lt=90)]
 SkewAngle: TypeAlias = Annotated[float, Quantity("angle", gt=-80, lt=80)]
 Time: TypeAlias = Annotated[float, Quantity("time", gt=0)]
-Index: TypeAlias = Annotated[int, Whole(ge=0, le=2**31 - 1)]
-Position: TypeAlias = Annotated[int, Whole(ge=-(2**31), le=2**31 - 1)]
-Count: TypeAlias = Annotated[int, Whole(ge=1, le=1_000_000)]
-Positions: TypeAlias = Annotated[int, Whole(ge=2, le=1000)]
+Index: TypeAlias = Annotated[int, Integer(ge=0, le=2**31 - 1)]
+Position: TypeAlias = Annotated[int, Integer(ge=-(2**31), le=2**31 - 1)]
+Count: TypeAlias = Annotated[int, Integer(ge=1, le=1_000_000)]
+Positions: TypeAlias = Annotated[int, Integer(ge=2, le=1000)]
 Switch: TypeAlias = Annotated[bool, Field(strict=True)]
 
 Point: TypeAlias = tuple[Length, Length, Length]
 PlanePoint: TypeAlias = tuple[Length, Length]
-Direction: TypeAlias = tuple[Number, Number, Number]
+Vector: TypeAlias = tuple[Number, Number, Number]
+Direction: TypeAlias = Annotated[Vector, AfterValidator(_with_direction)]
+Box: TypeAlias = Annotated[tuple[Point, Point], AfterValidator(_with_extents)]
+"""Least and greatest coordinates."""

@@ -8,6 +8,7 @@ from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 from typing import Any
 
+from mbla.deck.content import DeckContent, UnitsSection
 from mbla.deck.deck import Deck, SideFile, Source
 from mbla.deck.expressions import Parameters, is_expression
 from mbla.deck.include import Reading, confined, read_files
@@ -17,7 +18,6 @@ from mbla.deck.references import check_references
 from mbla.deck.section import built
 from mbla.deck.side_files import side_files
 from mbla.deck.tree import KeyPath, Tree
-from mbla.deck.types import DeckContent, UnitsSection
 from mbla.deck.units import Units
 from mbla.deck.validation import validate
 from mbla.errors import MOST_FAULTS, DeckError, Fault, FileError, Message, first_faults

@@ -10,10 +10,10 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from typing import Any
 
-from mbla.deck.joints import BUILT_IN
+from mbla.deck.items import BlockItem
+from mbla.deck.sections.materials import BUILT_IN
 from mbla.deck.suggestions import unknown
 from mbla.deck.tree import KeyPath, Tree
-from mbla.deck.types import BlockItem
 from mbla.errors import Fault, Message
 
 GROUND = "ground"

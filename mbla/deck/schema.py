@@ -11,9 +11,9 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
+from mbla.deck.content import DeckContent
 from mbla.deck.key_reference import key_reference
-from mbla.deck.rules import AT_LEAST_ONE, EXACTLY_ONE
-from mbla.deck.types import DeckContent
+from mbla.deck.section import AT_LEAST_ONE, EXACTLY_ONE
 
 REPOSITORY = Path(__file__).parents[2]
 MARKERS = ("<!-- keys:begin -->", "<!-- keys:end -->")

@@ -7,16 +7,13 @@ from typing import Any, TypeVar
 
 from pydantic import BaseModel, ValidationError
 
-from mbla.deck import rules  # noqa: F401  registers the rules across keys
+from mbla.deck.content import DeckContent
 from mbla.deck.fields import allowed_keys, description, sections_at
 from mbla.deck.names import PATTERNS
 from mbla.deck.refused_keys import refusal
-from mbla.deck.rules.exactly_one import KINDS
-from mbla.deck.section import built
+from mbla.deck.section import KINDS, MOST_WRONG, WRONG, TooManyWrongError, WrongValues, built
 from mbla.deck.suggestions import did_you_mean, listed, unknown
 from mbla.deck.tree import KeyPath, MappingMarks, SequenceMarks, Tree, own_mark
-from mbla.deck.types import DeckContent
-from mbla.deck.wrong_values import KEY, MOST_WRONG, TooManyWrongError, WrongValues
 from mbla.errors import Fault, Message, first_faults
 
 Convert = Callable[[str, str], float]
@@ -38,7 +35,7 @@ def validate(
     """
     wrong = WrongValues()
     try:
-        return built(root).model_validate(tree.data, context={"convert": convert, KEY: wrong}), []
+        return built(root).model_validate(tree.data, context={"convert": convert, WRONG: wrong}), []
     except ValidationError as error:
         errors = _errors_of(error)
     except TooManyWrongError:
@@ -155,6 +152,7 @@ _MESSAGES = {
     "model_attributes_type": Message("wrong-type", "must be a mapping: {{key: value}}"),
     "string_too_long": Message("wrong-text", "has more than {max_length} characters"),
     "string_too_short": Message("wrong-text", "must not be empty"),
+    "zero_vector": Message("zero-vector", "must not be the zero vector"),
     "finite_number": Message("not-a-number", "must be a finite number"),
     "reserved": Message("reserved-name", "means something else in expressions: choose another name"),
 }

@@ -8,8 +8,8 @@ from dataclasses import replace
 import numpy as np
 
 from mbla.arrays import BoolArray
+from mbla.deck.sections.masses import AddedMass
 from mbla.deck.tree import KeyPath
-from mbla.deck.types import AddedMass
 from mbla.errors import Fault, Message, Notice
 from mbla.model.selectors import Roster, select_blocks
 from mbla.model.solids.blocks import Blocks, distance_outside

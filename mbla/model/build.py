@@ -11,9 +11,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from mbla.deck.deck import Deck
-from mbla.deck.joints import FRICTIONLESS
+from mbla.deck.sections.analysis import AnalysisSection
+from mbla.deck.sections.load_cases import LoadCaseSection
+from mbla.deck.sections.materials import FRICTIONLESS, JointLaw
+from mbla.deck.sections.output import OutputSection
 from mbla.deck.tree import KeyPath
-from mbla.deck.types import AnalysisSection, JointLaw, LoadCaseSection, OutputSection
 from mbla.errors import DeckError, Fault, Message, Notice
 from mbla.model.added_masses import with_added_masses
 from mbla.model.interfaces import read_interfaces

@@ -15,7 +15,7 @@ import numpy as np
 
 from mbla.arrays import FloatArray, IntArray, starts
 from mbla.deck.deck import Deck
-from mbla.deck.joints import BUILT_IN
+from mbla.deck.sections.materials import BUILT_IN
 from mbla.deck.suggestions import did_you_mean, unknown
 from mbla.deck.tree import KeyPath
 from mbla.errors import DeckError, Fault, Message

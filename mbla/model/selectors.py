@@ -9,10 +9,10 @@ import numpy as np
 
 from mbla.arrays import BoolArray, IntArray
 from mbla.deck.references import GROUND
-from mbla.deck.selectors import POSITIONS
+from mbla.deck.sections.contacts import ContactOverride
+from mbla.deck.sections.selectors import POSITIONS, Selector, SelectorTerm
 from mbla.deck.suggestions import unknown
 from mbla.deck.tree import KeyPath
-from mbla.deck.types import ContactOverride, Selector, SelectorTerm
 from mbla.errors import Fault, Message
 from mbla.model.solids.blocks import Blocks
 from mbla.model.wording import vector

@@ -18,8 +18,8 @@ from dataclasses import replace
 import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
+from mbla.deck.sections.load_cases import SettlementSection
 from mbla.deck.tree import KeyPath
-from mbla.deck.types import SettlementSection
 from mbla.errors import Fault, Message
 from mbla.model.model import LoadCase, Settlement
 from mbla.model.selectors import Roster, select_blocks

@@ -14,10 +14,11 @@ import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.deck.deck import Deck
-from mbla.deck.rules.common import given
-from mbla.deck.rules.exactly_one import EXACTLY_ONE
+from mbla.deck.section import EXACTLY_ONE, given
+from mbla.deck.sections.load_cases import LoadCaseSection
+from mbla.deck.sections.loads import Load
+from mbla.deck.sections.supports import SymmetryPlane
 from mbla.deck.tree import KeyPath
-from mbla.deck.types import Load, LoadCaseSection, SymmetryPlane
 from mbla.errors import Fault, Message, Notice
 from mbla.model.join import halves_joined, polyhedra_of, reflected
 from mbla.model.loads.gravity import vector_of, with_gravity

@@ -15,7 +15,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from mbla.arrays import FloatArray
-from mbla.deck.types import Reflection, Repetition, Rotation, TransformStep
+from mbla.deck.items.item import Reflection, Repetition, Rotation, TransformStep
 from mbla.model.generators.generator import Generated, GroundPart, Part
 from mbla.model.solids.polyhedra import Polyhedra, turn_faces
 

@@ -6,7 +6,7 @@ import numpy as np
 
 from mbla.arrays import BoolArray, starts
 from mbla.contacts.contacts import Contacts
-from mbla.deck.analysis import AnalysisSection
+from mbla.deck.sections.analysis import AnalysisSection
 from mbla.errors import Notice
 from mbla.model.model import Model
 from mbla.model.solids.ragged import next_item

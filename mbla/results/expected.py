@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-from mbla.deck.types import Expectation
+from mbla.deck.sections.output import Expectation
 from mbla.results.listing.settlement_words import reaction_of
 from mbla.results.outcome import associative_of, result_of
 from mbla.results.results import CaseResult

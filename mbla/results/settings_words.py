@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from mbla.deck import Deck
-from mbla.deck.accuracy import knobs_of
-from mbla.deck.analysis import AnalysisSection
+from mbla.deck.sections.accuracy import knobs_of
+from mbla.deck.sections.analysis import AnalysisSection
 from mbla.process.threads import mkl_threads
 from mbla.results.results import CaseResult
 from mbla.solution.settings import SolverSettings

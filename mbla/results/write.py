@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
-from mbla.deck.types import OutputSection
+from mbla.deck.sections.output import OutputSection
 from mbla.results.files import OutputFolder
 from mbla.results.hdf5.result_file import write_results_hdf5
 from mbla.results.listing.case_words import find_failure

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from mbla.arrays import FloatArray
-from mbla.deck.analysis import AnalysisSection
+from mbla.deck.sections.analysis import AnalysisSection
 from mbla.program.kinematic import friction_polygon
 from mbla.program.program import Program
 from mbla.solution.associative.solve_associative import AssociativeResult

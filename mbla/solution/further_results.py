@@ -11,8 +11,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from mbla.arrays import FloatArray
-from mbla.deck.accuracy import knobs_of
-from mbla.deck.analysis import AnalysisSection
+from mbla.deck.sections.accuracy import knobs_of
+from mbla.deck.sections.analysis import AnalysisSection
 from mbla.program.program import Program
 from mbla.solution.associative.unique_forces import least_forces, point_weights
 from mbla.solution.cone_solvers.cone_solution import Log

@@ -6,8 +6,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from mbla.deck.accuracy import knobs_of
-from mbla.deck.analysis import AnalysisSection
+from mbla.deck.sections.accuracy import knobs_of
+from mbla.deck.sections.analysis import AnalysisSection
 from mbla.program.program import Program
 from mbla.solution.associative.associative_form import FORMS
 from mbla.solution.associative.certificate import cleaned_certificate

@@ -5,8 +5,8 @@ from __future__ import annotations
 import time
 from dataclasses import dataclass
 
-from mbla.deck.accuracy import PRESETS, knobs_of
-from mbla.deck.types import AnalysisSection
+from mbla.deck.sections.accuracy import PRESETS, knobs_of
+from mbla.deck.sections.analysis import AnalysisSection
 
 MAX_ITERATIONS = 300
 """Iterations of one program; walls of 10,000 blocks need about 70."""

@@ -13,7 +13,7 @@ import numpy as np
 
 from mbla.contacts.contacts import Contacts
 from mbla.contacts.glue import solids_of
-from mbla.deck.analysis import ReductionSwitches
+from mbla.deck.sections.analysis import ReductionSwitches
 from mbla.model.model import LoadCase, Model
 from mbla.model.settlement import with_reference
 from mbla.program.assemble import assemble

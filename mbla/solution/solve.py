@@ -9,7 +9,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
-from mbla.deck.analysis import AnalysisSection
+from mbla.deck.sections.analysis import AnalysisSection
 from mbla.program.program import Program
 from mbla.program.reductions import Reduced
 from mbla.solution.associative.force_ranges import force_ranges

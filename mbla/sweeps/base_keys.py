@@ -9,13 +9,13 @@ from typing import Annotated, Any, Union, get_args, get_origin
 from pydantic import BaseModel
 from pydantic.fields import FieldInfo
 
+from mbla.deck.content import DeckContent
 from mbla.deck.deck import Deck
 from mbla.deck.fields import allowed_keys, annotations_at, branches, sections_at, takes_names
 from mbla.deck.overrides import RefusedError, item_index, next_key
 from mbla.deck.quantities import Quantity
 from mbla.deck.suggestions import listed, unknown
 from mbla.deck.tree import KeyPath, key_text, shorten
-from mbla.deck.types import DeckContent
 from mbla.deck.units import Units
 
 FIXED = {

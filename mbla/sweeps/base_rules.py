@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING, Any
 
 from pydantic import TypeAdapter, ValidationError
 
+from mbla.deck.content import DeckContent
 from mbla.deck.expressions import Parameters, is_expression
 from mbla.deck.fields import annotations_at
 from mbla.deck.overrides import LABEL, RefusedError
 from mbla.deck.reading import read_deck
 from mbla.deck.suggestions import listed
 from mbla.deck.tree import KeyPath, key_text, shorten
-from mbla.deck.types import DeckContent
 from mbla.errors import DeckError, Fault, Message, Notice, Place
 from mbla.sweeps.base_keys import path_of_key, unit_at, value_at, vector_at
 from mbla.sweeps.file.content import Parameter

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from mbla.contacts import find_contacts
 from mbla.deck import read_deck
-from mbla.deck.types import Expectation
+from mbla.deck.sections.output import Expectation
 from mbla.model import build_model
 from mbla.program import assemble
 from mbla.program.reductions import unreduced

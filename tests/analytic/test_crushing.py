@@ -19,7 +19,7 @@ from mbla.arrays import FloatArray
 from mbla.contacts.corners import areas_and_centroids, needed_corners
 from mbla.contacts.points import interface_points
 from mbla.contacts.refine import InterfacePoints
-from mbla.deck.types import ContactPoints
+from mbla.deck.sections.contacts import ContactPoints
 from tests.line import HEAD, factor_of
 
 B, H = 1.2, 0.8

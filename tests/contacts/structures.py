@@ -10,7 +10,7 @@ import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
 from mbla.contacts import Contacts, find_contacts
-from mbla.deck.types import ContactOverride, ContactsSection
+from mbla.deck.sections.contacts import ContactOverride, ContactsSection
 from mbla.deck.units import Units
 from mbla.model.model import Ground, Joint, Model
 from mbla.model.solids.blocks import Blocks, no_labels

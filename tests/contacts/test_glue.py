@@ -7,7 +7,7 @@ import pytest
 
 from mbla.contacts import Contacts, find_contacts
 from mbla.contacts.glue import glue_blocks, held_model, solid_sizes, solids_of
-from mbla.deck.types import ContactOverride, ContactsSection
+from mbla.deck.sections.contacts import ContactOverride, ContactsSection
 from mbla.model.model import LoadCase, Model
 from mbla.model.solids.polyhedra import take_polyhedra
 from tests.contacts.structures import blocks_of, boxes, ground, model_of

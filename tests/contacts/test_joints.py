@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from mbla.contacts import Contacts, find_contacts
-from mbla.deck.types import ContactOverride, ContactsSection
+from mbla.deck.sections.contacts import ContactOverride, ContactsSection
 from mbla.model.solids.polyhedra import join_polyhedra
 from tests.contacts.structures import blocks_of, boxes, ground, model_of, moved, prism, running_bond, section
 from tests.line import HEAD, line_of

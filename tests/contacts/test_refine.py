@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from mbla.contacts.corners import areas_and_centroids, needed_corners
 from mbla.contacts.points import MOST_PARTS, PointsRefused, interface_points
 from mbla.contacts.refine import InterfacePoints, point_areas, point_starts
-from mbla.deck.types import ContactPoints
+from mbla.deck.sections.contacts import ContactPoints
 from mbla.errors import Notice
 from tests.analytic.cases import ASSOCIATIVE, answer, answers
 from tests.contacts.structures import boxes, contacts_of, ground, section

@@ -7,8 +7,8 @@ from functools import cache
 from inspect import get_annotations
 from typing import Any, get_args
 
+from mbla.deck.content import DeckContent
 from mbla.deck.section import Section
-from mbla.deck.types import DeckContent
 
 Key = tuple[str, str]
 """name of the type that declares a key, key: keys that several kinds of items share are one"""

@@ -1,8 +1,8 @@
 from __future__ import annotations
 
+from mbla.deck.content import DeckContent
 from mbla.deck.fields import allowed_keys, annotations_at, description, takes_names
 from mbla.deck.quantities import PositiveLength, PositiveNumber
-from mbla.deck.types import DeckContent
 
 
 def test_keys_along_a_path() -> None:

@@ -6,10 +6,14 @@ from pathlib import Path
 
 import pytest
 
-from mbla.deck.joints import BUILT_IN
-from mbla.deck.rules.exactly_one import EXACTLY_ONE
-from mbla.deck.section import Section
-from mbla.deck.types import BlockItem, DeckContent, Load, LoadCaseSection, Support, TransformStep
+from mbla.deck.content import DeckContent
+from mbla.deck.items import BlockItem
+from mbla.deck.items.item import TransformStep
+from mbla.deck.section import EXACTLY_ONE, Section
+from mbla.deck.sections.load_cases import LoadCaseSection
+from mbla.deck.sections.loads import Load
+from mbla.deck.sections.materials import BUILT_IN
+from mbla.deck.sections.supports import Support
 from mbla.model.geometry import READERS
 from mbla.model.loads.kinds import LOAD_KINDS
 from tests.deck.keys_in_use import Key, all_keys, keys_in_use, sections_of

@@ -5,7 +5,7 @@ from typing import Annotated, Any
 import pytest
 from pydantic import TypeAdapter, ValidationError
 
-from mbla.deck.quantities import Count, Index, Quantity, Switch, Whole
+from mbla.deck.quantities import Count, Index, Integer, Quantity, Switch
 
 CONTEXT = {"convert": lambda text, dimension: {"=big": 1e20, "=six": 6.0, "=almost": 2.9999999999999996}[text]}
 
@@ -56,7 +56,7 @@ def test_bounds_hold_for_numbers_and_expressions(bounds: Quantity, good: list[ob
 
 
 def test_bounds_of_whole_numbers() -> None:
-    annotation = Annotated[int, Whole(ge=2, le=5)]
+    annotation = Annotated[int, Integer(ge=2, le=5)]
     assert [value for value in range(8) if accepts(annotation, value)] == [2, 3, 4, 5]
     assert not accepts(annotation, "=six")
 

@@ -5,10 +5,10 @@ from typing import Any, get_args, get_origin
 
 from pydantic import BaseModel
 
+from mbla.deck.content import DeckContent
 from mbla.deck.fields import branches
 from mbla.deck.references import find
 from mbla.deck.side_files import SIDE_FILES, side_files
-from mbla.deck.types import DeckContent
 
 DECK = {
     "blocks": [{"mesh": {"file": "a.obj"}}, {"table": {"vertices": "v.csv", "faces": "f.csv"}}, {"box": {}}],

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from mbla.deck.wrong_values import MOST_WRONG
+from mbla.deck.section import MOST_WRONG
 from mbla.errors import MOST_FAULTS
 from tests.deck.decks import BLOCK, changed, faults, write
 

@@ -16,7 +16,7 @@ from functools import cache
 from mbla.contacts import Contacts
 from mbla.contacts.glue import held_model
 from mbla.deck import Deck, read_deck
-from mbla.deck.types import AnalysisSection
+from mbla.deck.sections.analysis import AnalysisSection
 from mbla.errors import DeckError, MblaError
 from mbla.model import Model, build_model
 from mbla.results.outcome import associative_of, best_iterate, law_residual, range_of, result_of

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from pathlib import Path
 
-from mbla.deck.types import Expectation
+from mbla.deck.sections.output import Expectation
 from tests.decks.folder import DECKS, PATHS, deck_of
 
 BEGIN = "<!-- table: python -m tests.decks.readme_table -->\n"

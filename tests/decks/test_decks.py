@@ -14,7 +14,7 @@ import jsonschema
 import pytest
 
 from mbla.deck.include import read_files
-from mbla.deck.types import Expectation
+from mbla.deck.sections.output import Expectation
 from mbla.solution.verification.verify import GAP_TOLERANCE
 from tests.decks.folder import LONG, PATHS, ROOT, deck_of, every_deck, name_of, outcome_of, run_deck
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from mbla.contacts.glue import held_model, solids_of
-from mbla.deck.analysis import ReductionSwitches
+from mbla.deck.sections.analysis import ReductionSwitches
 from mbla.model import build_model
 from mbla.program import assemble
 from mbla.program.reductions import reduce_program

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from pydantic import TypeAdapter
 
+from mbla.deck.sections.selectors import Selector
 from mbla.deck.tree import KeyPath
-from mbla.deck.types import Selector
 from mbla.errors import Fault, Message, Place
 from mbla.model.selectors import Roster, build_roster, select_blocks
 from mbla.model.solids.blocks import BlockLabels, join_labels, labels_of

@@ -6,7 +6,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from mbla.deck.types import ArchItem, Repetition, TransformStep
+from mbla.deck.items.arch import ArchItem
+from mbla.deck.items.item import Repetition, TransformStep
 from mbla.model.generators.arch import generate_arch
 from mbla.model.generators.generator import Generated, Part, Site
 from mbla.model.transform import AffineMap, build_transform, repetitions, transform_item

@@ -28,7 +28,7 @@ from pathlib import Path
 import numpy as np
 
 from mbla.arrays import FloatArray
-from mbla.deck.analysis import ReductionSwitches
+from mbla.deck.sections.analysis import ReductionSwitches
 from mbla.program.kinematic import KinematicForm, kinematic_form
 from mbla.program.program import Program
 from mbla.program.reductions import reduce_program, unreduced

@@ -20,7 +20,7 @@ import time
 from collections import Counter
 from dataclasses import dataclass, replace
 
-from mbla.deck.analysis import AnalysisSection, ReductionSwitches
+from mbla.deck.sections.analysis import AnalysisSection, ReductionSwitches
 from mbla.program.program import Program
 from mbla.program.reductions import reduce_program, unreduced
 from mbla.program.static import proximal_data, proximal_form

@@ -17,7 +17,7 @@ from tempfile import TemporaryDirectory
 
 import numpy as np
 
-from mbla.deck.types import OutputSection
+from mbla.deck.sections.output import OutputSection
 from mbla.model.model import LoadCase
 from mbla.results.hdf5.result_file import read_results_hdf5, write_results_hdf5
 from mbla.results.listing.listing import listing

@@ -17,7 +17,7 @@ import time
 from dataclasses import dataclass
 from pathlib import Path
 
-from mbla.deck.analysis import ReductionSwitches
+from mbla.deck.sections.analysis import ReductionSwitches
 from mbla.program.reductions import reduce_program, unreduced
 from mbla.solution.associative.solve_associative import solve_associative
 from mbla.solution.part import solve_part

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from mbla.contacts import find_contacts
-from mbla.deck.types import AnalysisSection
+from mbla.deck.sections.analysis import AnalysisSection
 from mbla.program.remarks import program_notices
 from mbla.results.series import factor_of
 from mbla.run import RunOptions, run

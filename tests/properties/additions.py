@@ -7,9 +7,9 @@ from dataclasses import replace
 import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
-from mbla.deck.joints import GLUED
-from mbla.deck.selectors import SelectorTerm
-from mbla.deck.types import ContactOverride
+from mbla.deck.sections.contacts import ContactOverride
+from mbla.deck.sections.materials import GLUED
+from mbla.deck.sections.selectors import SelectorTerm
 from mbla.model.join import polyhedra_of
 from mbla.model.model import Joint, LoadCase, Model
 from mbla.model.solids.blocks import BlockLabels, Blocks, join_labels, no_labels

@@ -9,7 +9,8 @@ import numpy as np
 
 from mbla.arrays import FloatArray, IntArray, starts
 from mbla.contacts import Contacts
-from mbla.deck.loads import Load, LoadCaseSection
+from mbla.deck.sections.load_cases import LoadCaseSection
+from mbla.deck.sections.loads import Load
 from mbla.deck.units import Units
 from mbla.model import build_model
 from mbla.model.solids.ragged import items_of_rows

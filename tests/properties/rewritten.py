@@ -11,8 +11,8 @@ from pydantic import BaseModel
 from pydantic.fields import FieldInfo
 
 from mbla.arrays import FloatArray
+from mbla.deck.content import DeckContent
 from mbla.deck.quantities import Quantity
-from mbla.deck.types import DeckContent
 from tests.properties.random_items import Tree
 
 SIZES = {

@@ -6,7 +6,7 @@ from pathlib import Path
 import meshio
 import pytest
 
-from mbla.deck.types import OutputSection
+from mbla.deck.sections.output import OutputSection
 from mbla.errors import FileError
 from mbla.results.files import OutputFolder
 from mbla.results.hdf5.result_file import read_results_hdf5

@@ -18,7 +18,7 @@ import time
 from collections.abc import Callable, Sequence
 from functools import partial
 
-from mbla.deck.analysis import ReductionSwitches
+from mbla.deck.sections.analysis import ReductionSwitches
 from mbla.program.reductions import reduce_program
 from mbla.solution.associative.solve_associative import solve_associative
 from mbla.solution.nonassociative.law_state import SequenceResult

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from mbla.deck.analysis import ReductionSwitches
+from mbla.deck.sections.analysis import ReductionSwitches
 from mbla.program.program import Program
 from mbla.program.reductions import reduce_program
 from tests.line import Line

@@ -1,15 +1,17 @@
-"""Item `bridge`."""
+"""Item `bridge`: one value per span, and which parts need which keys."""
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import Annotated, Literal, TypeAlias
 
 from pydantic import Discriminator, Field, Tag
 
-from mbla.deck.items.arch import CurveShape
+from mbla.deck.items.arch import CurveShape, range_of_rise
 from mbla.deck.items.item import Item
 from mbla.deck.quantities import Count, PositiveLength, SideAngle
-from mbla.deck.section import Section
+from mbla.deck.section import ROUNDING, Section, given, rule
+from mbla.errors import Finding
 
 
 def _number_or_list(value: object) -> str:
@@ -87,3 +89,87 @@ class BridgeItem(Item):
         None, description="edges: number of courses, from the bottom, that are filled with blocks between the walls"
     )
     parapets: BridgeParapets | None = Field(None, description="parapets on the spandrels; none unless given")
+
+
+OF_SPANDRELS = ("unit", "cover")
+OF_EDGES = ("spandrel_thickness", "backing")
+
+
+@rule(BridgeItem)
+def bridge_arches(bridge: BridgeItem) -> Iterator[Finding]:
+    """Rise and number of voussoirs for every span."""
+    for key in ("rise", "voussoirs"):
+        value = getattr(bridge, key)
+        if isinstance(value, list) and len(value) != len(bridge.spans):
+            yield Finding(
+                "arch-shape",
+                f"has {len(value)} values for {len(bridge.spans)} spans: give one for all or one for each",
+                key,
+            )
+            return
+    if bridge.shape == "semicircular":
+        if bridge.rise is not None:
+            yield Finding(
+                "key-of-another-choice",
+                "is half the span for shape: semicircular: leave it out, or change shape",
+                "rise",
+            )
+    elif bridge.rise is None:
+        yield Finding("missing-key", f"needs rise for shape: {bridge.shape}")
+    else:
+        for number, span in enumerate(bridge.spans):
+            each = isinstance(bridge.rise, list)
+            rise = bridge.rise[number] if isinstance(bridge.rise, list) else bridge.rise
+            path = ("rise", number) if each else ("rise",)
+            yield from range_of_rise(bridge.shape, span, rise, bridge.side_angle, path)
+            if bridge.shape == "segmental" and rise > span / 2 * (1 + ROUNDING):
+                yield Finding(
+                    "out-of-bounds",
+                    f"must be <= {span / 2:g}, half the span: the extrados may not lean back over the piers",
+                    *path,
+                )
+    if bridge.side_angle is not None and bridge.shape != "basket":
+        yield Finding(
+            "key-of-another-choice",
+            f"applies to shape: basket only: leave it out, or change shape ({bridge.shape} given)",
+            "side_angle",
+        )
+
+
+@rule(BridgeItem)
+def bridge_parts(bridge: BridgeItem) -> Iterator[Finding]:
+    """Piers between spans; sizes of spandrels where there are any."""
+    if len(bridge.spans) > 1 and bridge.piers is None:
+        yield Finding("missing-key", "needs piers between its spans")
+    if len(bridge.spans) == 1 and bridge.piers is not None:
+        yield Finding("one-of-several", "stand between spans, and there is only one: leave them out", "piers")
+    if (bridge.abutments.height is None) != (bridge.abutments.courses is None):
+        yield Finding("missing-key", "needs both height and courses, or none of them", "abutments")
+    if bridge.spandrels == "none":
+        for key in given(bridge, (*OF_SPANDRELS, *OF_EDGES, "parapets")):
+            yield Finding(
+                "key-of-another-choice",
+                "applies to a bridge with spandrels: leave it out, or write spandrels: full or edges",
+                key,
+            )
+        return
+    for key in OF_SPANDRELS:
+        if not given(bridge, (key,)):
+            yield Finding("missing-key", f"needs {key} for spandrels: {bridge.spandrels}")
+    if bridge.spandrels == "full":
+        for key in given(bridge, OF_EDGES):
+            yield Finding("key-of-another-choice", "applies to spandrels: edges only", key)
+    elif bridge.spandrel_thickness is None:
+        yield Finding("missing-key", "needs spandrel_thickness for spandrels: edges")
+
+
+@rule(BridgeItem)
+def bridge_across(bridge: BridgeItem) -> Iterator[Finding]:
+    """Walls and parapets along both faces find room in the width."""
+    half = bridge.width / 2
+    if bridge.spandrel_thickness is not None and bridge.spandrel_thickness > half * (1 + ROUNDING):
+        yield Finding(
+            "out-of-bounds", f"must be <= {half:g}, half the width: use spandrels: full", "spandrel_thickness"
+        )
+    if bridge.parapets is not None and bridge.parapets.thickness > half * (1 + ROUNDING):
+        yield Finding("out-of-bounds", f"must be <= {half:g}, half the width", "parapets", "thickness")

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import Annotated, Literal
 
 from pydantic import Field
 
 from mbla.deck.items.item import Item
 from mbla.deck.names import Name
-from mbla.deck.quantities import Count, EmbraceAngle, PositiveLength, Whole
-from mbla.deck.section import Section
+from mbla.deck.quantities import Count, EmbraceAngle, Integer, PositiveLength
+from mbla.deck.section import Section, given, one_of, rule
+from mbla.errors import Finding
 
 
 class DomeDrum(Section):
@@ -36,7 +38,7 @@ class DomeItem(Item):
     span: PositiveLength = Field(description="diameter of the intrados at the springing")
     thickness: PositiveLength = Field(description="radial thickness")
     rings: Count = Field(description="number of rings, without the keystone")
-    segments: Annotated[int, Whole(ge=3, le=10_000)] = Field(description="blocks of each ring")
+    segments: Annotated[int, Integer(ge=3, le=10_000)] = Field(description="blocks of each ring")
     rise: PositiveLength | None = Field(None, description="segmental: height of the intrados crown over the springing")
     embrace: EmbraceAngle | None = Field(
         None, description="segmental: angle between the springing joints in a section through the axis, degrees"
@@ -54,7 +56,7 @@ class DomeItem(Item):
     bond: Literal["running", "stack"] = Field(
         "running", description="running: odd rings are turned by half a block; stack: joints run up the meridians"
     )
-    facets: Annotated[int, Whole(ge=1, le=1000)] | None = Field(
+    facets: Annotated[int, Integer(ge=1, le=1000)] | None = Field(
         None,
         description="plane pieces around of each block's faces, even for running bond; 2 unless given, in stack bond 1",
     )
@@ -65,3 +67,43 @@ class DomeItem(Item):
         "behind the springing joint, in group GROUP_springers; none: the deck's supports hold the dome",
     )
     joint: Name | None = Field(None, description="joint law at a springing on ground; that of contacts unless given")
+
+
+@rule(DomeItem)
+def dome_shape(dome: DomeItem) -> Iterator[Finding]:
+    """A hemisphere is given by its span alone; the crown is open or closed."""
+    if dome.shape == "segmental":
+        yield from one_of(dome, ("rise", "embrace"), " for a segmental dome")
+    else:
+        for key in given(dome, ("rise", "embrace")):
+            yield Finding(
+                "key-of-another-choice", "applies to segmental domes only: leave it out, or write shape: segmental", key
+            )
+    if dome.oculus is not None and dome.keystone is not None:
+        yield Finding("one-of-several", "only one of oculus or keystone may be given", "keystone")
+
+
+@rule(DomeItem)
+def dome_bond(dome: DomeItem) -> Iterator[Finding]:
+    """Half a block is a whole number of facets."""
+    if dome.bond == "running" and dome.facets is not None and dome.facets % 2:
+        yield Finding(
+            "out-of-bounds",
+            "must be even in running bond: rings are turned by half a block; or write bond: stack",
+            "facets",
+        )
+
+
+@rule(DomeItem)
+def dome_springers(dome: DomeItem) -> Iterator[Finding]:
+    """Ground is one plane."""
+    if dome.springers == "ground" and dome.shape == "segmental" and dome.drum is None:
+        yield Finding(
+            "vault-shape",
+            "a springing on ground is level, that of a segmental dome is a cone: write blocks, or add a drum",
+            "springers",
+        )
+    if dome.springers == "blocks" and dome.drum is not None:
+        yield Finding("key-of-another-choice", "a drum carries the dome: write ground or none", "springers")
+    if dome.joint is not None and dome.springers != "ground":
+        yield Finding("key-of-another-choice", "applies with springers: ground only", "joint")

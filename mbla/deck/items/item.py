@@ -1,4 +1,4 @@
-"""What every item of `blocks` has: a group, a material, a transform."""
+"""What every item of `blocks` has: a group, a material, a transform, copies."""
 
 from __future__ import annotations
 
@@ -7,8 +7,8 @@ from typing import Annotated, TypeAlias
 from pydantic import Discriminator, Field, Tag
 
 from mbla.deck.names import Name
-from mbla.deck.quantities import Angle, Direction, Point, PositiveNumber, Whole
-from mbla.deck.section import Section, shape
+from mbla.deck.quantities import Angle, Direction, Integer, Point, PositiveNumber
+from mbla.deck.section import Section, exactly_one_of, shape
 
 
 class Rotation(Section):
@@ -26,6 +26,7 @@ class Reflection(Section):
     point: Point = Field((0.0, 0.0, 0.0), description="point on the plane")
 
 
+@exactly_one_of()
 class TransformStep(Section):
     """One step of a transform: exactly one of its keys."""
 
@@ -41,10 +42,11 @@ Transform: TypeAlias = Annotated[
 ]
 
 
+@exactly_one_of("translate", "rotate")
 class Repetition(Section):
     """Copies of an item, each moved on from the one before; exactly one of translate and rotate."""
 
-    count: Annotated[int, Whole(ge=2, le=100_000)] = Field(description="how many there are, the first included")
+    count: Annotated[int, Integer(ge=2, le=100_000)] = Field(description="how many there are, the first included")
     translate: Point | None = Field(None, description="displacement from each copy to the next")
     rotate: Rotation | None = Field(None, description="rotation from each copy to the next")
 

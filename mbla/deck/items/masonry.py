@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Iterator
 from typing import Annotated, Literal
 
 from pydantic import Field
@@ -12,15 +14,16 @@ from mbla.deck.quantities import (
     Count,
     EmbraceAngle,
     Index,
+    Integer,
     Length,
     NonNegativeLength,
     PlanePoint,
     PositiveLength,
     Quantity,
     Switch,
-    Whole,
 )
-from mbla.deck.section import Section
+from mbla.deck.section import ROUNDING, Section, rule
+from mbla.errors import Finding
 
 
 class Lintel(Section):
@@ -34,7 +37,7 @@ class Lintel(Section):
 class OpeningArch(Section):
     """Arch over an opening with a level top, joints towards one centre and skewbacks cut into the courses beside it."""
 
-    voussoirs: Annotated[int, Whole(ge=2, le=10_000)] = Field(description="number of voussoirs")
+    voussoirs: Annotated[int, Integer(ge=2, le=10_000)] = Field(description="number of voussoirs")
     courses: Count = Field(1, description="its height above the springing, in courses")
     rise: NonNegativeLength = Field(0.0, description="of the intrados; 0: a flat arch, else a segment of a circle")
     embrace: EmbraceAngle | None = Field(
@@ -55,10 +58,10 @@ class Opening(Section):
 class Headers(Section):
     """Through-stones that tie the leaves of a running or stack bond."""
 
-    every: Annotated[int, Whole(ge=1, le=1_000_000)] = Field(
+    every: Annotated[int, Integer(ge=1, le=1_000_000)] = Field(
         description="the last of every so many courses has headers"
     )
-    spacing: Annotated[int, Whole(ge=1, le=1_000_000)] = Field(
+    spacing: Annotated[int, Integer(ge=1, le=1_000_000)] = Field(
         description="one of every so many units of it is a header, staggered from one such course to the next"
     )
 
@@ -112,7 +115,7 @@ class Masonry(Item):
         description="length along the wall, thickness, height of one unit"
     )
     courses: Count = Field(description="number of courses")
-    leaves: Annotated[int, Whole(ge=1, le=100)] = Field(
+    leaves: Annotated[int, Integer(ge=1, le=100)] = Field(
         1, description="thickness of the wall in units; without headers the leaves are not bonded"
     )
     bond: BondName = Field(
@@ -126,3 +129,113 @@ class Masonry(Item):
     )
     headers: Headers | None = Field(None, description="through-stones of a running or stack bond; none by default")
     irregular: Irregular | None = Field(None, description="random lengths of units, of a running bond")
+
+
+BONDED = ("english", "flemish", "header")
+"""bonds with headers of their own"""
+
+
+@rule(Masonry)
+def check_bond(wall: Masonry) -> Iterator[Finding]:
+    """Headers go through a wall of several leaves; random units are those of a running bond."""
+    length, thickness, _ = wall.unit
+    if wall.bond in BONDED:
+        across = wall.leaves * thickness
+        if wall.leaves == 1:
+            yield Finding(
+                "out-of-bounds", f"must be >= 2 in {wall.bond} bond, whose headers lie across the leaves", "leaves"
+            )
+        elif abs(length - across) > ROUNDING * across:
+            yield Finding(
+                "out-of-bounds",
+                f"must be {across:g} in {wall.bond} bond: a unit laid across goes through all leaves",
+                "unit",
+                0,
+            )
+        if wall.headers is not None:
+            yield Finding(
+                "key-of-another-choice",
+                f"applies to running and stack bond: {wall.bond} bond has headers of its own",
+                "headers",
+            )
+    elif wall.headers is not None and wall.leaves == 1:
+        yield Finding("missing-key", "needs leaves >= 2 that they tie", "headers")
+    if wall.irregular is not None:
+        if wall.bond not in ("running", "stretcher"):
+            yield Finding("key-of-another-choice", f"applies to running bond only, here is {wall.bond}", "irregular")
+        if wall.start != "full":
+            yield Finding("key-of-another-choice", "has no meaning with random units: leave it out", "start")
+
+
+def check_opening(wall: Masonry, opening: Opening, length: float) -> Iterator[Finding]:
+    """An opening has an extent and lies within the wall, as does what spans it; key paths below it."""
+    height = wall.unit[2]
+    limits = (length, wall.courses * height)
+    for axis, (limit, what) in enumerate(zip(limits, ("length", "height"), strict=True)):
+        low, high = opening.from_[axis], opening.to[axis]
+        if not low < high:
+            yield Finding("out-of-bounds", f"must be > {low:g}, that of from", "to", axis)
+        if low < -ROUNDING * limit:
+            yield Finding("out-of-bounds", "must be >= 0: the opening must lie within the wall", "from", axis)
+        if high > limit * (1 + ROUNDING):
+            yield Finding("out-of-bounds", f"must be <= {limit:g}, the {what} of the wall", "to", axis)
+    if opening.arch is not None and opening.arch.rise > 0:
+        path = ("arch", "rise")
+        room, half = opening.arch.courses * height, (opening.to[0] - opening.from_[0]) / 2
+        if opening.arch.rise >= min(room, half):
+            yield Finding(
+                "out-of-bounds",
+                f"must be < {min(room, half):g}: half the opening, and the height of the arch in courses",
+                *path,
+            )
+        elif not opening.arch.rise / half:
+            yield Finding("out-of-bounds", f"is lost beside half the opening, {half:g}: make it larger", *path)
+
+
+def check_gable(wall: Masonry, gable: Gable, length: float) -> Iterator[Finding]:
+    """The apex is above the wall; key paths below the gable."""
+    if gable.apex is not None and not -ROUNDING * length <= gable.apex <= length * (1 + ROUNDING):
+        yield Finding("out-of-bounds", f"must be between 0 and {length:g}, the length of the wall", "apex")
+
+
+def check_buttress(wall: Masonry, buttress: Buttress, length: float) -> Iterator[Finding]:
+    """A buttress is as long as the wall at most, and as high; key paths below it."""
+    if buttress.at < -ROUNDING * length:
+        yield Finding("out-of-bounds", "must be >= 0: the buttress must lie within the wall", "at")
+    elif buttress.at + buttress.width > length * (1 + ROUNDING):
+        yield Finding(
+            "out-of-bounds", f"must be <= {length - buttress.at:g}, so that the buttress ends within the wall", "width"
+        )
+    sloped = buttress.slope / wall.unit[2]
+    if not math.isfinite(sloped) or abs(sloped - round(sloped)) > ROUNDING * max(sloped, 1.0):
+        yield Finding("out-of-bounds", f"must be a whole number of courses of {wall.unit[2]:g}", "slope")
+    elif buttress.courses is None and round(sloped) >= wall.courses:
+        yield Finding("wall-shape", "must leave a level part: it is as high as the wall", "slope")
+    elif buttress.courses is not None and buttress.courses + round(sloped) > wall.courses:
+        yield Finding(
+            "out-of-bounds",
+            f"must be <= {wall.courses - round(sloped)}: with its slope it ends at the top of the wall",
+            "courses",
+        )
+
+
+@rule(Opening)
+def one_span(opening: Opening) -> Iterator[Finding]:
+    """A lintel or an arch."""
+    if opening.lintel is not None and opening.arch is not None:
+        yield Finding("one-of-several", "only one of lintel and arch may be given", "arch")
+
+
+@rule(OpeningArch)
+def arch_of_opening(arch: OpeningArch) -> Iterator[Finding]:
+    """The embrace of a segment of a circle follows from its rise."""
+    if arch.embrace is None:
+        return
+    if arch.rise > 0:
+        yield Finding(
+            "key-of-another-choice",
+            "applies to flat arches: that of a segment of a circle follows from its rise",
+            "embrace",
+        )
+    elif arch.embrace >= 180:
+        yield Finding("out-of-bounds", "must be < 180: the end joints of a flat arch meet below it", "embrace")

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import Annotated
 
 from pydantic import Field
 
 from mbla.deck.items.item import Item
 from mbla.deck.quantities import Index, Point
+from mbla.deck.section import rule
+from mbla.errors import Finding
 
 
 class PolyhedronItem(Item):
@@ -17,3 +20,22 @@ class PolyhedronItem(Item):
     faces: list[Annotated[list[Index], Field(min_length=3)]] = Field(
         min_length=4, description="corners of each face in order, as indices of vertices from 0; any orientation"
     )
+
+
+@rule(PolyhedronItem)
+def polyhedron_faces(polyhedron: PolyhedronItem) -> Iterator[Finding]:
+    """Faces use vertices that exist, each once."""
+    n_vertices = len(polyhedron.vertices)
+    for number, face in enumerate(polyhedron.faces):
+        if max(face) >= n_vertices:
+            position = next(i for i, corner in enumerate(face) if corner >= n_vertices)
+            yield Finding(
+                "out-of-bounds",
+                f"must be <= {n_vertices - 1}: there are {n_vertices} vertices, from 0",
+                "faces",
+                number,
+                position,
+            )
+        elif len(set(face)) < len(face):
+            position = next(i for i, corner in enumerate(face) if corner in face[:i])
+            yield Finding("duplicate-key", "is a corner of this face already", "faces", number, position)

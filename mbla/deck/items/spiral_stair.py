@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import Annotated, Literal
 
 from pydantic import Field
 
 from mbla.deck.items.item import Item
 from mbla.deck.names import Name
-from mbla.deck.quantities import Count, NonNegativeLength, PositiveLength, Quantity, Whole
+from mbla.deck.quantities import Count, Integer, NonNegativeLength, PositiveLength, Quantity
+from mbla.deck.section import rule
+from mbla.errors import Finding
 
 
 class SpiralStairItem(Item):
@@ -19,7 +22,7 @@ class SpiralStairItem(Item):
     `tread`, of the wall too.
     """
 
-    treads: Annotated[int, Whole(ge=2, le=100_000)] = Field(description="number of treads")
+    treads: Annotated[int, Integer(ge=2, le=100_000)] = Field(description="number of treads")
     inner_radius: PositiveLength = Field(description="radius of the well")
     outer_radius: PositiveLength = Field(description="radius of the face of the wall")
     rise: PositiveLength = Field(description="height from tread to tread")
@@ -41,3 +44,23 @@ class SpiralStairItem(Item):
     facets: Count = Field(1, description="straight pieces of the arc between the overlaps of a tread")
     foot: Literal["none", "ground"] = Field("none", description="ground: rigid ground under the lowest tread")
     joint: Name | None = Field(None, description="joint law on ground; that of contacts unless given")
+
+
+@rule(SpiralStairItem)
+def stair_extents(stair: SpiralStairItem) -> Iterator[Finding]:
+    """Radii in order; a tread is longer than it overlaps the next, and higher than its rebate."""
+    if stair.outer_radius <= stair.inner_radius:
+        yield Finding("out-of-bounds", f"must be > {stair.inner_radius:g}, the inner radius", "outer_radius")
+    if stair.overlap >= stair.angle:
+        yield Finding("out-of-bounds", f"must be < {stair.angle:g}, the angle from tread to tread", "overlap")
+    if stair.rebate >= stair.rise:
+        yield Finding("out-of-bounds", f"must be < {stair.rise:g}, the rise", "rebate")
+
+
+@rule(SpiralStairItem)
+def stair_supports(stair: SpiralStairItem) -> Iterator[Finding]:
+    """A wall holds what is built into it."""
+    if stair.wall != "none" and stair.built_in == 0:
+        yield Finding("missing-key", "needs built_in: the wall holds the ends of treads that reach into it", "wall")
+    if stair.joint is not None and stair.foot != "ground":
+        yield Finding("key-of-another-choice", "applies with foot: ground only", "joint")

@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 from pydantic import Field
 
 from mbla.deck.items.item import Item
 from mbla.deck.quantities import PositiveLength
+from mbla.deck.section import rule
+from mbla.errors import Finding
 
 
 class TrilithonItem(Item):
@@ -21,3 +25,15 @@ class TrilithonItem(Item):
     lintel: tuple[PositiveLength, PositiveLength, PositiveLength] = Field(
         description="extents of the lintel along x, y, z; longer than the opening"
     )
+
+
+@rule(TrilithonItem)
+def trilithon_lintel(trilithon: TrilithonItem) -> Iterator[Finding]:
+    """The lintel rests on both uprights."""
+    if trilithon.lintel[0] <= trilithon.opening:
+        yield Finding(
+            "out-of-bounds",
+            f"must be > {trilithon.opening:g}, the opening: the lintel rests on both uprights",
+            "lintel",
+            0,
+        )

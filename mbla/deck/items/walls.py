@@ -2,13 +2,23 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
 from typing import Literal
 
 from pydantic import Field
 
-from mbla.deck.items.masonry import Buttress, Gable, Masonry, Opening
+from mbla.deck.items.masonry import (
+    Buttress,
+    Gable,
+    Masonry,
+    Opening,
+    check_buttress,
+    check_gable,
+    check_opening,
+)
 from mbla.deck.quantities import Index, PlanePoint, Switch
-from mbla.deck.section import Section
+from mbla.deck.section import Section, rule
+from mbla.errors import Finding
 
 
 class CrossWall(Section):
@@ -50,3 +60,76 @@ class WallsItem(Masonry):
     openings: list[SegmentOpening] = Field(default_factory=list, description="rectangles left free")
     gables: list[SegmentGable] = Field(default_factory=list, description="triangles on top of walls")
     buttresses: list[SegmentButtress] = Field(default_factory=list, description="piers against faces of walls")
+
+
+SQUARE = 1e-6
+"""departure of a line from its axis, relative to its length, that is rounding"""
+
+
+@rule(WallsItem)
+def walls(item: WallsItem) -> Iterator[Finding]:
+    """Lines run along the axes and turn by right angles; what belongs to a wall names one that is there."""
+    lines = list(_lines(item))
+    if faults := [*_check_lines(lines), *_check_turns(item)]:
+        yield from faults
+        return
+    lengths = [max(abs(b - a) for a, b in zip(start, end, strict=True)) for _, start, end in lines]
+    for key, check in (("openings", check_opening), ("gables", check_gable), ("buttresses", check_buttress)):
+        for number, part in enumerate(getattr(item, key)):
+            if part.segment < len(lengths):
+                found = check(item, part, lengths[part.segment])
+            else:
+                words = f"must be <= {len(lengths) - 1}: there are {len(lengths)} walls, from 0"
+                found = iter([Finding("out-of-bounds", words, "segment")])
+            yield from (finding.below(key, number) for finding in found)
+    yield from _one_gable_each(item)
+
+
+def _one_gable_each(item: WallsItem) -> Iterator[Finding]:
+    segments = [gable.segment for gable in item.gables]
+    for number, segment in enumerate(segments):
+        if segment in segments[:number]:
+            yield Finding("duplicate-key", f"wall {segment} has a gable already", "gables", number, "segment")
+
+
+def _lines(item: WallsItem) -> Iterator[tuple[tuple[str | int, ...], Sequence[float], Sequence[float]]]:
+    """Key path, start and end of each wall's line: those of the plan, then the cross walls."""
+    points = [*item.plan, item.plan[0]] if item.closed else item.plan
+    for number in range(len(points) - 1):
+        yield ("plan", (number + 1) % len(item.plan)), points[number], points[number + 1]
+    for number, cross in enumerate(item.cross_walls):
+        yield ("cross_walls", number, "to"), cross.from_, cross.to
+
+
+def _check_lines(
+    lines: Sequence[tuple[tuple[str | int, ...], Sequence[float], Sequence[float]]],
+) -> Iterator[Finding]:
+    """Each line has a length, and runs along x or along y."""
+    for path, start, end in lines:
+        short, long = sorted(abs(b - a) for a, b in zip(start, end, strict=True))
+        if long == 0:
+            yield Finding("wall-shape", "is the point before it", *path)
+        elif short > SQUARE * long:
+            yield Finding(
+                "wall-shape",
+                "must lie along x or along y from the point before it, since only right angles can be bonded here; "
+                "a plan in another direction is turned by transform",
+                *path,
+            )
+
+
+def _check_turns(item: WallsItem) -> Iterator[Finding]:
+    """The main line turns by a right angle at each corner."""
+    if item.closed and len(item.plan) < 4:
+        yield Finding("wall-shape", f"needs 4 points of the plan or more, here are {len(item.plan)}", "closed")
+        return
+    points = [*item.plan, item.plan[0], item.plan[1]] if item.closed else item.plan
+    for number in range(1, len(points) - 1):
+        before, here, after = points[number - 1 : number + 2]
+        into = [b - a for a, b in zip(before, here, strict=True)]
+        out = [b - a for a, b in zip(here, after, strict=True)]
+        along = abs(sum(a * b for a, b in zip(into, out, strict=True)))
+        size = max(map(abs, into)) * max(map(abs, out))
+        if size > 0 and along > (1 - SQUARE) * size:
+            message = "must be a corner: the line goes on along the same axis; leave the point out"
+            yield Finding("wall-shape", message, "plan", number % len(item.plan))

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from importlib import import_module
 
-from mbla.deck.types import Item
+from mbla.deck.items.item import Item
 from mbla.model.generators.amounts import Amount
 from mbla.model.generators.generator import Generator
 

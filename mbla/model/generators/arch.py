@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
-from mbla.deck.types import ArchItem
+from mbla.deck.items.arch import ArchItem
 from mbla.errors import Message
 from mbla.model.generators.amounts import Amount, refuse_too_many
 from mbla.model.generators.arches.piers import (

@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
-from mbla.deck.types import BarrelVaultItem
+from mbla.deck.items.vaults import BarrelVaultItem
 from mbla.model.generators.amounts import Amount, refuse_too_many
 from mbla.model.generators.chains import prisms
 from mbla.model.generators.generator import Generated, GroundPart, Part, Site

@@ -14,8 +14,8 @@ from itertools import pairwise
 import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
+from mbla.deck.items.bridge import BridgeItem
 from mbla.deck.tree import KeyPath
-from mbla.deck.types import BridgeItem
 from mbla.errors import Message
 from mbla.model.generators.amounts import Amount, refuse_too_many
 from mbla.model.generators.arches.piers import (

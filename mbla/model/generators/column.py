@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 
 from mbla.arrays import FloatArray
-from mbla.deck.types import ColumnEnd, ColumnItem
+from mbla.deck.items.column import ColumnEnd, ColumnItem
 from mbla.model.generators.amounts import Amount, refuse_too_many
 from mbla.model.generators.chains import chains
 from mbla.model.generators.generator import Generated, Part, Site

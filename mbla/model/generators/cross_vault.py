@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from mbla.arrays import FloatArray
-from mbla.deck.types import CrossVaultItem
+from mbla.deck.items.vaults import CrossVaultItem
 from mbla.errors import Message
 from mbla.model.generators.amounts import Amount, refuse_too_many
 from mbla.model.generators.generator import Generated, ItemRefused, Part, Site, level_ground

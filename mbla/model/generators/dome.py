@@ -17,7 +17,7 @@ from itertools import pairwise
 import numpy as np
 
 from mbla.arrays import FloatArray
-from mbla.deck.types import DomeDrum, DomeItem
+from mbla.deck.items.dome import DomeDrum, DomeItem
 from mbla.errors import Message
 from mbla.model.generators.amounts import Amount, refuse_too_many
 from mbla.model.generators.chains import chains

@@ -8,9 +8,9 @@ from pathlib import Path
 import numpy as np
 
 from mbla.arrays import FloatArray
+from mbla.deck.items.mesh import MeshItem
 from mbla.deck.suggestions import unknown
 from mbla.deck.tree import KeyPath
-from mbla.deck.types import MeshItem
 from mbla.deck.units import METRES
 from mbla.errors import Message, Notice
 from mbla.model.generators.generator import Generated, ItemRefused, Part, Site

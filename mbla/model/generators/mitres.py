@@ -17,7 +17,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
-from mbla.deck.items.vault import VaultItem
+from mbla.deck.items.vaults import VaultItem
 from mbla.model.generators.chains import chains
 from mbla.model.generators.generator import Part
 from mbla.model.generators.vault_sections import vault_section

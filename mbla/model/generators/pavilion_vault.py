@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 
 from mbla.arrays import FloatArray
-from mbla.deck.types import PavilionVaultItem
+from mbla.deck.items.vaults import PavilionVaultItem
 from mbla.model.generators.amounts import Amount, refuse_too_many
 from mbla.model.generators.generator import Generated, Part, Site, level_ground
 from mbla.model.generators.mitres import (

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from mbla.deck.types import PolyhedronItem
+from mbla.deck.items.polyhedron import PolyhedronItem
 from mbla.model.generators.generator import Generated, Part, Site
 from mbla.model.solids.polyhedra import polyhedra_from_lists
 

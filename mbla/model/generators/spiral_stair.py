@@ -14,7 +14,7 @@ from __future__ import annotations
 import numpy as np
 
 from mbla.arrays import FloatArray
-from mbla.deck.types import SpiralStairItem
+from mbla.deck.items.spiral_stair import SpiralStairItem
 from mbla.model.generators.amounts import Amount, refuse_too_many
 from mbla.model.generators.chains import chains
 from mbla.model.generators.generator import Generated, Part, Site, level_ground

@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 
 from mbla.arrays import FloatArray
-from mbla.deck.types import StackItem
+from mbla.deck.items.stack import StackItem
 from mbla.model.generators.amounts import Amount, refuse_too_many
 from mbla.model.generators.generator import Generated, Part, Site
 from mbla.model.solids.polyhedra import cuboids

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from mbla.arrays import IntArray, starts
+from mbla.deck.items.table import TableItem
 from mbla.deck.tree import KeyPath
-from mbla.deck.types import TableItem
 from mbla.errors import Message
 from mbla.model.generators.generator import Generated, ItemRefused, Part, Site
 from mbla.model.geometry.member_names import member_name

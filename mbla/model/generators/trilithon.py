@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from mbla.deck.types import TrilithonItem
+from mbla.deck.items.trilithon import TrilithonItem
 from mbla.model.generators.generator import Generated, Part, Site
 from mbla.model.solids.polyhedra import cuboids
 

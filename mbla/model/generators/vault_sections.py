@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from mbla.arrays import FloatArray
-from mbla.deck.items.vault import VaultItem
+from mbla.deck.items.vaults import VaultItem
 from mbla.model.generators.curves import named_curve
 
 

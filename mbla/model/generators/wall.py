@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from mbla.deck.items.wall import WallItem
 from mbla.deck.tree import KeyPath
-from mbla.deck.types import WallItem
 from mbla.errors import Message
 from mbla.model.generators.amounts import Amount, refuse_too_many
 from mbla.model.generators.generator import Generated, ItemRefused, Site

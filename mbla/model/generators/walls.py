@@ -5,9 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
-from mbla.deck.section import Finding
-from mbla.deck.types import WallsItem
-from mbla.errors import Message
+from mbla.deck.items.walls import WallsItem
+from mbla.errors import Finding
 from mbla.model.generators.amounts import Amount, refuse_too_many
 from mbla.model.generators.generator import Generated, ItemRefused, Site
 from mbla.model.generators.masonry.buttresses import PlacedButtress, check_buttresses, place_buttress
@@ -132,11 +131,11 @@ def _check_meetings(item: WallsItem, wall: _Placed) -> Iterator[Finding]:
             for void in opening.voids:
                 reach = void.lean * (void.top - void.bottom) * item.unit[2]
                 if void.left - reach < passage.right - room and void.right + reach > passage.left + room:
-                    yield ("openings", opening.number), Message("wall-shape", f"reaches into wall {other}")
+                    yield Finding("wall-shape", f"reaches into wall {other}", "openings", opening.number)
                     break
         for placed in wall.buttresses:
             if placed.buttress.bonded and placed.start < passage.right - room and placed.end > passage.left + room:
-                yield ("buttresses", placed.number), Message("wall-shape", f"reaches into wall {other}")
+                yield Finding("wall-shape", f"reaches into wall {other}", "buttresses", placed.number)
 
 
 def _check_gables(item: WallsItem, meets: Sequence[tuple[tuple[int, Passage], ...]]) -> Iterator[Finding]:
@@ -144,4 +143,4 @@ def _check_gables(item: WallsItem, meets: Sequence[tuple[tuple[int, Passage], ..
     numbers = [gable.segment for gable in item.gables]
     for n, gable in enumerate(item.gables):
         if any(other in numbers[:n] for other, _ in meets[gable.segment]):
-            yield ("gables", n, "segment"), Message("wall-shape", "meets a wall that has a gable too")
+            yield Finding("wall-shape", "meets a wall that has a gable too", "gables", n, "segment")

@@ -8,8 +8,8 @@ from __future__ import annotations
 import numpy as np
 
 from mbla.arrays import IntArray
+from mbla.deck.sections.loads import Load
 from mbla.deck.tree import KeyPath
-from mbla.deck.types import Load
 from mbla.errors import Message
 from mbla.model.loads.load_kind import AppliedLoad, LoadSite, wrenches_of
 from mbla.model.solids.blocks import distance_outside

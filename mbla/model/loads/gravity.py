@@ -11,8 +11,8 @@ from collections.abc import Iterable
 import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
+from mbla.deck.sections.loads import Load
 from mbla.deck.tree import KeyPath
-from mbla.deck.types import Load
 from mbla.deck.units import Units
 from mbla.model.loads.height_pattern import PatternFactors, pattern_factors
 from mbla.model.loads.load_kind import AppliedLoad, Entry, LoadSite

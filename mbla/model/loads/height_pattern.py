@@ -23,8 +23,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
+from mbla.deck.sections.loads import HeightPattern
 from mbla.deck.tree import KeyPath
-from mbla.deck.types import HeightPattern
 from mbla.errors import Message
 from mbla.model.loads.load_kind import LoadSite
 from mbla.model.solids.blocks import Blocks

@@ -10,8 +10,8 @@ from __future__ import annotations
 import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
+from mbla.deck.sections.loads import LineLoad, Load
 from mbla.deck.tree import KeyPath
-from mbla.deck.types import LineLoad, Load
 from mbla.errors import Message
 from mbla.model.loads.blocks_under import stretches_under, unit
 from mbla.model.loads.load_kind import AppliedLoad, LoadSite, sum_on_blocks, wrenches_of

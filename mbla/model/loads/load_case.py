@@ -8,10 +8,10 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from mbla.arrays import FloatArray
-from mbla.deck.rules.common import given
-from mbla.deck.rules.loads import LIVE_ONLY
+from mbla.deck.section import given
+from mbla.deck.sections.load_cases import LoadCaseSection
+from mbla.deck.sections.loads import LIVE_ONLY, Load
 from mbla.deck.tree import KeyPath
-from mbla.deck.types import Load, LoadCaseSection
 from mbla.errors import Message
 from mbla.model.loads.gravity import with_gravity
 from mbla.model.loads.kinds import LOAD_KINDS

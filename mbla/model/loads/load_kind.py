@@ -15,8 +15,8 @@ from typing import TypeAlias
 import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
+from mbla.deck.sections.loads import Load
 from mbla.deck.tree import KeyPath
-from mbla.deck.types import Load
 from mbla.deck.units import Units
 from mbla.errors import Fault, Message, Notice
 from mbla.model.model import Ground

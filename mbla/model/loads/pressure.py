@@ -15,8 +15,8 @@ import math
 import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
+from mbla.deck.sections.loads import Load, PressureLoad
 from mbla.deck.tree import KeyPath
-from mbla.deck.types import Load, PressureLoad
 from mbla.errors import Message
 from mbla.model.loads.blocks_under import unit
 from mbla.model.loads.free_faces import FaceParts, face_parts

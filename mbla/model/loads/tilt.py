@@ -15,8 +15,8 @@ from collections.abc import Sequence
 import numpy as np
 
 from mbla.arrays import FloatArray
+from mbla.deck.sections.loads import Tilt as TiltSection
 from mbla.deck.tree import KeyPath
-from mbla.deck.types import Tilt as TiltSection
 from mbla.errors import Message
 from mbla.model.loads.blocks_under import unit
 from mbla.model.loads.gravity import mass_forces, vector_of

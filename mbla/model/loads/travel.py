@@ -14,7 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
-from mbla.deck.types import Load, Travel
+from mbla.deck.sections.loads import Load, Travel
 from mbla.errors import Message
 from mbla.model.loads.blocks_under import block_under
 from mbla.model.loads.load_kind import AppliedLoad, Entry, LoadSite, sum_on_blocks, wrenches_of

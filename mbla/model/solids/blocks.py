@@ -13,7 +13,7 @@ from functools import cached_property
 import numpy as np
 
 from mbla.arrays import FloatArray, IntArray, row_of_item
-from mbla.deck.selectors import POSITIONS
+from mbla.deck.sections.selectors import POSITIONS
 
 
 @dataclass(frozen=True)

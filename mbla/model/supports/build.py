@@ -9,8 +9,8 @@ import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.deck.deck import Deck
+from mbla.deck.sections.supports import GroundPlane
 from mbla.deck.tree import KeyPath
-from mbla.deck.types import GroundPlane
 from mbla.errors import Fault, Message
 from mbla.model.model import Ground
 from mbla.model.selectors import Roster, select_blocks

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
-from mbla.deck.types import Support
+from mbla.deck.sections.supports import Support
 from mbla.model.solids.blocks import Blocks
 from mbla.model.wording import counted, vector
 

@@ -6,7 +6,7 @@ import numpy as np
 
 from mbla.arrays import BoolArray
 from mbla.contacts.contacts import Contacts
-from mbla.deck.analysis import AnalysisSection
+from mbla.deck.sections.analysis import AnalysisSection
 from mbla.model.model import Model
 
 

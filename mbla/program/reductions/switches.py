@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from mbla.deck.analysis import AnalysisSection, ReductionSwitches
+from mbla.deck.sections.analysis import AnalysisSection, ReductionSwitches
 
 
 def allowed_reductions(analysis: AnalysisSection) -> ReductionSwitches:

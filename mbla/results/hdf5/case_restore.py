@@ -7,7 +7,7 @@ from typing import Any, TypeVar, get_args
 import numpy as np
 
 from mbla.arrays import FloatArray
-from mbla.deck.analysis import AnalysisSection, ReductionSwitches
+from mbla.deck.sections.analysis import AnalysisSection, ReductionSwitches
 from mbla.model.model import LoadCase
 from mbla.program.reductions import ProgramSize, ReductionStep, StepState
 from mbla.results.hdf5.content import HISTORY, MOTIONS

@@ -10,7 +10,7 @@ import numpy as np
 from mbla import __version__
 from mbla.arrays import FloatArray, IntArray, starts
 from mbla.contacts.contacts import ContactReport, Contacts
-from mbla.deck.selectors import POSITIONS
+from mbla.deck.sections.selectors import POSITIONS
 from mbla.errors import Notice
 from mbla.model.model import Joint, LoadCase, Model, Settlement, Tilt, TravelPosition
 from mbla.model.solids.blocks import Blocks

@@ -10,7 +10,7 @@ from typing import Any, cast
 import numpy as np
 
 from mbla.contacts.contacts import ContactReport, Contacts
-from mbla.deck.selectors import POSITIONS
+from mbla.deck.sections.selectors import POSITIONS
 from mbla.deck.units import KILOGRAMS, METRES, NEWTONS, Units
 from mbla.errors import Notice
 from mbla.model.model import Ground, Joint, LoadCase, Model, Settlement, Tilt, TravelPosition

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import Counter
 
 from mbla.arrays import IntArray
-from mbla.deck.selectors import POSITIONS
+from mbla.deck.sections.selectors import POSITIONS
 from mbla.model.solids.blocks import BlockLabels
 
 MOST_NAMED = 8

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from mbla.arrays import FloatArray
-from mbla.deck.selectors import POSITIONS
+from mbla.deck.sections.selectors import POSITIONS
 from mbla.results.tables.case_rows import CaseRows, case_rows
 from mbla.results.tables.column import Column, Values, as_text, bools, floats, ints, texts, vector, whole
 from mbla.results.tables.table import TableKind

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
-from mbla.deck.selectors import POSITIONS
+from mbla.deck.sections.selectors import POSITIONS
 from mbla.model.model import Model
 from mbla.results.collapse.collapse import Collapse, collapse_of
 from mbla.results.collapse.failure import failure_of

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from mbla.deck.selectors import POSITIONS
+from mbla.deck.sections.selectors import POSITIONS
 
 ANIMATION, SUPPORTS = "frame_NNN", "supports"
 

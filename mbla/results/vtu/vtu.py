@@ -13,7 +13,7 @@ import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.contacts.contacts import Contacts
-from mbla.deck.selectors import POSITIONS
+from mbla.deck.sections.selectors import POSITIONS
 from mbla.model.geometry.meshio_files import write_mesh
 from mbla.model.model import Model
 from mbla.model.solids.blocks import BlockLabels

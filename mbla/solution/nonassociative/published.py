@@ -26,7 +26,7 @@ from dataclasses import replace
 import numpy as np
 
 from mbla.arrays import FloatArray
-from mbla.deck.types import PublishedScheme
+from mbla.deck.sections.analysis import PublishedScheme
 from mbla.program.kinematic import kinematic_form
 from mbla.program.program import Program
 from mbla.program.yield_conditions import YieldLimits

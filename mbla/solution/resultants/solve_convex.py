@@ -8,8 +8,8 @@ from dataclasses import replace
 import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
-from mbla.deck.accuracy import knobs_of
-from mbla.deck.analysis import AnalysisSection
+from mbla.deck.sections.accuracy import knobs_of
+from mbla.deck.sections.analysis import AnalysisSection
 from mbla.program.convex import ConvexProgram
 from mbla.program.convex.assemble import in_unit_of_force
 from mbla.program.convex.crushing import crushing_violation

@@ -9,18 +9,18 @@ from typing import Annotated, Any, Literal, TypeAlias
 
 from pydantic import BeforeValidator, Discriminator, Field, Tag
 
+from mbla.deck.content import no_boolean
 from mbla.deck.names import NAME_PATTERN, Line, Name
-from mbla.deck.quantities import Number, PositiveNumber, Quantity, Switch, Time, Whole
+from mbla.deck.quantities import Integer, Number, PositiveNumber, Quantity, Switch, Time
 from mbla.deck.section import Section, shape
-from mbla.deck.types import no_boolean
 
 MAX_POINTS = 1_000_000
 """points of one sweep; more would not end in a table that anybody reads"""
 
 Degrees: TypeAlias = Annotated[float, Quantity("number", ge=-360, le=360)]
 Elevation: TypeAlias = Annotated[float, Quantity("number", ge=-90, le=90)]
-Points: TypeAlias = Annotated[int, Whole(ge=1, le=MAX_POINTS)]
-Seed: TypeAlias = Annotated[int, Whole(ge=0, le=2**32 - 1)]
+Points: TypeAlias = Annotated[int, Integer(ge=1, le=MAX_POINTS)]
+Seed: TypeAlias = Annotated[int, Integer(ge=0, le=2**32 - 1)]
 ParameterName: TypeAlias = Annotated[str, Field(pattern=NAME_PATTERN, max_length=200)]
 """also a key path, which may be long"""
 KeyPaths: TypeAlias = Annotated[
@@ -34,7 +34,7 @@ class LinearRange(Section):
 
     start: Number = Field(alias="from", description="first value")
     end: Number = Field(alias="to", description="last value")
-    points: Annotated[int, Whole(ge=2, le=MAX_POINTS)] | None = Field(
+    points: Annotated[int, Integer(ge=2, le=MAX_POINTS)] | None = Field(
         None, description="how many; in a design that samples the range there are none, it takes any value"
     )
 
@@ -44,7 +44,7 @@ class LogRange(Section):
 
     start: PositiveNumber = Field(alias="from", description="first value")
     end: PositiveNumber = Field(alias="to", description="last value")
-    points: Annotated[int, Whole(ge=2, le=MAX_POINTS)] | None = Field(
+    points: Annotated[int, Integer(ge=2, le=MAX_POINTS)] | None = Field(
         None, description="how many; in a design that samples the range there are none, it takes any value"
     )
 
@@ -52,8 +52,8 @@ class LogRange(Section):
 class WholeRange(Section):
     """Whole numbers, each of them; all equally likely where they are drawn."""
 
-    start: Annotated[int, Whole(ge=-(2**31), le=2**31 - 1)] = Field(alias="from", description="first number")
-    end: Annotated[int, Whole(ge=-(2**31), le=2**31 - 1)] = Field(alias="to", description="last number")
+    start: Annotated[int, Integer(ge=-(2**31), le=2**31 - 1)] = Field(alias="from", description="first number")
+    end: Annotated[int, Integer(ge=-(2**31), le=2**31 - 1)] = Field(alias="to", description="last number")
 
 
 class Normal(Section):
@@ -94,7 +94,7 @@ class Horizon(Section):
 
     start: Degrees = Field(0.0, alias="from", description="first azimuth in degrees, from +x towards +y")
     end: Degrees = Field(360.0, alias="to", description="last azimuth; left out where it is a full circle on")
-    points: Annotated[int, Whole(ge=1, le=MAX_POINTS)] | None = Field(
+    points: Annotated[int, Integer(ge=1, le=MAX_POINTS)] | None = Field(
         None, description="how many; none in a design that samples directions"
     )
     size: PositiveNumber | None = Field(

@@ -6,10 +6,10 @@ import json
 from collections.abc import Iterator
 from math import prod
 
-from mbla.deck.section import Finding, rule
+from mbla.deck.section import rule
 from mbla.deck.suggestions import did_you_mean, listed
 from mbla.deck.tree import shorten
-from mbla.errors import Message
+from mbla.errors import Finding
 from mbla.sweeps.file.content import MAX_POINTS, Parameter, SweepContent
 from mbla.sweeps.file.parts import (
     DISTRIBUTIONS,
@@ -37,13 +37,12 @@ def column_names(sweep: SweepContent) -> Iterator[Finding]:
     for name, parameter in sweep.parameters.items():
         for column in parameter_columns(name, parameter):
             if column in owners:
-                yield (
-                    ("parameters", name),
-                    Message(
-                        "sweep-columns",
-                        f"column {column} of the table would be there twice, it is {owners[column]}: "
-                        "choose another name, and give the key path with key",
-                    ),
+                yield Finding(
+                    "sweep-columns",
+                    f"column {column} of the table would be there twice, it is {owners[column]}: "
+                    "choose another name, and give the key path with key",
+                    "parameters",
+                    name,
                 )
             owners.setdefault(column, f"that of parameter {name}")
 
@@ -60,20 +59,18 @@ def keys_once(sweep: SweepContent) -> Iterator[Finding]:
     for key in sweep.set:
         for before in owners:
             if before[: len(spelt(key))] == spelt(key):
-                yield (
-                    ("set", key),
-                    Message(
-                        "sweep-without-effect",
-                        f"replaces {shorten('.'.join(before))}, which stands before it: put it first, or drop that",
-                    ),
+                yield Finding(
+                    "sweep-without-effect",
+                    f"replaces {shorten('.'.join(before))}, which stands before it: put it first, or drop that",
+                    "set",
+                    key,
                 )
         owners[spelt(key)] = f"set sets {shorten(key)} too: one of them would have no effect"
     for name, parameter in sweep.parameters.items():
         for path, key in key_places(name, parameter):
             if spelt(key) in owners:
-                yield (
-                    path,
-                    Message("sweep-without-effect", f"parameter {name} sets {shorten(key)}, and {owners[spelt(key)]}"),
+                yield Finding(
+                    "sweep-without-effect", f"parameter {name} sets {shorten(key)}, and {owners[spelt(key)]}", *path
                 )
             owners.setdefault(spelt(key), f"parameter {name} sets it too")
 
@@ -96,28 +93,29 @@ def every_parameter_in_one_part(sweep: SweepContent) -> Iterator[Finding]:
     parts = design_parts(sweep)
     open_parts = [part for part in parts if sweep.design and _names_given(sweep, part) is None]
     for part in open_parts[1:]:
-        yield (
-            part.path,
-            Message(
-                "sweep-parts", "needs `of`: only one part of the design can take all parameters that no other names"
-            ),
+        yield Finding(
+            "sweep-parts",
+            "needs `of`: only one part of the design can take all parameters that no other names",
+            *part.path,
         )
     for part in open_parts[:1]:
         if not part.names:
-            yield part.path, Message("sweep-parts", "has no parameters: the other parts name them all")
+            yield Finding("sweep-parts", "has no parameters: the other parts name them all", *part.path)
     owners: dict[str, int] = {}
     for number, part in enumerate(parts):
         for index, name in enumerate(_names_given(sweep, part) or ()):
             if name in owners:
                 where = "this part" if owners[name] == number else f"part {owners[name] + 1} of the design"
-                yield (*part.path, "of", index), Message("sweep-parts", f"{name} stands in {where} already")
+                yield Finding("sweep-parts", f"{name} stands in {where} already", *part.path, "of", index)
             owners.setdefault(name, number)
     if sweep.design and not open_parts:
         for name in sweep.parameters:
             if name not in owners:
-                yield (
-                    ("parameters", name),
-                    Message("sweep-parts", "stands in no part of the design: name it in one of its `of`, or drop it"),
+                yield Finding(
+                    "sweep-parts",
+                    "stands in no part of the design: name it in one of its `of`, or drop it",
+                    "parameters",
+                    name,
                 )
 
 
@@ -139,27 +137,23 @@ def ways_fit_their_part(sweep: SweepContent) -> Iterator[Finding]:
             points = level_count(parameter)
             if part.kind in SAMPLED:
                 if way in WITH_POINTS and points is not None:
-                    yield (
-                        (*path, "points"),
-                        Message(
-                            "sweep-ranges", f"has no meaning in a {part.kind} design, which has its own: leave it out"
-                        ),
+                    yield Finding(
+                        "sweep-ranges",
+                        f"has no meaning in a {part.kind} design, which has its own: leave it out",
+                        *path,
+                        "points",
                     )
             elif way in DISTRIBUTIONS:
-                yield (
-                    path,
-                    Message(
-                        "sweep-ranges",
-                        f"is a distribution, which a {part.kind} cannot take: put {name} into {_samples()}",
-                    ),
+                yield Finding(
+                    "sweep-ranges",
+                    f"is a distribution, which a {part.kind} cannot take: put {name} into {_samples()}",
+                    *path,
                 )
             elif points is None:
-                yield (
-                    path,
-                    Message(
-                        "sweep-ranges",
-                        f"needs points, how many values it has, in a {part.kind}; or put {name} into {_samples()}",
-                    ),
+                yield Finding(
+                    "sweep-ranges",
+                    f"needs points, how many values it has, in a {part.kind}; or put {name} into {_samples()}",
+                    *path,
                 )
 
 
@@ -173,7 +167,7 @@ def grid_values_once(sweep: SweepContent) -> Iterator[Finding]:
             for index, value in enumerate(written):
                 if value in written[:index]:
                     message = "is given twice: the points of a grid differ in each value"
-                    yield ("parameters", name, "values", index), Message("duplicate-key", message)
+                    yield Finding("duplicate-key", message, "parameters", name, "values", index)
 
 
 def _samples() -> str:
@@ -188,7 +182,7 @@ def zipped_lists(sweep: SweepContent) -> Iterator[Finding]:
         if part.kind != "zip" or None in counts.values() or len(set(counts.values())) < 2:
             continue
         shown = listed((f"{name} {count}" for name, count in counts.items()), "and")
-        yield part.path, Message("sweep-ranges", f"needs as many values of each parameter; here are: {shown}")
+        yield Finding("sweep-ranges", f"needs as many values of each parameter; here are: {shown}", *part.path)
 
 
 @rule(SweepContent)
@@ -200,12 +194,10 @@ def number_of_points(sweep: SweepContent) -> Iterator[Finding]:
     if len(known) == len(sizes) and prod(known) > MAX_POINTS:
         path = ("design",) if sweep.design else ("parameters",)
         factors = " x ".join(str(size) for size in known) + " = " if len(known) > 1 else ""
-        yield (
-            path,
-            Message(
-                "sweep-too-many-points",
-                f"makes {factors}{prod(known)} points, at most {MAX_POINTS} are taken: a sample needs fewer",
-            ),
+        yield Finding(
+            "sweep-too-many-points",
+            f"makes {factors}{prod(known)} points, at most {MAX_POINTS} are taken: a sample needs fewer",
+            *path,
         )
 
 
@@ -229,7 +221,7 @@ def cases_once(sweep: SweepContent) -> Iterator[Finding]:
     cases = sweep.cases or []
     for index, name in enumerate(cases):
         if name in cases[:index]:
-            yield ("cases", index), Message("duplicate-key", "is given twice")
+            yield Finding("duplicate-key", "is given twice", "cases", index)
 
 
 @rule(SweepContent)
@@ -237,9 +229,9 @@ def results_once(sweep: SweepContent) -> Iterator[Finding]:
     """One column each."""
     for index, name in enumerate(sweep.results):
         if name in sweep.results[:index]:
-            yield ("results", index), Message("duplicate-key", "is given twice")
+            yield Finding("duplicate-key", "is given twice", "results", index)
         elif not name.strip():
-            yield ("results", index), Message("sweep-result", "must not be empty: write a key path such as load_factor")
+            yield Finding("sweep-result", "must not be empty: write a key path such as load_factor", "results", index)
 
 
 @rule(SweepContent)
@@ -251,34 +243,29 @@ def fragility(sweep: SweepContent) -> Iterator[Finding]:
     # With several load cases the name of one may stand before it; whether there is one is seen with the base deck.
     if not any(wanted == name or wanted.endswith(f".{name}") for name in sweep.results):
         hint = did_you_mean(wanted, sweep.results) or ";"
-        yield (
-            ("fragility", "result"),
-            Message(
-                "sweep-fragility",
-                f"{shorten(wanted)} is not among results{hint} these are {listed(sweep.results, 'and')}",
-            ),
+        yield Finding(
+            "sweep-fragility",
+            f"{shorten(wanted)} is not among results{hint} these are {listed(sweep.results, 'and')}",
+            "fragility",
+            "result",
         )
     elif any(wanted == name or wanted.endswith(f".{name}") for name in FACTORS) and STATUS not in sweep.results:
-        yield (
-            ("results",),
-            Message(
-                "sweep-fragility",
-                f"must have {STATUS} too: for the probability of {shorten(wanted)} it tells what does not stand from "
-                "what no load brings down",
-            ),
+        yield Finding(
+            "sweep-fragility",
+            f"must have {STATUS} too: for the probability of {shorten(wanted)} it tells what does not stand from "
+            "what no load brings down",
+            "results",
         )
     random = [part for part in design_parts(sweep) if is_random(part, sweep)]
     if not random:
-        yield (
-            ("fragility",),
-            Message(
-                "sweep-fragility", f"needs a random design: {_samples()} in which every parameter is {listed(RANDOM)}"
-            ),
+        yield Finding(
+            "sweep-fragility",
+            f"needs a random design: {_samples()} in which every parameter is {listed(RANDOM)}",
+            "fragility",
         )
     elif len(random) > 1:
-        yield (
-            ("fragility",),
-            Message(
-                "sweep-fragility", "needs one random part of the design, not several: put their parameters into one"
-            ),
+        yield Finding(
+            "sweep-fragility",
+            "needs one random part of the design, not several: put their parameters into one",
+            "fragility",
         )

@@ -6,9 +6,8 @@ import math
 from collections.abc import Iterator
 from typing import Any
 
-from mbla.deck.rules.common import exactly_one
-from mbla.deck.section import Finding, Section, rule
-from mbla.errors import Message
+from mbla.deck.section import Section, one_of, rule
+from mbla.errors import Finding
 from mbla.sweeps.design.directions import FULL_CIRCLE
 from mbla.sweeps.file import content as types
 from mbla.sweeps.file.parts import KINDS, WAYS
@@ -23,7 +22,7 @@ FARTHEST = 40
 def _register_exactly_one(section: type[Section], keys: tuple[str, ...]) -> None:
     @rule(section)
     def one_key(item: Section) -> Iterator[Finding]:
-        yield from exactly_one(item, keys)
+        yield from one_of(item, keys)
 
 
 for _section, _keys in EXACTLY_ONE.items():
@@ -35,11 +34,11 @@ def plain_values(item: types.Parameter) -> Iterator[Finding]:
     """A value is one of the deck, not a whole section of it."""
     for index, value in enumerate(item.values or ()):
         if isinstance(value, dict):
-            yield (
-                ("values", index),
-                Message(
-                    "sweep-values", "must be a number, text, true, false or a list: give each key a parameter, in a zip"
-                ),
+            yield Finding(
+                "sweep-values",
+                "must be a number, text, true, false or a list: give each key a parameter, in a zip",
+                "values",
+                index,
             )
 
 
@@ -52,21 +51,21 @@ def key_paths_of_text(item: types.Parameter) -> Iterator[Finding]:
         keys = [(("key", index), key) for index, key in enumerate(item.key or ())]
     for path, key in keys:
         if not key.strip():
-            yield path, Message("sweep-key", "must not be empty: write a key path such as joints.dry.friction")
+            yield Finding("sweep-key", "must not be empty: write a key path such as joints.dry.friction", *path)
 
 
 @rule(types.LinearRange)
 def linear_range(item: types.LinearRange) -> Iterator[Finding]:
     """Upwards or downwards."""
     if item.start == item.end:
-        yield ("to",), Message("out-of-bounds", "must differ from the value of from")
+        yield Finding("out-of-bounds", "must differ from the value of from", "to")
 
 
 def _upwards(section: type[Section]) -> None:
     @rule(section)
     def upwards(item: Any) -> Iterator[Finding]:
         if not item.start < item.end:
-            yield ("to",), Message("out-of-bounds", f"must be > {item.start:g}, the value of from")
+            yield Finding("out-of-bounds", f"must be > {item.start:g}, the value of from", "to")
 
 
 for _section in (types.LogRange, types.WholeRange, types.Uniform, types.Triangular, types.Horizon, types.Sphere):
@@ -77,19 +76,15 @@ for _section in (types.LogRange, types.WholeRange, types.Uniform, types.Triangul
 def horizon(item: types.Horizon) -> Iterator[Finding]:
     """No direction twice."""
     if item.end - item.start > FULL_CIRCLE:
-        yield (
-            ("to",),
-            Message("out-of-bounds", f"must be at most {item.start + FULL_CIRCLE:g}, a full circle beyond from"),
-        )
+        yield Finding("out-of-bounds", f"must be at most {item.start + FULL_CIRCLE:g}, a full circle beyond from", "to")
 
 
 @rule(types.Triangular)
 def triangular(item: types.Triangular) -> Iterator[Finding]:
     """The most likely value is one of them."""
     if item.start < item.end and not item.start <= item.mode <= item.end:
-        yield (
-            ("mode",),
-            Message("out-of-bounds", f"must lie between {item.start:g} and {item.end:g}, the values of from and to"),
+        yield Finding(
+            "out-of-bounds", f"must lie between {item.start:g} and {item.end:g}, the values of from and to", "mode"
         )
 
 
@@ -97,11 +92,11 @@ def _cut_around_the_mean(section: type[Section]) -> None:
     @rule(section)
     def cut(item: Any) -> Iterator[Finding]:
         if not math.isfinite(abs(item.mean) + FARTHEST * item.deviation):
-            yield ("deviation",), Message("out-of-bounds", f"must be so small that {FARTHEST} of them are a number")
+            yield Finding("out-of-bounds", f"must be so small that {FARTHEST} of them are a number", "deviation")
         if item.least is not None and not item.least < item.mean:
-            yield ("min",), Message("out-of-bounds", f"must be < {item.mean:g}, the mean")
+            yield Finding("out-of-bounds", f"must be < {item.mean:g}, the mean", "min")
         if item.greatest is not None and not item.greatest > item.mean:
-            yield ("max",), Message("out-of-bounds", f"must be > {item.mean:g}, the mean")
+            yield Finding("out-of-bounds", f"must be > {item.mean:g}, the mean", "max")
 
 
 _cut_around_the_mean(types.Normal)

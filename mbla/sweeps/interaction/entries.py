@@ -6,8 +6,9 @@ import os
 from typing import Any
 
 from mbla.deck import Deck
+from mbla.deck.sections.load_cases import LoadCaseSection
+from mbla.deck.sections.loads import Load
 from mbla.deck.tree import KeyPath
-from mbla.deck.types import Load, LoadCaseSection
 from mbla.errors import UsageError
 from mbla.model.loads.load_kind import Entry, entries_of
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from mbla.deck import Deck, read_deck
-from mbla.deck.analysis import AnalysisSection
+from mbla.deck.sections.analysis import AnalysisSection
 
 LIMITS = ("max_iterations", "time_limit")
 """knobs without a default that are limits of effort, none of accuracy"""

@@ -7,7 +7,7 @@ of contact points, friction or size.
 
 from __future__ import annotations
 
-from mbla.deck.types import DeckContent
+from mbla.deck.content import DeckContent
 
 MODEL_KEYS = ("flow_rule", "contact_model")
 """keys of the analysis section that choose what is modelled"""

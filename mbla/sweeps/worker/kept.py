@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from mbla.deck.types import OutputSection
+from mbla.deck.sections.output import OutputSection
 from mbla.results.files import OutputFolder
 from mbla.results.results import Results
 from mbla.results.write import write_results

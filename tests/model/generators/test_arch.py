@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from mbla.deck.types import ArchItem
+from mbla.deck.items.arch import ArchItem
 from mbla.model.generators.arch import generate_arch
 from mbla.model.generators.generator import Generated, ItemRefused, Site
 from tests.model.shapes import build_raw

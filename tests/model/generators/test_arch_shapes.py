@@ -12,7 +12,8 @@ from shapely.ops import unary_union
 
 from mbla.arrays import FloatArray
 from mbla.contacts import find_contacts
-from mbla.deck.types import ArchItem, ContactsSection
+from mbla.deck.items.arch import ArchItem
+from mbla.deck.sections.contacts import ContactsSection
 from mbla.model.generators.arch import generate_arch
 from mbla.model.generators.generator import Generated, ItemRefused, Site
 from mbla.model.solids.blocks import Blocks

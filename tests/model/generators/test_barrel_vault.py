@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from mbla.deck.types import BarrelVaultItem
+from mbla.deck.items.vaults import BarrelVaultItem
 from mbla.model.generators.barrel_vault import generate_barrel_vault
 from mbla.model.generators.generator import Generated, ItemRefused, Site
 from tests.model.generators.assembly import assemble

@@ -11,7 +11,8 @@ from shapely.ops import unary_union
 
 from mbla.arrays import FloatArray
 from mbla.contacts import find_contacts
-from mbla.deck.types import BridgeItem, ContactsSection
+from mbla.deck.items.bridge import BridgeItem
+from mbla.deck.sections.contacts import ContactsSection
 from mbla.model.generators.bridge import generate_bridge
 from mbla.model.generators.generator import Generated, ItemRefused, Site
 from mbla.model.solids.blocks import Blocks

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from mbla.deck.types import ColumnItem
+from mbla.deck.items.column import ColumnItem
 from mbla.model.generators.column import generate_column
 from mbla.model.generators.generator import Generated, Site
 from mbla.model.generators.round_sections import corner_radius, regular_polygon

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from mbla.deck.types import CrossVaultItem
+from mbla.deck.items.vaults import CrossVaultItem
 from mbla.model.generators.cross_vault import generate_cross_vault
 from mbla.model.generators.generator import Generated, ItemRefused, Site
 from tests.model.generators.assembly import assemble

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from mbla.arrays import FloatArray
-from mbla.deck.types import DomeItem
+from mbla.deck.items.dome import DomeItem
 from mbla.model.generators.dome import generate_dome
 from mbla.model.generators.generator import Generated, ItemRefused, Site
 from tests.model.generators.assembly import assemble

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from mbla.deck.types import PavilionVaultItem
+from mbla.deck.items.vaults import PavilionVaultItem
 from mbla.model.generators.generator import Generated, ItemRefused, Site
 from mbla.model.generators.pavilion_vault import generate_pavilion_vault
 from tests.model.generators.assembly import assemble

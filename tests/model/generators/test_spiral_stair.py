@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from mbla.deck.types import SpiralStairItem
+from mbla.deck.items.spiral_stair import SpiralStairItem
 from mbla.model.generators.generator import Generated, Site
 from mbla.model.generators.spiral_stair import generate_spiral_stair
 from tests.model.generators.assembly import assemble

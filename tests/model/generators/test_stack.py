@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from mbla.arrays import FloatArray
-from mbla.deck.types import StackItem
+from mbla.deck.items.stack import StackItem
 from mbla.model.generators.generator import Site
 from mbla.model.generators.stack import generate_stack
 from tests.model.generators.assembly import assemble

@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from mbla.deck.types import TrilithonItem
+from mbla.deck.items.trilithon import TrilithonItem
 from mbla.model.generators.generator import Site
 from mbla.model.generators.trilithon import generate_trilithon
 from tests.model.generators.assembly import assemble

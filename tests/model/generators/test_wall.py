@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from mbla.deck.types import WallItem
+from mbla.deck.items.wall import WallItem
 from mbla.model.generators.generator import ItemRefused, Site
 from mbla.model.generators.wall import generate_wall
 from mbla.model.solids.polyhedra import Polyhedra

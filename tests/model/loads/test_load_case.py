@@ -5,9 +5,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from mbla.deck.rules import EXACTLY_ONE
-from mbla.deck.rules.loads import LIVE_ONLY
-from mbla.deck.types import Load
+from mbla.deck.section import EXACTLY_ONE
+from mbla.deck.sections.loads import LIVE_ONLY, Load
 from mbla.errors import DeckError
 from mbla.model import build_model
 from mbla.model.loads import LOAD_KINDS

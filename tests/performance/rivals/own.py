@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from functools import partial
 
-from mbla.deck.analysis import AnalysisSection
+from mbla.deck.sections.analysis import AnalysisSection
 from mbla.program import assemble
 from mbla.program.reductions import Reduced, allowed_reductions, reduce_program
 from mbla.solution import solve, verified_status, verify

@@ -10,7 +10,7 @@ import pytest
 import scipy.sparse as sp
 
 from mbla.arrays import FloatArray
-from mbla.deck.types import AnalysisSection
+from mbla.deck.sections.analysis import AnalysisSection
 from mbla.program.convex.assemble import resultants_map
 from mbla.program.convex.conditions import M1, M2, MN, ConditionRows, N
 from mbla.program.convex.crushing import crushing_limits, crushing_rows, crushing_violation

@@ -10,7 +10,7 @@ import pytest
 import scipy.sparse as sp
 
 from mbla.arrays import FloatArray
-from mbla.deck.types import AnalysisSection
+from mbla.deck.sections.analysis import AnalysisSection
 from mbla.program.convex.assemble import ConvexProgram, assemble_convex
 from mbla.program.convex.conditions import MN, T1, T2
 from mbla.program.convex.crushing import crushing_violation

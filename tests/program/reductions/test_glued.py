@@ -6,7 +6,7 @@ import pytest
 
 from mbla.contacts import find_contacts
 from mbla.contacts.glue import held_model, solids_of
-from mbla.deck.analysis import ReductionSwitches
+from mbla.deck.sections.analysis import ReductionSwitches
 from mbla.program import assemble
 from mbla.program.reductions import StepState
 from mbla.program.reductions.glued import glued_step

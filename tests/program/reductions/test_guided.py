@@ -9,7 +9,7 @@ import pytest
 
 from mbla.contacts import find_contacts
 from mbla.deck import read_deck
-from mbla.deck.analysis import ReductionSwitches
+from mbla.deck.sections.analysis import ReductionSwitches
 from mbla.model import build_model
 from mbla.program import assemble
 from mbla.program.reductions import reduce_program, unreduced

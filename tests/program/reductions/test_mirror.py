@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from mbla.deck.analysis import ReductionSwitches
+from mbla.deck.sections.analysis import ReductionSwitches
 from mbla.program.reductions import reduce_program
 from mbla.program.reductions.half import half_of
 from mbla.program.reductions.mirror import mirror_about, mirror_candidates

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from mbla.deck.analysis import ReductionSwitches
+from mbla.deck.sections.analysis import ReductionSwitches
 from mbla.program.reductions import reduce_program
 from mbla.program.reductions.parts import _unit_of_force, find_parts, split_into_parts
 from mbla.solution.settings import SolverSettings

@@ -8,7 +8,7 @@ import math
 import numpy as np
 import pytest
 
-from mbla.deck.analysis import ReductionSwitches
+from mbla.deck.sections.analysis import ReductionSwitches
 from mbla.program.reductions import Reduced, reduce_program
 from mbla.program.reductions.scene import scene_of
 from mbla.program.reductions.shares import program_by_shares

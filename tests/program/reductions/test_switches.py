@@ -2,7 +2,7 @@ from __future__ import annotations
 
 import pytest
 
-from mbla.deck.analysis import AnalysisSection, ReductionSwitches
+from mbla.deck.sections.analysis import AnalysisSection, ReductionSwitches
 from mbla.program.reductions import allowed_reductions
 from mbla.solution.solution import Status
 from tests.line import WALL, line_of, verified

@@ -1,4 +1,4 @@
-from mbla.deck.analysis import ReductionSwitches
+from mbla.deck.sections.analysis import ReductionSwitches
 from mbla.program.reductions import ProgramSize, ReductionStep, StepState
 from mbla.results.listing.reduction_words import FOUND, found_words, reduction_lines
 from tests.results.synthetic import STEP

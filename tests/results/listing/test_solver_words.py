@@ -7,7 +7,7 @@ from typing import get_args
 
 import pytest
 
-from mbla.deck.analysis import AnalysisSection
+from mbla.deck.sections.analysis import AnalysisSection
 from mbla.results.listing.listing import listing
 from mbla.results.listing.solver_words import METHODS, solver_json, solver_lines, solver_words
 from mbla.results.records.json_record import results_json

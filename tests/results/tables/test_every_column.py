@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from mbla.deck.selectors import POSITIONS
+from mbla.deck.sections.selectors import POSITIONS
 from mbla.results.collapse.interface_modes import InterfaceMode
 from mbla.results.results import CaseResult, Results
 from mbla.results.tables.tables import tables_of

@@ -8,7 +8,7 @@ import meshio
 import numpy as np
 import pytest
 
-from mbla.deck.selectors import POSITIONS
+from mbla.deck.sections.selectors import POSITIONS
 from mbla.results.files import OutputFolder
 from mbla.results.results import Results
 from mbla.results.vtu.hinge_file import write_hinges_vtu

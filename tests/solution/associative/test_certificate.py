@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from mbla.arrays import FloatArray
-from mbla.deck.analysis import ReductionSwitches
+from mbla.deck.sections.analysis import ReductionSwitches
 from mbla.program.program import Program
 from mbla.program.reductions import reduce_program
 from mbla.solution.associative.certificate import cleaned_certificate, failing_parts, steepest_fall

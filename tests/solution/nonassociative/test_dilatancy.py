@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from mbla.arrays import FloatArray
-from mbla.deck.analysis import ProximalScheme, ReductionSwitches
+from mbla.deck.sections.analysis import ProximalScheme, ReductionSwitches
 from mbla.program.program import Program
 from mbla.program.reductions import reduce_program
 from mbla.solution.associative.solve_associative import AssociativeResult, solve_associative

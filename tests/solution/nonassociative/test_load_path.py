@@ -10,7 +10,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from mbla.deck.analysis import PathScheme
+from mbla.deck.sections.analysis import PathScheme
 from mbla.program.program import Program
 from mbla.solution.associative.solve_associative import solve_associative
 from mbla.solution.nonassociative import load_path

@@ -3,7 +3,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from mbla.deck.types import PublishedScheme
+from mbla.deck.sections.analysis import PublishedScheme
 from mbla.program.program import Program
 from mbla.solution.associative.solve_associative import solve_associative
 from mbla.solution.nonassociative import published

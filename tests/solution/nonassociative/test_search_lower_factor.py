@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from mbla.deck.analysis import LowestScheme
+from mbla.deck.sections.analysis import LowestScheme
 from mbla.program.program import Program
 from mbla.solution.nonassociative import search_lower_factor as lowest
 from mbla.solution.nonassociative.factor_range import factor_range, unbalanced

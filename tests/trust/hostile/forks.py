@@ -104,8 +104,8 @@ def import_everything() -> None:
     import mbla.run
     import mbla.sweeps.command
     import mbla.sweeps.file.read
+    from mbla.deck.content import DeckContent
     from mbla.deck.section import built
-    from mbla.deck.types import DeckContent
     from mbla.sweeps.file.content import SweepContent
 
     built(DeckContent)

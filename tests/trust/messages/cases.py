@@ -22,8 +22,8 @@ from mbla import api
 from mbla.cli import main
 from mbla.cli.given_deck import refuse_unfit_name
 from mbla.deck import read_deck, reader, sources, validation
+from mbla.deck.content import DeckContent
 from mbla.deck.include import confined
-from mbla.deck.types import DeckContent
 from mbla.errors import DeckError, Fault, Place
 from mbla.model import build_model, geometry
 from mbla.model.solids.build import blocks_from_polyhedra

@@ -16,7 +16,7 @@ from mbla.errors import DeckError, MblaError, Refusal
 
 PACKAGE = Path(mbla.__file__).parent
 SOURCES = {path: ast.parse(path.read_text(encoding="utf-8")) for path in sorted(PACKAGE.rglob("*.py"))}
-BUILDERS = {"Message"} | {
+BUILDERS = {"Message", "Finding"} | {
     name
     for name, kind in inspect.getmembers(errors, inspect.isclass)
     if issubclass(kind, (MblaError, Refusal)) and kind is not DeckError
@@ -63,8 +63,9 @@ def _sites() -> Iterator[Site]:
     for path, tree in SOURCES.items():
         if path.name == "errors.py" and path.parent == PACKAGE:
             continue  # it has the classes themselves
+        own = {node.name for node in tree.body if isinstance(node, ast.ClassDef)}  # of the same name, not of errors
         for node in ast.walk(tree):
-            if isinstance(node, ast.Call) and _name(node.func) in names:
+            if isinstance(node, ast.Call) and _name(node.func) in names - (own & BUILDERS):
                 given = node.args[0] if node.args else None
                 literal = given.value if isinstance(given, ast.Constant) and isinstance(given.value, str) else None
                 handed_on = isinstance(given, ast.Attribute) and given.attr == "identifier"

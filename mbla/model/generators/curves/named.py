@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from mbla.deck.rules.arches import SIDE_ANGLE as SIDE_ANGLE
+from mbla.deck.items.arch import SIDE_ANGLE as SIDE_ANGLE
 from mbla.model.generators.curves.basket import Basket
 from mbla.model.generators.curves.catenary import Catenary
 from mbla.model.generators.curves.circle import Circle, segmental

@@ -8,8 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from mbla.deck.items.masonry import Buttress, Masonry
-from mbla.deck.section import Finding
-from mbla.errors import Message
+from mbla.errors import Finding
 from mbla.model.generators.masonry.leg import NO_UNIT, Leg, Passage, Slopes
 from mbla.model.generators.masonry.openings import PlacedOpening
 from mbla.model.generators.masonry.tops import levels_with_top
@@ -63,12 +62,14 @@ def check_buttresses(
                 for void in opening.voids
             ):
                 message = f"meets openings[{opening.number}]: move it, or write bonded: false"
-                yield ("buttresses", each.number), Message("wall-shape", message)
+                yield Finding("wall-shape", message, "buttresses", each.number)
         for other in placed[: placed.index(each)]:
             if other.buttress.bonded and other.start < each.end - room and other.end > each.start + room:
-                yield (
-                    ("buttresses", each.number),
-                    Message("wall-shape", f"runs through the wall where buttresses[{other.number}] does"),
+                yield Finding(
+                    "wall-shape",
+                    f"runs through the wall where buttresses[{other.number}] does",
+                    "buttresses",
+                    each.number,
                 )
 
 

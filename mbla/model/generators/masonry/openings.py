@@ -10,8 +10,7 @@ import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.deck.items.masonry import Masonry, Opening, OpeningArch
-from mbla.deck.section import Finding
-from mbla.errors import Message
+from mbla.errors import Finding
 from mbla.model.generators.generator import Part
 from mbla.model.generators.masonry.leg import NO_UNIT, Leg
 from mbla.model.generators.masonry.solids import blocks_in
@@ -65,17 +64,16 @@ def check_opening(item: Masonry, opening: Opening, tolerance: float) -> Iterator
     for key, value in (("from", opening.from_[1]), ("to", opening.to[1])):
         if abs(value - round(value / height) * height) > tolerance * height:
             below = int(value // height)
-            yield (
-                (key, 1),
-                Message(
-                    "wall-shape",
-                    f"must lie on a bed joint; the nearest are {below * height:g} and {(below + 1) * height:g}",
-                ),
+            yield Finding(
+                "wall-shape",
+                f"must lie on a bed joint; the nearest are {below * height:g} and {(below + 1) * height:g}",
+                key,
+                1,
             )
     if round(opening.to[1] / height) == round(opening.from_[1] / height):
-        yield ("to", 1), Message("out-of-bounds", "must be at least a course above from")
+        yield Finding("out-of-bounds", "must be at least a course above from", "to", 1)
     if opening.to[0] - opening.from_[0] <= NO_UNIT * item.unit[0]:
-        yield ("to", 0), Message("wall-shape", "the opening is too narrow to separate two units")
+        yield Finding("wall-shape", "the opening is too narrow to separate two units", "to", 0)
 
 
 def check_spans(placed: Sequence[PlacedOpening], length: float, item: Masonry) -> Iterator[Finding]:
@@ -92,16 +90,16 @@ def check_spans(placed: Sequence[PlacedOpening], length: float, item: Masonry) -
         room = NO_UNIT * item.unit[0]
         if left < -room or right > length + room:
             what = "a bearing" if key == "lintel" else "a skewback"
-            yield ("openings", each.number, key), Message("wall-shape", f"{what} reaches beyond the end of the wall")
+            yield Finding("wall-shape", f"{what} reaches beyond the end of the wall", "openings", each.number, key)
         if each.span.top > item.courses:
-            yield ("openings", each.number, key, "courses"), Message("wall-shape", "reaches above the top course")
+            yield Finding("wall-shape", "reaches above the top course", "openings", each.number, key, "courses")
         for other in placed:
             if other is each:
                 continue
             # with the course that carries it
             if any(_meet((left, right, each.void.top - 1, each.span.top), void, room) for void in other.voids):
                 message = f"meets openings[{other.number}]: it must lie in solid courses, and on one at either side"
-                yield ("openings", each.number, key), Message("wall-shape", message)
+                yield Finding("wall-shape", message, "openings", each.number, key)
 
 
 def _meet(box: tuple[float, float, int, int], void: Void, room: float) -> bool:

@@ -15,9 +15,8 @@ import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.deck.items.walls import WallsItem
-from mbla.deck.section import Finding
 from mbla.deck.tree import KeyPath
-from mbla.errors import Message
+from mbla.errors import Finding, Message
 from mbla.model.generators.masonry.leg import Passage
 
 SAME_PLACE = 1e-6

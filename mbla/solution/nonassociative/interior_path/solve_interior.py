@@ -21,7 +21,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from mbla.arrays import FloatArray
-from mbla.deck.analysis import InteriorScheme
+from mbla.deck.sections.analysis import InteriorScheme
 from mbla.program.program import Program
 from mbla.program.static import gravity_form
 from mbla.solution.associative.solve_associative import AssociativeResult

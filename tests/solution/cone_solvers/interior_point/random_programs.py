@@ -21,7 +21,7 @@ from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from mbla.deck.analysis import ReductionSwitches
+from mbla.deck.sections.analysis import ReductionSwitches
 from mbla.program.program import Program
 from mbla.program.reductions import reduce_program
 from mbla.solution.associative.bounds import ZERO_FACTOR, CertifiedGap, certified_gap, factor_size

@@ -13,7 +13,7 @@ import pytest
 
 from mbla.contacts import find_contacts
 from mbla.deck import read_deck
-from mbla.deck.analysis import InteriorScheme
+from mbla.deck.sections.analysis import InteriorScheme
 from mbla.model import build_model
 from mbla.program import assemble
 from mbla.program.program import Program

@@ -6,9 +6,9 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from mbla.deck.accuracy import Accuracy, Forces, set_by_accuracy
-from mbla.deck.quantities import Count, Quantity, Switch, Time, Whole
+from mbla.deck.quantities import Count, Integer, Quantity, Switch, Time
 from mbla.deck.section import Section
+from mbla.deck.sections.accuracy import Accuracy, Forces, set_by_accuracy
 
 
 class PublishedScheme(Section):
@@ -50,14 +50,14 @@ class InteriorScheme(Section):
 class PathScheme(Section):
     """Parameters of the load path."""
 
-    steps: Annotated[int, Whole(ge=2, le=10_000)] = Field(40, description="steps from zero to the associative factor")
+    steps: Annotated[int, Integer(ge=2, le=10_000)] = Field(40, description="steps from zero to the associative factor")
 
 
 class LowestScheme(Section):
     """Parameters of the search for lower load factors."""
 
     seconds: Time = Field(10.0, description="time for the search")
-    seed: Annotated[int, Whole(ge=0, le=2**32 - 1)] = Field(1, description="of the random mechanisms that are tried")
+    seed: Annotated[int, Integer(ge=0, le=2**32 - 1)] = Field(1, description="of the random mechanisms that are tried")
 
 
 class ReductionSwitches(Section):
@@ -87,7 +87,7 @@ class AnalysisSection(Section):
     friction_cone: Literal["circular", "polyhedral"] = Field(
         "circular", description="circular; or polyhedral: linear programs with inscribed and circumscribed polyhedra"
     )
-    sides: Annotated[int, Whole(ge=3, le=360)] = Field(
+    sides: Annotated[int, Integer(ge=3, le=360)] = Field(
         8,
         description="of each friction polyhedron: within 1 - cos(pi/sides) of the cone, and exact along the tangents",
     )

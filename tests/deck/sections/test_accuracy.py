@@ -7,8 +7,8 @@ from typing import Any, get_args
 
 import pytest
 
-from mbla.deck.accuracy import PRESETS, Accuracy, Knobs, knobs_of
-from mbla.deck.analysis import AnalysisSection
+from mbla.deck.sections.accuracy import PRESETS, Accuracy, Knobs, knobs_of
+from mbla.deck.sections.analysis import AnalysisSection
 from tests.line import WALL, line_of
 
 OTHER: dict[str, Any] = {

@@ -1,15 +1,15 @@
 """Keys that a deck gives and that its other keys leave without effect: each is said in a warning.
 
-They are no faults: ``--flow-rule`` and ``--set`` make keys idle that the deck has for another run.
+They are no faults: ``--flow-rule`` and ``--set`` leave keys unused that the deck has for another run.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
 
-from mbla.deck.analysis import AnalysisSection
+from mbla.deck.content import DeckContent
+from mbla.deck.sections.analysis import AnalysisSection
 from mbla.deck.tree import KeyPath, Tree
-from mbla.deck.types import DeckContent
 from mbla.errors import Message, Notice
 
 Applies = Callable[[AnalysisSection], bool]
@@ -70,7 +70,7 @@ APPLIES: Mapping[str, tuple[Applies, str]] = {
 """Key of the analysis section -> whether it has an effect, and with what it has."""
 
 
-def idle_keys(tree: Tree, content: DeckContent) -> Iterator[Notice]:
+def unused_keys(tree: Tree, content: DeckContent) -> Iterator[Notice]:
     """A warning for each key that is given without effect."""
     analysis = content.analysis
     given = tree.data.get("analysis") or {}

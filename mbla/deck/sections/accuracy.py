@@ -25,7 +25,7 @@ from dataclasses import dataclass, fields
 from typing import TYPE_CHECKING, Literal, TypeAlias, get_args
 
 if TYPE_CHECKING:
-    from mbla.deck.analysis import AnalysisSection
+    from mbla.deck.sections.analysis import AnalysisSection
 
 Accuracy: TypeAlias = Literal["draft", "standard", "reference"]
 Forces: TypeAlias = Literal["least_squares", "solver"]

@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import Annotated, Literal, TypeAlias
 
 from pydantic import Discriminator, Field, Tag
 
 from mbla.deck.names import Name
-from mbla.deck.quantities import Direction, Point, PositiveLength, Quantity, Whole
-from mbla.deck.section import Section, shape
-from mbla.deck.selectors import Selector
+from mbla.deck.quantities import Box, Direction, Integer, PositiveLength, Quantity
+from mbla.deck.section import Section, given, rule, shape
+from mbla.deck.sections.selectors import Selector
+from mbla.deck.suggestions import listed
+from mbla.errors import Finding
 
 
 class AboutNormal(Section):
@@ -42,7 +45,7 @@ class ContactOverride(Section):
         description="bed: the normal of the interface is nearer than 45 degrees to the vertical (z); head: it is not; "
         "or the angle to a direction",
     )
-    box: tuple[Point, Point] | None = Field(
+    box: Box | None = Field(
         None, description="least and greatest coordinates; interfaces with their centroid inside count"
     )
 
@@ -50,7 +53,7 @@ class ContactOverride(Section):
 class ContactPoints(Section):
     """Where the contact points of an interface lie: at its corners unless more are asked for."""
 
-    per_edge: Annotated[int, Whole(ge=1, le=50)] | None = Field(
+    per_edge: Annotated[int, Integer(ge=1, le=50)] | None = Field(
         None,
         description="parts into which they divide each edge, with points inside too (a grid of (n + 1)² on a "
         "parallelogram); 1: the corners alone, as without the key. Associative flow can load the corners alone, so "
@@ -95,3 +98,22 @@ class ContactsSection(Section):
     )
     points: ContactPoints = Field(default_factory=ContactPoints, description="where contact points lie")
     overrides: list[ContactOverride] = Field(default_factory=list, description="the last that fits a contact holds")
+
+
+CONDITIONS = ("between", "orientation", "box")
+
+
+@rule(ContactOverride)
+def override_conditions(override: ContactOverride) -> Iterator[Finding]:
+    """An override without condition would be the joint of the section."""
+    if not given(override, CONDITIONS):
+        yield Finding("missing-key", f"needs one of {listed(CONDITIONS)}: the joint of all contacts is contacts.joint")
+
+
+@rule(ContactPoints)
+def one_way_each(points: ContactPoints) -> Iterator[Finding]:
+    """One measure of the density of points, one of their distance from the edge."""
+    if points.per_edge is not None and points.spacing is not None:
+        yield Finding("one-of-several", "only one of per_edge or spacing may be given", "spacing")
+    if points.inset > 0 and points.rounding > 0:
+        yield Finding("one-of-several", "only one of inset or rounding may be given", "rounding")

@@ -6,7 +6,7 @@ from pydantic import Field
 
 from mbla.deck.quantities import Point, PositiveMass
 from mbla.deck.section import Section
-from mbla.deck.selectors import Selector
+from mbla.deck.sections.selectors import Selector
 
 
 class AddedMass(Section):

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import Annotated, TypeAlias
 
 from pydantic import Discriminator, Field, Tag
 
 from mbla.deck.names import Name
-from mbla.deck.quantities import Index, Point, Position
-from mbla.deck.section import Section, shape
+from mbla.deck.quantities import Box, Index, Position
+from mbla.deck.section import Section, at_least_one_of, rule, shape
+from mbla.errors import Finding
 
 POSITIONS = (
     "course",
@@ -23,13 +25,13 @@ POSITIONS = (
     "copy",
 )
 """Names of positions that items give their blocks, counted from 0; each is a key of selectors."""
-
 PositionRange: TypeAlias = Annotated[
     Annotated[Position, Tag("number")] | Annotated[tuple[Position, Position], Tag("list")],
     Discriminator(lambda value: "list" if isinstance(value, (list, tuple)) else "number"),
 ]
 
 
+@at_least_one_of("group", "box")
 class SelectorTerm(Section):
     """Blocks of a group, or blocks whose centroid lies in a box; every further key narrows the choice.
 
@@ -37,7 +39,7 @@ class SelectorTerm(Section):
     """
 
     group: Name | None = Field(None, description="name of a group")
-    box: tuple[Point, Point] | None = Field(None, description="least and greatest coordinates; centroids inside count")
+    box: Box | None = Field(None, description="least and greatest coordinates; centroids inside count")
     index: Index | None = Field(None, description="which block of the group, from 0 in order of creation")
     member: Name | None = Field(None, description="part of a composite item, `lintel` for example")
     course: PositionRange | None = Field(None, description="course of a wall or vault, from the bottom")
@@ -67,3 +69,14 @@ Selector: TypeAlias = Annotated[
     | Annotated[list[Term], Field(min_length=1), Tag("list")],
     Discriminator(shape),
 ]
+
+
+@rule(SelectorTerm)
+def selector_term(term: SelectorTerm) -> Iterator[Finding]:
+    """An index counts within a group; a range ascends; a box has an extent."""
+    if term.index is not None and term.group is None and term.box is not None:
+        yield Finding("key-of-another-choice", "applies with group only", "index")
+    for name in POSITIONS:
+        value = term.position(name)
+        if isinstance(value, tuple) and value[0] > value[1] and (value[0] < 0) == (value[1] < 0):
+            yield Finding("out-of-bounds", f"must be >= {value[0]}, the first of the range", name, 1)

@@ -1,7 +1,9 @@
-"""Sections `loads` and `load_cases`: loads that stay, and loads that the load factor multiplies."""
+"""Section `loads`, and the loads of `load_cases`."""
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from itertools import pairwise
 from typing import Annotated, Literal, TypeAlias
 
 from pydantic import Discriminator, Field, Tag
@@ -9,6 +11,7 @@ from pydantic import Discriminator, Field, Tag
 from mbla.deck.names import Name
 from mbla.deck.quantities import (
     Acceleration,
+    Box,
     Direction,
     FacingAngle,
     Force,
@@ -21,10 +24,20 @@ from mbla.deck.quantities import (
     PositiveLength,
     Stress,
     UnitWeight,
+    Vector,
 )
-from mbla.deck.section import Section
-from mbla.deck.selectors import Selector
-from mbla.deck.supports import Turn
+from mbla.deck.section import EXACTLY_ONE, Section, exactly_one_of, given, rule
+from mbla.deck.sections.selectors import Selector
+from mbla.errors import Finding
+
+PARALLEL = 1e-6
+"""sine of the angle between a line and the direction to its blocks, up to which they are parallel"""
+NEEDS_BLOCK = ("force", "moment")
+"""kinds of loads that act on one block, which `on` names"""
+ON_ALL_BLOCKS = {"gravity": "acts on all blocks: use acceleration", "tilt": "turns the whole structure"}
+"""kinds that `on` does not apply to, and why"""
+LIVE_ONLY = ("travel", "tilt")
+"""kinds that make something else of a load case than a sum of loads"""
 
 
 class HeightPattern(Section):
@@ -48,6 +61,19 @@ class HeightPattern(Section):
     )
 
 
+@rule(HeightPattern)
+def height_pattern(pattern: HeightPattern) -> Iterator[Finding]:
+    """From base to top, or through points with rising heights."""
+    for key in given(pattern, ("base", "top")) if pattern.points is not None else []:
+        yield Finding("key-of-another-choice", "does not apply beside points", key)
+    if pattern.base is not None and pattern.top is not None and not pattern.base < pattern.top:
+        yield Finding("out-of-bounds", f"must be > {pattern.base:g}, the base", "top")
+    heights = [height for height, _ in pattern.points or []]
+    for number, (below, above) in enumerate(pairwise(heights), start=1):
+        if not below < above:
+            yield Finding("out-of-bounds", f"must be > {below:g}, the height before it", "points", number, 0)
+
+
 class LineLoad(Section):
     """A load along a straight line, carried by the blocks that lie under it."""
 
@@ -61,6 +87,25 @@ class LineLoad(Section):
     )
 
 
+@rule(LineLoad)
+def line_load(line: LineLoad) -> Iterator[Finding]:
+    """A line has a length, and its blocks lie aside of it."""
+    run = [end - begin for begin, end in zip(line.from_, line.to, strict=True)]
+    if not any(run):
+        yield Finding("degenerate-line", "must not be the point from: the line has no length", "to")
+    elif _parallel(run, line.towards):
+        yield Finding(
+            "degenerate-line", "must not run along the line: give the direction in which its blocks lie", "towards"
+        )
+
+
+def _parallel(a: list[float], b: tuple[float, ...]) -> bool:
+    """Whether two vectors have one direction, or opposite ones; free of overflow."""
+    u, v = ([each / max(map(abs, vector)) for each in vector] for vector in (a, b))
+    cross = (u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0])
+    return sum(each**2 for each in cross) <= PARALLEL**2 * sum(each**2 for each in u) * sum(each**2 for each in v)
+
+
 class PressureLoad(Section):
     """Pressure on faces: the same everywhere, or growing with depth below a level, and none above it."""
 
@@ -69,12 +114,21 @@ class PressureLoad(Section):
     per_depth: UnitWeight | None = Field(None, description="increase of the pressure with the depth below the level")
     normal: Direction | None = Field(None, description="outward normal of the faces; every face unless given")
     within: FacingAngle = Field(10.0, description="greatest angle between the normal of a face and that, in degrees")
-    box: tuple[Point, Point] | None = Field(
-        None, description="least and greatest coordinates: faces whose centroid lies inside"
-    )
+    box: Box | None = Field(None, description="least and greatest coordinates: faces whose centroid lies inside")
     faces: Literal["free", "all"] = Field(
         "free", description="free: only what of a face no other block and no ground covers; all: covered parts too"
     )
+
+
+@rule(PressureLoad)
+def pressure_load(pressure: PressureLoad) -> Iterator[Finding]:
+    """A depth needs a level, an angle a normal."""
+    if pressure.per_depth is not None and pressure.level is None:
+        yield Finding("missing-key", "needs a level from which depth is measured", "per_depth")
+    if "within" in pressure.model_fields_set and pressure.normal is None:
+        yield Finding("key-of-another-choice", "applies with normal only", "within")
+    if not {"value", "per_depth"} & pressure.model_fields_set:
+        yield Finding("missing-key", "needs a value, or a level and per_depth")
 
 
 class Axle(Section):
@@ -103,6 +157,14 @@ class Travel(Section):
     towards: Direction = Field((0.0, 0.0, -1.0), description="direction in which the block under it is looked for")
 
 
+@rule(Travel)
+def travel(load: Travel) -> Iterator[Finding]:
+    """A path goes on."""
+    for number, (before, here) in enumerate(pairwise(load.path), start=1):
+        if before == here:
+            yield Finding("degenerate-line", "must not be the corner before it", "path", number)
+
+
 class Tilt(Section):
     """Tilting table: the structure turns with its supports until it collapses; the answer is an angle."""
 
@@ -117,6 +179,19 @@ Gravity: TypeAlias = Annotated[
 ]
 
 
+@exactly_one_of(
+    "gravity",
+    "acceleration",
+    "force",
+    "moment",
+    "line",
+    "pressure",
+    "table",
+    "loads",
+    "travel",
+    "tilt",
+    kind="kind of load",
+)
 class Load(Section):
     """One load of exactly one kind; dead or live, save `travel` and `tilt`, which are live only."""
 
@@ -125,7 +200,7 @@ class Load(Section):
         description="gravitational acceleration, in the deck's unit of length per s^2, in place of 9.81 m/s^2 along "
         "-z; `none` among the dead loads of a structure without weight",
     )
-    acceleration: Direction | None = Field(
+    acceleration: Vector | None = Field(
         None, description="mass-proportional load in units of g = 9.81 m/s^2, pointing where it pushes"
     )
     force: tuple[Force, Force, Force] | None = Field(None, description="force on one block")
@@ -152,27 +227,25 @@ class Load(Section):
     factor: Number = Field(1.0, description="factor on the load")
 
 
-class SettlementSection(Section):
-    """A support that gives way: blocks that `supports` fixes move as one rigid body, in one way only."""
-
-    on: Selector = Field(description="the blocks that give way; `supports` fixes them otherwise")
-    direction: Direction | None = Field(
-        None, description="the way they go: [0, 0, -1] for a support that sinks, horizontal for one that spreads"
-    )
-    turn: Turn | None = Field(None, description="or the line about which they turn")
-
-
-class LoadCaseSection(Section):
-    """Dead loads stay, live loads are multiplied by the load factor; or a support gives way under the dead loads."""
-
-    dead: list[Load] | None = Field(
-        None, description="what acts beside gravity, which is 9.81 m/s^2 along -z unless a load `gravity` is among them"
-    )
-    live: list[Load] | None = Field(None, min_length=1, description="the loads that the load factor multiplies")
-    settlement: SettlementSection | None = Field(
-        None,
-        description="in place of live: a support that gives way, free of other supports; the answer is the mechanism "
-        "and the reaction with which the support meets it, the least that equilibrium allows; negative where the "
-        "support must be pushed that way, as with springings that close in. The load factor is the loss of reaction, "
-        "from that of the structure at rest on, over the weight of the free blocks",
-    )
+@rule(Load)
+def load_keys(load: Load) -> Iterator[Finding]:
+    """Where a load acts, as far as that applies."""
+    kind = next(iter(given(load, EXACTLY_ONE[Load])), "")
+    if kind in NEEDS_BLOCK and load.on is None:
+        yield Finding("one-block-only", f"a {kind} needs `on`, the block it acts on")
+    if load.at is not None and kind != "force":
+        yield Finding("key-of-another-choice", "applies to a force only", "at")
+    if load.on is not None and kind in ON_ALL_BLOCKS:
+        yield Finding("key-of-another-choice", f"does not apply to {kind}, which {ON_ALL_BLOCKS[kind]}", "on")
+    if load.on is not None and kind == "loads":
+        yield Finding(
+            "key-of-another-choice",
+            "does not apply to named loads: each of them says itself on which blocks it acts",
+            "on",
+        )
+    if load.on is not None and load.table is not None:
+        yield Finding("key-of-another-choice", "does not apply to a table, whose rows name their blocks", "on")
+    if load.pattern is not None and kind != "acceleration":
+        yield Finding("key-of-another-choice", "applies to acceleration only", "pattern")
+    if kind == "tilt" and load.factor != 1.0:
+        yield Finding("key-of-another-choice", "does not apply to tilt: gravity turns as it is", "factor")

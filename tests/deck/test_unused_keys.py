@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from mbla.deck.analysis import AnalysisSection
-from mbla.deck.idle import APPLIES
+from mbla.deck.sections.analysis import AnalysisSection
+from mbla.deck.unused_keys import APPLIES
 from tests.line import BLOCK, line_of
 
 WITHOUT = BLOCK.replace("analysis: {flow_rule: associative}", "analysis: {}")

@@ -1,0 +1,137 @@
+"""The type of a whole deck: the source of the schema, of the checks on single values and of the key reference.
+
+Numbers are in the deck's own units; a string with a unit (``"18 kN/m^3"``) is converted while it is read.
+Each section and each item of `blocks` has a file of its own in ``sections`` and ``items``, with its rules.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Annotated, Any, Literal
+
+from pydantic import BeforeValidator, Field
+
+from mbla.deck.include import MAX_FILES
+from mbla.deck.items import BlockItem
+from mbla.deck.names import Line, Name, ParameterName
+from mbla.deck.quantities import Number
+from mbla.deck.section import Section, given, rule
+from mbla.deck.sections import analysis_rules  # noqa: F401  registers them
+from mbla.deck.sections.analysis import AnalysisSection
+from mbla.deck.sections.contacts import ContactsSection
+from mbla.deck.sections.load_cases import LoadCaseSection
+from mbla.deck.sections.loads import LIVE_ONLY, Load
+from mbla.deck.sections.masses import AddedMass
+from mbla.deck.sections.materials import JointLaw, Material
+from mbla.deck.sections.output import Expectation, OutputSection
+from mbla.deck.sections.supports import Support, SymmetryPlane
+from mbla.errors import Finding
+
+
+def no_boolean(value: Any) -> Any:
+    """Python takes True for 1; a deck does not."""
+    return str(value) if isinstance(value, bool) else value
+
+
+class UnitsSection(Section):
+    """Units of the numbers in the deck, and of the results."""
+
+    length: Literal["m", "mm", "cm", "ft", "in"] = Field("m", description="unit of length")
+    force: Literal["N", "kN", "MN", "lbf", "kip"] = Field("N", description="unit of force")
+    mass: Literal["kg", "t", "lb"] = Field("kg", description="unit of mass")
+
+
+class DeckContent(Section):
+    """A whole deck."""
+
+    mbla: Annotated[Literal[1], BeforeValidator(no_boolean)] = Field(description="version of the deck format")
+    title: Line = Field("", description="shown in every result")
+    units: UnitsSection = Field(default_factory=UnitsSection, description="units of numbers in deck and results")
+    parameters: dict[ParameterName, Number] = Field(default_factory=dict, description='names for "=..." expressions')
+    include: Annotated[list[str], Field(max_length=MAX_FILES)] = Field(
+        default_factory=list,
+        description="decks merged into this one, relative to it; at most 100 are read, with all that these include",
+    )
+    materials: dict[Name, Material] = Field(min_length=1, description="materials by name")
+    joints: dict[Name, JointLaw] = Field(
+        default_factory=dict, description="joint laws by name; frictionless, glued and open are known without"
+    )
+    blocks: list[BlockItem] = Field(min_length=1, description="the structure, item by item")
+    contacts: ContactsSection = Field(description="joint law and tolerance of contacts")
+    supports: list[Support] = Field(default_factory=list, description="what holds the structure")
+    masses: list[AddedMass] = Field(default_factory=list, description="masses that rest on blocks, such as floors")
+    loads: dict[Name, Annotated[list[Load], Field(min_length=1)]] = Field(
+        default_factory=dict, description="loads by name, for several load cases"
+    )
+    symmetry: Annotated[list[SymmetryPlane], Field(max_length=3)] = Field(
+        default_factory=list, description="planes that mirror what the deck gives, one after the other"
+    )
+    load_cases: dict[Name, LoadCaseSection] = Field(min_length=1, description="load cases by name")
+    analysis: AnalysisSection = Field(default_factory=AnalysisSection, description="how it is solved")
+    output: OutputSection = Field(default_factory=OutputSection, description="what is written")
+    expected: dict[Name, Expectation] = Field(
+        default_factory=dict, description="figures that `mbla run --expected` compares"
+    )
+
+
+@rule(DeckContent)
+def convex_outlines(deck: DeckContent) -> Iterator[Finding]:
+    """Interface resultants need the outlines as they are."""
+    if deck.analysis.contact_model == "convex":
+        for key in ("inset", "rounding"):
+            if getattr(deck.contacts.points, key) > 0:
+                yield Finding(
+                    "key-of-another-choice", "applies to contact_model: concave only: use 0", "contacts", "points", key
+                )
+
+
+@rule(DeckContent)
+def given_interfaces_of_the_whole(deck: DeckContent) -> Iterator[Finding]:
+    """Interfaces on the plane of symmetry are found among the images, which a table of the half does not know."""
+    if deck.contacts.table is not None and deck.symmetry:
+        yield Finding(
+            "symmetry-broken",
+            "does not go with symmetry, which has interfaces with images: give the whole structure, or leave "
+            "contacts to be found",
+            "contacts",
+            "table",
+        )
+
+
+@rule(DeckContent)
+def named_loads(deck: DeckContent) -> Iterator[Finding]:
+    """Named loads can be added up: none travels or tilts, and none comes back to itself."""
+    for name, loads in deck.loads.items():
+        for number, load in enumerate(loads):
+            for kind in given(load, LIVE_ONLY):
+                yield Finding(
+                    "load-misplaced", "must stand in the live loads of a load case itself", "loads", name, number, kind
+                )
+    for name in deck.loads:
+        chain = _way_back(name, deck.loads)
+        if chain is not None and name == min(chain):  # a cycle is told once, at its first name
+            yield Finding("load-misplaced", f"contains itself: {' > '.join([*chain, name])}", "loads", name)
+
+
+def _way_back(name: str, loads: dict[str, list[Load]]) -> list[str] | None:
+    """The shortest chain of named loads that leads from one back to itself; None if there is none."""
+    chains, seen = [[name]], {name}
+    for chain in chains:
+        for below in dict.fromkeys(load.loads for load in loads.get(chain[-1], []) if load.loads is not None):
+            if below == name:
+                return chain
+            if below not in seen:
+                seen.add(below)
+                chains.append([*chain, below])
+    return None
+
+
+@rule(DeckContent)
+def expectations_of_kinds(deck: DeckContent) -> Iterator[Finding]:
+    """An angle belongs to a tilt, a worst position to a load that travels."""
+    for name, item in deck.expected.items():
+        case = deck.load_cases.get(name)
+        for key, kind in (("angle", "tilt"), ("position", "travel")):
+            live = [] if case is None or getattr(item, key) is None else (case.live or [])
+            if live and not any(getattr(load, kind) is not None for load in live):
+                yield Finding("key-of-another-choice", f"applies to load cases with {kind} only", "expected", name, key)

@@ -1,0 +1,166 @@
+"""Items `barrel_vault`, `cross_vault` and `pavilion_vault`: curve, thickness, courses, bond."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Annotated, Literal, TypeAlias
+
+from pydantic import Field
+
+from mbla.deck.items.item import Item
+from mbla.deck.names import Name
+from mbla.deck.quantities import EmbraceAngle, Integer, PositiveLength
+from mbla.deck.section import ROUNDING, one_of, rule
+from mbla.errors import Finding
+
+VaultShape: TypeAlias = Literal["semicircular", "segmental", "pointed", "elliptic", "catenary"]
+
+
+class VaultItem(Item):
+    """Keys of every vault."""
+
+    shape: VaultShape = Field(
+        description="curve of the intrados across: semicircular; segmental with rise or embrace; or pointed, elliptic, "
+        "catenary with rise"
+    )
+    rise: PositiveLength | None = Field(None, description="height of the intrados crown over the springings")
+    embrace: EmbraceAngle | None = Field(None, description="segmental: angle between the springing joints in degrees")
+    thickness: PositiveLength = Field(description="at right angles to the curve")
+    courses: Annotated[int, Integer(ge=2, le=100_000)] = Field(
+        description="number of courses from springing to springing, of equal lengths on the line halfway through"
+    )
+    unit: PositiveLength = Field(description="length of the units along their course; closing units are cut to fit")
+    bond: Literal["running", "stack"] = Field("running", description="running: odd courses shifted by half a unit")
+    springers: Literal["none", "ground", "blocks"] = Field(
+        "none",
+        description="ground: rigid ground under the springing joints; blocks: fixed blocks behind them, in group "
+        "GROUP_springers; none: the deck's supports hold the vault",
+    )
+    joint: Name | None = Field(None, description="joint law at springings on ground; that of contacts unless given")
+
+
+class BarrelVaultItem(VaultItem):
+    """A barrel vault, its axis along +y, courses along the axis, in the bond of a wall.
+
+    The left intrados springing is at x = 0, the right one at x = span, both at z = 0, from y = 0 to length. Labels:
+    `course` from the left springing, `unit` from y = 0.
+    """
+
+    span: PositiveLength = Field(description="distance between the intrados springings")
+    length: PositiveLength = Field(description="extent along y")
+
+
+class CrossVaultItem(VaultItem):
+    """A cross (groin) vault: two barrels that meet in vertical planes over the diagonals, the middle of the bay at the
+    origin, springings at z = 0.
+
+    The curve spans bay[0], across the webs towards +y and -y; over an oblong bay the other section is this one
+    stretched along y, so that the groins stay plane. Blocks at the groins belong to both webs. An odd number of courses
+    has a keystone with a course along each ridge, an even one joints along the ridges. Members `groin`, `web`,
+    `keystone`; labels: `course` from the springings up, of webs `span` (0 to 3: the webs towards +x, +y, -x, -y) and
+    `unit` from the groin outwards, of groins `segment` (0 to 3: the corners at +x+y, -x+y, -x-y, +x-y).
+    """
+
+    bay: tuple[PositiveLength, PositiveLength] = Field(
+        description="distance along x and y between the corners where the intrados springs"
+    )
+    edge: PositiveLength | None = Field(
+        None,
+        description="how far the webs run on beyond these corners, the width of the piers: more than the thickness; "
+        "twice the thickness unless given, over an oblong bay that of its stretched section",
+    )
+
+
+class PavilionVaultItem(VaultItem):
+    """A pavilion (cloister) vault: it rises from all four sides of a bay, whose middle is at the origin, springings at
+    z = 0; courses run along the sides and meet in vertical planes over the diagonals.
+
+    The curve spans bay[0]; over an oblong bay the other section is this one stretched along y, so that the hips stay
+    plane. The number of courses is odd: a keystone closes the crown. Members `hip`, `web`, `keystone`; labels: `course`
+    from the springings up, of webs `span` (0 to 3: the webs towards +x, +y, -x, -y) and `unit` counter-clockwise, of
+    hips `segment` (0 to 3: the corners at +x+y, -x+y, -x-y, +x-y).
+    """
+
+    bay: tuple[PositiveLength, PositiveLength] = Field(
+        description="extents along x and y between the intrados springings"
+    )
+
+
+LEVEL = ("semicircular", "pointed", "elliptic")
+"""shapes that are upright at their springings, so that the joints there are level"""
+
+
+@rule(VaultItem)
+def vault_curve(vault: VaultItem) -> Iterator[Finding]:
+    """A semicircle is given by its span alone; a segment needs its rise or its angle, other shapes their rise."""
+    if vault.shape == "segmental":
+        yield from one_of(vault, ("rise", "embrace"), " for a segmental vault")
+        return
+    if vault.embrace is not None:
+        yield Finding(
+            "key-of-another-choice",
+            f"applies to shape: segmental only: leave it out, or change shape ({vault.shape} given)",
+            "embrace",
+        )
+    if vault.shape == "semicircular" and vault.rise is not None:
+        yield Finding(
+            "key-of-another-choice", "does not apply to shape: semicircular: leave it out, or change shape", "rise"
+        )
+    if vault.shape != "semicircular" and vault.rise is None:
+        yield Finding("missing-key", f"needs rise for shape: {vault.shape}")
+
+
+@rule(VaultItem)
+def vault_apex(vault: VaultItem) -> Iterator[Finding]:
+    """A pointed vault is more than a semicircle high, with a joint at its apex."""
+    span = vault.span if isinstance(vault, BarrelVaultItem) else vault.bay[0]  # type: ignore[attr-defined]
+    if vault.shape == "pointed":
+        if vault.rise is not None and vault.rise <= span / 2 * (1 + ROUNDING):
+            yield Finding("out-of-bounds", f"must be > {span / 2:g}, half the span, for a pointed vault", "rise")
+        if vault.courses % 2 and not isinstance(vault, PavilionVaultItem):
+            yield Finding("out-of-bounds", "must be even for a pointed vault: its apex is a joint", "courses")
+
+
+@rule(VaultItem)
+def vault_springers(vault: VaultItem) -> Iterator[Finding]:
+    """The joint law of a ground needs a ground."""
+    if vault.joint is not None and vault.springers != "ground":
+        yield Finding("key-of-another-choice", "applies with springers: ground only", "joint")
+
+
+@rule(CrossVaultItem, PavilionVaultItem)
+def at_most_semicircular(vault: CrossVaultItem | PavilionVaultItem) -> Iterator[Finding]:
+    """Webs that lean in below their widest place would cut each other there."""
+    if vault.embrace is not None and vault.embrace > 180:
+        yield Finding("out-of-bounds", "must be <= 180: two barrels meet in it", "embrace")
+    half = vault.bay[0] / 2
+    if vault.shape == "segmental" and vault.rise is not None and vault.rise > half * (1 + ROUNDING):
+        yield Finding(
+            "out-of-bounds",
+            f"must be <= {half:g}, half the span, for a segmental vault: two barrels meet in it",
+            "rise",
+        )
+
+
+@rule(CrossVaultItem, PavilionVaultItem)
+def level_springers(vault: VaultItem) -> Iterator[Finding]:
+    """Where two webs meet at a springing, ground is one plane if it is level."""
+    if vault.springers == "ground" and vault.shape not in LEVEL:
+        yield Finding(
+            "vault-shape",
+            f"springings on ground are level, those of a {vault.shape} vault slope in each web: write blocks",
+            "springers",
+        )
+
+
+@rule(PavilionVaultItem)
+def pavilion_keystone(vault: PavilionVaultItem) -> Iterator[Finding]:
+    """Four webs end in a keystone, which is flat."""
+    if vault.courses % 2 == 0:
+        yield Finding("out-of-bounds", "must be odd: a keystone closes the crown", "courses")
+    if vault.shape == "pointed":
+        yield Finding(
+            "vault-shape",
+            "must not be pointed: a keystone closes the crown, and the apex would be a kink in it",
+            "shape",
+        )

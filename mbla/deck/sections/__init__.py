@@ -1,0 +1,1 @@
+"""The sections of a deck: one file a section, with its type, its rules and its notices."""

@@ -1,0 +1,89 @@
+"""Section `load_cases`: loads that stay, loads that the load factor multiplies, and supports that give way."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from pydantic import Field
+
+from mbla.deck.quantities import (
+    Direction,
+)
+from mbla.deck.section import Section, exactly_one_of, given, rule
+from mbla.deck.sections.loads import LIVE_ONLY, Load
+from mbla.deck.sections.selectors import Selector
+from mbla.deck.sections.supports import Turn
+from mbla.deck.suggestions import listed
+from mbla.errors import Finding
+
+
+@exactly_one_of("direction", "turn")
+class SettlementSection(Section):
+    """A support that gives way: blocks that `supports` fixes move as one rigid body, in one way only."""
+
+    on: Selector = Field(description="the blocks that give way; `supports` fixes them otherwise")
+    direction: Direction | None = Field(
+        None, description="the way they go: [0, 0, -1] for a support that sinks, horizontal for one that spreads"
+    )
+    turn: Turn | None = Field(None, description="or the line about which they turn")
+
+
+@exactly_one_of("live", "settlement")
+class LoadCaseSection(Section):
+    """Dead loads stay, live loads are multiplied by the load factor; or a support gives way under the dead loads."""
+
+    dead: list[Load] | None = Field(
+        None, description="what acts beside gravity, which is 9.81 m/s^2 along -z unless a load `gravity` is among them"
+    )
+    live: list[Load] | None = Field(None, min_length=1, description="the loads that the load factor multiplies")
+    settlement: SettlementSection | None = Field(
+        None,
+        description="in place of live: a support that gives way, free of other supports; the answer is the mechanism "
+        "and the reaction with which the support meets it, the least that equilibrium allows; negative where the "
+        "support must be pushed that way, as with springings that close in. The load factor is the loss of reaction, "
+        "from that of the structure at rest on, over the weight of the free blocks",
+    )
+
+
+@rule(LoadCaseSection)
+def load_case(case: LoadCaseSection) -> Iterator[Finding]:
+    """A live load must do something; what tilts or travels is live, and there is one of it."""
+    for number, load in enumerate(case.live or []):
+        for below in _without_effect(load):
+            yield Finding("live-load-without-effect", "is a live load with no effect", "live", number, *below)
+    for number, load in enumerate(case.dead or []):
+        for kind in given(load, LIVE_ONLY):
+            yield Finding("load-misplaced", "must be a live load", "dead", number, kind)
+    special = [(number, kind) for number, load in enumerate(case.live or []) for kind in given(load, LIVE_ONLY)]
+    for number, kind in special[1:]:
+        yield Finding(
+            "one-of-several",
+            f"only one of {listed(LIVE_ONLY, 'and')} in a load case: make another load case",
+            "live",
+            number,
+            kind,
+        )
+    if len(special) == 1 and special[0][1] == "tilt" and len(case.live or []) > 1:
+        other = next(number for number in range(len(case.live or [])) if number != special[0][0])
+        yield Finding(
+            "load-misplaced", "must not stand beside tilt, whose answer is an angle: make it a dead load", "live", other
+        )
+
+
+def _without_effect(load: Load) -> Iterator[tuple[str | int, ...]]:
+    """Keys below a load that make it nothing."""
+    if load.factor == 0.0:
+        yield ("factor",)
+    for key in ("gravity", "acceleration", "force", "moment"):
+        value = getattr(load, key)
+        if value == "none" or (value is not None and not any(value)):
+            yield (key,)
+    if load.line is not None and not any(load.line.force_per_length):
+        yield ("line", "force_per_length")
+    if load.travel is not None and not any(load.travel.force):
+        yield ("travel", "force")
+    for number, axle in enumerate((load.travel.axles or []) if load.travel is not None else []):
+        if not any(axle.force):
+            yield ("travel", "axles", number, "force")
+    if load.pressure is not None and not load.pressure.value and not load.pressure.per_depth:
+        yield ("pressure",)

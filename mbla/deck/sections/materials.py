@@ -1,0 +1,77 @@
+"""Sections `materials` and `joints`: what blocks are made of, and the laws that joints follow."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+from pydantic import Field
+
+from mbla.deck.quantities import (
+    FrictionAngle,
+    NonNegativeNumber,
+    NonNegativeStress,
+    PositiveDensity,
+    PositiveStress,
+    PositiveUnitWeight,
+)
+from mbla.deck.section import ROUNDING, Section, exactly_one_of, given, rule
+from mbla.errors import Finding
+
+
+@exactly_one_of("density", "unit_weight")
+class Material(Section):
+    """What blocks are made of; one of density and unit weight."""
+
+    density: PositiveDensity | None = Field(None, description="mass per volume")
+    unit_weight: PositiveUnitWeight | None = Field(
+        None, description="weight per volume under standard gravity, 9.81 m/s^2"
+    )
+
+
+FRICTIONLESS, GLUED, OPEN = "frictionless", "glued", "open"
+BUILT_IN = (FRICTIONLESS, GLUED, OPEN)
+"""Joint laws that every deck knows by name and none may declare."""
+
+
+@exactly_one_of("friction", "friction_angle")
+class JointLaw(Section):
+    """Joint law: Coulomb friction without tension unless strengths are given; one of friction and friction angle.
+
+    Three laws are known by name wherever a law is asked for: `frictionless` (friction 0), `glued` (the blocks are one
+    rigid body; with a support: they do not move) and `open` (no contact).
+    """
+
+    friction: NonNegativeNumber | None = Field(None, description="friction coefficient, tan of the friction angle")
+    friction_angle: FrictionAngle | None = Field(None, description="friction angle in degrees")
+    cohesion: NonNegativeStress = Field(0.0, description="shear strength without normal stress")
+    tensile_strength: NonNegativeStress = Field(0.0, description="normal stress at which the joint opens")
+    compressive_strength: PositiveStress | None = Field(
+        None, description="normal stress at which it crushes; unlimited unless given"
+    )
+    dilatancy: FrictionAngle = Field(0.0, description="dilatancy angle in degrees, at most the friction angle")
+
+
+@rule(JointLaw)
+def joint_friction(joint: JointLaw) -> Iterator[Finding]:
+    """Dilatancy at most the friction angle."""
+    if len(given(joint, ("friction", "friction_angle"))) != 1:
+        return
+    angle = joint.friction_angle if joint.friction is None else math.degrees(math.atan(joint.friction))
+    if angle is not None and joint.dilatancy > angle * (1 + ROUNDING):
+        yield Finding("out-of-bounds", f"must be <= {angle:.6g} degrees, the friction angle", "dilatancy")
+
+
+@rule(JointLaw)
+def joint_strengths(joint: JointLaw) -> Iterator[Finding]:
+    """The friction cone must be open at the tensile strength: it ends at the tension cohesion / friction."""
+    if joint.friction is None and joint.friction_angle is None:
+        return
+    friction = math.tan(math.radians(joint.friction_angle or 0.0)) if joint.friction is None else joint.friction
+    if joint.cohesion < friction * joint.tensile_strength * (1 - ROUNDING):
+        yield Finding(
+            "out-of-bounds",
+            f"must be <= {joint.cohesion / friction:.6g}, cohesion / friction, where the friction cone ends: "
+            f"lower it, or raise cohesion to {friction * joint.tensile_strength:.6g}",
+            "tensile_strength",
+        )

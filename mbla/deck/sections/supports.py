@@ -1,0 +1,132 @@
+"""Sections `supports` and `symmetry`: what holds the structure, and the planes that mirror it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from mbla.deck.names import Name
+from mbla.deck.quantities import Direction, Length, Point, Switch
+from mbla.deck.section import Section, exactly_one_of, given, rule
+from mbla.deck.sections.selectors import Selector
+from mbla.errors import Finding
+
+
+@exactly_one_of("x", "y", "z", "point")
+class GroundPlane(Section):
+    """A plane: exactly one of x, y, z (normal along that axis), or a point and a normal towards the structure."""
+
+    x: Length | None = Field(None, description="the plane at this x, structure on the side of greater x")
+    y: Length | None = Field(None, description="the plane at this y, structure on the side of greater y")
+    z: Length | None = Field(None, description="the plane at this z, structure above")
+    point: Point | None = Field(None, description="a point on the plane")
+    normal: Direction | None = Field(None, description="normal of the plane, towards the structure")
+
+
+@exactly_one_of("x", "y", "z", "point")
+class SymmetryPlane(Section):
+    """A plane of symmetry: exactly one of x, y, z (normal along that axis), or a point and a normal.
+
+    Blocks, supports, guides, settlements and forces given in the deck appear on both sides, images in the groups of
+    what they are images of; results are those of the whole. A block with a face on the plane meets its image there,
+    with the joint law that contacts gives for the two. Of several planes each mirrors what those before it have made,
+    and its halves are chosen from that.
+    """
+
+    x: Length | None = Field(None, description="the plane at this x")
+    y: Length | None = Field(None, description="the plane at this y")
+    z: Length | None = Field(None, description="the plane at this z")
+    point: Point | None = Field(None, description="a point on the plane")
+    normal: Direction | None = Field(None, description="normal of the plane, to either side")
+    halves: Selector | None = Field(
+        None, description="blocks that are cut in two by the plane: half and image are one block"
+    )
+
+
+@rule(GroundPlane, SymmetryPlane)
+def plane_normal(plane: GroundPlane | SymmetryPlane) -> Iterator[Finding]:
+    """A normal goes with a point."""
+    if plane.point is not None and plane.normal is None:
+        yield Finding("missing-key", "needs a normal beside its point")
+    if plane.normal is not None and plane.point is None:
+        yield Finding("key-of-another-choice", "applies with point only", "normal")
+
+
+class Turn(Section):
+    """A rotation about a line."""
+
+    axis: Direction = Field(description="direction of the line; the rotation is right-handed about it")
+    about: Point = Field(description="a point on the line")
+
+
+Component = Literal["x", "y", "z", "rx", "ry", "rz"]
+"""Displacement along an axis, or rotation about it."""
+
+
+class Support(Section):
+    """Rigid ground under every face on a plane, blocks that do not move, or blocks that may move in given ways only."""
+
+    ground: GroundPlane | None = Field(None, description="rigid ground")
+    joint: Name | None = Field(None, description="joint law on the ground; that of contacts unless given")
+    blocks: Selector | None = Field(
+        None, description="blocks that do not move, or only as told; with ground: the only blocks it carries"
+    )
+    fixed: Annotated[list[Component], Field(min_length=1)] | None = Field(
+        None,
+        description="which displacements, and rotations about the centroid, are held: all six unless given; the "
+        "support takes whatever force that needs, in both senses and without friction",
+    )
+    slide: Direction | None = Field(None, description="the blocks may slide along this direction, both ways")
+    turn: Turn | None = Field(
+        None, description="the blocks may turn about this line, both ways; with slide: they may do both"
+    )
+    together: Switch | None = Field(
+        None,
+        description="true: the blocks move as one rigid body, with fixed: about their common centroid; each by itself "
+        "unless given",
+    )
+
+
+@rule(Support)
+def support(item: Support) -> Iterator[Finding]:
+    """Ground, or blocks that do not move, or not as they like."""
+    if item.ground is None and item.blocks is None:
+        yield Finding("missing-key", "needs one of ground or blocks")
+    elif item.joint is not None and item.ground is None:
+        yield Finding(
+            "key-of-another-choice",
+            "applies with ground only: blocks that do not move have the joints of their contacts",
+            "joint",
+        )
+    ways = given(item, ("fixed", "slide", "turn"))
+    if item.ground is not None:
+        for key in (*ways, *given(item, ("together",))):
+            yield Finding(
+                "key-of-another-choice",
+                "does not apply to ground, which does not move: say it of blocks in an item of their own",
+                key,
+            )
+        return
+    if item.fixed is not None and len(ways) > 1:
+        yield Finding(
+            "one-of-several",
+            "only one of fixed, and slide or turn, may be given: what may slide or turn is held otherwise",
+            ways[1],
+        )
+    if item.together and not ways:
+        yield Finding(
+            "key-of-another-choice",
+            "applies with fixed, slide or turn only: blocks that do not move do so together anyway",
+            "together",
+        )
+
+
+@rule(Support)
+def guide(item: Support) -> Iterator[Finding]:
+    """Ways to move that are ways."""
+    fixed = item.fixed or []
+    for number, component in enumerate(fixed):
+        if component in fixed[:number]:
+            yield Finding("duplicate-key", f"{component} is listed already", "fixed", number)
