@@ -23,11 +23,14 @@ from tests.line import BLOCK
 
 ROOT = Path(__file__).parents[1]
 README = (ROOT / "README.md").read_text(encoding="utf-8")
+SWEEPS = (ROOT / "decks" / "sweeps" / "README.md").read_text(encoding="utf-8")
+MOST_LINES = 250
+"""of the README"""
 
 
-def block(start: str) -> str:
+def block(start: str, page: str = README) -> str:
     """Text of the first code block after a piece of text."""
-    return README.split(start, 1)[1].split("```", 2)[1].split("\n", 1)[1]
+    return page.split(start, 1)[1].split("```", 2)[1].split("\n", 1)[1]
 
 
 def test_the_deck_of_the_readme_prints_what_it_says(
@@ -67,7 +70,7 @@ def swept(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, list[str]]:
     """The folder in which the sweep of the README was run, and what it printed."""
     folder = tmp_path_factory.mktemp("readme")
     (folder / "wall.yaml").write_text(block("`wall.yaml`:"), encoding="utf-8")
-    (folder / "door.yaml").write_text(block("`door.yaml`, beside"), encoding="utf-8")
+    (folder / "door.yaml").write_text(block("`door.yaml`, beside", SWEEPS), encoding="utf-8")
     printed = io.StringIO()
     with contextlib.chdir(folder), contextlib.redirect_stdout(printed):
         assert main(["sweep", "door.yaml"]) == 0
@@ -80,9 +83,9 @@ def but_times(lines: list[str]) -> list[str]:
 
 def test_the_sweep_of_the_readme_prints_what_it_says(swept: tuple[Path, list[str]]) -> None:
     folder, printed = swept
-    assert but_times(printed) == but_times(block("`mbla sweep door.yaml` prints").splitlines())
+    assert but_times(printed) == but_times(block("`mbla sweep door.yaml` prints", SWEEPS).splitlines())
     written = {path.name for path in (folder / "door.out").iterdir() if not path.name.startswith(".")}
-    listed = set(re.findall(r"^\| `([\w.]+)` \|", README.split("| file in `door.out/`", 1)[1], flags=re.MULTILINE)[:6])
+    listed = set(re.findall(r"^\| `([\w.]+)` \|", SWEEPS.split("| file in `door.out/`", 1)[1], flags=re.MULTILINE)[:6])
     assert listed == written | {"sweep.parquet"}  # that one only where it is asked for
 
 
@@ -92,9 +95,9 @@ def test_tables_of_the_sweep_are_read_as_the_readme_says(
     pytest.importorskip("pandas")
     monkeypatch.chdir(swept[0])
     names: dict[str, Any] = {}
-    exec(block("<!-- tables:begin -->"), names)
+    exec(block("<!-- tables:begin -->", SWEEPS), names)
     medians = names["table"].groupby("length [m]")["load_factor"].median()
-    assert f"# {', '.join(f'{value:.4f}' for value in medians)}\n" in README
+    assert f"# {', '.join(f'{value:.4f}' for value in medians)}\n" in SWEEPS
     data = names["sweep"]
     assert data.load_factor.sel(length=2.4).shape == data.mu.shape == (8,)
     assert data.load_factor.quantile(0.05, "random").shape == (3,)
@@ -107,7 +110,7 @@ def test_the_sweep_from_python_is_that_of_the_command(
     """It goes on with the journal of the command, so that nothing is solved again."""
     monkeypatch.chdir(swept[0])
     names: dict[str, Any] = {"mbla": mbla}
-    exec(block("<!-- python sweep:begin -->"), names)
+    exec(block("<!-- python sweep:begin -->", SWEEPS), names)
     table = names["table"]
     assert table["load_factor"].shape == table["length"].shape == (24,)
     assert set(table["state"]) == {"done"}
@@ -122,7 +125,7 @@ def test_the_job_array_solves_every_point(
     sweep = "mbla_sweep: 1\ndeck: wall.yaml\nparameters: {mu: {values: [0.3, 0.4, 0.6]}}\n"
     (tmp_path / "door.yaml").write_text(sweep, encoding="utf-8")
     monkeypatch.chdir(tmp_path)
-    script = block("<!-- sbatch:begin -->").splitlines()
+    script = block("<!-- sbatch:begin -->", SWEEPS).splitlines()
     assert script[0] == "#!/bin/bash"
     (command,) = [line for line in script if not line.startswith("#")]
     monkeypatch.setenv("SLURM_ARRAY_TASK_COUNT", "2")
@@ -136,7 +139,7 @@ def test_the_job_array_solves_every_point(
 
 
 def test_commands_in_blocks_are_understood(monkeypatch: pytest.MonkeyPatch) -> None:
-    lines = [line.partition("  #")[0] for line in README.splitlines() if re.match(r"mbla (sweep|interact) .*-", line)]
+    lines = [line.partition("  #")[0] for line in SWEEPS.splitlines() if re.match(r"mbla (sweep|interact) .*-", line)]
     assert lines
     for line in lines:
         build_parser().parse_args(shlex.split(line)[1:])
@@ -171,7 +174,7 @@ def test_the_script_for_slurm_hands_a_sweep_to_the_workers(monkeypatch: pytest.M
     monkeypatch.setattr(subprocess, "call", call)
     monkeypatch.setattr(sys, "argv", ["on_slurm.py", "door.yaml", "--resume"])
     with pytest.raises(SystemExit) as ended:
-        exec(block("<!-- jobqueue:begin -->"), {"__name__": "__main__"})
+        exec(block("<!-- jobqueue:begin -->", SWEEPS), {"__name__": "__main__"})
     assert ended.value.code == 8
     options = build_parser().parse_args(commands[0][1:])
     assert (options.command, options.sweep, options.resume) == ("sweep", Path("door.yaml"), True)
@@ -186,10 +189,26 @@ def test_commands_of_the_readme_are_those_of_the_program() -> None:
     assert commands == listed
 
 
-def test_links_and_pictures_exist() -> None:
-    for target in re.findall(r"\]\(([^)#]+)\)", README):
+PAGES = [ROOT / "README.md", *(ROOT / folder for folder in ("decks", "schemas", "tests"))]
+
+
+@pytest.mark.parametrize("page", [PAGES[0], *(page for folder in PAGES[1:] for page in sorted(folder.rglob("*.md")))])
+def test_links_and_pictures_exist(page: Path) -> None:
+    for target in re.findall(r"\]\(([^)#]+)(?:#[^)]*)?\)", page.read_text(encoding="utf-8")):
         if not target.startswith("http"):
-            assert (ROOT / target).exists(), target
+            assert (page.parent / target).exists(), target
+
+
+def test_the_readme_is_short() -> None:
+    assert len(README.splitlines()) <= MOST_LINES
+
+
+def test_the_sweep_of_the_readme_is_one(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (tmp_path / "wall.yaml").write_text(block("`wall.yaml`:"), encoding="utf-8")
+    (tmp_path / "door.yaml").write_text(block("## Sweeps"), encoding="utf-8")
+    assert main(["sweep", str(tmp_path / "door.yaml"), "--dry-run"]) == 0
+    lines = [line.split() for line in capsys.readouterr().out.splitlines()]
+    assert ["24", "0.73531", "2.8"] in lines
 
 
 def test_nothing_was_left_to_fill_in() -> None:

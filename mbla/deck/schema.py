@@ -70,22 +70,22 @@ def tidy(node: Any) -> Any:
 
 
 def write_schema(folder: Path = REPOSITORY) -> list[Path]:
-    """Write ``schemas/deck.schema.json`` and, between its markers, the key reference of ``README.md``."""
+    """Write ``schemas/deck.schema.json`` and, between its markers, the key reference in ``schemas/deck.md``."""
     return write_generated(folder, "deck", deck_schema_text(), MARKERS, with_key_reference)
 
 
 def write_generated(
     folder: Path, kind: str, schema: str, markers: tuple[str, str], with_reference: Callable[[str], str]
 ) -> list[Path]:
-    """Write the schema of one kind of file, and README with its key reference where that has the markers."""
+    """Write the schema of one kind of file, and the page with its key reference where that has the markers."""
     schema_file = folder / "schemas" / f"{kind}.schema.json"
     schema_file.write_text(schema, encoding="utf-8")
-    readme = folder / "README.md"
-    text = readme.read_text(encoding="utf-8") if readme.is_file() else ""
+    page = folder / "schemas" / f"{kind}.md"
+    text = page.read_text(encoding="utf-8") if page.is_file() else ""
     if not all(marker in text for marker in markers):
         return [schema_file]
-    readme.write_text(with_reference(text), encoding="utf-8")
-    return [schema_file, readme]
+    page.write_text(with_reference(text), encoding="utf-8")
+    return [schema_file, page]
 
 
 def with_key_reference(text: str) -> str:

@@ -63,9 +63,9 @@ TABLE = (
 
 
 STUDIES = ("door_sweep", "wall_interact")
-"""pictures of studies of the README's deck"""
+"""pictures of studies of the README's deck, in decks/sweeps/README.md"""
 SAMPLE = ("points: 8,", "points: 200,")
-"""the sweep of the README is small, so that it runs at once; its picture is of more points"""
+"""the sweep of that page is small, so that it runs at once; its picture is of more points"""
 
 
 def deck_path(picture: DeckPicture, folder: Path) -> Path:
@@ -77,9 +77,9 @@ def deck_path(picture: DeckPicture, folder: Path) -> Path:
     return path
 
 
-def readme_block(start: str) -> str:
-    """The first code block of the README after a piece of text."""
-    text = (DECKS.parent / README).read_text(encoding="utf-8")
+def readme_block(start: str, page: Path = DECKS.parent / README) -> str:
+    """The first code block of a page after a piece of text."""
+    text = page.read_text(encoding="utf-8")
     return text.split(start, 1)[1].split("```", 2)[1].split("\n", 1)[1]
 
 
@@ -108,7 +108,7 @@ def make_study(name: str, folder: Path) -> Path:
         assert main(["interact", str(deck), "--directions", "72", "-o", str(folder / "interact"), "-q"]) == 0
         return (folder / "interact" / f"{name}.png").replace(target)
     sweep, out = folder / "door.yaml", folder / "door.out"
-    text = readme_block("`door.yaml`, beside")
+    text = readme_block("`door.yaml`, beside", DECKS / "sweeps" / README)
     assert text.count(SAMPLE[0]) == 1
     sweep.write_text(text.replace(*SAMPLE), encoding="utf-8")
     assert main(["sweep", str(sweep), "-q"]) == 0

@@ -6,6 +6,7 @@ import pytest
 
 from mbla.deck import read_deck
 from tests.decks import sweep_pictures
+from tests.decks.folder import DECKS
 from tests.decks.make_pictures import (
     PICTURES,
     SAMPLE,
@@ -32,7 +33,7 @@ def test_deck_has_the_load_case(picture: DeckPicture, tmp_path: Path) -> None:
 
 
 def test_the_sweep_of_the_readme_has_the_sample_that_its_picture_enlarges() -> None:
-    assert readme_block("`door.yaml`, beside").count(SAMPLE[0]) == 1
+    assert readme_block("`door.yaml`, beside", DECKS / "sweeps" / "README.md").count(SAMPLE[0]) == 1
 
 
 def test_unknown_names_are_refused() -> None:

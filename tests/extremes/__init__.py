@@ -1,4 +1,4 @@
 """Numbers at their extremes: scenes with a known answer, and the table of what the program says of each.
 
-``python -m tests.extremes.table`` solves every scene and writes the page ``README.md`` beside this file.
+``python -m tests.extremes.table`` solves every scene and prints it.
 """

@@ -1,12 +1,11 @@
-"""Solve every scene and write the page ``tests/extremes/README.md``.
+"""Solve every scene and print what the program says of it; ``-o FILE`` writes it as a page.
 
 ::
 
     python -m tests.extremes.table [--family TEXT] [--short] [--red] [--jobs N] [-o FILE]
 
-Every scene has a process of its own, so that one that dies or hangs is a line of the table like the others. With
-``--family`` or ``--short`` the lines go to the terminal and the page stays as it is, unless ``-o`` names another file.
-The exit status is 1 where a line is red.
+Every scene has a process of its own, so that one that dies or hangs is a line of the table like the others. The
+exit status is 1 where a line is red.
 """
 
 from __future__ import annotations
@@ -23,7 +22,6 @@ from mbla import __version__
 from tests.extremes.outcome import LIMIT, LONG_LIMIT, Outcome, Scene, outcome_of
 from tests.extremes.scenes import all_scenes
 
-PAGE = Path(__file__).parent / "README.md"
 GRACE = 3.0
 """How many times the limit of the processor may pass on the clock before a process is ended."""
 WORDS = 160
@@ -48,9 +46,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
             if outcome.is_red or not asked.red:
                 sys.stdout.write(f"{outcome.seconds:6.2f} s {outcome.scene.family}: {row(outcome)}\n")
                 sys.stdout.flush()
-    target = asked.o or (None if asked.family or asked.short else PAGE)
-    if target is not None:
-        target.write_text(page(outcomes), encoding="utf-8")
+    if asked.o is not None:
+        asked.o.write_text(page(outcomes), encoding="utf-8")
     red = [outcome for outcome in outcomes if outcome.is_red]
     sys.stdout.write(f"{len(outcomes)} scenes, {len(red)} red\n")
     return 1 if red else 0

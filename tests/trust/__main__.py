@@ -1,4 +1,4 @@
-"""Run the full checks and write the table of counts into the README.
+"""Run the full checks and write the table of counts into README.md beside this file.
 
 ::
 

@@ -1,4 +1,4 @@
-"""The table of counts in the README, written from the records and from nothing else.
+"""The table of counts in README.md beside this file, written from the records and from nothing else.
 
 ::
 
@@ -11,7 +11,7 @@ from pathlib import Path
 
 from tests.trust.counts import Record, recorded
 
-README = Path(__file__).parents[2] / "README.md"
+README = Path(__file__).with_name("README.md")
 BEGIN, END = "<!-- trust:begin -->\n", "<!-- trust:end -->\n"
 
 

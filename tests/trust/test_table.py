@@ -1,4 +1,4 @@
-"""The README shows the counts that were recorded, and each of them was made by a check that is there."""
+"""The page shows the counts that were recorded, and each of them was made by a check that is there."""
 
 from __future__ import annotations
 

@@ -75,7 +75,7 @@ def with_sweep_key_reference(text: str) -> str:
 
 
 def write_sweep_schema(folder: Path = REPOSITORY) -> list[Path]:
-    """Write ``schemas/sweep.schema.json`` and, between its markers, the key reference of ``README.md``."""
+    """Write ``schemas/sweep.schema.json`` and, between its markers, the key reference in ``schemas/sweep.md``."""
     return write_generated(folder, "sweep", sweep_schema_text(), MARKERS, with_sweep_key_reference)
 
 

@@ -94,10 +94,10 @@ def test_command_prints_it(capsys: pytest.CaptureFixture[str]) -> None:
 
 def test_write(tmp_path: Path) -> None:
     (tmp_path / "schemas").mkdir()
-    readme = tmp_path / "README.md"
-    readme.write_text("a\n<!-- sweep keys:begin -->\nold\n<!-- sweep keys:end -->\nz\n", encoding="utf-8")
-    assert write_sweep_schema(tmp_path) == [tmp_path / "schemas" / "sweep.schema.json", readme]
-    text = readme.read_text(encoding="utf-8")
+    page = tmp_path / "schemas" / "sweep.md"
+    page.write_text("a\n<!-- sweep keys:begin -->\nold\n<!-- sweep keys:end -->\nz\n", encoding="utf-8")
+    assert write_sweep_schema(tmp_path) == [tmp_path / "schemas" / "sweep.schema.json", page]
+    text = page.read_text(encoding="utf-8")
     assert text.startswith("a\n<!-- sweep keys:begin -->\n\nNumbers are plain")
     assert text.endswith("\n<!-- sweep keys:end -->\nz\n")
     assert "\nold\n" not in text
@@ -114,8 +114,8 @@ def test_the_module_writes_into_the_repository(monkeypatch: pytest.MonkeyPatch) 
     assert json.loads(str(text)) == sweep_schema()
 
 
-def test_readme_is_up_to_date() -> None:
-    text = (REPOSITORY / "README.md").read_text(encoding="utf-8")
+def test_the_key_reference_is_up_to_date() -> None:
+    text = (REPOSITORY / "schemas" / "sweep.md").read_text(encoding="utf-8")
     assert with_sweep_key_reference(text) == text
 
 
