@@ -35,7 +35,8 @@ from typing import Literal
 class Message(str):
     """What is wrong and what is allowed, in words, with the identifier of its kind.
 
-    It is a text like any other; what is made of it by formatting is a plain one, without identifier.
+    It is a text like any other; a sentence with places for values may be one, which ``format`` fills. What else is
+    made of it is a plain text, without identifier.
     """
 
     __slots__ = ("identifier",)
@@ -54,6 +55,10 @@ class Message(str):
     def words(self) -> str:
         """The text alone."""
         return str.__str__(self)
+
+    def format(self, *values: object, **named: object) -> Message:
+        """The same kind of message with values in its places."""
+        return Message(self.identifier, str.format(self, *values, **named))
 
     def around(self, *, before: str = "", after: str = "") -> Message:
         """The same kind of message with more words."""

@@ -118,7 +118,7 @@ def _left_out(case: CaseResult, deck: Deck) -> list[str]:
     missing = ["standing"] if knobs.standing and claims and solution.standing is None else []
     if solution.mechanics is None or solution.conditions_on_interfaces:
         return [_lacks(what) for what in missing]
-    explained = any("range" in remark for remark in solution.remarks)
+    explained = any(remark.identifier in ("range-not-computed", "range-not-found") for remark in solution.remarks)
     if knobs.range and not explained and not _by_normality(solution):
         missing += [f"{end} end of the range" for end in ("lower", "upper") if getattr(solution, end) is None]
     if deck.analysis.force_ranges and solution.force_ranges is None:

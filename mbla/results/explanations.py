@@ -106,9 +106,10 @@ def explanations() -> dict[str, Explanation]:
 
 
 def _explanation(identifier: str, entry: dict[str, Any], words: dict[str, str]) -> Explanation:
-    texts = {key: _filled(value, words) for key, value in entry.items() if isinstance(value, str)}
-    lists = {key: tuple(value) for key, value in entry.items() if isinstance(value, list)}
-    return Explanation(identifier=identifier, **texts, **lists)
+    values: dict[str, Any] = {
+        key: tuple(value) if isinstance(value, list) else _filled(value, words) for key, value in entry.items()
+    }
+    return Explanation(identifier=identifier, **values)
 
 
 def _filled(text: str, words: dict[str, str]) -> str:

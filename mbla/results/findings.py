@@ -1,13 +1,7 @@
-"""Identifiers of what solver and verification say in words: their sentences are matched, so that older files have them.
-
-A sentence that no row knows gets a general identifier, and is not lost. A test holds the rows to the sentences in the
-source, both ways.
-"""
+"""What solver and verification found wrong or remark, as notices of a run."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Literal
 
 from mbla.errors import Notice
@@ -44,103 +38,25 @@ BROKEN = {
 """What befell a cone program that came to no answer."""
 
 
-@dataclass(frozen=True)
-class Finding:
-    """A kind of sentence: its identifier, and parts of it of which it has one."""
-
-    identifier: str
-    severity: Literal["notice", "warning"]
-    phrases: tuple[str, ...]
-
-
-def _failure(identifier: str, *phrases: str) -> Finding:
-    return Finding(identifier, "warning", phrases)
-
-
-FAILURES = (
-    _failure("equilibrium-residual", "equilibrium residual"),
-    _failure("yield-violation", "yield violation"),
-    _failure("penetration", "penetration"),
-    _failure("complementarity-residual", "complementarity residual"),
-    _failure("power-balance", "power balance"),
-    _failure("live-power", "deviation of the live power"),
-    _failure("bounds-apart", "lie further apart than"),
-    _failure("outside-bounds", "does not lie between its bounds"),
-    _failure("above-kinematic-bound", "exceeds the kinematic bound"),
-    _failure(
-        "bracket-not-proved",
-        "is more than its forces prove",
-        "is less than its mechanism",
-        "lies above the kinematic bound",
-    ),
-    _failure("collapse-not-proved", "lack of equilibrium"),
-    _failure(
-        "lock-not-proved",
-        "that the structure locks",
-        "carry every multiple of the live load",
-        "no live load on blocks that can move",
-    ),
-    _failure(
-        "standing-not-proved",
-        "under the dead load alone",
-        "under the dead load are not finite",
-        "fixed blocks are displaced",
-        "guided blocks are displaced",
-    ),
-    _failure(
-        "tilt-not-proved",
-        "is not the change from the level table",
-        "bears every angle up to 180 degrees",
-        "the loads at collapse are not those at",
-        "is not the tangent of the angle",
-    ),
-    _failure("glued-blocks-part", "glued to each other move apart"),
-    _failure("wrong-resultants", "of the interfaces are missing", "are not those of the contact forces"),
+REMARKS_THAT_WARN = frozenset(
+    {
+        "second-opinion-differs",
+        "second-opinion-missing",
+        "livesley-overstates",
+        "livesley-polyhedral",
+        "proximal-for-published",
+        "below-passed-load",
+        "peak-on-path",
+        "path-not-seen",
+        "peak-not-seen",
+        "peak-not-examined",
+        "lowest-search-not-begun",
+        "range-not-found",
+        "force-range-not-found",
+        "tilt-between-not-proved",
+    }
 )
-"""What verification can find wrong."""
-
-REMARKS = (
-    Finding("law-missed", "notice", ("miss the law by", "miss it by")),  # law-residual warns of it
-    Finding("associative-bounds-apart", "notice", ("with associative flow",)),
-    Finding("second-opinion-differs", "warning", ("and should by",)),
-    Finding("second-opinion-missing", "warning", ("came to no answer",)),
-    Finding("second-opinion-agrees", "notice", ("they agree",)),
-    Finding("polyhedral-bracket", "notice", ("with friction polyhedra of",)),
-    Finding("livesley-overstates", "warning", ("no mechanism without dilatancy belongs",)),
-    Finding("livesley-polyhedral", "warning", ("by the law of the friction polyhedron",)),
-    Finding("livesley-confirms", "notice", ("bear a mechanism without dilatancy too",)),
-    Finding("locked-by-dilatancy", "notice", ("without it joints give way",)),
-    Finding("proximal-for-published", "warning", ("the proximal scheme was used instead",)),
-    Finding(
-        "load-factor-not-unique",
-        "notice",
-        ("load factor is not unique", "of one state of the law", "others may lie below it"),
-    ),
-    Finding("below-passed-load", "warning", ("which the steps passed through",)),
-    Finding("peak-on-path", "warning", ("the peak is the collapse load",)),
-    Finding("found-above-path", "notice", ("above the load that the structure reaches",)),
-    Finding("path-not-seen", "warning", ("the load path was followed to", "the load path was not followed")),
-    Finding("peak-not-seen", "warning", ("its end was not seen",)),
-    Finding("peak-not-examined", "warning", ("whether the structure carries more on the way was not examined",)),
-    Finding("lowest-search", "notice", ("search for lower load factors (", "fit the joint law and are not counted")),
-    Finding("lowest-search-not-begun", "warning", ("did not begin",)),
-    Finding("range-not-found", "warning", ("end of the range",)),
-    Finding("range-not-computed", "notice", ("the range of the load factor for the mechanism found is not computed",)),
-    Finding("force-range-not-found", "warning", ("range of the normal force was not found",)),
-    Finding("least-forces-not-found", "notice", ("not the least ones, which were not found",)),
-    Finding("tilt-by-steps", "notice", ("change of the loads from the level table", "collapses as soon as it turns")),
-    Finding("tilt-between-not-proved", "warning", ("not proved",)),
-)
-"""What a solver can remark."""
-
-UNKNOWN_FAILURE = Finding("verification-failed", "warning", ())
-UNKNOWN_REMARK = Finding("solver-remark", "notice", ())
-
-
-def finding_of(text: str, kinds: Sequence[Finding], otherwise: Finding) -> Finding:
-    """The first row one of whose phrases is in a sentence."""
-    lowered = text.casefold()
-    return next((kind for kind in kinds if any(phrase in lowered for phrase in kind.phrases)), otherwise)
+"""Remarks of a solver that are warnings; the others are notices."""
 
 
 def found_notices(case: CaseResult, *, harmless: bool = False) -> tuple[Notice, ...]:
@@ -159,13 +75,13 @@ def found_notices(case: CaseResult, *, harmless: bool = False) -> tuple[Notice, 
     if case.status in UNSETTLED:
         reason = solution.reason or _reason_of(case)
         add("notice" if harmless else "warning", UNSETTLED[case.status], reason)
-    for text in case.checks.failures:
-        if text != solution.reason:
-            add("warning", finding_of(text, FAILURES, UNKNOWN_FAILURE).identifier, text)
-    for text in solution.remarks:
-        if text != solution.reason or case.status is Status.SOLVED:
-            kind = finding_of(text, REMARKS, UNKNOWN_REMARK)
-            add(kind.severity, kind.identifier, text)
+    for failure in case.checks.failures:
+        if failure != solution.reason:
+            add("warning", failure.identifier, failure)
+    for remark in solution.remarks:
+        if remark != solution.reason or case.status is Status.SOLVED:
+            severity: Literal["notice", "warning"] = "warning" if remark.identifier in REMARKS_THAT_WARN else "notice"
+            add(severity, remark.identifier, remark)
     return (*notices, *_of_figures(case))
 
 

@@ -9,6 +9,7 @@ import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.deck.sections.analysis import AnalysisSection
+from mbla.errors import Message
 from mbla.program.kinematic import friction_polygon
 from mbla.program.program import Program
 from mbla.solution.associative.solve_associative import AssociativeResult
@@ -25,21 +26,25 @@ from mbla.solution.nonassociative.search_lower_factor import solve_lowest
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Status
 
-NOT_REACHED = "forces and velocities miss the law by {:.2g}: the residual of {:g} that was asked for was not reached"
+NOT_REACHED = Message(
+    "law-missed", "forces and velocities violate the joint law: residual {:.2g}; the requested {:g} was not reached"
+)
 
 LARGE = 4000
 """Unknowns of the motion above which no interior path is followed unless it is asked for. On a planar wall of 30 by 30
 units, 2,745 unknowns, one took 1,018 factorisations, twice the time of the steps; on one of 40 by 40, 4,860 unknowns,
 one took 1,319 in 70 s and ended at 4e-3, where the steps had come to 3e-5 in half of that."""
 
-NOT_FOLLOWED = (
+NOT_FOLLOWED = Message(
+    "interior-not-followed",
     "interior paths of the exact law were not followed: on a structure of this size they take longer than the steps "
-    "and mostly end further from the law; analysis.scheme: interior follows them"
+    "and mostly end with a larger residual; analysis.scheme: interior follows them",
 )
 
-NOT_PUBLISHED = (
+NOT_PUBLISHED = Message(
+    "proximal-for-published",
     "the published procedure starts from associative forces, of which there are none here: the proximal scheme was "
-    "used instead"
+    "used instead",
 )
 
 

@@ -13,6 +13,7 @@ import numpy as np
 from mbla.arrays import FloatArray
 from mbla.deck.sections.accuracy import knobs_of
 from mbla.deck.sections.analysis import AnalysisSection
+from mbla.errors import Message
 from mbla.program.program import Program
 from mbla.solution.associative.unique_forces import least_forces, point_weights
 from mbla.solution.cone_solvers.cone_solution import Log
@@ -23,11 +24,14 @@ from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import StandingResult, Status
 from mbla.solution.standing.standing import DeadLoadState, assess_dead_load, settlement_of, standing_without_equilibrium
 
-NO_RANGE = (
-    "the range of the load factor for the mechanism found is not computed: that misses the law by {:.2g}, and means "
-    "something up to 1e-4"
+NO_RANGE = Message(
+    "range-not-computed",
+    "the admissible load factors for this mechanism are not computed: it violates the joint law, residual {:.2g}; "
+    "they mean something up to 1e-4",
 )
-BROKE_DOWN = "the range of the load factor is not known: a system of equations broke down ({})"
+BROKE_DOWN = Message(
+    "range-not-computed", "the range of the load factor is not known: a system of equations broke down ({})"
+)
 
 
 @dataclass(frozen=True)

@@ -8,6 +8,7 @@ import numpy as np
 
 from mbla.deck.sections.accuracy import knobs_of
 from mbla.deck.sections.analysis import AnalysisSection
+from mbla.errors import Message
 from mbla.program.program import Program
 from mbla.solution.associative.associative_form import FORMS
 from mbla.solution.associative.certificate import cleaned_certificate
@@ -26,7 +27,7 @@ from mbla.solution.standing.standing_path import StandingPath
 NO_MECHANISM_AT_DILATANCY = (
     "the solver finds no mechanism at the dilatancy angle either in which the live load does work"
 )
-APART = "with associative flow {}"
+APART = Message("associative-bounds-apart", "with associative flow {}")
 
 WITH_VALUE = (Status.SOLVED, Status.APPROXIMATE)
 
@@ -45,9 +46,10 @@ BEFORE, FEW_POINTS = 0.99, 1000
 of 120 small clamps, wedges, arches and confined stacks two fell there. On walls of 2,340 and 5,894 points a look takes
 longer than the load factor itself, and all walls on record stand there."""
 
-NO_PEAK = (
+NO_PEAK = Message(
+    "peak-not-examined",
     "the load factor lies far below the associative one, and whether the structure carries more on the way was not "
-    "examined"
+    "examined",
 )
 
 
@@ -61,7 +63,7 @@ class PartResult:
     standing    : assessment of the dead load alone, None where it was not asked for
     range       : of the load factor without normality, for the mechanism found
     outer       : with the circumscribed friction polyhedron, ``associative`` having the inscribed one
-    remarks     : beside those of the sequence, one sentence each
+    remarks     : on the figure, besides those of the sequence
     least       : the associative state with the least forces
     peak        : last state of the load path that stands, where that lies above the load factor
     more        : programs solved for what is found beside the load factor
@@ -74,13 +76,13 @@ class PartResult:
     standing: StandingResult | None = None
     range: FactorRange | None = None
     outer: AssociativeResult | None = None
-    remarks: tuple[str, ...] = ()
+    remarks: tuple[Message, ...] = ()
     least: LawState | None = None
     peak: LawState | None = None
     more: tuple[ProgramRecord, ...] = ()
 
-    def with_remark(self, remark: str, programs: tuple[ProgramRecord, ...]) -> PartResult:
-        """The same with one more remark, unless that is empty, and more programs."""
+    def with_remark(self, remark: Message | None, programs: tuple[ProgramRecord, ...]) -> PartResult:
+        """The same with one more remark, unless there is none, and more programs."""
         remarks = (*self.remarks, remark) if remark else self.remarks
         return replace(self, remarks=remarks, more=(*self.more, *programs))
 

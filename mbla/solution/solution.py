@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 from enum import IntEnum, StrEnum
 
 from mbla.arrays import FloatArray, IntArray
+from mbla.errors import Message
 from mbla.program.reductions import ModelSize as ModelSize
 from mbla.program.reductions import ReductionStep as ReductionStep
 
@@ -151,7 +152,7 @@ class Solution:
     stress_blocks : crushing is a condition on the resultants of interfaces
     reason      : for every status but solved, one sentence in words
     scheme      : how a flow without normality was solved; empty for associative flow
-    remarks     : what a reader of the figure must know, one sentence each
+    remarks     : what a reader of the figure must know
     lower, upper: non-associative flow: least and greatest load factor for the mechanism found, with the forces
     peak        : greatest load factor of the load path where that lies above ``mechanics``; its state is passed, not
                   at rest: the forces carry it, the mechanism is how they are passing
@@ -184,7 +185,7 @@ class Solution:
     iterations: tuple[IterationRecord, ...]
     seconds: float
     scheme: str = ""
-    remarks: tuple[str, ...] = ()
+    remarks: tuple[Message, ...] = ()
     lower: Mechanics | None = None
     upper: Mechanics | None = None
     peak: Mechanics | None = None
@@ -230,7 +231,7 @@ class Checks:
     lower, upper             : verified ends of the range of a non-associative load factor, NaN where there are none
     peak_load_factor         : verified greatest load factor of the load path, NaN where there is none
     verified                 : true where everything is within tolerance
-    failures                 : what is not, in words
+    failures                 : what is not
     """
 
     equilibrium_residual: float
@@ -243,7 +244,7 @@ class Checks:
     kinematic_bound: float
     gap: float
     verified: bool
-    failures: tuple[str, ...]
+    failures: tuple[Message, ...]
     tension_violation: float = float("nan")
     slip_residual: float = float("nan")
     lower: float = float("nan")

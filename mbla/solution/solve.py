@@ -10,6 +10,7 @@ import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
 from mbla.deck.sections.analysis import AnalysisSection
+from mbla.errors import Message
 from mbla.program.program import Program
 from mbla.program.reductions import Reduced
 from mbla.solution.associative.force_ranges import force_ranges
@@ -177,7 +178,7 @@ def _with_load_factor(
             mechanics = stage.mechanics(first, state, "associative", least)
         return replace(solution, mechanics=mechanics, remarks=tuple(remarks))
     sequence, ends, rule = result.sequence, result.range, analysis.flow_rule
-    words = [ends.reason] if ends is not None and ends.reason else []
+    words = [ends.reason] if ends is not None and ends.reason is not None else []
     return replace(
         solution,
         mechanics=stage.mechanics(first, sequence.state, rule, [each.state for each in results]),
@@ -211,10 +212,10 @@ def _in_load_factors(program: Program, spread: tuple[float, float] | None) -> tu
     return None if spread is None else (spread[0] * live, spread[1] * live)
 
 
-def _force_ranges(stage: _Stage, first: int, state: LawState) -> tuple[FloatArray, list[str]]:
+def _force_ranges(stage: _Stage, first: int, state: LawState) -> tuple[FloatArray, list[Message]]:
     """Least and greatest normal force of every interface at the load factor, (n_interfaces, 2), and remarks."""
     interfaces, first_point = np.unique(stage.interface_of_point, return_index=True)
-    ranges, words = np.full((len(interfaces), 2), np.nan), []
+    ranges, words = np.full((len(interfaces), 2), np.nan), list[Message]()
     scaling = stage.parts[0].scaling
     units = scaling.force * np.broadcast_to(scaling.units, len(stage.interface_of_point))[first_point]
     for part, program in enumerate(stage.parts):

@@ -21,6 +21,7 @@ from dataclasses import dataclass, replace
 from typing import TypeAlias
 
 from mbla.contacts.contacts import Contacts
+from mbla.errors import Message
 from mbla.model.model import LoadCase, Model, Tilt
 from mbla.solution.solution import Checks, Mechanics, Solution, Status
 from mbla.solution.tilt_circle import AT_ONCE, chord, line_of, never_left
@@ -191,19 +192,22 @@ class _Search:
         solution, tilt = found.solution, found.load_case.tilt
         assert tilt is not None  # every answer has one
         degrees = ", ".join(f"{math.degrees(angle):.7g}" for angle in self.angles)
-        words = [f"The load factor is that of the change of the loads from the level table; angles tried: {degrees}"]
+        by_steps = f"The load factor is that of the change of the loads from the level table; angles tried: {degrees}"
+        remarks = [Message("tilt-by-steps", by_steps)]
         angle, factor = math.radians(tilt.angle), found.load_factor
         if factor > 1.0 + GOOD:
             solution = never_collapses(tilt, found)
             tilt = replace(tilt, angle=math.nan)
         elif found.falls_at_once(self.tilt):
-            words.append("It collapses as soon as it turns: the level structure bears nothing of the change")
+            at_once = "It collapses as soon as it turns: the level structure bears nothing of the change"
+            remarks.append(Message("tilt-by-steps", at_once))
             tilt = replace(tilt, angle=0.0)
         elif abs(factor - 1.0) > GOOD and solution.status is Status.SOLVED:
             reason = f"the angle did not settle: its load factor differs from 1 by {abs(factor - 1.0):.1e}"
             near = abs(factor - 1.0) <= NEAR
             solution = replace(solution, status=Status.APPROXIMATE if near else Status.NOT_VERIFIED, reason=reason)
         elif not self.tilt.upright >= math.tan(angle / 2.0):
-            words.append(f"That it does not collapse before was seen at {BETWEEN - 1} angles, not proved")
-        solution = replace(solution, remarks=(*solution.remarks, *words), seconds=self.seconds)
+            seen = f"That it does not collapse before was seen at {BETWEEN - 1} angles, not proved"
+            remarks.append(Message("tilt-between-not-proved", seen))
+        solution = replace(solution, remarks=(*solution.remarks, *remarks), seconds=self.seconds)
         return Answer(replace(found.load_case, tilt=tilt), with_level(solution, self.level), found.checks)

@@ -12,7 +12,7 @@ import numpy as np
 
 from mbla.contacts.contacts import ContactReport, Contacts
 from mbla.deck.units import Units
-from mbla.errors import Notice
+from mbla.errors import Message, Notice
 from mbla.model.model import Ground, Joint, LoadCase, Model, Settlement, Tilt, TravelPosition
 from mbla.model.solids.blocks import Blocks, no_labels
 from mbla.model.supports.guides import Guides
@@ -227,7 +227,7 @@ def full_results() -> Results:
         lower=0.45,
         upper=0.52,
         peak_load_factor=0.6,
-        failures=("x",),
+        failures=(Message("penetration", "x"),),
     )
     contacts = replace(results.contacts, solid_of_block=np.arange(len(results.model.blocks)))
     model = full_model(results.model)
@@ -251,7 +251,10 @@ def full_solution(solution: Solution) -> Solution:
         contact_model="convex",
         reason="the steps came to rest late",
         scheme="proximal",
-        remarks=("the factor is the peak of the path", "one more"),
+        remarks=(
+            Message("peak-on-path", "the factor is the peak of the path"),
+            Message("tilt-by-steps", "one more"),
+        ),
         lower=replace(mechanics, load_factor=0.45),
         upper=replace(mechanics, load_factor=0.52),
         peak=replace(mechanics, load_factor=0.6),

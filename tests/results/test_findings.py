@@ -1,4 +1,4 @@
-"""Identifiers of what solver and verification say in words."""
+"""What solver and verification say, as notices."""
 
 from __future__ import annotations
 
@@ -6,14 +6,13 @@ from dataclasses import replace
 
 import pytest
 
-from mbla.errors import Notice
-from mbla.results.findings import FAILURES, REMARKS, UNKNOWN_FAILURE, UNKNOWN_REMARK, finding_of, found_notices
+from mbla.errors import Message, Notice
+from mbla.results.findings import found_notices
 from mbla.results.listing.listing import listing
 from mbla.results.listing.summary import summary_lines
 from mbla.results.outcome import notices_of
 from mbla.results.records.json_record import results_json
 from mbla.results.results import CaseResult
-from mbla.solution.nonassociative.interior_path.solve_interior import ONE_OF_MANY
 from mbla.solution.solution import Status
 from tests.results.synthetic import full_results, standing_at, tower_results
 
@@ -42,11 +41,8 @@ def test_every_other_status_is_a_warning_with_its_reason(status: Status) -> None
 
 def test_failures_and_remarks() -> None:
     case = push()
-    failures = (
-        "equilibrium residual 0.1 exceeds 0.0001",
-        "static bound 1 and kinematic bound 2 lie further apart than x",
-    )
-    remarks = (ONE_OF_MANY, "HiGHS gives a load factor of 1, clarabel 2: they differ by 1 and should by 1e-06 at most")
+    failures = (Message("equilibrium-residual", "0.1"), Message("bounds-apart", "1 and 2"))
+    remarks = (Message("load-factor-not-unique", "others"), Message("range-not-found", "no end"))
     case = replace(
         case, checks=replace(case.checks, failures=failures), solution=replace(case.solution, remarks=remarks)
     )
@@ -54,21 +50,18 @@ def test_failures_and_remarks() -> None:
         "equilibrium-residual",
         "bounds-apart",
         "load-factor-not-unique",
-        "second-opinion-differs",
+        "range-not-found",
     ]
     assert [notice.severity for notice in found_notices(case)] == ["warning", "warning", "notice", "warning"]
-
-
-def test_an_unknown_sentence_is_not_lost() -> None:
-    assert finding_of("something new", FAILURES, UNKNOWN_FAILURE) is UNKNOWN_FAILURE
-    assert finding_of("something new", REMARKS, UNKNOWN_REMARK) is UNKNOWN_REMARK
 
 
 def test_a_failure_that_is_the_reason_is_told_once() -> None:
     case = replace(push(), status=Status.NOT_VERIFIED)
     reason = "the correction ended without a solution"
     case = replace(
-        case, solution=replace(case.solution, reason=reason), checks=replace(case.checks, failures=(reason,))
+        case,
+        solution=replace(case.solution, reason=reason),
+        checks=replace(case.checks, failures=(Message("not-verified", reason),)),
     )
     assert identifiers(case) == ["not-verified"]
 
@@ -125,9 +118,13 @@ def test_json_names_the_case() -> None:
 
 def test_what_is_said_twice_is_one_notice() -> None:
     """Two failures in the same words; a remark that is the reason of a case without an answer."""
-    case = replace(push(), checks=replace(push().checks, failures=("it leaks", "it leaks")))
+    case = replace(push(), checks=replace(push().checks, failures=(Message("penetration", "it leaks"),) * 2))
     assert len(found_notices(case)) == 1
-    solution = replace(push().solution, reason="it rains", remarks=("it rains", "it snows"))
+    solution = replace(
+        push().solution,
+        reason="it rains",
+        remarks=(Message("law-missed", "it rains"), Message("law-missed", "it snows")),
+    )
     stopped = replace(push(), status=Status.NOT_VERIFIED, solution=solution)
     assert [notice.message for notice in found_notices(stopped)] == ["push_x: it rains", "push_x: it snows"]
     solved = replace(push(), solution=solution)

@@ -176,7 +176,7 @@ def test_least_forces_of_too_many_points_are_not_sought(program: Program, monkey
     assert found.programs == ()
     assert found.remark == unique_forces.NOT_SOUGHT
     monkeypatch.setattr(unique_forces, "MOST_POINTS", program.n_points)
-    assert least_forces(program, state, weights, SETTINGS, ignored).remark == ""
+    assert least_forces(program, state, weights, SETTINGS, ignored).remark is None
 
 
 def test_newtons_method_for_least_forces_is_short_on_large_models(

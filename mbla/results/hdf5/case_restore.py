@@ -8,6 +8,7 @@ import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.deck.sections.analysis import AnalysisSection, ReductionSwitches
+from mbla.errors import Message
 from mbla.model.model import LoadCase
 from mbla.program.reductions import ProgramSize, ReductionStep, StepState
 from mbla.results.hdf5.content import HISTORY, MOTIONS
@@ -46,7 +47,7 @@ def case_from(load_case: LoadCase, get: dict[str, Any]) -> CaseResult:
     own = _held(Solution, "cases/*", get) | {
         "status": Status(get["claimed_status"]),
         "stress_blocks": bool(get["stress_blocks"]),
-        "remarks": tuple(get["remarks"]),
+        "remarks": _messages(get, "remarks"),
         "level_lock": get.get("level/lock"),
         "certificate": get.get("certificate"),
         "certificate_motions": _motions(get, "certificate_"),
@@ -58,13 +59,17 @@ def case_from(load_case: LoadCase, get: dict[str, Any]) -> CaseResult:
     if "spread" in own:
         own["spread"] = tuple(own["spread"].tolist())
     lower, upper = get["range"].tolist()
-    checks = _held(Checks, "cases/*", get) | {"failures": tuple(get["failures"]), "lower": lower, "upper": upper}
+    checks = _held(Checks, "cases/*", get) | {"failures": _messages(get, "failures"), "lower": lower, "upper": upper}
     return CaseResult(load_case, Solution(**own, **answers), Checks(**checks), Status(get["status"]))
 
 
 def _held(kind: type, place: str, get: dict[str, Any]) -> dict[str, Any]:
     """Fields of a dataclass by name, those that are there."""
     return {name: get[name] for name in stored(kind, place) if name in get}
+
+
+def _messages(get: dict[str, Any], group: str) -> tuple[Message, ...]:
+    return tuple(map(Message, get[f"{group}/identifier"], get[f"{group}/message"]))
 
 
 def _mechanics(get: dict[str, Any], group: str, part: str) -> Mechanics | None:

@@ -11,7 +11,7 @@ from mbla import __version__
 from mbla.arrays import FloatArray, IntArray, starts
 from mbla.contacts.contacts import ContactReport, Contacts
 from mbla.deck.sections.selectors import POSITIONS
-from mbla.errors import Notice
+from mbla.errors import Message, Notice
 from mbla.model.model import Joint, LoadCase, Model, Settlement, Tilt, TravelPosition
 from mbla.model.solids.blocks import Blocks
 from mbla.program.reductions import ProgramSize
@@ -220,6 +220,8 @@ def case_content(model: Model, contacts: Contacts, case: CaseResult) -> Content:
         "status": case.status.value,
         "claimed_status": solution.status.value,
         **_held(checks, Checks, "cases/*"),
+        **_messages("remarks", solution.remarks),
+        **_messages("failures", checks.failures),
         "range": np.array([checks.lower, checks.upper]),
         "least_load_factor": least,
         "greatest_load_factor": greatest,
@@ -236,6 +238,11 @@ def case_content(model: Model, contacts: Contacts, case: CaseResult) -> Content:
             own = _answer(mechanics) | {"residual": residual}
             content |= {f"{group}/{name}".lstrip("/"): value for name, value in own.items()}
     return content | _collapse(model, contacts, case) | _further(solution)
+
+
+def _messages(group: str, messages: Sequence[Message]) -> Content:
+    identifiers = [message.identifier for message in messages]
+    return {f"{group}/identifier": identifiers, f"{group}/message": [message.words for message in messages]}
 
 
 def _columns(group: str, kind: type, records: Sequence[object]) -> Content:

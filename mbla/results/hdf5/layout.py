@@ -10,7 +10,7 @@ from mbla.results.record.quantity import NOT_VERIFIED, Quantity, unit_text
 from mbla.results.record.stored import STORED
 
 FILETYPE = "mbla results"
-VERSION = 6
+VERSION = 7
 """raised by one with every change that an older reader would misread"""
 
 ATTRIBUTES = {

@@ -39,6 +39,12 @@ REDUCED = {
 """sizes that a reduction changes"""
 
 
+def _messages(place: str, words: str, dimension: str, told: str = "") -> tuple[Quantity, ...]:
+    """Columns of what a solution says of itself, sentence by sentence."""
+    identifier = text("identifier", f"{words}: stable identifier, as `mbla explain` takes it", dimension)
+    return at(place, identifier, text("message", f"{words}: in words", dimension), part="solution", told=told)
+
+
 def _answer(part: str, group: str, whose: str) -> tuple[Quantity, ...]:
     told = PASSED if part == "peak" else ""
     convex = "convex contact model:"
@@ -166,11 +172,11 @@ OF_CASE: tuple[Quantity, ...] = (
         flag("stress_blocks", "1 where interfaces crush as fields of stress do"),
         text("scheme", "how a flow without normality was solved; empty: associative", told=COURSE),
         text("reason", "why it is not plainly solved, in words", told=WORDS),
-        text("remarks", "what a reader of the figure must know", "remark", told=WORDS),
         real("seconds", "time of the solver stage", "time", told=TIMES),
         whole("sides", "of the friction polyhedron, 0: circular cone"),
         part="solution",
     ),
+    *_messages("cases/*/remarks", "what a reader of the figure must know", "remark", told=WORDS),
     *(each for part, (group, whose) in ANSWERS.items() for each in _answer(part, group, whose)),
     *at(
         "cases/*",
@@ -383,9 +389,9 @@ OF_CASE: tuple[Quantity, ...] = (
             "range", "verified least and greatest load factor for the mechanism found, nan: none", "1", "end", open=True
         ),
         flag("verified", "1 where everything is within tolerance"),
-        text("failures", "what is not, in words", "failure"),
         part="solution",
     ),
+    *_messages("cases/*/failures", "what is not", "failure"),
     *at(
         "cases/*/programs",
         whole("program", "number of the program, from 1", "program_row"),

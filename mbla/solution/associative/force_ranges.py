@@ -19,6 +19,7 @@ import numpy as np
 import scipy.sparse as sp
 
 from mbla.arrays import FloatArray, IntArray
+from mbla.errors import Message
 from mbla.program.fixed_mechanism import FixedMechanismForm, fixed_mechanism_form
 from mbla.program.kinematic import ConeProgram
 from mbla.program.program import Program
@@ -48,12 +49,12 @@ class ForceRanges:
 
     ranges : (n_interfaces, 2) in units of the program's forces; inf without an end; NaN where the program has no points
              of the interface, or where the solver came to no answer
-    remark : in words, how many were not found; empty where all were
+    remark : how many were not found; None where all were
     """
 
     ranges: FloatArray
     programs: tuple[ProgramRecord, ...]
-    remark: str = ""
+    remark: Message | None = None
 
 
 def force_ranges(
@@ -141,6 +142,7 @@ def _with_factor(form: FixedMechanismForm, state: LawState) -> ConeProgram:
     )
 
 
-def _words(ranges: FloatArray) -> str:
+def _words(ranges: FloatArray) -> Message | None:
     missing = int(np.isnan(ranges).any(axis=1).sum())
-    return f"the range of the normal force was not found for {missing} interfaces" if missing else ""
+    words = f"the range of the normal force was not found for {missing} interfaces"
+    return Message("force-range-not-found", words) if missing else None

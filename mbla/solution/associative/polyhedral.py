@@ -22,6 +22,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from mbla.arrays import FloatArray
+from mbla.errors import Message
 from mbla.program.kinematic import friction_polygon
 from mbla.program.program import Program
 from mbla.solution.associative.associative_form import FORMS, AssociativeForm
@@ -56,7 +57,7 @@ class SecondOpinion:
     """
 
     agrees: bool | None
-    remark: str
+    remark: Message
     record: ProgramRecord
 
 
@@ -72,7 +73,7 @@ class PolyhedralResult:
 
     inner: AssociativeResult
     outer: AssociativeResult
-    remarks: tuple[str, ...]
+    remarks: tuple[Message, ...]
     programs: tuple[ProgramRecord, ...]
 
 
@@ -92,7 +93,7 @@ def solve_polyhedral(
     inner, inner_remark = solve_with_opinion(program, polygons[0], form, "inscribed", settings, log, first)
     second = first + len(inner.programs)
     outer, outer_remark = solve_with_opinion(program, polygons[1], form, "circumscribed", settings, log, second)
-    bracket = "" if inner.state is None or outer.state is None else _bracket(program, sides, inner.state, outer.state)
+    bracket = None if inner.state is None or outer.state is None else _bracket(program, sides, inner.state, outer.state)
     remarks = _texts(bracket, inner_remark, outer_remark)
     return PolyhedralResult(_claim(sides, inner, outer), outer, remarks, inner.programs + outer.programs)
 
@@ -105,7 +106,7 @@ def solve_with_opinion(
     settings: SolverSettings,
     log: Log,
     first: int = 1,
-) -> tuple[AssociativeResult, str]:
+) -> tuple[AssociativeResult, Message | None]:
     """The associative program, and a remark on what the other solver says of it.
 
     facets : directions that bound shear instead of cones
@@ -117,7 +118,7 @@ def solve_with_opinion(
     made = FORMS[form](program, facets)
     result = solve_associative(program, settings, log, form=made, first=first)
     if result.state is None:
-        return result, ""
+        return result, None
     number = first + len(result.programs)
     opinion = second_opinion(made, result.state.load_factor, result.solver, kind, settings, log, number)
     result = replace(result, programs=(*result.programs, opinion.record))
@@ -154,9 +155,14 @@ def second_opinion(
     which = f"{kind} polyhedron: " if kind else ""
     first = f"{which}{WRITTEN.get(by, by)} gives a load factor of {load_factor * live:.9g}, "
     if not has_value:
-        return SecondOpinion(None, first + f"{solution.solver} came to no answer ({solution.verdict})", record)
+        none = Message("second-opinion-missing", f"{first}{solution.solver} came to no answer ({solution.verdict})")
+        return SecondOpinion(None, none, record)
     verdict = "they agree" if agrees else f"they differ by {apart:.1g} and should by {within:g} at most"
-    return SecondOpinion(agrees, first + f"{solution.solver} {value * live:.9g}: {verdict}", record)
+    remark = Message(
+        "second-opinion-agrees" if agrees else "second-opinion-differs",
+        f"{first}{solution.solver} {value * live:.9g}: {verdict}",
+    )
+    return SecondOpinion(agrees, remark, record)
 
 
 def _claim(sides: int, inner: AssociativeResult, outer: AssociativeResult) -> AssociativeResult:
@@ -184,15 +190,16 @@ def _claim(sides: int, inner: AssociativeResult, outer: AssociativeResult) -> As
     return replace(inner, status=Status.NOT_VERIFIED, state=None, reason=reason)
 
 
-def _bracket(program: Program, sides: int, inner: LawState, outer: LawState) -> str:
+def _bracket(program: Program, sides: int, inner: LawState, outer: LawState) -> Message:
     least, greatest = (program.scaling.load_factor(state.load_factor) for state in (inner, outer))
     width = (outer.load_factor - inner.load_factor) / max(abs(outer.load_factor), SMALL_FACTOR * program.dead_over_live)
-    return (
+    return Message(
+        "polyhedral-bracket",
         f"with friction polyhedra of {sides} sides the load factor of the true cone lies between {least:.6g} "
         f"(inscribed, the figure reported) and {greatest:.6g} (circumscribed), {100 * max(width, 0.0):.2g} % apart; "
-        "more sides narrow it"
+        "more sides narrow it",
     )
 
 
-def _texts(*texts: str) -> tuple[str, ...]:
+def _texts(*texts: Message | None) -> tuple[Message, ...]:
     return tuple(text for text in texts if text)

@@ -17,6 +17,7 @@ import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.contacts.contacts import Contacts
+from mbla.errors import Message
 from mbla.model.model import LoadCase, Model
 from mbla.program import Program, assemble
 from mbla.program.yield_conditions import YieldLimits, yield_violation
@@ -124,11 +125,11 @@ def certificate_failures(
     certificate: FloatArray,
     limits: YieldLimits,
     scale: LoadScale,
-) -> tuple[str, ...]:
+) -> tuple[Message, ...]:
     """Why a mechanism, (n_blocks, 6), does not prove that the dead load alone is not carried; nothing where it does."""
     program = assemble(model, contacts, load_case)
     velocities = program.velocities(certificate)
-    failures: tuple[str, ...] = ()
+    failures: tuple[Message, ...] = ()
     for u in repaired_mechanisms(program, velocities):
         motion = allowed_motion(model, program.mechanism(u), scale.arms)
         v = contact_velocities(model, contacts, motion)
@@ -137,7 +138,8 @@ def certificate_failures(
         charge = LOCKED_IN * float(scale.own.sum()) * lack
         if work > charge:
             return ()
-        failures = failures or (_words(work, lack, float(np.abs(v).max(initial=0.0))),)
+        words = _words(work, lack, float(np.abs(v).max(initial=0.0)))
+        failures = failures or (Message("collapse-not-proved", words),)
     return failures
 
 

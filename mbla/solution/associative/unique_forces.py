@@ -32,6 +32,7 @@ import numpy as np
 import scipy.sparse as sp
 
 from mbla.arrays import FloatArray
+from mbla.errors import Message
 from mbla.program.fixed_mechanism import PointMotion
 from mbla.program.program import Program
 from mbla.solution.associative.least_search import Candidate, Search
@@ -74,7 +75,7 @@ class LeastForces:
 
     state: LawState
     programs: tuple[ProgramRecord, ...]
-    remark: str = ""
+    remark: Message | None = None
 
 
 def least_forces(
@@ -105,7 +106,7 @@ def _least(search: Search) -> LeastForces:
     if by_mechanism.fits:  # of two candidates that fit the law the smaller one is less wrong
         most = np.inf if found is None else (1.0 + SAME_FORCES) * search.size(found)
         found = by_mechanism.state if search.size(by_mechanism.state) <= most else found
-    return LeastForces(found or state, tuple(search.records), NOT_FOUND if found is None else "")
+    return LeastForces(found or state, tuple(search.records), NOT_FOUND if found is None else None)
 
 
 def _without_mechanism(search: Search, by_mechanism: Candidate, all_move: bool) -> LawState | None:
@@ -126,9 +127,12 @@ def _without_mechanism(search: Search, by_mechanism: Candidate, all_move: bool) 
     return search.by_newton(at_rest, SHARES) if at_rest.near else None
 
 
-NOT_FOUND = "contact forces are as the solver left them, not the least ones, which were not found"
+NOT_FOUND = Message(
+    "least-forces-not-found",
+    "contact forces are as the solver left them, not the least ones, which were not found",
+)
 
-NOT_SOUGHT = f"{NOT_FOUND}: of more than {MOST_POINTS:,} points they are not sought"
+NOT_SOUGHT = NOT_FOUND.around(after=f": of more than {MOST_POINTS:,} points they are not sought")
 
 
 def trusted_motion(program: Program, state: LawState) -> PointMotion:

@@ -20,6 +20,7 @@ from enum import StrEnum
 
 import numpy as np
 
+from mbla.errors import Message
 from mbla.program.yield_conditions.limits import YieldLimits
 from mbla.solution.standing.standing_path import SMALL, StandingPath
 from mbla.solution.standing.weak_spring_continuation import Outcome, weaken_springs
@@ -39,24 +40,28 @@ class BoundednessResult:
 
     verdict: Boundedness
     block: int | None
-    reason: str
+    reason: Message
 
 
-BOUNDED = (
+BOUNDED = Message(
+    "locked-by-dilatancy",
     "with dilatancy friction locks the structure under any multiple of the live load; without it joints give way, so "
-    "that there is a load factor"
+    "that there is a load factor",
 )
-ENDS = (
+ENDS = Message(
+    "locked-by-dilatancy",
     "with dilatancy friction locks the structure under any multiple of the live load; without it joints give way "
-    "before the live load alone would be carried, so that there is a load factor"
+    "before the live load alone would be carried, so that there is a load factor",
 )
-UNBOUNDED = (
+UNBOUNDED = Message(
+    "unbounded",
     "without dilatancy too, friction locks the structure under any multiple of the live load: it stands under the live "
-    "load alone, and from the dead load on under all multiples up to {:.6g} that were looked at"
+    "load alone, and from the dead load on under all multiples up to {:.6g} that were looked at",
 )
-DOUBTFUL = (
+DOUBTFUL = Message(
+    "not-verified",
     "with dilatancy friction locks the structure under any multiple of the live load; whether it does so without is "
-    "doubtful"
+    "doubtful",
 )
 
 NO_START = "it was not seen to stand under its dead load, from which the load path starts"
@@ -72,7 +77,7 @@ def non_associative_bounded(path: StandingPath) -> BoundednessResult:
     if weakening.outcome is Outcome.FALLS:
         return BoundednessResult(Boundedness.BOUNDED, weakening.block, BOUNDED)
     if weakening.outcome is Outcome.UNDECIDED:
-        return BoundednessResult(Boundedness.DOUBTFUL, weakening.block, f"{DOUBTFUL}: {weakening.reason}")
+        return BoundednessResult(Boundedness.DOUBTFUL, weakening.block, DOUBTFUL.around(after=f": {weakening.reason}"))
     path.follow_on(SMALL * path.unit, np.inf)
     if path.goes_on:
         value = program.scaling.load_factor(path.last.load_factor)
@@ -80,9 +85,10 @@ def non_associative_bounded(path: StandingPath) -> BoundednessResult:
     if path.fall is not None:
         return BoundednessResult(Boundedness.BOUNDED, path.fall.weakening.block, ENDS)
     if path.end is None:
-        return BoundednessResult(Boundedness.DOUBTFUL, path.last.weakening.block, f"{DOUBTFUL}: {NO_START}")
+        reason = DOUBTFUL.around(after=f": {NO_START}")
+        return BoundednessResult(Boundedness.DOUBTFUL, path.last.weakening.block, reason)
     end = path.end.weakening
-    return BoundednessResult(Boundedness.DOUBTFUL, end.block, f"{DOUBTFUL}: {end.reason}")
+    return BoundednessResult(Boundedness.DOUBTFUL, end.block, DOUBTFUL.around(after=f": {end.reason}"))
 
 
 def lasting_limits(limits: YieldLimits) -> YieldLimits:

@@ -20,6 +20,7 @@ import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.deck.sections.analysis import ProximalScheme
+from mbla.errors import Message
 from mbla.program.program import Program
 from mbla.solution.associative.solve_associative import AssociativeResult
 from mbla.solution.cone_solvers.cone_solution import Log
@@ -92,7 +93,8 @@ def solve_dilatancy(
     if _fits(tries, raised) or above is None:
         return _best_of(tries, direct, raised)
     lowered = tries.along([most + share * (angle - most) for share in SHARES], above)
-    remark = "this state was reached from the forces of associative flow, and others may lie below it"
+    words = "this state was reached from the forces of associative flow, and others may lie below it"
+    remark = Message("load-factor-not-unique", words)
     return _best_of(tries, direct, raised, replace(lowered, remarks=(*lowered.remarks, remark)))
 
 
@@ -122,8 +124,9 @@ def _with_state_from_above(
     if abs(there - here) <= DIFFERENT * max(abs(here), abs(there)):
         return result
     value = tries.stiffness.program.scaling.load_factor(there)
-    remark = (
+    remark = Message(
+        "load-factor-not-unique",
         f"the load factor is not unique: with the forces of associative flow locked in before, the same law holds at "
-        f"{value:.6g}"
+        f"{value:.6g}",
     )
     return replace(result, remarks=(*result.remarks, remark))

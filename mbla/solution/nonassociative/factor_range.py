@@ -16,6 +16,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from mbla.arrays import FloatArray
+from mbla.errors import Message
 from mbla.program.fixed_mechanism import FixedMechanismForm, fixed_mechanism_form
 from mbla.program.program import Program
 from mbla.solution.cone_solvers.choice import interior_point_solver
@@ -50,13 +51,13 @@ class FactorRange:
     """Least and greatest load factor for a mechanism, as states with its velocities.
 
     lower, upper : None where the end could not be found
-    reason       : in words, why an end is missing; empty where none is
+    reason       : why an end is missing; None where none is
     """
 
     lower: LawState | None
     upper: LawState | None
     programs: tuple[ProgramRecord, ...]
-    reason: str = ""
+    reason: Message | None = None
 
 
 def factor_range(
@@ -90,7 +91,8 @@ def factor_range(
             break
     lower, upper = (search.ends.get(kind) for kind in SIGNS)
     missing = "; ".join(f"{kind} end of the range: {why}" for kind, why in search.missing.items())
-    return FactorRange(lower, upper, tuple(search.records), missing)
+    reason = Message("range-not-found", missing) if missing else None
+    return FactorRange(lower, upper, tuple(search.records), reason)
 
 
 SIGNS = {"lower": 1.0, "upper": -1.0}
@@ -123,7 +125,7 @@ class _Search:
         end = law_state(self.program, self.slope, form.forces(solution.x), self.state.velocities, factor)
         miss = max(end.residual, unbalanced(self.program, end))
         if miss > max(END_RESIDUAL, self.state.residual):
-            self.missing[kind] = f"the forces found for it miss the law by {miss:.2g}"
+            self.missing[kind] = f"the forces found for it violate the joint law: residual {miss:.2g}"
             return
         self.pending.remove(kind)
         self.missing.pop(kind, None)

@@ -21,6 +21,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from mbla.errors import Message
 from mbla.solution.associative.force_repair import repaired_forces
 from mbla.solution.cone_solvers.cone_solution import Log
 from mbla.solution.linear_algebra.stiffness import stiffness_of
@@ -46,13 +47,13 @@ class PathVerdict:
     """A sequence as the load path leaves it.
 
     peak     : the last state that stands, where that lies above the load factor; its velocities are how it falls
-    remark   : what a reader must know, one sentence; empty where there is nothing to say
+    remark   : what a reader must know; None where there is nothing to say
     programs : records of the path
     """
 
     sequence: SequenceResult
     peak: LawState | None = None
-    remark: str = ""
+    remark: Message | None = None
     programs: tuple[ProgramRecord, ...] = ()
 
 
@@ -67,7 +68,7 @@ def judged_by_path(
     """
     state, started = sequence.state, time.perf_counter()
     if state is None or not path.last.stands:
-        return PathVerdict(sequence, remark="" if state is None else NOT_STANDING)
+        return PathVerdict(sequence, remark=None if state is None else NOT_STANDING)
     margin = PEAK * max(abs(state.load_factor), PEAK * path.unit)
     if most - state.load_factor <= margin:
         return PathVerdict(sequence)
@@ -145,13 +146,17 @@ def _record(path: StandingPath, number: int, seconds: float) -> ProgramRecord:
     return ProgramRecord(number, "load path", status, value, np.nan, path.looks, seconds)
 
 
-NOT_STANDING = "the load path was not followed: no state under the dead load alone was found to start from"
-NOT_SEEN = (
-    "the load path was followed to {} only, and whether the structure stands up to the load factor was not seen: {}"
+NOT_STANDING = Message(
+    "path-not-seen", "the load path was not followed: no state under the dead load alone was found to start from"
 )
-LOWER = (
+NOT_SEEN = Message(
+    "path-not-seen",
+    "the load path was followed to {} only, and whether the structure stands up to the load factor was not seen: {}",
+)
+LOWER = Message(
+    "found-above-path",
     "the steps came to {}, above the load that the structure reaches: from the dead load on it no longer stands at {}, "
-    "next to which the state given was found"
+    "next to which the state given was found",
 )
 NO_STATE = (
     "forces and mechanism fit the joint law at {}, but from the dead load on the structure no longer stands at {}; "
@@ -161,8 +166,12 @@ NO_LOAD = (
     "forces and mechanism fit the joint law at {}, which is no load of a structure that stands under its dead load: "
     "from the dead load on it stands up to {}, and no mechanism that fits the law was found there"
 )
-FALLS = (
+FALLS = Message(
+    "peak-on-path",
     "the load path from the dead load rises to {} and falls from there to {}: the peak is the collapse load, the lower "
-    "figure what is left while the structure moves"
+    "figure what is left while the structure moves",
 )
-STANDS_ON = "from the dead load on the structure stands at {} still, above the load factor of {}: its end was not seen"
+STANDS_ON = Message(
+    "peak-not-seen",
+    "from the dead load on the structure stands at {} still, above the load factor of {}: its end was not seen",
+)

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from mbla.arrays import FloatArray
+from mbla.errors import Message
 from mbla.program.program import Program
 from mbla.program.yield_conditions import yield_violation
 from mbla.solution.solution import PathPoint, ProgramRecord, Status
@@ -36,7 +37,7 @@ class SequenceResult:
     """Best state of a sequence; status SOLVED where it converged, APPROXIMATE where not.
 
     spread  : least and greatest load factor of several tries that did not agree, non-dimensional
-    remarks : what a reader of the figure must know, one sentence each
+    remarks : what a reader of the figure must know
     path    : the load path, where one was followed, load factors of the model
     asked   : approximate: the residual at which the scheme was told to stop, and did; None where it fell short of it
     """
@@ -46,7 +47,7 @@ class SequenceResult:
     reason: str
     programs: tuple[ProgramRecord, ...]
     spread: tuple[float, float] | None = None
-    remarks: tuple[str, ...] = ()
+    remarks: tuple[Message, ...] = ()
     path: tuple[PathPoint, ...] = ()
     asked: float | None = None
 

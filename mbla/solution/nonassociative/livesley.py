@@ -20,6 +20,7 @@ from dataclasses import replace
 import numpy as np
 
 from mbla.arrays import FloatArray
+from mbla.errors import Message
 from mbla.program.kinematic import kinematic_form
 from mbla.program.program import Program
 from mbla.program.yield_conditions import YieldLimits
@@ -80,24 +81,26 @@ def _prism(limits: YieldLimits, normal: FloatArray) -> YieldLimits:
 
 
 def _claim(state: LawState) -> tuple[Status, str]:
-    reason = f"after one correction forces and mechanism miss the law without dilatancy by {state.residual:.2g}"
+    reason = f"one correction violates the joint law without dilatancy: residual {state.residual:.2g}"
     if state.residual <= SOLVED_RESIDUAL:
         return Status.SOLVED, ""
     return (Status.APPROXIMATE if state.residual <= APPROXIMATE_RESIDUAL else Status.NOT_VERIFIED), reason
 
 
-def _remark(before: float, after: float, change: float, state: LawState) -> str:
+def _remark(before: float, after: float, change: float, state: LawState) -> Message:
     figures = f"Livesley's correction changes the load factor from {before:.6g} to {after:.6g}"
     if state.residual <= SOLVED_RESIDUAL:
-        return figures + ": the associative forces bear a mechanism without dilatancy too"
+        return Message("livesley-confirms", f"{figures}: the associative forces bear a mechanism without dilatancy too")
     if change <= SOLVED_RESIDUAL:
-        return (
-            figures + ": the associative forces bear a mechanism without dilatancy too, but by the law of the friction "
-            f"polyhedron, which misses that of the cone by {state.residual:.2g}; more sides come closer"
+        return Message(
+            "livesley-polyhedral",
+            f"{figures}: the associative forces bear a mechanism without dilatancy too, but by the law of the friction "
+            f"polyhedron, which violates that of the cone: residual {state.residual:.2g}; more sides come closer",
         )
-    return (
-        figures + ": no mechanism without dilatancy belongs to the associative forces found, so that the associative "
-        "load factor may overstate, and the corrected one all the more; flow_rule: non_associative finds a lower one"
+    return Message(
+        "livesley-overstates",
+        f"{figures}: no mechanism without dilatancy belongs to the associative forces found, so that the associative "
+        "load factor may overstate, and the corrected one all the more; flow_rule: non_associative finds a lower one",
     )
 
 

@@ -29,6 +29,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from mbla.arrays import FloatArray
+from mbla.errors import Message
 from mbla.program.program import Program
 from mbla.solution.associative.solve_associative import AssociativeResult
 from mbla.solution.cone_solvers.cone_solution import ConeSolution, Log
@@ -81,7 +82,9 @@ WARNED = 1e-4
 APPROXIMATE = 1e-2
 """Residuals up to which a state that did not come to rest is solved, solved with a warning, approximate."""
 
-AS_ASKED = "forces and velocities miss the law by {:.2g}, within the residual of {:g} that was asked for"
+AS_ASKED = Message(
+    "law-missed", "forces and velocities violate the joint law: residual {:.2g}, within the requested {:g}"
+)
 
 BELOW_PEAK = 1e-2
 """Share by which the load factor may lie below one that the steps passed through before that is remarked on."""
@@ -163,7 +166,7 @@ def steps_from(run: ProximalRun, anchor: FloatArray, max_programs: int, before: 
         step, kind, convex_steps = _step(run, anchor, rho, before, convex_steps)
         late = deadline is not None and time.monotonic() > deadline
         if step is None:
-            return _late(run) if late else finished(run, "no further step was found")
+            return _late(run) if late else finished(run, "no further iteration was found")
         state = _keep(run, kind, step, time.perf_counter() - started)
         fitting += state.residual <= _fits(run)
         if (state.residual <= EXACT and _settled(run.states[first:])) or fitting > LAST_STEPS:
@@ -171,12 +174,12 @@ def steps_from(run: ProximalRun, anchor: FloatArray, max_programs: int, before: 
         if _is_enough(run, run.states[first:]):
             return _as_asked(run, step, rho)
         if _stands_still(run.states[first:]) or run.in_vain(step, state):
-            return finished(run, "the steps came no closer")
+            return finished(run, "the iterations came no closer")
         if late:
             return _late(run)
         anchor = step.forces if kind == EXACT_STEP else MOVE * step.forces + (1.0 - MOVE) * anchor
         before, rho = step, min(rho, step_size(run.program, anchor))
-    return finished(run, f"the steps did not come to rest in {max_programs} programs")
+    return finished(run, f"did not converge in {max_programs} iterations")
 
 
 def _fits(run: ProximalRun) -> float:
@@ -284,14 +287,15 @@ def finished(run: ProximalRun, cause: str) -> SequenceResult:
     best, live = run.best, run.program.scaling.live
     if best is None:
         return SequenceResult(Status.NOT_VERIFIED, None, cause, tuple(run.records))
-    words = f"{cause}: forces and velocities miss the law by {best.residual:.2g}" if cause else ""
-    remarks: list[str] = []
+    words = Message("law-missed", f"{cause}: residual of the joint law {best.residual:.2g}" if cause else "")
+    remarks: list[Message] = []
     least = NEAR_ZERO * run.program.moved_over_live(best.velocities)
     if run.peak - best.load_factor > BELOW_PEAK * max(abs(run.peak), abs(best.load_factor), least):
-        remarks.append(
+        passed = (
             f"the load factor lies below {run.peak * live:.6g}, which the steps passed through: between the two the "
             "structure moves to another state, and may come to rest under a load that it does not survive at first"
         )
+        remarks.append(Message("below-passed-load", passed))
     if best.residual <= SOLVED:
         return SequenceResult(Status.SOLVED, best, "", tuple(run.records), remarks=tuple(remarks))
     fits = max(WARNED, best.residual)

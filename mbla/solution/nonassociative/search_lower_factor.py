@@ -27,6 +27,7 @@ import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.deck.sections.analysis import LowestScheme
+from mbla.errors import Message
 from mbla.program.fixed_mechanism import FixedMechanismForm, PointMotion, fixed_mechanism_form
 from mbla.program.kinematic import ConeProgram
 from mbla.program.program import Program
@@ -81,7 +82,8 @@ def solve_lowest(
     """Lowest load factor found from a solution within ``scheme.seconds``; never above that of the solution."""
     start = sequence.state
     if start is None or sequence.status is not Status.SOLVED or start.residual > END_RESIDUAL:
-        remark = "the search for lower load factors did not begin: it needs a solution that fits the joint law to 1e-6"
+        words = "the search for lower load factors did not begin: it needs a solution that fits the joint law to 1e-6"
+        remark = Message("lowest-search-not-begun", words)
         return replace(sequence, remarks=(*sequence.remarks, remark))
     deadline = time.monotonic() + scheme.seconds
     if settings.deadline is not None:
@@ -212,22 +214,23 @@ class _Search:
         self.records.append(replace(last, iterations=iterations, seconds=now - self.since))
         self.noted, self.since = self.best.load_factor, now
 
-    def words(self, start: LawState, scheme: LowestScheme) -> tuple[str, ...]:
+    def words(self, start: LawState, scheme: LowestScheme) -> tuple[Message, ...]:
         """How the lowest was found, and what it is."""
         live = self.program.scaling.live
         ended = "" if self.stale < STALE else f"; the last {STALE} found nothing lower"
-        found = (
+        found = Message(
+            "lowest-search",
             f"search for lower load factors (seed {scheme.seed}): {self.tries} mechanisms tried, from "
             f"{start.load_factor * live:.6g} down to {self.best.load_factor * live:.6g}{ended}; "
-            "this is an upper bound of the least load factor without dilatancy, not that itself"
+            "this is an upper bound of the least load factor without dilatancy, not that itself",
         )
         if not self.needless:
             return (found,)
-        return (
-            found,
+        needless = (
             f"{self.needless} of the mechanisms tried needed no live load at all, such as a block that turns about the "
-            "one contact point that carries all its force: they fit the joint law and are not counted",
+            "one contact point that carries all its force: they fit the joint law and are not counted"
         )
+        return found, Message("lowest-search", needless)
 
 
 def _speed(program: Program, velocities: FloatArray) -> float:

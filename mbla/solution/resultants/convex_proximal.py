@@ -15,6 +15,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from mbla.arrays import FloatArray
+from mbla.errors import Message
 from mbla.program.convex import ConvexProgram
 from mbla.program.convex.assemble import in_unit_of_force
 from mbla.program.convex.friction_limit import friction_limit
@@ -72,7 +73,7 @@ SPREAD_STEPS = 10
 
 @dataclass(frozen=True)
 class ConvexSequence:
-    """Best state of a sequence; spread of load factors non-dimensional; remarks one sentence each.
+    """Best state of a sequence; spread of load factors non-dimensional; with remarks.
 
     asked : approximate: the residual at which it was told to stop, and did
     """
@@ -82,7 +83,7 @@ class ConvexSequence:
     reason: str
     programs: tuple[ProgramRecord, ...]
     spread: tuple[float, float] | None = None
-    remarks: tuple[str, ...] = ()
+    remarks: tuple[Message, ...] = ()
     asked: float | None = None
 
 
@@ -239,9 +240,9 @@ def _finished(run: _Run) -> ConvexSequence:
         return ConvexSequence(Status.APPROXIMATE, best, words, records, asked=wanted)
     if best.residual <= SOLVED:
         return ConvexSequence(Status.SOLVED, best, "", records)
-    words = (
-        f"the steps did not come to rest in {len(run.of_steps)} programs: "
-        f"forces and motions miss the law by {best.residual:.2g}"
+    words = Message(
+        "law-missed",
+        f"did not converge in {len(run.of_steps)} iterations: residual of the joint law {best.residual:.2g}",
     )
     fits = max(WARNED, best.residual)
     factors = [state.load_factor for state in (best, *run.states[-SPREAD_STEPS:]) if state.residual <= fits]

@@ -10,6 +10,7 @@ import numpy as np
 from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.deck.sections.accuracy import knobs_of
 from mbla.deck.sections.analysis import AnalysisSection
+from mbla.errors import Message
 from mbla.program.convex import ConvexProgram
 from mbla.program.convex.assemble import in_unit_of_force
 from mbla.program.convex.crushing import crushing_violation
@@ -31,7 +32,10 @@ LOCKED = (
     "with dilatancy friction locks the structure under any multiple of the live load; "
     "without dilatancy no state of collapse was found"
 )
-NO_RANGE = "with conditions on interfaces the range of the load factor for the mechanism found is not computed"
+NO_RANGE = Message(
+    "range-not-computed",
+    "with conditions on interfaces the admissible load factors for this mechanism are not computed",
+)
 
 
 def solve_convex(

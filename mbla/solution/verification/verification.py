@@ -18,6 +18,7 @@ import numpy as np
 
 from mbla.contacts.contacts import Contacts
 from mbla.contacts.glue import solids_of
+from mbla.errors import Message
 from mbla.model.model import LoadCase, Model
 from mbla.process.stopwatch import timed
 from mbla.program.assemble import yield_limits
@@ -34,11 +35,17 @@ from mbla.solution.verification.verify_range import range_checks
 from mbla.solution.verification.verify_standing import standing_failures
 from mbla.solution.verification.verify_tilt import never_failures, tilt_failures
 
-NOT_SHOWN = "nothing is given that shows that it stands under the dead load alone"
-SHOWN = "it is said not to stand under the dead load alone, and its forces show that it does"
-FALL_NOT_SHOWN = "it is said to fall under the dead load alone, and no motion is given that shows it"
-FALL_SHOWN = "a motion is given in which it falls under the dead load alone, and it is not said to"
-NOTHING_ACTS = "it is said not to stand under the dead load alone, and there is none"
+NOT_SHOWN = Message("standing-not-proved", "nothing is given that shows that it stands under the dead load alone")
+SHOWN = Message(
+    "standing-not-proved", "it is said not to stand under the dead load alone, and its forces show that it does"
+)
+FALL_NOT_SHOWN = Message(
+    "standing-not-proved", "it is said to fall under the dead load alone, and no motion is given that shows it"
+)
+FALL_SHOWN = Message(
+    "standing-not-proved", "a motion is given in which it falls under the dead load alone, and it is not said to"
+)
+NOTHING_ACTS = Message("standing-not-proved", "it is said not to stand under the dead load alone, and there is none")
 
 APART = 1e-9
 """Motion of glued blocks against each other, over the largest motion: rounding of the map from solids to blocks."""
@@ -55,7 +62,8 @@ def verify(model: Model, contacts: Contacts, load_case: LoadCase, solution: Solu
     of_solids, apart = solution_on_solids(solution, solids)
     checks = _verify(solids.model, solids.contacts, solids.load_case(load_case), of_solids)
     if not apart <= APART:
-        failure = f"blocks that are glued to each other move apart, by {apart:.2g} of the largest motion"
+        words = f"blocks that are glued to each other move apart, by {apart:.2g} of the largest motion"
+        failure = Message("glued-blocks-part", words)
         checks = replace(checks, verified=False, failures=(*checks.failures, failure))
     return checks
 
@@ -127,7 +135,9 @@ def level_bound(model: Model, contacts: Contacts, load_case: LoadCase, solution:
     return checks.static_bound if not locks else np.inf if checks.verified else np.nan
 
 
-def _standing_failures(model: Model, contacts: Contacts, load_case: LoadCase, solution: Solution) -> tuple[str, ...]:
+def _standing_failures(
+    model: Model, contacts: Contacts, load_case: LoadCase, solution: Solution
+) -> tuple[Message, ...]:
     """Why forces and displacements do not show what is said of the dead load alone: that it is carried needs them."""
     standing = solution.standing
     if standing is None:
@@ -142,7 +152,7 @@ def _standing_failures(model: Model, contacts: Contacts, load_case: LoadCase, so
     return failures if stands or failures else (SHOWN,)
 
 
-def _fall_failures(solution: Solution) -> tuple[str, ...]:
+def _fall_failures(solution: Solution) -> tuple[Message, ...]:
     """Why it is not said to fall by status and standing where a motion is given that shows it, and nowhere else.
 
     What the motion is worth is judged where there are no forces that carry a load factor.
@@ -155,9 +165,9 @@ def _fall_failures(solution: Solution) -> tuple[str, ...]:
     return (FALL_SHOWN if shown else FALL_NOT_SHOWN,)
 
 
-def _lock_failures(model: Model, contacts: Contacts, load_case: LoadCase, solution: Solution) -> tuple[str, ...]:
+def _lock_failures(model: Model, contacts: Contacts, load_case: LoadCase, solution: Solution) -> tuple[Message, ...]:
     if solution.lock is None:
-        return ("no forces are given that carry every multiple of the live load",)
+        return (Message("lock-not-proved", "no forces are given that carry every multiple of the live load"),)
     failures = lock_failures(model, contacts, load_case, solution.lock)
     if solution.conditions_on_interfaces:
         failures += convex_lock_failures(model, contacts, solution.lock, solution.contact_model)

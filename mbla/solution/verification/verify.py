@@ -21,6 +21,7 @@ import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.contacts.contacts import Contacts
+from mbla.errors import Message
 from mbla.model.model import LoadCase, Model
 from mbla.program.assemble import yield_limits
 from mbla.program.yield_conditions import YieldLimits
@@ -55,7 +56,9 @@ def verify(model: Model, contacts: Contacts, load_case: LoadCase, solution: Solu
     scale = load_scale(model, contacts, load_case, limits)
     nan = np.nan
     if solution.mechanics is None:
-        failures: tuple[str, ...] = (solution.reason,) if solution.status is not Status.UNBOUNDED else ()
+        failures: tuple[Message, ...] = (
+            (Message("not-verified", solution.reason),) if solution.status is not Status.UNBOUNDED else ()
+        )
         if solution.certificate is not None:
             failures = certificate_failures(model, contacts, load_case, solution.certificate, limits, scale)
         return Checks(nan, nan, nan, nan, nan, nan, nan, nan, nan, verified=not failures, failures=failures)
@@ -160,40 +163,62 @@ def tolerances(flow_rule: str) -> dict[str, float]:
 
 def failures_of(
     residuals: Residuals, solution: Solution, static: float, kinematic: float, size: float
-) -> tuple[str, ...]:
-    """What is not within tolerance, in words; ``size`` is the unit of differences of load factors."""
+) -> tuple[Message, ...]:
+    """What is not within tolerance; ``size`` is the unit of differences of load factors."""
     associative = solution.flow_rule == "associative"
-    allowed = tolerances(solution.flow_rule)
-    limits = (
-        ("equilibrium residual", residuals.equilibrium, allowed["equilibrium_residual"]),
-        ("yield violation", residuals.yielding, allowed["yield_violation"]),
-        ("penetration", residuals.penetration, allowed["penetration"]),
-        ("complementarity residual", residuals.complementarity, allowed["complementarity_residual"]),
-        ("power balance", residuals.power_balance, allowed["power_balance"]),
-        ("deviation of the live power from 1", abs(residuals.live_power - 1.0), allowed["live_power"]),
-    )
-    failures = [f"{name} {value:.2g} exceeds {limit:g}" for name, value, limit in limits if not value <= limit]
+    failures = residual_failures(residuals, solution.flow_rule)
     if associative:
         failures += _bound_failures(solution, static, kinematic, size)
     elif _above(solution, kinematic, SOLVED_RESIDUAL * size):
         assert solution.mechanics is not None
-        failures.append(
+        words = (
             f"the load factor {solution.mechanics.load_factor:.8g} exceeds the kinematic bound {kinematic:.8g} "
             "of the associative one"
         )
+        failures.append(Message("above-kinematic-bound", words))
     return tuple(failures)
 
 
-def _bound_failures(solution: Solution, static: float, kinematic: float, size: float) -> list[str]:
+def residual_failures(residuals: Residuals, flow_rule: str, of: str = "") -> list[Message]:
+    """Residuals that exceed what the flow rule allows; ``of`` goes before each."""
+    allowed = tolerances(flow_rule)
+    limits = (
+        ("equilibrium-residual", "equilibrium residual", residuals.equilibrium, allowed["equilibrium_residual"]),
+        ("yield-violation", "yield violation", residuals.yielding, allowed["yield_violation"]),
+        ("penetration", "penetration", residuals.penetration, allowed["penetration"]),
+        (
+            "complementarity-residual",
+            "complementarity residual",
+            residuals.complementarity,
+            allowed["complementarity_residual"],
+        ),
+        ("power-balance", "power balance", residuals.power_balance, allowed["power_balance"]),
+        (
+            "live-power",
+            "deviation of the live power from 1",
+            abs(residuals.live_power - 1.0),
+            allowed["live_power"],
+        ),
+    )
+    return [
+        Message(identifier, f"{of}{name} {value:.2g} exceeds {limit:g}")
+        for identifier, name, value, limit in limits
+        if not value <= limit
+    ]
+
+
+def _bound_failures(solution: Solution, static: float, kinematic: float, size: float) -> list[Message]:
     """What the bounds of the associative load factor leave unproved."""
     assert solution.mechanics is not None
     room, factor = GAP_TOLERANCE * size, solution.mechanics.load_factor  # as reported: forces may be others than proved
     if not abs(kinematic - static) <= room:
-        return [
+        words = (
             f"static bound {static:.8g} and kinematic bound {kinematic:.8g} lie further apart than {GAP_TOLERANCE:g}"
-        ]
+        )
+        return [Message("bounds-apart", words)]
     if not static - room <= factor <= kinematic + room:
-        return [f"the load factor {factor:.8g} does not lie between its bounds {static:.8g} and {kinematic:.8g}"]
+        words = f"the load factor {factor:.8g} does not lie between its bounds {static:.8g} and {kinematic:.8g}"
+        return [Message("outside-bounds", words)]
     return []
 
 

@@ -13,6 +13,7 @@ import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.contacts.contacts import Contacts
+from mbla.errors import Message
 from mbla.model.model import LoadCase, Model
 from mbla.program.assemble import yield_limits
 from mbla.program.convex import ConvexProgram, assemble_convex
@@ -54,7 +55,9 @@ def verify_convex(model: Model, contacts: Contacts, load_case: LoadCase, solutio
     case = _Case(model, contacts, load_case, solution.contact_model)
     nan = np.nan
     if solution.mechanics is None:
-        failures: tuple[str, ...] = (solution.reason,) if solution.status is not Status.UNBOUNDED else ()
+        failures: tuple[Message, ...] = (
+            (Message("not-verified", solution.reason),) if solution.status is not Status.UNBOUNDED else ()
+        )
         if solution.certificate is not None:
             failures = _certificate_failures(case, solution.certificate, solution.certificate_motions)
         return Checks(nan, nan, nan, nan, nan, nan, nan, nan, nan, verified=not failures, failures=failures)
@@ -229,11 +232,11 @@ def _dissipation(case: _Case, mechanism: FloatArray, motions: FloatArray) -> tup
     return float(of_points.sum() + twisted.sum() + crushed.sum()), lack
 
 
-def _certificate_failures(case: _Case, certificate: FloatArray, motions: FloatArray | None) -> tuple[str, ...]:
+def _certificate_failures(case: _Case, certificate: FloatArray, motions: FloatArray | None) -> tuple[Message, ...]:
     """Why a mechanism does not prove that the dead load alone is not carried; nothing where it does."""
     convex = case.program()
     motions = np.zeros((len(case.contacts), 2, 6)) if motions is None else motions
-    failures: tuple[str, ...] = ()
+    failures: tuple[Message, ...] = ()
     for mechanism, moved in _moved(case, convex, certificate, motions):
         dissipated, lack = _dissipation(case, mechanism, moved)
         work = power(case.load_case.dead_load, mechanism) - dissipated
@@ -244,7 +247,7 @@ def _certificate_failures(case: _Case, certificate: FloatArray, motions: FloatAr
         words = f"the mechanism that shows the lack of equilibrium closes joints by {share:.1g} of its speed"
         if not work > 0:
             words = "the dead load does no work in the mechanism that should show the lack of equilibrium"
-        failures = failures or (words,)
+        failures = failures or (Message("collapse-not-proved", words),)
     return failures
 
 
@@ -297,7 +300,7 @@ def convex_residuals(
     return _residuals(_Case(model, contacts, load_case, contact_model), mechanics, flow_rule)
 
 
-def convex_lock_failures(model: Model, contacts: Contacts, lock: FloatArray, contact_model: str) -> tuple[str, ...]:
+def convex_lock_failures(model: Model, contacts: Contacts, lock: FloatArray, contact_model: str) -> tuple[Message, ...]:
     """Why forces, (n_points, 3) [N], are not within the conditions on interfaces however often they are taken."""
     case = _Case(model, contacts, model.load_cases[0], contact_model)
     none = np.zeros(len(contacts))
@@ -306,16 +309,17 @@ def convex_lock_failures(model: Model, contacts: Contacts, lock: FloatArray, con
     allowed = LASTING * np.maximum.reduceat(np.linalg.norm(lock, axis=1), contacts.point_start[:-1])
     crushed = case.laws.crushable & (np.abs(resultants).max(axis=1) > allowed)
     if np.any(torsion_excess(dry, resultants) > allowed) or crushed.any():
-        return ("the forces that should show that the structure locks do not stay within the conditions on interfaces",)
+        words = "the forces that should show that the structure locks do not stay within the conditions on interfaces"
+        return (Message("lock-not-proved", words),)
     return ()
 
 
-def _wrong_resultants(case: _Case, mechanics: Mechanics) -> tuple[str, ...]:
+def _wrong_resultants(case: _Case, mechanics: Mechanics) -> tuple[Message, ...]:
     """Stored resultants must be those of the stored forces."""
     if mechanics.resultants is None or mechanics.interface_motions is None:
-        return ("the resultants and motions of the interfaces are missing",)
+        return (Message("wrong-resultants", "the resultants and motions of the interfaces are missing"),)
     resultants = case.resultants(mechanics.contact_forces)
     off = np.abs(resultants - mechanics.resultants).max(initial=0.0)
     if off <= WRONG_RESULTANTS * max(float(np.abs(resultants).max(initial=0.0)), 1e-300):
         return ()
-    return ("the resultants of the interfaces are not those of the contact forces",)
+    return (Message("wrong-resultants", "the resultants of the interfaces are not those of the contact forces"),)

@@ -13,6 +13,7 @@ import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.contacts.contacts import Contacts
+from mbla.errors import Message
 from mbla.model.model import LoadCase, Model
 from mbla.program.assemble import yield_limits
 from mbla.program.yield_conditions import YieldLimits
@@ -32,16 +33,16 @@ MOST = 1e-3
 rounding."""
 
 
-def lock_failures(model: Model, contacts: Contacts, load_case: LoadCase, lock: FloatArray) -> tuple[str, ...]:
+def lock_failures(model: Model, contacts: Contacts, load_case: LoadCase, lock: FloatArray) -> tuple[Message, ...]:
     """Why forces, (n_points, 3) [N], do not prove that every multiple of the live load is carried; nothing if they do.
 
     For a load factor of 1: they balance ``load_case.live_load``.
     """
     if not np.isfinite(lock).all():
-        return ("the forces that should show that the structure locks are not finite",)
+        return (Message("lock-not-proved", "the forces that should show that the structure locks are not finite"),)
     limits = yield_limits(model, contacts)
     if not np.any(load_case.live_load[model.free]):
-        return ("there is no live load on blocks that can move",)
+        return (Message("lock-not-proved", "there is no live load on blocks that can move"),)
     scale = load_scale(model, contacts, replace(load_case, dead_load=load_case.live_load), limits)
     rounding = np.minimum(ROUNDING * forces_on_blocks(contacts, lock, len(model.blocks)), MOST * scale.mean)
     allowed = np.where(model.fixed, np.inf, LASTING * scale.own + rounding)
@@ -56,7 +57,7 @@ def lock_failures(model: Model, contacts: Contacts, load_case: LoadCase, lock: F
         )
     if np.any(_lasting_excess(lock, limits) > scale.of_lighter(contacts, allowed)):
         failures.append("the forces that should show that the structure locks do not stay within the yield conditions")
-    return tuple(failures)
+    return tuple(Message("lock-not-proved", words) for words in failures)
 
 
 def _lasting_excess(lock: FloatArray, limits: YieldLimits) -> FloatArray:

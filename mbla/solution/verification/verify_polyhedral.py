@@ -22,6 +22,7 @@ import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.contacts.contacts import Contacts
+from mbla.errors import Message
 from mbla.model.model import LoadCase, Model
 from mbla.program.assemble import yield_limits
 from mbla.program.yield_conditions import yield_violation
@@ -29,7 +30,7 @@ from mbla.solution.associative.proofs import associative_bounds
 from mbla.solution.solution import Checks, Mechanics, Solution
 from mbla.solution.verification.load_scale import load_scale
 from mbla.solution.verification.residuals import Residuals, residuals_of
-from mbla.solution.verification.verify import GAP_TOLERANCE, LIVE_POWER, ROUNDING, SOLVED_EQUILIBRIUM, SOLVED_RESIDUAL
+from mbla.solution.verification.verify import GAP_TOLERANCE, ROUNDING, residual_failures
 from mbla.solution.verification.verify import verify as verify_mechanics
 
 
@@ -53,8 +54,8 @@ def verify_polyhedral(model: Model, contacts: Contacts, load_case: LoadCase, sol
     bounds = _bounds(model, contacts, load_case, inner, outer)
     residuals = _own_residuals(model, contacts, load_case, inner, _corners(solution.sides, circumscribed=False))
     circumscribed = _of_the_circumscribed(model, contacts, load_case, outer, solution.sides)
-    failures = _residual_failures("", residuals)
-    failures += _residual_failures("circumscribed polyhedron: ", circumscribed)
+    failures = residual_failures(residuals, "associative")
+    failures += residual_failures(circumscribed, "associative", "circumscribed polyhedron: ")
     failures += _bound_failures(inner, outer, bounds)
     return Checks(
         equilibrium_residual=residuals.equilibrium,
@@ -116,19 +117,7 @@ def _bounds(model: Model, contacts: Contacts, load_case: LoadCase, inner: Mechan
     return _Bounds(static, kinematic, size)
 
 
-def _residual_failures(of: str, residuals: Residuals) -> list[str]:
-    limits = (
-        ("equilibrium residual", residuals.equilibrium, SOLVED_EQUILIBRIUM),
-        ("yield violation", residuals.yielding, SOLVED_RESIDUAL),
-        ("penetration", residuals.penetration, SOLVED_RESIDUAL),
-        ("complementarity residual", residuals.complementarity, SOLVED_RESIDUAL),
-        ("power balance", residuals.power_balance, SOLVED_RESIDUAL),
-        ("deviation of the live power from 1", abs(residuals.live_power - 1.0), LIVE_POWER),
-    )
-    return [f"{of}{name} {value:.2g} exceeds {limit:g}" for name, value, limit in limits if not value <= limit]
-
-
-def _bound_failures(inner: Mechanics, outer: Mechanics, bounds: _Bounds) -> list[str]:
+def _bound_failures(inner: Mechanics, outer: Mechanics, bounds: _Bounds) -> list[Message]:
     room = GAP_TOLERANCE * bounds.size
     failures = []
     if not bounds.static >= inner.load_factor - room:
@@ -143,4 +132,4 @@ def _bound_failures(inner: Mechanics, outer: Mechanics, bounds: _Bounds) -> list
         )
     if not bounds.static <= bounds.kinematic + room:
         failures.append(f"the static bound {bounds.static:.8g} lies above the kinematic bound {bounds.kinematic:.8g}")
-    return failures
+    return [Message("bracket-not-proved", words) for words in failures]

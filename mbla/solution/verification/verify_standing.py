@@ -18,6 +18,7 @@ import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.contacts.contacts import Contacts
+from mbla.errors import Message
 from mbla.model.model import LoadCase, Model
 from mbla.program.yield_conditions import YieldLimits, yield_violation
 from mbla.solution.verification.guides import left_to_balance, off_guides
@@ -46,7 +47,7 @@ def standing_failures(
     forces: FloatArray,
     settlement: FloatArray,
     limits: YieldLimits,
-) -> tuple[str, ...]:
+) -> tuple[Message, ...]:
     """Why forces and displacements do not show that the structure stands; nothing where they do.
 
     forces     : (n_points, 3) N, T1, T2 [N] under the dead load alone
@@ -56,7 +57,7 @@ def standing_failures(
     if not np.any(load_case.dead_load[model.free]):
         return ()
     if not (np.isfinite(forces).all() and np.isfinite(settlement).all()):
-        return ("the forces or displacements under the dead load are not finite",)
+        return (Message("standing-not-proved", "the forces or displacements under the dead load are not finite"),)
     scale = load_scale(model, contacts, load_case, limits)
     allowed = np.where(model.fixed, np.inf, scale.allowed(contacts, forces, UNBALANCED, ROUNDING))
     acting = contact_resultants(model, contacts, forces) + load_case.dead_load
@@ -75,7 +76,7 @@ def standing_failures(
     displaced = contact_velocities(model, contacts, settlement)
     if _astray(forces, displaced) > AGAINST:
         failures.append("forces under the dead load alone do not come from the displacements of the blocks")
-    return tuple(failures)
+    return tuple(Message("standing-not-proved", words) for words in failures)
 
 
 def _astray(forces: FloatArray, displaced: FloatArray) -> float:

@@ -7,6 +7,7 @@ import math
 import numpy as np
 
 from mbla.contacts.contacts import Contacts
+from mbla.errors import Message
 from mbla.model.model import LoadCase, Model, Tilt
 from mbla.solution.solution import Checks, Solution, Status
 from mbla.solution.tilt_circle import chord, never_left
@@ -15,16 +16,18 @@ SAME = 1e-6
 """difference of the loads, relative to the turning ones, up to which the angle is the right one"""
 
 
-def never_failures(load_case: LoadCase, checks: Checks) -> tuple[str, ...]:
+def never_failures(load_case: LoadCase, checks: Checks) -> tuple[Message, ...]:
     """What is wrong with the claim that a table collapses at no angle, proved by the loads of the one turned over."""
     tilt = load_case.tilt
     assert tilt is not None  # asked for such cases only
     failures = checks.failures
     off = float(np.abs(load_case.live_load - chord(tilt, math.pi)).max(initial=0.0))
     if off > SAME * float(np.abs(tilt.turning).max(initial=0.0)):
-        failures += ("the live load is not the change from the level table to the one turned over",)
+        failures += (
+            Message("tilt-not-proved", "the live load is not the change from the level table to the one turned over"),
+        )
     if not never_left(tilt.upright, checks.static_bound):
-        failures += ("nothing proves that the table bears every angle up to 180 degrees",)
+        failures += (Message("tilt-not-proved", "nothing proves that the table bears every angle up to 180 degrees"),)
     return failures
 
 
@@ -36,13 +39,17 @@ def only_direction_counts(model: Model, contacts: Contacts, tilt: Tilt) -> bool:
     return not strength and float(np.abs(tilt.fixed[model.free]).max(initial=0.0)) <= 1e-12 * size
 
 
-def tilt_failures(model: Model, contacts: Contacts, load_case: LoadCase, solution: Solution) -> tuple[str, ...]:
+def tilt_failures(model: Model, contacts: Contacts, load_case: LoadCase, solution: Solution) -> tuple[Message, ...]:
     """What is wrong with the angle of a case that claims one."""
     tilt, mechanics = load_case.tilt, solution.mechanics
     if tilt is None or mechanics is None or solution.status not in (Status.SOLVED, Status.APPROXIMATE):
         return ()
     if tilt.tangent and abs(mechanics.load_factor) > SAME and not only_direction_counts(model, contacts, tilt):
-        return ("the load factor is not the tangent of the angle: the size of the loads counts, too",)
+        return (
+            Message(
+                "tilt-not-proved", "the load factor is not the tangent of the angle: the size of the loads counts, too"
+            ),
+        )
     angle = math.degrees(math.atan(mechanics.load_factor)) if tilt.tangent else tilt.angle
     if math.isnan(angle):
         return ()
@@ -52,4 +59,5 @@ def tilt_failures(model: Model, contacts: Contacts, load_case: LoadCase, solutio
     size = float(np.abs(tilt.turning).max(initial=0.0))
     if off <= SAME * size:
         return ()
-    return (f"the loads at collapse are not those at {angle:.6g} degrees: they differ by {off / size:.1e}",)
+    words = f"the loads at collapse are not those at {angle:.6g} degrees: they differ by {off / size:.1e}"
+    return (Message("tilt-not-proved", words),)

@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from mbla.errors import Message
 from mbla.results.hdf5.result_file import read_results_hdf5, write_results_hdf5
 from mbla.results.listing.listing import check_listing, listing, verification_lines
 from mbla.results.listing.text import WIDTH
@@ -101,8 +102,20 @@ def with_case(results: Results, **changes: Any) -> Results:
             "collapses at about 0.5 g, approximate",
         ),
         ({"status": Status.APPROXIMATE, "solution": {"reason": "did not settle"}}, "did not settle"),
-        ({"status": Status.NOT_VERIFIED, "checks": {"verified": False, "failures": ("residual 0.1",)}}, "NOT VERIFIED"),
-        ({"status": Status.NOT_VERIFIED, "checks": {"verified": False, "failures": ("residual 0.1",)}}, "residual 0.1"),
+        (
+            {
+                "status": Status.NOT_VERIFIED,
+                "checks": {"verified": False, "failures": (Message("yield-violation", "residual 0.1"),)},
+            },
+            "NOT VERIFIED",
+        ),
+        (
+            {
+                "status": Status.NOT_VERIFIED,
+                "checks": {"verified": False, "failures": (Message("yield-violation", "residual 0.1"),)},
+            },
+            "residual 0.1",
+        ),
         ({"status": Status.UNBOUNDED, "solution": {"mechanics": None, "flow_rule": "associative"}}, "no collapse: no"),
         ({"status": Status.UNBOUNDED, "solution": {"mechanics": None}}, "no collapse: no"),
         (
@@ -172,7 +185,7 @@ def test_a_fall_is_told_as_any_other_failure(results: Results) -> None:
 
 
 def test_a_value_that_is_no_result_says_so(results: Results) -> None:
-    failed = {"verified": False, "failures": ("residual 0.1",), "kinematic_bound": 0.4}
+    failed = {"verified": False, "failures": (Message("yield-violation", "residual 0.1"),), "kinematic_bound": 0.4}
     found = section(listing(with_case(results, status=Status.NOT_VERIFIED, checks=failed)), "Load case push_x")
     assert re.search(r"best iterate, non_associative +0\.5   \(no load factor\)", found)
     assert not re.search(r"load factor, non_associative", found)

@@ -4,7 +4,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from mbla.errors import Notice
+from mbla.errors import Message, Notice
 from mbla.model.model import Settlement, Tilt
 from mbla.results.listing.summary import summary_lines
 from mbla.results.listing.text import WIDTH
@@ -55,7 +55,7 @@ def test_associative_flow_needs_no_second_column(results: Results) -> None:
 @pytest.mark.parametrize("status", [Status.NOT_VERIFIED, Status.TIME_LIMIT, Status.ITERATION_LIMIT])
 def test_a_value_that_is_no_result_is_not_in_the_table(results: Results, status: Status) -> None:
     first = results.cases[0]
-    checks = replace(first.checks, kinematic_bound=0.4, failures=("residual 0.1",))
+    checks = replace(first.checks, kinematic_bound=0.4, failures=(Message("yield-violation", "residual 0.1"),))
     unsure = replace(results, cases=(replace(first, status=status, checks=checks),))
     assert re.search(r"[A-Z ]+ +- +0\.5$", summary_lines(unsure)[2])
     text = summary(unsure)
@@ -77,7 +77,7 @@ def test_a_reason_that_is_also_a_failure_stands_once(results: Results) -> None:
         first,
         status=Status.TIME_LIMIT,
         solution=replace(first.solution, mechanics=None, reason="the time limit was reached"),
-        checks=replace(first.checks, failures=("the time limit was reached",)),
+        checks=replace(first.checks, failures=(Message("time-limit", "the time limit was reached"),)),
     )
     assert summary(replace(results, cases=(changed,))).count("the time limit was reached") == 1
 

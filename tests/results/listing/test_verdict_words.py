@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from mbla.errors import Message
 from mbla.model.model import Settlement, Tilt
 from mbla.results.hdf5.result_file import read_results_hdf5, write_results_hdf5
 from mbla.results.listing.answer_words import answer_columns
@@ -146,7 +147,7 @@ def test_other_schemes_have_no_known_bias() -> None:
 
 def test_remarks_of_the_solver_end_as_sentences() -> None:
     assert "The factor is the peak of the path." in known_words(
-        MODEL, case_with(solution={"remarks": ("The factor is the peak of the path",)})
+        MODEL, case_with(solution={"remarks": (Message("peak-on-path", "The factor is the peak of the path"),)})
     )
 
 

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from mbla.errors import FileError, Notice, UsageError
+from mbla.errors import FileError, Message, Notice, UsageError
 from mbla.results.explanations import explanations
 from mbla.results.listing.case_words import case_sections
 from mbla.results.listing.contact_words import contact_lines
@@ -184,7 +184,7 @@ def test_text_from_elsewhere_stays_text() -> None:
     blocks = replace(results.model.blocks, groups=(EVIL, *results.model.blocks.groups[1:]))
     model = replace(results.model, title=EVIL, blocks=blocks)
     first = results.cases[0]
-    solution = replace(first.solution, reason=EVIL, remarks=(EVIL,))
+    solution = replace(first.solution, reason=EVIL, remarks=(Message("solver-remark", EVIL),))
     results = replace(
         results,
         model=model,

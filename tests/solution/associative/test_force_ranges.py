@@ -54,7 +54,7 @@ def state_of(program: Program) -> LawState:
 
 def found(line: Line, program: Program, settings: SolverSettings = SETTINGS) -> ForceRanges:
     result = force_ranges(program, state_of(program), line.contacts.interface_of_point, settings, ignored)
-    assert result.remark == ""
+    assert result.remark is None
     assert len(result.programs) == 2 * len(line.contacts)
     return result
 

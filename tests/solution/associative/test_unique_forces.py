@@ -54,7 +54,7 @@ def least(line: Line, program: Program, form: str = "kinematic") -> FloatArray:
     """Contact forces of the model, in mean block loads."""
     state, weights = associative(program, form), point_weights(program, line.contacts.point_areas)
     found = least_forces(program, state, weights, SETTINGS, ignored)
-    assert found.remark == ""
+    assert found.remark is None
     loads = program.dead_load + found.state.load_factor * program.live_load
     assert np.abs(program.equilibrium_matrix @ found.state.forces.ravel() + loads).max() <= 1e-9
     assert yield_violation(found.state.forces, program.limits).max() <= 1e-6

@@ -62,7 +62,7 @@ def ranged(program: Program, state: LawState) -> FactorRange:
 
 def ends(program: Program, state: LawState) -> tuple[float, float]:
     result = ranged(program, state)
-    assert result.reason == ""
+    assert result.reason is None
     assert result.lower is not None
     assert result.upper is not None
     live = program.scaling.live

@@ -61,11 +61,12 @@ def sites() -> tuple[Site, ...]:
 def _sites() -> Iterator[Site]:
     names = builders()
     for path, tree in SOURCES.items():
-        if path.name == "errors.py" and path.parent == PACKAGE:
+        if path.parent == PACKAGE and path.name == "errors.py":
             continue  # it has the classes themselves
         own = {node.name for node in tree.body if isinstance(node, ast.ClassDef)}  # of the same name, not of errors
         for node in ast.walk(tree):
-            if isinstance(node, ast.Call) and _name(node.func) in names - (own & BUILDERS):
+            of_solution = path.is_relative_to(PACKAGE / "solution") and _name(getattr(node, "func", None)) == "Message"
+            if isinstance(node, ast.Call) and _name(node.func) in names - (own & BUILDERS) and not of_solution:
                 given = node.args[0] if node.args else None
                 literal = given.value if isinstance(given, ast.Constant) and isinstance(given.value, str) else None
                 handed_on = isinstance(given, ast.Attribute) and given.attr == "identifier"

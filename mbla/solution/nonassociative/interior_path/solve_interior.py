@@ -22,6 +22,7 @@ import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.deck.sections.analysis import InteriorScheme
+from mbla.errors import Message
 from mbla.program.program import Program
 from mbla.program.static import gravity_form
 from mbla.solution.associative.solve_associative import AssociativeResult
@@ -65,9 +66,10 @@ def starts() -> Iterator[Start]:
         yield Start(0.0, 1.0, seed)
 
 
-ONE_OF_MANY = (
+ONE_OF_MANY = Message(
+    "load-factor-not-unique",
     "the load factor is that of one state of the law without dilatancy; other interior paths may end in other states "
-    "(measured: load factors up to 1 % apart in domes, 5 % in cross vaults, 10 % in walls with openings)"
+    "(measured: load factors up to 1 % apart in domes, 5 % in cross vaults, 10 % in walls with openings)",
 )
 
 
@@ -215,7 +217,9 @@ def _result(tries: _Tries, scheme: InteriorScheme) -> SequenceResult:
         rough = rough_result(tries.program, 0.0, best, tries.settings.residual, records)
         return replace(rough, remarks=(*rough.remarks, ONE_OF_MANY))
     spread = _spread(tries, USABLE)
-    reason = f"no interior path ended in a state of the exact law: forces and velocities miss it by {best.residual:.2g}"
+    reason = Message(
+        "law-missed", f"no interior path ended in a state of the exact joint law: residual {best.residual:.2g}"
+    )
     if tries.late():
         return SequenceResult(Status.TIME_LIMIT, best, "the time limit was reached; " + reason, records, spread)
     if best.residual <= WARNED:

@@ -239,8 +239,7 @@ def test_a_state_close_to_the_law_is_solved_with_a_remark(monkeypatch: pytest.Mo
     result = result_of(program, start=stalled)
     assert result.status is Status.SOLVED
     assert result.state is stalled.state
-    words = "no interior path ended in a state of the exact law: forces and velocities miss it by 5e-05"
-    assert result.remarks == (words,)
+    assert [remark.identifier for remark in result.remarks] == ["law-missed"]
 
 
 def test_the_time_limit_keeps_the_best_state() -> None:
@@ -249,7 +248,7 @@ def test_the_time_limit_keeps_the_best_state() -> None:
     result = result_of(program, start=stalled, deadline=time.monotonic())
     assert result.status is Status.TIME_LIMIT
     assert result.state is stalled.state
-    assert result.reason.startswith("the time limit was reached; no interior path ended in a state of the exact law")
+    assert result.reason.startswith("the time limit was reached; ")
 
 
 def law_holds(program: Program, result: SequenceResult, residual: float) -> None:
@@ -269,7 +268,7 @@ def test_a_dome() -> None:
     law_holds(program, result, 1e-6)
     assert result.state is not None
     assert program.scaling.load_factor(result.state.load_factor) == pytest.approx(0.5426, abs=5e-4)
-    assert "other states" in result.remarks[0]
+    assert result.remarks[0].identifier == "load-factor-not-unique"
 
 
 def test_tries_that_do_not_converge_give_their_spread() -> None:
