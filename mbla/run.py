@@ -21,11 +21,9 @@ from mbla.model.model import LoadCase
 from mbla.model.settlement import with_reference
 from mbla.process.stopwatch import Stopwatch, stage, timing
 from mbla.program import Program, assemble
-from mbla.program.convex.choice import has_conditions_on_interfaces
+from mbla.program.choice import has_conditions_on_interfaces, program_notices
 from mbla.program.reductions import Reduced, allowed_reductions, reduce_program, unreduced
-from mbla.program.reductions.glued import glued_step
-from mbla.program.reductions.steps import size_of, told_apart
-from mbla.program.remarks import program_notices
+from mbla.program.reductions.steps import glued_step, size_of, told_apart
 from mbla.results.deck_record import deck_record
 from mbla.results.exit_status import exit_code
 from mbla.results.expected import differences
@@ -209,7 +207,7 @@ def solve_case(
     def ask(case: LoadCase) -> tuple[Solution, Checks]:
         on_solids = (solids.model, solids.contacts, solids.load_case(case))
         if has_conditions_on_interfaces(deck.analysis, solids.model, solids.contacts):
-            from mbla.program.convex import assemble_convex
+            from mbla.program.resultants import assemble_convex
             from mbla.solution.resultants.solve_convex import solve_convex
 
             with stage("assemble"):

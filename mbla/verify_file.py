@@ -17,7 +17,7 @@ import numpy as np
 from mbla.deck import Deck
 from mbla.deck.sections.accuracy import knobs_of
 from mbla.model.model import Model
-from mbla.program.convex.choice import crushable_interfaces, takes_stress_blocks
+from mbla.program.choice import crushable_interfaces, takes_stress_blocks
 from mbla.rebuilt import rebuilt
 from mbla.results.exit_status import exit_code
 from mbla.results.hdf5.result_file import differences_of_file, read_results_hdf5, write_results_hdf5
@@ -26,8 +26,9 @@ from mbla.results.results import CaseResult, Results
 from mbla.solution.derived import with_derived
 from mbla.solution.settings import solver_settings
 from mbla.solution.solution import Solution, Standing, Status
-from mbla.solution.verification.verification import level_bound, verify
-from mbla.solution.verification.verify import SOLVED_RESIDUAL, verified_status
+from mbla.solution.thresholds import SOLVED_RESIDUAL
+from mbla.solution.verification.verify import level_bound, verify
+from mbla.solution.verification.verify_points import verified_status
 
 
 @np.errstate(over="ignore", invalid="ignore", divide="ignore")  # what is no number fulfils no condition

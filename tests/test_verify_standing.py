@@ -20,7 +20,7 @@ from mbla.results.results import Results
 from mbla.run import run
 from mbla.run_options import RunOptions
 from mbla.solution.solution import Standing, StandingResult, Status
-from mbla.solution.verification.verification import FALL_NOT_SHOWN, FALL_SHOWN, NOT_SHOWN, NOTHING_ACTS, SHOWN
+from mbla.solution.verification.verify import FALL_NOT_SHOWN, FALL_SHOWN, NOT_SHOWN, NOTHING_ACTS, SHOWN
 from mbla.verify_file import verify_file
 from tests.line import BLOCK
 from tests.results.changed_files import with_case, written

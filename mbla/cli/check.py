@@ -13,9 +13,9 @@ from mbla.deck import Deck
 from mbla.model import Model, build_model
 from mbla.model.model import LoadCase
 from mbla.program import assemble
-from mbla.program.convex.choice import has_conditions_on_interfaces
+from mbla.program.choice import has_conditions_on_interfaces
 from mbla.program.kinematic import ConeProgram, kinematic_form
-from mbla.program.reductions.glued import glued_step
+from mbla.program.reductions.steps import glued_step
 from mbla.results.deck_record import deck_record
 from mbla.results.files import OutputFolder
 from mbla.results.needs import CaseNeeds
@@ -72,8 +72,8 @@ def needs_of(deck: Deck, model: Model, contacts: Contacts, load_case: LoadCase) 
     reduced = reduced_program(deck, solids, assemble(*on_solids))
     conditions = has_conditions_on_interfaces(deck.analysis, solids.model, solids.contacts)
     if conditions:
-        from mbla.program.convex import assemble_convex, convex_form
-        from mbla.program.convex.size import size_of_convex
+        from mbla.program.resultants import assemble_convex, convex_form
+        from mbla.program.resultants.assemble import size_of_convex
 
         convex = assemble_convex(*on_solids, deck.analysis.contact_model)
         reduced = replace(reduced, steps=(glued_step(solids, size_of_convex(convex)),))

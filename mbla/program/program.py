@@ -26,7 +26,7 @@ class Scaling:
 
     force : one unit of force (mean load of a free block)
     units : (n_points,) of the forces at each contact point, over that: less than 1 at light blocks with units of their
-            own (:mod:`mbla.program.own_units`); 1 where there are none
+            own (:mod:`mbla.program.assemble`); 1 where there are none
     live  : factor on the live load that brings it to that size
     row   : (6 n_free,) factor from the rows of equilibrium in the deck's units to those of the program:
             1/force for forces, 1/(force × length of the block) for moments, with force in the unit of the block

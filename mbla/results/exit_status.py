@@ -8,7 +8,7 @@ from mbla.errors import Notice
 from mbla.results.results import CaseResult
 from mbla.results.series import series_of
 from mbla.solution import Status
-from mbla.solution.verification.verify import meets_what_was_asked
+from mbla.solution.verification.verify_points import meets_what_was_asked
 
 FAULTS = ("not-as-expected", "isolated-blocks")
 """Warnings of a whole run that count as not verified."""

@@ -21,18 +21,15 @@ from mbla.results.listing.text import WIDTH, heading, sentence
 from mbla.results.outcome import CLEAN_RESIDUAL, UNIQUE
 from mbla.solution.associative.polyhedral import AGREE, AGREE_SHORT
 from mbla.solution.part import SUSPECT
-from mbla.solution.verification.verify import (
+from mbla.solution.thresholds import (
     APPROXIMATE_RESIDUAL,
+    EXACT_RESIDUAL,
     GAP_TOLERANCE,
-    LIVE_POWER,
+    LIVE_POWER_DEVIATION,
     SOLVED_EQUILIBRIUM,
     SOLVED_RESIDUAL,
 )
-from mbla.solution.verification.verify_lock import LASTING
-from mbla.solution.verification.verify_peak import CARRIED
-from mbla.solution.verification.verify_range import END_RESIDUAL
-from mbla.solution.verification.verify_standing import UNBALANCED
-from mbla.solution.verification.verify_tilt import SAME
+from mbla.solution.verification.further_claims import LASTING, SAME_LOADS, UNBALANCED
 
 FIGURES = {
     "gravity_tolerance": f"{GRAVITY_TOLERANCE:.0%}",
@@ -47,14 +44,14 @@ FIGURES = {
     "peak_suspected_below": f"{SUSPECT:g}",
     "approximate_residual": f"{APPROXIMATE_RESIDUAL:g}",
     "gap_tolerance": f"{GAP_TOLERANCE:g}",
-    "live_power": f"{LIVE_POWER:g}",
+    "live_power": f"{LIVE_POWER_DEVIATION:g}",
     "solved_equilibrium": f"{SOLVED_EQUILIBRIUM:g}",
     "solved_residual": f"{SOLVED_RESIDUAL:g}",
     "unbalanced_live_load": f"{LASTING:g}",
-    "peak_residual": f"{CARRIED:g}",
-    "range_residual": f"{END_RESIDUAL:g}",
+    "peak_residual": f"{EXACT_RESIDUAL:g}",
+    "range_residual": f"{EXACT_RESIDUAL:g}",
     "unbalanced_dead_load": f"{UNBALANCED:g}",
-    "same_tilt_loads": f"{SAME:g}",
+    "same_tilt_loads": f"{SAME_LOADS:g}",
 }
 """Thresholds that the explanations name, as they are printed."""
 

@@ -20,8 +20,7 @@ from mbla.program.assemble import yield_limits
 from mbla.results.results import CaseResult
 from mbla.solution.associative.proofs import PROVED_RESIDUAL
 from mbla.solution.solution import Status
-from mbla.solution.verification.load_scale import load_scale, load_sizes
-from mbla.solution.verification.statics import bodies_of_points
+from mbla.solution.verification.statics import bodies_of_points, load_scale, load_sizes
 
 FAR_APART = 1e6
 """Ratio of loads, or of strength and loads, from which it is named as the cause."""

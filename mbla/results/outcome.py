@@ -17,7 +17,7 @@ from mbla.results.findings import found_notices
 from mbla.results.magnitudes import magnitude_notices, rounding_of
 from mbla.results.results import CaseResult, Results
 from mbla.solution.solution import PROVED_STANDING, Checks, Mechanics, Standing, Status
-from mbla.solution.verification.verify import APPROXIMATE_RESIDUAL
+from mbla.solution.thresholds import APPROXIMATE_RESIDUAL
 
 WITH_VALUE = (Status.SOLVED, Status.APPROXIMATE)
 """statuses whose load factor is a result"""

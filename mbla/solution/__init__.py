@@ -13,7 +13,7 @@ behind its adapter. Records of programs say who solved them.
 
 from mbla.solution.solution import Checks, ContactMode, Mechanics, Solution, Status
 from mbla.solution.solve import solve
-from mbla.solution.verification.verification import verify
-from mbla.solution.verification.verify import verified_status
+from mbla.solution.verification.verify import verify
+from mbla.solution.verification.verify_points import verified_status
 
 __all__ = ["Checks", "ContactMode", "Mechanics", "Solution", "Status", "solve", "verified_status", "verify"]

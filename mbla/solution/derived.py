@@ -11,12 +11,11 @@ from mbla.contacts.contacts import Contacts
 from mbla.contacts.glue import Solids, solids_of
 from mbla.model.model import LoadCase, Model
 from mbla.program.assemble import yield_limits
-from mbla.program.convex import assemble_convex
+from mbla.program.resultants import assemble_convex
 from mbla.solution.contact_modes import contact_modes
 from mbla.solution.glued import MOTIONS, rule_of
 from mbla.solution.solution import Mechanics, Solution
 from mbla.solution.verification.statics import contact_velocities
-from mbla.solution.verification.verify import dilatancy_of
 
 ROUNDING = 1e-9
 """Difference of velocities over the largest that is rounding: those stored are kept then, as modes at thresholds follow
@@ -51,7 +50,7 @@ def _with_modes(
 ) -> Mechanics:
     """With modes of the contact points, and resultants of the interfaces where there are any."""
     limits, forces = yield_limits(solids.model, solids.contacts), mechanics.contact_forces
-    slope = dilatancy_of(limits, flow_rule)
+    slope = limits.dilatancy_by(flow_rule)
     if mechanics.interface_motions is None:
         return replace(mechanics, modes=contact_modes(forces, mechanics.contact_velocities, limits, slope))
     from mbla.solution.resultants.solve_convex import modes_of  # late: the law of interfaces is asked for rarely

@@ -6,7 +6,6 @@ import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.program.program import Program
-from mbla.program.yield_conditions import YieldLimits
 from mbla.solution.contact_modes import contact_modes
 from mbla.solution.nonassociative.law_state import LawState
 from mbla.solution.solution import Mechanics
@@ -26,7 +25,7 @@ def mechanics_of(program: Program, state: LawState, flow_rule: str = "non_associ
         contact_velocities=velocities_of_points,
         mechanism=program.mechanism(velocities),
         modes=contact_modes(
-            state.forces.reshape(-1, 3), velocities_of_points, program.limits, slope_of(flow_rule, program.limits)
+            state.forces.reshape(-1, 3), velocities_of_points, program.limits, program.limits.dilatancy_by(flow_rule)
         ),
     )
 
@@ -62,10 +61,3 @@ def contact_velocities(program: Program, velocities: FloatArray) -> FloatArray:
     return (
         program.scaling.scaled_forces((program.equilibrium_matrix.T @ velocities).reshape(-1, 3)) * program.scaling.live
     )
-
-
-def slope_of(flow_rule: str, limits: YieldLimits) -> FloatArray:
-    """Tangent of the dilatancy angle that a flow rule asks of every contact point, (n_points,)."""
-    if flow_rule == "associative":
-        return limits.friction
-    return limits.dilatancy if flow_rule == "dilatancy" else np.zeros_like(limits.friction)

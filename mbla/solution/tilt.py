@@ -25,8 +25,8 @@ from mbla.errors import Message
 from mbla.model.model import LoadCase, Model, Tilt
 from mbla.solution.solution import Checks, Mechanics, Solution, Status
 from mbla.solution.tilt_circle import AT_ONCE, chord, line_of, never_left
-from mbla.solution.verification.verification import level_bound
-from mbla.solution.verification.verify_tilt import only_direction_counts
+from mbla.solution.verification.further_claims import only_direction_counts
+from mbla.solution.verification.verify import level_bound
 
 Ask: TypeAlias = Callable[[LoadCase], tuple[Solution, Checks]]
 """Solve and verify a load case."""

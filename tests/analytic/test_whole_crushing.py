@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 import shapely
 
-from mbla.program.convex.assemble import assemble_convex, in_unit_of_force
-from mbla.program.convex.crushing import crushing_violation
+from mbla.program.resultants.assemble import assemble_convex, in_unit_of_force
+from mbla.program.resultants.crushing import crushing_violation
 from tests.line import HEAD, factor_of, line_of
 
 OUTLINES = {

@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 
 from mbla.cli import main
-from mbla.program.convex import assemble_convex, convex_form
+from mbla.program.resultants import assemble_convex, convex_form
 from tests.line import BLOCK, WALL, line_of
 
 TWO_CASES = BLOCK.replace("load_cases:\n", "load_cases:\n  down: {live: [{acceleration: [0, 0, -1]}]}\n", 1)

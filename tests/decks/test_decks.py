@@ -15,7 +15,7 @@ import pytest
 
 from mbla.deck.include import read_files
 from mbla.deck.sections.output import Expectation
-from mbla.solution.verification.verify import GAP_TOLERANCE
+from mbla.solution.thresholds import GAP_TOLERANCE
 from tests.decks.folder import LONG, PATHS, ROOT, deck_of, every_deck, name_of, outcome_of, run_deck
 
 EXIT_STATUS = {"solved": 0, "approximate": 4, "not_verified": 4, "no_equilibrium": 5, "unbounded": 5}

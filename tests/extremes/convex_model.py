@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from mbla.solution.verification.verify import GAP_TOLERANCE
+from mbla.solution.thresholds import GAP_TOLERANCE
 from tests.extremes.decks import FACTORS, ruled
 from tests.extremes.outcome import Scene
 from tests.extremes.shapes import FAR_APART, SLENDER, STACKED

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from mbla.arrays import FloatArray
-from mbla.program.associative_static import associative_static_form, polygon_sides
 from mbla.program.kinematic import friction_polygon
 from mbla.program.program import Program
+from mbla.program.static import associative_static_form, polygon_sides
 from mbla.solution.associative.associative_form import FORMS, in_forces
 from mbla.solution.associative.solve_associative import solve_associative
 from mbla.solution.settings import SolverSettings

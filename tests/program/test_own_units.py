@@ -3,7 +3,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from mbla.program.own_units import LIGHT, own_units
+from mbla.program.assemble import LIGHT, own_units
 
 FIXED = -1
 

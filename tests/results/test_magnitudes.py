@@ -12,7 +12,7 @@ from mbla.results.magnitudes import magnitude_notices, rounding_of
 from mbla.results.outcome import extent_of, factor_unique, notices_of, range_of
 from mbla.results.results import Results
 from mbla.solution.solution import Status
-from mbla.solution.verification.verify import GAP_TOLERANCE
+from mbla.solution.thresholds import GAP_TOLERANCE
 from tests.extremes.outcome import Scene, results_of
 from tests.extremes.shapes import PEBBLE, SLENDER
 from tests.extremes.weights import SIDE_BY_SIDE

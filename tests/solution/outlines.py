@@ -6,9 +6,9 @@ import numpy as np
 import shapely
 
 from mbla.arrays import FloatArray
-from mbla.program.convex.shapes import InterfaceShapes
+from mbla.program.resultants.shapes import InterfaceShapes
 from mbla.solution.verification.interface_laws import InterfaceLaws
-from tests.program.convex.test_shapes import shapes_of
+from tests.program.resultants.test_shapes import shapes_of
 
 STRENGTH = 48.0
 """f_c."""

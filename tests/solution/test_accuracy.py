@@ -15,7 +15,7 @@ from mbla.results.results import CaseResult
 from mbla.solution.associative import polyhedral
 from mbla.solution.associative.polyhedral import SecondOpinion, second_opinion
 from mbla.solution.solution import Status
-from mbla.solution.verification.verify import meets_what_was_asked
+from mbla.solution.verification.verify_points import meets_what_was_asked
 from tests.line import BLOCK, WALL, case_of
 
 BENCHMARKS = Path(__file__).parents[2] / "decks" / "benchmarks"

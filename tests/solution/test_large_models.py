@@ -30,6 +30,7 @@ from mbla.solution.associative.unique_forces import (
 from mbla.solution.cone_solvers.choice import cone_solver, sharpen
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Status
+from mbla.solution.verification.verify_points import verify_points
 from tests.line import WALL, line_of, solution_of
 from tests.solution.associative.test_unique_forces import SETTINGS, associative, ignored
 
@@ -163,9 +164,7 @@ def test_a_mechanism_that_proves_its_factor_is_not_repaired_again_on_large_model
 
 
 def verified_checks(line: Any, solution: Any) -> Any:
-    from mbla.solution.verification.verify import verify
-
-    return verify(line.model, line.contacts, line.load_case, solution)
+    return verify_points(line.model, line.contacts, line.load_case, solution)
 
 
 def test_least_forces_of_too_many_points_are_not_sought(program: Program, monkeypatch: pytest.MonkeyPatch) -> None:

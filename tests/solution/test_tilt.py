@@ -14,7 +14,7 @@ from mbla.program import assemble
 from mbla.solution import Status, tilt, verified_status, verify
 from mbla.solution.solution import Checks, Solution
 from mbla.solution.tilt import Answer, never_collapses, solve_tilt
-from mbla.solution.verification.verify_tilt import never_failures, tilt_failures
+from mbla.solution.verification.further_claims import never_failures, tilt_failures
 from tests.line import line_of, solution_of
 from tests.solution.by_hand import claim, found, state
 

@@ -20,8 +20,7 @@ import scipy.sparse as sp
 from mbla.arrays import FloatArray, IntArray
 from mbla.process.sharing import once
 from mbla.program.program import Program
-from mbla.program.reductions.half import in_plane_motions
-from mbla.program.reductions.mirror import SYMMETRIC, Mirror
+from mbla.program.reductions.mirror import SYMMETRIC, Mirror, in_plane_motions
 from mbla.program.reductions.restrict import block_matrix, restricted
 from mbla.program.reductions.scene import Scene
 from mbla.program.yield_conditions.limits import YieldLimits

@@ -13,8 +13,7 @@ from mbla.deck.sections.analysis import ReductionSwitches
 from mbla.model.model import Model
 from mbla.program.program import Program
 from mbla.program.reductions.guided import guided_program
-from mbla.program.reductions.half import half_of
-from mbla.program.reductions.mirror import SYMMETRIC, Mirror, mirror_about, mirror_candidates
+from mbla.program.reductions.mirror import SYMMETRIC, Mirror, half_of, mirror_about, mirror_candidates
 from mbla.program.reductions.parts import split_into_parts
 from mbla.program.reductions.planar import is_planar, planar_program
 from mbla.program.reductions.points import without_inner_points

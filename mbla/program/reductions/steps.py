@@ -2,6 +2,11 @@
 
 Reductions are counted in the order in which they are applied, each on what those before it left. Counted are the
 programs that have a live load in them: others only have to show that the dead load is carried.
+
+Glue comes first: blocks that are one rigid body have the unknowns of one (:mod:`mbla.contacts.glue`). It cannot be
+switched off. A glued joint has no law that would give its forces another value than equilibrium leaves open, and no
+strength that could be reached: without merging there would be unknowns for forces that nothing determines. Joints with
+finite strengths high enough give the same load factor, which the tests show.
 """
 
 from __future__ import annotations
@@ -12,6 +17,8 @@ from enum import StrEnum
 
 import numpy as np
 
+from mbla.contacts.glue import Solids
+from mbla.deck.sections.analysis import AnalysisSection, ReductionSwitches
 from mbla.program.program import Program
 
 
@@ -81,3 +88,37 @@ def told_apart(steps: Sequence[ReductionStep], switched_on: dict[str, bool]) -> 
         return replace(step, state=StepState.BARRED) if barred else step
 
     return tuple(of(step) for step in steps)
+
+
+def glued_step(solids: Solids, left: ProgramSize) -> ReductionStep:
+    """Blocks that glue makes part of a larger body or holds; contact points inside of these were never set up.
+
+    left : size of the program in which glued blocks are bodies
+    """
+    label, n_solids = solids.solid_of_block, len(solids.model.blocks)
+    held = len(solids.contacts.report.held)
+    joined = 0
+    saved = held
+    if label is not None:
+        sizes = np.bincount(label)
+        joined = int(sizes[sizes > 1].sum())
+        saved += len(label) - n_solids
+    unknowns = left.unknowns + 6 * saved
+    before = replace(left, unknowns=unknowns, largest=unknowns)
+    state = StepState.APPLIED if saved else StepState.NONE
+    return ReductionStep("glued", state, joined + held, before, left)
+
+
+def allowed_reductions(analysis: AnalysisSection) -> ReductionSwitches:
+    """Switches for ``reduce_program``.
+
+    Mirror symmetry is not used with friction polyhedra, which are not symmetric themselves, so that one half of them
+    would be another law; nor for the range of forces, which is wider than that of symmetric forces. For that range the
+    points that cannot matter for the load factor stay too: their interfaces would have no forces of their own.
+    """
+    switches = analysis.reductions
+    if analysis.friction_cone == "polyhedral":
+        switches = switches.model_copy(update={"mirror": False})
+    if analysis.force_ranges:
+        switches = switches.model_copy(update={"mirror": False, "points": False})
+    return switches

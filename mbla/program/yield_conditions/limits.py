@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+import numpy as np
+
 from mbla.arrays import FloatArray
 
 
@@ -29,3 +31,12 @@ class YieldLimits:
         return YieldLimits(
             self.friction, self.dilatancy, self.cohesion * factor, self.tension * factor, self.compression * factor
         )
+
+    def dilatancy_by(self, flow_rule: str) -> FloatArray:
+        """Tangent of the dilatancy angle that a flow rule asks of every contact point, (n_points,)."""
+        return {
+            "associative": self.friction,
+            "non_associative": np.zeros_like(self.friction),
+            "livesley": np.zeros_like(self.friction),
+            "dilatancy": self.dilatancy,
+        }[flow_rule]

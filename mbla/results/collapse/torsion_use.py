@@ -15,7 +15,7 @@ doi:10.1137/S1064827598343954). How forces are spread over the points of one fac
 points against each other without any resultant uses nothing.
 
 *Interface resultants* (contact model convex): the same by the condition of that model
-(:mod:`mbla.program.convex.torsion`), the least s for which (T, M)/s fits it.
+(:mod:`mbla.program.resultants.torsion`), the least s for which (T, M)/s fits it.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ import numpy as np
 from mbla.arrays import FloatArray, IntArray, row_of_item, starts
 from mbla.contacts.contacts import Contacts
 from mbla.model.model import Model
-from mbla.program.convex.shapes import local_points
+from mbla.program.resultants.shapes import local_points
 from mbla.results.collapse.by_interface import interface_radii, sum_by_interface
 from mbla.results.collapse.mechanics import interface_resultants
 from mbla.results.collapse.thrust import NO_FORCE, ROUNDING, allowed_at_points, shear_use

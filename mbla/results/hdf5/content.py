@@ -32,7 +32,7 @@ from mbla.solution.solution import (
     Solution,
     StandingResult,
 )
-from mbla.solution.verification.verification import residual_of
+from mbla.solution.verification.verify import residual_of
 
 Value: TypeAlias = "np.typing.NDArray[np.generic] | str | Sequence[Any] | float | int | bool"
 Content: TypeAlias = dict[str, Value]

@@ -23,7 +23,7 @@ from mbla.results.outcome import (
 from mbla.results.results import CaseResult
 from mbla.results.tilt_angle import tilt_words
 from mbla.solution.solution import Status
-from mbla.solution.verification.verify import GAP_TOLERANCE, SOLVED_RESIDUAL
+from mbla.solution.thresholds import GAP_TOLERANCE, SOLVED_RESIDUAL
 
 STOPPED_BY = {
     Status.ITERATION_LIMIT: "out of iterations",

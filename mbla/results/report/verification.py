@@ -9,7 +9,7 @@ import numpy as np
 from mbla.results.listing.figure_words import residual_figures
 from mbla.results.listing.text import number, small
 from mbla.results.results import CaseResult
-from mbla.solution.verification.verify import tolerances
+from mbla.solution.verification.verify_points import tolerances
 
 PARTS = {"tension_violation": "part of the yield violation", "slip_residual": "part of the complementarity residual"}
 """figures that are judged with another one"""

@@ -9,9 +9,9 @@ import numpy as np
 import scipy.sparse as sp
 
 from mbla.arrays import FloatArray
-from mbla.program.associative_static import associative_static_form
 from mbla.program.kinematic import ConeProgram, kinematic_form
 from mbla.program.program import Program
+from mbla.program.static import associative_static_form
 from mbla.solution.associative.force_repair import carried_loads
 from mbla.solution.cone_solvers.cone_solution import ConeSolution
 from mbla.solution.solution import Status

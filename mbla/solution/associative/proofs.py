@@ -24,10 +24,8 @@ from mbla.program.yield_conditions import YieldLimits, yield_violation
 from mbla.solution.associative.force_repair import repaired_forces
 from mbla.solution.associative.mechanism_repair import repaired_mechanisms
 from mbla.solution.solution import Mechanics
-from mbla.solution.verification.guides import allowed_motion
-from mbla.solution.verification.load_scale import LoadScale
 from mbla.solution.verification.residuals import unbalanced_loads, unbalanced_wrenches
-from mbla.solution.verification.statics import contact_velocities, power
+from mbla.solution.verification.statics import LoadScale, allowed_motion, contact_velocities, power
 
 PROVED_RESIDUAL = 2e-9
 """Unbalanced force and excess over yield, relative to the scale of the block, with which forces still prove a bound."""

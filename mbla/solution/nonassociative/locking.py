@@ -6,7 +6,7 @@ times to forces that carry the dead load they stay within the yield conditions, 
 
 They are found as the least forces of that kind, with a little less friction than there is so that they lie inside the
 cones, and then brought to exact equilibrium (``force_repair``). They are evaluated by other code:
-:mod:`mbla.solution.verification.verify_lock`.
+:mod:`mbla.solution.verification.further_claims`.
 """
 
 from __future__ import annotations

@@ -14,10 +14,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray
-from mbla.program.convex import ConvexProgram, convex_form
-from mbla.program.convex.assemble import in_unit_of_force, near_crushing, with_crushing_of
-from mbla.program.convex.crushing import crushing_violation
 from mbla.program.kinematic import KinematicForm
+from mbla.program.resultants import ConvexProgram, convex_form
+from mbla.program.resultants.assemble import in_unit_of_force, near_crushing, with_crushing_of
+from mbla.program.resultants.crushing import crushing_violation
 from mbla.solution.cone_solvers.choice import interior_point_solver
 from mbla.solution.cone_solvers.cone_solution import ConeSolution, Log
 from mbla.solution.resultants.convex_repair import repaired_convex_forces

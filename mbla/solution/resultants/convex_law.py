@@ -24,10 +24,10 @@ import numpy as np
 import scipy.sparse as sp
 
 from mbla.arrays import BoolArray, FloatArray
-from mbla.program.convex import ConvexProgram
-from mbla.program.convex.crushing import RESULTANTS, crushing_violation
-from mbla.program.convex.friction_limit import friction_limit, nearest
 from mbla.program.program import Program
+from mbla.program.resultants import ConvexProgram
+from mbla.program.resultants.crushing import RESULTANTS, crushing_violation
+from mbla.program.resultants.friction_limit import friction_limit, nearest
 from mbla.solution.linear_algebra.superlu import factorize
 from mbla.solution.nonassociative.joint_law import CONVERGED, REGULARIZATION
 from mbla.solution.resultants.convex_state import with_motions

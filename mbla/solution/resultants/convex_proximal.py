@@ -1,7 +1,7 @@
 """Non-associative flow with the convex contact model: proximal steps from the gravity state, and the exact law.
 
 1. Gravity state x̄: the least forces that carry the dead load alone, by the conditions of the points.
-2. Proximal step (:mod:`mbla.program.convex.static`), with the friction of points and interfaces that belongs to x̄,
+2. Proximal step (:mod:`mbla.program.resultants.static`), with the friction of points and interfaces that belongs to x̄,
    after which x̄ moves 0.7 of the way. Every forces at which the steps stand still are a state of the exact law.
 3. Now and then the step is repeated with the exact law (``convex_law``), and from there on again until
    forces and motions fit it.
@@ -16,10 +16,10 @@ import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.errors import Message
-from mbla.program.convex import ConvexProgram
-from mbla.program.convex.assemble import in_unit_of_force
-from mbla.program.convex.friction_limit import friction_limit
-from mbla.program.convex.static import ConvexStaticForm, convex_proximal_data, convex_proximal_form
+from mbla.program.resultants import ConvexProgram
+from mbla.program.resultants.assemble import in_unit_of_force
+from mbla.program.resultants.friction_limit import friction_limit
+from mbla.program.resultants.static import ConvexStaticForm, convex_proximal_data, convex_proximal_form
 from mbla.program.static import gravity_form
 from mbla.solution.cone_solvers.choice import interior_point_solver
 from mbla.solution.cone_solvers.cone_solution import ConeSolution, Log

@@ -19,8 +19,8 @@ import scipy.sparse as sp
 
 from mbla.arrays import FloatArray
 from mbla.process.stopwatch import timed
-from mbla.program.convex import ConvexProgram, convex_form
-from mbla.program.convex.assemble import in_unit_of_force
+from mbla.program.resultants import ConvexProgram, convex_form
+from mbla.program.resultants.assemble import in_unit_of_force
 from mbla.solution.associative.least_step import Equilibrium, StepOf, augmented_step, normal_step
 from mbla.solution.associative.mechanism_repair import repaired_mechanisms
 from mbla.solution.cone_solvers.cone_vectors import ConeVectors

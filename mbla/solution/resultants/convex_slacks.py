@@ -1,7 +1,7 @@
 """From contact forces to the dual variables of the convex contact model: the slacks of all its conditions.
 
-The helping unknowns of the conditions (see :mod:`mbla.program.convex.torsion` and
-:mod:`mbla.program.convex.crushing`) are chosen well inside their ranges, where these have an inside.
+The helping unknowns of the conditions (see :mod:`mbla.program.resultants.torsion` and
+:mod:`mbla.program.resultants.crushing`) are chosen well inside their ranges, where these have an inside.
 """
 
 from __future__ import annotations
@@ -10,10 +10,10 @@ import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
 from mbla.model.solids.ragged import next_item
-from mbla.program.convex import ConvexProgram
-from mbla.program.convex.crushing import Corners, corner_values, values
-from mbla.program.convex.torsion import TorsionLimits
 from mbla.program.kinematic import KinematicForm
+from mbla.program.resultants import ConvexProgram
+from mbla.program.resultants.crushing import Corners, corner_values, values
+from mbla.program.resultants.torsion import TorsionLimits
 from mbla.program.yield_conditions import YieldLimits
 
 INSIDE = 1e-10

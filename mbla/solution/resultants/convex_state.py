@@ -8,13 +8,12 @@ import numpy as np
 import scipy.sparse as sp
 
 from mbla.arrays import FloatArray
-from mbla.program.convex import ConvexProgram
-from mbla.program.convex.crushing import crushing_violation
-from mbla.program.convex.friction_limit import curve_size, curve_support, friction_limit
 from mbla.program.program import Program
+from mbla.program.resultants import ConvexProgram
+from mbla.program.resultants.crushing import crushing_violation
+from mbla.program.resultants.friction_limit import curve_size, curve_support, friction_limit
 from mbla.program.yield_conditions import YieldLimits, yield_violation
-from mbla.solution.verification.crushing_laws import crushing_power
-from mbla.solution.verification.interface_laws import InterfaceLaws
+from mbla.solution.verification.interface_laws import InterfaceLaws, crushing_power
 
 
 @dataclass(frozen=True)

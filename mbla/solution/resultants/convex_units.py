@@ -18,8 +18,8 @@ import numpy as np
 import scipy.sparse as sp
 
 from mbla.arrays import FloatArray
-from mbla.program.convex import ConvexProgram
 from mbla.program.kinematic import ConeProgram, KinematicForm
+from mbla.program.resultants import ConvexProgram
 from mbla.solution.associative.associative_form import LIGHT, LIGHTEST
 from mbla.solution.associative.force_repair import carried_loads
 

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
-from mbla.program.convex.shapes import InterfaceShapes
+from mbla.program.resultants.shapes import InterfaceShapes
 
 HALVINGS = 48
 """Of an interval in which the line that ends full stress lies, or a direction."""

@@ -11,10 +11,10 @@ from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.deck.sections.accuracy import knobs_of
 from mbla.deck.sections.analysis import AnalysisSection
 from mbla.errors import Message
-from mbla.program.convex import ConvexProgram
-from mbla.program.convex.assemble import in_unit_of_force
-from mbla.program.convex.crushing import crushing_violation
-from mbla.program.convex.friction_limit import torsion_reserve
+from mbla.program.resultants import ConvexProgram
+from mbla.program.resultants.assemble import in_unit_of_force
+from mbla.program.resultants.crushing import crushing_violation
+from mbla.program.resultants.friction_limit import torsion_reserve
 from mbla.solution.cone_solvers.cone_solution import Log
 from mbla.solution.contact_modes import AT_REST, contact_modes
 from mbla.solution.further_results import standing_on_model

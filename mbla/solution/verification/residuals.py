@@ -23,9 +23,15 @@ from mbla.model.model import LoadCase, Model
 from mbla.program.assemble import yield_limits
 from mbla.program.yield_conditions import YieldLimits, yield_violation
 from mbla.solution.solution import Mechanics
-from mbla.solution.verification.guides import left_to_balance, off_guides
-from mbla.solution.verification.load_scale import LoadScale, load_scale
-from mbla.solution.verification.statics import contact_resultants, contact_velocities, power
+from mbla.solution.verification.statics import (
+    LoadScale,
+    contact_resultants,
+    contact_velocities,
+    left_to_balance,
+    load_scale,
+    off_guides,
+    power,
+)
 
 AT_REST = 1e-9
 """contact speed over the speed of blocks up to which a joint does not move: the accuracy of the cone programs"""

@@ -2,7 +2,7 @@
 
 A point of an interface moves by what torsion and crushing of the interface leave of the motion of the blocks, and its
 force obeys its own cone. Resultants are summed up from the contact forces, and conditions and dissipation of interfaces
-come from :mod:`mbla.solution.verification.interface_laws` and :mod:`mbla.solution.verification.crushing_laws`.
+come from :mod:`mbla.solution.verification.interface_laws` and :mod:`mbla.solution.verification.interface_laws`.
 """
 
 from __future__ import annotations
@@ -16,27 +16,32 @@ from mbla.contacts.contacts import Contacts
 from mbla.errors import Message
 from mbla.model.model import LoadCase, Model
 from mbla.program.assemble import yield_limits
-from mbla.program.convex import ConvexProgram, assemble_convex
-from mbla.program.convex.assemble import near_crushing, with_crushing_of, without_crushing
+from mbla.program.resultants import ConvexProgram, assemble_convex
+from mbla.program.resultants.assemble import near_crushing, with_crushing_of, without_crushing
 from mbla.program.yield_conditions import YieldLimits, yield_violation
 from mbla.solution.associative.proofs import LOCKED_IN, PROVED_RESIDUAL, ROUNDING
 from mbla.solution.resultants.convex_repair import repaired_convex_forces, repaired_convex_motions
-from mbla.solution.solution import Checks, Mechanics, Solution, Status
-from mbla.solution.verification.crushing_laws import crushing_excess, crushing_power
-from mbla.solution.verification.guides import allowed_motion, off_guides
+from mbla.solution.solution import Checks, Mechanics, Solution
+from mbla.solution.verification.further_claims import LASTING
 from mbla.solution.verification.interface_laws import (
     InterfaceLaws,
+    crushing_excess,
+    crushing_power,
     interface_laws,
     sliding_power,
     torsion_excess,
     torsion_power,
 )
-from mbla.solution.verification.load_scale import LoadScale, load_scale
 from mbla.solution.verification.residuals import Residuals, flow_power, penetration_of, share_of, unbalanced_loads
-from mbla.solution.verification.statics import contact_velocities, power
-from mbla.solution.verification.verify import ROUNDING as CROSSING
-from mbla.solution.verification.verify import dilatancy_of, failures_of
-from mbla.solution.verification.verify_lock import LASTING
+from mbla.solution.verification.statics import (
+    LoadScale,
+    allowed_motion,
+    contact_velocities,
+    load_scale,
+    off_guides,
+    power,
+)
+from mbla.solution.verification.verify_points import Bounds, checks_of, checks_without_mechanics, failures_of
 
 ROUNDED_OFF = 1e-9
 """Excess of an interface over what it carries when it crushes, over its normal force, that is rounding: where all of it
@@ -53,37 +58,17 @@ WRONG_RESULTANTS = 1e-9
 def verify_convex(model: Model, contacts: Contacts, load_case: LoadCase, solution: Solution) -> Checks:
     """Recompute residuals and bounds of a convex solution; NaN where there is nothing to check."""
     case = _Case(model, contacts, load_case, solution.contact_model)
-    nan = np.nan
     if solution.mechanics is None:
-        failures: tuple[Message, ...] = (
-            (Message("not-verified", solution.reason),) if solution.status is not Status.UNBOUNDED else ()
+        return checks_without_mechanics(
+            solution, lambda motion: _certificate_failures(case, motion, solution.certificate_motions)
         )
-        if solution.certificate is not None:
-            failures = _certificate_failures(case, solution.certificate, solution.certificate_motions)
-        return Checks(nan, nan, nan, nan, nan, nan, nan, nan, nan, verified=not failures, failures=failures)
     residuals = _residuals(case, solution.mechanics, solution.flow_rule)
-    static = kinematic = size = nan
+    bounds = Bounds()
     if solution.associative is not None:
-        static, kinematic = _bounds(case, solution.associative)
-        size = max(abs(kinematic), case.scale.least_factor(solution.associative.mechanism))
-        if 0.0 < static - kinematic <= CROSSING * size:
-            static = kinematic
-    failures = failures_of(residuals, solution, static, kinematic, size) + _wrong_resultants(case, solution.mechanics)
-    return Checks(
-        equilibrium_residual=residuals.equilibrium,
-        yield_violation=residuals.yielding,
-        penetration=residuals.penetration,
-        complementarity_residual=residuals.complementarity,
-        live_power=residuals.live_power,
-        power_balance=residuals.power_balance,
-        static_bound=static,
-        kinematic_bound=kinematic,
-        gap=abs(kinematic - static) / size if size > 0 else nan,
-        verified=not failures,
-        failures=failures,
-        tension_violation=residuals.tension,
-        slip_residual=residuals.slip,
-    )
+        least_factor = case.scale.least_factor(solution.associative.mechanism)
+        bounds = Bounds.of(*_bounds(case, solution.associative), least_factor)
+    failures = failures_of(residuals, solution, bounds) + _wrong_resultants(case, solution.mechanics)
+    return checks_of(residuals, bounds, failures)
 
 
 class _Case:
@@ -264,7 +249,7 @@ def _residuals(case: _Case, mechanics: Mechanics, flow_rule: str) -> Residuals:
     live_power, dead_power = power(case.load_case.live_load, u), power(case.load_case.dead_load, u)
     sliding = np.hypot(v[:, 1], v[:, 2])
     strength = limits.friction * x[:, 0] + limits.cohesion
-    flow = flow_power(limits, dilatancy_of(limits, flow_rule), x, v, sliding, strength)
+    flow = flow_power(limits, limits.dilatancy_by(flow_rule), x, v, sliding, strength)
     if flow_rule == "associative":
         twisted, lacking = torsion_power(laws, motions[:, 0])
         twisted = twisted + np.maximum(lacking, 0.0) * np.maximum(resultants[:, 0] + laws.tension, 0.0)

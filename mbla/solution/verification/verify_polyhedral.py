@@ -16,7 +16,7 @@ touches the circle there.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
@@ -28,19 +28,10 @@ from mbla.program.assemble import yield_limits
 from mbla.program.yield_conditions import yield_violation
 from mbla.solution.associative.proofs import associative_bounds
 from mbla.solution.solution import Checks, Mechanics, Solution
-from mbla.solution.verification.load_scale import load_scale
+from mbla.solution.thresholds import GAP_TOLERANCE
 from mbla.solution.verification.residuals import Residuals, residuals_of
-from mbla.solution.verification.verify import GAP_TOLERANCE, ROUNDING, residual_failures
-from mbla.solution.verification.verify import verify as verify_mechanics
-
-
-@dataclass(frozen=True)
-class _Bounds:
-    """What forces of the inscribed polyhedron and mechanism of the circumscribed one prove; unit of their distance."""
-
-    static: float
-    kinematic: float
-    size: float
+from mbla.solution.verification.statics import load_scale
+from mbla.solution.verification.verify_points import Bounds, checks_of, residual_failures, verify_points
 
 
 def verify_polyhedral(model: Model, contacts: Contacts, load_case: LoadCase, solution: Solution) -> Checks:
@@ -50,28 +41,14 @@ def verify_polyhedral(model: Model, contacts: Contacts, load_case: LoadCase, sol
     assert outer is not None
     if solution.flow_rule != "associative":
         between = replace(inner, mechanism=outer.mechanism, contact_velocities=outer.contact_velocities)
-        return verify_mechanics(model, contacts, load_case, replace(solution, associative=between))
+        return verify_points(model, contacts, load_case, replace(solution, associative=between))
     bounds = _bounds(model, contacts, load_case, inner, outer)
     residuals = _own_residuals(model, contacts, load_case, inner, _corners(solution.sides, circumscribed=False))
     circumscribed = _of_the_circumscribed(model, contacts, load_case, outer, solution.sides)
     failures = residual_failures(residuals, "associative")
     failures += residual_failures(circumscribed, "associative", "circumscribed polyhedron: ")
     failures += _bound_failures(inner, outer, bounds)
-    return Checks(
-        equilibrium_residual=residuals.equilibrium,
-        yield_violation=residuals.yielding,
-        penetration=residuals.penetration,
-        complementarity_residual=residuals.complementarity,
-        live_power=residuals.live_power,
-        power_balance=residuals.power_balance,
-        static_bound=bounds.static,
-        kinematic_bound=bounds.kinematic,
-        gap=abs(bounds.kinematic - bounds.static) / bounds.size if bounds.size > 0 else np.nan,
-        verified=not failures,
-        failures=tuple(failures),
-        tension_violation=residuals.tension,
-        slip_residual=residuals.slip,
-    )
+    return checks_of(residuals, bounds, tuple(failures))
 
 
 def _corners(sides: int, circumscribed: bool) -> FloatArray:
@@ -106,18 +83,16 @@ def _of_the_circumscribed(
     return replace(residuals, yielding=float((excess / size).max(initial=0.0)))
 
 
-def _bounds(model: Model, contacts: Contacts, load_case: LoadCase, inner: Mechanics, outer: Mechanics) -> _Bounds:
+def _bounds(model: Model, contacts: Contacts, load_case: LoadCase, inner: Mechanics, outer: Mechanics) -> Bounds:
+    """What forces of the inscribed polyhedron and mechanism of the circumscribed one prove."""
     limits = yield_limits(model, contacts)
     scale = load_scale(model, contacts, load_case, limits)
     between = replace(inner, mechanism=outer.mechanism)
-    static, kinematic = associative_bounds(model, contacts, load_case, between, limits, scale)
-    size = max(abs(kinematic), scale.least_factor(outer.mechanism))
-    if 0.0 < static - kinematic <= ROUNDING * size:
-        static = kinematic
-    return _Bounds(static, kinematic, size)
+    proved = associative_bounds(model, contacts, load_case, between, limits, scale)
+    return Bounds.of(*proved, scale.least_factor(outer.mechanism))
 
 
-def _bound_failures(inner: Mechanics, outer: Mechanics, bounds: _Bounds) -> list[Message]:
+def _bound_failures(inner: Mechanics, outer: Mechanics, bounds: Bounds) -> list[Message]:
     room = GAP_TOLERANCE * bounds.size
     failures = []
     if not bounds.static >= inner.load_factor - room:

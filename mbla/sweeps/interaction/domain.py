@@ -25,7 +25,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from mbla.arrays import FloatArray
-from mbla.solution.verification.verify import GAP_TOLERANCE
+from mbla.solution.thresholds import GAP_TOLERANCE
 from mbla.sweeps.interaction.angles import unit_vector
 from mbla.sweeps.interaction.point import Point
 

@@ -9,8 +9,7 @@ from mbla.contacts.glue import held_model, solids_of
 from mbla.deck.sections.analysis import ReductionSwitches
 from mbla.program import assemble
 from mbla.program.reductions import StepState
-from mbla.program.reductions.glued import glued_step
-from mbla.program.reductions.steps import ReductionStep, size_of
+from mbla.program.reductions.steps import ReductionStep, glued_step, size_of
 from tests.line import HEAD, case_of, factor_of, line_of
 
 PIERS = (

@@ -9,8 +9,7 @@ import pytest
 
 from mbla.deck.sections.analysis import ReductionSwitches
 from mbla.program.reductions import reduce_program
-from mbla.program.reductions.half import half_of
-from mbla.program.reductions.mirror import mirror_about, mirror_candidates
+from mbla.program.reductions.mirror import half_of, mirror_about, mirror_candidates
 from tests.line import BLOCK, WALL, line_of
 from tests.program.reductions.scenes import scene
 

@@ -9,7 +9,7 @@ from mbla.results.report.verification import FAILED, NOT_JUDGED, PASSED, checks_
 from mbla.results.results import CaseResult
 from mbla.solution.solution import Checks
 from mbla.solution.verification.residuals import Residuals
-from mbla.solution.verification.verify import failures_of, tolerances
+from mbla.solution.verification.verify_points import Bounds, failures_of, tolerances
 from tests.results.synthetic import tower_results
 
 JUDGED = {
@@ -37,7 +37,7 @@ def test_each_residual_is_judged_as_by_the_verification(flow_rule: str, name: st
     row = shown["deviation_of_the_live_power" if name == "live_power" else name]
     none = dict.fromkeys(Residuals.__dataclass_fields__, 0.0) | {"live_power": 1.0}
     residuals = Residuals(**(none | {JUDGED[name]: 1.0 + value if name == "live_power" else value}))
-    failures = failures_of(residuals, case.solution, 0.5, 0.5, 0.5)
+    failures = failures_of(residuals, case.solution, Bounds(0.5, 0.5, 0.5))
     assert row.verdict == (FAILED if failures else PASSED) == (FAILED if share > 1 else PASSED)
     assert [each.name for each in checks_of(case) if each.verdict == FAILED] == ([row.name] if failures else [])
 

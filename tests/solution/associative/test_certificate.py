@@ -17,7 +17,7 @@ from mbla.solution.associative.solve_associative import solve_associative
 from mbla.solution.mechanics import motion_of
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Solution, Standing, Status
-from mbla.solution.verification.verification import verify
+from mbla.solution.verification.verify import verify
 from tests.line import Line, line_of
 from tests.solution.standing_structures import (
     FIXED,

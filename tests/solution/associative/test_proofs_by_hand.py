@@ -15,7 +15,7 @@ from mbla.program.assemble import yield_limits
 from mbla.program.program import Program
 from mbla.solution.associative.proofs import associative_bounds, certificate_failures
 from mbla.solution.solution import Mechanics
-from mbla.solution.verification.load_scale import load_scale
+from mbla.solution.verification.statics import load_scale
 from tests.line import BLOCK, Line, line_of
 from tests.solution.by_hand import cube, loaded, on_ground, state
 

@@ -18,7 +18,7 @@ from mbla.solution.nonassociative.law_state import LawState, SequenceResult, law
 from mbla.solution.solution import Status
 from mbla.solution.standing.standing_path import StandingPath
 from mbla.solution.standing.weak_spring_continuation import Outcome, Weakening
-from mbla.solution.verification.verify_peak import peak_check
+from mbla.solution.verification.further_claims import peak_check
 from tests.line import BLOCK, HEAD, Line, line_of, load_factor
 from tests.solution.nonassociative.test_factor_range import FERRIS_3, SETTINGS, solved
 from tests.solution.planar import planar_program

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import pytest
 
-from mbla.program.convex import ConvexProgram, assemble_convex
+from mbla.program.resultants import ConvexProgram, assemble_convex
 from mbla.solution.resultants import convex_proximal
 from mbla.solution.resultants.convex_proximal import ConvexSequence, _finished, _Run, solve_convex_proximal
 from mbla.solution.resultants.convex_state import ConvexState

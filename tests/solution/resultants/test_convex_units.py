@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from mbla.program.convex import assemble_convex, convex_form
+from mbla.program.resultants import assemble_convex, convex_form
 from mbla.solution.resultants.convex_units import in_units, loses_light_blocks, units_of_unknowns
 from tests.extremes.weights import TOWER, tower_factor
 from tests.line import Line, line_of

@@ -8,8 +8,7 @@ import pytest
 from mbla.arrays import FloatArray
 from mbla.solution.resultants.full_stress import StressFields
 from mbla.solution.resultants.nearest_stress import nearest_stress
-from mbla.solution.verification.crushing_laws import crushing_excess
-from mbla.solution.verification.interface_laws import InterfaceLaws
+from mbla.solution.verification.interface_laws import InterfaceLaws, crushing_excess
 from tests.solution.outlines import OUTLINES, STRENGTH, full_stress, laws_of, random_closing
 
 EVERY = pytest.mark.parametrize("name", OUTLINES)

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from mbla.solution.solution import ContactMode, Status
-from mbla.solution.verification.verification import verify
+from mbla.solution.verification.verify import verify
 from tests.line import BLOCK, HEAD, WALL, factor_of, line_of, solution_of
 from tests.solution.convex_structures import DECKS, TWIST, concave, convex, factor, prism
 

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from mbla.program.convex import ConvexProgram, assemble_convex
+from mbla.program.resultants import ConvexProgram, assemble_convex
 from mbla.solution.resultants import convex_associative, convex_law, convex_repair
 from mbla.solution.resultants import solve_convex as convex
 from mbla.solution.resultants.convex_associative import solve_convex_associative

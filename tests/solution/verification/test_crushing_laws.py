@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from mbla.arrays import FloatArray
-from mbla.program.convex.crushing import crushing_limits, crushing_violation
-from mbla.solution.verification.crushing_laws import crushing_excess, crushing_power
-from tests.program.convex.polygons import points_inside
+from mbla.program.resultants.crushing import crushing_limits, crushing_violation
+from mbla.solution.verification.interface_laws import crushing_excess, crushing_power
+from tests.program.resultants.polygons import points_inside
 from tests.solution.outlines import OUTLINES, PIECES, STRENGTH, area_of, full_stress, laws_of, random_closing
 
 TENSION = 3.0

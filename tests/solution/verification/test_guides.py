@@ -15,7 +15,7 @@ from mbla.program import assemble
 from mbla.program.reductions import unreduced
 from mbla.solution import solve, verify
 from mbla.solution.settings import solver_settings
-from mbla.solution.verification.guides import allowed_motion, left_to_balance, off_guides
+from mbla.solution.verification.statics import allowed_motion, left_to_balance, off_guides
 from tests.analytic.cases import BENCHMARKS
 from tests.results.synthetic import tower_model
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from mbla.program.assemble import yield_limits
-from mbla.solution.verification.load_scale import LoadScale, load_scale
+from mbla.solution.verification.statics import LoadScale, load_scale
 from tests.line import BLOCK, Line, line_of
 
 PAIR = BLOCK.replace("supports", "  - box: {group: far, material: stone, min: [5, 0, 0], max: [6, 3, 1]}\nsupports")

@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from mbla.solution.verification.load_scale import LoadScale
 from mbla.solution.verification.residuals import flow_power, penetration_of, residuals_of, share_of, unbalanced_loads
+from mbla.solution.verification.statics import LoadScale
 from tests.line import Line
 from tests.solution.by_hand import EXACT, cube, limits_of, loaded, on_ground, state
 

@@ -12,13 +12,13 @@ import pytest
 
 from mbla.solution.solution import Checks, Mechanics, Solution, Status
 from mbla.solution.verification.residuals import Residuals
-from mbla.solution.verification.verify import (
-    dilatancy_of,
+from mbla.solution.verification.verify_points import (
+    Bounds,
     failures_of,
     meets_what_was_asked,
     tolerances,
     verified_status,
-    verify,
+    verify_points,
 )
 from tests.line import Line
 from tests.solution.by_hand import EXACT, claim, cube, found, limits_of, loaded, on_ground, state
@@ -35,7 +35,7 @@ def failures(residuals: Residuals = EXACT, rule: str = "associative", **bounds: 
     """With bounds and factor at 1, unless said otherwise."""
     values = {"static": 1.0, "kinematic": 1.0, "size": 1.0, "factor": 1.0} | bounds
     solution = claim(answer(values.pop("factor")), flow_rule=rule)
-    return failures_of(residuals, solution, **values)
+    return failures_of(residuals, solution, Bounds(**values))
 
 
 LIMITS = [
@@ -104,7 +104,7 @@ def test_the_factor_reported_is_judged_and_not_that_of_the_state_beside_it() -> 
     """Forces that were asked for beside those of the proof have a load factor of their own."""
     for reported, proved, right in ((1.0, 1.0, True), (1.0 + 2e-5, 1.0, False), (1.0 - 2e-5, 1.0, False)):
         solution = replace(claim(answer(reported)), associative=answer(proved))
-        assert (failures_of(EXACT, solution, 1.0, 1.0, 1.0) == ()) == right
+        assert (failures_of(EXACT, solution, Bounds(1.0, 1.0, 1.0)) == ()) == right
 
 
 def test_factors_exactly_as_far_from_their_bounds_as_allowed() -> None:
@@ -133,7 +133,7 @@ def test_tolerances_by_name() -> None:
 
 def test_dilatancy_that_a_rule_claims() -> None:
     limits = limits_of(2, friction=0.5, dilatancy=0.25)
-    claimed = {rule: dilatancy_of(limits, rule).tolist() for rule in RULES}
+    claimed = {rule: limits.dilatancy_by(rule).tolist() for rule in RULES}
     assert claimed == {
         "associative": [0.5, 0.5],
         "non_associative": [0.0, 0.0],
@@ -268,7 +268,7 @@ def slides(line: Line, factor: float = 2.0, **changes: Any) -> Mechanics:
 
 
 def judged(line: Line, solution: Solution) -> Checks:
-    return verify(line.model, line.contacts, line.load_case, solution)
+    return verify_points(line.model, line.contacts, line.load_case, solution)
 
 
 def test_the_exact_answer(line: Line) -> None:
@@ -287,7 +287,7 @@ def bounds(monkeypatch: pytest.MonkeyPatch) -> dict[str, tuple[float, float]]:
     """What the proofs find of the associative state: set by the test."""
     of: dict[str, tuple[float, float]] = {}
     monkeypatch.setattr(
-        import_module("mbla.solution.verification.verify"), "associative_bounds", lambda *_: of["bounds"]
+        import_module("mbla.solution.verification.verify_points"), "associative_bounds", lambda *_: of["bounds"]
     )
     return of
 

@@ -12,7 +12,7 @@ import pytest
 
 from mbla.arrays import FloatArray
 from mbla.program.assemble import yield_limits
-from mbla.program.convex import ConvexProgram
+from mbla.program.resultants import ConvexProgram
 from mbla.solution.solution import Checks, Mechanics, Status
 from mbla.solution.verification.interface_laws import InterfaceLaws
 from mbla.solution.verification.verify_convex import convex_bounds, convex_lock_failures, verify_convex

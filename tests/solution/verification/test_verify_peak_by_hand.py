@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from mbla.arrays import FloatArray
+from mbla.solution.verification.further_claims import peak_check
 from mbla.solution.verification.residuals import Residuals
-from mbla.solution.verification.verify_peak import peak_check
 from tests.line import Line
 from tests.solution.by_hand import EXACT, cube, state
 
@@ -30,7 +30,7 @@ def checked(line: Line, residuals: Residuals, monkeypatch: pytest.MonkeyPatch) -
         assert dilatancy.tolist() == [0.0] * 4
         return residuals
 
-    monkeypatch.setattr("mbla.solution.verification.verify_peak.residuals_of", residuals_of)
+    monkeypatch.setattr("mbla.solution.verification.further_claims.residuals_of", residuals_of)
     return peak_check(line.model, line.contacts, line.load_case, peak)
 
 

@@ -11,8 +11,8 @@ from mbla.solution.associative.polyhedral import solve_polyhedral
 from mbla.solution.mechanics import mechanics_of
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Checks, Solution, Status
-from mbla.solution.verification.verification import verify
-from mbla.solution.verification.verify import verified_status
+from mbla.solution.verification.verify import verify
+from mbla.solution.verification.verify_points import verified_status
 from tests.line import BLOCK, WALL, Line, line_of, solution_of
 
 OBLIQUE = "load_cases.push.live=[{acceleration: [0.8, 0.6, 0]}]"

@@ -12,7 +12,7 @@ from mbla.solution.mechanics import mechanics_of
 from mbla.solution.nonassociative.factor_range import factor_range
 from mbla.solution.nonassociative.law_state import LawState
 from mbla.solution.solution import Mechanics, Solution, Status
-from mbla.solution.verification.verify_range import range_checks
+from mbla.solution.verification.further_claims import range_checks
 from tests.line import Line, line_of
 from tests.solution.nonassociative.test_factor_range import FERRIS_3, SETTINGS, solved
 

@@ -11,8 +11,8 @@ import pytest
 
 from mbla.arrays import FloatArray
 from mbla.solution.solution import Mechanics
+from mbla.solution.verification.further_claims import range_checks
 from mbla.solution.verification.residuals import Residuals
-from mbla.solution.verification.verify_range import range_checks
 from tests.line import Line
 from tests.solution.by_hand import EXACT, claim, cube, state
 
@@ -34,7 +34,7 @@ def left(monkeypatch: pytest.MonkeyPatch) -> dict[str, Any]:
         of["dilatancy"] = dilatancy.tolist()
         return replace(EXACT, complementarity=of["residuals"].get(mechanics.load_factor, 0.0))
 
-    monkeypatch.setattr("mbla.solution.verification.verify_range.residuals_of", residuals_of)
+    monkeypatch.setattr("mbla.solution.verification.further_claims.residuals_of", residuals_of)
     return of
 
 

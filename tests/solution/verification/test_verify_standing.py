@@ -14,8 +14,8 @@ from mbla.solution.mechanics import forces_of
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Standing
 from mbla.solution.standing.standing import assess_dead_load, settlement_of
+from mbla.solution.verification.further_claims import standing_failures
 from mbla.solution.verification.statics import contact_resultants
-from mbla.solution.verification.verify_standing import standing_failures
 from tests.line import Line, line_of
 from tests.solution.standing_structures import STRUCTURES, Structure, bar, box, deck, incline, overhang, rafters
 

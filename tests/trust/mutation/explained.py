@@ -7,7 +7,7 @@ from __future__ import annotations
 
 EXPLAINED: dict[tuple[str, str, str], str] = {
     (
-        "mbla/solution/verification/verify_range.py",
+        "mbla/solution/verification/further_claims.py",
         "return verified(solution.lower, -1.0), verified(solution.upper, 1.0)",
         "1.0 -> 2.0",
     ): "only its sign counts",
@@ -17,7 +17,7 @@ EXPLAINED: dict[tuple[str, str, str], str] = {
         "0.0 -> 1.0",
     ): "multiplied by a crushing that is none there",
     (
-        "mbla/solution/verification/verify_standing.py",
+        "mbla/solution/verification/further_claims.py",
         "HIDDEN = 1e6",
         "1000000.0 -> 1000001.0",
     ): "a millionth more of a limit that is a rough one",
@@ -27,7 +27,7 @@ EXPLAINED: dict[tuple[str, str, str], str] = {
         "False -> True",
     ): "directed graphs are connected weakly unless said otherwise",
     (
-        "mbla/solution/verification/verify_lock.py",
+        "mbla/solution/verification/further_claims.py",
         "if np.any(_lasting_excess(lock, limits) > scale.of_lighter(contacts, allowed)):",
         "_lasting_excess(lock, limits) > scale.of_lighter(contacts, allowed) -> "
         "_lasting_excess(lock, limits) >= scale.of_lighter(contacts, allowed)",
@@ -245,17 +245,17 @@ EXPLAINED: dict[tuple[str, str, str], str] = {
         "0.0 -> 1.0",
     ): "read at points that open or crush alone",
     (
-        "mbla/program/convex/friction_limit.py",
+        "mbla/program/resultants/friction_limit.py",
         "sense, twist = np.where(trial[:, 2] < 0, -1.0, 1.0), np.abs(trial[:, 2])",
         "trial[:, 2] < 0 -> trial[:, 2] <= 0",
     ): "either sense of no twist",
     (
-        "mbla/program/convex/shapes.py",
+        "mbla/program/resultants/shapes.py",
         "rectangles, sides, axes = np.zeros(n, dtype=bool), np.zeros((n, 2)), np.zeros((n, 2, 2))",
         "np.zeros -> np.ones",
     ): "sides and axes of what is no rectangle, which nobody reads",
     (
-        "mbla/program/convex/size.py",
+        "mbla/program/resultants/assemble.py",
         "conditions = sum(int(np.count_nonzero(rows.cone_sizes > 1)) for rows in convex.conditions)",
         "1 -> 2",
     ): "no condition has a cone of dimension 2",
@@ -341,12 +341,12 @@ EXPLAINED: dict[tuple[str, str, str], str] = {
         "1.0 -> 2.0",
     ): "areas become shares of their mean in the next lines",
     (
-        "mbla/program/convex/choice.py",
+        "mbla/program/choice.py",
         "return np.asarray(np.isfinite(strengths)[contacts.joints] if len(contacts) else np.zeros(0, dtype=bool))",
         "np.zeros -> np.ones",
     ): "an empty array",
     (
-        "mbla/program/remarks.py",
+        "mbla/program/choice.py",
         'turns[:] = np.einsum("ij,ij->i", step, step[following]) < 1 - STRAIGHT',
         "np.einsum('ij,ij->i', step, step[following]) < 1 - STRAIGHT -> "
         "np.einsum('ij,ij->i', step, step[following]) <= 1 - STRAIGHT",

@@ -7,11 +7,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from mbla.program.associative_static import associative_static_form
 from mbla.program.fixed_mechanism import fixed_mechanism_form
 from mbla.program.kinematic import ConeProgram, kinematic_form
 from mbla.program.program import Program
-from mbla.program.static import gravity_form, proximal_data, proximal_form
+from mbla.program.static import associative_static_form, gravity_form, proximal_data, proximal_form
 from mbla.solution.cone_solvers.clarabel_adapter import ClarabelProgram
 from mbla.solution.cone_solvers.cone_solution import ConeSolution
 from mbla.solution.cone_solvers.interior_point.program import CondensedProgram

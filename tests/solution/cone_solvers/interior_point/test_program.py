@@ -13,9 +13,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mbla.errors import SolverError
-from mbla.program.associative_static import associative_static_form
 from mbla.program.kinematic import kinematic_form
-from mbla.program.static import gravity_form
+from mbla.program.static import associative_static_form, gravity_form
 from mbla.solution.cone_solvers.clarabel_adapter import ClarabelProgram
 from mbla.solution.cone_solvers.cone_vectors import ConeVectors
 from mbla.solution.cone_solvers.interior_point.condensation import Condensation

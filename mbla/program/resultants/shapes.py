@@ -11,7 +11,7 @@ from mbla.contacts.contacts import Contacts
 from mbla.contacts.convex import convex_loops
 from mbla.contacts.polygons import convex_hulls
 from mbla.model.solids.ragged import items_of_rows, next_item, row_sums
-from mbla.program.convex.friction_curve import disc_radius, fitted_curves, rectangle_curve
+from mbla.program.resultants.friction_curve import disc_radius, fitted_curves, rectangle_curve
 
 STRAIGHT = 1e-6
 """Sine of the turn at a corner below which it is no corner: points on an edge are needless here."""

@@ -5,7 +5,7 @@ force point of an interface inside its outline, exactly for any convex outline, 
 Conditions on the six resultants of every interface are added: torsion, and crushing in place of the crushing of points.
 An associative load factor is therefore never above that of the concave model, and equal where no interface twists.
 
-Every condition lets its interface move by itself (see :mod:`mbla.program.convex.conditions`). Its unknowns ψ stand
+Every condition lets its interface move by itself (see :mod:`mbla.program.resultants.conditions`). Its unknowns ψ stand
 behind the velocities of the blocks, as if they were blocks too: rows "−W R x = cost" below the equilibrium matrix, R
 being the map from contact forces to resultants, W = motionᵀ.
 """
@@ -21,12 +21,13 @@ from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.contacts.contacts import Contacts
 from mbla.model.model import LoadCase, Model
 from mbla.program.assemble import assemble
-from mbla.program.convex.conditions import ConditionRows, joined
-from mbla.program.convex.crushing import CrushingLimits, crushing_limits, crushing_rows, crushing_violation
-from mbla.program.convex.shapes import InterfaceShapes, interface_shapes, local_points
-from mbla.program.convex.torsion import TorsionLimits, torsion_limits, torsion_rows
 from mbla.program.kinematic import KinematicForm, kinematic_form
 from mbla.program.program import Program
+from mbla.program.reductions.steps import ProgramSize
+from mbla.program.resultants.conditions import ConditionRows, joined
+from mbla.program.resultants.crushing import CrushingLimits, crushing_limits, crushing_rows, crushing_violation
+from mbla.program.resultants.shapes import InterfaceShapes, interface_shapes, local_points
+from mbla.program.resultants.torsion import TorsionLimits, torsion_limits, torsion_rows
 from mbla.program.yield_conditions import YieldLimits
 
 
@@ -228,3 +229,16 @@ def _with_conditions(program: Program, rows: ConditionRows, resultants: sp.csr_a
 def without_crushing(limits: YieldLimits) -> YieldLimits:
     """Limits of points that do not crush by themselves."""
     return replace(limits, compression=np.full_like(limits.compression, np.inf))
+
+
+def size_of_convex(convex: ConvexProgram) -> ProgramSize:
+    """Unknowns of the conditions are velocities too, and their cones count beside the friction cones of the points."""
+    program = convex.program
+    unknowns = len(program.dead_load)
+    conditions = sum(int(np.count_nonzero(rows.cone_sizes > 1)) for rows in convex.conditions)
+    return ProgramSize(
+        unknowns=unknowns,
+        cones=program.n_points + conditions,
+        entries=int(program.equilibrium_matrix.nnz),
+        largest=unknowns,
+    )

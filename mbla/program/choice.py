@@ -1,4 +1,7 @@
-"""What the contact model is known to get wrong for the joints of a model, as warnings for the listing."""
+"""Whether an analysis is solved with conditions on interfaces: torsion where asked for, crushing wherever it can be.
+
+Where it is solved without them, notices say what the contact model is known to get wrong for the joints of a model.
+"""
 
 from __future__ import annotations
 
@@ -10,7 +13,31 @@ from mbla.deck.sections.analysis import AnalysisSection
 from mbla.errors import Notice
 from mbla.model.model import Model
 from mbla.model.solids.ragged import next_item
-from mbla.program.convex.choice import crushable_interfaces, has_conditions_on_interfaces
+
+
+def crushable_interfaces(model: Model, contacts: Contacts) -> BoolArray:
+    """Interfaces with a compressive strength, (n_interfaces,)."""
+    strengths = np.array([model.joints[name].compressive_strength for name in contacts.joint_names])
+    return np.asarray(np.isfinite(strengths)[contacts.joints] if len(contacts) else np.zeros(0, dtype=bool))
+
+
+def has_conditions_on_interfaces(analysis: AnalysisSection, model: Model, contacts: Contacts) -> bool:
+    """Whether the program has conditions on interfaces; without, joints crush at their contact points."""
+    if analysis.contact_model == "convex":
+        return True
+    return takes_stress_blocks(analysis) and bool(crushable_interfaces(model, contacts).any())
+
+
+def takes_stress_blocks(analysis: AnalysisSection) -> bool:
+    """Whether flow rule, scheme, form and solver of an analysis go with conditions on interfaces."""
+    schemes = ("auto", "proximal")
+    by_flow = analysis.flow_rule == "associative" or (
+        analysis.flow_rule == "non_associative" and analysis.scheme in schemes
+    )
+    by_solver = analysis.friction_cone == "circular" and analysis.solver in ("auto", "clarabel")
+    plain = analysis.form == "kinematic" and not analysis.second_opinion and not analysis.force_ranges
+    return by_flow and by_solver and plain
+
 
 STRAIGHT = 1e-9
 """1 - cosine of the angle between edges that are parts of one: 4.5e-5 radians"""

@@ -25,8 +25,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from mbla.arrays import FloatArray, IntArray, starts
-from mbla.program.convex.conditions import M1, M2, ConditionRows, Entries, N, joined
-from mbla.program.convex.shapes import InterfaceShapes
+from mbla.program.resultants.conditions import M1, M2, ConditionRows, Entries, N, joined
+from mbla.program.resultants.shapes import InterfaceShapes
 
 RESULTANTS = (N, M1, M2)
 """Those that linear forms have coefficients of, behind their constant."""

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from mbla.solution.solution import Mechanics, Solution, Status
-from mbla.solution.verification.verify import verified_status, verify
+from mbla.solution.verification.verify_points import verified_status, verify_points
 from tests.line import BLOCK, WALL, Line, line_of, solution_of
 
 
@@ -19,7 +19,7 @@ def wall() -> tuple[Line, Solution]:
 
 
 def judged(line: Line, solution: Solution) -> tuple[Status, str]:
-    checks = verify(line.model, line.contacts, line.load_case, solution)
+    checks = verify_points(line.model, line.contacts, line.load_case, solution)
     return verified_status(solution, checks), "; ".join(checks.failures)
 
 
@@ -34,7 +34,7 @@ def mechanics_of(solution: Solution) -> Mechanics:
 
 def test_a_right_answer_passes_with_tight_bounds(wall: tuple[Line, Solution]) -> None:
     line, solution = wall
-    checks = verify(line.model, line.contacts, line.load_case, solution)
+    checks = verify_points(line.model, line.contacts, line.load_case, solution)
     assert checks.verified, checks.failures
     factor = mechanics_of(solution).load_factor
     assert checks.static_bound <= factor * (1 + 1e-7)
@@ -122,7 +122,7 @@ def test_an_almost_solved_program_is_not_solved(wall: tuple[Line, Solution]) -> 
 @pytest.mark.parametrize("tolerance", [1e-4, 1e-6, 1e-8])
 def test_bounds_hold_whatever_the_tolerance_of_the_solver(tolerance: float) -> None:
     line = line_of(WALL, "parameters.n=20", f"analysis.tolerance={tolerance}")
-    checks = verify(line.model, line.contacts, line.load_case, solution_of(line))
+    checks = verify_points(line.model, line.contacts, line.load_case, solution_of(line))
     exact = 0.50720395
     assert checks.static_bound <= exact + 1e-8
     assert checks.kinematic_bound >= exact - 1e-8
@@ -165,7 +165,7 @@ def test_without_normality_the_largest_residual_decides(
     found = mechanics_of(solution)
     mechanism = found.mechanism.copy()
     mechanism[0, 2] -= closing * mechanism[0, 0]
-    checks = verify(
+    checks = verify_points(
         line.model, line.contacts, line.load_case, replace(solution, mechanics=replace(found, mechanism=mechanism))
     )
     assert checks.penetration == pytest.approx(closing, rel=1e-2)
@@ -180,7 +180,7 @@ def test_a_claim_outside_its_bounds(wall: tuple[Line, Solution]) -> None:
     """Too small to unbalance the forces by 1e-5, too large to lie between bounds 1e-8 apart."""
     line, solution = wall
     wrong = replace(mechanics_of(solution), load_factor=mechanics_of(solution).load_factor * (1 + 2e-5))
-    checks = verify(line.model, line.contacts, line.load_case, with_mechanics(solution, wrong))
+    checks = verify_points(line.model, line.contacts, line.load_case, with_mechanics(solution, wrong))
     assert not checks.verified
     status = verified_status(with_mechanics(solution, wrong), checks)
     assert status is not Status.SOLVED
@@ -189,7 +189,7 @@ def test_a_claim_outside_its_bounds(wall: tuple[Line, Solution]) -> None:
 def test_a_factor_above_the_associative_one_is_no_result(sliding: tuple[Line, Solution]) -> None:
     line, solution = sliding
     found = mechanics_of(solution)
-    checks = verify(line.model, line.contacts, line.load_case, solution)
+    checks = verify_points(line.model, line.contacts, line.load_case, solution)
     higher = replace(solution, mechanics=replace(found, load_factor=1.02 * checks.kinematic_bound))
     status, failures = judged(line, higher)
     assert status is Status.NOT_VERIFIED
@@ -201,12 +201,12 @@ def test_tension_and_slip_are_told_apart(sliding: tuple[Line, Solution]) -> None
     found = mechanics_of(solution)
     forces = found.contact_forces.copy()
     forces[0, 0] = -0.05 * forces[:, 0].sum()
-    checks = verify(
+    checks = verify_points(
         line.model, line.contacts, line.load_case, replace(solution, mechanics=replace(found, contact_forces=forces))
     )
     assert checks.tension_violation > 0.04
     turned = found.mechanism[:, [1, 0, 2, 3, 4, 5]]
-    checks = verify(
+    checks = verify_points(
         line.model, line.contacts, line.load_case, replace(solution, mechanics=replace(found, mechanism=turned))
     )
     assert checks.slip_residual == pytest.approx(1.0, rel=1e-6)

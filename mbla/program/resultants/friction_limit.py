@@ -1,6 +1,7 @@
 """Friction of interfaces at given normal forces: size of the set of admissible (T, M_n/ρ), nearest point in it.
 
-The set is {(T, m): (max(‖T‖ − V + R, 0), |m|) within the safe curve of size R}: see :mod:`mbla.program.convex.torsion`.
+The set is {(T, m): (max(‖T‖ − V + R, 0), |m|) within the safe curve of size R}:
+see :mod:`mbla.program.resultants.torsion`.
 """
 
 from __future__ import annotations
@@ -12,8 +13,8 @@ import scipy.sparse as sp
 
 from mbla.arrays import FloatArray
 from mbla.model.solids.ragged import next_item
-from mbla.program.convex.conditions import M1, M2, Entries, N
-from mbla.program.convex.torsion import TorsionLimits
+from mbla.program.resultants.conditions import M1, M2, Entries, N
+from mbla.program.resultants.torsion import TorsionLimits
 
 BISECTIONS, NEWTON_STEPS = 30, 4
 """Of the multiplier of a projection: to 1e-9, and from there to rounding."""

@@ -2,14 +2,14 @@ import numpy as np
 import pytest
 
 from mbla.arrays import FloatArray
-from mbla.program.convex.friction_curve import (
+from mbla.program.resultants.friction_curve import (
     disc_radius,
     fitted_curves,
     friction,
     rectangle_curve,
     safe_torsion,
 )
-from tests.program.convex.polygons import SHAPES, points_inside, rectangle, regular
+from tests.program.resultants.polygons import SHAPES, points_inside, rectangle, regular
 
 SQUARE = (np.sqrt(2) + np.log(1 + np.sqrt(2))) / 6
 

@@ -9,7 +9,7 @@ rectangle a × b the rectangle a − 2|p_1| by b − 2|p_2|. Its torsional radiu
 
 the first exactly, the second because ρ(a, b) is convex and homogeneous of degree 1, so that its tangent lies below it.
 The shear strength V = μN + cA is divided: the share that acts as over the whole area, R ≤ μ N w + cA, carries torsion
-and shear by the safe curve of :mod:`mbla.program.convex.friction_curve`; the rest carries shear alone::
+and shear by the safe curve of :mod:`mbla.program.resultants.friction_curve`; the rest carries shear alone::
 
     (T − T', M_n) within the safe curve of R        ‖T'‖ ≤ V − R
 
@@ -44,9 +44,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from mbla.arrays import FloatArray, IntArray, starts
-from mbla.program.convex.conditions import M1, M2, MN, T1, T2, ConditionRows, Entries, N
-from mbla.program.convex.friction_curve import rectangle_curve
-from mbla.program.convex.shapes import InterfaceShapes
+from mbla.program.resultants.conditions import M1, M2, MN, T1, T2, ConditionRows, Entries, N
+from mbla.program.resultants.friction_curve import rectangle_curve
+from mbla.program.resultants.shapes import InterfaceShapes
 
 UNKNOWNS = 8
 """Of an interface: η_1, η_2, σ, k+, k−, ζ, γ_1, γ_2."""

@@ -11,15 +11,15 @@ import scipy.sparse as sp
 
 from mbla.arrays import FloatArray
 from mbla.deck.sections.analysis import AnalysisSection
-from mbla.program.convex.assemble import resultants_map
-from mbla.program.convex.conditions import M1, M2, MN, ConditionRows, N
-from mbla.program.convex.crushing import crushing_limits, crushing_rows, crushing_violation
-from mbla.program.convex.shapes import InterfaceShapes
-from mbla.program.convex.torsion import TorsionLimits, torsion_limits, torsion_rows
 from mbla.program.kinematic import ConeProgram
+from mbla.program.resultants.assemble import resultants_map
+from mbla.program.resultants.conditions import M1, M2, MN, ConditionRows, N
+from mbla.program.resultants.crushing import crushing_limits, crushing_rows, crushing_violation
+from mbla.program.resultants.shapes import InterfaceShapes
+from mbla.program.resultants.torsion import TorsionLimits, torsion_limits, torsion_rows
 from mbla.solution.cone_solvers.clarabel_adapter import ClarabelProgram
 from mbla.solution.settings import solver_settings
-from tests.program.convex.test_shapes import prism_line, shapes_of
+from tests.program.resultants.test_shapes import prism_line, shapes_of
 
 RECTANGLE = shapes_of((0, 0), (1.25, 0), (1.25, 0.75), (0, 0.75))
 TRIANGLE = shapes_of((0, 0), (1.0, 0), (0.25, 0.75))

@@ -5,8 +5,8 @@ from collections.abc import Sequence
 import numpy as np
 import pytest
 
-from mbla.program.convex.friction_curve import disc_radius, fitted_curves
-from mbla.program.convex.shapes import InterfaceShapes, interface_shapes
+from mbla.program.resultants.friction_curve import disc_radius, fitted_curves
+from mbla.program.resultants.shapes import InterfaceShapes, interface_shapes
 from tests.line import HEAD, WALL, Line, line_of
 
 PRISM = (

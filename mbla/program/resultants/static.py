@@ -16,10 +16,10 @@ import numpy as np
 import scipy.sparse as sp
 
 from mbla.arrays import FloatArray, IntArray
-from mbla.program.convex.assemble import ConvexProgram
-from mbla.program.convex.conditions import MN, T1, T2, Entries
-from mbla.program.convex.crushing import RESULTANTS, Corners, Edges
 from mbla.program.kinematic import ConeProgram
+from mbla.program.resultants.assemble import ConvexProgram
+from mbla.program.resultants.conditions import MN, T1, T2, Entries
+from mbla.program.resultants.crushing import RESULTANTS, Corners, Edges
 from mbla.program.static import LEAST_LIMIT
 
 

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from mbla.program.convex.assemble import assemble_convex
-from mbla.program.convex.size import size_of_convex
+from mbla.program.resultants.assemble import assemble_convex, size_of_convex
 from tests.line import BLOCK, WALL, line_of
 
 

@@ -2,8 +2,8 @@ import numpy as np
 import pytest
 
 from mbla.arrays import FloatArray
-from mbla.program.convex.conditions import M1, M2, N
-from mbla.program.convex.friction_limit import (
+from mbla.program.resultants.conditions import M1, M2, N
+from mbla.program.resultants.friction_limit import (
     FrictionLimit,
     curve_size,
     curve_support,
@@ -11,8 +11,8 @@ from mbla.program.convex.friction_limit import (
     nearest,
     torsion_reserve,
 )
-from mbla.program.convex.torsion import TorsionLimits, torsion_limits
-from tests.program.convex.test_shapes import shapes_of
+from mbla.program.resultants.torsion import TorsionLimits, torsion_limits
+from tests.program.resultants.test_shapes import shapes_of
 
 NONE = None
 

@@ -11,16 +11,16 @@ import scipy.sparse as sp
 
 from mbla.arrays import FloatArray
 from mbla.deck.sections.analysis import AnalysisSection
-from mbla.program.convex.assemble import ConvexProgram, assemble_convex
-from mbla.program.convex.conditions import MN, T1, T2
-from mbla.program.convex.crushing import crushing_violation
-from mbla.program.convex.friction_limit import curve_size
-from mbla.program.convex.shapes import local_points
-from mbla.program.convex.static import ConvexStaticForm, convex_proximal_data, convex_proximal_form
 from mbla.program.kinematic import ConeProgram
+from mbla.program.resultants.assemble import ConvexProgram, assemble_convex
+from mbla.program.resultants.conditions import MN, T1, T2
+from mbla.program.resultants.crushing import crushing_violation
+from mbla.program.resultants.friction_limit import curve_size
+from mbla.program.resultants.shapes import local_points
+from mbla.program.resultants.static import ConvexStaticForm, convex_proximal_data, convex_proximal_form
 from mbla.solution.cone_solvers.clarabel_adapter import ClarabelProgram
 from mbla.solution.settings import solver_settings
-from tests.program.convex.test_shapes import PRISM, prism_line
+from tests.program.resultants.test_shapes import PRISM, prism_line
 
 SETTINGS = solver_settings(AnalysisSection())
 OUTLINES: dict[str, tuple[tuple[float, float], ...]] = {

@@ -1,0 +1,235 @@
+"""Verification: everything that is claimed, recomputed from model, contacts and solution.
+
+No solver is asked and no matrix of the program stage is used for a verdict: forces are summed over blocks and
+velocities taken from rigid-body motion directly (``statics``). What the residuals are is said in
+:mod:`mbla.solution.verification.residuals`, what the bounds prove in :mod:`mbla.solution.associative.proofs`.
+
+What may be claimed follows from the figures alone, by the limits of :mod:`mbla.solution.thresholds`. Friction polyhedra
+(``verify_polyhedral``) prove a bracket of the true cone: the case is solved where that is no wider than 1e-5, else
+approximate.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from mbla.arrays import FloatArray
+from mbla.contacts.contacts import Contacts
+from mbla.errors import Message
+from mbla.model.model import LoadCase, Model
+from mbla.program.assemble import yield_limits
+from mbla.solution.associative.proofs import associative_bounds, certificate_failures
+from mbla.solution.solution import Checks, Solution, Status
+from mbla.solution.thresholds import (
+    APPROXIMATE_RESIDUAL,
+    BOUNDS_ROUNDING,
+    GAP_TOLERANCE,
+    LIVE_POWER_DEVIATION,
+    SOLVED_EQUILIBRIUM,
+    SOLVED_RESIDUAL,
+)
+from mbla.solution.verification.residuals import Residuals, residuals_of
+from mbla.solution.verification.statics import load_scale
+
+
+@dataclass(frozen=True)
+class Bounds:
+    """What forces and a mechanism prove of the associative load factor; NaN where nothing is proved.
+
+    size : unit of differences of load factors
+    """
+
+    static: float = np.nan
+    kinematic: float = np.nan
+    size: float = np.nan
+
+    @classmethod
+    def of(cls, static: float, kinematic: float, least_factor: float) -> Bounds:
+        """Bounds that cross by no more than rounding have met at the kinematic one."""
+        size = max(abs(kinematic), least_factor)
+        met = 0.0 < static - kinematic <= BOUNDS_ROUNDING * size
+        return cls(kinematic if met else static, kinematic, size)
+
+    @property
+    def gap(self) -> float:
+        """Relative distance of the bounds."""
+        return abs(self.kinematic - self.static) / self.size if self.size > 0 else np.nan
+
+
+def checks_of(residuals: Residuals, bounds: Bounds, failures: tuple[Message, ...]) -> Checks:
+    """The record of what was found."""
+    return Checks(
+        equilibrium_residual=residuals.equilibrium,
+        yield_violation=residuals.yielding,
+        penetration=residuals.penetration,
+        complementarity_residual=residuals.complementarity,
+        live_power=residuals.live_power,
+        power_balance=residuals.power_balance,
+        static_bound=bounds.static,
+        kinematic_bound=bounds.kinematic,
+        gap=bounds.gap,
+        verified=not failures,
+        failures=failures,
+        tension_violation=residuals.tension,
+        slip_residual=residuals.slip,
+    )
+
+
+def checks_without_mechanics(
+    solution: Solution, certificate_failures: Callable[[FloatArray], tuple[Message, ...]]
+) -> Checks:
+    """Of a solution without forces and mechanism: of its certificate where it has one; all figures are NaN."""
+    failures: tuple[Message, ...] = (
+        (Message("not-verified", solution.reason),) if solution.status is not Status.UNBOUNDED else ()
+    )
+    if solution.certificate is not None:
+        failures = certificate_failures(solution.certificate)
+    nan = np.nan
+    return Checks(nan, nan, nan, nan, nan, nan, nan, nan, nan, verified=not failures, failures=failures)
+
+
+def verify_points(model: Model, contacts: Contacts, load_case: LoadCase, solution: Solution) -> Checks:
+    """Recompute residuals and bounds of a solution; NaN where there is nothing to check."""
+    limits = yield_limits(model, contacts)
+    scale = load_scale(model, contacts, load_case, limits)
+    if solution.mechanics is None:
+        return checks_without_mechanics(
+            solution, lambda motion: certificate_failures(model, contacts, load_case, motion, limits, scale)
+        )
+    dilatancy = limits.dilatancy_by(solution.flow_rule)
+    residuals = residuals_of(model, contacts, load_case, solution.mechanics, dilatancy)
+    bounds = Bounds()
+    if solution.associative is not None:
+        proved = associative_bounds(model, contacts, load_case, solution.associative, limits, scale)
+        bounds = Bounds.of(*proved, scale.least_factor(solution.associative.mechanism))
+    return checks_of(residuals, bounds, failures_of(residuals, solution, bounds))
+
+
+def verified_status(solution: Solution, checks: Checks) -> Status:
+    """What may be claimed: the solver's status, lowered to what verification found."""
+    if solution.status not in (Status.SOLVED, Status.APPROXIMATE):
+        if solution.status in (Status.NO_EQUILIBRIUM, Status.UNBOUNDED) and not checks.verified:
+            return Status.NOT_VERIFIED
+        return solution.status
+    brackets = solution.outer is not None and solution.flow_rule == "associative"
+    if checks.verified and solution.status is Status.SOLVED:
+        return Status.SOLVED if not brackets or checks.gap <= GAP_TOLERANCE else Status.APPROXIMATE
+    measures = [
+        checks.equilibrium_residual,
+        checks.yield_violation,
+        checks.penetration,
+        checks.complementarity_residual,
+        checks.power_balance,
+        abs(checks.live_power - 1.0),
+    ]
+    if solution.flow_rule == "associative" and solution.outer is None:  # polyhedra lie apart, however well solved
+        measures.append(checks.gap)
+    elif _above(solution, checks.kinematic_bound, APPROXIMATE_RESIDUAL * abs(checks.kinematic_bound)):
+        return Status.NOT_VERIFIED
+    return Status.APPROXIMATE if all(value <= APPROXIMATE_RESIDUAL for value in measures) else Status.NOT_VERIFIED
+
+
+def meets_what_was_asked(solution: Solution, checks: Checks) -> bool:
+    """Whether an approximate answer is as sharp as the analysis asks for, by the figures of the verification.
+
+    Associative flow: its proved bounds lie within the gap asked for. Other flow: every residual is within the one asked
+    for, and the load factor not above the proved kinematic bound by more than that.
+    """
+    asked = solution.asked
+    if asked is None or solution.mechanics is None or not abs(checks.live_power - 1.0) <= LIVE_POWER_DEVIATION:
+        return False
+    residuals = (
+        checks.equilibrium_residual,
+        checks.yield_violation,
+        checks.penetration,
+        checks.complementarity_residual,
+        checks.power_balance,
+    )
+    if solution.flow_rule == "associative":
+        return checks.gap <= asked and all(value <= APPROXIMATE_RESIDUAL for value in residuals)
+    above = _above(solution, checks.kinematic_bound, asked * abs(checks.kinematic_bound))
+    return not above and all(value <= asked for value in residuals)
+
+
+def tolerances(flow_rule: str) -> dict[str, float]:
+    """What a solved case may miss at most, by the name of each figure in ``Checks``; others are parts of these.
+
+    The live power may miss 1 by so much; the gap counts for associative flow, whose load factor the bounds prove.
+    """
+    associative = flow_rule == "associative"
+    return {
+        "equilibrium_residual": SOLVED_EQUILIBRIUM,
+        "yield_violation": SOLVED_RESIDUAL,
+        "penetration": SOLVED_RESIDUAL,
+        "complementarity_residual": SOLVED_RESIDUAL,
+        "power_balance": SOLVED_RESIDUAL,
+        "live_power": LIVE_POWER_DEVIATION,
+        **({"gap": GAP_TOLERANCE} if associative else {}),
+    }
+
+
+def failures_of(residuals: Residuals, solution: Solution, bounds: Bounds) -> tuple[Message, ...]:
+    """What is not within tolerance."""
+    failures = residual_failures(residuals, solution.flow_rule)
+    if solution.flow_rule == "associative":
+        failures += _bound_failures(solution, bounds)
+    elif _above(solution, bounds.kinematic, SOLVED_RESIDUAL * bounds.size):
+        assert solution.mechanics is not None
+        words = (
+            f"the load factor {solution.mechanics.load_factor:.8g} exceeds the kinematic bound {bounds.kinematic:.8g} "
+            "of the associative one"
+        )
+        failures.append(Message("above-kinematic-bound", words))
+    return tuple(failures)
+
+
+def residual_failures(residuals: Residuals, flow_rule: str, of: str = "") -> list[Message]:
+    """Residuals that exceed what the flow rule allows; ``of`` goes before each."""
+    allowed = tolerances(flow_rule)
+    limits = (
+        ("equilibrium-residual", "equilibrium residual", residuals.equilibrium, allowed["equilibrium_residual"]),
+        ("yield-violation", "yield violation", residuals.yielding, allowed["yield_violation"]),
+        ("penetration", "penetration", residuals.penetration, allowed["penetration"]),
+        (
+            "complementarity-residual",
+            "complementarity residual",
+            residuals.complementarity,
+            allowed["complementarity_residual"],
+        ),
+        ("power-balance", "power balance", residuals.power_balance, allowed["power_balance"]),
+        (
+            "live-power",
+            "deviation of the live power from 1",
+            abs(residuals.live_power - 1.0),
+            allowed["live_power"],
+        ),
+    )
+    return [
+        Message(identifier, f"{of}{name} {value:.2g} exceeds {limit:g}")
+        for identifier, name, value, limit in limits
+        if not value <= limit
+    ]
+
+
+def _bound_failures(solution: Solution, bounds: Bounds) -> list[Message]:
+    """What the bounds of the associative load factor leave unproved."""
+    assert solution.mechanics is not None
+    static, kinematic, room = bounds.static, bounds.kinematic, GAP_TOLERANCE * bounds.size
+    factor = solution.mechanics.load_factor  # as reported: forces may be others than proved
+    if not abs(kinematic - static) <= room:
+        words = (
+            f"static bound {static:.8g} and kinematic bound {kinematic:.8g} lie further apart than {GAP_TOLERANCE:g}"
+        )
+        return [Message("bounds-apart", words)]
+    if not static - room <= factor <= kinematic + room:
+        words = f"the load factor {factor:.8g} does not lie between its bounds {static:.8g} and {kinematic:.8g}"
+        return [Message("outside-bounds", words)]
+    return []
+
+
+def _above(solution: Solution, bound: float, room: float) -> bool:
+    """Whether the load factor exceeds an upper bound by more than ``room``; not where there is no bound."""
+    return solution.mechanics is not None and bool(solution.mechanics.load_factor > bound + room)
