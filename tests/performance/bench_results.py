@@ -21,15 +21,14 @@ from mbla.deck.sections.output import OutputSection
 from mbla.model.model import LoadCase
 from mbla.results.hdf5.result_file import read_results_hdf5, write_results_hdf5
 from mbla.results.listing.listing import listing
+from mbla.results.record.scene import Scene, scene_of
 from mbla.results.records.json_record import results_json
 from mbla.results.results import CaseResult, Results
 from mbla.results.tables.export import Formats, export_results
 from mbla.results.vtu.cells import block_cells
 from mbla.results.vtu.mesh_files import MESH_FILES, MeshFile
-from mbla.results.vtu.pvd import write_frame_vtu
-from mbla.results.vtu.scene import Scene, scene_of
-from mbla.results.vtu.support_file import write_supports_vtu
-from mbla.results.vtu.vtu import write_blocks_vtu
+from mbla.results.vtu.supports import write_supports_vtu
+from mbla.results.vtu.vtu import write_blocks_vtu, write_frame_vtu
 from mbla.results.write import write_outputs
 from mbla.solution.solution import Mechanics
 from tests.performance.recording import best_time, record

@@ -11,7 +11,7 @@ from pathlib import Path
 from mbla.results.hdf5.layout import layout_table
 from mbla.results.records.description import record_page
 from mbla.results.tables.tables import tables_page
-from mbla.results.vtu.layout import arrays_table
+from mbla.results.vtu.arrays import arrays_table
 from mbla.sweeps.interaction.description import interact_record_page
 from mbla.sweeps.tables.sweep_json import sweep_columns_page, sweep_record_page
 

@@ -71,7 +71,7 @@ def test_mesh_files_hold_the_structure(folder: Path, results: Results) -> None:
     assert vtk_volumes(blocks) == pytest.approx(results.model.blocks.volumes)
     last = folder / "arch.out" / "arch_push_x_frame_002.vtu"
     assert vtk_volumes(last) == pytest.approx(results.model.blocks.volumes)
-    forces = vtk_array(read_vtk(folder / "arch.out" / "arch_push_x_contacts.vtu").GetPointData(), "contact_force")
+    forces = vtk_array(read_vtk(folder / "arch.out" / "arch_push_x_contacts.vtu").GetPointData(), "global_forces")
     assert np.isfinite(forces).all()
     assert len(forces) == len(results.contacts.points)
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from itertools import product
 from typing import Literal
 
 from mbla.deck.units import Units
@@ -95,14 +96,13 @@ class Quantity:
         """``told`` of a value, empty where that is verified."""
         return "" if isinstance(value, str) and value in self.proved else self.told
 
-    def components(self) -> Iterator[tuple[str, UnitKind]]:
-        """Name and unit of each of its columns, as many as its last dimension has, one where it has none."""
-        names = COMPONENTS.get(self.dims[-1], ()) if self.dims else ()
-        if not names:
-            yield self.name, self.unit
-        halves = HALVES.get(self.unit, (self.unit, self.unit))
-        for row, name in enumerate(names):
-            yield f"{self.name}_{name}", halves[row // 3]
+    def components(self) -> Iterator[tuple[tuple[int, ...], str, UnitKind]]:
+        """Place, name and unit of each of the columns of one item: ``contact_forces_N`` and so on."""
+        along = [COMPONENTS[dim] for dim in self.dims if dim in COMPONENTS]
+        for place in product(*(range(len(names)) for names in along)):
+            parts = (names[row] for names, row in zip(along, place, strict=True))
+            halves = HALVES.get(self.unit, (self.unit, self.unit)) if along else (self.unit,)
+            yield place, "_".join([self.name, *parts]), halves[place[-1] // 3] if place else self.unit
 
 
 def text(name: str, words: str, dims: str = "", *, told: str = "", proved: tuple[str, ...] = ()) -> Quantity:

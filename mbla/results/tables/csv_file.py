@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from mbla.results.tables.column import Values
+from mbla.results.record.column import Values
 from mbla.results.tables.table import Table
 
 

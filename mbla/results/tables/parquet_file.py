@@ -14,7 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from mbla.errors import UsageError
-from mbla.results.tables.column import Values
+from mbla.results.record.column import Values
 from mbla.results.tables.table import NO_EXTRA, Table
 
 COMPRESSION = "zstd"

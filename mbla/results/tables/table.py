@@ -2,22 +2,100 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass, replace
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from mbla.deck.units import Units
 from mbla.errors import UsageError
+from mbla.results.record.column import Column, Values, as_text
+from mbla.results.record.quantity import COMPONENTS, Kind, Quantity, UnitKind, unit_text
+from mbla.results.record.scene import Scene, scene_of
 from mbla.results.results import CaseResult, Results
-from mbla.results.tables.column import Column, Values
 
 if TYPE_CHECKING:
     import pandas
 
 NO_EXTRA = "this needs an extra that is not installed: pip install 'mbla[tables]'"
 DTYPES: dict[str, Any] = {"float": np.float64, "int": np.int64, "bool": np.bool_, "text": object}
+
+
+@dataclass(frozen=True)
+class TableColumn:
+    """One column of a table.
+
+    kind : float, nan where there is no value; int, masked where there is none; bool; text, empty where there is none
+    of   : the values of the rows that one source makes
+    """
+
+    name: str
+    kind: Kind
+    unit: UnitKind
+    words: str
+    of: Callable[[Any], Values]
+
+    def unit_in(self, units: Units) -> str:
+        """The unit in a deck's units; empty for plain numbers and text."""
+        return "" if self.unit == "1" else unit_text(self.unit, units)
+
+    def header(self, units: Units) -> str:
+        """``centroids_x [m]``; the name alone where there is no unit."""
+        unit = self.unit_in(units)
+        return f"{self.name} [{unit}]" if unit else self.name
+
+
+def described(quantity: Quantity, of: Callable[[Any], Values]) -> tuple[TableColumn, ...]:
+    """Columns of a quantity, one for each component of its values (n_rows, ...)."""
+    return tuple(
+        TableColumn(name, quantity.kind, unit, quantity.words, partial(_component, of, place))
+        for place, name, unit in quantity.components()
+    )
+
+
+def _component(of: Callable[[Any], Values], place: tuple[int, ...], source: Any) -> Values:
+    values = of(source)
+    for row in place:
+        values = values[:, row]
+    return values
+
+
+def scene_columns(columns: Sequence[Column], count: Callable[[Scene], int]) -> tuple[TableColumn, ...]:
+    """Columns of the record as those of a table, after the name of the load case; ``count``: rows of a scene."""
+
+    def case(scene: Scene) -> Values:
+        return as_text([scene.case.load_case.name if scene.case else ""] * count(scene))
+
+    found = [TableColumn("case", "text", "1", "load case", case)]
+    for column in columns:
+        if "table" in column.files:
+            text = column.names is not None or column.quantity.kind == "text"
+            quantity = replace(column.quantity, kind="text") if text else column.quantity
+            found += described(quantity, partial(_values, column, count, text))
+    return tuple(found)
+
+
+def _values(column: Column, count: Callable[[Scene], int], text: bool, scene: Scene) -> Values:
+    """Values of a column, (n_rows, ...); where there are none, nothing of its kind in every row."""
+    values, quantity = column.of(scene), column.quantity
+    if values is not None:
+        if column.names is not None:
+            return as_text(list(column.names(scene)))[values.astype(np.int64)]
+        sentences = text and quantity.dims[-1:] in (("remark",), ("failure",))
+        return as_text(["; ".join(values)]) if sentences else values
+    shape = (count(scene), *(len(COMPONENTS[dim]) for dim in quantity.dims if dim in COMPONENTS))
+    if text:
+        return np.full(shape, "", dtype=object)
+    return (
+        np.full(shape, np.nan) if quantity.kind == "float" else np.ma.array(np.zeros(shape, dtype=np.int64), mask=True)
+    )
+
+
+def case_scenes(results: Results, cases: tuple[CaseResult, ...]) -> list[Scene]:
+    """Sources of tables that have rows for every load case."""
+    return [scene_of(results, case) for case in cases]
 
 
 @dataclass(frozen=True)
@@ -31,7 +109,7 @@ class TableKind:
 
     name: str
     words: str
-    columns: tuple[Column[Any], ...]
+    columns: tuple[TableColumn, ...]
     sources: Callable[[Results, tuple[CaseResult, ...]], Iterable[Any]]
 
 
@@ -74,7 +152,7 @@ class Table:
 
     @property
     def header(self) -> tuple[str, ...]:
-        """Names with units, ``centroid_x [m]``."""
+        """Names with units, ``centroids_x [m]``."""
         return tuple(column.header(self.units) for column in self.kind.columns)
 
     def to_pandas(self) -> pandas.DataFrame:
@@ -109,7 +187,7 @@ def table_of(kind: TableKind, results: Results, cases: tuple[CaseResult, ...]) -
     return Table(kind, values, results.model.units)
 
 
-def _joined(column: Column[Any], parts: list[Values]) -> Values:
+def _joined(column: TableColumn, parts: list[Values]) -> Values:
     dtype = DTYPES[column.kind]
     joined = np.concatenate([np.zeros(0, dtype=dtype), *(np.ma.getdata(part).astype(dtype) for part in parts)])
     if column.kind != "int":
@@ -118,7 +196,7 @@ def _joined(column: Column[Any], parts: list[Values]) -> Values:
     return np.ma.masked_array(joined, np.concatenate(masks))
 
 
-def _series(pandas: Any, column: Column[Any], values: Values) -> Any:
+def _series(pandas: Any, column: TableColumn, values: Values) -> Any:
     """Whole numbers of which some are missing as the nullable type of pandas; text as its own."""
     if column.kind != "int":
         return pandas.Series(values, dtype="str" if column.kind == "text" else values.dtype)

@@ -7,13 +7,33 @@ from collections.abc import Sequence
 from mbla.deck.units import Units
 from mbla.errors import UsageError
 from mbla.results.chosen_cases import chosen_cases
+from mbla.results.record.blocks import BLOCK_COLUMNS
+from mbla.results.record.cases import CASE_COLUMNS
+from mbla.results.record.interfaces import INTERFACE_COLUMNS
+from mbla.results.record.points import POINT_COLUMNS
 from mbla.results.results import Results
-from mbla.results.tables.block_columns import BLOCKS
-from mbla.results.tables.case_columns import CASES
-from mbla.results.tables.history_columns import ITERATIONS, NOTICES, PATH, PROGRAMS, REACTIONS, SERIES
-from mbla.results.tables.interface_columns import INTERFACES
-from mbla.results.tables.point_columns import POINTS
-from mbla.results.tables.table import Table, TableKind, table_of
+from mbla.results.tables.lists import ITERATIONS, NOTICES, PATH, PROGRAMS, REACTIONS, SERIES
+from mbla.results.tables.table import Table, TableKind, case_scenes, scene_columns, table_of
+
+CASES = TableKind("cases", "each load case", scene_columns(CASE_COLUMNS, lambda _: 1), case_scenes)
+BLOCKS = TableKind(
+    "blocks",
+    "each block, for each load case",
+    scene_columns(BLOCK_COLUMNS, lambda scene: len(scene.model.blocks)),
+    case_scenes,
+)
+INTERFACES = TableKind(
+    "interfaces",
+    "each interface, for each load case",
+    scene_columns(INTERFACE_COLUMNS, lambda scene: len(scene.contacts)),
+    case_scenes,
+)
+POINTS = TableKind(
+    "points",
+    "each contact point, for each load case",
+    scene_columns(POINT_COLUMNS, lambda scene: len(scene.contacts.points)),
+    case_scenes,
+)
 
 TABLES: dict[str, TableKind] = {
     kind.name: kind

@@ -13,6 +13,7 @@ import numpy as np
 
 from mbla.arrays import IntArray
 from mbla.model.solids.blocks import Blocks
+from mbla.results.collapse.kept import kept
 
 
 @dataclass(frozen=True)
@@ -48,6 +49,7 @@ SHAPES = (
 )
 
 
+@kept
 def block_cells(blocks: Blocks) -> BlockCells:
     """Cells of all blocks; connectivity counts rows of ``blocks.vertices``."""
     found = [(shape.cell, *_cells_of_shape(blocks, shape)) for shape in SHAPES]

@@ -10,15 +10,20 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from mbla.results.files import OutputFolder
+from mbla.results.record.scene import Scene, scene_of
 from mbla.results.results import Results
-from mbla.results.vtu.hinge_file import has_hinges, write_hinges_vtu
-from mbla.results.vtu.load_file import has_loads, write_loads_vtu
-from mbla.results.vtu.pvd import collection_pvd, frame_times, write_frame_vtu
-from mbla.results.vtu.scene import Scene, scene_of
+from mbla.results.vtu.lines import has_hinges, has_thrust, write_hinges_vtu, write_thrust_vtu
+from mbla.results.vtu.loads import has_loads, write_loads_vtu
 from mbla.results.vtu.script import case_record, views_script
-from mbla.results.vtu.support_file import has_supports, write_supports_vtu
-from mbla.results.vtu.thrust_file import has_thrust, write_thrust_vtu
-from mbla.results.vtu.vtu import write_blocks_vtu, write_contacts_vtu, write_interfaces_vtu
+from mbla.results.vtu.supports import has_supports, write_supports_vtu
+from mbla.results.vtu.vtu import (
+    collection_pvd,
+    frame_times,
+    write_blocks_vtu,
+    write_contacts_vtu,
+    write_frame_vtu,
+    write_interfaces_vtu,
+)
 
 
 def _has_contacts(scene: Scene) -> bool:

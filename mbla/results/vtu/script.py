@@ -12,9 +12,9 @@ import numpy as np
 from mbla.model.model import Model
 from mbla.results.listing.verdict_words import verdict
 from mbla.results.pictures.geometry import front_axis
+from mbla.results.record.blocks import names_of
+from mbla.results.record.scene import Scene
 from mbla.results.results import Results
-from mbla.results.vtu.scene import Scene
-from mbla.results.vtu.vtu import group_names
 
 TEMPLATE = Path(__file__).with_name("standard_views.py")
 PLACE = "RESULT: dict[str, Any] = {}\n"
@@ -33,7 +33,7 @@ def views_script(results: Results, stem: str, supports: str, cases: Mapping[str,
     record = {
         "stem": stem,
         "size": float(np.linalg.norm(np.ptp(vertices, axis=0))),
-        "groups": group_names(results.model),
+        "groups": names_of(results.model.blocks.groups),
         "supports": supports,
         "cases": dict(cases),
     }
@@ -72,7 +72,7 @@ def _words(results: Results, scene: Scene) -> list[str]:
         lines.append("Forces: those that balance the live load alone.")
     elif scene.mechanics is None and case.solution.certificate is not None:
         lines.append("Motion: one under which the dead load does work that no joint resists.")
-    elif scene.mechanics is not None and not scene.is_result:
+    elif scene.mechanics is not None and scene.figures != "result":
         lines.append("Forces and motion are NO RESULT: the best that was reached.")
     return lines
 

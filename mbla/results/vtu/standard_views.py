@@ -173,7 +173,7 @@ class Picture:
 def structure(picture: Picture) -> None:
     """Blocks by group, and supports."""
     shown = picture.draw(picture.read("blocks"), "Surface With Edges")
-    picture.colour_by_number(shown, "group", RESULT["groups"], [])
+    picture.colour_by_number(shown, "groups", RESULT["groups"], [])
     picture.supports()
 
 
@@ -182,7 +182,7 @@ def mechanism(picture: Picture) -> None:
     blocks = picture.read("blocks")
     shown = picture.draw(picture.warped(blocks), "Surface With Edges", Opacity=0.85)
     parts = ["at rest", *(f"part {i + 1}" for i in range(picture.case["parts"]))]
-    picture.colour_by_number(shown, "part", parts, [STONE])
+    picture.colour_by_number(shown, "parts", parts, [STONE])
     picture.ghost()
     picture.supports()
     picture.legend = ["Displacements to a scale that can be seen; thin grey lines: as built."]
@@ -203,7 +203,7 @@ def thrust(picture: Picture) -> None:
     picture.ghost(0.5)
     picture.supports()
     source = picture.read("thrust")
-    arrows = picture.arrows(source, "resultant_force", 0.15, at_tip=False)
+    arrows = picture.arrows(source, "resultant_forces", 0.15, at_tip=False)
     picture.colour(picture.draw(arrows), "POINTS", "eccentricity", "eccentricity: 1 at the edge", 1.0)
     if picture.case["thrust_lines"]:
         rods = picture.rods(picture.cells_with(source, "kind", 1))
@@ -230,12 +230,12 @@ def loads(picture: Picture) -> None:
     source = picture.read("loads")
     drawn = []
     for name, words, colour in (
-        ("dead_load", "grey: dead load", GREY),
-        ("live_load", "orange: live load", ORANGE),
-        ("reaction", "green: reactions", GREEN),
+        ("dead_forces", "grey: dead load", GREY),
+        ("live_forces", "orange: live load", ORANGE),
+        ("reaction_forces", "green: reactions", GREEN),
     ):
         if source.PointData[name].GetRange(-1)[1] > 0:
-            picture.draw(picture.arrows(source, name, 0.12, at_tip=name != "dead_load"), "Surface", colour)
+            picture.draw(picture.arrows(source, name, 0.12, at_tip=name != "dead_forces"), "Surface", colour)
             drawn.append(words)
     picture.legend = [f"Arrows, each kind to its own scale; {', '.join(drawn)}."]
 
@@ -247,7 +247,7 @@ def animation(picture: Picture) -> None:
     scene.UpdateAnimationUsingDataTimeSteps()
     scene.GoToLast()
     parts = ["at rest", *(f"part {i + 1}" for i in range(picture.case["parts"]))]
-    picture.colour_by_number(picture.draw(source, "Surface With Edges"), "part", parts, [STONE])
+    picture.colour_by_number(picture.draw(source, "Surface With Edges"), "parts", parts, [STONE])
     picture.supports()
 
 

@@ -11,9 +11,9 @@ from mbla.arrays import FloatArray
 from mbla.results.collapse.finite_motion import MOST_PARTS, closed_motion, finite_motion
 from mbla.results.collapse.motion import drawn_motion, movable_size, moved_contact_points, moved_vertices, screws
 from mbla.results.pictures.scene import motion_as_drawn
+from mbla.results.record.scene import scene_of
 from mbla.results.results import Results
-from mbla.results.vtu.pvd import write_frame_vtu
-from mbla.results.vtu.scene import scene_of
+from mbla.results.vtu.vtu import write_frame_vtu
 from mbla.run import RunOptions, run
 from tests.results.synthetic import tower_results
 

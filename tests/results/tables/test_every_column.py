@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -18,6 +19,8 @@ from mbla.solution.solution import Mechanics, Standing, Status
 from tests.results.synthetic import full_results, standing_at, tower_mechanics, tower_results
 
 NAN3 = [np.nan] * 3
+SIX = ("x", "y", "z", "rx", "ry", "rz")
+LOCAL = ("N", "T1", "T2")
 GRAVITY = 9.81
 PILE = """\
 mbla: 1
@@ -73,15 +76,21 @@ def forces_and_motion(case: CaseResult) -> Mechanics | None:
     return case.solution.mechanics if case.status is Status.SOLVED else None
 
 
+def forces_of(case: CaseResult) -> Any:
+    """Contact forces of a solved case, or those that lock it; None where there are none."""
+    mechanics = forces_and_motion(case)
+    return mechanics.contact_forces if mechanics else case.solution.lock if figures(case) == "lock" else None
+
+
 def figures(case: CaseResult) -> str:
     """Where the tower hangs between two walls its load factor is none."""
     standing = case.solution.standing
     if case.status is not Status.SOLVED:
-        return ""
+        return "lock" if case.status is Status.UNBOUNDED and case.solution.lock is not None else ""
     return "best_iterate" if standing is not None and standing.verdict is Standing.SELF_STRESS else "result"
 
 
-def put(row: dict[str, Any], name: str, values: Any, axes: str = "xyz") -> None:
+def put(row: dict[str, Any], name: str, values: Any, axes: Sequence[str] = "xyz") -> None:
     for axis, value in zip(axes, values, strict=True):
         row[f"{name}_{axis}"] = value
 
@@ -94,28 +103,25 @@ def block_rows(results: Results) -> list[dict[str, Any]]:
         mechanics = forces_and_motion(case)
         seen = dict.fromkeys(blocks.groups, 0)
         for b, group in enumerate(blocks.groups):
-            row: dict[str, Any] = {"case": load.name, "block": b, "group": group, "index": seen[group]}
-            row["name"] = f"{group}[{seen[group]}]"
+            row: dict[str, Any] = {"case": load.name, "block": b, "groups": group, "group_indices": seen[group]}
+            row["block_name"] = f"{group}[{seen[group]}]"
             seen[group] += 1
-            row["member"] = blocks.labels.members[b]
-            put(row, "centroid", blocks.centroids[b])
-            row["volume"], row["density"] = blocks.volumes[b], blocks.densities[b]
-            row["added_mass"] = blocks.added_masses[b]
+            row["members"] = blocks.labels.members[b]
+            put(row, "centroids", blocks.centroids[b])
+            row["volumes"], row["densities"] = blocks.volumes[b], blocks.densities[b]
+            row["added_masses"] = blocks.added_masses[b]
             # kN of t are N of kg, so that 9.81 m/s2 stands for both, whatever the length
-            row["weight"] = (blocks.densities[b] * blocks.volumes[b] + blocks.added_masses[b]) * GRAVITY
+            row["weights"] = (blocks.densities[b] * blocks.volumes[b] + blocks.added_masses[b]) * GRAVITY
             row["fixed"] = bool(model.fixed[b])
             row["guided"] = b in model.guides.blocks.tolist()
             row["settles"] = load.settlement is not None and b in load.settlement.blocks.tolist()
-            row["body"] = None if solids is None else solids[b]
+            row["solid_of_block"] = None if solids is None else solids[b]
             for name, loads in (("dead", load.dead_load), ("live", load.live_load)):
-                put(row, f"{name}_force", loads[b, :3])
-                put(row, f"{name}_moment", loads[b, 3:])
+                put(row, f"{name}_load", loads[b], SIX)
             row["figures"] = figures(case)
-            put(row, "velocity", mechanics.mechanism[b, :3] if mechanics else NAN3)
-            put(row, "rotation", mechanics.mechanism[b, 3:] if mechanics else NAN3)
+            put(row, "mechanism", mechanics.mechanism[b] if mechanics else NAN3 * 2, SIX)
             certificate = case.solution.certificate if case.status is Status.NO_EQUILIBRIUM else None
-            put(row, "certificate_velocity", NAN3 if certificate is None else certificate[b, :3])
-            put(row, "certificate_rotation", NAN3 if certificate is None else certificate[b, 3:])
+            put(row, "certificate", NAN3 * 2 if certificate is None else certificate[b], SIX)
             rows.append(row)
     return rows
 
@@ -138,59 +144,63 @@ def interface_rows(results: Results) -> list[dict[str, Any]]:
     for case in results.cases:
         mechanics = forces_and_motion(case)
         for i, (a, b) in enumerate(contacts.bodies.tolist()):
-            row: dict[str, Any] = {"case": case.load_case.name, "interface": i, "body_a": a, "body_b": b}
-            row |= {"name_a": names[a], "name_b": names[b], "joint": contacts.joint_names[contacts.joints[i]]}
+            row: dict[str, Any] = {"case": case.load_case.name, "interface": i, "bodies_a": a, "bodies_b": b}
+            row |= {
+                "body_names_a": names[a],
+                "body_names_b": names[b],
+                "joints": contacts.joint_names[contacts.joints[i]],
+            }
             points = range(contacts.point_start[i], contacts.point_start[i + 1])
-            row |= {"points": len(points), "area": contacts.areas[i], "gap": contacts.gaps[i]}
-            put(row, "centroid", contacts.centroids[i])
-            put(row, "normal", contacts.normals[i])
+            row |= {"point_count": len(points), "areas": contacts.areas[i], "gaps": contacts.gaps[i]}
+            put(row, "centroids", contacts.centroids[i])
+            put(row, "normals", contacts.normals[i])
             row["figures"] = figures(case)
-            row |= interface_forces(results, mechanics, i, points)
+            row |= interface_forces(results, forces_of(case), i, points)
             ranges = case.solution.force_ranges
-            row["normal_force_min"], row["normal_force_max"] = (np.nan, np.nan) if ranges is None else ranges[i]
+            row["force_ranges_lower"], row["force_ranges_upper"] = (np.nan, np.nan) if ranges is None else ranges[i]
             v, w = (NAN3, NAN3) if mechanics is None else relative(results, mechanics.mechanism, i)
-            put(row, "translation", v)
-            put(row, "rotation", w)
+            put(row, "translations", v)
+            put(row, "rotations", w)
             row["work"] = np.nan
             if mechanics:
                 row["work"] = -sum(mechanics.contact_forces[p] @ mechanics.contact_velocities[p] for p in points)
             certificate = case.solution.certificate if case.status is Status.NO_EQUILIBRIUM else None
             v, w = (NAN3, NAN3) if certificate is None else relative(results, certificate, i)
-            put(row, "certificate_translation", v)
-            put(row, "certificate_rotation", w)
+            put(row, "certificate_translations", v)
+            put(row, "certificate_rotations", w)
             rows.append(row)
         pressed = rows[-len(contacts.areas) :]
-        largest = max(abs(row["normal_force"]) for row in pressed)
+        largest = max(abs(row["normal_forces"]) for row in pressed)
         for row in pressed:
-            if not row["normal_force"] > 1e-7 * largest:  # a residual acts nowhere
-                put(row, "application", NAN3)
-            if row["normal_force"] + row["shear_force"] < 1e-9 * largest:  # and uses nothing
+            if not row["normal_forces"] > 1e-7 * largest:  # a residual acts nowhere
+                put(row, "thrust_points", NAN3)
+            if row["normal_forces"] + row["shear_forces"] < 1e-9 * largest:  # and uses nothing
                 row["friction_use"] = np.nan
     return rows
 
 
-def interface_forces(results: Results, mechanics: Mechanics | None, i: int, points: Any) -> dict[str, Any]:
+def interface_forces(results: Results, forces: Any, i: int, points: Any) -> dict[str, Any]:
     contacts = results.contacts
     row: dict[str, Any] = {}
     force, moment = np.zeros(3), np.zeros(3)
     normal_at, allowed = contacts.normals[i], 0.0
     law = results.model.joints[contacts.joint_names[contacts.joints[i]]]
-    for p in points if mechanics else ():
-        assert mechanics is not None
-        own = sum(mechanics.contact_forces[p, k] * contacts.frames[p, k] for k in range(3))
+    there = forces is not None
+    for p in points if there else ():
+        own = sum(forces[p, k] * contacts.frames[p, k] for k in range(3))
         force, moment = force + own, moment + np.cross(contacts.points[p] - contacts.centroids[i], own)
-        allowed += max(law.friction * mechanics.contact_forces[p, 0] + law.cohesion * contacts.point_areas[p], 0.0)
+        allowed += max(law.friction * forces[p, 0] + law.cohesion * contacts.point_areas[p], 0.0)
     normal = force @ normal_at or 1e-300  # nothing acts nowhere and uses nothing, as told below
     allowed = allowed or 1e-300
     shear = np.linalg.norm(force - normal * normal_at)
-    put(row, "force", force if mechanics else NAN3)
-    put(row, "moment", moment if mechanics else NAN3)
-    pressed = mechanics is not None and normal > 0  # others act at no point
-    put(row, "application", contacts.centroids[i] + np.cross(normal_at, moment) / normal if pressed else NAN3)
-    row["normal_force"] = normal if mechanics else np.nan
-    row["shear_force"] = shear if mechanics else np.nan
-    row["torsion"] = moment @ normal_at if mechanics else np.nan
-    row["friction_use"] = shear / allowed if mechanics and allowed > 0 else np.nan
+    put(row, "resultant_forces", force if there else NAN3)
+    put(row, "resultant_moments", moment if there else NAN3)
+    pressed = there and normal > 0  # others act at no point
+    put(row, "thrust_points", contacts.centroids[i] + np.cross(normal_at, moment) / normal if pressed else NAN3)
+    row["normal_forces"] = normal if there else np.nan
+    row["shear_forces"] = shear if there else np.nan
+    row["torsions"] = moment @ normal_at if there else np.nan
+    row["friction_use"] = shear / allowed if there and allowed > 0 else np.nan
     return row
 
 
@@ -198,22 +208,21 @@ def point_rows(results: Results) -> list[dict[str, Any]]:
     contacts, rows = results.contacts, []
     for case in results.cases:
         mechanics = forces_and_motion(case)
-        lock = case.solution.lock if case.status is Status.UNBOUNDED else None
+        found = forces_of(case)
         for i in range(len(contacts.areas)):
             for p in range(contacts.point_start[i], contacts.point_start[i + 1]):
                 row: dict[str, Any] = {"case": case.load_case.name, "point": p, "interface": i}
-                put(row, "position", contacts.points[p])
-                for k, name in enumerate(("normal", "tangent_1", "tangent_2")):
-                    put(row, name, contacts.frames[p, k])
-                row["area"] = contacts.point_areas[p]
+                put(row, "points", contacts.points[p])
+                for k, name in enumerate(LOCAL):
+                    put(row, f"frames_{name}", contacts.frames[p, k])
+                row["point_areas"] = contacts.point_areas[p]
                 row["figures"] = figures(case)
-                forces = mechanics.contact_forces[p] if mechanics else NAN3
-                row["N"], row["T1"], row["T2"] = forces
-                put(row, "force", contacts.frames[p].T @ forces if mechanics else NAN3)
-                row["mode"] = ("stick", "slide", "open")[mechanics.modes[p]] if mechanics else ""
+                forces = NAN3 if found is None else found[p]
+                put(row, "contact_forces", forces, LOCAL)
+                put(row, "global_forces", contacts.frames[p].T @ forces)
+                row["modes"] = ("stick", "slide", "open")[mechanics.modes[p]] if mechanics else ""
                 velocities = mechanics.contact_velocities[p] if mechanics else NAN3
-                row["opening"], row["slip_1"], row["slip_2"] = velocities
-                row["lock_N"], row["lock_T1"], row["lock_T2"] = NAN3 if lock is None else lock[p]
+                put(row, "contact_velocities", velocities, LOCAL)
                 rows.append(row)
     return rows
 
@@ -244,7 +253,7 @@ def case_rows(results: Results) -> list[dict[str, Any]]:
         row["spread_lower"], row["spread_upper"] = solution.spread or (np.nan, np.nan)
         row["programs"] = len(solution.programs)
         row["iterations"] = sum(program.iterations for program in solution.programs)
-        row["time"], row["solver_time"] = solution.seconds, sum(program.seconds for program in solution.programs)
+        row["seconds"], row["solver_seconds"] = solution.seconds, sum(program.seconds for program in solution.programs)
         row["figures"] = figures(case)
         rows.append(row)
     return rows
@@ -252,11 +261,11 @@ def case_rows(results: Results) -> list[dict[str, Any]]:
 
 EXPECTED = {"blocks": block_rows, "interfaces": interface_rows, "points": point_rows, "cases": case_rows}
 ELSEWHERE = {
-    "blocks": ("part", *POSITIONS),
-    "interfaces": ("mode", "eccentricity", "torsion_use", "hinge_point", "hinge_direction"),
+    "blocks": ("parts", *POSITIONS),
+    "interfaces": ("modes", "eccentricity", "torsion_use", "hinge_points", "hinge_directions"),
     "points": ("friction_use",),
     "cases": (
-        *("standing", "factor_unique", "associative_load_factor", "angle", "reaction_", "moving_"),
+        *("standing", "factor_unique", "associative_load_factor", "angle", "reaction_", "moving_", "asked"),
         *(f"{mode.name.lower()}_interfaces" for mode in InterfaceMode),
     ),
 }

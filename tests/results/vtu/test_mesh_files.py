@@ -10,14 +10,13 @@ import pytest
 
 from mbla.deck.sections.selectors import POSITIONS
 from mbla.results.files import OutputFolder
+from mbla.results.record.scene import Scene, scene_of
 from mbla.results.results import Results
-from mbla.results.vtu.hinge_file import write_hinges_vtu
-from mbla.results.vtu.layout import ANIMATION, ARRAYS, CELLS, SUPPORTS, arrays_of, arrays_table
-from mbla.results.vtu.load_file import DEAD, GUIDE, LIVE, REACTION, load_vectors
+from mbla.results.vtu.arrays import CELLS, arrays_table, described
+from mbla.results.vtu.lines import LINE, POINT, write_hinges_vtu, write_thrust_vtu
+from mbla.results.vtu.loads import DEAD, GUIDE, LIVE, REACTION, load_vectors
 from mbla.results.vtu.mesh_files import MESH_FILES, write_model_vtu
-from mbla.results.vtu.scene import Scene, scene_of
 from mbla.results.vtu.script import case_record
-from mbla.results.vtu.thrust_file import LINE, POINT, write_thrust_vtu
 from mbla.run import RunOptions, run
 from mbla.solution.solution import ContactMode, Status
 from mbla.solution.verification.statics import contact_velocities
@@ -27,7 +26,7 @@ from tests.results.reading import read_vtk, vtk_array, vtk_volumes
 from tests.results.synthetic import full_results, tower_mechanics, tower_results
 
 PAGE = Path(__file__).parents[3] / "schemas" / "results.md"
-LABELS = {"member", *POSITIONS}
+LABELS = {"members", *POSITIONS}
 HEAD = "mbla: 1\nmaterials: {stone: {density: 2000}}\njoints: {dry: {friction: 2}}\ncontacts: {joint: dry}\n"
 ARCH = (
     HEAD
@@ -79,13 +78,12 @@ def kind_of(path: Path, results: Results) -> str:
     name = path.stem.removeprefix("deck_")
     for case in results.cases:
         name = name.removeprefix(f"{case.load_case.name}_")
-    return ANIMATION if name.startswith("frame_") else name
+    return "frames" if name.startswith("frame_") else name
 
 
 def test_page_holds_the_tables() -> None:
     assert arrays_table() in PAGE.read_text(encoding="utf-8")
-    assert {file.kind for file in MESH_FILES} | {ANIMATION, SUPPORTS} == set(CELLS)
-    assert len({(each.file, each.on, each.name) for each in ARRAYS}) == len(ARRAYS)
+    assert {file.kind for file in MESH_FILES} | {"frames", "supports"} == set(CELLS)
 
 
 @pytest.mark.parametrize("which", ["arch", "guided"])
@@ -97,10 +95,13 @@ def test_every_array_written_is_in_the_table_and_of_its_shape(which: str, reques
             ("points", mesh.point_data, grid.GetPointData()),
             ("cells", {name: np.concatenate(parts) for name, parts in mesh.cell_data.items()}, grid.GetCellData()),
         ):
-            known = arrays_of(kind, on)
+            known = described(kind, on)
             assert set(data) - LABELS <= set(known), path.name
             for name in set(data) - LABELS:
-                assert data[name].reshape(len(data[name]), -1).shape[1] == known[name].shape, (path.name, name)
+                assert data[name].reshape(len(data[name]), -1).shape[1] == (3 if "axis" in known[name].dims else 1), (
+                    path.name,
+                    name,
+                )
                 assert vtk_array(read, name) == pytest.approx(data[name], nan_ok=True), (path.name, name)
 
 
@@ -109,7 +110,7 @@ def test_every_array_of_the_table_is_written_where_there_is_something(arch: Any)
     for kind in (file.kind for file in MESH_FILES):
         mesh = meshio.read(folder / f"deck_push_{kind}.vtu")
         for on, data in (("points", mesh.point_data), ("cells", mesh.cell_data)):
-            assert set(arrays_of(kind, on)) - LABELS <= set(data), kind
+            assert set(described(kind, on)) - LABELS <= set(data), kind
     assert {kind_of(path, results) for path in folder.glob("*.vtu")} == set(CELLS)
 
 
@@ -166,23 +167,23 @@ def test_reactions_balance_the_loads(which: str, case: str, request: pytest.Fixt
     scene, mesh = scene_and_mesh(request.getfixturevalue(which), case, "loads")
     data = mesh.point_data
     assert scene.mechanics is not None
-    forces = data["dead_load"] + scene.mechanics.load_factor * data["live_load"] + data["reaction"]
-    own = np.where((data["kind"] == LIVE)[:, None], scene.mechanics.load_factor, 1.0) * data["moment"]
+    forces = data["dead_forces"] + scene.mechanics.load_factor * data["live_forces"] + data["reaction_forces"]
+    own = np.where((data["kind"] == LIVE)[:, None], scene.mechanics.load_factor, 1.0) * data["moments"]
     moments = own + np.cross(mesh.points, forces)
     there = data["fixed"] == 0
-    size = np.abs(data["dead_load"]).sum()
+    size = np.abs(data["dead_forces"]).sum()
     assert forces[there].sum(axis=0) == pytest.approx(np.zeros(3), abs=1e-6 * size)
     assert moments[there].sum(axis=0) == pytest.approx(np.zeros(3), abs=1e-5 * size)
-    assert np.abs(data["reaction"]).sum() > 0.1 * size
+    assert np.abs(data["reaction_forces"]).sum() > 0.1 * size
 
 
 def test_a_force_at_a_point_acts_on_its_line_and_leaves_no_moment(arch: Any) -> None:
     scene, mesh = scene_and_mesh(arch, "point", "loads")
     live = mesh.point_data["kind"] == LIVE
-    assert mesh.point_data["live_load"][live] == pytest.approx(np.array([[0, 0, -1000.0]]))
+    assert mesh.point_data["live_forces"][live] == pytest.approx(np.array([[0, 0, -1000.0]]))
     assert mesh.points[live][0, :2] == pytest.approx([0.75, 0.3])
     assert mesh.points[live][0, 2] == pytest.approx(scene.model.blocks.centroids[4, 2])
-    assert not mesh.point_data["moment"][live].any()
+    assert not mesh.point_data["moments"][live].any()
     dead = mesh.point_data["kind"] == DEAD
     assert mesh.points[dead] == pytest.approx(scene.model.blocks.centroids)
 
@@ -223,14 +224,14 @@ def test_use_of_friction_and_modes_agree_between_files(arch: Any) -> None:
     # in a plane nothing twists
     assert data["torsion_use"] == pytest.approx(data["friction_use"], abs=1e-6)
     assert thrust["torsion_use"] == pytest.approx(data["torsion_use"])
-    assert data["shear_force"] / (2 * data["normal_force"]) == pytest.approx(data["friction_use"])
+    assert data["shear_forces"] / (2 * data["normal_forces"]) == pytest.approx(data["friction_use"])
     blocks = scene_and_mesh(arch, "push", "blocks")[1].cell_data
     largest = np.concatenate(blocks["largest_friction_use"])
     for block in range(len(scene.model.blocks)):
         here = (scene.contacts.bodies == block).any(axis=1)
         assert largest[block] == pytest.approx(data["friction_use"][here].max())
-    assert set(data["result"].tolist()) == {1}
-    assert sorted(data["mode"].tolist()) == [0] * 12 + [3] * 4
+    assert set(data["figures"].tolist()) == {1}
+    assert sorted(data["modes"].tolist()) == [0] * 12 + [3] * 4
 
 
 def test_a_hinge_about_a_corner_is_a_vertex(tmp_path: Path) -> None:

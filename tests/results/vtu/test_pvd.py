@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from mbla.results.collapse.motion import drawn_motion, moved_vertices
+from mbla.results.record.scene import scene_of
 from mbla.results.results import Results
-from mbla.results.vtu.pvd import collection_pvd, frame_times, write_frame_vtu
-from mbla.results.vtu.scene import scene_of
+from mbla.results.vtu.vtu import collection_pvd, frame_times, write_frame_vtu
 from tests.results.reading import vtk_volumes
 from tests.results.synthetic import tower_results
 

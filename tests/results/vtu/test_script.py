@@ -16,6 +16,7 @@ import pytest
 from matplotlib import image
 
 from mbla.deck.sections.output import OutputSection
+from mbla.results.record.scene import FIGURES
 from mbla.results.results import Results
 from mbla.results.write import write_outputs
 from mbla.solution.solution import Status
@@ -154,8 +155,8 @@ def test_every_file_and_array_that_it_names_exists(
     assert {name for name in seen if name.startswith("tower_fall") and name.endswith(".png")} == {
         f"tower_fall_{view}.png" for view in ("structure", "mechanism", "loads", "animation")
     }
-    assert {"tower_push_x_thrust:resultant_force", "tower_push_x_interfaces:torsion_use"} <= seen
-    assert {"tower_push_x_hinges:displacement", "tower_push_x_blocks:part", "tower_supports:kind"} <= seen
+    assert {"tower_push_x_thrust:resultant_forces", "tower_push_x_interfaces:torsion_use"} <= seen
+    assert {"tower_push_x_hinges:displacement", "tower_push_x_blocks:parts", "tower_supports:kind"} <= seen
     assert "tower_push_x_frame_000:part" in seen
 
 
@@ -184,7 +185,8 @@ def test_forces_that_are_no_result_say_so(tmp_path: Path, results: Results) -> N
     text = (tmp_path / "tower_paraview.py").read_text(encoding="utf-8")
     assert "NOT VERIFIED: no load factor" in text
     assert "Forces and motion are NO RESULT" in text
-    assert not np.concatenate(meshio.read(tmp_path / "tower_push_x_interfaces.vtu").cell_data["result"]).any()
+    told = np.concatenate(meshio.read(tmp_path / "tower_push_x_interfaces.vtu").cell_data["figures"])
+    assert [FIGURES[number] for number in told] == ["best_iterate"] * 2
 
 
 def test_titles_cannot_break_the_script(tmp_path: Path, results: Results, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -9,9 +9,11 @@ import pytest
 from mbla.model.solids.blocks import labels_of
 from mbla.results.collapse.interface_modes import InterfaceMode
 from mbla.results.collapse.motion import SHARE_OF_SIZE, movable_size
+from mbla.results.record.blocks import names_of
+from mbla.results.record.scene import Scene
 from mbla.results.results import Results
-from mbla.results.vtu.scene import Scene
-from mbla.results.vtu.vtu import group_names, write_blocks_vtu, write_contacts_vtu, write_interfaces_vtu
+from mbla.results.vtu.vtu import write_blocks_vtu, write_contacts_vtu, write_interfaces_vtu
+from mbla.solution.solution import Status
 from tests.results.reading import read_vtk, vtk_array, vtk_volumes
 from tests.results.synthetic import tower_mechanics, tower_results
 
@@ -35,17 +37,16 @@ def test_blocks(path: Path, results: Results) -> None:
         largest = np.linalg.norm(displacement, axis=1).max()
         assert largest == pytest.approx(SHARE_OF_SIZE * movable_size(results.model))
         assert data["block"].tolist() == [0, 1, 2]
-        assert [group_names(results.model)[int(i)] for i in data["group"]] == ["base", "tower", "brick"]
-        assert data["weight"] == pytest.approx([45, 10, 10])
+        assert [names_of(results.model.blocks.groups)[int(i)] for i in data["groups"]] == ["base", "tower", "brick"]
+        assert data["weights"] == pytest.approx([45, 10, 10])
         assert data["fixed"].tolist() == [1, 0, 0]
-        assert data["moves"].tolist() == [0, 1, 0]
-        assert data["part"].tolist() == [0, 1, 0]
-        assert data["rotation"][1, 1] > 0
-        assert data["velocity"].shape == (3, 3)
+        assert data["parts"].tolist() == [0, 1, 0]
+        assert data["drawn_rotations"][1, 1] > 0
+        assert data["drawn_displacements"].shape == (3, 3)
     assert vtk_volumes(path).sum() == pytest.approx(results.model.blocks.volumes.sum())
 
 
-NAMES = ("block", "group", "weight", "fixed", "moves", "part", "rotation", "velocity")
+NAMES = ("block", "groups", "weights", "fixed", "parts", "drawn_rotations", "drawn_displacements")
 
 
 def by_meshio(path: Path) -> Any:
@@ -66,16 +67,16 @@ def test_contact_forces_carry_the_weights(path: Path, results: Results) -> None:
     mesh, grid = meshio.read(path), read_vtk(path)
     assert [(cells.type, len(cells)) for cells in mesh.cells] == [("vertex", 8)]
     assert grid.GetNumberOfCells() == 8
-    forces = vtk_array(grid.GetPointData(), "contact_force")
-    assert forces == pytest.approx(mesh.point_data["contact_force"])
+    forces = vtk_array(grid.GetPointData(), "global_forces")
+    assert forces == pytest.approx(mesh.point_data["global_forces"])
     assert forces[:4].sum(axis=0) == pytest.approx([-5, 0, 10])
     assert forces[4:].sum(axis=0) == pytest.approx([-5, 0, 10])
-    assert mesh.point_data["mode"].tolist() == [2, 0, 0, 2, 0, 0, 0, 0]
-    assert mesh.point_data["normal_force"] == pytest.approx(tower_mechanics().contact_forces[:, 0])
-    assert mesh.point_data["shear_force"][:4] == pytest.approx([0, 2.5, 2.5, 0])
+    assert mesh.point_data["modes"].tolist() == [2, 0, 0, 2, 0, 0, 0, 0]
+    assert mesh.point_data["normal_forces"] == pytest.approx(tower_mechanics().contact_forces[:, 0])
+    assert mesh.point_data["shear_forces"][:4] == pytest.approx([0, 2.5, 2.5, 0])
     assert mesh.point_data["opening"][[0, 3]] == pytest.approx([0.1, 0.1])
     assert mesh.point_data["interface"].tolist() == [0] * 4 + [1] * 4
-    assert mesh.point_data["body_a"].tolist() == [0] * 4 + [3] * 4
+    assert mesh.point_data["bodies_a"].tolist() == [0] * 4 + [3] * 4
 
 
 def test_interfaces(path: Path, results: Results) -> None:
@@ -84,14 +85,14 @@ def test_interfaces(path: Path, results: Results) -> None:
     data = {name: np.concatenate(values) for name, values in mesh.cell_data.items()}
     assert grid.GetNumberOfCells() == 2
     assert [grid.GetCellType(i) for i in range(2)] == [7, 7]
-    assert data["area"] == pytest.approx([1, 1])
-    assert data["resultant_force"] == pytest.approx(np.array([[-5, 0, 10], [-5, 0, 10]]))
-    assert data["normal_force"] == pytest.approx([10, 10])
-    assert data["shear_force"] == pytest.approx([5, 5])
-    assert data["resultant_moment"][0] == pytest.approx([0, -5, 0])
-    assert data["mode"].tolist() == [InterfaceMode.HINGE, InterfaceMode.STICK]
+    assert data["areas"] == pytest.approx([1, 1])
+    assert data["resultant_forces"] == pytest.approx(np.array([[-5, 0, 10], [-5, 0, 10]]))
+    assert data["normal_forces"] == pytest.approx([10, 10])
+    assert data["shear_forces"] == pytest.approx([5, 5])
+    assert data["resultant_moments"][0] == pytest.approx([0, -5, 0])
+    assert data["modes"].tolist() == [InterfaceMode.HINGE, InterfaceMode.STICK]
     assert data["work"] == pytest.approx([0, 0])
-    assert vtk_array(grid.GetCellData(), "gap") == pytest.approx([0, 0])
+    assert vtk_array(grid.GetCellData(), "gaps") == pytest.approx([0, 0])
 
 
 def test_interfaces_with_different_numbers_of_corners(path: Path, results: Results) -> None:
@@ -106,13 +107,13 @@ def test_interfaces_with_different_numbers_of_corners(path: Path, results: Resul
 
 def test_case_without_mechanism_shows_the_model_and_what_falls(path: Path, results: Results) -> None:
     write_contacts_vtu(path, Scene(results.model, results.contacts, results.cases[1]))
-    assert "contact_force" not in meshio.read(path).point_data
+    assert "global_forces" not in meshio.read(path).point_data
     write_interfaces_vtu(path, Scene(results.model, results.contacts, results.cases[1]))
-    assert "mode" not in meshio.read(path).cell_data
+    assert "modes" not in meshio.read(path).cell_data
     write_blocks_vtu(path, Scene(results.model, results.contacts, results.cases[1]))
     mesh = meshio.read(path)
     assert mesh.point_data["displacement"][8:16, 2].max() < 0
-    assert np.concatenate(mesh.cell_data["moves"]).tolist() == [0, 1, 0]
+    assert np.concatenate(mesh.cell_data["parts"]).tolist() == [0, 1, 0]
 
 
 def test_case_without_anything_has_displacement_zero(path: Path, results: Results) -> None:
@@ -126,22 +127,22 @@ def test_forces_that_lock_a_structure_are_shown_where_there_is_no_load_factor(pa
     lock = np.zeros((8, 3))
     lock[:4] = [2.0, -1.0, 0.0]
     solution = replace(results.cases[0].solution, mechanics=None, lock=lock)
-    case = replace(results.cases[0], solution=solution)
+    case = replace(results.cases[0], solution=solution, status=Status.UNBOUNDED)
     write_contacts_vtu(path, Scene(results.model, results.contacts, case))
     data = meshio.read(path).point_data
-    assert data["contact_force"][:4].sum(axis=0) == pytest.approx([-4, 0, 8])
-    assert "mode" not in data
+    assert data["global_forces"][:4].sum(axis=0) == pytest.approx([-4, 0, 8])
+    assert "modes" not in data
     write_interfaces_vtu(path, Scene(results.model, results.contacts, case))
     cells = {name: np.concatenate(values) for name, values in meshio.read(path).cell_data.items()}
-    assert cells["normal_force"] == pytest.approx([8, 0])
-    assert "mode" not in cells
+    assert cells["normal_forces"] == pytest.approx([8, 0])
+    assert "modes" not in cells
 
 
 def test_forces_at_the_load_factor_go_before_those_that_lock(path: Path, results: Results) -> None:
     solution = replace(results.cases[0].solution, lock=np.ones((8, 3)))
     write_contacts_vtu(path, Scene(results.model, results.contacts, replace(results.cases[0], solution=solution)))
     forces = tower_mechanics().contact_forces
-    assert meshio.read(path).point_data["normal_force"] == pytest.approx(forces[:, 0])
+    assert meshio.read(path).point_data["normal_forces"] == pytest.approx(forces[:, 0])
 
 
 def test_labels_of_items_are_cell_data(path: Path, results: Results) -> None:
@@ -149,6 +150,6 @@ def test_labels_of_items_are_cell_data(path: Path, results: Results) -> None:
     blocks = replace(results.model.blocks, labels=labels)
     write_blocks_vtu(path, Scene(replace(results.model, blocks=blocks), results.contacts, None))
     data = {name: np.concatenate(values).tolist() for name, values in meshio.read(path).cell_data.items()}
-    assert data["member"] == [0, 2, 1]
+    assert data["members"] == [0, 2, 1]
     assert data["course"] == [0, 1, -1]
     assert "voussoir" not in data

@@ -20,8 +20,8 @@ from mbla.model.solids.blocks import Blocks
 from mbla.results.collapse.by_interface import sum_by_interface
 from mbla.results.collapse.mechanics import global_forces
 from mbla.results.collapse.motion import displacements_at
+from mbla.results.record.scene import FIGURES, Scene
 from mbla.results.vehicle import without_vehicle
-from mbla.results.vtu.scene import Scene
 from mbla.solution.verification.statics import contact_resultants
 
 DEAD, LIVE, REACTION, GUIDE = 0, 1, 2, 3
@@ -64,13 +64,7 @@ def load_vectors(scene: Scene) -> tuple[Vectors, ...]:
 
 
 def write_loads_vtu(path: Path, scene: Scene) -> None:
-    """Vectors as vertices at their points.
-
-    Point data: ``dead_load``, ``live_load`` (for load factor 1), ``reaction`` (of supports and guides on the structure)
-    with zero where a vertex is not of that kind; ``moment`` about the point, ``kind`` (0 dead load, 1 live load,
-    2 reaction of a support, 3 of a guide), ``body`` (that it acts on), ``fixed`` (that body does not move: its load
-    goes into its support), ``displacement``, ``result``.
-    """
+    """Vectors as vertices at their points."""
     parts = load_vectors(scene)
     kind = np.concatenate([np.full(len(part), part.kind, dtype=np.int8) for part in parts])
     bodies, points, forces, moments = (
@@ -81,15 +75,15 @@ def write_loads_vtu(path: Path, scene: Scene) -> None:
         points,
         [("vertex", np.arange(len(points))[:, None])],
         point_data={
-            "dead_load": np.where((kind == DEAD)[:, None], forces, 0.0),
-            "live_load": np.where((kind == LIVE)[:, None], forces, 0.0),
-            "reaction": np.where((kind >= REACTION)[:, None], forces, 0.0),
-            "moment": moments,
+            "dead_forces": np.where((kind == DEAD)[:, None], forces, 0.0),
+            "live_forces": np.where((kind == LIVE)[:, None], forces, 0.0),
+            "reaction_forces": np.where((kind >= REACTION)[:, None], forces, 0.0),
+            "moments": moments,
             "kind": kind,
             "body": bodies,
             "fixed": scene.model.fixed[bodies].astype(np.int8),
             "displacement": displacements_at(scene.model.blocks, scene.motion, bodies, points),
-            "result": np.full(len(points), scene.is_result, dtype=np.int8),
+            "figures": np.full(len(points), FIGURES.index(scene.figures)),
         },
         cell_data={},
     )

@@ -32,11 +32,7 @@ def has_supports(model: Model, contacts: Contacts) -> bool:
 
 
 def write_supports_vtu(path: Path, model: Model, contacts: Contacts) -> None:
-    """Supports as polyhedra.
-
-    Cell data: ``kind`` (0 ground plane, 1 fixed block, 2 guided block), ``body`` (block; number of blocks + number of
-    the ground plane).
-    """
+    """Supports as polyhedra."""
     slabs = support_slabs(model, contacts)
     guided = np.setdiff1d(model.guides.blocks, np.flatnonzero(model.fixed))
     chosen = np.concatenate([np.flatnonzero(model.fixed), guided]).astype(np.int64)

@@ -1,0 +1,103 @@
+"""What the files for ParaView hold: columns of the record as arrays, and what there is in them besides."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from mbla.deck.units import Units
+from mbla.results.record.blocks import BLOCK_COLUMNS
+from mbla.results.record.column import Column
+from mbla.results.record.interfaces import INTERFACE_COLUMNS
+from mbla.results.record.points import POINT_COLUMNS
+from mbla.results.record.quantity import Quantity, flag, real, unit_text, whole
+from mbla.results.record.scene import Scene
+
+Arrays = dict[str, np.typing.NDArray[Any]]
+
+CELLS = {
+    "blocks": "blocks as tetrahedra, wedges, hexahedra, or all of them as polyhedra; no two share a point",
+    "frames": "(…_frame_NNN.vtu) the same after a finite motion, from as built to as drawn; STEM_CASE.pvd plays them",
+    "contacts": "contact points as vertices",
+    "interfaces": "interfaces as polygons, by their outer boundary; holes are not drawn, areas and forces count them",
+    "thrust": "points of application of resultants as vertices, outside a joint its edge; thrust lines between them",
+    "hinges": "axes of interfaces that open about one, as lines where they stay closed; about a corner as points",
+    "loads": "loads and reactions as vertices where they act",
+    "supports": "ground planes as slabs under what stands on them, fixed blocks, guided blocks, as polyhedra",
+}
+"""files by what their names end in, and their cells"""
+COLUMNS: dict[tuple[str, str], tuple[Column, ...]] = {
+    ("blocks", "cells"): BLOCK_COLUMNS,
+    ("frames", "cells"): BLOCK_COLUMNS,
+    ("contacts", "points"): POINT_COLUMNS,
+    ("interfaces", "cells"): INTERFACE_COLUMNS,
+    ("thrust", "points"): INTERFACE_COLUMNS,
+    ("hinges", "cells"): INTERFACE_COLUMNS,
+}
+"""what the cells or points of a file are"""
+_MOTION = real("displacement", "motion as drawn, the mean of both bodies; for Warp By Vector", "length", "axis")
+_LOADS = (
+    real("dead_forces", "zero where the vertex is of another kind", "force", "axis"),
+    real("live_forces", "for load factor 1; zero where the vertex is of another kind", "force", "axis"),
+    real("reaction_forces", "of supports and guides; zero where the vertex is of another kind", "force", "axis"),
+    real("moments", "about the point, with the force", "moment", "axis"),
+    whole("kind", "0 dead load, 1 live load, 2 reaction of a support, 3 of a guide"),
+    whole("body", "block that it acts on"),
+    flag("fixed", "1 where that block does not move, and its load goes into its support"),
+    whole("figures", "what reactions and motion are, as of interfaces"),
+)
+OTHERS: dict[tuple[str, str], tuple[Quantity, ...]] = {
+    **{(file, "points"): (_MOTION,) for file in ("blocks", "frames", "contacts", "interfaces", "thrust", "hinges")},
+    ("thrust", "cells"): (
+        whole("kind", "0 point of application, 1 piece of a thrust line"),
+        whole("line", "number of the thrust line from 0, -1 for points"),
+    ),
+    ("hinges", "cells"): (real("rotation", "of b relative to a about the axis, as drawn", "radian"),),
+    ("loads", "points"): (*_LOADS, _MOTION),
+    ("supports", "cells"): (
+        whole("kind", "0 ground plane, 1 fixed block, 2 guided block"),
+        whole("body", "block, or number of blocks + number of the ground plane"),
+    ),
+}
+"""what is in no column"""
+
+
+def arrays_of(scene: Scene, file: str, on: str, rows: Any = slice(None)) -> Arrays:
+    """Arrays by name of the columns of a file, of some rows: those that there are, vectors as (n, 3)."""
+    found: Arrays = {}
+    for column in COLUMNS[file, on]:
+        values = column.of(scene) if file in column.files else None
+        if values is not None:
+            plain = np.ma.filled(values, -1)[rows]
+            plain = plain.astype(np.int8) if plain.dtype == bool else plain
+            found |= {name: plain[(slice(None), *place)] for name, place in _names(column.quantity)}
+    return found
+
+
+def _names(quantity: Quantity) -> list[tuple[str, tuple[int, ...]]]:
+    """Names of arrays of a quantity and what of its values they are: vectors are one array."""
+    if "axis" in quantity.dims:
+        return [(quantity.name, ())]
+    return [(name, place) for place, name, _ in quantity.components()]
+
+
+def described(file: str, on: str) -> dict[str, Quantity]:
+    """Every array that a file may hold, by name; one without forces or without a mechanism holds fewer."""
+    quantities: Sequence[Quantity] = [c.quantity for c in COLUMNS.get((file, on), ()) if file in c.files]
+    return {name: each for each in (*quantities, *OTHERS.get((file, on), ())) for name, _ in _names(each)}
+
+
+def arrays_table() -> str:
+    """The tables of schemas/results.md; units as in a deck in m, N, kg."""
+    lines = ["| file | cells |", "|---|---|"]
+    lines += [f"| …_{file}.vtu | {cells} |" for file, cells in CELLS.items()]
+    lines += ["", "| file, on | array | components | units | content |", "|---|---|---|---|---|"]
+    for file in CELLS:
+        for on in ("points", "cells"):
+            for name, each in described(file, on).items():
+                count = 3 if "axis" in each.dims else 1
+                unit = unit_text(each.unit, Units())
+                lines.append(f"| {file}, {on} | `{name}` | {count} | {unit} | {each.words} |")
+    return "\n".join(lines) + "\n"
