@@ -39,9 +39,13 @@ def _placed(quantity: Quantity | str) -> Quantity | str:
     return quantity if isinstance(quantity, str) or quantity.place else at("cases/*", quantity)[0]
 
 
-def _texts(path: str, of: Callable[[CaseResult], tuple[str, ...]]) -> Column:
+def _texts(name: str, words: str, of: Callable[[CaseResult], tuple[str, ...]]) -> Column:
     """Several sentences."""
-    return column(path, lambda scene: None if scene.case is None else as_text(of(scene.case)), BOTH)
+    return column(
+        _placed(text(name, words, "sentence")),
+        lambda scene: None if scene.case is None else as_text(of(scene.case)),
+        BOTH,
+    )
 
 
 def _check(name: str) -> Column:
@@ -94,7 +98,7 @@ def _in_mechanism(quantity: Quantity, of: Callable[[Scene], Any]) -> Column:
 CASE_COLUMNS: tuple[Column, ...] = (
     _column("cases/*/status", lambda case: case.status.value),
     _column("cases/*/reason", lambda case: case.solution.reason),
-    _texts("cases/*/remarks", lambda case: case.solution.remarks),
+    _texts("remarks", "what a reader of the figure must know", lambda case: case.solution.remarks),
     _column("cases/*/flow_rule", lambda case: case.solution.flow_rule),
     _column("cases/*/scheme", lambda case: case.solution.scheme),
     _column("cases/*/contact_model", lambda case: case.solution.contact_model),
@@ -132,7 +136,7 @@ CASE_COLUMNS: tuple[Column, ...] = (
         "table",
     ),
     _check("verified"),
-    _texts("cases/*/failures", lambda case: case.checks.failures),
+    _texts("failures", "what is not within tolerance, in words", lambda case: case.checks.failures),
     *(
         _check(name)
         for name in (

@@ -83,7 +83,7 @@ def _values(column: Column, count: Callable[[Scene], int], text: bool, scene: Sc
     if values is not None:
         if column.names is not None:
             return as_text(list(column.names(scene)))[values.astype(np.int64)]
-        sentences = text and quantity.dims[-1:] in (("remark",), ("failure",))
+        sentences = text and quantity.dims == ("sentence",)
         return as_text(["; ".join(values)]) if sentences else values
     shape = (count(scene), *(len(COMPONENTS[dim]) for dim in quantity.dims if dim in COMPONENTS))
     if text:

@@ -157,7 +157,7 @@ def test_every_file_and_array_that_it_names_exists(
     }
     assert {"tower_push_x_thrust:resultant_forces", "tower_push_x_interfaces:torsion_use"} <= seen
     assert {"tower_push_x_hinges:displacement", "tower_push_x_blocks:parts", "tower_supports:kind"} <= seen
-    assert "tower_push_x_frame_000:part" in seen
+    assert "tower_push_x_frame_000:parts" in seen
 
 
 def test_one_case_and_one_view(folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
