@@ -15,13 +15,12 @@ import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
 from mbla.model.model import Model
+from mbla.results.collapse.clusters import FEW
 from mbla.results.collapse.rigid_parts import PartMotion, part_motions
 
-FEW = 4
-"""parts that a reader keeps apart"""
 ENOUGH = 0.95
 """share of the motion that the main parts are to explain"""
-MOST_ROUNDS = 50
+MOST_DIVISIONS = 50
 
 
 @dataclass(frozen=True)
@@ -62,7 +61,7 @@ def _nearest(model: Model, motion: FloatArray, label: IntArray) -> tuple[IntArra
     """Main part of each block, beginning with those given, and what is left of its motion; (n_blocks,) each."""
     squares, numbers = _squares(model, motion), range(1, int(label.max()) + 1)
     rests = squares
-    for _ in range(MOST_ROUNDS):
+    for _ in range(MOST_DIVISIONS):
         left = np.stack([squares, *(_left(model, motion, label == number) for number in numbers)])
         nearest = np.argmin(left, axis=0)
         nearest[squares == 0.0] = 0

@@ -15,12 +15,9 @@ from mbla.results.collapse.mechanics import (
     load_on_structure,
     support_reactions,
 )
-from mbla.results.listing.text import counted, number, sentence, table, vector
+from mbla.results.listing.text import MOST_ROWS, counted, number, sentence, table, vector
 from mbla.results.outcome import UNIQUE
 from mbla.solution.solution import Mechanics
-
-MOST_ROWS = 20
-"""rows of a table; the result files hold all of them"""
 
 
 def reaction_lines(model: Model, contacts: Contacts, load_case: LoadCase, mechanics: Mechanics) -> list[str]:

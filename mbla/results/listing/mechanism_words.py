@@ -21,15 +21,12 @@ from mbla.results.listing.direction_words import TABLE_DIGITS, direction_words
 from mbla.results.listing.failure_words import as_parts, crack_kind, hinge_side
 from mbla.results.listing.part_words import part_lines
 from mbla.results.listing.place_words import point_words
-from mbla.results.listing.text import counted, number, percent, sentence, table
+from mbla.results.listing.text import MOST_ROWS, counted, number, percent, sentence, table
 
 T = TypeVar("T", HingeLine, SlidingPlane, Crack)
 
 MANY = 40
 """joints beyond which their number says less than what moves"""
-MOST_ROWS = 20
-"""rows of a table in the listing; the result files hold all of them"""
-
 
 def mechanism_summary(model: Model, collapse: Collapse, failure: Failure) -> str:
     """``4 hinges, sliding at 2 interfaces; 23 of 27 free blocks move in 3 parts``; parts as they are told and drawn.

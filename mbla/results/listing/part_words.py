@@ -10,10 +10,8 @@ from mbla.results.collapse.rigid_parts import PartMotion
 from mbla.results.listing.block_names import block_names
 from mbla.results.listing.direction_words import TABLE_DIGITS, direction_words
 from mbla.results.listing.place_words import point_words
-from mbla.results.listing.text import number, sentence, table
+from mbla.results.listing.text import MOST_ROWS, number, sentence, table
 
-MOST_ROWS = 20
-"""parts of a table; the result files hold all of them"""
 LONGEST = 40
 """characters up to which the blocks of parts are named; beyond, their groups: the sentences say more"""
 

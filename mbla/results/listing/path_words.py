@@ -5,13 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from mbla.model.model import Model
-from mbla.results.listing.text import counted, number, sentence, small, table
+from mbla.results.listing.text import MOST_ROWS, counted, number, sentence, small, table
 from mbla.results.listing.verdict_words import load_factor_words
 from mbla.results.results import CaseResult
 from mbla.solution.solution import PathPoint
 
-MOST_ROWS = 20
-"""steps of a table; the result files hold all of them"""
 BELOW_PEAK = 1e-6
 """share by which the last load factor lies below the greatest one where the path is said to have a peak"""
 

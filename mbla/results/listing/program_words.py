@@ -35,7 +35,7 @@ PURPOSES = {
     "standing": "does it stand",
 }
 """what a program is for, in words, by its kind"""
-MOST_ROWS = 40
+MOST_PROGRAMS = 40
 """programs of a table; a long sequence is shown by its beginning and its end"""
 
 
@@ -58,9 +58,9 @@ def program_lines(solution: Solution) -> list[str]:
         for program in programs
     ]
     says = f"{counted(len(rows), 'program')}, {counted(total, 'iteration')}, {solution.seconds:.3f} s:"
-    if len(rows) > MOST_ROWS:
-        left_out = len(rows) - MOST_ROWS
-        rows[MOST_ROWS // 2 : -MOST_ROWS // 2] = [["...", f"{left_out} more", "", "", "", "", ""]]
+    if len(rows) > MOST_PROGRAMS:
+        left_out = len(rows) - MOST_PROGRAMS
+        rows[MOST_PROGRAMS // 2 : -MOST_PROGRAMS // 2] = [["...", f"{left_out} more", "", "", "", "", ""]]
     head = ["program", "for", "status", "load factor", "change", "iterations", "seconds"]
     lines = ["", *sentence(says), *table(head, rows, left=3)]
     if any(program.kind == "reverse" for program in programs):

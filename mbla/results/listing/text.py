@@ -14,6 +14,8 @@ from mbla.results.listing.elements import Entry, Heading, Line, Sentence, Table
 
 WIDTH = 100
 INDENT = "  "
+MOST_ROWS = 20
+"""of a table; the result files hold all of them"""
 
 
 def heading(text: str) -> list[str]:

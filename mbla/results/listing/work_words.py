@@ -5,11 +5,8 @@ from __future__ import annotations
 from mbla.contacts.contacts import Contacts
 from mbla.model.model import LoadCase, Model
 from mbla.results.collapse.work import Work, dissipated_by_joint, loads_by_group
-from mbla.results.listing.text import counted, sentence, table
+from mbla.results.listing.text import MOST_ROWS, counted, sentence, table
 from mbla.solution.solution import Mechanics
-
-MOST_ROWS = 20
-"""groups of a table"""
 
 
 def work_lines(model: Model, contacts: Contacts, load_case: LoadCase, mechanics: Mechanics, work: Work) -> list[str]:

@@ -5,7 +5,8 @@ import numpy as np
 from mbla.contacts.contacts import Contacts
 from mbla.results.collapse.collapse import collapse_of
 from mbla.results.collapse.failure import failure_of
-from mbla.results.listing.mechanism_words import MOST_ROWS, mechanism_lines, mechanism_summary
+from mbla.results.listing.mechanism_words import mechanism_lines, mechanism_summary
+from mbla.results.listing.text import MOST_ROWS
 from mbla.results.listing.text import WIDTH
 from mbla.solution.solution import ContactMode, Mechanics
 from mbla.solution.verification.statics import contact_velocities
