@@ -6,7 +6,7 @@ import math
 from collections.abc import Sequence
 
 from mbla.deck.sections.output import Expectation
-from mbla.results.listing.settlement_words import reaction_of
+from mbla.results.listing.answers import reaction_of
 from mbla.results.outcome import associative_of, result_of
 from mbla.results.results import CaseResult
 from mbla.results.series import position_of, series_of

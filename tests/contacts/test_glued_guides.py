@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from mbla.errors import DeckError
-from mbla.results.listing.settlement_words import reaction_of
+from mbla.results.listing.answers import reaction_of
 from mbla.results.results import Results
 from mbla.run import RunOptions, run
 

@@ -17,8 +17,8 @@ from mbla.model.model import Tilt
 from mbla.results.exit_status import exit_code
 from mbla.results.expected import differences
 from mbla.results.hdf5.result_file import read_results_hdf5
+from mbla.results.listing.answers import standing_words, worst_words
 from mbla.results.listing.listing import listing
-from mbla.results.listing.series_words import standing_words, worst_words
 from mbla.results.listing.summary import summary_lines
 from mbla.results.records.json_record import json_line, results_json
 from mbla.results.results import CaseResult, Results

@@ -1,23 +1,90 @@
-"""Cracks: interfaces between the same two clusters that open, as far as they are connected.
+"""Cracks: interfaces that open in one surface, and yield lines of walls that bend.
 
 Connected are interfaces that touch; a chain may lead over joints that only slide or turn between those that
 open, as the bed joints of a stepped crack do.
+
+The interfaces on both sides of which there are different main parts lie along a line that steps from joint to joint. A
+broken line of as few pieces as lead through them is fitted by least squares, weighted by area: linear in the distance
+along the direction in which they spread most, with its corners at some of them.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import combinations
 
 import numpy as np
 import scipy.sparse as sp
 from scipy.sparse.csgraph import connected_components
 
-from mbla.arrays import FloatArray, IntArray
+from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.contacts.contacts import Contacts
-from mbla.results.collapse.cluster_joints import ClusterJoints, points_of
-from mbla.results.collapse.interface_modes import InterfaceMode, InterfaceMotion
-from mbla.results.collapse.touching import touching_pairs
+from mbla.contacts.polygons import box_pairs
+from mbla.results.collapse.interface_modes import InterfaceMode, InterfaceMotion, interface_radii
+from mbla.results.collapse.joint_planes import ClusterJoints, points_of
 from mbla.solution.solution import Mechanics
+
+TOUCH = 0.01
+"""gap of two interfaces, over the radius of the smaller one, up to which they touch"""
+PARALLEL = 1e-6
+"""sine below which two edges have no direction across both"""
+
+
+def touching_pairs(contacts: Contacts, interfaces: IntArray) -> tuple[IntArray, IntArray]:
+    """Pairs of rows of ``interfaces`` whose convex hulls touch, each pair once.
+
+    Two convex bodies are apart where they are along one of these directions: the normals of their faces and edges, and
+    those across an edge of both (Gottschalk et al. 1996, doi:10.1145/237170.237244). Boxes along the axes come first.
+    """
+    size = interface_radii(contacts)[interfaces]
+    margin = TOUCH * size[:, None]
+    lower = np.minimum.reduceat(contacts.points, contacts.point_start[:-1])[interfaces] - margin
+    upper = np.maximum.reduceat(contacts.points, contacts.point_start[:-1])[interfaces] + margin
+    i, j = box_pairs(lower, upper)
+    gap = TOUCH * np.minimum(size[i], size[j])
+    near = np.zeros(len(i), dtype=bool)
+    counts = np.column_stack([contacts.outline[interfaces[i]], contacts.outline[interfaces[j]]])
+    for shape in np.unique(counts, axis=0):
+        chosen = np.flatnonzero(np.all(counts == shape, axis=1))
+        first, second = (_outlines(contacts, interfaces[rows[chosen]]) for rows in (i, j))
+        normals = contacts.normals[interfaces[i[chosen]]], contacts.normals[interfaces[j[chosen]]]
+        near[chosen] = ~_apart(first, second, *normals, gap[chosen])
+    return i[near], j[near]
+
+
+def _outlines(contacts: Contacts, interfaces: IntArray) -> FloatArray:
+    """Corners of interfaces with equally many, (n, corners, 3)."""
+    count = contacts.outline[interfaces[0]]
+    return contacts.points[contacts.point_start[interfaces][:, None] + np.arange(count)]
+
+
+def _apart(
+    first: FloatArray, second: FloatArray, normal: FloatArray, other_normal: FloatArray, gap: FloatArray
+) -> BoolArray:
+    """Whether there is more than the gap between two outlines each along any of the directions, (n,)."""
+    edges, other_edges = (np.roll(outline, -1, axis=1) - outline for outline in (first, second))
+    across = np.cross(edges[:, :, None, :], other_edges[:, None, :, :]).reshape(len(first), -1, 3)
+    lengths = np.linalg.norm(edges, axis=2)[:, :, None] * np.linalg.norm(other_edges, axis=2)[:, None, :]
+    directions = np.concatenate(
+        [
+            normal[:, None],
+            other_normal[:, None],
+            np.cross(edges, normal[:, None]),
+            np.cross(other_edges, other_normal[:, None]),
+            across,
+        ],
+        axis=1,
+    )
+    size = np.linalg.norm(directions, axis=2)
+    clear = np.ones(size.shape, dtype=bool)
+    clear[:, -across.shape[1] :] = size[:, -across.shape[1] :] > PARALLEL * lengths.reshape(len(first), -1)
+    directions = directions / np.where(clear & (size > 0), size, 1.0)[:, :, None]
+    one, other = (np.einsum("ndx,npx->ndp", directions, outline) for outline in (first, second))
+    between = np.maximum(other.min(axis=2) - one.max(axis=2), one.min(axis=2) - other.max(axis=2))
+    return np.asarray(np.any(clear & (between > gap[:, None]), axis=1))
+
+
+# --- Cracks: interfaces between the same two clusters that open, as far as they are connected -----------------------
 
 
 @dataclass(frozen=True)
@@ -93,3 +160,87 @@ def _crack(
         widest=contacts.points[points[widest]],
         share=float(opening[widest] / speed),
     )
+
+
+# --- Yield lines: where a main part breaks off, as the eye follows it over many joints ------------------------------
+
+
+LEAST = 6
+"""interfaces from which they form a line of their own; fewer are hinges, cracks or sliding planes by their names"""
+STRAIGHT = 0.05
+"""distance of interfaces from their line over its length, root of the mean square, up to which it leads through them"""
+MOST_PIECES = 3
+CORNERS = 8
+"""places along a line at which corners are tried"""
+
+
+@dataclass(frozen=True)
+class YieldLine:
+    """Where two main parts move apart.
+
+    parts       : the heavier one first; rest (0) second
+    interfaces  : (n,) between them
+    points      : (n, 3) m, ends and corners of the line, the lowest end first
+    off         : of the interfaces from it, root of the mean square, over its length
+    """
+
+    parts: tuple[int, int]
+    interfaces: IntArray
+    points: FloatArray
+    off: float
+
+    @property
+    def length(self) -> float:
+        """Along all of its pieces, m."""
+        return float(np.linalg.norm(np.diff(self.points, axis=0), axis=1).sum())
+
+    @property
+    def inclination(self) -> float:
+        """To the horizontal from end to end, degrees."""
+        step = self.points[-1] - self.points[0]
+        return float(np.degrees(np.arctan2(abs(step[2]), np.linalg.norm(step[:2]))))
+
+
+def yield_lines(contacts: Contacts, parts: IntArray, n_grounds: int) -> tuple[YieldLine, ...]:
+    """Between main parts, (n_blocks,), the longest first."""
+    of_body = np.append(parts, np.zeros(n_grounds, dtype=np.int64))
+    pairs = np.sort(of_body[contacts.bodies], axis=1)
+    found = []
+    for first, second in np.unique(pairs[pairs[:, 0] != pairs[:, 1]], axis=0).tolist():
+        interfaces = np.flatnonzero((pairs == (first, second)).all(axis=1))
+        if len(interfaces) >= LEAST:
+            points, off = _broken_line(contacts, interfaces)
+            found.append(YieldLine((first, second) if first else (second, first), interfaces, points, off))
+    return tuple(sorted(found, key=lambda line: -line.length))
+
+
+def _broken_line(contacts: Contacts, interfaces: IntArray) -> tuple[FloatArray, float]:
+    """Ends and corners, (n, 3) m, the lower end first, and how far off the interfaces are, over the length."""
+    places, areas = contacts.centroids[interfaces], contacts.areas[interfaces]
+    middle = np.average(places, axis=0, weights=areas)
+    along = np.linalg.svd((places - middle) * np.sqrt(areas)[:, None], full_matrices=False)[2][0]
+    distance = (places - middle) @ along
+    inner = np.unique(np.quantile(distance, np.linspace(0, 1, CORNERS + 2)))[1:-1]
+    best = _fitted(places, areas, distance, ())
+    for pieces in range(2, MOST_PIECES + 1):
+        if best[1] <= STRAIGHT:
+            break
+        tried = [_fitted(places, areas, distance, corners) for corners in combinations(inner, pieces - 1)]
+        best = min((best, *tried), key=lambda fit: fit[1])
+    points, off = best
+    corners = contacts.points[points_of(contacts, interfaces)]
+    points = np.clip(points, corners.min(axis=0), corners.max(axis=0))
+    return np.asarray(points if points[0, 2] <= points[-1, 2] else points[::-1]), off
+
+
+def _fitted(
+    places: FloatArray, areas: FloatArray, distance: FloatArray, corners: tuple[float, ...]
+) -> tuple[FloatArray, float]:
+    """The broken line with corners at these distances: its points, (n, 3) m, and how far off, over its length."""
+    knots = np.array([distance.min(), *corners, distance.max()])
+    shares = np.stack([np.interp(distance, knots, row) for row in np.eye(len(knots))], axis=1)
+    weights = np.sqrt(areas)[:, None]
+    points: FloatArray = np.linalg.lstsq(weights * shares, weights * places, rcond=None)[0].astype(np.float64)
+    off = np.sqrt(np.average(((places - shares @ points) ** 2).sum(axis=1), weights=areas))
+    length = float(np.linalg.norm(np.diff(points, axis=0), axis=1).sum())
+    return points, float(off) / (length or 1.0)

@@ -1,4 +1,4 @@
-"""How unique the forces are: in how many ways they can vary at the load factor, and which interfaces they leave alone.
+"""How far equilibrium determines the forces, and whether there are hinges and slides enough for a mechanism.
 
 The mechanism says what a contact point may carry at its load factor: nothing where it opens, a force of one direction
 (n − μ t, with t the direction of sliding) where it slides, any force where it rests. What one interface carries counts
@@ -14,6 +14,15 @@ all of them, but for a set of measure zero.
 
 The rank is counted by Sylvester's law of inertia in the factors of A Aᵀ − εI, with ε on both sides of a gap: where the
 two disagree it is not determined.
+
+Fix every block that rests in the mechanism. Forces that balance the structure balance the moving blocks too, so that
+the load factor of the smaller model is no less; and the mechanism, in which nothing else moves, is one of the smaller
+model with the same power, so that by the kinematic theorem it is no more. By associative flow both models have one and
+the same load factor. A resting block that touches no moving one then takes no part at all and can be left out.
+
+Without normality there are no bounds, but forces and mechanism together fit the law at every interface that is left:
+the state found is one of the smaller model, whose load factors may reach further, lower ones among them, because fewer
+conditions are left.
 """
 
 from __future__ import annotations
@@ -24,12 +33,12 @@ from typing import Any
 import numpy as np
 import scipy.sparse as sp
 
-from mbla.arrays import BoolArray, FloatArray
+from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.contacts.contacts import Contacts
 from mbla.contacts.glue import solids_of
 from mbla.model.model import Model
-from mbla.results.collapse.by_interface import interface_radii
-from mbla.results.collapse.kept import kept
+from mbla.results.collapse.collapse import kept
+from mbla.results.collapse.interface_modes import interface_radii
 from mbla.solution.linear_algebra.pattern import stored_lower_triangle
 from mbla.solution.linear_algebra.qdldl_factors import QdldlFactors
 from mbla.solution.solution import ContactMode, Mechanics
@@ -200,3 +209,38 @@ class _Shifted:
     def solve(self, rhs: FloatArray) -> FloatArray:
         """With the factors at the last shift."""
         return self._factors.solve(rhs)
+
+
+# --- What of a structure is enough for its load factor: the blocks that move and the interfaces on them -------------
+
+
+@dataclass(frozen=True)
+class Enough:
+    """The smaller model.
+
+    moving     : (n,) blocks that move
+    interfaces : (m,) on them
+    bearing    : free blocks at rest that these touch; they stand for supports
+    left_out   : free blocks at rest that touch nothing that moves
+    """
+
+    moving: IntArray
+    interfaces: IntArray
+    bearing: IntArray
+    left_out: IntArray
+
+
+def enough_of(model: Model, contacts: Contacts, parts: IntArray) -> Enough:
+    """From the rigid part of each block, (n_blocks,), 0 at rest."""
+    n_blocks = len(model.blocks)
+    moves = np.append(parts > 0, np.zeros(len(model.grounds), dtype=bool))
+    on_moving = moves[contacts.bodies].any(axis=1)
+    touched = np.zeros(len(moves), dtype=bool)
+    touched[contacts.bodies[on_moving]] = True
+    rests = ~model.fixed & (parts == 0)
+    return Enough(
+        moving=np.flatnonzero(parts > 0),
+        interfaces=np.flatnonzero(on_moving),
+        bearing=np.flatnonzero(rests & touched[:n_blocks]),
+        left_out=np.flatnonzero(rests & ~touched[:n_blocks]),
+    )

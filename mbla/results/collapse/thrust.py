@@ -24,7 +24,7 @@ from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.contacts.contacts import Contacts
 from mbla.contacts.glue import solids_of
 from mbla.model.model import Model
-from mbla.results.collapse.by_interface import sum_by_interface
+from mbla.results.collapse.interface_modes import sum_by_interface
 from mbla.results.collapse.mechanics import interface_resultants
 
 NO_FORCE = 1e-7

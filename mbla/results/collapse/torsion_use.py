@@ -26,7 +26,7 @@ from mbla.arrays import FloatArray, IntArray, row_of_item, starts
 from mbla.contacts.contacts import Contacts
 from mbla.model.model import Model
 from mbla.program.resultants.shapes import local_points
-from mbla.results.collapse.by_interface import interface_radii, sum_by_interface
+from mbla.results.collapse.interface_modes import interface_radii, sum_by_interface
 from mbla.results.collapse.mechanics import interface_resultants
 from mbla.results.collapse.thrust import NO_FORCE, ROUNDING, allowed_at_points, shear_use
 from mbla.solution.verification.interface_laws import interface_laws, shear_strength, torsion_excess

@@ -15,7 +15,7 @@ from mbla.results.diff.joints import ModeComparison, compare_modes
 from mbla.results.diff.matching import Matching
 from mbla.results.diff.mechanisms import angle_between
 from mbla.results.diff.units import Factors
-from mbla.results.listing.settlement_words import reaction_of, reaction_unit
+from mbla.results.listing.answers import reaction_of, reaction_unit
 from mbla.results.outcome import associative_of, extent_of, law_residual, least_and_greatest, range_of, result_of
 from mbla.results.results import CaseResult, Results
 from mbla.results.tilt_angle import angle_of

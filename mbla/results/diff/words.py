@@ -7,7 +7,7 @@ import math
 from mbla.results.diff.cases import CaseComparison
 from mbla.results.diff.comparison import Comparison, ModelComparison
 from mbla.results.diff.figure import Figure
-from mbla.results.listing.answer_words import status_name, status_words
+from mbla.results.listing.answers import status_name, status_words
 from mbla.results.listing.text import counted, heading, number, sentence, small, table, vector
 
 MOST_NAMED = 8

@@ -12,7 +12,7 @@ from mbla.errors import Message
 from mbla.model.model import LoadCase
 from mbla.program.reductions import ProgramSize, ReductionStep, StepState
 from mbla.results.hdf5.content import HISTORY, MOTIONS
-from mbla.results.listing.solver_words import METHODS
+from mbla.results.listing.solving import METHODS
 from mbla.results.record.of_case import ANSWERS
 from mbla.results.record.stored import stored
 from mbla.results.results import CaseResult

@@ -8,21 +8,23 @@ from dataclasses import dataclass
 from mbla.contacts.contacts import Contacts
 from mbla.model.model import Model
 from mbla.results.collapse.collapse import collapse_of
-from mbla.results.collapse.enough import enough_of
 from mbla.results.collapse.failure import failure_of
-from mbla.results.collapse.force_freedom import force_freedom, why_undetermined
-from mbla.results.listing.certificate_words import fall_lines, fall_sentences
-from mbla.results.listing.determined_words import enough_lines, freedom_lines
+from mbla.results.collapse.force_freedom import enough_of, force_freedom, why_undetermined
 from mbla.results.listing.failure_words import failure_sentences
 from mbla.results.listing.figure_words import figures
-from mbla.results.listing.force_words import force_range_lines, group_reaction_lines, lock_lines, reaction_lines
-from mbla.results.listing.mechanism_words import mechanism_lines, mechanism_summary
-from mbla.results.listing.path_words import path_lines
-from mbla.results.listing.program_words import program_lines
-from mbla.results.listing.reduction_words import reduction_lines
+from mbla.results.listing.forces import (
+    enough_lines,
+    force_range_lines,
+    freedom_lines,
+    group_reaction_lines,
+    lock_lines,
+    reaction_lines,
+    work_lines,
+)
+from mbla.results.listing.mechanism_words import fall_lines, fall_sentences, mechanism_lines, mechanism_summary
+from mbla.results.listing.solving import path_lines, program_lines, reduction_lines
 from mbla.results.listing.text import full_sentence, heading, sentence
 from mbla.results.listing.verdict_words import bound_words, known_words, verdict
-from mbla.results.listing.work_words import work_lines
 from mbla.results.outcome import result_of
 from mbla.results.results import CaseResult
 

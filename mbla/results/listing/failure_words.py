@@ -14,17 +14,22 @@ from mbla.contacts.contacts import Contacts
 from mbla.deck.suggestions import listed
 from mbla.model.model import LoadCase, Model
 from mbla.results.collapse.collapse import Collapse
-from mbla.results.collapse.cracks import Crack
+from mbla.results.collapse.cracks import Crack, YieldLine
 from mbla.results.collapse.failure import Failure
-from mbla.results.collapse.hinge_lines import HingeLine
+from mbla.results.collapse.joint_planes import HingeLine
 from mbla.results.collapse.mechanics import curvature_sides
 from mbla.results.collapse.rigid_parts import PartMotion, moving_share, reach
-from mbla.results.collapse.yield_lines import YieldLine
-from mbla.results.listing.direction_words import direction_words, way_words
-from mbla.results.listing.place_words import extents_of, group_words, point_words, range_words, region_words
-from mbla.results.listing.slide_words import slide_sentences
+from mbla.results.listing.places import (
+    direction_words,
+    extents_of,
+    group_words,
+    point_words,
+    range_words,
+    region_words,
+    way_words,
+)
+from mbla.results.listing.slides import moves_whole, other_name, part_name, slide_sentences
 from mbla.results.listing.text import counted
-from mbla.results.listing.who_words import moves_whole, other_name, part_name
 
 MOST_PARTS, MOST_LINES, MOST_CRACKS = 4, 4, 2
 """what is told of each kind; the tables hold more, the result files all"""

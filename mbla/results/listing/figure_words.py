@@ -5,9 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from mbla.model.model import Model
-from mbla.results.listing.answer_words import LEAST_AND_GREATEST, answer_head, extent_figures, status_name
-from mbla.results.listing.settlement_words import settlement_lines
-from mbla.results.listing.solver_words import solver_lines
+from mbla.results.listing.answers import LEAST_AND_GREATEST, answer_head, extent_figures, settlement_lines, status_name
+from mbla.results.listing.solving import solver_lines
 from mbla.results.listing.text import counted, entry, number, sentence, small
 from mbla.results.outcome import associative_of, best_iterate, extent_of, locked_in, range_of, result_of
 from mbla.results.results import CaseResult

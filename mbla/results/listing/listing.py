@@ -11,13 +11,13 @@ from mbla import __version__
 from mbla.arrays import IntArray
 from mbla.model.model import Model
 from mbla.results.hdf5.content import as_told
+from mbla.results.listing.answers import series_lines, worst_words
 from mbla.results.listing.case_words import case_lines, spaced
 from mbla.results.listing.contact_words import contact_lines, finding_lines
 from mbla.results.listing.figure_words import figures
-from mbla.results.listing.label_words import label_words
-from mbla.results.listing.notice_words import notice_lines, warning_lines
-from mbla.results.listing.reduction_words import reduction_lines
-from mbla.results.listing.series_words import series_lines, worst_words
+from mbla.results.listing.places import label_words
+from mbla.results.listing.solving import reduction_lines
+from mbla.results.listing.summary import notice_lines, warning_lines
 from mbla.results.listing.text import WIDTH, counted, entry, heading, number, sentence, table
 from mbla.results.listing.verdict_words import verdict
 from mbla.results.needs import CaseNeeds

@@ -1,32 +1,75 @@
-"""Mechanisms in tables: the parts that move, hinge lines, sliding planes and cracks between them."""
+"""The mechanism of a case in words: its parts, how they move, and the fall of a structure without equilibrium."""
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import TypeVar
 
 import numpy as np
 
-from mbla.arrays import IntArray
+from mbla.arrays import FloatArray, IntArray
 from mbla.contacts.contacts import Contacts
-from mbla.model.model import Model
-from mbla.results.collapse.collapse import Collapse
+from mbla.model.model import LoadCase, Model
+from mbla.results.collapse.collapse import Collapse, fall_of
 from mbla.results.collapse.cracks import Crack
-from mbla.results.collapse.failure import Failure
-from mbla.results.collapse.hinge_lines import HingeLine
+from mbla.results.collapse.failure import Failure, failure_of
 from mbla.results.collapse.interface_modes import InterfaceMode
+from mbla.results.collapse.joint_planes import HingeLine, SlidingPlane
 from mbla.results.collapse.mechanics import curvature_sides
-from mbla.results.collapse.sliding_planes import SlidingPlane
-from mbla.results.listing.direction_words import TABLE_DIGITS, direction_words
-from mbla.results.listing.failure_words import as_parts, crack_kind, hinge_side
-from mbla.results.listing.part_words import part_lines
-from mbla.results.listing.place_words import point_words
+from mbla.results.collapse.rigid_parts import PartMotion
+from mbla.results.listing.failure_words import as_parts, crack_kind, failure_sentences, hinge_side
+from mbla.results.listing.places import TABLE_DIGITS, block_names, direction_words, point_words
 from mbla.results.listing.text import MOST_ROWS, counted, number, percent, sentence, table
+
+LONGEST = 40
+"""characters up to which the blocks of parts are named; beyond, their groups: the sentences say more"""
+
+
+def part_lines(model: Model, motions: Sequence[PartMotion]) -> list[str]:
+    """A table of the parts that move, the heaviest first."""
+    shown = motions[:MOST_ROWS]
+    names = [f"{each.number}: {block_names(model, each.blocks)}" for each in shown]
+    if max(map(len, names), default=0) > LONGEST:
+        names = [f"{each.number}: {_groups(model, each)}" for each in shown]
+    rows = [
+        [
+            name,
+            motion_words(model, each),
+            str(len(each.blocks)),
+            number(each.weight),
+        ]
+        for name, each in zip(names, shown, strict=True)
+    ]
+    if not rows:
+        return []
+    head = ["part", "motion", "blocks", f"weight [{model.units.force}]"]
+    more = sentence(f"and {len(motions) - MOST_ROWS} lighter ones; the result files hold them all")
+    return [*table(head, rows, left=2), *(more if len(motions) > MOST_ROWS else [])]
+
+
+def _groups(model: Model, part: PartMotion) -> str:
+    """``junction``, ``wall and 2 more``: the groups of a part, that with most blocks first."""
+    counts = Counter(model.blocks.groups[block] for block in part.blocks.tolist()).most_common()
+    return str(counts[0][0]) + (f" and {len(counts) - 1} more" if len(counts) > 1 else "")
+
+
+def motion_words(model: Model, part: PartMotion) -> str:
+    """``turns about +y at (1, 0.5, 1)`` or ``moves along (0.8, 0, 0.6)``."""
+    if not part.turns:
+        return f"moves along {direction_words(part.direction, TABLE_DIGITS)}"
+    return f"turns about {direction_words(part.direction, TABLE_DIGITS)} at {point_words(model, part.axis_point)}"
+
+
+# --- Mechanisms in tables: the parts that move, hinge lines, sliding planes and cracks between them -----------------
+
 
 T = TypeVar("T", HingeLine, SlidingPlane, Crack)
 
 MANY = 40
 """joints beyond which their number says less than what moves"""
+
 
 def mechanism_summary(model: Model, collapse: Collapse, failure: Failure) -> str:
     """``4 hinges, sliding at 2 interfaces; 23 of 27 free blocks move in 3 parts``; parts as they are told and drawn.
@@ -155,3 +198,35 @@ def _interfaces(model: Model, contacts: Contacts, interfaces: IntArray) -> str:
     if max(a, b) < len(model.blocks) and model.blocks.groups[a] == model.blocks.groups[b]:
         second = f"[{model.blocks.group_indices[b]}]"
     return f"{first}/{second}{more}"
+
+
+# --- How a structure without equilibrium falls, in the words of any other failure -----------------------------------
+
+
+LIFTS = (
+    "The motion is one of associative flow, in which joints lift as they slide: it proves that nothing holds the "
+    "structure, and need not be the way in which it falls."
+)
+"""what the motion is worth as a picture of the fall, where anything slides in it"""
+
+
+def fall_sentences(model: Model, contacts: Contacts, load_case: LoadCase, certificate: FloatArray) -> list[str]:
+    """What moves and how, where it turns and parts, what slides; the live load, which does not act yet, says no way."""
+    collapse, mechanics = fall_of(model, contacts, certificate)
+    failure = failure_of(model, contacts, collapse, mechanics)
+    unloaded = replace(load_case, live_load=np.zeros_like(load_case.live_load))
+    lifts = [LIFTS] if collapse.interfaces.slides.any() else []
+    return failure_sentences(model, contacts, unloaded, collapse, failure) + lifts
+
+
+def fall_lines(model: Model, contacts: Contacts, certificate: FloatArray) -> list[str]:
+    """The tables of the parts, hinge lines, sliding planes and cracks."""
+    collapse, mechanics = fall_of(model, contacts, certificate)
+    return mechanism_lines(model, contacts, failure_of(model, contacts, collapse, mechanics))
+
+
+def fall_summary(model: Model, contacts: Contacts, load_case: LoadCase, certificate: FloatArray) -> list[str]:
+    """For the terminal: the first of these sentences, which say how much moves and what the heaviest part does."""
+    return [
+        line for text in fall_sentences(model, contacts, load_case, certificate)[:2] for line in sentence(text, "    ")
+    ]

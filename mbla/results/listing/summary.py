@@ -1,24 +1,81 @@
-"""What the terminal shows of a run: the model in a line, status and answer of each case, then words."""
+"""Warnings and notices of a listing, and the summary that a terminal shows."""
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Sequence
 
+from mbla.errors import Notice
 from mbla.model.model import Model
 from mbla.results.collapse.collapse import Collapse, collapse_of
 from mbla.results.collapse.failure import failure_of
-from mbla.results.listing.answer_words import answer_columns, status_words
-from mbla.results.listing.certificate_words import fall_summary
+from mbla.results.listing.answers import answer_columns, spread_over_positions, status_words, worst_words
 from mbla.results.listing.failure_words import failure_sentences
-from mbla.results.listing.mechanism_words import mechanism_summary
-from mbla.results.listing.notice_words import cause_lines, warning_summary
-from mbla.results.listing.series_words import spread_over_positions, worst_words
-from mbla.results.listing.text import counted, number, sentence, table
+from mbla.results.listing.mechanism_words import fall_summary, mechanism_summary
+from mbla.results.listing.text import counted, heading, number, sentence, table
 from mbla.results.listing.verdict_words import bound_words, reasons, verdict
-from mbla.results.outcome import result_of
+from mbla.results.outcome import case_notices, notices_of, result_of
 from mbla.results.results import CaseResult, Results
 from mbla.results.series import series_of, told_cases
-from mbla.solution.solution import Mechanics
+from mbla.solution.solution import Mechanics, Status
+
+CAUSES = ("isolated-blocks", "unsupported-parts")
+"""Warnings that stand before the load cases: the verdicts on these follow from them."""
+CAUSES_OF_A_FALL = ("near-misses",)
+"""Those that do where a load case has no equilibrium: a contact that is missed may be all that it lacks."""
+HINT = "`mbla explain ID` says what an identifier in brackets means and what to do."
+
+
+def notice_lines(notices: Sequence[Notice], title: str = "Remarks") -> list[str]:
+    """Every notice and warning with its identifier; nothing where there is none."""
+    if not notices:
+        return []
+    return heading(title) + [line for notice in notices for line in sentence(str(notice))]
+
+
+def warnings_of(results: Results) -> tuple[Notice, ...]:
+    """Every warning: of deck, model, contacts and expectations, then of each load case."""
+    return tuple(notice for notice in notices_of(results) if notice.severity == "warning")
+
+
+def warning_lines(results: Results) -> list[str]:
+    """All warnings once more, numbered, for the end of the listing."""
+    warnings = warnings_of(results)
+    if not warnings:
+        return sentence("0 warnings")
+    lines = sentence(f"{counted(len(warnings), 'warning')}:")
+    for place, warning in enumerate(warnings, 1):
+        lines += sentence(f"{place}. {warning}", "    ")
+    return lines + sentence(HINT)
+
+
+def cause_lines(results: Results) -> list[str]:
+    """For the terminal: what has to be known before any figure, which follows from it."""
+    causes = _causes(results)
+    return [line for notice in results.notices if notice.identifier in causes for line in sentence(str(notice))]
+
+
+def _causes(results: Results) -> tuple[str, ...]:
+    falls = any(case.status is Status.NO_EQUILIBRIUM for case in results.cases)
+    return (*CAUSES, *CAUSES_OF_A_FALL) if falls else CAUSES
+
+
+def warning_summary(results: Results) -> list[str]:
+    """For the terminal: in full what is told neither above nor in the words of its case, then all identifiers."""
+    warnings = warnings_of(results)
+    if not warnings:
+        return []
+    own = [notice for case in results.cases for notice in case_notices(case)]
+    before = _causes(results)
+    told = [notice for notice in warnings if notice.identifier not in before and (not notice.case or notice in own)]
+    lines = [line for notice in told for line in sentence(str(notice))]
+    counts = Counter(warning.identifier for warning in warnings)
+    named = ", ".join(name if count == 1 else f"{name} ({count})" for name, count in counts.items())
+    return lines + sentence(f"{counted(len(warnings), 'warning')}: {named}; mbla explain ID says more")
+
+
+# --- What the terminal shows of a run: the model in a line, status and answer of each case, then words --------------
+
 
 DETAIL = "    "
 

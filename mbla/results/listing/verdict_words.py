@@ -6,8 +6,7 @@ import numpy as np
 
 from mbla.model.model import LoadCase, Model
 from mbla.results.collapse.mechanics import live_load_in_g
-from mbla.results.listing.answer_words import in_order, status_name
-from mbla.results.listing.settlement_words import reaction_words
+from mbla.results.listing.answers import in_order, reaction_words, status_name
 from mbla.results.listing.text import number, small
 from mbla.results.magnitudes import rounding_of
 from mbla.results.outcome import (

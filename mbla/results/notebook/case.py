@@ -11,8 +11,8 @@ from mbla.model.model import Model
 from mbla.results.collapse.collapse import Collapse, collapse_of
 from mbla.results.collapse.failure import failure_of
 from mbla.results.collapse.thrust import Thrust, thrust_of
+from mbla.results.listing.answers import reaction_of
 from mbla.results.listing.mechanism_words import mechanism_summary
-from mbla.results.listing.settlement_words import reaction_of
 from mbla.results.listing.verdict_words import reasons, verdict
 from mbla.results.notebook.picture import Picture, case_picture
 from mbla.results.notebook.view import View

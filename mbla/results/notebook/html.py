@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from mbla.errors import MblaError
 from mbla.model.model import Model
-from mbla.results.listing.answer_words import answer_columns, bound_figures, status_words
+from mbla.results.listing.answers import answer_columns, bound_figures, status_words
 from mbla.results.listing.verdict_words import bound_words, reasons
 from mbla.solution.solution import Status
 

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from mbla.arrays import FloatArray
-from mbla.results.listing.series_words import standing_words
+from mbla.results.listing.answers import standing_words
 from mbla.results.listing.text import number
 from mbla.results.pictures.options import PictureOptions
 from mbla.results.pictures.page import Page, add_words, open_page

@@ -7,8 +7,8 @@ from typing import Any
 
 from mbla.contacts.contacts import Contacts
 from mbla.model.model import Model
-from mbla.results.listing.settlement_words import reaction_json
-from mbla.results.listing.solver_words import solver_json
+from mbla.results.listing.answers import reaction_json
+from mbla.results.listing.solving import solver_json
 from mbla.results.outcome import associative_of, best_iterate, factor_unique, least_and_greatest, range_of, result_of
 from mbla.results.records.mechanism_json import mechanism_json, mechanism_on_demand
 from mbla.results.records.numbers import number

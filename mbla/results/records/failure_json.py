@@ -6,12 +6,10 @@ from collections import Counter
 from typing import Any
 
 from mbla.model.model import Model
-from mbla.results.collapse.cracks import Crack
+from mbla.results.collapse.cracks import Crack, YieldLine
 from mbla.results.collapse.failure import Failure
-from mbla.results.collapse.hinge_lines import HingeLine
+from mbla.results.collapse.joint_planes import HingeLine, SlidingPlane
 from mbla.results.collapse.rigid_parts import PartMotion
-from mbla.results.collapse.sliding_planes import SlidingPlane
-from mbla.results.collapse.yield_lines import YieldLine
 from mbla.results.records.numbers import number, numbers
 
 FAILURE_KEYS = (

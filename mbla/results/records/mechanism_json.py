@@ -10,13 +10,11 @@ import numpy as np
 from mbla.contacts.contacts import Contacts
 from mbla.model.model import LoadCase, Model
 from mbla.results.collapse.collapse import Collapse, collapse_of
-from mbla.results.collapse.enough import Enough, enough_of
-from mbla.results.collapse.failure import Failure, failure_of, moving_joints
-from mbla.results.collapse.force_freedom import ForceFreedom, force_freedom
+from mbla.results.collapse.failure import Failure, failure_of, mechanism_class, moving_joints
+from mbla.results.collapse.force_freedom import Enough, ForceFreedom, enough_of, force_freedom
 from mbla.results.collapse.interface_modes import InterfaceMode
-from mbla.results.collapse.mechanism_class import mechanism_class
+from mbla.results.collapse.mechanics import dissipated_by_joint, loads_by_group
 from mbla.results.collapse.rigid_parts import moving_share, reach
-from mbla.results.collapse.work import dissipated_by_joint, loads_by_group
 from mbla.results.records.failure_json import FAILURE_KEYS, failure_json, part_json
 from mbla.results.records.numbers import number
 from mbla.results.records.on_demand import OnDemand
@@ -94,7 +92,7 @@ def _force_freedom(freedom: ForceFreedom | None) -> dict[str, int] | None:
 
 
 def _enough(enough: Enough) -> dict[str, int]:
-    """Counts of what is enough for the load factor: see :mod:`mbla.results.collapse.enough`."""
+    """Counts of what is enough for the load factor: see :mod:`mbla.results.collapse.force_freedom`."""
     return {
         "moving_blocks": len(enough.moving),
         "interfaces": len(enough.interfaces),

@@ -9,7 +9,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import TypeAlias
 
-from mbla.results.listing.elements import Element, Entry, Heading, Sentence, Table, elements_of
+from mbla.results.listing.text import Element, Entry, Heading, Sentence, Table, elements_of
 
 
 @dataclass(frozen=True)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from mbla.results.listing.answer_words import status_words
+from mbla.results.listing.answers import status_words
 from mbla.results.listing.case_words import case_sections
 from mbla.results.listing.figure_words import residual_figures, verification_verdict
 from mbla.results.listing.verdict_words import verdict

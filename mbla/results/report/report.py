@@ -9,9 +9,9 @@ from typing import Any
 from mbla import __version__
 from mbla.errors import FileError, UsageError
 from mbla.results.chosen_cases import chosen_cases
+from mbla.results.listing.answers import series_lines
 from mbla.results.listing.contact_words import contact_lines, finding_lines
 from mbla.results.listing.listing import model_lines, settings_lines
-from mbla.results.listing.series_words import series_lines
 from mbla.results.listing.text import counted, number
 from mbla.results.listing.verdict_words import bound_words, reasons, verdict
 from mbla.results.outcome import notices_of

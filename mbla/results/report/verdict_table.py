@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from mbla.results.listing.answer_words import answer_columns, bound_figures, status_words
+from mbla.results.listing.answers import answer_columns, bound_figures, status_words
 from mbla.results.report.case_content import tone_of
 from mbla.results.results import CaseResult, Results
 

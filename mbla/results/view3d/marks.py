@@ -15,8 +15,8 @@ from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.contacts.contacts import Contacts
 from mbla.model.model import Model
 from mbla.results.collapse.collapse import Collapse
-from mbla.results.collapse.hinge_lines import HingeLine
 from mbla.results.collapse.interface_modes import InterfaceMode
+from mbla.results.collapse.joint_planes import HingeLine
 from mbla.results.collapse.thrust import OUTSIDE, Thrust, points_to_draw, thrust_lines, thrust_of
 from mbla.results.listing.text import counted, number
 from mbla.results.pictures.geometry import hinge_axes, interface_sides

@@ -20,7 +20,7 @@ from mbla.model.model import Model
 from mbla.results.collapse.collapse import Collapse, collapse_of
 from mbla.results.collapse.failure import failure_of
 from mbla.results.collapse.finite_motion import finite_motion
-from mbla.results.collapse.hinge_lines import HingeLine
+from mbla.results.collapse.joint_planes import HingeLine
 from mbla.results.collapse.motion import drawn_motion, largest_displacements, moved_vertices
 from mbla.results.collapse.rigid_parts import rigid_parts
 from mbla.results.listing.text import number

@@ -13,7 +13,7 @@ import numpy as np
 
 from mbla.arrays import IntArray
 from mbla.model.solids.blocks import Blocks
-from mbla.results.collapse.kept import kept
+from mbla.results.collapse.collapse import kept
 
 
 @dataclass(frozen=True)

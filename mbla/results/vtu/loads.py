@@ -17,7 +17,7 @@ from mbla.arrays import FloatArray, IntArray
 from mbla.model.geometry.meshio_files import write_mesh
 from mbla.model.model import Model, TravelPosition
 from mbla.model.solids.blocks import Blocks
-from mbla.results.collapse.by_interface import sum_by_interface
+from mbla.results.collapse.interface_modes import sum_by_interface
 from mbla.results.collapse.mechanics import global_forces
 from mbla.results.collapse.motion import displacements_at
 from mbla.results.record.scene import FIGURES, Scene

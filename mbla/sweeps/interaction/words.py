@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-from mbla.results.listing.answer_words import status_name
+from mbla.results.listing.answers import status_name
 from mbla.results.listing.text import INDENT, counted, number, percent, sentence, table
 from mbla.solution.solution import Status
 from mbla.sweeps.interaction.angles import unit_vector

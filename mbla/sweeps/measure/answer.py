@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from mbla.model.model import Model
 from mbla.results.diff.cases import ZERO, least_factor
 from mbla.results.exit_status import as_asked
-from mbla.results.listing.settlement_words import reaction_of, reaction_unit
+from mbla.results.listing.answers import reaction_of, reaction_unit
 from mbla.results.outcome import locked_in, result_of
 from mbla.results.results import CaseResult
 from mbla.results.tilt_angle import angle_bounds, angle_of

@@ -6,7 +6,7 @@ import math
 import textwrap
 from collections.abc import Iterator, Sequence
 
-from mbla.results.listing.answer_words import status_name
+from mbla.results.listing.answers import status_name
 from mbla.results.listing.text import INDENT, counted, number, sentence, small
 from mbla.results.outcome import range_is_a_point
 from mbla.solution.solution import Status

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from mbla.results.collapse.by_interface import interface_radii, largest_by_interface, sum_by_interface
+from mbla.results.collapse.interface_modes import interface_radii, largest_by_interface, sum_by_interface
 from tests.results.synthetic import tower_contacts
 
 

@@ -10,7 +10,7 @@ import pytest
 from mbla.contacts import find_contacts
 from mbla.errors import MblaError
 from mbla.program import assemble
-from mbla.results.collapse.enough import enough_of
+from mbla.results.collapse.force_freedom import enough_of
 from mbla.results.collapse.rigid_parts import rigid_parts
 from mbla.solution.solution import Mechanics, Status
 from tests.line import Line, line_of, line_of_file, verified

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from mbla.results.collapse.falling import falling_motion
+from mbla.results.collapse.collapse import falling_motion
 from mbla.results.collapse.interface_modes import InterfaceMode
 from mbla.results.results import Results
 from tests.results.synthetic import tower_results

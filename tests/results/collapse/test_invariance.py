@@ -13,9 +13,8 @@ import pytest
 from mbla.arrays import FloatArray, IntArray
 from mbla.contacts.glue import solids_of
 from mbla.results.collapse.collapse import Collapse, collapse_of
-from mbla.results.collapse.enough import enough_of
 from mbla.results.collapse.failure import Failure, failure_of
-from mbla.results.collapse.force_freedom import _equilibrium, _plane_rows, _resultants, force_freedom
+from mbla.results.collapse.force_freedom import _equilibrium, _plane_rows, _resultants, enough_of, force_freedom
 from mbla.results.collapse.interface_modes import InterfaceMode
 from mbla.results.collapse.mechanics import group_reactions, support_reactions
 from mbla.results.collapse.thrust import NO_FORCE, thrust_lines, thrust_of

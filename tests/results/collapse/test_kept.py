@@ -1,6 +1,6 @@
 from dataclasses import dataclass
 
-from mbla.results.collapse.kept import kept
+from mbla.results.collapse.collapse import kept
 
 
 @dataclass(frozen=True)

@@ -10,10 +10,8 @@ import numpy as np
 import pytest
 
 import mbla
-from mbla.results.collapse.failure import MovingJoints
-from mbla.results.collapse.hinge_lines import HingeLine
-from mbla.results.collapse.mechanism_class import NOTABLE, mechanism_class
-from mbla.results.collapse.sliding_planes import SlidingPlane
+from mbla.results.collapse.failure import NOTABLE, MovingJoints, mechanism_class
+from mbla.results.collapse.joint_planes import HingeLine, SlidingPlane
 from mbla.results.records.json_record import results_json
 
 DECKS = Path(__file__).parents[3] / "decks" / "benchmarks"

@@ -7,8 +7,8 @@ import pytest
 from mbla.contacts.contacts import Contacts
 from mbla.model.model import Model
 from mbla.results.collapse.rigid_parts import moving_share, part_motions, reach, resting_blocks, rigid_parts
-from mbla.results.listing.direction_words import direction_words
-from mbla.results.listing.part_words import motion_words, part_lines
+from mbla.results.listing.mechanism_words import motion_words, part_lines
+from mbla.results.listing.places import direction_words
 from mbla.results.listing.text import WIDTH
 from tests.results.synthetic import cuboids, horizontal_contacts, tower_contacts, tower_mechanics, tower_model
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from mbla.results.collapse.touching import touching_pairs
+from mbla.results.collapse.cracks import touching_pairs
 from tests.results.collapse.solved_state import State, moved
 from tests.results.collapse.test_invariance import TURN
 from tests.results.synthetic import horizontal_contacts, tower_mechanics, tower_model, tower_results

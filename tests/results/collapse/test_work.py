@@ -5,8 +5,8 @@ import numpy as np
 import pytest
 
 from mbla.model.model import Joint
-from mbla.results.collapse.work import dissipated_by_joint, loads_by_group, work_of
-from mbla.results.listing.work_words import work_lines
+from mbla.results.collapse.mechanics import dissipated_by_joint, loads_by_group, work_of
+from mbla.results.listing.forces import work_lines
 from mbla.results.records.mechanism_json import mechanism_json
 from mbla.solution.solution import Mechanics
 from tests.results.synthetic import tower_contacts, tower_mechanics, tower_model

@@ -8,9 +8,9 @@ import pytest
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.model.model import Model
-from mbla.results.collapse.main_parts import ENOUGH, FEW, main_parts
+from mbla.results.collapse.clusters import ENOUGH, FEW, main_parts
+from mbla.results.collapse.cracks import LEAST, yield_lines
 from mbla.results.collapse.rigid_parts import part_motions
-from mbla.results.collapse.yield_lines import LEAST, yield_lines
 from mbla.results.listing.listing import listing
 from mbla.results.listing.summary import summary_lines
 from mbla.results.records.json_record import results_json

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from mbla.results.listing.block_names import block_names
+from mbla.results.listing.places import block_names
 from tests.results.synthetic import cuboids, tower_model
 
 

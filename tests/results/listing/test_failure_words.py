@@ -8,10 +8,9 @@ import pytest
 
 from mbla.results.collapse.collapse import collapse_of
 from mbla.results.collapse.failure import failure_of
-from mbla.results.listing.direction_words import way_words
 from mbla.results.listing.failure_words import failure_sentences
-from mbla.results.listing.place_words import region_words
-from mbla.results.listing.who_words import part_name
+from mbla.results.listing.places import region_words, way_words
+from mbla.results.listing.slides import part_name
 from tests.line import line_of_file, verified
 from tests.results.synthetic import tower_contacts, tower_mechanics, tower_model
 

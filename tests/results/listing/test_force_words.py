@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from mbla.results.listing.force_words import force_range_lines, lock_lines
+from mbla.results.listing.forces import force_range_lines, lock_lines
 from mbla.results.listing.text import MOST_ROWS
 from tests.results.synthetic import cuboids, horizontal_contacts, tower_contacts, tower_mechanics, tower_model
 

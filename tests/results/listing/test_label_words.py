@@ -3,7 +3,7 @@ from __future__ import annotations
 import numpy as np
 
 from mbla.model.solids.blocks import join_labels, labels_of, no_labels
-from mbla.results.listing.label_words import label_words
+from mbla.results.listing.places import label_words
 
 WALL = labels_of(4, ["pier", "lintel", "pier", ""], {"course": np.array([0, 5, 2, 3])}, copy=-1)
 

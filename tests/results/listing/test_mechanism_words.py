@@ -6,8 +6,7 @@ from mbla.contacts.contacts import Contacts
 from mbla.results.collapse.collapse import collapse_of
 from mbla.results.collapse.failure import failure_of
 from mbla.results.listing.mechanism_words import mechanism_lines, mechanism_summary
-from mbla.results.listing.text import MOST_ROWS
-from mbla.results.listing.text import WIDTH
+from mbla.results.listing.text import MOST_ROWS, WIDTH
 from mbla.solution.solution import ContactMode, Mechanics
 from mbla.solution.verification.statics import contact_velocities
 from tests.results.synthetic import cuboids, horizontal_contacts, tower_contacts, tower_mechanics, tower_model

@@ -1,6 +1,6 @@
 from dataclasses import replace
 
-from mbla.results.listing.path_words import MOST_ROWS, path_lines
+from mbla.results.listing.solving import MOST_ROWS, path_lines
 from mbla.solution.solution import PathPoint
 from tests.results.synthetic import tower_model, tower_results
 

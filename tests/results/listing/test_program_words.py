@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 import mbla
-from mbla.results.listing.program_words import MOST_ROWS, PURPOSES, program_lines
+from mbla.results.listing.solving import MOST_PROGRAMS, PURPOSES, program_lines
 from mbla.results.listing.text import WIDTH
 from tests.results.synthetic import tower_results
 
@@ -106,7 +106,7 @@ def test_every_kind_of_program_is_said_in_words() -> None:
     assert {kind: file for kind, file in found.items() if not fnmatch.filter(PURPOSES, kind)} == {}
 
 
-@pytest.mark.parametrize("count", [0, 1, MOST_ROWS, MOST_ROWS + 1, 500])
+@pytest.mark.parametrize("count", [0, 1, MOST_PROGRAMS, MOST_PROGRAMS + 1, 500])
 def test_long_sequences_show_both_ends_and_say_what_is_left_out(count: int) -> None:
     program = FIRST.programs[1]
     programs = tuple(replace(program, program=i + 1) for i in range(count))
@@ -119,8 +119,8 @@ def test_long_sequences_show_both_ends_and_say_what_is_left_out(count: int) -> N
     numbers = [int(line.split()[0]) for line in lines[3:] if line.split()[0].isdigit()]
     assert numbers[0] == 1
     assert numbers[-1] == count
-    if count > MOST_ROWS:
-        assert len(numbers) == MOST_ROWS
-        assert any(f"{count - MOST_ROWS} more" in line for line in lines)
+    if count > MOST_PROGRAMS:
+        assert len(numbers) == MOST_PROGRAMS
+        assert any(f"{count - MOST_PROGRAMS} more" in line for line in lines)
     else:
         assert len(numbers) == count

@@ -1,6 +1,6 @@
 from mbla.deck.sections.analysis import ReductionSwitches
 from mbla.program.reductions import ProgramSize, ReductionStep, StepState
-from mbla.results.listing.reduction_words import FOUND, found_words, reduction_lines
+from mbla.results.listing.solving import FOUND, found_words, reduction_lines
 from tests.results.synthetic import STEP
 
 

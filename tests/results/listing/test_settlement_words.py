@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from mbla.results.listing.settlement_words import settlement_lines
+from mbla.results.listing.answers import settlement_lines
 from mbla.run import RunOptions, run
 
 ARCH = """mbla: 1

@@ -9,7 +9,7 @@ import pytest
 
 from mbla.deck.sections.analysis import AnalysisSection
 from mbla.results.listing.listing import listing
-from mbla.results.listing.solver_words import METHODS, solver_json, solver_lines, solver_words
+from mbla.results.listing.solving import METHODS, solver_json, solver_lines, solver_words
 from mbla.results.records.json_record import results_json
 from mbla.results.results import Results
 from mbla.solution.solution import ProgramRecord

@@ -10,7 +10,7 @@ import pytest
 from mbla.errors import Message
 from mbla.model.model import Settlement, Tilt
 from mbla.results.hdf5.result_file import read_results_hdf5, write_results_hdf5
-from mbla.results.listing.answer_words import answer_columns
+from mbla.results.listing.answers import answer_columns
 from mbla.results.listing.listing import listing
 from mbla.results.listing.summary import summary_lines
 from mbla.results.listing.text import WIDTH

@@ -1,0 +1,265 @@
+"""What a load factor is called and counted in: by the live load, a settlement, a tilt, a load that travels.
+
+reaction = reaction at rest − load factor × unit, so that the kinematic bound of the load factor is a lower bound of the
+reaction and the static one an upper bound.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from mbla.deck.suggestions import listed
+from mbla.model.model import LoadCase, Model, Settlement, TravelPosition
+from mbla.results.listing.text import counted, entry, heading, number, sentence, table, vector
+from mbla.results.outcome import associative_of, extent_of, result_of
+from mbla.results.records.numbers import number as json_number
+from mbla.results.results import CaseResult
+from mbla.results.series import Series, factor_of, position_of
+from mbla.results.tilt_angle import angle_at, angle_bounds
+from mbla.solution.solution import Mechanics, Status
+
+
+def reaction_of(case: CaseResult) -> float | None:
+    """Reaction at which the structure follows the support; None where that is no result, or no support gives way."""
+    mechanics, settlement = result_of(case), case.load_case.settlement
+    return None if mechanics is None or settlement is None else settlement.reaction(mechanics.load_factor)
+
+
+def reaction_words(model: Model, settlement: Settlement, load_factor: float) -> str:
+    """``a reaction of 5232 N``, or ``a reaction of 120 N m``."""
+    return f"a reaction of {reaction_figure(settlement, load_factor)} {reaction_unit(model, settlement)}"
+
+
+def reaction_figure(settlement: Settlement, load_factor: float) -> str:
+    """The reaction of a load factor in digits, without its unit."""
+    return _figure(settlement.reaction(load_factor), settlement)
+
+
+def reaction_json(case: CaseResult) -> dict[str, Any] | None:
+    """The reaction with its bounds (those of associative flow) and what the load factor is counted from and in."""
+    settlement = case.load_case.settlement
+    if settlement is None:
+        return None
+    value = reaction_of(case)
+    return {
+        "value": None if value is None else json_number(value),
+        "lower_bound": json_number(settlement.reaction(case.checks.kinematic_bound)),
+        "upper_bound": json_number(settlement.reaction(case.checks.static_bound)),
+        "at_rest": json_number(settlement.reference),
+        "unit": json_number(settlement.unit),
+        "kind": "moment" if settlement.turns else "force",
+    }
+
+
+def settlement_lines(model: Model, case: CaseResult) -> list[str]:
+    """The reaction, its bounds, and what it falls from, one to a line; nothing where no support gives way."""
+    settlement, checks = case.load_case.settlement, case.checks
+    if settlement is None:
+        return []
+    value, unit = reaction_of(case), reaction_unit(model, settlement)
+    lines = []
+    if value is not None:
+        share = _figure(value / settlement.unit, settlement, 1.0)
+        words = f"{_figure(value, settlement)} {unit}   ({share} of {_of(settlement)})"
+        lines += entry("reaction of the support", words)
+        if value < -NOTHING * settlement.unit:
+            pushed = "turned" if settlement.turns else "pushed"
+            lines += entry("", f"negative: the structure withstands; the support must be {pushed} the way it gives")
+    if np.isfinite(checks.kinematic_bound) and np.isfinite(checks.static_bound):
+        ends = (settlement.reaction(checks.kinematic_bound), settlement.reaction(checks.static_bound))
+        lines += entry("associative, its bounds", f"{' .. '.join(f'{end:.8g}' for end in ends)} {unit}")
+    lines += entry("one at rest", f"{number(settlement.reference)} {unit}   (many may be possible)")
+    return lines + entry("load factor counts", f"its loss, in {number(settlement.unit)} {unit}: {_of(settlement)}")
+
+
+NOTHING = 1e-9
+"""share of its unit below which a reaction is written as zero: rounding of the load factor"""
+
+
+def _figure(value: float, settlement: Settlement, unit: float | None = None) -> str:
+    """A reaction in digits, zero where it is one."""
+    return number(0.0 if abs(value) <= NOTHING * (unit or settlement.unit) else value)
+
+
+def _of(settlement: Settlement) -> str:
+    what = "the dead load of the free blocks"
+    return f"{what} times its mean distance from the axis" if settlement.turns else what
+
+
+def reaction_unit(model: Model, settlement: Settlement) -> str:
+    """``N``, or ``N m`` where the support turns."""
+    units = model.units
+    return f"{units.force} {units.length}" if settlement.turns else units.force
+
+
+# --- The answer of a case in digits for tables ----------------------------------------------------------------------
+
+
+def answer_head(model: Model, load_case: LoadCase) -> str:
+    """What the load factor of a case stands for: the head of its column."""
+    if load_case.settlement is not None:
+        return f"reaction [{reaction_unit(model, load_case.settlement)}]"
+    return "load factor" if load_case.tilt is None else "angle [degree]"
+
+
+def answer_figure(load_case: LoadCase, mechanics: Mechanics | None) -> str:
+    """The answer of forces and mechanism in six digits; ``-`` where there are none."""
+    if mechanics is None:
+        return "-"
+    if load_case.settlement is not None:
+        return reaction_figure(load_case.settlement, mechanics.load_factor)
+    if load_case.tilt is None:
+        return number(mechanics.load_factor)
+    return number(angle_at(load_case.tilt, mechanics.load_factor))
+
+
+def status_name(status: Status) -> str:
+    """A status in words: ``not verified``; files and decks have its key."""
+    return status.value.replace("_", " ")
+
+
+def status_words(status: Status) -> str:
+    """``solved``; everything else stands out, ``NOT VERIFIED``."""
+    return status_name(status) if status is Status.SOLVED else status_name(status).upper()
+
+
+def bound_figures(case: CaseResult) -> tuple[str, str]:
+    """What associative flow proves to be borne and not to be borne, as the answer of the case, eight digits."""
+    if case.load_case.tilt is not None:
+        lowest, highest = angle_bounds(case)
+        return _digits(lowest), _digits(highest)
+    return _of_factor(case.load_case, case.checks.static_bound), _of_factor(case.load_case, case.checks.kinematic_bound)
+
+
+def answer_columns(model: Model, cases: Sequence[CaseResult]) -> tuple[list[str], list[list[str]]]:
+    """Heads and, for each case, figures: of every kind of answer, the least and the greatest found, the associative.
+
+    Least and greatest are there where some case has several figures; a case with one has it in both.
+    """
+    answers = list(dict.fromkeys(answer_head(model, case.load_case) for case in cases))
+    several = any(extent_of(model, case) is not None for case in cases)
+    rows = []
+    for case in cases:
+        own = answer_figure(case.load_case, result_of(case))
+        figures = [own if head == answer_head(model, case.load_case) else "" for head in answers]
+        ends = extent_figures(model, case) if several else ()
+        rows.append([*figures, *ends, answer_figure(case.load_case, associative_of(case))])
+    return [*answers, *(LEAST_AND_GREATEST if several else ()), "associative"], rows
+
+
+LEAST_AND_GREATEST = ("least found", "greatest found")
+
+
+def extent_figures(model: Model, case: CaseResult) -> tuple[str, str]:
+    """The least and the greatest answer that were found, six digits; the answer twice where it is the only one."""
+    own, extent = result_of(case), extent_of(model, case)
+    if own is None or extent is None:
+        figure = answer_figure(case.load_case, own)
+        return figure, figure
+    figures = [answer_figure(case.load_case, replace(own, load_factor=end)) for end in in_order(case.load_case, extent)]
+    return figures[0], figures[1]
+
+
+def in_order(load_case: LoadCase, ends: tuple[float, float]) -> tuple[float, float]:
+    """Load factors of the least and the greatest answer: the greater the loss, the less the reaction."""
+    return ends if load_case.settlement is None else (ends[1], ends[0])
+
+
+def _of_factor(load_case: LoadCase, load_factor: float) -> str:
+    if math.isnan(load_factor):
+        return "-"
+    if load_case.settlement is not None:
+        return _digits(load_case.settlement.reaction(load_factor))
+    return _digits(load_factor if load_case.tilt is None else angle_at(load_case.tilt, load_factor))
+
+
+def _digits(value: float) -> str:
+    return "-" if math.isnan(value) else f"{value + 0.0:.8g}"
+
+
+# --- Travelling loads in words: where a vehicle stands, a row for each position, and the worst ----------------------
+
+
+MOST_NAMED = 5
+"""positions without a load factor that are named, and axles whose places are"""
+
+
+def series_lines(model: Model, series: Series) -> list[str]:
+    """The section of one travelling load in the listing."""
+    length = model.units.length
+    lines = heading(f"Travelling load {series.name}")
+    for words in (worst_words(model, series), spread_over_positions(series)):
+        lines += sentence(f"{words}.")
+    vehicle = _is_vehicle(series)
+    what = ("axle 1 at", "axles that act") if vehicle else ("at", "block")
+    head = ["load case", "status", f"along path [{length}]", f"{what[0]} [{length}]", what[1], "load factor"]
+    return [*lines, "", *table(head, [_row(model, series, case) for case in series.cases], left=2)]
+
+
+def worst_words(model: Model, series: Series) -> str:
+    """``worst at position 6 of 21, at (1.2, 0.5, 3) m: load factor 2.31``; of a vehicle, where its axles stand."""
+    among = "" if series.complete else f" among the {counted(len(series.cases), 'position')} solved"
+    if series.worst is None:
+        unknown = [case for case in series.cases if not factor_of(case) > 0]
+        if not unknown:
+            return f"{series.name}: no multiple of the load brings the structure down at any position{among}"
+        names = ", ".join(case.load_case.name for case in unknown[:MOST_NAMED])
+        names += " and others" if len(unknown) > MOST_NAMED else ""
+        return f"{series.name}: the worst position is not known, for there is no load factor at {names}"
+    position = position_of(series.worst)
+    where = f"position {position.number} of {position.count}, {standing_words(model, position)}"
+    return f"{series.name}: worst{among} at {where}: load factor {number(factor_of(series.worst))}"
+
+
+def standing_words(model: Model, position: TravelPosition) -> str:
+    """``at (1.2, 0.5, 3) m``; of a vehicle its first axle, the others by how far they are along the path."""
+    length, axles = model.units.length, len(position.points)
+    if axles == 1:
+        return f"at {vector(position.point)} {length}"
+    others = [f"{place:.4g}" for place in position.distances[1:MOST_NAMED].tolist()]
+    others += ["..."] if axles > MOST_NAMED else []
+    words = f"first axle at {vector(position.point)} {length}, {position.distance:.4g} {length} along the path"
+    words += f", the others at {', '.join(others)} {length}"
+    acting = (np.flatnonzero(position.acting) + 1).tolist()
+    if len(acting) == axles:
+        return words
+    which = f"axle {acting[0]} is" if len(acting) == 1 else f"axles {listed([str(axle) for axle in acting], 'and')} are"
+    return f"{words}; of {axles} only {which} on the path"
+
+
+def spread_over_positions(series: Series) -> str:
+    """At how many positions the load brings the structure down, and between which load factors."""
+    factors = np.array([factor_of(case) for case in series.cases])
+    finite, count = factors[np.isfinite(factors)], len(factors)
+    ends = f", at load factors from {number(finite.min())} to {number(finite.max())}" if len(finite) else ""
+    words = f"{series.name}: it brings the structure down at {len(finite)} of {counted(count, 'position')}{ends}"
+    for many, what in ((np.isinf(factors), "no multiple does"), (np.isnan(factors), "there is no load factor")):
+        words += f"; at {int(many.sum())} {what}" if many.any() else ""
+    return words
+
+
+def _is_vehicle(series: Series) -> bool:
+    return len(position_of(series.cases[0]).points) > 1
+
+
+def _acting(position: TravelPosition) -> str:
+    """Numbers of the axles that act, from 1: ``3, 4``."""
+    return ", ".join(str(axle + 1) for axle in np.flatnonzero(position.acting).tolist())
+
+
+def _row(model: Model, series: Series, case: CaseResult) -> list[str]:
+    position = position_of(case)
+    mark = "  (worst)" if case is series.worst else ""
+    return [
+        case.load_case.name + mark,
+        status_name(case.status),
+        number(position.distance),
+        vector(position.point),
+        _acting(position) if _is_vehicle(series) else model.blocks.name(int(position.blocks[0])),
+        "any multiple" if np.isinf(factor_of(case)) else number(factor_of(case)),
+    ]

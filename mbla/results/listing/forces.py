@@ -1,0 +1,222 @@
+"""Forces of a case in words: reactions and interfaces, how far they are determined, and the work that they do."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from mbla.arrays import FloatArray
+from mbla.contacts.contacts import Contacts
+from mbla.model.model import LoadCase, Model
+from mbla.results.collapse.force_freedom import Enough, ForceFreedom
+from mbla.results.collapse.interface_modes import sum_by_interface
+from mbla.results.collapse.mechanics import (
+    Work,
+    dissipated_by_joint,
+    group_reactions,
+    guide_reactions,
+    interface_resultants,
+    load_on_structure,
+    loads_by_group,
+    support_reactions,
+)
+from mbla.results.listing.text import MOST_ROWS, counted, number, sentence, table, vector
+from mbla.results.outcome import UNIQUE, result_of
+from mbla.results.results import CaseResult
+from mbla.solution.solution import Mechanics
+
+
+def reaction_lines(model: Model, contacts: Contacts, load_case: LoadCase, mechanics: Mechanics) -> list[str]:
+    """Forces of the supports on the structure, and how they balance the loads on the free blocks."""
+    reactions = (
+        *support_reactions(model, contacts, mechanics.contact_forces),
+        *guide_reactions(model, contacts, load_case, mechanics),
+    )
+    total = np.sum([reaction.wrench for reaction in reactions], axis=0) if reactions else np.zeros(6)
+    load = load_on_structure(model, load_case, mechanics.load_factor)
+    named = [(reaction.support, reaction.wrench) for reaction in reactions]
+    named += [("sum of reactions", total), ("loads on free blocks", load), ("out of balance", total + load)]
+    force, length = model.units.force, model.units.length
+    head = ["reaction on the structure", *(f"F{axis}" for axis in "xyz"), *(f"M{axis}" for axis in "xyz")]
+    return [
+        "",
+        *sentence(f"Reactions at collapse, forces in {force}, moments about the origin in {force} {length}:"),
+        *table(head, [[name, *_components(wrench, load)] for name, wrench in named]),
+    ]
+
+
+def group_reaction_lines(model: Model, contacts: Contacts, mechanics: Mechanics) -> list[str]:
+    """Forces of the supports by the group of the blocks that they carry; nothing where they carry one group alone."""
+    groups = group_reactions(model, contacts, mechanics.contact_forces)
+    if len(groups) < 2:
+        return []
+    largest = max(float(np.abs(reaction.wrench[:3]).max()) for reaction in groups)
+    size = np.full(6, largest or 1.0)
+    shown = sorted(groups, key=lambda reaction: -float(np.linalg.norm(reaction.wrench[:3])))[:MOST_ROWS]
+    head = ["supports carry", *(f"F{axis} [{model.units.force}]" for axis in "xyz")]
+    rows = [[reaction.support, *_components(reaction.wrench, size)[:3]] for reaction in shown]
+    return ["", *table(head, rows), *_more(len(groups), len(rows))]
+
+
+def _components(wrench: FloatArray, load: FloatArray) -> list[str]:
+    """Six numbers; what is below 1e-9 of the load is noise of the last digits."""
+    sizes = np.repeat([np.abs(load[:3]).max(), max(np.abs(load[3:]).max(), np.abs(load[:3]).max())], 3)
+    return [f"{0.0 if abs(v) < 1e-9 * s else v:.5g}" for v, s in zip(wrench, sizes, strict=True)]
+
+
+def lock_lines(model: Model, contacts: Contacts, lock: FloatArray) -> list[str]:
+    """Forces that balance the live load alone, the largest interfaces first."""
+    resultants = interface_resultants(contacts, lock)[:, :3]
+    normal = np.einsum("ij,ij->i", resultants, contacts.normals)
+    shear = np.linalg.norm(resultants - normal[:, None] * contacts.normals, axis=1)
+    sizes = np.linalg.norm(resultants, axis=1)
+    loaded = int(np.sum(sizes > 1e-6 * sizes.max(initial=0.0)))
+    order = np.argsort(-sizes, kind="stable")[: min(loaded, MOST_ROWS)]
+    rows = [[*_interface(model, contacts, int(i)), number(float(normal[i])), number(float(shear[i]))] for i in order]
+    force = model.units.force
+    says = (
+        f"Locked: these forces, within the strength of the joints, balance the live load alone, so that any multiple "
+        f"of it is carried; {counted(loaded, 'interface')} take part, the largest:"
+    )
+    head = ["interface", f"at [{model.units.length}]", f"normal [{force}]", f"shear [{force}]"]
+    return ["", *sentence(says), *table(head, rows, left=2), *_more(loaded, len(rows))]
+
+
+def force_range_lines(model: Model, contacts: Contacts, mechanics: Mechanics, ranges: FloatArray) -> list[str]:
+    """How far normal forces can range at the load factor, the widest ranges first."""
+    found = sum_by_interface(contacts, mechanics.contact_forces[:, 0])
+    widths = ranges[:, 1] - ranges[:, 0]
+    order = np.argsort(-widths, kind="stable")[:MOST_ROWS]
+    rows = [[*_interface(model, contacts, int(i)), *(_force(float(v)) for v in (*ranges[i], found[i]))] for i in order]
+    force = model.units.force
+    unique = int(np.sum(np.isfinite(widths) & (widths <= UNIQUE * np.abs(ranges).max(axis=1))))
+    says = f"Normal forces that are possible at this load factor; {unique} of {len(contacts)} are unique. The widest:"
+    head = ["interface", f"at [{model.units.length}]", f"least [{force}]", "greatest", "found"]
+    return ["", *sentence(says), *table(head, rows, left=2), *_more(len(contacts), len(rows))]
+
+
+def _force(value: float) -> str:
+    return "unlimited" if np.isinf(value) else number(value)
+
+
+def _interface(model: Model, contacts: Contacts, interface: int) -> list[str]:
+    a, b = contacts.bodies[interface].tolist()
+    size = float(np.abs(model.blocks.vertices).max(initial=0.0))
+    return [f"{model.body_name(a)}/{model.body_name(b)}", vector(contacts.centroids[interface], size)]
+
+
+def _more(total: int, shown: int) -> list[str]:
+    return sentence(f"and {total - shown} more; the result files hold them all") if total > shown else []
+
+
+# --- What of a structure counts for its load factor, and how unique its forces are, in words ------------------------
+
+
+def enough_lines(case: CaseResult, enough: Enough) -> list[str]:
+    """Which blocks can be left out; nothing where every free block moves or the case has no result."""
+    resting = len(enough.bearing) + len(enough.left_out)
+    if result_of(case) is None or not resting or not len(enough.moving):
+        return []
+    what = (
+        f"Enough for this result: the {counted(len(enough.moving), 'block')} that move and the "
+        f"{counted(len(enough.interfaces), 'interface')} on them."
+    ).replace("1 block that move ", "1 block that moves ")
+    out = len(enough.left_out)
+    if out == resting:
+        touches = "touches" if out == 1 else "touch"
+        fixed = f"Without the {counted(resting, 'free block')} at rest, which {touches} nothing that moves,"
+    else:
+        fixed = f"With the {counted(resting, 'free block')} at rest fixed"
+        touch = "touches" if out == 1 else "touch"
+        fixed += f", of which {out} {touch} nothing that moves and can be left out," if out else ","
+    if case.solution.flow_rule == "associative":
+        return sentence(f"{what} {fixed} the load factor is the same.")
+    return sentence(
+        f"{what} {fixed} forces and mechanism found here are a state of the smaller structure too, with the same load "
+        "factor; without normality it may have others."
+    )
+
+
+def freedom_lines(contacts: Contacts, case: CaseResult, freedom: ForceFreedom | None, why: str) -> list[str]:
+    """Whether the forces are unique, or ``why`` that is not known; the option that gives their ranges if not taken."""
+    if result_of(case) is None or not len(contacts):
+        return []
+    ranges = case.solution.force_ranges is None and case.solution.contact_model == "concave"
+    ask = " Their ranges are found with analysis.force_ranges: true." if ranges else ""
+    if freedom is None:
+        return sentence(f"How far the contact forces are unique was not determined, as {why}.{ask}")
+    whose = "" if case.solution.flow_rule == "associative" else " in this mechanism"
+    if freedom.degree == 0:
+        return sentence(f"The resultant of every interface is unique at this load factor{whose}.")
+    known = int(freedom.determined.sum())
+    return sentence(
+        f"The contact forces are not unique: at this load factor{whose} equilibrium lets them vary in up "
+        f"to {counted(freedom.degree, 'way')}, as far as the strength of the joints allows; the resultants of {known} "
+        f"of {counted(len(contacts), 'interface')} are the same in all.{ask}"
+    )
+
+
+# --- Where the power of a mechanism goes ----------------------------------------------------------------------------
+
+
+def work_lines(model: Model, contacts: Contacts, load_case: LoadCase, mechanics: Mechanics, work: Work) -> list[str]:
+    """Shares of the power that the loads put in; nothing where they put in none."""
+    if work.given <= 0:
+        return []
+    settles = load_case.settlement is not None  # whose dead load holds the reaction at rest
+    dead = "the reaction at rest less what the weights give" if settles else "the dead load"
+    sinks = (
+        (dead, -work.dead, work.dead <= 0),
+        ("the live load", -work.live, False),
+        ("friction", float(work.friction.sum()), True),
+        ("cohesion", float(work.cohesion.sum()), False),
+        ("the joints' normal forces", max(float(work.normal.sum()), 0.0), False),
+    )
+    shares = [
+        (name, power_share(power, work), always)
+        for name, power, always in sinks
+        if not (name in (dead, "the live load") and power < 0)
+    ]
+    into = ", ".join(f"{share} % into {name}" for name, share, always in shares if always or float(share) != 0.0)
+    into = into.replace(" % into", " % goes into", 1)
+    back = power_share(-float(work.normal.sum()), work)
+    back = f"; joints lift as they slide, and their normal forces give {back} % back" if float(back) > 0 else ""
+    lines = sentence(f"{_source(load_case, work)}{into}{back}.")
+    groups = [] if settles else _group_table(model, load_case, mechanics, work)
+    return lines + _joint_table(contacts, work) + groups
+
+
+def _source(load_case: LoadCase, work: Work) -> str:
+    """Where the power comes from."""
+    if load_case.settlement is not None and work.dead <= 0:
+        return "Of the power of the reaction that the support loses "
+    if work.dead <= 0:
+        return "Of the power of the live load "
+    if work.live <= 0:
+        return "The dead load drives the mechanism. Of its power "
+    live, dead = power_share(work.live, work), power_share(work.dead, work)
+    return f"The live load gives {live} % of the power, the dead load {dead} %. Of both "
+
+
+def power_share(power: float, work: Work) -> str:
+    """Percentage of the power that is put in, ``-`` where none is."""
+    return f"{round(100 * power / work.given, 1) + 0.0:.1f}" if work.given > 0 else "-"
+
+
+def _joint_table(contacts: Contacts, work: Work) -> list[str]:
+    joints = dissipated_by_joint(contacts, work)
+    if len(joints) < 2:
+        return []
+    rows = [[name, *(power_share(power, work) for power in powers)] for name, powers in joints.items()]
+    return table(["joint law", "friction [%]", "cohesion [%]", "normal forces [%]"], rows)
+
+
+def _group_table(model: Model, load_case: LoadCase, mechanics: Mechanics, work: Work) -> list[str]:
+    """Groups by the size of what they add, live or dead."""
+    groups = loads_by_group(model, load_case, mechanics)
+    ordered = sorted(groups.items(), key=lambda item: -max(abs(power) for power in item[1]))
+    shares = [[name, power_share(live, work), power_share(-dead, work)] for name, (live, dead) in ordered]
+    rows = [row for row in shares if float(row[1]) or float(row[2])]
+    if len(rows) < 2:
+        return []
+    more = sentence(f"and {counted(len(rows) - MOST_ROWS, 'more group')}") if len(rows) > MOST_ROWS else []
+    return table(["group", "live load [%]", "into its dead load [%]"], rows[:MOST_ROWS]) + more
