@@ -247,7 +247,7 @@ def reduced_program(deck: Deck, solids: Solids, program: Program) -> Reduced:
         return replace(whole, steps=(glued_step(solids, size_of([program])),))
     allowed = allowed_reductions(deck.analysis)
     reduced = reduce_program(solids.model, solids.contacts, program, allowed, associative=associative)
-    steps = told_apart(reduced.steps, deck.analysis.reductions.model_dump())
+    steps = told_apart(reduced.steps, switched_on=deck.analysis.reductions)
     return replace(reduced, steps=(glued_step(solids, steps[0].before), *steps))
 
 

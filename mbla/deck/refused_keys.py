@@ -19,8 +19,17 @@ REPLACED: Mapping[KeyPath, str] = {
 }
 """Keys of earlier versions: path of the key -> the key that says the same now"""
 
-GONE = (("analysis", "reductions", "merged"), ("analysis", "reductions", "repeated"))
-"""Keys of earlier versions that nothing replaces: decks give the same without them"""
+GONE: Mapping[KeyPath, str] = {
+    ("analysis", "second_opinion"): "the proved bounds say how good the load factor is",
+    ("analysis", "form"): "the associative program is solved in velocities",
+    ("analysis", "forces"): "contact forces of associative flow are those that prove its load factor from below",
+}
+"""Keys of earlier versions that nothing replaces -> what holds without them"""
+
+WAS_A_MAPPING: Mapping[KeyPath, str] = {
+    ("analysis", "reductions"): "is one switch now: write false in place of the mapping to leave nothing out",
+}
+"""Keys that were mappings in earlier versions -> what to write now"""
 
 
 def refusal(path: KeyPath) -> Message | None:
@@ -28,6 +37,6 @@ def refusal(path: KeyPath) -> Message | None:
     if path in REPLACED:
         return Message("replaced-key", f"is not a key any more: write {REPLACED[path]}")
     if path in GONE:
-        return Message("replaced-key", "is not a key any more: leave it out, nothing else changes")
+        return Message("replaced-key", f"is not a key any more: leave it out, {GONE[path]}")
     why = FOREIGN.get((str(path[0]), str(path[-1]))) if len(path) > 1 else None
     return None if why is None else Message("key-of-another-program", why)

@@ -61,10 +61,6 @@ APPLIES: Mapping[str, tuple[Applies, str]] = {
         lambda analysis: _concave(analysis) and analysis.flow_rule != "associative",
         "contact_model: concave and another flow_rule than associative",
     ),
-    "forces": (
-        lambda analysis: _concave(analysis) and analysis.flow_rule == "associative",
-        "flow_rule: associative with contact_model: concave",
-    ),
     "reductions": (_concave, "contact_model: concave"),
 }
 """Key of the analysis section -> whether it has an effect, and with what it has."""

@@ -10,7 +10,7 @@ from pydantic import BaseModel, ValidationError
 from mbla.deck.content import DeckContent
 from mbla.deck.fields import allowed_keys, description, sections_at
 from mbla.deck.names import PATTERNS
-from mbla.deck.refused_keys import refusal
+from mbla.deck.refused_keys import WAS_A_MAPPING, refusal
 from mbla.deck.section import KINDS, MOST_WRONG, WRONG, TooManyWrongError, WrongValues, built
 from mbla.deck.suggestions import did_you_mean, listed, unknown
 from mbla.deck.tree import KeyPath, MappingMarks, SequenceMarks, Tree, own_mark
@@ -178,6 +178,8 @@ def _words(root: type[BaseModel], data: Any, path: KeyPath, error: Any) -> tuple
         ), True
     if kind in ("too_long", "too_short"):
         return Message("wrong-length", _length(context, _items(data, path))), False
+    if root is DeckContent and isinstance(value, dict) and path in WAS_A_MAPPING:
+        return Message("replaced-key", WAS_A_MAPPING[path]), False
     if kind in _TYPES:
         return _TYPES[kind].around(after=_remedy(kind, value)), is_key
     if kind == "literal_error":

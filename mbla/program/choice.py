@@ -29,14 +29,13 @@ def has_conditions_on_interfaces(analysis: AnalysisSection, model: Model, contac
 
 
 def takes_stress_blocks(analysis: AnalysisSection) -> bool:
-    """Whether flow rule, scheme, form and solver of an analysis go with conditions on interfaces."""
+    """Whether flow rule, scheme and solver of an analysis go with conditions on interfaces."""
     schemes = ("auto", "proximal")
     by_flow = analysis.flow_rule == "associative" or (
         analysis.flow_rule == "non_associative" and analysis.scheme in schemes
     )
     by_solver = analysis.friction_cone == "circular" and analysis.solver in ("auto", "clarabel")
-    plain = analysis.form == "kinematic" and not analysis.second_opinion and not analysis.force_ranges
-    return by_flow and by_solver and plain
+    return by_flow and by_solver and not analysis.force_ranges
 
 
 STRAIGHT = 1e-9

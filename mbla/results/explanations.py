@@ -19,7 +19,6 @@ from mbla.model.solids.build import PLANAR
 from mbla.results.collapse.interface_modes import TOGETHER
 from mbla.results.listing.text import WIDTH, heading, sentence
 from mbla.results.outcome import CLEAN_RESIDUAL, UNIQUE
-from mbla.solution.associative.polyhedral import AGREE, AGREE_SHORT
 from mbla.solution.part import SUSPECT
 from mbla.solution.thresholds import (
     APPROXIMATE_RESIDUAL,
@@ -39,8 +38,6 @@ FIGURES = {
     "still": f"{TOGETHER:g}",
     "clean_residual": f"{CLEAN_RESIDUAL:g}",
     "unique": f"{UNIQUE:g}",
-    "agree": f"{AGREE:g}",
-    "agree_stopped": f"{AGREE_SHORT:g}",
     "peak_suspected_below": f"{SUSPECT:g}",
     "approximate_residual": f"{APPROXIMATE_RESIDUAL:g}",
     "gap_tolerance": f"{GAP_TOLERANCE:g}",

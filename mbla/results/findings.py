@@ -40,8 +40,6 @@ BROKEN = {
 
 REMARKS_THAT_WARN = frozenset(
     {
-        "second-opinion-differs",
-        "second-opinion-missing",
         "livesley-overstates",
         "livesley-polyhedral",
         "proximal-for-published",

@@ -20,7 +20,7 @@ def settings_in_words(deck: Deck, settings: SolverSettings) -> dict[str, str]:
         "contact_model": analysis.contact_model,
         "friction_cone": "circular" if analysis.friction_cone == "circular" else f"polyhedral, {analysis.sides} sides",
         "accuracy": analysis.accuracy,
-        "solver": f"{analysis.solver}, {analysis.form} form",
+        "solver": analysis.solver,
         "tolerance": f"{settings.tolerance:g}",
         **_knobs_in_words(analysis, settings),
         "max_iterations": str(settings.max_iterations),
@@ -32,9 +32,8 @@ def settings_in_words(deck: Deck, settings: SolverSettings) -> dict[str, str]:
         parameters = getattr(analysis, analysis.scheme, None)  # none for auto
         if parameters is not None:
             words |= {f"scheme_{name}": f"{value:g}" for name, value in parameters.model_dump().items()}
-    off = [name for name, on in analysis.reductions.model_dump().items() if not on]
-    if off:
-        words["reductions_off"] = ", ".join(off)
+    if not analysis.reductions:
+        words["reductions"] = _on(analysis.reductions)
     if analysis.time_limit is not None:
         words["time_limit"] = f"{analysis.time_limit:g} s"
     return words
@@ -42,15 +41,13 @@ def settings_in_words(deck: Deck, settings: SolverSettings) -> dict[str, str]:
 
 def _knobs_in_words(analysis: AnalysisSection, settings: SolverSettings) -> dict[str, str]:
     """What accuracy sets, and the deck may set by itself, where it has an effect."""
-    knobs, associative = knobs_of(analysis), analysis.flow_rule == "associative"
+    knobs = knobs_of(analysis)
     words = {}
     if analysis.contact_model == "concave" and analysis.friction_cone == "circular":
         words["gap"] = f"{settings.gap:g}"
     if analysis.flow_rule in ("non_associative", "dilatancy") and analysis.scheme != "published":
         words["residual"] = f"{settings.residual:g}"
-    if analysis.contact_model == "concave" and associative:
-        words["forces"] = knobs.forces
-    elif analysis.contact_model == "concave":
+    if analysis.contact_model == "concave" and analysis.flow_rule != "associative":
         words["range"] = _on(knobs.range)
         if analysis.flow_rule == "non_associative":
             words["peak"] = _on(knobs.peak)

@@ -1,4 +1,4 @@
-"""What is found beside the load factor of a part: standing, range, least forces.
+"""What is found beside the load factor of a part: standing and range.
 
 Each answers another question about one state, and none changes the load factor.
 """
@@ -10,12 +10,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from mbla.arrays import FloatArray
 from mbla.deck.sections.accuracy import knobs_of
 from mbla.deck.sections.analysis import AnalysisSection
 from mbla.errors import Message
 from mbla.program.program import Program
-from mbla.solution.associative.unique_forces import least_forces, point_weights
 from mbla.solution.cone_solvers.cone_solution import Log
 from mbla.solution.mechanics import forces_of
 from mbla.solution.nonassociative.factor_range import factor_range
@@ -36,13 +34,9 @@ BROKE_DOWN = Message(
 
 @dataclass(frozen=True)
 class Questions:
-    """What is asked, and what every answer needs.
-
-    point_areas : (n_points of the whole model,)
-    """
+    """What is asked, and what every answer needs."""
 
     analysis: AnalysisSection
-    point_areas: FloatArray
     settings: SolverSettings
     log: Log
 
@@ -51,8 +45,6 @@ def with_answers(result: PartResult, questions: Questions) -> PartResult:
     """The part with everything that the analysis asks for beside its load factor."""
     analysis, settings, log = questions.analysis, questions.settings, questions.log
     knobs = knobs_of(analysis)
-    if analysis.flow_rule == "associative":
-        result = _with_least_forces(result, questions)
     if knobs.range:
         result = _unless_it_breaks_down(result, lambda found: _with_range(found, analysis, settings, log))
     return _with_standing(result, settings) if knobs.standing else result
@@ -64,17 +56,6 @@ def _unless_it_breaks_down(result: PartResult, answered: Callable[[PartResult], 
         return answered(result)
     except np.linalg.LinAlgError as error:
         return result.with_remark(BROKE_DOWN.format(str(error).lower()), ())
-
-
-def _with_least_forces(result: PartResult, questions: Questions) -> PartResult:
-    """Associative flow: the one state that does not depend on how it was found; bounds stay those of the solver's."""
-    state = result.associative.state
-    if knobs_of(questions.analysis).forces != "least_squares" or state is None or result.outer is not None:
-        return result
-    weights = point_weights(result.program, questions.point_areas)
-    first = len(result.programs) + 1
-    least = least_forces(result.program, state, weights, questions.settings, questions.log, first=first)
-    return replace(result.with_remark(least.remark, least.programs), least=least.state)
 
 
 def _with_range(result: PartResult, analysis: AnalysisSection, settings: SolverSettings, log: Log) -> PartResult:

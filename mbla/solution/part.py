@@ -10,9 +10,8 @@ from mbla.deck.sections.accuracy import knobs_of
 from mbla.deck.sections.analysis import AnalysisSection
 from mbla.errors import Message
 from mbla.program.program import Program
-from mbla.solution.associative.associative_form import FORMS
 from mbla.solution.associative.certificate import cleaned_certificate
-from mbla.solution.associative.polyhedral import solve_polyhedral, solve_with_opinion
+from mbla.solution.associative.polyhedral import solve_polyhedral
 from mbla.solution.associative.solve_associative import AssociativeResult, solve_associative
 from mbla.solution.cone_solvers.cone_solution import Log
 from mbla.solution.nonassociative.boundedness import Boundedness, non_associative_bounded
@@ -64,7 +63,6 @@ class PartResult:
     range       : of the load factor without normality, for the mechanism found
     outer       : with the circumscribed friction polyhedron, ``associative`` having the inscribed one
     remarks     : on the figure, besides those of the sequence
-    least       : the associative state with the least forces
     peak        : last state of the load path that stands, where that lies above the load factor
     more        : programs solved for what is found beside the load factor
     """
@@ -77,7 +75,6 @@ class PartResult:
     range: FactorRange | None = None
     outer: AssociativeResult | None = None
     remarks: tuple[Message, ...] = ()
-    least: LawState | None = None
     peak: LawState | None = None
     more: tuple[ProgramRecord, ...] = ()
 
@@ -213,17 +210,13 @@ def _by_law(
 
 
 def _associative(program: Program, analysis: AnalysisSection, settings: SolverSettings, log: Log) -> PartResult:
-    """The associative answer in the form asked for, with a second opinion where that was asked for."""
-    if analysis.friction_cone == "polyhedral":
-        both = solve_polyhedral(program, analysis.sides, analysis.form, settings, log)
+    """The associative answer, by polyhedra where they approximate the friction cone: in space."""
+    if analysis.friction_cone == "polyhedral" and program.components == 3:
+        both = solve_polyhedral(program, analysis.sides, settings, log)
         inner = replace(both.inner, programs=both.programs)
-        outer = None if program.components == 2 else both.outer
-        return PartResult(program, inner, None, loaded=True, outer=outer, remarks=both.remarks)
-    if analysis.second_opinion:
-        answer, remark = solve_with_opinion(program, None, analysis.form, "", settings, log)
-        return PartResult(program, answer, None, loaded=True, remarks=(remark,) if remark else ())
-    form, wanted = FORMS[analysis.form](program, None), knobs_of(analysis).standing
-    answer = solve_associative(program, settings, log, form=form, stress_free=wanted)
+        remarks = (both.bracket,) if both.bracket else ()
+        return PartResult(program, inner, None, loaded=True, outer=both.outer, remarks=remarks)
+    answer = solve_associative(program, settings, log, stress_free=knobs_of(analysis).standing)
     return PartResult(program, answer, None, loaded=True)
 
 

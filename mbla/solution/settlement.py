@@ -13,11 +13,11 @@ import numpy as np
 
 from mbla.contacts.contacts import Contacts
 from mbla.contacts.glue import solids_of
-from mbla.deck.sections.analysis import ReductionSwitches
 from mbla.model.model import LoadCase, Model
 from mbla.model.settlement import with_reference
 from mbla.program.assemble import assemble
 from mbla.program.reductions import reduce_program
+from mbla.program.reductions.steps import ReductionSwitches
 from mbla.solution.associative.force_repair import repaired_forces
 from mbla.solution.cone_solvers.cone_solution import Log
 from mbla.solution.mechanics import forces_of

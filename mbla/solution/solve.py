@@ -89,7 +89,7 @@ def solve(reduced: Reduced, analysis: AnalysisSection, settings: SolverSettings,
             log(iteration)
 
     stage = _Stage(reduced.parts, reduced.interface_of_point, settings, record)
-    questions = Questions(analysis, reduced.point_areas, settings, record)
+    questions = Questions(analysis, settings, record)
     results = [_result_of(program, questions) for program in reduced.parts]
     solution = _combined(stage, analysis, results)
     assessed = [result.standing for result in results if result.standing is not None]
@@ -167,16 +167,11 @@ def _with_load_factor(
         associative=stage.mechanics(first_associative, solved[first_associative], "associative", solved),
         outer=_outer(stage, results),
     )
-    state = result.state if result.least is None else result.least
-    if analysis.force_ranges and state is not None:
-        ranges, words = _force_ranges(stage, first, state)
+    if analysis.force_ranges and result.state is not None:
+        ranges, words = _force_ranges(stage, first, result.state)
         solution, remarks = replace(solution, force_ranges=ranges), [*remarks, *words]
     if result.sequence is None:
-        least = [each.least or each.associative.state for each in results]
-        mechanics = solution.associative
-        if result.least is not None:
-            mechanics = stage.mechanics(first, state, "associative", least)
-        return replace(solution, mechanics=mechanics, remarks=tuple(remarks))
+        return replace(solution, mechanics=solution.associative, remarks=tuple(remarks))
     sequence, ends, rule = result.sequence, result.range, analysis.flow_rule
     words = [ends.reason] if ends is not None and ends.reason is not None else []
     return replace(

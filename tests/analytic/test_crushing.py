@@ -37,7 +37,7 @@ load_cases:
 analysis: {{flow_rule: associative}}
 """
 )
-AT_POINTS = "analysis.form=static"
+AT_POINTS = "analysis.solver=mbla"
 """The static form has no conditions on interfaces."""
 WEIGHT = 2000 * 9.81 / 1e6
 """Of the pier, centred, in units of f_c A, like the eccentric force."""

@@ -202,7 +202,7 @@ def test_published_walls_depend_on_none_of_it(name: str) -> None:
         assert spatial == pytest.approx(here, rel=SAME)
 
 
-SPATIAL = "analysis.reductions={planar: false, mirror: false, points: false}"
+SPATIAL = "analysis.reductions=false"
 
 
 @every_structure

@@ -48,7 +48,7 @@ LIVE = "[{acceleration: [1, 0, 0]}]"
         ("supports:\n  - {ground: {z: 0}}\n", ""),
         ("{ground: {z: 0}}", "{ground: {z: 0}, blocks: block, joint: dry}"),
         (LIVE, LIVE + "\nanalysis: {flow_rule: associative, friction_cone: polyhedral, solver: highs}"),
-        (LIVE, LIVE + "\nanalysis: {flow_rule: livesley, solver: highs, second_opinion: true}"),
+        (LIVE, LIVE + "\nanalysis: {flow_rule: livesley, solver: highs}"),
     ],
 )
 def test_accepted(tmp_path: Path, old: str, new: str) -> None:

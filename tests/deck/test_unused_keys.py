@@ -31,8 +31,7 @@ def idle(*overrides: str) -> list[str]:
         ("analysis.residual=1e-5", "scheme=published", "scheme=interior"),
         ("analysis.peak=false", "flow_rule=dilatancy", "flow_rule=non_associative"),
         ("analysis.range=false", "flow_rule=associative", "flow_rule=livesley"),
-        ("analysis.forces=solver", "flow_rule=non_associative", "flow_rule=associative"),
-        ("analysis.reductions.planar=false", "contact_model=convex", "contact_model=concave"),
+        ("analysis.reductions=false", "contact_model=convex", "contact_model=concave"),
         ("joints.dry.dilatancy=5", "flow_rule=non_associative", "flow_rule=dilatancy"),
     ],
 )

@@ -5,10 +5,10 @@ from __future__ import annotations
 from pathlib import Path
 
 from mbla.contacts.glue import held_model, solids_of
-from mbla.deck.sections.analysis import ReductionSwitches
 from mbla.model import build_model
 from mbla.program import assemble
 from mbla.program.reductions import reduce_program
+from mbla.program.reductions.steps import ReductionSwitches
 from mbla.run import contacts_of, with_settlements
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Standing

@@ -12,7 +12,6 @@ CHOICES = {
     "solver mbla": ("analysis.solver=mbla",),
     "solver clarabel": ("analysis.solver=clarabel",),
     "solver highs": ("analysis.solver=highs", "analysis.friction_cone=polyhedral"),
-    "static form": ("analysis.form=static",),
     "convex contact model": ("analysis.contact_model=convex",),
 }
 

@@ -20,7 +20,7 @@ PUSH = "load_cases: {push: {live: [{acceleration: [1, 0, 0]}]}}\n"
 OUTLINES = "outlines-simplified"
 
 
-SPATIAL = ("analysis.reductions.planar=false", "analysis.reductions.mirror=false")
+SPATIAL = ("analysis.reductions=false",)
 
 
 ON_MANY = (

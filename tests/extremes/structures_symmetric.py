@@ -51,9 +51,9 @@ def _arches() -> list[Scene]:
         asked = ruled(rule)
         for (n, t), factor in CROWNS.items():
             size = (f"parameters.n={n}", f"parameters.t={t}", asked)
-            for mirror in ("true", "false"):
-                name = f"{n} voussoirs pressed at the crown, mirror {mirror}, {rule}"
-                overrides = (*size, f"analysis.reductions.mirror={mirror}")
+            for reductions in ("true", "false"):
+                name = f"{n} voussoirs pressed at the crown, reductions {reductions}, {rule}"
+                overrides = (*size, f"analysis.reductions={reductions}")
                 scenes.append(Scene(name, family, CROWN, overrides, factor, long=n > 21))
         for (n, t), factor in PUSHES.items():
             size = (f"parameters.n={n}", f"parameters.t={t}", asked)

@@ -42,8 +42,6 @@ ASSOCIATIVE = (
     "gap=1e-3",
     "forces=solver",
     "standing=false",
-    "second_opinion=true",
-    "form=static",
     "friction_cone=polyhedral",
     "contact_model=convex",
 )

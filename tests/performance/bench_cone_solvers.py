@@ -28,10 +28,10 @@ from pathlib import Path
 import numpy as np
 
 from mbla.arrays import FloatArray
-from mbla.deck.sections.analysis import ReductionSwitches
 from mbla.program.kinematic import KinematicForm, kinematic_form
 from mbla.program.program import Program
 from mbla.program.reductions import reduce_program, unreduced
+from mbla.program.reductions.steps import ReductionSwitches
 from mbla.solution.associative.bounds import certified_gap
 from mbla.solution.cone_solvers.clarabel_adapter import ClarabelProgram
 from mbla.solution.cone_solvers.cone_solution import ConeSolution

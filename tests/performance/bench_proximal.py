@@ -20,9 +20,10 @@ import time
 from collections import Counter
 from dataclasses import dataclass, replace
 
-from mbla.deck.sections.analysis import AnalysisSection, ReductionSwitches
+from mbla.deck.sections.analysis import AnalysisSection
 from mbla.program.program import Program
 from mbla.program.reductions import reduce_program, unreduced
+from mbla.program.reductions.steps import ReductionSwitches
 from mbla.program.static import proximal_data, proximal_form
 from mbla.solution.cone_solvers.clarabel_adapter import ClarabelProgram
 from mbla.solution.cone_solvers.interior_point.program import CondensedProgram

@@ -24,10 +24,10 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from mbla.contacts.glue import held_model, solids_of
-from mbla.deck import Deck, read_deck
+from mbla.deck import read_deck
 from mbla.model import build_model
 from mbla.program import assemble
-from mbla.program.reductions import StepState
+from mbla.program.reductions import StepState, allowed_reductions, reduce_program
 from mbla.run import contacts_of, reduced_program
 from mbla.solution import Solution, solve, verified_status, verify
 from mbla.solution.glued import solution_on_blocks
@@ -114,23 +114,20 @@ class Measured:
 
     def run(self, without: str | None = None) -> Run:
         """The solver stage with all reductions, or without one; verified on the whole model."""
-        deck = self.deck if without is None else _without(self.deck, without)
+        analysis = self.deck.analysis
         solids = solids_of(self.model, self.contacts)
         program = assemble(solids.model, solids.contacts, solids.load_case(self.load_case))
         started = time.process_time()
-        reduced = reduced_program(deck, solids, program)
-        solution = solve(reduced, deck.analysis, solver_settings(deck.analysis))
+        reduced = reduced_program(self.deck, solids, program)
+        if without is not None:
+            allowed = replace(allowed_reductions(analysis), **{without: False})
+            associative = analysis.flow_rule == "associative"
+            reduced = reduce_program(solids.model, solids.contacts, program, allowed, associative=associative)
+        solution = solve(reduced, analysis, solver_settings(analysis))
         seconds = time.process_time() - started
         solution = solution_on_blocks(solution, solids)
         checks = verify(self.model, self.contacts, self.load_case, solution)
         return Run(solution, str(verified_status(solution, checks)), seconds)
-
-
-def _without(deck: Deck, name: str) -> Deck:
-    analysis = deck.analysis
-    switches = analysis.reductions.model_copy(update={name: False})
-    content = deck.content.model_copy(update={"analysis": analysis.model_copy(update={"reductions": switches})})
-    return replace(deck, content=content)
 
 
 def measure(structure: Structure, flow_rule: str) -> None:

@@ -17,8 +17,8 @@ import time
 from dataclasses import dataclass
 from pathlib import Path
 
-from mbla.deck.sections.analysis import ReductionSwitches
 from mbla.program.reductions import reduce_program, unreduced
+from mbla.program.reductions.steps import ReductionSwitches
 from mbla.solution.associative.solve_associative import solve_associative
 from mbla.solution.part import solve_part
 from mbla.solution.settings import solver_settings

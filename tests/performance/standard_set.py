@@ -12,7 +12,7 @@ from pathlib import Path
 DECKS = Path(__file__).parents[2] / "decks"
 WALLS = (5, 10, 20, 40, 60)
 ARCHES = (20, 50, 100, 200, 500)
-SPATIAL = ("analysis.reductions.planar=false", "analysis.reductions.mirror=false")
+SPATIAL = ("analysis.reductions=false",)
 FLOW_RULES = ("associative", "non_associative")
 
 

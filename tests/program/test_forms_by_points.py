@@ -13,9 +13,10 @@ from mbla.program.kinematic import friction_polygon, kinematic_form
 from mbla.program.program import Program
 from mbla.program.resultants.assemble import assemble_convex, convex_form
 from mbla.program.resultants.static import convex_proximal_form
-from mbla.program.static import LEAST_LIMIT, associative_static_form, gravity_form, proximal_data, proximal_form
+from mbla.program.static import LEAST_LIMIT, gravity_form, proximal_data, proximal_form
 from mbla.program.yield_conditions import YieldLimits, yield_violation
 from tests.line import BLOCK, WALL, line_of
+from tests.program.associative_static import associative_static_form
 from tests.program.random_points import balance, least_room, mixed_program, random_forces, slack
 
 BOTH = pytest.mark.parametrize("components", [2, 3])

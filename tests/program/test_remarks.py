@@ -12,7 +12,7 @@ from mbla.run import RunOptions, run
 from tests.contacts.structures import blocks_of, boxes, model_of, section
 from tests.line import BLOCK, line_of
 
-CRUSHES = ("joints.dry.compressive_strength=1e6", "analysis.form=static")
+CRUSHES = ("joints.dry.compressive_strength=1e6", "analysis.solver=mbla")
 """At points: the static form takes no others."""
 
 
@@ -63,7 +63,7 @@ contacts: {joint: mortar, points: {per_edge: PARTS}}
 supports: [{ground: {z: 0}}]
 load_cases:
   top: {live: [{force: [1000, 0, 0], on: pier, at: [150, 100, 1000]}]}
-analysis: {flow_rule: associative, form: static}
+analysis: {flow_rule: associative, solver: mbla}
 """
 
 
@@ -92,8 +92,8 @@ def test_what_crushes_as_stress_blocks_do_is_not_warned_of() -> None:
         (("analysis.contact_model=convex",), False),
         (("analysis={flow_rule: non_associative, scheme: interior}",), True),
         (("analysis.solver=highs", "analysis.friction_cone=polyhedral"), True),
-        (("analysis.form=static",), True),
-        (("analysis.second_opinion=true",), True),
+        (("analysis.solver=mbla",), True),
+        (("analysis.force_ranges=true",), True),
     ):
         line = line_of(BLOCK, "joints.dry.compressive_strength=1e6", *ways)
         assert bool(program_notices(line.model, line.contacts, line.deck.analysis)) == told, ways
@@ -101,7 +101,7 @@ def test_what_crushes_as_stress_blocks_do_is_not_warned_of() -> None:
 
 def test_without_interfaces_there_is_nothing_to_say() -> None:
     model = model_of(blocks_of(boxes(([0, 0, 0], [1, 1, 1]), ([5, 0, 0], [6, 1, 1]))))
-    assert program_notices(model, find_contacts(model, section()), AnalysisSection(form="static")) == ()
+    assert program_notices(model, find_contacts(model, section()), AnalysisSection(solver="mbla")) == ()
 
 
 @pytest.mark.parametrize(

@@ -158,14 +158,7 @@ def heavier(scene: Scene, _: Solved) -> Scene:
 
 def unreduced(scene: Scene, _: Solved) -> Scene:
     """Nothing left out before the solver."""
-    switches = scene.deck.analysis.reductions
-    off = switches.model_copy(update=dict.fromkeys(type(switches).model_fields, False))
-    return with_analysis(scene, reductions=off)
-
-
-def static_form(scene: Scene, solved: Solved) -> Scene | None:
-    """Forces for unknowns; not where interfaces have conditions of their own, which are in velocities alone."""
-    return None if solved.conditions else with_analysis(scene, form="static")
+    return with_analysis(scene, reductions=False)
 
 
 def other_solver(scene: Scene, solved: Solved) -> Scene | None:

@@ -38,7 +38,6 @@ from tests.properties.restatements import (
     renumber,
     reverse_interfaces,
     rotate,
-    static_form,
     translate,
     turn_of,
     unreduced,
@@ -89,7 +88,6 @@ TABLE = (
     Transformation("add a part far away", E_, "what nothing loads does not move", far_part, any_flow=True),
     Transformation("add a part that stays at rest", E_, "the weakest part decides", part_at_rest),
     Transformation("without reductions", E_, "reductions are exact", unreduced),
-    Transformation("static form", E_, "strong duality", static_form),
     Transformation("another cone solver", E_, "the optimum is one", other_solver),
     Transformation("friction times 1.2", R_, "a wider cone", with_joints(lambda j, _: {"friction": 1.2 * j.friction})),
     Transformation(

@@ -18,8 +18,8 @@ import time
 from collections.abc import Callable, Sequence
 from functools import partial
 
-from mbla.deck.sections.analysis import ReductionSwitches
 from mbla.program.reductions import reduce_program
+from mbla.program.reductions.steps import ReductionSwitches
 from mbla.solution.associative.solve_associative import solve_associative
 from mbla.solution.nonassociative.law_state import SequenceResult
 from mbla.solution.nonassociative.proximal import solve_proximal

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from mbla.deck.sections.analysis import ReductionSwitches
 from mbla.program.program import Program
 from mbla.program.reductions import reduce_program
+from mbla.program.reductions.steps import ReductionSwitches
 from tests.line import Line
 
 

@@ -5,18 +5,15 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
 import pytest
 
 from mbla.results.exit_status import exit_code
 from mbla.results.listing.verdict_words import load_factor_words, uniqueness_words
 from mbla.results.results import CaseResult
-from mbla.solution.associative import polyhedral
-from mbla.solution.associative.polyhedral import SecondOpinion, second_opinion
 from mbla.solution.solution import Status
 from mbla.solution.verification.verify_points import meets_what_was_asked
-from tests.line import BLOCK, WALL, case_of
+from tests.line import WALL, case_of
 
 BENCHMARKS = Path(__file__).parents[2] / "decks" / "benchmarks"
 ARCH = (Path(__file__).parents[2] / "decks" / "tradeoff" / "arch.yaml").read_text(encoding="utf-8")
@@ -52,7 +49,6 @@ def test_a_draft_leaves_out_what_does_not_change_the_load_factor() -> None:
     draft, standard = (case(WALL, f"analysis.accuracy={name}") for name in ("draft", "standard"))
     assert draft.solution.standing is None
     assert standard.solution.standing is not None
-    assert len(draft.solution.programs) < len(standard.solution.programs)
 
 
 def test_range_and_peak_go_each_by_itself() -> None:
@@ -62,12 +58,6 @@ def test_range_and_peak_go_each_by_itself() -> None:
     assert standard.solution.lower is not None
     assert without.solution.lower is None
     assert given.solution.lower is not None
-
-
-def test_forces_go_by_the_knob() -> None:
-    least, left = (case(WALL, f"analysis.forces={name}") for name in ("least_squares", "solver"))
-    kinds = [[program.kind for program in each.solution.programs] for each in (least, left)]
-    assert len(kinds[0]) > len(kinds[1])
 
 
 def test_the_gap_asked_for_decides_what_is_solved_again() -> None:
@@ -132,18 +122,6 @@ def test_a_state_without_normality_is_judged_by_its_residuals_not_by_associative
     assert f"the kinematic bound of the associative factor, {limit}, is an upper limit" in uniqueness_words(
         model, result
     )
-
-
-def test_what_another_solver_leaves_open_is_not_solved_whatever_the_residuals(monkeypatch: pytest.MonkeyPatch) -> None:
-    def silent(*arguments: Any) -> SecondOpinion:
-        opinion = second_opinion(*arguments)
-        return replace(opinion, agrees=None, remark="clarabel came to no answer (none)")
-
-    monkeypatch.setattr(polyhedral, "second_opinion", silent)
-    result = case(BLOCK, "analysis.second_opinion=true", WITHOUT)
-    assert result.status is Status.APPROXIMATE
-    assert result.solution.reason == "clarabel came to no answer (none)"
-    assert result.solution.asked is None
 
 
 def test_a_draft_that_comes_to_rest_is_solved() -> None:

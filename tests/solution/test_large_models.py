@@ -2,18 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import replace
 from typing import Any
 
-import numpy as np
 import pytest
 
 from mbla.arrays import FloatArray
 from mbla.program.program import Program
-from mbla.solution.associative import least_search, proofs, proved_answer, unique_forces
-from mbla.solution.associative.associative_form import in_velocities
-from mbla.solution.associative.least_search import Search
+from mbla.solution.associative import proofs, proved_answer
+from mbla.solution.associative.associative_form import associative_form
 from mbla.solution.associative.mechanism_repair import repaired_mechanisms
 from mbla.solution.associative.proved_answer import (
     AssociativeRun,
@@ -21,18 +19,12 @@ from mbla.solution.associative.proved_answer import (
     solve_until_proved,
     wanted_gap,
 )
-from mbla.solution.associative.unique_forces import (
-    SHARES,
-    least_forces,
-    point_weights,
-    trusted_motion,
-)
 from mbla.solution.cone_solvers.choice import cone_solver, sharpen
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Status
 from mbla.solution.verification.verify_points import verify_points
 from tests.line import WALL, line_of, solution_of
-from tests.solution.associative.test_unique_forces import SETTINGS, associative, ignored
+from tests.solution.associative.test_polyhedral import SETTINGS, ignored
 
 
 @pytest.fixture(scope="module")
@@ -48,7 +40,7 @@ def run_of(program: Program, **settings: Any) -> AssociativeRun:
 
 
 def held(program: Program, **settings: Any) -> Any:
-    return cone_solver(in_velocities(program).cone_program, replace(SETTINGS, **settings), ignored)
+    return cone_solver(associative_form(program).cone_program, replace(SETTINGS, **settings), ignored)
 
 
 @pytest.mark.parametrize("solver", ["mbla", "auto"])
@@ -80,7 +72,7 @@ def test_bounds_too_far_apart_are_brought_together_by_going_on(
 ) -> None:
     def iterations() -> int:
         run = run_of(program, solver="mbla", tolerance=1e-4, gap=1e-7)
-        answer = solve_until_proved(run, in_velocities(program))
+        answer = solve_until_proved(run, associative_form(program))
         assert answer.distance <= 1e-7
         assert len(run.records) > 1
         return sum(record.iterations for record in run.records)
@@ -107,7 +99,7 @@ def test_a_large_program_is_first_solved_no_finer_than_pays(program: Program, mo
     def iterations(large: int, gap: float) -> int:
         monkeypatch.setattr(proved_answer, "LARGE", large)
         run = run_of(program, solver="mbla", tolerance=1e-10, gap=gap)
-        answer = solve_until_proved(run, in_velocities(program))
+        answer = solve_until_proved(run, associative_form(program))
         assert answer.solution.status is Status.SOLVED
         assert answer.distance <= wanted_gap(run)
         return run.records[0].iterations
@@ -132,7 +124,7 @@ def test_a_large_program_of_which_something_is_proved_is_not_given_to_the_other_
     monkeypatch.setattr(proved_answer, "LARGE", 0 if large else 10**9)
     monkeypatch.setattr(proved_answer, "wanted_gap", lambda run: 0.0)  # never close enough
     monkeypatch.setattr(proved_answer, "_answer", kept)
-    solve_until_proved(run_of(program, solver="auto", gap=1e-6), in_velocities(program))
+    solve_until_proved(run_of(program, solver="auto", gap=1e-6), associative_form(program))
     assert ("clarabel" in asked) is not large
 
 
@@ -165,49 +157,3 @@ def test_a_mechanism_that_proves_its_factor_is_not_repaired_again_on_large_model
 
 def verified_checks(line: Any, solution: Any) -> Any:
     return verify_points(line.model, line.contacts, line.load_case, solution)
-
-
-def test_least_forces_of_too_many_points_are_not_sought(program: Program, monkeypatch: pytest.MonkeyPatch) -> None:
-    state, weights = associative(program), point_weights(program, None)
-    monkeypatch.setattr(unique_forces, "MOST_POINTS", program.n_points - 1)
-    found = least_forces(program, state, weights, SETTINGS, ignored)
-    assert found.state is state
-    assert found.programs == ()
-    assert found.remark == unique_forces.NOT_SOUGHT
-    monkeypatch.setattr(unique_forces, "MOST_POINTS", program.n_points)
-    assert least_forces(program, state, weights, SETTINGS, ignored).remark is None
-
-
-def test_newtons_method_for_least_forces_is_short_on_large_models(
-    program: Program, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    state, weights = associative(program), point_weights(program, None)
-    monkeypatch.setattr(least_search, "MOST_OF_LARGE", 2)
-
-    def steps(first: Callable[[Search], bool]) -> int:
-        search = Search(program, state, weights, SolverSettings(1e-10, regularization=1e-8), ignored, 1)
-        start = search.solve(trusted_motion(program, state), 0.0)
-        far = replace(start, multipliers=np.zeros_like(start.multipliers))
-        assert first(search)
-        search.by_newton(far, SHARES)
-        return sum(record.iterations for record in search.records[1:])
-
-    assert steps(lambda search: not search.large) > 2
-    monkeypatch.setattr(least_search, "OWN_FROM", len(program.dead_load))
-    assert steps(lambda search: search.large) == 2
-
-
-def test_large_models_without_least_forces_by_the_mechanism_are_given_up(monkeypatch: pytest.MonkeyPatch) -> None:
-    """In this wall, other than in the smaller one, not all joints move."""
-    program = line_of(WALL, "parameters.n=10").program
-    state = associative(program)
-    too_high, weights = replace(state, load_factor=1.001 * state.load_factor), point_weights(program, None)
-
-    def programs() -> int:
-        found = least_forces(program, too_high, weights, SETTINGS, ignored)
-        assert found.remark == unique_forces.NOT_FOUND
-        return len(found.programs)
-
-    small = programs()
-    monkeypatch.setattr(least_search, "OWN_FROM", len(program.dead_load))
-    assert programs() == 1 < small

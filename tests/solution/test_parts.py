@@ -7,9 +7,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from mbla.deck.sections.analysis import ReductionSwitches
 from mbla.program.program import Program
 from mbla.program.reductions import reduce_program
+from mbla.program.reductions.steps import ReductionSwitches
 from mbla.solution import parts as whole
 from mbla.solution.associative.solve_associative import solve_associative
 from mbla.solution.nonassociative.law_state import LawState

@@ -15,7 +15,7 @@ from tests.solution.nonassociative.test_first_fall import PLANK
 
 ROUGH = 1e-2
 WITHOUT = "analysis.flow_rule=non_associative"
-SPATIAL = ("analysis.reductions.planar=false", "analysis.reductions.mirror=false")
+SPATIAL = ("analysis.reductions=false",)
 DILATANCY = WALL.replace('friction: "=mu"', 'friction: "=mu", dilatancy: 10')
 
 
@@ -86,7 +86,7 @@ def test_a_peak_is_looked_for_as_the_knob_says() -> None:
 
 def test_the_tolerance_is_that_of_the_cone_solver() -> None:
     """A rough one spares iterations of the program, not of the whole: its answer needs others to be proved."""
-    knobs = ("analysis.gap=1e-2", "analysis.forces=solver", "analysis.standing=false", "parameters.n=10")
+    knobs = ("analysis.gap=1e-2", "analysis.standing=false", "parameters.n=10")
     rough, sharp = (case(WALL, *knobs, f"analysis.tolerance={value}") for value in ("1e-3", "1e-10"))
     assert sharp.checks.gap < 1e-8
     assert 1e-5 < rough.checks.gap <= 1e-2

@@ -11,9 +11,10 @@ import scipy.sparse as sp
 
 from mbla.solution import flow_rules as flow
 from mbla.solution import verify
+from mbla.solution.associative import force_repair
 from mbla.solution.associative.force_repair import repaired_forces
 from mbla.solution.associative.polyhedral import _claim
-from mbla.solution.associative.solve_associative import AssociativeResult, force_repair, solve_associative
+from mbla.solution.associative.solve_associative import AssociativeResult, solve_associative
 from mbla.solution.linear_algebra.stiffness import Stiffness, stiffness_of
 from mbla.solution.nonassociative import boundedness, lagged_limits, livesley
 from mbla.solution.nonassociative import refine_equilibrium as light_blocks
@@ -132,7 +133,7 @@ def test_the_default_scheme_does_not_go_on_beyond_the_time_limit(monkeypatch: py
 @pytest.mark.parametrize("sides", [4, 8])
 def test_livesleys_correction_takes_the_friction_polyhedron_that_is_asked_for(sides: int) -> None:
     """An inscribed polygon has all of the friction at its corners, and cos(π/sides) of it between them."""
-    spatial = "reductions: {planar: false, mirror: false, points: false}"
+    spatial = "reductions: false"
     polyhedral = f"friction_cone: polyhedral, sides: {sides}, standing: false, {spatial}"
     solution = solution_of(line_of(BLOCK, "parameters.h=0.5", f"analysis={{flow_rule: livesley, {polyhedral}}}"))
     assert solution.mechanics is not None

@@ -8,8 +8,8 @@ A knob that the deck gives wins. What a preset turns was measured knob by knob (
   load factor of associative flow to 1e-5, as every other answer that is called solved;
 - the proof of that load factor takes 3 to 15 % of an associative run, and is never left out; nor is the program that
   shows that the dead load is carried, without which a load factor means nothing;
-- least forces, standing, range and a peak are other answers beside the load factor, and none changes it. A draft goes
-  without, save for the standing where flow is not associative: what stands by self-stress only has no collapse load;
+- standing, range and a peak are other answers beside the load factor, and none changes it. A draft goes without, save
+  for the standing where flow is not associative: what stands by self-stress only has no collapse load;
 - steps of the exact law may creep long before they end: on a dome a draft comes to 0.54299 with residuals of 5e-4 in
   0.37 of the time that leads to 0.54254, on a cross vault to 0.2576 in 0.29 of that to 0.2599, on a planar wall of 40
   by 40 units to within 4e-4 in 0.4. Where they come to rest by themselves, as on smaller walls and arches, a draft ends
@@ -28,7 +28,6 @@ if TYPE_CHECKING:
     from mbla.deck.sections.analysis import AnalysisSection
 
 Accuracy: TypeAlias = Literal["draft", "standard", "reference"]
-Forces: TypeAlias = Literal["least_squares", "solver"]
 
 
 @dataclass(frozen=True)
@@ -39,7 +38,6 @@ class Knobs:
     gap       : wanted distance of the proved bounds of an associative load factor, relative; a program whose bounds lie
                 further apart is solved again, more sharply
     residual  : wanted of flow without normality: largest residual at which a scheme has found its state
-    forces    : which of the many contact forces of associative flow
     range     : whether the least and greatest load factor for the mechanism found are computed
     peak      : whether a greater load factor on the way is looked for
     standing  : whether it is assessed that the structure stands under its dead load
@@ -48,20 +46,15 @@ class Knobs:
     tolerance: float
     gap: float
     residual: float
-    forces: Forces
     range: bool
     peak: bool
     standing: bool
 
 
 PRESETS: Mapping[Accuracy, Knobs] = {
-    "draft": Knobs(tolerance=1e-8, gap=1e-3, residual=5e-3, forces="solver", range=False, peak=False, standing=False),
-    "standard": Knobs(
-        tolerance=1e-9, gap=3e-7, residual=1e-6, forces="least_squares", range=True, peak=True, standing=True
-    ),
-    "reference": Knobs(
-        tolerance=1e-10, gap=5e-8, residual=1e-9, forces="least_squares", range=True, peak=True, standing=True
-    ),
+    "draft": Knobs(tolerance=1e-8, gap=1e-3, residual=5e-3, range=False, peak=False, standing=False),
+    "standard": Knobs(tolerance=1e-9, gap=3e-7, residual=1e-6, range=True, peak=True, standing=True),
+    "reference": Knobs(tolerance=1e-10, gap=5e-8, residual=1e-9, range=True, peak=True, standing=True),
 }
 """By the deck's word."""
 
@@ -85,7 +78,5 @@ def set_by_accuracy(knob: str) -> str:
     return f"set by accuracy unless given: {values}"
 
 
-def _in_words(value: float | bool | str) -> str:
-    if isinstance(value, bool):
-        return str(value).lower()
-    return value if isinstance(value, str) else f"{value:g}"
+def _in_words(value: float | bool) -> str:
+    return str(value).lower() if isinstance(value, bool) else f"{value:g}"

@@ -1,4 +1,4 @@
-"""The analysis section of a deck: flow rule, formulation, scheme, reductions, solver, each with its default."""
+"""The analysis section of a deck: flow rule, contact model, scheme, reductions, solver, each with its default."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from pydantic import Field
 
 from mbla.deck.quantities import Count, Integer, Quantity, Switch, Time
 from mbla.deck.section import Section
-from mbla.deck.sections.accuracy import Accuracy, Forces, set_by_accuracy
+from mbla.deck.sections.accuracy import Accuracy, set_by_accuracy
 
 
 class PublishedScheme(Section):
@@ -60,16 +60,6 @@ class LowestScheme(Section):
     seed: Annotated[int, Integer(ge=0, le=2**32 - 1)] = Field(1, description="of the random mechanisms that are tried")
 
 
-class ReductionSwitches(Section):
-    """What is found by itself and left out before the solver; the answer is the same without."""
-
-    planar: Switch = Field(True, description="planar structures are solved with three unknowns a block")
-    mirror: Switch = Field(True, description="associative flow: only one half of a symmetric structure is solved")
-    parts: Switch = Field(True, description="parts that cannot interact are solved apart")
-    unloaded: Switch = Field(True, description="parts without live load only have to stand, which is shown apart")
-    points: Switch = Field(True, description="associative flow: contact points that cannot matter are left out")
-
-
 class AnalysisSection(Section):
     """How the load factor is computed."""
 
@@ -91,19 +81,11 @@ class AnalysisSection(Section):
         8,
         description="of each friction polyhedron: within 1 - cos(pi/sides) of the cone, and exact along the tangents",
     )
-    form: Literal["kinematic", "static"] = Field(
-        "kinematic", description="unknowns of the associative program: velocities, the more accurate; or forces"
-    )
     solver: Literal["auto", "mbla", "clarabel", "highs"] = Field(
         "auto",
         description="of the cone programs. mbla: the interior-point method made for them, not with contact_model: "
         "convex; clarabel: any; highs: associative flow in planar structures or with polyhedral friction; auto: mbla "
         "or clarabel by size, the results say which",
-    )
-    second_opinion: Switch = Field(
-        False,
-        description="solve the associative program by another solver too and compare: by highs where it is linear, "
-        "else by mbla or clarabel; polyhedral ones always are",
     )
     scheme: Literal["auto", "proximal", "interior", "path", "lowest", "published"] = Field(
         "auto",
@@ -136,18 +118,18 @@ class AnalysisSection(Section):
         + set_by_accuracy("standing")
         + "; always true for flow other than associative, whose load factor depends on it",
     )
-    forces: Forces | None = Field(
-        None,
-        description="contact forces of associative flow, which are not unique: least_squares, the least ones, the same "
-        "with every solver; or solver, as that left them; " + set_by_accuracy("forces"),
-    )
     force_ranges: Switch = Field(
         False, description="how far the normal force of each interface can range at the load factor"
     )
-    reductions: ReductionSwitches = Field(default_factory=ReductionSwitches, description="what is left out")
+    reductions: Switch = Field(
+        True,
+        description="planar structures are solved with three unknowns a block, parts that cannot interact apart, parts "
+        "without live load only have to stand; associative flow: one half of a symmetric structure, without contact "
+        "points that cannot matter. The answer is the same without",
+    )
     accuracy: Accuracy = Field(
         "standard",
-        description="one word for tolerance, gap, residual, range, peak, standing and forces. draft: first looks and "
+        description="one word for tolerance, gap, residual, range, peak and standing. draft: first looks and "
         "sweeps, error below 1 %; standard: below 1e-4; reference: as close as double precision gives",
     )
     tolerance: Annotated[float, Quantity("number", gt=0, le=1e-3)] | None = Field(

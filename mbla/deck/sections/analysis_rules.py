@@ -35,7 +35,6 @@ def linear_programs(analysis: AnalysisSection) -> Iterator[Finding]:
 
 
 CONVEX_FLOW_RULES = ("associative", "non_associative")
-NOT_CONVEX = (("form", "kinematic"), ("second_opinion", False), ("force_ranges", False))
 
 
 @rule(AnalysisSection)
@@ -62,8 +61,5 @@ def convex_contact_model(analysis: AnalysisSection) -> Iterator[Finding]:
             "applies to contact_model: concave only, whose cones have three dimensions: use auto",
             "solver",
         )
-    for key, default in NOT_CONVEX:
-        if getattr(analysis, key) != default:
-            yield Finding(
-                "key-of-another-choice", f"applies to contact_model: concave only: use {str(default).lower()}", key
-            )
+    if analysis.force_ranges:
+        yield Finding("key-of-another-choice", "applies to contact_model: concave only: use false", "force_ranges")

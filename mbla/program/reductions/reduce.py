@@ -9,7 +9,6 @@ import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
 from mbla.contacts.contacts import Contacts
-from mbla.deck.sections.analysis import ReductionSwitches
 from mbla.model.model import Model
 from mbla.program.program import Program
 from mbla.program.reductions.guided import guided_program
@@ -20,7 +19,7 @@ from mbla.program.reductions.points import without_inner_points
 from mbla.program.reductions.restrict import tidy
 from mbla.program.reductions.scene import Scene, scene_of
 from mbla.program.reductions.shares import program_by_shares
-from mbla.program.reductions.steps import ReductionStep, size_of, step_of
+from mbla.program.reductions.steps import ReductionStep, ReductionSwitches, size_of, step_of
 
 
 @dataclass(frozen=True)
@@ -48,14 +47,12 @@ class Reduced:
     """The programs of the parts, in the order of their first blocks, and what was left out.
 
     interface_of_point : (n_points of the whole program,)
-    point_areas        : (n_points of the whole program,)
     steps              : what each reduction did, in the order in which they were applied
     """
 
     parts: tuple[Program, ...]
     size: ModelSize
     interface_of_point: IntArray
-    point_areas: FloatArray
     steps: tuple[ReductionStep, ...] = ()
 
 
@@ -78,7 +75,7 @@ def reduce_program(
         program_by_shares(part, _guided(part, own)) for part, (own, _) in zip(scenes, smaller, strict=True)
     ]
     size = _model_size(scenes, [mirror for _, mirror in smaller], parts, program.n_points)
-    return Reduced(tuple(parts), size, contacts.interface_of_point, contacts.point_areas, tuple(steps))
+    return Reduced(tuple(parts), size, contacts.interface_of_point, tuple(steps))
 
 
 def _with_fewer_points(
@@ -201,4 +198,4 @@ def _first_mirror(part: Scene, switches: ReductionSwitches, given: Mirrors) -> M
 def unreduced(program: Program, contacts: Contacts) -> Reduced:
     """The program as it is."""
     size = ModelSize(3, 0, 1, len(program.free), program.n_points, 0)
-    return Reduced((program,), size, contacts.interface_of_point, contacts.point_areas)
+    return Reduced((program,), size, contacts.interface_of_point)

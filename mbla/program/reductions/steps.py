@@ -18,7 +18,7 @@ from enum import StrEnum
 import numpy as np
 
 from mbla.contacts.glue import Solids
-from mbla.deck.sections.analysis import AnalysisSection, ReductionSwitches
+from mbla.deck.sections.analysis import AnalysisSection
 from mbla.program.program import Program
 
 
@@ -51,7 +51,7 @@ class ProgramSize:
 class ReductionStep:
     """One reduction of one load case.
 
-    name  : key of ``analysis.reductions``, or glued
+    name  : planar, mirror, parts, unloaded, points, or glued
     found : how many contact points, blocks, parts it left out or took apart; 0 unless applied
     """
 
@@ -80,14 +80,11 @@ def step_of(name: str, allowed: bool, found: int, before: ProgramSize, after: Pr
     return ReductionStep(name, StepState.APPLIED if found else state, found, before, after)
 
 
-def told_apart(steps: Sequence[ReductionStep], switched_on: dict[str, bool]) -> tuple[ReductionStep, ...]:
-    """Steps not allowed although the deck has them switched on are those that would change its answer."""
-
-    def of(step: ReductionStep) -> ReductionStep:
-        barred = step.state is StepState.OFF and switched_on.get(step.name, True)
-        return replace(step, state=StepState.BARRED) if barred else step
-
-    return tuple(of(step) for step in steps)
+def told_apart(steps: Sequence[ReductionStep], *, switched_on: bool) -> tuple[ReductionStep, ...]:
+    """Steps not allowed although the deck has reductions switched on are those that would change its answer."""
+    return tuple(
+        replace(step, state=StepState.BARRED) if switched_on and step.state is StepState.OFF else step for step in steps
+    )
 
 
 def glued_step(solids: Solids, left: ProgramSize) -> ReductionStep:
@@ -109,6 +106,27 @@ def glued_step(solids: Solids, left: ProgramSize) -> ReductionStep:
     return ReductionStep("glued", state, joined + held, before, left)
 
 
+@dataclass(frozen=True)
+class ReductionSwitches:
+    """What is looked for and left out before the solver; the answer is the same without.
+
+    planar   : planar structures are solved with three unknowns a block
+    mirror   : associative flow: only one half of a symmetric structure is solved
+    parts    : parts that cannot interact are solved apart
+    unloaded : parts without live load only have to stand, which is shown apart
+    points   : associative flow: contact points that cannot matter are left out
+    """
+
+    planar: bool = True
+    mirror: bool = True
+    parts: bool = True
+    unloaded: bool = True
+    points: bool = True
+
+
+NONE = ReductionSwitches(planar=False, mirror=False, parts=False, unloaded=False, points=False)
+
+
 def allowed_reductions(analysis: AnalysisSection) -> ReductionSwitches:
     """Switches for ``reduce_program``.
 
@@ -116,9 +134,7 @@ def allowed_reductions(analysis: AnalysisSection) -> ReductionSwitches:
     would be another law; nor for the range of forces, which is wider than that of symmetric forces. For that range the
     points that cannot matter for the load factor stay too: their interfaces would have no forces of their own.
     """
-    switches = analysis.reductions
-    if analysis.friction_cone == "polyhedral":
-        switches = switches.model_copy(update={"mirror": False})
-    if analysis.force_ranges:
-        switches = switches.model_copy(update={"mirror": False, "points": False})
-    return switches
+    if not analysis.reductions:
+        return NONE
+    half = analysis.friction_cone == "circular" and not analysis.force_ranges
+    return replace(ReductionSwitches(), mirror=half, points=not analysis.force_ranges)

@@ -7,10 +7,11 @@ from typing import Any, TypeVar, get_args
 import numpy as np
 
 from mbla.arrays import FloatArray
-from mbla.deck.sections.analysis import AnalysisSection, ReductionSwitches
+from mbla.deck.sections.analysis import AnalysisSection
 from mbla.errors import Message
 from mbla.model.model import LoadCase
 from mbla.program.reductions import ProgramSize, ReductionStep, StepState
+from mbla.program.reductions.steps import ReductionSwitches
 from mbla.results.hdf5.content import HISTORY, MOTIONS
 from mbla.results.listing.solving import METHODS
 from mbla.results.record.of_case import ANSWERS
@@ -123,7 +124,7 @@ def _reductions(get: dict[str, Any]) -> tuple[ReductionStep, ...]:
         columns = [get[f"reductions/{name}_{when}"] for name in ProgramSize.__dataclass_fields__]
         sizes[when] = [ProgramSize(*row) for row in np.column_stack(columns).tolist()]
     found = get["reductions/name"], get["reductions/state"], get["reductions/found"].tolist()
-    if not set(found[0]) <= {"glued", *ReductionSwitches.model_fields}:
+    if not set(found[0]) <= {"glued", *vars(ReductionSwitches())}:
         raise ValueError("name of a reduction")
     rows = zip(*found, sizes["before"], sizes["after"], strict=True)
     return tuple(ReductionStep(name, StepState(state), *row) for name, state, *row in rows)

@@ -105,7 +105,7 @@ def _of_finite(values: list[float]) -> FloatArray:
 
 
 def _without_load_factor(scene: Scene) -> list[int]:
-    """Programs that look for something else, as the least forces; what their iterations hold is no load factor."""
+    """Programs that look for something else, as a range of forces; what their iterations hold is no load factor."""
     return [record.program for record in scene.case.solution.programs if not np.isfinite(record.load_factor)]
 
 

@@ -332,7 +332,7 @@ OF_CASE: tuple[Quantity, ...] = (
     ),
     *at(
         "cases/*/reductions",
-        text("name", "the reduction, as in analysis.reductions, or glued", "reduction"),
+        text("name", "planar, mirror, parts, unloaded, points, or glued", "reduction"),
         text("state", "applied, nothing found, switched off, would change the answer", "reduction"),
         whole("found", "contact points or blocks left out, or parts taken apart or reduced", "reduction"),
         *(

@@ -31,7 +31,7 @@ def reduction_keys(place: str) -> tuple[Key, ...]:
     return (
         Key(place, "list", "what each reduction left out, in the order in which they are applied"),
         Key(f"{place}[]", "object", "a reduction"),
-        Key(f"{place}[].name", "string", "the reduction, as in analysis.reductions, or glued"),
+        Key(f"{place}[].name", "string", "planar, mirror, parts, unloaded, points, or glued"),
         Key(f"{place}[].state", "string", "applied, nothing found, switched off, would change the answer"),
         Key(
             f"{place}[].found",

@@ -1,9 +1,10 @@
 """How far the total normal force of each interface can range at the load factor of associative flow.
 
-The forces that carry the load factor are those that fit the mechanism (``unique_forces``). Over them
-the sum of the normal forces of an interface has a least and a greatest value: two programs for each interface, linear
-ones in a plane, that differ in their cost alone. A range without an end means that the interface can be pressed as hard
-as one likes: what it carries is not decided by the loads.
+The forces that carry the load factor are those that fit the mechanism, whichever of its mechanisms was found
+(complementary slackness; :mod:`mbla.program.fixed_mechanism`). Over them the sum of the normal forces of an interface
+has a least and a greatest value: two programs for each interface, linear ones in a plane, that differ in their cost
+alone. A range without an end means that the interface can be pressed as hard as one likes: what it carries is not
+decided by the loads.
 
 A part at rest carries its loads at the given load factor by any forces within the yield conditions.
 
@@ -20,15 +21,22 @@ import scipy.sparse as sp
 
 from mbla.arrays import FloatArray, IntArray
 from mbla.errors import Message
-from mbla.program.fixed_mechanism import FixedMechanismForm, fixed_mechanism_form
+from mbla.program.fixed_mechanism import FixedMechanismForm, PointMotion, fixed_mechanism_form
 from mbla.program.kinematic import ConeProgram
 from mbla.program.program import Program
-from mbla.solution.associative.unique_forces import trusted_motion
 from mbla.solution.cone_solvers.choice import cone_solver, interior_point_solver, is_linear
 from mbla.solution.cone_solvers.cone_solution import ConeSolver, Log
 from mbla.solution.nonassociative.law_state import LawState
+from mbla.solution.nonassociative.point_motion import point_motion
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import ProgramRecord, Status
+
+TOUCHING = 1e-6
+"""Velocity, over the largest contact speed, above which a point counts as moving."""
+
+ALL = 0.95
+"""Share of the points that move from which on the mechanism alone is not trusted with the forces: rounding in the
+directions of sliding leaves hardly any."""
 
 TOLERANCE, REGULARIZATION = 1e-8, 1e-8
 """Of the cone solver: the set of forces has hardly an inside."""
@@ -72,7 +80,7 @@ def force_ranges(
     first              : number of the first program in the sequence of the load case
     """
     sums = normal_sums(program, interface_of_point)
-    form = fixed_mechanism_form(program, trusted_motion(program, state))
+    form = fixed_mechanism_form(program, _trusted_motion(program, state))
     settings = replace(settings, tolerance=TOLERANCE, regularization=REGULARIZATION)
     solver = _solver(_with_factor(form, state), settings, log)
     ranges = np.full((sums.shape[0], 2), np.nan)
@@ -112,6 +120,16 @@ def normal_sums(program: Program, interface_of_point: IntArray) -> sp.csr_array:
     entries = (np.ones(len(points)), (interface_of_point, program.components * points))
     sums = sp.csr_array(entries, shape=shape)
     return sums if chain is None else sp.csr_array(sums @ chain)
+
+
+def _trusted_motion(program: Program, state: LawState) -> PointMotion:
+    """What the points do in an associative state; nothing, so that the yield conditions alone bound, where all move."""
+    motion = point_motion(program, state, TOUCHING, program.limits.friction)
+    moves = motion.opens | motion.slides | motion.crushes
+    if len(moves) == 0 or float(np.mean(moves)) < ALL:
+        return motion
+    none = np.zeros(program.n_points, dtype=bool)
+    return PointMotion(none, none, none, np.zeros((program.n_points, program.components - 1)))
 
 
 def _solver(cone_program: ConeProgram, settings: SolverSettings, log: Log) -> ConeSolver:

@@ -124,8 +124,8 @@ def solve_until_proved(run: AssociativeRun, form: AssociativeForm) -> ProvedAnsw
     for (power, share, shift), method in product(SHARPER, methods):
         if not _is_open(run, best):
             break
-        own = None if best.gap is None or not form.has_units else in_own_units(run.program, best.gap.forces)
-        unit = _size(run, best) ** power if form.has_units else 1.0
+        own = None if best.gap is None else in_own_units(run.program, best.gap.forces)
+        unit = _size(run, best) ** power
         shifted = regularization(form.cone_program, replace(run.settings, regularization=shift))
         kind = (
             method,
@@ -151,7 +151,7 @@ def _is_open(run: AssociativeRun, best: ProvedAnswer) -> bool:
 
 def _answer(run: AssociativeRun, form: AssociativeForm, unit: float, settings: SolverSettings) -> ProvedAnswer:
     """The program in the given unit of the load factor, and what of its solution can be proved."""
-    settings = replace(settings, tolerance=form.tolerance(_first_tolerance(run, settings)))
+    settings = replace(settings, tolerance=_first_tolerance(run, settings))
     solver = cone_solver(form.cone_program if unit == 1.0 else form.in_units(unit), settings, run.log)
     answer, tolerance = _once(run, form, solver, unit), settings.tolerance
     while form.exact and answer.solution.status is Status.SOLVED and _is_open(run, answer):
@@ -248,10 +248,9 @@ def solved_once(
     """
     number, to_load_factor = run.first + len(run.records), unit * run.program.scaling.live
     if not isinstance(solver, HighsProgram) and (form.exact or enough > 0.0):
-        solution = solver.solve_once(number, form.sign * to_load_factor, enough)
+        solution = solver.solve_once(number, to_load_factor, enough)
     else:
-        solution = solver.solve(number, form.sign * to_load_factor)
-    solution = form.read(solution)
+        solution = solver.solve(number, to_load_factor)
     value = to_load_factor * solution.objective if solution.status in WITH_VALUE else np.nan
     status = Status.SOLVED if enough > 0.0 and solution.status is Status.APPROXIMATE else solution.status
     run.records.append(replace(solution, status=status).record(number, kind, value))
@@ -270,7 +269,7 @@ def _proved(form: AssociativeForm, solution: ConeSolution) -> CertifiedGap:
     """Bounds that a solution proves; as it is where it is one of another law than that of the program."""
     forces, velocities = form.forces(solution), form.velocities(solution)
     if form.exact:
-        return certified_gap(form.program, LawState(forces, velocities, form.factor(solution), np.nan))
+        return certified_gap(form.program, LawState(forces, velocities, form.load_factor(solution), np.nan))
     factor, gap = solution.objective, 0.0 if solution.status is Status.SOLVED else np.inf
     return CertifiedGap(factor, factor, gap, forces, factor, velocities)
 

@@ -22,7 +22,7 @@ from mbla.arrays import FloatArray
 from mbla.process.sharing import shared
 from mbla.program.program import Program
 from mbla.program.static import gravity_form
-from mbla.solution.associative.associative_form import AssociativeForm, in_forces, in_velocities
+from mbla.solution.associative.associative_form import AssociativeForm, associative_form
 from mbla.solution.associative.bounds import falling_motion
 from mbla.solution.associative.force_repair import repaired_forces
 from mbla.solution.associative.proved_answer import (
@@ -86,13 +86,13 @@ def solve_associative(
     settings: SolverSettings,
     log: Log,
     *,
-    form: AssociativeForm | None = None,
+    facets: FloatArray | None = None,
     first: int = 1,
     stress_free: bool = False,
 ) -> AssociativeResult:
     """Solve the program of one load case with associative flow.
 
-    form        : kinematic with the friction cone, unless another is given (``associative_form``)
+    facets      : (n_facets, components - 1) directions that bound shear instead of the friction cone
     first       : number of its first program in the sequence of the load case
     stress_free : the state of the stress-free assembly is wanted as well: it is found before the program with the live
                   load reversed, which it mostly saves
@@ -102,11 +102,11 @@ def solve_associative(
     if falling.any():
         return _no_equilibrium(run, falling)
     rough = program.limits.friction > ROUGH
-    form = form or in_velocities(program)
+    form = associative_form(program, facets)
     answer = solve_until_proved(run, form)
     if form.exact and rough.any() and not is_decided(run, answer):
         limits = replace(program.limits, friction=np.minimum(program.limits.friction, ROUGH))
-        made = (in_velocities if form.has_units else in_forces)(replace(program, limits=limits))
+        made = associative_form(replace(program, limits=limits))
         form = replace(made, program=program)  # proved is what holds of the true friction
         answer = better(answer, solve_until_proved(run, form))
     if answer.certificate is not None:
@@ -140,7 +140,7 @@ def _with_dead_load(
 
     proved : it is known already
     """
-    settings = replace(run.settings, tolerance=form.tolerance(run.settings.tolerance))
+    settings = run.settings
     reverse, carried = answer.solution, proved or not run.program.dead_load.any()
     if not carried:
         reverse, carried = _reversed(run, form, settings)
@@ -210,7 +210,7 @@ def _with_load_factor(run: AssociativeRun, answer: ProvedAnswer) -> AssociativeR
 
 def _carried(run: AssociativeRun, form: AssociativeForm, reverse: ConeSolution) -> bool:
     """Whether the forces prove that there is equilibrium at a load factor of zero or below."""
-    forces, factor = form.forces(reverse), form.factor(reverse)
+    forces, factor = form.forces(reverse), form.load_factor(reverse)
     if not np.isfinite(forces).all() or not np.isfinite(factor):
         return False
     return _carries(run, forces, factor)

@@ -1,4 +1,4 @@
-"""The ladder of a deck: presets, tolerances, forms, solvers, polyhedra, schemes, other models; or what a user names."""
+"""The ladder of a deck: presets, tolerances, solvers, polyhedra, schemes, other models; or what a user names."""
 
 from __future__ import annotations
 
@@ -27,7 +27,6 @@ def usual_ladder(deck: Deck, fixed: Sequence[str]) -> list[Rung]:
     rungs = [_preset(deck, fixed, word) for word in PRESETS]
     rungs.append(Rung("the deck's own settings"))
     rungs += [Rung(f"tolerance: {value}", _of(f"analysis.tolerance={value}")) for value in TOLERANCES]
-    rungs.append(Rung("form: static", _of("analysis.form=static")))
     rungs += [Rung(f"solver: {name}", _of(f"analysis.solver={name}")) for name in SOLVERS]
     rungs += [_polyhedron(sides) for sides in SIDES]
     rungs += [_scheme(deck, name) for name in SCHEMES]

@@ -8,7 +8,7 @@ from mbla.deck.sections.analysis import AnalysisSection
 from mbla.program import assemble
 from mbla.program.reductions import Reduced, allowed_reductions, reduce_program
 from mbla.solution import solve, verified_status, verify
-from mbla.solution.associative.associative_form import in_velocities
+from mbla.solution.associative.associative_form import associative_form
 from mbla.solution.cone_solvers.choice import cone_solver
 from mbla.solution.cone_solvers.highs_adapter import HighsProgram
 from mbla.solution.settings import solver_settings
@@ -19,13 +19,13 @@ from tests.performance.rivals.structure import Structure
 
 
 def whole(structure: Structure) -> Answer:
-    """As ``mbla run`` solves it: load factor, proved bounds, unique forces, standing, verification."""
+    """As ``mbla run`` solves it: load factor, proved bounds, standing, verification."""
     return _answer(structure, structure.deck.analysis)
 
 
 def load_factor_alone(structure: Structure) -> Answer:
-    """Load factor with proved bounds and verification; neither standing nor the least forces."""
-    return _answer(structure, structure.deck.analysis.model_copy(update={"standing": False, "forces": "solver"}))
+    """Load factor with proved bounds and verification; no standing."""
+    return _answer(structure, structure.deck.analysis.model_copy(update={"standing": False}))
 
 
 def standing(structure: Structure) -> Answer:
@@ -71,7 +71,7 @@ def cone_program_seconds(structure: Structure) -> float:
 
     settings, seconds = solver_settings(structure.deck.analysis), 0.0
     for program in _reduced(structure, structure.deck.analysis).parts:
-        form = in_velocities(program)
+        form = associative_form(program)
         solver = cone_solver(form.cone_program, settings, silent)
         assert not isinstance(solver, HighsProgram)  # only where the deck asks for it
         seconds += timed(partial(solver.solve_once, 1, 1.0))[1]

@@ -9,11 +9,11 @@ import pytest
 
 from mbla.contacts import find_contacts
 from mbla.deck import read_deck
-from mbla.deck.sections.analysis import ReductionSwitches
 from mbla.model import build_model
 from mbla.program import assemble
 from mbla.program.reductions import reduce_program, unreduced
 from mbla.program.reductions.guided import _projector
+from mbla.program.reductions.steps import ReductionSwitches
 from mbla.solution import Status, solve, verified_status, verify
 from mbla.solution.settings import solver_settings
 

@@ -7,9 +7,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from mbla.deck.sections.analysis import ReductionSwitches
 from mbla.program.reductions import reduce_program
 from mbla.program.reductions.mirror import half_of, mirror_about, mirror_candidates
+from mbla.program.reductions.steps import ReductionSwitches
 from tests.line import BLOCK, WALL, line_of
 from tests.program.reductions.scenes import scene
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from mbla.deck.sections.analysis import ReductionSwitches
 from mbla.program.reductions import reduce_program
 from mbla.program.reductions.parts import _unit_of_force, find_parts, split_into_parts
+from mbla.program.reductions.steps import ReductionSwitches
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Standing
 from mbla.solution.standing.standing import assess_dead_load

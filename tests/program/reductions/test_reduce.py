@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from mbla.deck.sections.analysis import ReductionSwitches
 from mbla.program.program import Program
 from mbla.program.reductions import Reduced, reduce_program, unreduced
+from mbla.program.reductions.steps import ReductionSwitches
 from mbla.program.yield_conditions import yield_violation
 from mbla.solution.associative.solve_associative import solve_associative
 from mbla.solution.nonassociative.law_state import LawState

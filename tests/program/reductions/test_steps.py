@@ -29,14 +29,10 @@ def test_what_the_deck_has_on_and_is_off_was_barred() -> None:
         step_of("points", False, 0, SMALL, SMALL),
         step_of("glued", False, 0, SMALL, SMALL),
     ]
-    told = told_apart(steps, {"planar": True, "mirror": True, "points": False})
-    assert [step.state for step in told] == [
-        StepState.APPLIED,
-        StepState.BARRED,
-        StepState.OFF,
-        StepState.BARRED,  # of no switch of the deck
-    ]
+    told = told_apart(steps, switched_on=True)
+    assert [step.state for step in told] == [StepState.APPLIED, *[StepState.BARRED] * 3]
     assert [replace(step, state=StepState.OFF) for step in told] == [replace(s, state=StepState.OFF) for s in steps]
+    assert told_apart(steps, switched_on=False) == tuple(steps)
 
 
 def test_programs_without_live_load_do_not_count() -> None:

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from mbla.program.reductions import Reduced, reduce_program
+from mbla.program.reductions.steps import ReductionSwitches
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Standing
 from mbla.solution.standing.standing import assess_dead_load
@@ -34,23 +35,19 @@ FALLS = BESIDE.replace(
 """On the last wall, of 1.2 m, lies a block that reaches 1 m beyond its end with a middle 0.4 m before it."""
 
 
-def reduced(line: Line) -> Reduced:
+def reduced(line: Line, switches: ReductionSwitches | None = None) -> Reduced:
     associative = line.deck.analysis.flow_rule == "associative"
-    return reduce_program(
-        line.model, line.contacts, line.program, line.deck.analysis.reductions, associative=associative
-    )
+    switches = switches or ReductionSwitches()
+    return reduce_program(line.model, line.contacts, line.program, switches, associative=associative)
 
 
-SWITCHES = [(apart, unloaded) for apart in ("true", "false") for unloaded in ("true", "false")]
-
-
-@pytest.mark.parametrize(("apart", "unloaded"), SWITCHES)
+@pytest.mark.parametrize("switch", ["true", "false"])
 @pytest.mark.parametrize("flow_rule", ["associative", "non_associative"])
-def test_the_answer_is_that_of_the_loaded_wall(flow_rule: str, apart: str, unloaded: str) -> None:
+def test_the_answer_is_that_of_the_loaded_wall(flow_rule: str, switch: str) -> None:
     flow = (f"analysis.flow_rule={flow_rule}", SMALL)
     alone, _, _ = verified(line_of(WALL, *flow))
     assert alone.mechanics is not None
-    line = line_of(BESIDE, *flow, f"analysis.reductions={{parts: {apart}, unloaded: {unloaded}}}")
+    line = line_of(BESIDE, *flow, f"analysis.reductions={switch}")
     solution, checks, status = verified(line)
     assert status == "solved", checks.failures
     assert solution.mechanics is not None
@@ -67,19 +64,18 @@ def test_the_answer_is_that_of_the_loaded_wall(flow_rule: str, apart: str, unloa
 
 @pytest.mark.parametrize(
     ("apart", "unloaded", "programs"),
-    [("true", "true", 3), ("true", "false", 1), ("false", "true", 2), ("false", "false", 1)],
+    [(True, True, 3), (True, False, 1), (False, True, 2), (False, False, 1)],
 )
-def test_what_is_solved_together(apart: str, unloaded: str, programs: int) -> None:
+def test_what_is_solved_together(apart: bool, unloaded: bool, programs: int) -> None:
     """Without live load a part has no load factor, so it goes with the first part that has one."""
-    switches = f"{{parts: {apart}, unloaded: {unloaded}, planar: false, mirror: false}}"
-    line = line_of(BESIDE, SMALL, f"analysis.reductions={switches}")
-    found = reduced(line)
+    line = line_of(BESIDE, SMALL)
+    found = reduced(line, ReductionSwitches(parts=apart, unloaded=unloaded, planar=False, mirror=False))
     assert len(found.parts) == found.size.parts == programs
     n_wall, n_all = line.model.blocks.groups.count("wall"), len(line.model.blocks)
     with_live = sum(len(part.dead_load) for part in found.parts if np.any(part.live_load))
-    assert with_live == 6 * (n_wall if unloaded == "true" else n_all)
+    assert with_live == 6 * (n_wall if unloaded else n_all)
     step = {step.name: step for step in found.steps}["unloaded"]
-    assert step.found == (n_all - n_wall if unloaded == "true" else 0)
+    assert step.found == (n_all - n_wall if unloaded else 0)
     assert (step.before.unknowns, step.after.unknowns) == (6 * n_all, with_live)
 
 
@@ -90,9 +86,9 @@ def test_two_loaded_parts_and_one_without() -> None:
     assert steps["parts"].after.largest < steps["parts"].before.largest == steps["unloaded"].after.unknowns
 
 
-@pytest.mark.parametrize(("apart", "unloaded"), SWITCHES)
-def test_a_part_without_live_load_that_falls_decides(apart: str, unloaded: str) -> None:
-    line = line_of(FALLS, SMALL, f"analysis.reductions={{parts: {apart}, unloaded: {unloaded}}}")
+@pytest.mark.parametrize("switch", ["true", "false"])
+def test_a_part_without_live_load_that_falls_decides(switch: str) -> None:
+    line = line_of(FALLS, SMALL, f"analysis.reductions={switch}")
     solution, _, status = verified(line)
     assert status == "no_equilibrium"
     assert solution.standing is not None
@@ -125,12 +121,10 @@ def test_of_two_walls_of_which_one_is_a_hair_stronger_both_are_proved(hair: floa
     assert checks.gap < 1e-6
 
 
-@pytest.mark.parametrize("switch", ["planar: true", "planar: false"])
-def test_of_two_equal_walls_both_are_proved(switch: str) -> None:
+def test_of_two_equal_walls_both_are_proved() -> None:
     """The second is at rest at its own collapse load: least forces there were too rough for a static bound."""
     text = WALL.replace("supports:", ASIDE.format("copy", 8, "[9, 3, 0]") + "supports:")
-    overrides = ("parameters.n=8", "parameters.mu=0.7", f"analysis.reductions={{{switch}}}")
-    solution, checks, status = verified(line_of(text, *overrides))
+    solution, checks, status = verified(line_of(text, "parameters.n=8", "parameters.mu=0.7"))
     assert solution.size is not None
     assert solution.size.parts == 2
     assert status == "solved", checks.failures

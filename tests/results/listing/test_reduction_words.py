@@ -1,11 +1,11 @@
-from mbla.deck.sections.analysis import ReductionSwitches
 from mbla.program.reductions import ProgramSize, ReductionStep, StepState
+from mbla.program.reductions.steps import ReductionSwitches
 from mbla.results.listing.solving import FOUND, found_words, reduction_lines
 from tests.results.synthetic import STEP
 
 
 def test_every_reduction_has_its_words() -> None:
-    assert set(FOUND) == {"glued", *ReductionSwitches.model_fields}
+    assert set(FOUND) == {"glued", *vars(ReductionSwitches())}
 
 
 def test_what_was_found_or_why_nothing() -> None:

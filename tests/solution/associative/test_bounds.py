@@ -7,7 +7,7 @@ import pytest
 import scipy.sparse as sp
 
 from mbla.program.program import Program
-from mbla.program.reductions import reduce_program
+from mbla.program.reductions import allowed_reductions, reduce_program
 from mbla.solution.associative.bounds import certified_gap, falling_motion, kinematic_value
 from mbla.solution.associative.force_repair import repaired_forces
 from mbla.solution.associative.mechanism_repair import incompatibility, repaired_mechanisms
@@ -17,18 +17,18 @@ from mbla.solution.nonassociative.law_state import LawState
 from mbla.solution.settings import SolverSettings
 from tests.line import BLOCK, WALL, line_of, verified
 
-SPATIAL = "analysis.reductions={planar: false, mirror: false, points: false}"
+SPATIAL = "analysis.reductions=false"
 LEDGE = BLOCK.replace("supports: [{ground: {z: 0}}]", "supports: [{blocks: ledge}]").replace(
     "blocks:\n", "blocks:\n  - box: {group: ledge, material: stone, min: [-1, 0, -1], max: [0.49, 1, 0]}\n"
 )
 """The block with its centroid beyond the edge of what it stands on."""
 
-both_spaces = pytest.mark.parametrize("reductions", [SPATIAL, "analysis.reductions.planar=true"])
+both_spaces = pytest.mark.parametrize("reductions", [SPATIAL, "analysis.reductions=true"])
 
 
 def program_of(text: str, *overrides: str) -> Program:
     line = line_of(text, *overrides)
-    switches = line.deck.analysis.reductions
+    switches = allowed_reductions(line.deck.analysis)
     return reduce_program(line.model, line.contacts, line.program, switches, associative=True).parts[0]
 
 

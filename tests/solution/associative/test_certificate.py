@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 
 from mbla.arrays import FloatArray
-from mbla.deck.sections.analysis import ReductionSwitches
 from mbla.program.program import Program
 from mbla.program.reductions import reduce_program
+from mbla.program.reductions.steps import ReductionSwitches
 from mbla.solution.associative.certificate import cleaned_certificate, failing_parts, steepest_fall
 from mbla.solution.associative.solve_associative import solve_associative
 from mbla.solution.mechanics import motion_of

@@ -8,6 +8,7 @@ import pytest
 from mbla.arrays import FloatArray
 from mbla.program.program import Program
 from mbla.program.reductions import reduce_program
+from mbla.program.reductions.steps import ReductionSwitches
 from mbla.solution.associative.force_ranges import ForceRanges, force_ranges
 from mbla.solution.associative.solve_associative import solve_associative
 from mbla.solution.nonassociative.law_state import LawState
@@ -42,7 +43,7 @@ def ignored(record: IterationRecord) -> None:
 def program_of(line: Line, planar: bool) -> Program:
     if not planar:
         return line.program
-    switches = line.deck.analysis.reductions.model_copy(update={"points": False, "mirror": False})
+    switches = ReductionSwitches(points=False, mirror=False)
     return reduce_program(line.model, line.contacts, line.program, switches, associative=True).parts[0]
 
 

@@ -10,20 +10,11 @@ from mbla.contacts import find_contacts
 from mbla.deck import read_deck
 from mbla.model import build_model
 from mbla.program import Program, assemble
-from mbla.solution.associative.polyhedral import (
-    PolyhedralResult,
-    solve_polyhedral,
-    solve_with_opinion,
-)
-from mbla.solution.associative.solve_associative import AssociativeResult, polyhedral, solve_associative
-from mbla.solution.cone_solvers.clarabel_adapter import ClarabelProgram
-from mbla.solution.cone_solvers.cone_solution import ConeSolution
-from mbla.solution.cone_solvers.highs_adapter import HighsProgram
-from mbla.solution.cone_solvers.interior_point.program import CondensedProgram
+from mbla.solution.associative.polyhedral import PolyhedralResult, solve_polyhedral
+from mbla.solution.associative.solve_associative import AssociativeResult, solve_associative
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import IterationRecord, Status
 from tests.line import BLOCK, WALL, line_of
-from tests.solution.planar import planar_program
 
 GROOVE = Path(__file__).parents[3] / "decks" / "benchmarks" / "groove.yaml"
 SETTINGS = SolverSettings(1e-8)
@@ -41,7 +32,7 @@ def pushed(degrees: float, mu: float = 0.3) -> Program:
 
 
 def solved(program: Program, sides: int, settings: SolverSettings = SETTINGS) -> PolyhedralResult:
-    result = solve_polyhedral(program, sides, "kinematic", settings, ignored)
+    result = solve_polyhedral(program, sides, settings, ignored)
     assert result.inner.status is Status.SOLVED, result.inner.reason
     return result
 
@@ -113,116 +104,22 @@ def test_the_wall_in_space_is_bracketed(direction: str) -> None:
         assert outer / inner == pytest.approx(1.0, abs=1e-7)
 
 
-def test_in_a_plane_there_is_nothing_to_approximate() -> None:
-    line = line_of(WALL)
-    result = solved(planar_program(line), 3)
-    assert result.inner is result.outer
-    assert result.inner.state is not None
-    assert result.inner.state.load_factor * line.program.scaling.live == pytest.approx(true_cone(line.program), 1e-7)
-    assert [record.kind for record in result.programs] == ["associative", "reverse", "second opinion"]
-
-
-@pytest.mark.parametrize(("form", "solver"), [("static", "clarabel"), ("kinematic", "highs"), ("static", "highs")])
-def test_forms_and_solvers_agree(form: str, solver: str) -> None:
+def test_highs_gives_the_same_and_programs_are_numbered_on() -> None:
     program = line_of(WALL, "parameters.n=3", "load_cases.push.live=[{acceleration: [0.8, 0.6, 0]}]").program
-    result = solve_polyhedral(program, 8, form, replace(SETTINGS, solver=solver), ignored, first=4)
+    result = solve_polyhedral(program, 8, replace(SETTINGS, solver="highs"), ignored, first=4)
     assert result.inner.status is Status.SOLVED
     assert result.inner.state is not None
     assert result.inner.state.load_factor * program.scaling.live == pytest.approx(bracket(program, 8)[0], rel=1e-6)
-    assert [record.program for record in result.programs] == [4, 5, 6, 7, 8, 9]
+    assert [record.program for record in result.programs] == [4, 5, 6, 7]
+    assert {record.solver for record in result.programs} == {"highs"}
 
 
-def test_both_opinions_and_the_bracket_are_told() -> None:
-    result = solved(pushed(11.0), 8)
-    between, inner, outer = result.remarks
+def test_the_bracket_is_told() -> None:
+    between = solved(pushed(11.0), 8).bracket
     assert "8 sides" in between
     assert "0.282842" in between
     assert "0.305615" in between
     assert "7.5 % apart" in between
-    assert inner.startswith("inscribed polyhedron: clarabel gives a load factor of 0.28284")
-    assert inner.endswith("they agree")
-    assert outer.startswith("circumscribed polyhedron")
-    assert (
-        solved(pushed(11.0), 8, replace(SETTINGS, solver="highs"))
-        .remarks[1]
-        .startswith("inscribed polyhedron: HiGHS gives")
-    )
-
-
-def other_answer(monkeypatch: pytest.MonkeyPatch, status: Status, share: float) -> None:
-    """Let HiGHS say something else."""
-    solve = HighsProgram.solve
-
-    def changed(self: HighsProgram, number: int, factor: float) -> ConeSolution:
-        solution = solve(self, number, factor)
-        return replace(solution, status=status, objective=share * solution.objective)
-
-    monkeypatch.setattr(HighsProgram, "solve", changed)
-
-
-def test_solvers_that_differ_lower_the_status(monkeypatch: pytest.MonkeyPatch) -> None:
-    other_answer(monkeypatch, Status.SOLVED, 1.0 + 3e-6)
-    result = solve_polyhedral(pushed(11.0), 8, "kinematic", SETTINGS, ignored)
-    assert result.inner.status is Status.NOT_VERIFIED
-    assert "they differ by 3e-06" in result.inner.reason
-    other_answer(monkeypatch, Status.TIME_LIMIT, 1.0)
-    result = solve_polyhedral(pushed(11.0), 8, "kinematic", SETTINGS, ignored)
-    assert result.inner.status is Status.APPROXIMATE
-    assert "came to no answer" in result.inner.reason
-
-
-@pytest.mark.parametrize("form", ["kinematic", "static"])
-@pytest.mark.parametrize(("asked", "other"), [("clarabel", "mbla"), ("mbla", "clarabel")])
-def test_a_program_with_cones_has_its_second_opinion_by_the_other_interior_point_method(
-    asked: str, other: str, form: str
-) -> None:
-    """A block pushed off the axes slides at its friction, which only the circular cone gives."""
-    settings = replace(SETTINGS, solver=asked)
-    result, remark = solve_with_opinion(pushed(11.0), None, form, "", settings, ignored)
-    assert result.status is Status.SOLVED
-    assert [(record.kind, record.solver) for record in result.programs] == [
-        ("associative", asked),
-        ("reverse", asked),
-        ("second opinion", other),
-    ]
-    assert result.programs[-1].load_factor == pytest.approx(0.3, rel=1e-6)
-    assert result.programs[-1].change < polyhedral.AGREE
-    assert remark.startswith(f"{asked} gives a load factor of ")
-    assert f", {other} " in remark
-    assert remark.endswith("they agree")
-
-
-def test_the_second_opinion_is_by_another_solver_than_the_answer_not_than_the_first_try(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    """Where the first solver breaks down the other one is asked at once, and its answer is what counts."""
-    solve, calls = ClarabelProgram.solve_once, iter([True])
-
-    def changed(self: ClarabelProgram, number: int, factor: float, enough: float = 0.0) -> ConeSolution:
-        solution = solve(self, number, factor, enough)
-        return replace(solution, status=Status.NUMERICAL_ERROR) if next(calls, False) else solution
-
-    monkeypatch.setattr(ClarabelProgram, "solve_once", changed)
-    result, remark = solve_with_opinion(pushed(11.0), None, "kinematic", "", SETTINGS, ignored)
-    assert result.status is Status.SOLVED
-    assert [record.solver for record in result.programs if record.kind == "associative"] == ["clarabel", "mbla"]
-    assert result.solver == "mbla"
-    assert result.programs[-1].solver == "clarabel"
-    assert remark.startswith("mbla gives")
-
-
-def test_interior_point_methods_that_differ_lower_the_status(monkeypatch: pytest.MonkeyPatch) -> None:
-    solve = CondensedProgram.solve
-
-    def changed(self: CondensedProgram, number: int, factor: float) -> ConeSolution:
-        solution = solve(self, number, factor)
-        return replace(solution, objective=(1.0 + 3e-6) * solution.objective)
-
-    monkeypatch.setattr(CondensedProgram, "solve", changed)
-    settings = replace(SETTINGS, solver="clarabel")
-    result, _ = solve_with_opinion(pushed(11.0), None, "kinematic", "", settings, ignored)
-    assert result.status is Status.NOT_VERIFIED
-    assert "they differ by 3e-06" in result.reason
 
 
 def test_what_the_polyhedra_say_together() -> None:
@@ -232,9 +129,7 @@ def test_what_the_polyhedra_say_together() -> None:
     flat = ("parameters.h=0.1", slope, push)
 
     def case(mu: float, sides: int) -> AssociativeResult:
-        return solve_polyhedral(
-            line_of(BLOCK, *flat, f"parameters.mu={mu}").program, sides, "kinematic", SETTINGS, ignored
-        ).inner
+        return solve_polyhedral(line_of(BLOCK, *flat, f"parameters.mu={mu}").program, sides, SETTINGS, ignored).inner
 
     assert case(0.42, 8).status is Status.SOLVED
     falls = case(0.2, 4)
@@ -247,9 +142,8 @@ def test_what_the_polyhedra_say_together() -> None:
     assert undecided.certificate is None
     locking = groove("parameters.mu=0.84", "parameters.beta=48")
     assert true_cone(locking) > 0
-    wedge = solve_polyhedral(locking, 6, "kinematic", SETTINGS, ignored)
+    wedge = solve_polyhedral(locking, 6, SETTINGS, ignored)
     assert wedge.inner.status is Status.NOT_VERIFIED
     assert "the circumscribed one locks" in wedge.inner.reason
     into_the_ground = line_of(BLOCK, "load_cases.push.live=[{acceleration: [0, 0, -1]}]").program
-    assert solve_polyhedral(into_the_ground, 4, "kinematic", SETTINGS, ignored).inner.status is Status.UNBOUNDED
-    assert polyhedral.AGREE < 1e-5
+    assert solve_polyhedral(into_the_ground, 4, SETTINGS, ignored).inner.status is Status.UNBOUNDED

@@ -9,10 +9,10 @@ import pytest
 
 from mbla.program.program import Program
 from mbla.program.static import StaticForm
-from mbla.solution.associative.associative_form import in_velocities
+from mbla.solution.associative import solve_associative as associative
+from mbla.solution.associative.associative_form import associative_form
 from mbla.solution.associative.proved_answer import AssociativeRun
 from mbla.solution.associative.solve_associative import AssociativeResult, solve_associative
-from mbla.solution.associative.solve_associative import solve_associative as associative
 from mbla.solution.cone_solvers.choice import interior_point_solver
 from mbla.solution.cone_solvers.cone_solution import ConeSolution
 from mbla.solution.settings import SolverSettings
@@ -40,7 +40,7 @@ def result_of(program: Program, settings: SolverSettings = SETTINGS) -> Associat
 
 def answer(program: Program, status: Status) -> ConeSolution:
     """The answer of the program of a load case with another status."""
-    form = in_velocities(program)
+    form = associative_form(program)
     solution = interior_point_solver(form.cone_program, SETTINGS, lambda record: None).solve(1, 1.0)
     return replace(solution, status=status, solver_status=f"said {status}")
 
@@ -95,7 +95,7 @@ def test_without_a_proof_that_the_dead_load_is_carried_there_is_no_load_factor(
 
 def test_forces_that_are_no_numbers_carry_nothing() -> None:
     program = sliding()
-    form, run = in_velocities(program), AssociativeRun(program, SETTINGS, lambda record: None, 1, [])
+    form, run = associative_form(program), AssociativeRun(program, SETTINGS, lambda record: None, 1, [])
     right = answer(program, Status.SOLVED)
     none = replace(right, z=np.full_like(right.z, np.nan))
     assert not associative._carried(run, form, none)

@@ -11,7 +11,7 @@ import pytest
 
 from mbla.errors import SolverError
 from mbla.program.kinematic import ConeProgram
-from mbla.solution.associative.associative_form import in_velocities
+from mbla.solution.associative.associative_form import associative_form
 from mbla.solution.cone_solvers import choice as cone_solver
 from mbla.solution.cone_solvers import clarabel_adapter
 from mbla.solution.cone_solvers.choice import interior_point_solver
@@ -28,7 +28,7 @@ SETTINGS = SolverSettings(1e-8)
 def sliding() -> tuple[ConeProgram, float]:
     """The program of a block that slides at 0.5, and the unit of its load factor."""
     program = line_of(BLOCK, "parameters.h=0.5").program
-    return in_velocities(program).cone_program, program.scaling.live
+    return associative_form(program).cone_program, program.scaling.live
 
 
 def silent(record: object) -> None:

@@ -7,7 +7,7 @@ import pytest
 import scipy.sparse as sp
 
 from mbla.program.program import Program
-from mbla.program.reductions import reduce_program
+from mbla.program.reductions import allowed_reductions, reduce_program
 from mbla.solution.linear_algebra.stiffness import stiffness_of
 from tests.line import WALL, line_of
 
@@ -15,7 +15,7 @@ from tests.line import WALL, line_of
 def programs() -> list[Program]:
     line = line_of(WALL, "parameters.n=4")
     reduced = reduce_program(
-        line.model, line.contacts, line.program, line.deck.analysis.reductions, associative=False
+        line.model, line.contacts, line.program, allowed_reductions(line.deck.analysis), associative=False
     ).parts
     assert reduced[0].components == 2
     return [line.program, reduced[0]]

@@ -9,9 +9,10 @@ import numpy as np
 import pytest
 
 from mbla.arrays import FloatArray
-from mbla.deck.sections.analysis import ProximalScheme, ReductionSwitches
+from mbla.deck.sections.analysis import ProximalScheme
 from mbla.program.program import Program
 from mbla.program.reductions import reduce_program
+from mbla.program.reductions.steps import ReductionSwitches
 from mbla.solution.associative.solve_associative import AssociativeResult, solve_associative
 from mbla.solution.nonassociative import dilatancy, gravity
 from mbla.solution.nonassociative.dilatancy import solve_dilatancy

@@ -51,7 +51,7 @@ def test_a_block_sticks_until_it_slides() -> None:
 
 def test_a_load_that_nothing_carries_ends_a_step_without_a_word() -> None:
     """Beyond tipping at 0.1/0.25 velocities grow to 1e13 and rounding puts joints outside their cones: no crash."""
-    spatial = ("analysis.scheme=path", "analysis.reductions={planar: false, mirror: false, points: false}")
+    spatial = ("analysis.scheme=path", "analysis.reductions=false")
     solution, checks, status = verified(line_of(FIXED_COURSE, *spatial, case=1))
     assert status is Status.SOLVED, checks.failures
     assert solution.mechanics is not None

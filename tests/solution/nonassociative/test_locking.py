@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 from mbla.arrays import FloatArray
-from mbla.deck.sections.analysis import ReductionSwitches
 from mbla.program.program import Program
 from mbla.program.reductions import reduce_program
+from mbla.program.reductions.steps import ReductionSwitches
 from mbla.solution.associative.force_repair import repaired_forces
 from mbla.solution.associative.solve_associative import solve_associative
 from mbla.solution.nonassociative import locking

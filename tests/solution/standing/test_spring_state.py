@@ -53,7 +53,7 @@ def test_the_tangent_is_that_of_the_law(lagged: bool) -> None:
 @pytest.mark.parametrize("reductions", ["true", "false"])
 def test_a_step_on_the_pattern_is_newtons_step(reductions: str, lagged: bool) -> None:
     """The same as by products of sparse matrices, planar and in space, with joints open, sticking and sliding."""
-    program = line_of(WALL, "parameters.n=3", f"analysis.reductions.planar={reductions}").program
+    program = line_of(WALL, "parameters.n=3", f"analysis.reductions={reductions}").program
     springs = springs_of(program, "dead_load")[0]
     problem = spring_problem(program.equilibrium_matrix, program.dead_load, program.limits, springs, None)
     here = joints_at(problem, 0.2, np.random.default_rng(3).normal(size=len(problem.load)), None)

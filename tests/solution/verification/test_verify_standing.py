@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 from mbla.arrays import FloatArray
-from mbla.deck.sections.analysis import ReductionSwitches
 from mbla.program.assemble import yield_limits
 from mbla.program.program import Program
 from mbla.program.reductions import reduce_program
+from mbla.program.reductions.steps import ReductionSwitches
 from mbla.solution.mechanics import forces_of
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Standing

@@ -78,7 +78,7 @@ def test_a_deck_with_faults_is_told_by_the_process_that_measures(tmp_path: Path)
     deck.write_text(BLOCK, encoding="utf-8")
     with MeasuringProcess() as process:
         refused = process.run(Task(str(deck), overrides=("parameters.h=-1",)))
-        unfit = process.run(Task(str(deck), overrides=("analysis.solver=highs", "analysis.reductions.planar=false")))
+        unfit = process.run(Task(str(deck), overrides=("analysis.solver=highs", "analysis.reductions=false")))
         gone = process.run(Task(str(tmp_path / "none.yaml")))
         sound = process.run(Task(str(deck), overrides=("parameters.mu=0.4", "analysis.accuracy=draft")))
     assert (refused.end, refused.measurements) == ("unfit", ())

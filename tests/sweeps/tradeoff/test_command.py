@@ -160,7 +160,7 @@ def test_refusals(
 def test_a_solver_that_takes_no_cones_does_not_apply(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     deck = tmp_path / "block.yaml"
     deck.write_text(BLOCK, encoding="utf-8")
-    arguments = ["--set", "analysis.reductions.planar=false", "--setting", "highs: analysis.solver=highs"]
+    arguments = ["--set", "analysis.reductions=false", "--setting", "highs: analysis.solver=highs"]
     assert main(["tradeoff", str(deck), *arguments]) == 0
     told = " ".join(capsys.readouterr().out.split())
     assert "highs: does not apply: analysis.solver = highs solves linear programs only" in told

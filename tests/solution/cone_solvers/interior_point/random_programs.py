@@ -21,9 +21,9 @@ from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from mbla.deck.sections.analysis import ReductionSwitches
 from mbla.program.program import Program
 from mbla.program.reductions import reduce_program
+from mbla.program.reductions.steps import ReductionSwitches
 from mbla.solution.associative.bounds import ZERO_FACTOR, CertifiedGap, certified_gap, factor_size
 from mbla.solution.associative.solve_associative import AssociativeResult, solve_associative
 from mbla.solution.settings import SolverSettings

@@ -10,7 +10,7 @@ import numpy as np
 from mbla.program.fixed_mechanism import fixed_mechanism_form
 from mbla.program.kinematic import ConeProgram, kinematic_form
 from mbla.program.program import Program
-from mbla.program.static import associative_static_form, gravity_form, proximal_data, proximal_form
+from mbla.program.static import gravity_form, proximal_data, proximal_form
 from mbla.solution.cone_solvers.clarabel_adapter import ClarabelProgram
 from mbla.solution.cone_solvers.cone_solution import ConeSolution
 from mbla.solution.cone_solvers.interior_point.program import CondensedProgram
@@ -18,6 +18,7 @@ from mbla.solution.nonassociative.law_state import LawState
 from mbla.solution.nonassociative.point_motion import point_motion
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Status
+from tests.program.associative_static import associative_static_form
 
 TOLERANCE = 1e-8
 """Of both solvers."""

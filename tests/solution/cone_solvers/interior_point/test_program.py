@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 
 from mbla.errors import SolverError
 from mbla.program.kinematic import kinematic_form
-from mbla.program.static import associative_static_form, gravity_form
+from mbla.program.static import gravity_form
 from mbla.solution.cone_solvers.clarabel_adapter import ClarabelProgram
 from mbla.solution.cone_solvers.cone_vectors import ConeVectors
 from mbla.solution.cone_solvers.interior_point.condensation import Condensation
@@ -30,6 +30,7 @@ from mbla.solution.cone_solvers.interior_point.scaling import Scaling
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import IterationRecord, Status
 from tests.line import BLOCK, WALL, line_of
+from tests.program.associative_static import associative_static_form
 from tests.solution.cone_solvers.interior_point.held_programs import held, least_in_cones, small, wall
 from tests.solution.cone_solvers.interior_point.vectors import Known, known_program, known_static_program
 

@@ -17,7 +17,7 @@ from mbla.deck.sections.analysis import InteriorScheme
 from mbla.model import build_model
 from mbla.program import assemble
 from mbla.program.program import Program
-from mbla.program.reductions.reduce import reduce_program
+from mbla.program.reductions import allowed_reductions, reduce_program
 from mbla.solution.associative.solve_associative import AssociativeResult
 from mbla.solution.nonassociative.interior_path import one_try
 from mbla.solution.nonassociative.interior_path import solve_interior as scheme_module
@@ -287,7 +287,7 @@ def test_a_planar_program_and_its_spatial_original_agree() -> None:
     """A wall without openings, whose factor hardly depends on the state: two unknowns a point and three a block."""
     line = line_of(WALL, "parameters.n=4")
     reduced = reduce_program(
-        line.model, line.contacts, line.program, line.deck.analysis.reductions, associative=False
+        line.model, line.contacts, line.program, allowed_reductions(line.deck.analysis), associative=False
     )  # fmt: skip
     planar = reduced.parts[0]
     assert planar.components == 2
